@@ -1,0 +1,25 @@
+# SPDX-License-Identifier: Apache-2.0
+option(TREADMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
+option(TREADMARK_BUILD_BENCH "Build the benchmarks" OFF)
+option(TREADMARK_WITH_FFTW "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)" ON)
+option(TREADMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
+set(TREADMARK_SANITIZE "" CACHE STRING "Sanitizers for every target, for example address,undefined")
+
+if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE)
+  set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)
+endif()
+set(CMAKE_CXX_STANDARD 20)
+set(CMAKE_CXX_STANDARD_REQUIRED ON)
+set(CMAKE_CXX_EXTENSIONS OFF)
+set(CMAKE_POSITION_INDEPENDENT_CODE ON)
+
+find_program(TREADMARK_CCACHE ccache)
+if(TREADMARK_CCACHE AND NOT CMAKE_CXX_COMPILER_LAUNCHER)
+  set(CMAKE_C_COMPILER_LAUNCHER "${TREADMARK_CCACHE}")
+  set(CMAKE_CXX_COMPILER_LAUNCHER "${TREADMARK_CCACHE}")
+endif()
+
+if(TREADMARK_SANITIZE)
+  add_compile_options(-fsanitize=${TREADMARK_SANITIZE} -fno-omit-frame-pointer -fno-sanitize-recover=all)
+  add_link_options(-fsanitize=${TREADMARK_SANITIZE})
+endif()

@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <stdexcept>
+#include <string>
+
+namespace treadmark {
+
+/// Place in an input file. line and column count from 1; 0 = unknown.
+struct SourcePosition {
+  std::string file;
+  int line = 0;
+  int column = 0;
+
+  /// "file:line:column", leaving out what is unknown.
+  std::string to_string() const;
+};
+
+/// What went wrong, which also decides the exit status of the command line program.
+enum class ErrorKind {
+  configuration,  ///< the request is wrong or asks for something unsupported (exit 2)
+  input_data,     ///< a data file is missing, broken or implausible (exit 3)
+  numerical,      ///< a computation that has no meaningful result (exit 1)
+};
+
+/// The one exception type of the library: what happened, where in the input, and what to do about it.
+/// what() reads "file:line:column: message (advice)".
+class Error : public std::runtime_error {
+ public:
+  Error(ErrorKind kind, std::string message, SourcePosition where = {}, std::string advice = {});
+
+  ErrorKind kind() const noexcept { return kind_; }
+  const std::string& message() const noexcept { return message_; }
+  const SourcePosition& where() const noexcept { return where_; }
+  const std::string& advice() const noexcept { return advice_; }
+
+ private:
+  ErrorKind kind_;
+  std::string message_;
+  SourcePosition where_;
+  std::string advice_;
+};
+
+}  // namespace treadmark

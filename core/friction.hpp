@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+namespace treadmark {
+
+/// Coefficient of friction as a function of the local slip velocity w [m/s]:
+/// coulomb:      mu = kinetic (= static)
+/// linear:       mu = kinetic + sum_i amplitude_i * max(0, 1 - w / (2 half_velocity_i))
+/// rational:     mu = kinetic + amplitude_1/(1 + w/half_velocity_1) + amplitude_2/(1 + (w/half_velocity_2)^2)
+/// exponential:  mu = kinetic + sum_i amplitude_i * exp(-ln2 w / half_velocity_i)
+struct FrictionLaw {
+  enum class Kind { coulomb, linear, rational, exponential };
+  Kind kind = Kind::coulomb;
+  double kinetic = 0.3;
+  double amplitude_1 = 0.0, amplitude_2 = 0.0;            ///< [-]
+  double half_velocity_1 = 0.0, half_velocity_2 = 0.0;    ///< [m/s]
+  double memory_distance = 1e-6;                          ///< [m]
+  double memory_velocity = 0.01;                          ///< s0 [m/s]
+
+  /// Friction at vanishing slip; scales forces relative to the maximum.
+  double static_friction() const { return kinetic + amplitude_1 + amplitude_2; }
+  /// Stationary friction at slip velocity w >= 0 [m/s].
+  double at(double slip_velocity) const;
+};
+
+}  // namespace treadmark

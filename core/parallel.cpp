@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/core/parallel.hpp"
+
+#include <oneapi/tbb/global_control.h>
+#include <oneapi/tbb/info.h>
+#include <oneapi/tbb/parallel_for.h>
+
+namespace treadmark {
+
+using tbb::global_control;
+
+ThreadLimit::ThreadLimit(int threads)
+    : control_(new global_control(global_control::max_allowed_parallelism,
+                                  threads > 0 ? static_cast<std::size_t>(threads)
+                                              : static_cast<std::size_t>(tbb::info::default_concurrency()))) {}
+
+ThreadLimit::~ThreadLimit() { delete static_cast<global_control*>(control_); }
+
+int thread_count() { return static_cast<int>(global_control::active_value(global_control::max_allowed_parallelism)); }
+
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
+  if (count == 1 || thread_count() == 1) {
+    for (std::size_t i = 0; i < count; ++i) body(i);
+    return;
+  }
+  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
+}
+
+}  // namespace treadmark

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <functional>
+
+namespace treadmark {
+
+/// Limits the one thread pool of the process (oneTBB) while it lives. threads <= 0: all cores.
+class ThreadLimit {
+ public:
+  explicit ThreadLimit(int threads);
+  ~ThreadLimit();
+  ThreadLimit(const ThreadLimit&) = delete;
+  ThreadLimit& operator=(const ThreadLimit&) = delete;
+
+ private:
+  void* control_;
+};
+
+/// Number of threads parallel_for may use now.
+int thread_count();
+
+/// Calls body(i) once for every i in [0, count), in any order, on any thread. Each call must write only its own results,
+/// so that the outcome does not depend on the number of threads. The first exception of a body is rethrown.
+void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
+
+}  // namespace treadmark

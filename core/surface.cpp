@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/core/surface.hpp"
+
+#include <string>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark {
+
+void Surface::heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const Grid2& g = plane_grid.grid;
+  if (g.nx <= 0 || g.ny <= 0 || !(g.dx > 0.0) || !(g.dy > 0.0))
+    throw Error(ErrorKind::configuration, "a plane grid needs at least one point and positive steps");
+  for (const auto array : {out.z, out.dzdx, out.dzdy})
+    if (!array.empty() && array.size() != g.size())
+      throw Error(ErrorKind::configuration, "an output array of heights() has " + std::to_string(array.size()) +
+                                                " entries, the grid has " + std::to_string(g.size()));
+  do_heights(plane_grid, out);
+}
+
+void Surface::locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  if (points_P.size() != out.size())
+    throw Error(ErrorKind::configuration, "locate() needs as many results as points");
+  do_locate(X_SP, points_P, out);
+}
+
+HeightBounds Surface::height_bounds(const Pose& X_SP, const Rectangle& r) const {
+  if (!(r.x_max >= r.x_min) || !(r.y_max >= r.y_min))
+    throw Error(ErrorKind::configuration, "height_bounds() needs a rectangle with min <= max");
+  return do_height_bounds(X_SP, r);
+}
+
+double height_at(const Surface& surface, const Pose& X_SP, const Vec2& point_P) {
+  double z = 0.0;
+  surface.heights({X_SP, {point_P.x(), point_P.y(), 1.0, 1.0, 1, 1}}, {{&z, 1}, {}, {}});
+  return z;
+}
+
+}  // namespace treadmark

@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstdint>
+#include <span>
+#include <string_view>
+
+#include "treadmark/core/grid.hpp"
+
+namespace treadmark {
+
+/// Which way a surface faces; it decides which of several hits of a fold is the outermost one.
+enum class Facing {
+  up,    ///< rail-like: material on the +z side, seen from -z; the outermost hit has the least height
+  down,  ///< wheel-like: material on the -z side, seen from +z; the outermost hit has the greatest height
+};
+
+/// Results wanted of Surface::heights, each of size grid.size() or empty (not wanted).
+/// A grid point over which there is no surface gets quiet NaN in every array.
+struct HeightsOut {
+  std::span<double> z;     ///< height along the plane normal [m]
+  std::span<double> dzdx;  ///< slopes in the plane frame [-]
+  std::span<double> dzdy;
+};
+
+enum class LocateStatus : std::uint8_t {
+  converged,
+  outside,    ///< no surface over this point
+  ambiguous,  ///< several hits; the outermost one is returned
+};
+
+/// What inverse evaluation finds at one point.
+struct SurfacePoint {
+  LocateStatus status = LocateStatus::outside;
+  double u = 0.0, v = 0.0;            ///< surface parameters (u longitudinal: x [m] or theta [rad]; v lateral, backend's own)
+  Vec3 position_S = Vec3::Zero();     ///< [m], surface frame
+  Vec3 normal_S = Vec3::Zero();       ///< unit, out of the material
+  double curvature_1 = 0.0;           ///< principal curvatures [1/m], positive for a convex body; curvature_1 >= curvature_2
+  double curvature_2 = 0.0;
+};
+
+struct Box3 {
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+};
+
+struct Rectangle {
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
+};
+
+/// Conservative: every height over the rectangle lies in [z_min, z_max]. empty: the surface is nowhere over it.
+struct HeightBounds {
+  double z_min = 0.0, z_max = 0.0;
+  bool empty = false;
+};
+
+/// An arbitrary 3D wheel or rail surface in its own frame S.
+/// Rail: x along the track, y to the right, z down. Wheel: origin on the axle, y along the axle, x = r sin(theta), z = r cos(theta).
+/// All queries are const, safe to call from any number of threads, and independent of the number of threads.
+class Surface {
+ public:
+  virtual ~Surface() = default;
+
+  virtual std::string_view backend() const = 0;
+  virtual Facing facing() const = 0;
+  /// Box that holds the whole surface [m]; entries may be infinite.
+  virtual Box3 bounds() const = 0;
+  virtual std::size_t memory_bytes() const = 0;
+
+  /// Heights (and slopes) over a regular grid in a rigidly placed plane; see HeightsOut.
+  /// Errors: Error(configuration) if an output array has another size than the grid, or the grid is not positive.
+  void heights(const PlaneGrid& plane_grid, const HeightsOut& out) const;
+
+  /// Inverse evaluation for points (x, y) of the plane frame P with pose X_SP. out.size() == points_P.size().
+  void locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const;
+
+  /// Conservative bounds of the heights over a rectangle of the plane frame P.
+  HeightBounds height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const;
+
+ private:
+  virtual void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const = 0;
+  virtual void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const = 0;
+  virtual HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const = 0;
+};
+
+/// Height over one point of a plane; NaN if there is none.
+double height_at(const Surface& surface, const Pose& X_SP, const Vec2& point_P);
+
+}  // namespace treadmark

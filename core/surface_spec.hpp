@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "treadmark/core/profile.hpp"
+#include "treadmark/core/slices.hpp"
+
+namespace treadmark {
+
+/// A standard profile from its published formula: "S1002" (wheel), "60E1" (rail).
+struct StandardProfile {
+  std::string name;
+};
+
+/// A tangent-continuous chain of circular arcs and straight lines, symmetric or not, in profile coordinates.
+/// Segments run with increasing y from (start_y, start_z) with initial inclination start_angle (atan(dz/dy)) [rad].
+/// curvature > 0 bends towards +z (a rail crown is convex upwards, so its z grows on both sides of the crown: curvature > 0).
+struct ArcChain {
+  struct Segment {
+    double length = 0.0;     ///< arc length [m]
+    double curvature = 0.0;  ///< d(angle)/ds [1/m]; 0 = straight
+  };
+  double start_y = 0.0, start_z = 0.0;  ///< [m]
+  double start_angle = 0.0;             ///< [rad]
+  std::vector<Segment> segments;
+};
+
+/// A flat worn into a wheel; radial, negative dr (material removed).
+struct WheelFlat {
+  enum class Shape {
+    fresh,    ///< chord: dr(theta) of a straight cut; depth follows from the length
+    rounded,  ///< depth/2 (1 + cos(2 pi x / length)) along the circumference
+  };
+  Shape shape = Shape::rounded;
+  double length = 0.0;        ///< along the circumference at the nominal radius [m]
+  double depth = 0.0;         ///< greatest radial depth [m]; rounded only (fresh: length^2/(8 R) exactly by the chord)
+  double theta_center = 0.0;  ///< material angle of the middle [rad]
+  double y_center = 0.0;      ///< lateral middle, wheel profile coordinates [m]
+  double width = 0.0;         ///< full lateral width over which the depth fades to 0 by 1/2 (1 + cos); 0 = whole width [m]
+};
+
+/// Everything a backend needs to build one wheel or rail surface.
+struct SurfaceSpec {
+  Body body = Body::rail;
+  double nominal_radius = 0.0;  ///< wheel: radius at profile z = 0 [m]; rail: unused
+  std::variant<Profile, SliceSet, StandardProfile, ArcChain> shape;
+  std::vector<WheelFlat> flats;  ///< wheel only
+};
+
+}  // namespace treadmark

@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <variant>
+#include <vector>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/friction.hpp"
+#include "treadmark/core/material.hpp"
+#include "treadmark/core/surface_spec.hpp"
+
+namespace treadmark::io {
+
+/// What a case file asks for, whatever its format: plain data in SI units, every kept value filled in.
+/// Geometry files are named here and read later, once per distinct reference.
+
+/// Options on a profile line (MIRRORY, SCALE, SMOOTH ...).
+struct ProfileOptions {
+  int mirror_y = 0;        ///< 1 = negate y
+  int mirror_z = 0;        ///< 1 = negate z, -1 = no, 0 = decide from the data
+  double scale = 1.0;      ///< file units to mm (so 1000 for a file in metres)
+  SmoothingOptions smoothing;
+  double zigzag_threshold = 2.6179938779914944;  ///< [rad]
+  double max_omit = 0.5;   ///< share of points that cleaning may remove
+  int error_handling = 0;
+  friend bool operator==(const ProfileOptions&, const ProfileOptions&);
+};
+
+struct GeometryFile {
+  std::filesystem::path file;   ///< already resolved against the folder of the case file
+  ProfileOptions options;
+};
+
+struct SurfaceSource {
+  /// A file to be read, or a shape given in the case file itself.
+  std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
+  std::vector<WheelFlat> flats;   ///< wheel only
+  std::string backend;            ///< "", "analytic", "spline"
+  SourcePosition where;
+};
+
+enum class Side { left, right };
+
+struct TrackInput {
+  bool gauge_based = true;
+  double gauge_height = 14e-3;    ///< depth below the rail top at which the gauge is measured [m]
+  double gauge_width = 1.435;     ///< [m]
+  double rail_y0 = 0.0, rail_z0 = 0.0;  ///< absolute placement when not gauge_based [m]
+  double cant = 0.0;              ///< rail inclination, positive = head turned inward [rad]
+  double curvature = 0.0;         ///< of the track [1/m]
+  double dy = 0.0, dz = 0.0, roll = 0.0;     ///< irregularity [m], [m], [rad]
+  double vy = 0.0, vz = 0.0, vroll = 0.0;    ///< [m/s], [rad/s]
+};
+
+struct WheelsetInput {
+  double flange_back_distance = 1.360;   ///< [m]
+  double flange_back_position = -0.070;  ///< in wheel profile coordinates [m]
+  double nominal_radius = 0.460;         ///< [m]
+  std::optional<double> tape_line;       ///< y of the tape line in profile coordinates [m]
+  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;          ///< [m], [rad]
+  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;    ///< [m/s], [rad/s]
+  /// Deviations of the wheel of a flexible wheelset and their rates [m], [rad], [m/s], [rad/s].
+  double dx = 0.0, dy = 0.0, dz = 0.0, droll = 0.0, dyaw = 0.0, dpitch = 0.0;
+  double dvx = 0.0, dvy = 0.0, dvz = 0.0, dvroll = 0.0, dvyaw = 0.0, dvpitch = 0.0;
+};
+
+struct DiscretisationInput {
+  double dx = 0.5e-3, ds = 0.5e-3;   ///< [m]
+  double dq_relative = 1.0;          ///< rolling step over dx
+  double angle_separation = 3.141592653589793;  ///< A_SEP [rad]
+  double separation = 8e-3;          ///< D_SEP [m]
+  double combination = 4e-3;         ///< D_COMB [m]
+  std::optional<double> turning;     ///< D_TURN [m]; default 2 D_SEP - D_COMB
+  double near_miss = -1e-3;          ///< G_MISS [m], negative = off
+  int max_elements = 20000;          ///< NPOT_MAX
+  /// Weight of the penetration in the contact reference: false = squared (default), true = linear.
+  bool linear_weight = false;
+  /// 2 automatic (locus for constant profiles), 5 grid, 6 grid for steep slopes, 7 initial contact point.
+  int method = 2;
+  /// Search mesh as in the reference program (coarse, tied to dx, ds), instead of Treadmark's refined one.
+  bool reference_search_mesh = false;
+};
+
+/// Numbers of the solver lines (G digit).
+struct SolverInput {
+  double eps = 1e-5;
+  int max_gs = 999, max_in = 100, max_nr = 30, max_out = 1;
+};
+
+enum class RegimeInput { none, shift, steady };
+enum class NormalModelInput { full, elliptic, parabolic };
+enum class TangentialModelInput { full, fastsim };
+
+/// One wheel on one rail (module 1).
+struct WheelRailCase {
+  Side side = Side::right;
+  SurfaceSource rail, wheel;
+  TrackInput track;
+  WheelsetInput wheelset;
+  bool vertical_force_prescribed = true;
+  double vertical_force = 0.0;             ///< F_z on the rail, track axes [N]
+  RegimeInput regime = RegimeInput::steady;
+  DiscretisationInput discretisation;
+  Material material;
+  FrictionLaw friction;
+  SolverInput solver;
+};
+
+/// Hertzian geometry (IPOTCN < 0): what is given and the grid that follows from it.
+struct HertzInput {
+  enum class Given { curvatures, curvature_and_ratio, semi_axes, line_curvature, line_semi_axis };
+  Given given = Given::curvatures;
+  double a1 = 0.0, b1 = 0.0;      ///< curvatures A, B [1/m]
+  double aa = 0.0, bb = 0.0;      ///< semi-axes [m]; line contact: bb = half width
+  double aob = 0.0;               ///< a/b
+  double scale = 1.0;             ///< potential contact over the ellipse
+};
+
+/// Undeformed distance given by formula (IBASE 1..3) or per element (9).
+struct GapInput {
+  enum class Kind { quadratic, circular, sinusoidal, per_element };
+  Kind kind = Kind::quadratic;
+  std::vector<double> coefficients;  ///< as behaviour g.6, converted to SI (b1..b3 [1/m], b4, b5 [-], b6 [m] for quadratic)
+};
+
+/// One patch with given geometry (module 3).
+struct BasicCase {
+  bool normal_force_prescribed = true;
+  double normal_force = 0.0;    ///< [N]
+  double approach = 0.0;        ///< [m]
+  double xi = 0.0, eta = 0.0;   ///< creepage [-]; shift: [m]
+  double phi = 0.0;             ///< [rad/m]; shift: [rad]
+  double spin_x = 0.0, spin_y = 0.0;         ///< [m]
+  std::optional<double> fx_relative, fy_relative;  ///< prescribed forces over mu F_n
+  RegimeInput regime = RegimeInput::none;
+  NormalModelInput normal_model = NormalModelInput::full;
+  TangentialModelInput tangential_model = TangentialModelInput::full;
+  double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
+  double chi = 0.0, dq = 0.0, velocity = 0.0;      ///< [rad], [m], [m/s]
+  double spin_offset_factor = 1.0 / 6.0;           ///< FACPHI
+  int mx = 0, my = 0;
+  double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;   ///< centre of the first element and steps [m] (IPOTCN > 0)
+  std::variant<GapInput, HertzInput> geometry;     ///< HertzInput: grid follows from it
+  Material material;
+  FrictionLaw friction;
+  SolverInput solver;
+};
+
+struct Case {
+  int number = 0;               ///< counts from 1 in the file
+  SourcePosition where;         ///< first line of the case
+  std::variant<WheelRailCase, BasicCase> content;
+};
+
+struct CaseFile {
+  std::filesystem::path path;
+  std::string sha256;           ///< of the case file itself, hex
+  std::string title;
+  std::vector<Case> cases;
+  std::vector<std::string> notes;  ///< harmless oddities worth telling (for example: initial estimate ignored)
+};
+
+}  // namespace treadmark::io

@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/grid.hpp"
+#include "treadmark/core/report.hpp"
+
+namespace treadmark::io {
+
+/// Results of a run as plain data in SI units; the writers convert to the units in the names of the result file.
+
+struct PatchFields {
+  Grid2 grid;                                      ///< element centres in contact axes [m]
+  Pose X_TC;                                       ///< pose of the grid's frame (x, s, n) in track axes (identity for a basic case)
+  std::vector<double> gap;                         ///< undeformed distance [m], NaN = no surface
+  std::vector<double> pressure, traction_x, traction_s;        ///< [Pa], on the rail
+  std::vector<double> displacement_n, displacement_x, displacement_s;  ///< [m]
+  std::vector<double> slip_x, slip_s;              ///< relative slip [-] (shift: [m])
+  std::vector<double> friction;
+  std::vector<std::uint8_t> state;                 ///< 0 exterior, 1 adhesion, 2 slip
+};
+
+struct PatchResult {
+  bool has_reference = false;                      ///< wheel-rail cases only
+  double x_tr = 0.0, y_tr = 0.0, z_tr = 0.0, angle = 0.0;     ///< contact reference in track axes [m], [rad]
+  double x_rail = 0.0, y_rail = 0.0, z_rail = 0.0, s_rail = 0.0;  ///< in rail axes; s along the profile [m]
+  double x_wheel = 0.0, y_wheel = 0.0, z_wheel = 0.0;         ///< in wheel-profile axes [m]
+  bool has_rolling = false;
+  double chi = 0.0, dq = 0.0, velocity = 0.0;      ///< [rad], [m], [m/s]
+  bool shift = false;                              ///< creepages are lengths, power is work
+  double xi = 0.0, eta = 0.0, phi = 0.0;           ///< [-], [-], [rad/m] (shift: [m], [m], [rad])
+  double fn = 0.0, fx = 0.0, fs = 0.0, mn = 0.0;   ///< on the rail [N], [N m]
+  double fx_relative = 0.0, fs_relative = 0.0;     ///< over mu_static F_n
+  double shear_modulus = 0.0;                      ///< combined G [Pa]
+  double elastic_energy = 0.0;                     ///< [J]
+  double frictional_power = 0.0;                   ///< [W], negative = dissipated; shift: work [J]
+  double approach = 0.0, pmax = 0.0;               ///< [m], [Pa]
+  int npot = 0, ncon = 0, nadh = 0, nslip = 0;
+  PatchFields fields;
+};
+
+struct CaseResult {
+  int number = 0;
+  Status status = Status::ok;
+  std::string message;
+  double seconds = 0.0;
+  bool has_wheelset = false;
+  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;      ///< wheelset [m], [rad]
+  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0; ///< [m/s], [rad/s]
+  Vec3 force_tr = Vec3::Zero(), force_ws = Vec3::Zero();                     ///< on the rail [N]
+  Vec3 moment_rail = Vec3::Zero();    ///< on the rail about the rail marker, track axes [N m]
+  Vec3 moment_wheel = Vec3::Zero();   ///< on the rail about the wheel marker, wheelset axes [N m]
+  double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< times [s]
+  int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;
+  std::vector<std::pair<double, double>> force_iterations;  ///< (z_ws [m], F_z [N])
+  std::vector<PatchResult> patches;
+};
+
+struct RunResult {
+  std::string version, git;
+  int threads = 1;
+  double seconds = 0.0;
+  std::string input_file, input_sha256;
+  std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
+  std::vector<std::string> settings;   ///< echo of overrides (--set key=value, --backend)
+  bool complete = true;                ///< false when interrupted: then fewer cases than asked
+  int cases_total = 0;
+  std::vector<CaseResult> cases;
+};
+
+}  // namespace treadmark::io
