@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/core/grid.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::detection {
+
+/// One prospective contact patch: where the undeformed bodies interpenetrate, in the common frame T.
+struct ContactPatch {
+  Rectangle box;                     ///< extent of the interpenetration [m]
+  double z_at_y_min = 0.0, z_at_y_max = 0.0;  ///< rail heights at the lateral ends [m]
+  double x = 0.0, y = 0.0;           ///< weighted contact reference [m]
+  double inclination = 0.0;          ///< weighted contact angle [rad]
+  double weight = 0.0;
+  double least_gap = 0.0;            ///< [m], negative
+  Vec3 deepest_T = Vec3::Zero();     ///< point of least gap, on the rail
+  std::vector<Rectangle> parts;      ///< boxes of the regions that were combined (one = itself)
+};
+
+/// How neighbouring interpenetration regions become contact patches.
+struct PatchRules {
+  double angle_separation = 3.141592653589793;  ///< A_SEP [rad]
+  double separation = 8e-3;                     ///< D_SEP [m]
+  double combination = 4e-3;                    ///< D_COMB [m], <= D_SEP
+  double turning = 12e-3;                       ///< D_TURN [m]; <= D_SEP: off
+  double near_miss = -1e-3;                     ///< G_MISS [m]; near misses with a smaller gap extend patches; negative = off
+};
+
+/// Combines, turns and sorts (field side first). Regions closer than D_COMB with similar angles, or closer than D_SEP,
+/// become one patch; of patches that stay apart but closer than D_TURN the angles are turned towards each other, so that
+/// a merge is no jump. near_misses extend the patches near them.
+std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, const std::vector<ContactPatch>& near_misses,
+                                          const PatchRules& rules);
+
+/// Distance between the boxes of two patches, height difference of the facing ends included [m].
+double patch_distance(const ContactPatch& a, const ContactPatch& b);
+
+}  // namespace treadmark::detection

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/contact_search.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/detection/region_extent.hpp"
+
+namespace treadmark::detection {
+namespace {
+
+constexpr double kMaxSearchPoints = 4e7;
+
+// The first grid may miss a shallow region between its points: its minima below this are looked at more closely.
+double grazing_gap(const Grid2& g) {
+  constexpr double kSharpestRadius = 0.005;  // lateral curvature radius of the sharpest corner that matters [m]
+  constexpr double kWheelRadius = 0.25;
+  return g.dy * g.dy / (8.0 * kSharpestRadius) + g.dx * g.dx / (8.0 * kWheelRadius);
+}
+
+Grid2 refined_grid(const Grid2& g, const Region& r, const SearchSettings& s) {
+  const double margin_x = g.dx, margin_y = g.dy;
+  const double x_min = g.x(r.ix_min) - margin_x, x_max = g.x(r.ix_max) + margin_x;
+  const double y_min = g.y(r.iy_min) - margin_y, y_max = g.y(r.iy_max) + margin_y;
+  const auto points = [&](double length, double finest) {
+    const double wanted = finest > 0.0 ? std::min<double>(s.refined_points, std::ceil(length / finest)) : s.refined_points;
+    return std::max(9, static_cast<int>(wanted) + 1);
+  };
+  Grid2 f;
+  f.nx = points(x_max - x_min, s.refined_dx);
+  f.ny = points(y_max - y_min, s.refined_dy);
+  f.x0 = x_min;
+  f.y0 = y_min;
+  f.dx = (x_max - x_min) / (f.nx - 1);
+  f.dy = (y_max - y_min) / (f.ny - 1);
+  return f;
+}
+
+ContactPatch to_patch(const GapField& field, const Region& r, bool interpolate_ends, bool at_deepest) {
+  const Grid2& g = field.grid;
+  ContactPatch p;
+  p.box = interpolate_ends ? crossing_extent(field, r)
+                           : Rectangle{g.x(r.ix_min), g.x(r.ix_max), g.y(r.iy_min), g.y(r.iy_max)};
+  p.z_at_y_min = rail_height_near(field, r.ix_deepest, p.box.y_min);
+  p.z_at_y_max = rail_height_near(field, r.ix_deepest, p.box.y_max);
+  p.deepest_T = {g.x(r.ix_deepest), g.y(r.iy_deepest), field.rail_z[g.index(r.ix_deepest, r.iy_deepest)]};
+  p.x = at_deepest ? p.deepest_T.x() : r.x;
+  p.y = at_deepest ? p.deepest_T.y() : r.y;
+  p.inclination = r.inclination;
+  p.weight = r.weight;
+  p.least_gap = r.least_gap;
+  p.parts = {p.box};
+  return p;
+}
+
+bool overlap(const Rectangle& a, const Rectangle& b) {
+  return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
+}
+
+// Deepest point of the first grid; refined regions may still lower it.
+void note_least_gap(const GapField& field, SearchResult& result) {
+  const Grid2& g = field.grid;
+  for (std::size_t i = 0; i < field.gap.size(); ++i)
+    if (!std::isnan(field.gap[i]) && !(field.gap[i] >= result.least_gap)) {
+      result.least_gap = field.gap[i];
+      const int ix = static_cast<int>(i % static_cast<std::size_t>(g.nx));
+      const int iy = static_cast<int>(i / static_cast<std::size_t>(g.nx));
+      result.least_gap_T = {g.x(ix), g.y(iy), field.rail_z[i]};
+      result.least_gap_inclination = field.inclination[i];
+    }
+}
+
+}  // namespace
+
+ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& settings) : bodies_(bodies), settings_(settings) {
+  const Grid2& g = settings.grid_T;
+  const double points = static_cast<double>(g.nx) * static_cast<double>(g.ny);
+  if (g.nx < 2 || g.ny < 2 || points > kMaxSearchPoints)
+    throw Error(ErrorKind::configuration,
+                "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
+                "use larger element sizes dx, ds");
+  field_ = gap_field(bodies, g, true);
+}
+
+BodyPair ContactSearch::bodies_at(double wheel_dz) const {
+  BodyPair moved = bodies_;
+  moved.X_TW.origin.z() += wheel_dz;
+  return moved;
+}
+
+SearchResult ContactSearch::at(double wheel_dz) const {
+  const SearchSettings& s = settings_;
+  const BodyPair bodies = bodies_at(wheel_dz);
+  GapField field = field_;
+  for (double& gap : field.gap) gap -= wheel_dz;
+
+  SearchResult result;
+  result.least_gap = std::numeric_limits<double>::quiet_NaN();
+  note_least_gap(field, result);
+  if (std::isnan(result.least_gap)) return result;
+
+  const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
+  std::vector<ContactPatch> patches, near_misses;
+  for (const Region& region : find_regions(field, s.weight, look_below)) {
+    if (!s.refine) {
+      (region.near_miss() ? near_misses : patches).push_back(to_patch(field, region, false, s.reference_at_deepest));
+      continue;
+    }
+    const GapField fine = gap_field(bodies, refined_grid(s.grid_T, region, s), true);
+    for (const Region& part : find_regions(fine, s.weight, s.rules.near_miss)) {
+      const ContactPatch patch = to_patch(fine, part, !part.near_miss(), s.reference_at_deepest);
+      if (patch.least_gap < result.least_gap) {
+        result.least_gap = patch.least_gap;
+        result.least_gap_T = patch.deepest_T;
+        result.least_gap_inclination = patch.inclination;
+      }
+      // Margins of neighbouring fine grids overlap: a region seen twice counts once.
+      auto& list = part.near_miss() ? near_misses : patches;
+      const bool known = std::any_of(list.begin(), list.end(), [&](const ContactPatch& other) {
+        return overlap(other.parts.front(), patch.parts.front());
+      });
+      if (!known) list.push_back(patch);
+    }
+  }
+  result.patches = combine_patches(std::move(patches), near_misses, s.rules);
+  return result;
+}
+
+SearchResult search_contact(const BodyPair& bodies, const SearchSettings& settings) {
+  return ContactSearch(bodies, settings).at(0.0);
+}
+
+}  // namespace treadmark::detection

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/detection/contact_patch.hpp"
+#include "treadmark/detection/interpenetration.hpp"
+
+namespace treadmark::detection {
+
+struct SearchSettings {
+  Grid2 grid_T;                      ///< first grid, seen along z of T; must cover everything that may touch
+  PenetrationWeight weight = PenetrationWeight::squared;
+  PatchRules rules;
+  /// Evaluate every region again on a grid of its own, at least refined_points across in both directions and never finer
+  /// than the given steps; the extents are then the interpolated zero crossings. Off: the first grid decides.
+  bool refine = true;
+  int refined_points = 64;
+  double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
+  /// The contact reference is the point of deepest penetration instead of the weighted centre.
+  bool reference_at_deepest = false;
+};
+
+struct SearchResult {
+  std::vector<ContactPatch> patches;      ///< field side first
+  /// Least gap over the search grid [m]: negative with contact, NaN where the bodies nowhere face each other.
+  double least_gap = 0.0;
+  Vec3 least_gap_T = Vec3::Zero();        ///< where
+  double least_gap_inclination = 0.0;     ///< rail inclination there [rad]
+};
+
+/// The grid-based contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid,
+/// interpenetration regions, weighted contact reference and angle, contact patches.
+/// The first grid is evaluated once; a wheel that moves along z of T only shifts its gap, so that a force iteration
+/// asks at() for one position after the other. The surfaces must outlive this. Deterministic; at() is const and thread-safe.
+class ContactSearch {
+ public:
+  /// Errors: Error(configuration) if the search grid is absurdly large.
+  ContactSearch(const BodyPair& bodies, const SearchSettings& settings);
+
+  /// Patches with the wheel moved by wheel_dz [m] along z of T from the position given at construction.
+  SearchResult at(double wheel_dz) const;
+
+  /// The bodies with the wheel moved.
+  BodyPair bodies_at(double wheel_dz) const;
+
+ private:
+  BodyPair bodies_;
+  SearchSettings settings_;
+  GapField field_;
+};
+
+/// One search at the given position.
+SearchResult search_contact(const BodyPair& bodies, const SearchSettings& settings);
+
+}  // namespace treadmark::detection

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/undeformed_distance.hpp"
+
+#include <cmath>
+#include <limits>
+
+namespace treadmark::detection {
+
+UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C) {
+  UndeformedDistance result;
+  result.distance.resize(grid_C.size());
+  std::vector<double> wheel_n(grid_C.size());
+  bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {result.distance, {}, {}});
+  bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, grid_C}, {wheel_n, {}, {}});
+
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < wheel_n.size(); ++i) {
+    result.distance[i] -= wheel_n[i];
+    if (result.distance[i] < least) least = result.distance[i];
+  }
+  result.approach = -least;
+  for (double& h : result.distance) h -= least;
+  return result;
+}
+
+}  // namespace treadmark::detection

@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/detection/contact_frame.hpp"
+
+namespace treadmark::detection {
+
+/// Distance of the undeformed bodies over the elements of a potential contact area, measured along n.
+struct UndeformedDistance {
+  std::vector<double> distance;  ///< h >= 0 [m], least value 0; NaN where a surface is missing; size grid.size()
+  double approach = 0.0;         ///< rigid penetration = - least n_rail - n_wheel [m]; <= 0: the bodies do not touch
+};
+
+/// Exact evaluation of both surfaces in the tangent plane (Figure 3 i-l of the same paper).
+UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C);
+
+}  // namespace treadmark::detection

@@ -1,0 +1,42 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <limits>
+
+namespace treadmark::wheelrail {
+
+/// Finds the position z at which a contact force that grows about as penetration^1.5 reaches its target.
+/// Works on phi = force^(2/3), which is nearly linear in z, continued below touching by the gap; secant steps inside a
+/// bracket that only shrinks, bisection when they leave it.
+class ForceBalance {
+ public:
+  enum class State { search, found, no_balance };
+
+  /// target > 0 [N]; tolerance relative to it; stiffness: guess of force / penetration^1.5 [N/m^1.5].
+  ForceBalance(double target, double tolerance, double stiffness);
+
+  /// First position to try [m], given where the bodies touch.
+  double first(double z_touch);
+
+  /// Takes force [N] (0 without contact) and least gap [m] found at z; next() is then the position to try.
+  State add(double z, double force, double least_gap);
+  double next() const { return next_; }
+
+  /// The force law changed a little (new tangential forces): keep the slope, forget the bracket.
+  void restart();
+
+ private:
+  double phi(double force, double least_gap) const;
+
+  double target_, tolerance_, stiffness_;
+  double phi_target_;
+  double z_touch_ = 0.0, next_ = 0.0;
+  double slope_ = 0.0;
+  bool has_last_ = false;
+  double z_last_ = 0.0, phi_last_ = 0.0;
+  double z_low_ = -std::numeric_limits<double>::infinity();
+  double z_high_ = std::numeric_limits<double>::infinity();
+};
+
+}  // namespace treadmark::wheelrail

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/wheelrail/mirror.hpp"
+
+#include <algorithm>
+#include <utility>
+
+namespace treadmark::wheelrail {
+namespace {
+
+void flip(SixMotion& m) {
+  m.y = -m.y;
+  m.roll = -m.roll;
+  m.yaw = -m.yaw;
+}
+
+// Reflection of a pose in the plane y = 0: R' = S R S with S = diag(1, -1, 1).
+void flip(Pose& pose) {
+  pose.origin.y() = -pose.origin.y();
+  pose.rotation.row(1) *= -1.0;
+  pose.rotation.col(1) *= -1.0;
+}
+
+template <class T>
+void reverse_rows(std::vector<T>& field, const Grid2& g) {
+  if (field.size() != g.size()) return;
+  for (int low = 0, high = g.ny - 1; low < high; ++low, --high)
+    std::swap_ranges(field.begin() + static_cast<std::ptrdiff_t>(g.index(0, low)),
+                     field.begin() + static_cast<std::ptrdiff_t>(g.index(0, low)) + g.nx,
+                     field.begin() + static_cast<std::ptrdiff_t>(g.index(0, high)));
+}
+
+void reverse_rows_and_sign(std::vector<double>& field, const Grid2& g) {
+  reverse_rows(field, g);
+  for (double& value : field) value = -value;
+}
+
+void flip_axial(Vec3& moment) {
+  moment.x() = -moment.x();
+  moment.z() = -moment.z();
+}
+
+void flip(Rectangle& r) { std::swap(r.y_min, r.y_max), r.y_min = -r.y_min, r.y_max = -r.y_max; }
+
+void flip(PatchSolution& p) {
+  flip(p.region.box);
+  std::swap(p.region.z_at_y_min, p.region.z_at_y_max);
+  for (Rectangle& part : p.region.parts) flip(part);
+  p.region.y = -p.region.y;
+  p.region.inclination = -p.region.inclination;
+  p.region.deepest_T.y() = -p.region.deepest_T.y();
+  flip(p.frame.X_TC);
+  p.frame.angle = -p.frame.angle;
+  p.kinematics.eta = -p.kinematics.eta;
+  p.kinematics.phi = -p.kinematics.phi;
+  p.reference_rail.y() = -p.reference_rail.y();
+  p.reference_wheel.y() = -p.reference_wheel.y();
+  p.reference_s = -p.reference_s;
+  p.force_T.y() = -p.force_T.y();
+
+  kalker::ContactSolution& c = p.contact;
+  for (auto* field : {&p.distance, &c.pressure, &c.traction_x, &c.displacement_n, &c.displacement_x, &c.slip_x, &c.friction})
+    reverse_rows(*field, p.grid);
+  for (auto* field : {&c.traction_y, &c.displacement_y, &c.slip_y}) reverse_rows_and_sign(*field, p.grid);
+  reverse_rows(c.state, p.grid);
+  c.creepage.eta = -c.creepage.eta;
+  c.creepage.phi = -c.creepage.phi;
+  c.creepage.spin_y = -c.creepage.spin_y;
+  c.force_y = -c.force_y;
+  c.moment_x = -c.moment_x;
+  c.moment_n = -c.moment_n;
+  p.grid.y0 = -p.grid.y(p.grid.ny - 1);
+}
+
+}  // namespace
+
+Problem mirrored(Problem p) {
+  p.side = p.side == Side::left ? Side::right : Side::left;
+  Track& t = p.track;
+  t.rail_y0 = -t.rail_y0;
+  t.dy = -t.dy;
+  t.roll = -t.roll;
+  t.vy = -t.vy;
+  t.vroll = -t.vroll;
+  t.curvature = -t.curvature;
+  for (SixMotion* m : {&p.state.position, &p.state.velocity, &p.state.wheel_offset, &p.state.wheel_velocity}) flip(*m);
+  return p;
+}
+
+PairSolution mirrored(PairSolution s) {
+  for (Pose* pose : {&s.placement.X_TR, &s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA}) flip(*pose);
+  for (PatchSolution& patch : s.patches) flip(patch);
+  s.force_T.y() = -s.force_T.y();
+  s.force_Ws.y() = -s.force_Ws.y();
+  flip_axial(s.moment_rail_T);
+  flip_axial(s.moment_wheel_Ws);
+  return s;
+}
+
+}  // namespace treadmark::wheelrail

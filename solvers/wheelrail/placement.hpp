@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/solvers/wheelrail/configuration.hpp"
+
+namespace treadmark::wheelrail {
+
+/// Frames of a right-hand pair (left-hand problems are mirrored first): track T, rail R, wheelset Ws, wheel profile W,
+/// wheel surface A (origin on the axle, pitched).
+struct Placement {
+  Pose X_TR, X_TWs, X_TW, X_TA;
+};
+
+/// Places rail and wheelset by gauge, cant, flange-back distance and state.
+/// Errors: Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
+Placement place(const Geometry& geometry, const Problem& right_hand_problem);
+
+/// Lateral position of the gauge point and height of the rail top in the rail frame turned to the track's orientation [m].
+struct GaugePoint {
+  double y = 0.0, z_top = 0.0;
+};
+GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height);
+
+/// Lateral range over which a surface is visible along z of frame T, at x_T [m].
+struct LateralRange {
+  double y_min = 0.0, y_max = 0.0;
+};
+LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T);
+
+}  // namespace treadmark::wheelrail
