@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/cases/read_inp.hpp"
+
+#include <map>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/read_text.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+constexpr std::string_view kAdvice = "docs/contact-input.md lists what is supported";
+
+/// The first refusal, which also tells about the others of the same case.
+Error first_refusal(const std::vector<Error>& refusals) {
+  const Error& first = refusals.front();
+  std::string advice = first.advice();
+  for (std::size_t i = 1; i < refusals.size(); ++i)
+    advice += fmt::format("{}also line {}: {}", advice.empty() ? "" : "; ", refusals[i].where().line, refusals[i].message());
+  advice += fmt::format("{}{}", advice.empty() ? "" : "; ", kAdvice);
+  return Error(first.kind(), first.message(), first.where(), advice);
+}
+
+void check_first_case(const ContactReader& r) {
+  const ControlWord& model = *r.model;
+  if (model["FRCLAW"] == 1)
+    throw Error(ErrorKind::configuration, "L (FRCLAW) = 1 in the first case: there is no friction law to keep",
+                model.where("FRCLAW"), "use L = 0 and give FSTAT, FKIN");
+  if (model["DISCNS"] <= 1)
+    throw Error(ErrorKind::configuration, fmt::format("D (DISCNS) = {} in the first case: there is no discretisation to keep",
+                                                      model["DISCNS"]), model.where("DISCNS"), "use D = 2");
+}
+
+}  // namespace
+
+CaseFile parse_contact_input(std::string_view content, const std::filesystem::path& name) {
+  CaseFile result;
+  result.path = name;
+  result.sha256 = text_sha256(content);
+  result.title = name.stem().string();
+  const std::filesystem::path folder = name.parent_path();
+  ContactText text(content, name.string());
+  // Cases with the same module and the same result element form a sequence, within which values are kept.
+  std::map<std::tuple<long, long, long>, ContactSequence> sequences;
+
+  long module = 0, element = 1, patch = 1;
+  int number = 0;
+  bool module_line = true;
+  while (true) {
+    SourcePosition where;
+    if (module_line) {
+      if ((text.drop_line(), text.at_end())) {
+        if (number == 0) text.fail("the file contains no case");
+        result.notes.push_back("the file ends without the closing line '0 MODULE'");
+        return result;
+      }
+      text.begin_record("the module line");
+      module = text.integer("MODULE");
+      where = text.where();
+      if (module == 0) break;
+      if (module != 1 && module != 3) text.fail(fmt::format("MODULE = {} does not exist: expected 0, 1 or 3", module));
+      element = text.optional_integer().value_or(1);
+      patch = text.optional_integer().value_or(1);
+    }
+    ContactSequence& kept = sequences[{module, element, patch}];
+    ContactReader reader{text, kept, folder, static_cast<int>(module), {}, {}, {}, 0, 0, {}, result.notes, {}};
+    reader.read_control_words();
+    if (!module_line) where = reader.problem->where(module == 1 ? "CONFIG" : "PVTIME");
+    if (!kept.started) check_first_case(reader);
+
+    Case next;
+    next.number = ++number;
+    where.column = 1;
+    next.where = where;
+    if (module == 1) next.content = read_wheel_rail(reader);
+    else next.content = read_basic(reader);
+    kept.started = true;
+
+    const int ending = (*reader.run)["RETURN"];
+    if (ending <= 1) {
+      if (!reader.refusals.empty()) throw first_refusal(reader.refusals);
+      result.cases.push_back(std::move(next));
+    }
+    module_line = ending % 2 == 1;
+  }
+  return result;
+}
+
+CaseFile read_contact_input(const std::filesystem::path& file) { return parse_contact_input(read_text(file), file); }
+
+}  // namespace treadmark::io
