@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+
+#include "treadmark/io/results/result_model.hpp"
+
+namespace treadmark::cli {
+
+/// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
+/// The JSON file comes last: where it stands the folder is complete.
+void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);
+
+}  // namespace treadmark::cli

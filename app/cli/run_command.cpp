@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <cstdio>
+#include <filesystem>
+#include <iostream>
+
+#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/run_cases.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/results/write_json.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+void choose_backends(io::CaseFile& file, const RunOptions& options) {
+  const std::string& wheel = options.wheel_backend.empty() ? options.backend : options.wheel_backend;
+  const std::string& rail = options.rail_backend.empty() ? options.backend : options.rail_backend;
+  for (io::Case& c : file.cases)
+    if (auto* input = std::get_if<io::WheelRailCase>(&c.content)) {
+      if (!wheel.empty()) input->wheel.backend = wheel;
+      if (!rail.empty()) input->rail.backend = rail;
+    }
+}
+
+std::vector<std::string> settings_of(const RunOptions& options) {
+  std::vector<std::string> settings = options.overrides;
+  if (!options.backend.empty()) settings.push_back("backend=" + options.backend);
+  if (!options.wheel_backend.empty()) settings.push_back("wheel.backend=" + options.wheel_backend);
+  if (!options.rail_backend.empty()) settings.push_back("rail.backend=" + options.rail_backend);
+  return settings;
+}
+
+int exit_status(const io::RunResult& result) {
+  int status = result.complete ? kOk : kFailed;
+  for (const io::CaseResult& c : result.cases) {
+    if (c.status == Status::failed) return kFailed;
+    if (c.status == Status::not_converged && status == kOk) status = kNotConverged;
+  }
+  return status;
+}
+
+}  // namespace
+
+int run_command(const RunOptions& options, const CommonOptions& common) {
+  if (options.cases.size() > 1 && !options.json_file.empty())
+    throw Error(ErrorKind::configuration, "--json takes the results of one case file only", {}, "use -o FOLDER for several");
+  const ThreadLimit limit(common.threads);
+  catch_interrupt();
+
+  int status = kOk;
+  for (const std::string& name : options.cases) {
+    io::CaseFile file = io::read_any_case(name, options.overrides);
+    choose_backends(file, options);
+    io::RunResult result;
+    {
+      ProgressLine line(common.quiet);
+      Progress progress;
+      progress.stop = &interrupted();
+      progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+        line.update(finished, total, what);
+      };
+      result = app::run_cases(file, progress);
+    }
+    result.settings = settings_of(options);
+
+    if (!common.quiet)
+      for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+    if (!options.output_folder.empty()) {
+      std::filesystem::path folder = options.output_folder;
+      if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
+      write_result_folder(folder, result);
+    }
+    if (options.json_file == "-")
+      std::cout << io::to_json(result) << '\n';
+    else
+      for (const io::CaseResult& c : result.cases) std::cout << io::summary(c) << '\n';
+    if (!options.json_file.empty() && options.json_file != "-") io::write_json(options.json_file, result);
+
+    if (!result.complete)
+      std::cerr << "interrupted: " << result.cases.size() << " of " << result.cases_total << " cases finished\n";
+    const int this_status = exit_status(result);
+    if (this_status != kOk && (status == kOk || this_status == kFailed)) status = this_status;
+    if (!result.complete) break;
+  }
+  std::cout.flush();
+  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+  return status;
+}
+
+}  // namespace treadmark::cli

@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/results/result_model.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
+
+namespace treadmark::app {
+
+/// The solver's view of a wheel-rail case. constant_profiles: prismatic rail and round wheel.
+wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_profiles);
+
+/// The result file's view of its solution.
+io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSolution& solution);
+
+}  // namespace treadmark::app

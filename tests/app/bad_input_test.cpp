@@ -1,0 +1,128 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+
+// Bad input gets one clear message that says where, the right exit status, and no result file.
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+class BadInput : public ::testing::Test {
+ protected:
+  void expect_refused(int status, const std::vector<std::string>& words) {
+    const auto json = input.folder() / "result.json", folder = input.folder() / "results";
+    const ProgramResult r = run_program({"run", input.inp().string(), "--json", json.string(), "-o", folder.string()});
+    EXPECT_EQ(r.status, status) << r.err;
+    for (const auto& word : words) EXPECT_THAT(r.err, HasSubstr(word));
+    EXPECT_EQ(std::count(r.err.begin(), r.err.end(), '\n'), 1) << "one message: " << r.err;
+    EXPECT_TRUE(r.out.empty()) << r.out;
+    EXPECT_FALSE(std::filesystem::exists(json));
+    EXPECT_FALSE(std::filesystem::exists(folder / "result.json"));
+  }
+  SampleInput input;
+};
+
+TEST_F(BadInput, TheSampleItselfIsFine) {
+  const ProgramResult r = run_program({"run", input.inp().string()});
+  EXPECT_EQ(r.status, 0) << r.err;
+}
+
+TEST_F(BadInput, MissingCaseFile) {
+  const ProgramResult r = run_program({"run", (input.folder() / "nothing.inp").string()});
+  EXPECT_EQ(r.status, 3);
+  EXPECT_THAT(r.err, HasSubstr("nothing.inp"));
+}
+
+TEST_F(BadInput, MissingProfile) {
+  input.edit("case.inp", "wheel.txt", "absent.txt");
+  expect_refused(3, {"absent.txt", "case.inp:14"});
+}
+
+TEST_F(BadInput, MissingSliceFile) {
+  input.use_slices();
+  std::filesystem::remove(input.folder() / "slice_3.txt");
+  expect_refused(3, {"slice_3.txt", "wheel.slcw:8"});
+}
+
+TEST_F(BadInput, SlicesOutOfOrder) {
+  input.use_slices();
+  input.edit("wheel.slcw", "0.200000 ", "0.050000 ");
+  expect_refused(3, {"wheel.slcw:11"});
+}
+
+TEST_F(BadInput, TruncatedProfile) {
+  const std::string rail = input.read("rail.prr");
+  input.write("rail.prr", rail.substr(0, rail.size() / 2));
+  expect_refused(3, {"rail.prr"});
+}
+
+TEST_F(BadInput, NotANumberInAProfile) {
+  input.edit("wheel.txt", "\n10 -0.5\n", "\n10 nan\n");
+  expect_refused(3, {"wheel.txt:101:4"});
+}
+
+TEST_F(BadInput, ProfileInMetres) {
+  input.edit("case.inp", "'wheel.txt'   0   1.0", "'wheel.txt'   0   0.001");
+  expect_refused(3, {"wheel.txt", "metres"});
+}
+
+TEST_F(BadInput, UnsupportedDigit) {
+  input.edit("case.inp", "1203100", "1203200");
+  expect_refused(2, {"case.inp:3"});
+}
+
+TEST_F(BadInput, ElementsTooSmallForMemory) {
+  input.edit("case.inp", "  0.500   0.500   1.000", "  1e-9   1e-9   1.000");
+  expect_refused(2, {"dx"});
+}
+
+TEST_F(BadInput, PotentialContactTooLarge) {
+  input.write("case.inp", R"( 3  MODULE
+  200100     P-B-T-N-F-S
+  022020     L-D-C-M-Z-E
+ 0000331   H-G-I-A-O-W-R
+   100   100    30     1   0.0001
+  9.1954      0.000        0.000       0.000
+  0.400       0.400
+  0.420       0.420          200.        200.
+    1
+   1000000 1000000 -1.0 -1.0 0.001 0.001
+    1    1
+  0.0100    0.000     0.0100    0.000     0.000     0.000
+ 0 MODULE
+)");
+  expect_refused(2, {"too large"});
+}
+
+TEST_F(BadInput, UnknownKeyInACaseFile) {
+  input.write("case.toml", "title = 'x'\nwheell = 3\n");
+  const ProgramResult r = run_program({"run", (input.folder() / "case.toml").string()});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("case.toml:2:1"));
+  EXPECT_THAT(r.err, HasSubstr("wheell"));
+}
+
+TEST_F(BadInput, WheelOffTheRailIsAStatusNotAnError) {
+  input.edit("case.inp", "  0.0  0.0  60000.", "  0.0  300.0  60000.");
+  const auto json = input.folder() / "result.json";
+  const ProgramResult r = run_program({"run", input.inp().string(), "--json", json.string()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(input.read("result.json"), HasSubstr("\"no_contact\""));
+}
+
+TEST_F(BadInput, OutputFolderThatCannotBeMade) {
+  const ProgramResult r = run_program({"run", input.inp().string(), "-o", "/dev/null/results"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("/dev/null/results"));
+}
+
+}  // namespace
+}  // namespace treadmark::testing

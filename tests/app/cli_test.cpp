@@ -1,0 +1,82 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <regex>
+
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+TEST(CommandLine, HelpAndVersion) {
+  const ProgramResult help = run_program({"--help"});
+  EXPECT_EQ(help.status, 0);
+  for (const char* word : {"run", "check", "Exit status"}) EXPECT_THAT(help.out, HasSubstr(word));
+  const ProgramResult version = run_program({"--version"});
+  EXPECT_EQ(version.status, 0);
+  EXPECT_THAT(version.out, HasSubstr("treadmark "));
+  EXPECT_THAT(version.out, HasSubstr("binary is"));
+}
+
+TEST(CommandLine, WrongUsageEndsWithTwo) {
+  EXPECT_EQ(run_program({}).status, 2);
+  EXPECT_EQ(run_program({"dance"}).status, 2);
+  EXPECT_EQ(run_program({"run"}).status, 2);
+  EXPECT_EQ(run_program({"run", "--nonsense", "x.inp"}).status, 2);
+  EXPECT_EQ(run_program({"run", "case.doc"}).status, 2);
+  EXPECT_EQ(run_program({"list", "wishes"}).status, 2);
+}
+
+TEST(CommandLine, ListsAndSchema) {
+  EXPECT_THAT(run_program({"list", "backends"}).out, HasSubstr("spline"));
+  EXPECT_THAT(run_program({"list", "profiles"}).out, HasSubstr("S1002"));
+  const ProgramResult schema = run_program({"schema"});
+  EXPECT_EQ(schema.status, 0);
+  EXPECT_THAT(schema.out, HasSubstr("json-schema.org"));
+}
+
+TEST(CommandLine, CheckReadsWithoutSolving) {
+  SampleInput input;
+  const ProgramResult r = run_program({"check", input.inp().string()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("2 cases"));
+  input.edit("wheel.txt", "\n10 -0.5\n", "\n10 x\n");
+  EXPECT_EQ(run_program({"check", input.inp().string()}).status, 3);
+}
+
+TEST(CommandLine, RunPrintsASummaryAndWritesEveryFile) {
+  SampleInput input;
+  const auto folder = input.folder() / "results";
+  const ProgramResult r = run_program({"run", input.inp().string(), "-o", folder.string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("MPa"));
+  for (const char* file : {"result.json", "fields.h5", "pressure.svg", "vtk"})
+    EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+}
+
+TEST(CommandLine, BackendByNameMustExist) {
+  SampleInput input;
+  EXPECT_EQ(run_program({"run", input.inp().string(), "--backend", "clay"}).status, 2);
+  EXPECT_EQ(run_program({"run", input.inp().string(), "--backend", "spline"}).status, 0);
+}
+
+std::string without_times(const std::string& json) {
+  return std::regex_replace(json, std::regex(R"re("(seconds|threads|[a-z]+_s)": *[-0-9.e+]+)re"), "");
+}
+
+TEST(CommandLine, AnyNumberOfThreadsGivesTheSameResultFile) {
+  SampleInput input;
+  const ProgramResult one = run_program({"run", input.inp().string(), "--json", "-", "--threads", "1"});
+  const ProgramResult four = run_program({"run", input.inp().string(), "--json", "-", "--threads", "4"});
+  ASSERT_EQ(one.status, 0) << one.err;
+  EXPECT_EQ(without_times(one.out), without_times(four.out));
+}
+
+}  // namespace
+}  // namespace treadmark::testing

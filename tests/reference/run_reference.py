@@ -1,0 +1,44 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""Runs one reference input and compares the result file with the reference program's results.
+
+Exit status: 0 agrees, 1 differs or failed, 77 reference data not present (in CI that is 1).
+"""
+import argparse
+import os
+import pathlib
+import subprocess
+import sys
+
+
+def main():
+    parser = argparse.ArgumentParser(description=__doc__)
+    parser.add_argument("--program", required=True)
+    parser.add_argument("--source", required=True, type=pathlib.Path)
+    parser.add_argument("--work", required=True, type=pathlib.Path)
+    parser.add_argument("case")
+    parser.add_argument("tolerance")
+    args = parser.parse_args()
+
+    shared = pathlib.Path(os.environ.get("TREADMARK_SHARED", args.source.parent / "shared"))
+    if not (shared / "data").is_dir():
+        print(f"reference data not found in {shared}")
+        return 1 if os.environ.get("CI") == "true" else 77
+
+    result = args.work / f"{args.case}.json"
+    result.unlink(missing_ok=True)
+    run = subprocess.run(
+        [args.program, "run", shared / "data" / "contact_examples" / f"{args.case}.inp", "--json", result, "--quiet"],
+        stdout=subprocess.DEVNULL)
+    if run.returncode not in (0, 4):
+        print(f"the program ended with status {run.returncode}")
+        return 1
+    compare = subprocess.run(
+        [sys.executable, shared / "tools" / "compare_results.py", result, shared / "reference" / f"{args.case}.json",
+         "--rtol", args.tolerance])
+    return 1 if compare.returncode or run.returncode else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/wheelrail/force_balance.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <functional>
+
+namespace treadmark::wheelrail {
+namespace {
+
+struct Outcome {
+  ForceBalance::State state;
+  double z;
+  int evaluations;
+};
+
+Outcome iterate(double target, double z_touch, double guess, const std::function<double(double)>& force) {
+  ForceBalance balance(target, 1e-6, guess);
+  double z = balance.first(z_touch);
+  auto state = ForceBalance::State::search;
+  int n = 0;
+  while (state == ForceBalance::State::search && n < 100) {
+    ++n;
+    state = balance.add(z, force(z), std::max(0.0, z_touch - z));
+    if (state == ForceBalance::State::search) z = balance.next();
+  }
+  return {state, z, n};
+}
+
+TEST(ForceBalance, HertzianContactTakesFewSteps) {
+  const double stiffness = 9e10;
+  const auto force = [&](double z) { return stiffness * std::pow(std::max(0.0, z - 3e-4), 1.5); };
+  for (const double guess : {9e9, 9e10, 4e11}) {
+    const Outcome o = iterate(1.25e5, 3e-4, guess, force);
+    EXPECT_EQ(o.state, ForceBalance::State::found);
+    EXPECT_NEAR(force(o.z), 1.25e5, 1e-6 * 1.25e5);
+    EXPECT_LE(o.evaluations, 8) << guess;
+  }
+}
+
+TEST(ForceBalance, SecondContactThatOpensOnTheWay) {
+  const auto force = [](double z) {
+    return 8e10 * std::pow(std::max(0.0, z), 1.5) + 2e11 * std::pow(std::max(0.0, z - 9e-5), 1.5);
+  };
+  const Outcome o = iterate(1.5e5, 0.0, 8e10, force);
+  EXPECT_EQ(o.state, ForceBalance::State::found);
+  EXPECT_NEAR(force(o.z), 1.5e5, 0.15);
+}
+
+TEST(ForceBalance, SaysWhenTheForceJumpsOverTheTarget) {
+  const auto force = [](double z) { return z > 1e-4 ? 2e5 : 5e4; };
+  EXPECT_EQ(iterate(1.25e5, 0.0, 8e10, force).state, ForceBalance::State::no_balance);
+}
+
+TEST(ForceBalance, ComesBackFromLostContact) {
+  const auto force = [](double z) { return 5e10 * std::pow(std::max(0.0, z - 1e-3), 1.5); };
+  // The touching position given is 0.2 mm too high: the first try has no contact at all.
+  ForceBalance balance(1e5, 1e-6, 1e11);
+  double z = balance.first(8e-4);
+  auto state = ForceBalance::State::search;
+  for (int i = 0; i < 50 && state == ForceBalance::State::search; ++i) {
+    state = balance.add(z, force(z), std::max(0.0, 1e-3 - z));
+    if (state == ForceBalance::State::search) z = balance.next();
+  }
+  EXPECT_EQ(state, ForceBalance::State::found);
+}
+
+}  // namespace
+}  // namespace treadmark::wheelrail
