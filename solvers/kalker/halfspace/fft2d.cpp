@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
+
+#include <array>
+#include <map>
+#include <mutex>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+/// Making plans costs milliseconds, so that every size is planned once per process.
+std::shared_ptr<const FftPlan> shared_plan(int nx, int ny, int active_rows) {
+  static std::mutex mutex;
+  static std::map<std::array<int, 3>, std::shared_ptr<const FftPlan>> plans;
+  const std::lock_guard lock(mutex);
+  auto& plan = plans[{nx, ny, active_rows}];
+  if (!plan) plan = make_fft_plan(nx, ny, active_rows);
+  return plan;
+}
+
+bool has_only_small_factors(int n) {
+  for (const int factor : {2, 3, 5, 7})
+    while (n % factor == 0) n /= factor;
+  return n == 1;
+}
+
+}  // namespace
+
+RealFft2d::RealFft2d(int nx, int ny) : RealFft2d(nx, ny, ny) {}
+
+RealFft2d::RealFft2d(int nx, int ny, int active_rows) : nx_(nx), ny_(ny), active_rows_(active_rows) {
+  if (nx < 2 || nx % 2 != 0 || ny < 1 || active_rows < 1 || active_rows > ny)
+    throw Error(ErrorKind::configuration, "a Fourier transform of " + std::to_string(nx) + " x " + std::to_string(ny) +
+                                              " values with " + std::to_string(active_rows) + " active rows",
+                {}, "nx must be even and positive, 1 <= active_rows <= ny");
+  plan_ = shared_plan(nx, ny, active_rows);
+}
+
+void RealFft2d::forward(std::span<double> real, std::span<std::complex<double>> spectrum) const {
+  if (real.size() != real_size() || spectrum.size() != spectrum_size())
+    throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
+  plan_->forward(real.data(), spectrum.data());
+}
+
+void RealFft2d::inverse(std::span<std::complex<double>> spectrum, std::span<double> real) const {
+  if (real.size() != real_size() || spectrum.size() != spectrum_size())
+    throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
+  plan_->inverse(spectrum.data(), real.data());
+}
+
+int good_fft_size(int n) {
+  int size = n < 2 ? 2 : n + n % 2;
+  while (!has_only_small_factors(size)) size += 2;
+  return size;
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <complex>
+#include <cstddef>
+#include <memory>
+#include <span>
+
+namespace treadmark::kalker {
+
+class FftPlan;
+
+/// Unnormalised discrete Fourier transform of real fields with ny rows of nx values: inverse(forward(x)) = nx * ny * x.
+/// Only the first active_rows rows of the field exist; the others are taken as zero by forward and not computed by inverse.
+/// Plans are shared by the whole process. All members may be called from any number of threads at the same time.
+/// Results are the same from run to run when the spans are aligned alike (AlignedVector).
+class RealFft2d {
+ public:
+  /// nx must be even. Errors: Error(configuration) for odd or non-positive sizes, or active_rows outside 1..ny.
+  RealFft2d(int nx, int ny);
+  RealFft2d(int nx, int ny, int active_rows);
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  int active_rows() const { return active_rows_; }
+  /// Sizes of the two arrays: active_rows rows of nx reals, ny rows of nx/2+1 complex numbers.
+  std::size_t real_size() const { return static_cast<std::size_t>(nx_) * static_cast<std::size_t>(active_rows_); }
+  std::size_t spectrum_size() const { return static_cast<std::size_t>(nx_ / 2 + 1) * static_cast<std::size_t>(ny_); }
+
+  /// real may be overwritten.
+  void forward(std::span<double> real, std::span<std::complex<double>> spectrum) const;
+  /// spectrum is overwritten.
+  void inverse(std::span<std::complex<double>> spectrum, std::span<double> real) const;
+
+ private:
+  int nx_, ny_, active_rows_;
+  std::shared_ptr<const FftPlan> plan_;
+};
+
+/// The smallest even number >= n without prime factors above 7, for which transforms are fast.
+int good_fft_size(int n);
+
+/// "FFTW" or "KISS FFT": the library that was compiled in.
+const char* fft_library();
+
+}  // namespace treadmark::kalker

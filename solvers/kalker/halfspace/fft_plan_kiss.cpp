@@ -1,0 +1,90 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#ifndef TREADMARK_HAVE_FFTW
+
+#include <kissfft/kissfft.hh>
+#include <map>
+#include <numbers>
+#include <vector>
+
+#include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+using Complex = std::complex<double>;
+
+/// kissfft objects carry scratch space, so that every thread needs its own.
+const kissfft<double>& thread_transform(int n, bool inverse) {
+  thread_local std::map<std::pair<int, bool>, kissfft<double>> transforms;
+  return transforms.try_emplace({n, inverse}, static_cast<std::size_t>(n), inverse).first->second;
+}
+
+/// Rows as complex transforms of half the length (even values real, odd values imaginary), then columns.
+class KissPlan final : public FftPlan {
+ public:
+  KissPlan(int nx, int ny, int active_rows) : half_(nx / 2), columns_(nx / 2 + 1), ny_(ny), active_rows_(active_rows) {
+    for (int k = 0; k <= half_; ++k) twiddle_.push_back(std::polar(1.0, -2.0 * std::numbers::pi * k / nx));
+  }
+
+  void forward(double* real, Complex* spectrum) const override {
+    const auto& transform = thread_transform(half_, false);
+    std::vector<Complex> packed(static_cast<std::size_t>(half_));
+    for (int iy = 0; iy < active_rows_; ++iy) {
+      transform.transform(reinterpret_cast<const Complex*>(real) + std::ptrdiff_t{iy} * half_, packed.data());
+      Complex* row = spectrum + std::ptrdiff_t{iy} * columns_;
+      for (int k = 0; k <= half_; ++k) {
+        const Complex z = packed[at(k % half_)], mirrored = std::conj(packed[at((half_ - k) % half_)]);
+        const Complex even = 0.5 * (z + mirrored), odd = Complex(0.0, -0.5) * (z - mirrored);
+        row[k] = even + twiddle_[at(k)] * odd;
+      }
+    }
+    std::fill(spectrum + std::ptrdiff_t{active_rows_} * columns_, spectrum + std::ptrdiff_t{ny_} * columns_, Complex());
+    transform_columns(spectrum, false);
+  }
+
+  void inverse(Complex* spectrum, double* real) const override {
+    transform_columns(spectrum, true);
+    const auto& transform = thread_transform(half_, true);
+    std::vector<Complex> packed(static_cast<std::size_t>(half_));
+    for (int iy = 0; iy < active_rows_; ++iy) {
+      const Complex* row = spectrum + std::ptrdiff_t{iy} * columns_;
+      for (int k = 0; k < half_; ++k) {
+        const Complex s = row[k], mirrored = std::conj(row[half_ - k]);
+        packed[at(k)] = (s + mirrored) + Complex(0.0, 1.0) * std::conj(twiddle_[at(k)]) * (s - mirrored);
+      }
+      transform.transform(packed.data(), reinterpret_cast<Complex*>(real) + std::ptrdiff_t{iy} * half_);
+    }
+  }
+
+ private:
+  static std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+  void transform_columns(Complex* spectrum, bool inverse) const {
+    if (ny_ == 1) return;
+    const auto& transform = thread_transform(ny_, inverse);
+    std::vector<Complex> in(at(ny_)), out(at(ny_));
+    for (int k = 0; k < columns_; ++k) {
+      for (int iy = 0; iy < ny_; ++iy) in[at(iy)] = spectrum[k + std::ptrdiff_t{iy} * columns_];
+      transform.transform(in.data(), out.data());
+      for (int iy = 0; iy < ny_; ++iy) spectrum[k + std::ptrdiff_t{iy} * columns_] = out[at(iy)];
+    }
+  }
+
+  int half_, columns_, ny_, active_rows_;
+  std::vector<Complex> twiddle_;
+};
+
+}  // namespace
+
+std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows) {
+  return std::make_shared<KissPlan>(nx, ny, active_rows);
+}
+
+const char* fft_library() { return "KISS FFT"; }
+
+}  // namespace treadmark::kalker
+
+#endif  // TREADMARK_HAVE_FFTW

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/halfspace/influence.hpp"
+
+#include <cmath>
+#include <numbers>
+
+namespace treadmark::kalker {
+
+namespace {
+
+/// y * ln((x2 + r2) / (x1 + r1)) for x2 > x1, x2 > -x1: the difference of two nearby logarithms without cancellation.
+double log_ratio_term(double y, double x1, double x2) {
+  if (y == 0.0) return 0.0;
+  const double r1 = std::hypot(x1, y), r2 = std::hypot(x2, y);
+  const double r_difference = (x2 - x1) * (x2 + x1) / (r1 + r2);
+  const double denominator = x1 >= 0.0 ? x1 + r1 : y * y / (r1 - x1);
+  return y * std::log1p(((x2 - x1) + r_difference) / denominator);
+}
+
+/// Double difference of y ln(x + r) over the corners of the rectangle.
+double log_integral(double x1, double x2, double y1, double y2) {
+  return log_ratio_term(y2, x1, x2) - log_ratio_term(y1, x1, x2);
+}
+
+/// Double difference of r over the corners, free of cancellation.
+double distance_integral(double X, double Y, double dx, double dy) {
+  const double x1 = X - 0.5 * dx, x2 = X + 0.5 * dx, y1 = Y - 0.5 * dy, y2 = Y + 0.5 * dy;
+  const double r11 = std::hypot(x1, y1), r12 = std::hypot(x1, y2), r21 = std::hypot(x2, y1), r22 = std::hypot(x2, y2);
+  return -4.0 * X * Y * dx * dy * (1.0 / (r12 + r22) + 1.0 / (r11 + r21)) / ((r22 + r21) * (r12 + r11));
+}
+
+}  // namespace
+
+double influence(Component component, double X, double Y, double dx, double dy, double poisson) {
+  if (component == Component::xy) return -poisson * std::numbers::inv_pi * distance_integral(X, Y, dx, dy);
+  X = std::abs(X);
+  Y = std::abs(Y);
+  const double x1 = X - 0.5 * dx, x2 = X + 0.5 * dx, y1 = Y - 0.5 * dy, y2 = Y + 0.5 * dy;
+  const double across = log_integral(x1, x2, y1, y2);  // of y ln(x + r)
+  const double along = log_integral(y1, y2, x1, x2);   // of x ln(y + r)
+  switch (component) {
+    case Component::nn: return (1.0 - poisson) * std::numbers::inv_pi * (across + along);
+    case Component::xx: return std::numbers::inv_pi * (across + (1.0 - poisson) * along);
+    case Component::yy: return std::numbers::inv_pi * (along + (1.0 - poisson) * across);
+    case Component::xy: break;
+  }
+  return 0.0;
+}
+
+}  // namespace treadmark::kalker

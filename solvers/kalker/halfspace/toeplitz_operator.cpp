@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
+
+#include <algorithm>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+/// Below this number of elements a direct sum is cheaper than transforms.
+constexpr int kDirectSize = 64;
+
+int padded(int n) { return good_fft_size(2 * n - 1); }
+int padded_rows(int n) { return n == 1 ? 1 : padded(n); }
+
+std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
+
+void check_size(std::size_t given, std::size_t wanted) {
+  if (given != wanted)
+    throw Error(ErrorKind::configuration, "a convolution of " + std::to_string(wanted) + " elements was given " +
+                                              std::to_string(given) + " values");
+}
+
+void check_grid(int nx, int ny) {
+  if (nx < 1 || ny < 1) throw Error(ErrorKind::configuration, "a convolution needs at least one element");
+}
+
+/// Padded field of the calling thread; kept, because allocation would cost as much as a small transform.
+std::span<double> padded_field(std::size_t size) {
+  thread_local AlignedVector<double> field;
+  if (field.size() < size) field.resize(size);
+  return {field.data(), size};
+}
+
+std::span<std::complex<double>> spectrum_field(std::size_t size) {
+  thread_local Spectrum spectrum;
+  if (spectrum.size() < size) spectrum.resize(size);
+  return {spectrum.data(), size};
+}
+
+}  // namespace
+
+ToeplitzTransform::ToeplitzTransform(int nx, int ny)
+    : nx_((check_grid(nx, ny), nx)), ny_(ny), fft_(padded(nx), padded_rows(ny), ny) {}
+
+Spectrum ToeplitzTransform::kernel_spectrum(const OffsetKernel& kernel) const {
+  const int px = padded_nx(), py = padded_ny();
+  AlignedVector<double> field(product(px, py));
+  const double scale = 1.0 / (static_cast<double>(px) * py);
+  for (int diy = 1 - ny_; diy < ny_; ++diy)
+    for (int dix = 1 - nx_; dix < nx_; ++dix)
+      field[product((diy + py) % py, px) + static_cast<std::size_t>((dix + px) % px)] = scale * kernel(dix, diy);
+  Spectrum spectrum(spectrum_size());
+  RealFft2d(px, py).forward(field, spectrum);
+  return spectrum;
+}
+
+void ToeplitzTransform::forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const {
+  check_size(field.size(), size());
+  const std::span<double> real = padded_field(fft_.real_size());
+  for (int iy = 0; iy < ny_; ++iy) {
+    const auto row = real.begin() + static_cast<std::ptrdiff_t>(product(iy, padded_nx()));
+    const auto source = field.begin() + static_cast<std::ptrdiff_t>(product(iy, nx_));
+    std::copy(source, source + nx_, row);
+    std::fill(row + nx_, row + padded_nx(), 0.0);
+  }
+  fft_.forward(real, spectrum);
+}
+
+void ToeplitzTransform::inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const {
+  check_size(field.size(), size());
+  const std::span<double> real = padded_field(fft_.real_size());
+  fft_.inverse(spectrum, real);
+  for (int iy = 0; iy < ny_; ++iy) {
+    const auto row = real.begin() + static_cast<std::ptrdiff_t>(product(iy, padded_nx()));
+    std::copy(row, row + nx_, field.begin() + static_cast<std::ptrdiff_t>(product(iy, nx_)));
+  }
+}
+
+ToeplitzOperator::ToeplitzOperator(int nx, int ny, const OffsetKernel& kernel) : nx_(nx), ny_(ny) {
+  check_grid(nx, ny);
+  table_.reserve(product(2 * nx - 1, 2 * ny - 1));
+  for (int diy = 1 - ny; diy < ny; ++diy)
+    for (int dix = 1 - nx; dix < nx; ++dix) table_.push_back(kernel(dix, diy));
+  if (size() <= kDirectSize) return;
+  transform_.emplace(nx, ny);
+  spectrum_ = transform_->kernel_spectrum([this](int dix, int diy) { return at(dix, diy); });
+}
+
+double ToeplitzOperator::at(int dix, int diy) const {
+  return table_[product(diy + ny_ - 1, 2 * nx_ - 1) + static_cast<std::size_t>(dix + nx_ - 1)];
+}
+
+void ToeplitzOperator::apply(std::span<const double> p, std::span<double> u) const {
+  check_size(p.size(), size());
+  check_size(u.size(), size());
+  if (!transform_) return apply_directly(p, u);
+  const std::span<std::complex<double>> spectrum = spectrum_field(spectrum_.size());
+  transform_->forward(p, spectrum);
+  for (std::size_t k = 0; k < spectrum_.size(); ++k) {
+    // Written out, because operator* of std::complex checks for infinities.
+    const std::complex<double> a = spectrum[k], b = spectrum_[k];
+    spectrum[k] = {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+  }
+  transform_->inverse(spectrum, u);
+}
+
+void ToeplitzOperator::apply_directly(std::span<const double> p, std::span<double> u) const {
+  std::fill(u.begin(), u.end(), 0.0);
+  for (int jy = 0; jy < ny_; ++jy)
+    for (int jx = 0; jx < nx_; ++jx) {
+      const double load = p[product(jy, nx_) + static_cast<std::size_t>(jx)];
+      if (load == 0.0) continue;
+      for (int iy = 0; iy < ny_; ++iy)
+        for (int ix = 0; ix < nx_; ++ix)
+          u[product(iy, nx_) + static_cast<std::size_t>(ix)] += at(ix - jx, iy - jy) * load;
+    }
+}
+
+}  // namespace treadmark::kalker

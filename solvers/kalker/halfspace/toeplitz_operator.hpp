@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <complex>
+#include <functional>
+#include <optional>
+#include <span>
+
+#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
+
+namespace treadmark::kalker {
+
+/// Value for an index offset "observation minus source", |dix| < nx, |diy| < ny.
+using OffsetKernel = std::function<double(int dix, int diy)>;
+
+using Spectrum = AlignedVector<std::complex<double>>;
+
+/// Zero-padded transforms of fields with ny rows of nx values, for convolutions with kernels of index offsets.
+/// u = K p reads: forward(p, s); multiply s by kernel_spectrum(K); inverse(s, u). Sums of several kernels and fields are
+/// formed between the transforms. Const members may be called from any number of threads.
+class ToeplitzTransform {
+ public:
+  ToeplitzTransform(int nx, int ny);
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  std::size_t size() const { return static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_); }
+  std::size_t spectrum_size() const { return fft_.spectrum_size(); }
+
+  /// Spectrum of a kernel, scaled so that a product with a field's spectrum needs no further factor.
+  Spectrum kernel_spectrum(const OffsetKernel& kernel) const;
+  void forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const;
+  /// spectrum is overwritten.
+  void inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const;
+  /// Size of the padded periodic field (the spectrum has padded_ny rows of padded_nx/2+1 values).
+  int padded_nx() const { return fft_.nx(); }
+  int padded_ny() const { return fft_.ny(); }
+
+ private:
+  int nx_, ny_;
+  RealFft2d fft_;
+};
+
+/// u_I = sum_J kernel(I - J) p_J over fields with ny rows of nx values: by Fourier transform, or directly when small.
+/// Const members may be called from any number of threads.
+class ToeplitzOperator {
+ public:
+  ToeplitzOperator(int nx, int ny, const OffsetKernel& kernel);
+
+  /// Sizes nx * ny; p and u must not overlap. Errors: Error(configuration) for other sizes.
+  void apply(std::span<const double> p, std::span<double> u) const;
+  double at(int dix, int diy) const;
+
+  int nx() const { return nx_; }
+  int ny() const { return ny_; }
+  std::size_t size() const { return static_cast<std::size_t>(nx_) * static_cast<std::size_t>(ny_); }
+
+ private:
+  void apply_directly(std::span<const double> p, std::span<double> u) const;
+
+  int nx_, ny_;
+  std::vector<double> table_;  ///< (2 nx - 1) x (2 ny - 1) values
+  std::optional<ToeplitzTransform> transform_;
+  Spectrum spectrum_;
+};
+
+}  // namespace treadmark::kalker

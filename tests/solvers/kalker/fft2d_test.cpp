@@ -1,0 +1,115 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+#include <random>
+#include <thread>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
+
+namespace treadmark::kalker {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Sums of a few hundred values of order one, rounded once per operation.
+constexpr double kRounding = 1e-11;
+
+AlignedVector<double> random_field(std::size_t size, unsigned seed) {
+  std::mt19937 generator(seed);
+  std::uniform_real_distribution<double> uniform(-1.0, 1.0);
+  AlignedVector<double> field(size);
+  for (double& value : field) value = uniform(generator);
+  return field;
+}
+
+Complex sum_by_definition(const RealFft2d& fft, const AlignedVector<double>& field, int kx, int ky) {
+  Complex sum;
+  for (int iy = 0; iy < fft.active_rows(); ++iy)
+    for (int ix = 0; ix < fft.nx(); ++ix) {
+      const double phase = -2.0 * std::numbers::pi *
+                           (static_cast<double>(kx * ix) / fft.nx() + static_cast<double>(ky * iy) / fft.ny());
+      sum += field[static_cast<std::size_t>(ix + fft.nx() * iy)] * std::polar(1.0, phase);
+    }
+  return sum;
+}
+
+struct Shape {
+  int nx, ny, active_rows;
+};
+
+class Fft2dShapes : public ::testing::TestWithParam<Shape> {};
+
+TEST_P(Fft2dShapes, MatchesTheDefinitionAndInverts) {
+  const auto [nx, ny, active_rows] = GetParam();
+  const RealFft2d fft(nx, ny, active_rows);
+  const AlignedVector<double> field = random_field(fft.real_size(), 7);
+  AlignedVector<double> work = field;
+  AlignedVector<Complex> spectrum(fft.spectrum_size(), Complex(std::nan(""), std::nan("")));
+  fft.forward(work, spectrum);
+  for (int ky = 0; ky < ny; ++ky)
+    for (int kx = 0; kx <= nx / 2; ++kx)
+      ASSERT_LT(std::abs(spectrum[static_cast<std::size_t>(kx + (nx / 2 + 1) * ky)] -
+                         sum_by_definition(fft, field, kx, ky)),
+                kRounding)
+          << kx << ' ' << ky;
+  fft.inverse(spectrum, work);
+  for (std::size_t i = 0; i < field.size(); ++i) ASSERT_NEAR(work[i] / (nx * ny), field[i], kRounding);
+}
+
+INSTANTIATE_TEST_SUITE_P(Sizes, Fft2dShapes,
+                         ::testing::Values(Shape{2, 1, 1}, Shape{4, 3, 3}, Shape{14, 15, 15}, Shape{30, 28, 13},
+                                           Shape{16, 1, 1}, Shape{6, 22, 9}));
+
+TEST(Fft2d, UnalignedArraysGiveTheSameResult) {
+  const RealFft2d fft(12, 10);
+  const AlignedVector<double> field = random_field(fft.real_size(), 3);
+  AlignedVector<double> aligned = field, shifted(field.size() + 1);
+  std::copy(field.begin(), field.end(), shifted.begin() + 1);
+  AlignedVector<Complex> one(fft.spectrum_size()), other(fft.spectrum_size());
+  fft.forward(aligned, one);
+  fft.forward(std::span(shifted).subspan(1), other);
+  for (std::size_t i = 0; i < one.size(); ++i) ASSERT_LT(std::abs(one[i] - other[i]), kRounding);
+}
+
+TEST(Fft2d, ThreadsGetBitwiseTheSameResult) {
+  const RealFft2d fft(60, 50, 25);
+  const AlignedVector<double> field = random_field(fft.real_size(), 11);
+  std::vector<AlignedVector<Complex>> spectra(4, AlignedVector<Complex>(fft.spectrum_size()));
+  {
+    std::vector<std::jthread> threads;
+    for (auto& spectrum : spectra)
+      threads.emplace_back([&] {
+        for (int repeat = 0; repeat < 20; ++repeat) {
+          AlignedVector<double> work = field;
+          RealFft2d(60, 50, 25).forward(work, spectrum);
+        }
+      });
+  }
+  for (const auto& spectrum : spectra) EXPECT_EQ(spectrum, spectra.front());
+}
+
+TEST(Fft2d, GoodSizesAreTheNextEvenSevenSmoothNumbers) {
+  EXPECT_EQ(good_fft_size(1), 2);
+  EXPECT_EQ(good_fft_size(7), 8);
+  EXPECT_EQ(good_fft_size(11), 12);
+  EXPECT_EQ(good_fft_size(121), 126);
+  EXPECT_EQ(good_fft_size(126), 126);
+  EXPECT_EQ(good_fft_size(211), 216);
+}
+
+TEST(Fft2d, RejectsOddSizesAndWrongArrays) {
+  EXPECT_THROW(RealFft2d(9, 4), Error);
+  EXPECT_THROW(RealFft2d(8, 4, 5), Error);
+  const RealFft2d fft(8, 4);
+  AlignedVector<double> field(fft.real_size());
+  AlignedVector<Complex> spectrum(fft.spectrum_size() - 1);
+  EXPECT_THROW(fft.forward(field, spectrum), Error);
+}
+
+}  // namespace
+}  // namespace treadmark::kalker
