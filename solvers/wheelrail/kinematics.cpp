@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 
-#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
-#include <Eigen/Geometry>
 #include <chrono>
 #include <cmath>
 
