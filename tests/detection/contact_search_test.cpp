@@ -20,7 +20,7 @@ constexpr double kRadius = 0.4;
 /// A ball (wheel of round meridian) over a plane that is rolled by an angle about x: contact at angle = roll.
 struct BallOnPlane {
   std::shared_ptr<const Surface> plane = analytic::make_plane_surface(Facing::up);
-  std::shared_ptr<const Surface> ball = analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 1.0), kRadius);
+  std::shared_ptr<const Surface> ball = analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 1.3), kRadius);
   BodyPair bodies;
 
   BallOnPlane(double roll, double penetration, const Pose& everything = {}) {
@@ -51,7 +51,8 @@ TEST_P(RolledPlane, PatchFrameAndDistanceAreThoseOfTheBall) {
   EXPECT_NEAR(found.least_gap, -penetration / std::cos(roll), 2e-3 * penetration);
   EXPECT_NEAR(patch.inclination, roll, 1e-12);
   EXPECT_NEAR(patch.x, 0.0, 1e-7);
-  EXPECT_NEAR(patch.y, 0.0, 2e-5);
+  // Vertical depths of a ball are larger downhill: the centre shifts by a share of the depth.
+  EXPECT_NEAR(patch.y, 0.0, 2e-6 + 0.6 * penetration * std::abs(std::tan(roll)));
   const double half_width = std::sqrt(2.0 * kRadius * penetration - penetration * penetration);
   EXPECT_NEAR(patch.box.x_max, half_width, 1e-4);
   EXPECT_NEAR(patch.box.y_max, half_width * std::cos(roll), 1.5e-4);
