@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/backends/analytic/graph_curve.hpp"
+#include "treadmark/core/surface_spec.hpp"
+
+namespace treadmark::analytic {
+
+/// One segment of a chain with its start resolved: position (y, z), inclination, and arc length before it.
+struct ChainSegment {
+  double y = 0.0, z = 0.0, angle = 0.0;
+  double length = 0.0, curvature = 0.0;
+  double s = 0.0;
+};
+
+/// A point of a chain; inclination alpha = atan2(dz, dy) along increasing arc length, not wrapped.
+struct ChainPoint {
+  double y = 0.0, z = 0.0, angle = 0.0, curvature = 0.0;
+};
+
+/// The starts of all segments. Errors: Error(configuration) for an empty chain, a segment that is not positive, non-finite numbers.
+std::vector<ChainSegment> resolve(const ArcChain& chain);
+
+/// The point at distance d from the start of a segment, 0 <= d <= length.
+ChainPoint point_on(const ChainSegment& segment, double d);
+
+/// The chain as a graph z(y). Errors: Error(configuration) if it is vertical or turns back somewhere.
+GraphCurve graph_of(const ArcChain& chain);
+
+}  // namespace treadmark::analytic

@@ -1,0 +1,124 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/analytic/flat_depth.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/pose.hpp"
+
+namespace treadmark::analytic {
+
+namespace {
+constexpr double kPi = std::numbers::pi;
+}
+
+FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
+  for (const WheelFlat& given : flats) {
+    const bool fresh = given.shape == WheelFlat::Shape::fresh;
+    if (!(given.length > 0.0) || !(given.length < (fresh ? 2.0 : 2.0 * kPi) * R))
+      throw Error(ErrorKind::configuration, "the length of a wheel flat must be positive and fit on the wheel");
+    if (!fresh && (!(given.depth > 0.0) || !(given.depth < 0.5 * R)))
+      throw Error(ErrorKind::configuration, "the depth of a rounded wheel flat must be positive and less than half the radius");
+    if (!(given.width >= 0.0) || !std::isfinite(given.width) || !std::isfinite(given.y_center) ||
+        !std::isfinite(given.theta_center))
+      throw Error(ErrorKind::configuration, "a wheel flat needs a finite place and a width that is not negative");
+    Flat f{};
+    f.shape = given.shape;
+    f.center = wrap_angle(given.theta_center);
+    f.sin_center = std::sin(f.center);
+    f.cos_center = std::cos(f.center);
+    f.radius = R;
+    f.chord_radius = std::sqrt((R - 0.5 * given.length) * (R + 0.5 * given.length));
+    f.half_angle = fresh ? std::asin(0.5 * given.length / R) : 0.5 * given.length / R;
+    f.cos_half_angle = std::cos(f.half_angle);
+    f.depth = fresh ? 0.25 * given.length * given.length / (R + f.chord_radius) : given.depth;
+    f.wave_number = kPi / f.half_angle;
+    f.y_center = given.y_center;
+    f.half_width = 0.5 * given.width;
+    f.y_wave_number = given.width > 0.0 ? 2.0 * kPi / given.width : 0.0;
+    const double steepest = fresh ? f.chord_radius * std::sin(f.half_angle) / (f.cos_half_angle * f.cos_half_angle)
+                                  : 0.5 * f.depth * f.wave_number;
+    max_depth_ += f.depth;
+    max_d_theta_ += steepest;
+    max_d_y_ += 0.5 * f.depth * f.y_wave_number;
+    flats_.push_back(f);
+  }
+}
+
+void FlatDepth::Flat::along(double phi, double& d, double& d1, double& d2) const {
+  if (shape == WheelFlat::Shape::fresh) {
+    // R - rho/cos(phi), written as depth - rho (1/cos(phi) - 1) so that nothing cancels
+    const double c = std::cos(phi), s = std::sin(phi), half = std::sin(0.5 * phi);
+    d = std::max(0.0, depth - chord_radius * 2.0 * half * half / c);
+    d1 = -chord_radius * s / (c * c);
+    d2 = -chord_radius * (1.0 + s * s) / (c * c * c);
+  } else {
+    const double c = std::cos(wave_number * phi), s = std::sin(wave_number * phi);
+    d = 0.5 * depth * (1.0 + c);
+    d1 = -0.5 * depth * wave_number * s;
+    d2 = -0.5 * depth * wave_number * wave_number * c;
+  }
+}
+
+void FlatDepth::Flat::across(double y, double& w, double& w1, double& w2) const {
+  w = 1.0;
+  w1 = w2 = 0.0;
+  if (half_width == 0.0) return;
+  const double e = y - y_center;
+  if (std::fabs(e) >= half_width) {
+    w = 0.0;
+    return;
+  }
+  const double c = std::cos(y_wave_number * e);
+  w = 0.5 * (1.0 + c);
+  w1 = -0.5 * y_wave_number * std::sin(y_wave_number * e);
+  w2 = -0.5 * y_wave_number * y_wave_number * c;
+}
+
+double FlatDepth::depth(double x, double y, double z, double r, double& d_theta, double& d_y) const {
+  double sum = 0.0;
+  d_theta = d_y = 0.0;
+  for (const Flat& f : flats_) {
+    const double ahead = z * f.cos_center + x * f.sin_center;  // r cos(phi)
+    if (f.half_angle < kPi && ahead < r * f.cos_half_angle) continue;
+    if (f.half_width > 0.0 && std::fabs(y - f.y_center) >= f.half_width) continue;
+    const double phi = std::atan2(x * f.cos_center - z * f.sin_center, ahead);
+    if (std::fabs(phi) >= f.half_angle) continue;
+    double d, d1, d2, w, w1, w2;
+    f.along(phi, d, d1, d2);
+    f.across(y, w, w1, w2);
+    sum += d * w;
+    d_theta += d1 * w;
+    d_y += d * w1;
+  }
+  return sum;
+}
+
+DepthJet FlatDepth::jet(double theta, double y) const {
+  DepthJet sum;
+  for (const Flat& f : flats_) {
+    const double phi = wrap_angle(theta - f.center);
+    if (std::fabs(phi) >= f.half_angle) continue;
+    double d, d1, d2, w, w1, w2;
+    f.along(phi, d, d1, d2);
+    f.across(y, w, w1, w2);
+    sum.d += d * w;
+    sum.d_theta += d1 * w;
+    sum.d_y += d * w1;
+    sum.d_theta_theta += d2 * w;
+    sum.d_theta_y += d1 * w1;
+    sum.d_y_y += d * w2;
+  }
+  return sum;
+}
+
+bool FlatDepth::touches(double theta, double half_range) const {
+  for (const Flat& f : flats_)
+    if (std::fabs(wrap_angle(theta - f.center)) <= f.half_angle + half_range) return true;
+  return false;
+}
+
+}  // namespace treadmark::analytic

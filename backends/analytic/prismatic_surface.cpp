@@ -1,0 +1,177 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/analytic/prismatic_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include "treadmark/backends/analytic/chain_view.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::analytic {
+
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// The plane frame seen in the y-z plane of the rail. A point (x, y) of the plane lies at w = w0 + wx x + wy y and
+/// a = a0 + ax x + ay y along the projected normal, whose length is m; the height is t = (h(w) - a)/m.
+struct Projection {
+  double d_y = 0.0, d_z = 1.0, m = 0.0;
+  double w0 = 0.0, wx = 0.0, wy = 0.0, a0 = 0.0, ax = 0.0, ay = 0.0;
+
+  explicit Projection(const Pose& X) {
+    const double n_y = X.rotation(1, 2), n_z = X.rotation(2, 2);
+    m = std::hypot(n_y, n_z);
+    if (degenerate()) return;
+    d_y = n_y / m;
+    d_z = n_z / m;
+    const auto across = [&](double y, double z) { return y * d_z - z * d_y; };
+    const auto along = [&](double y, double z) { return y * d_y + z * d_z; };
+    w0 = across(X.origin.y(), X.origin.z());
+    wx = across(X.rotation(1, 0), X.rotation(2, 0));
+    wy = across(X.rotation(1, 1), X.rotation(2, 1));
+    a0 = along(X.origin.y(), X.origin.z());
+    ax = along(X.rotation(1, 0), X.rotation(2, 0));
+    ay = along(X.rotation(1, 1), X.rotation(2, 1));
+  }
+  /// The normal runs along the rail: it never meets the surface in one point.
+  bool degenerate() const { return m < 1e-9; }
+};
+
+/// One row of the grid; rows of a plane that is not turned about its normal have one w, hence one height, for all x.
+class RowWriter {
+ public:
+  RowWriter(const Projection& projection, const ChainView& view, const Grid2& grid, const HeightsOut& out)
+      : p_(projection), view_(view), g_(grid), out_(out) {
+    constexpr double kSameW = 1e-15;  // [m]
+    const double spread = std::fabs(p_.wx) * std::max(std::fabs(g_.x(0)), std::fabs(g_.x(g_.nx - 1)));
+    one_w_ = spread <= kSameW;
+    slopes_ = !out_.dzdx.empty() || !out_.dzdy.empty();
+  }
+
+  void write(int iy) const {
+    const std::size_t begin = g_.index(0, iy);
+    const double y = g_.y(iy), w_row = p_.w0 + p_.wy * y, a_row = p_.a0 + p_.ay * y;
+    int interval = 0;
+    if (one_w_) {
+      double h = 0.0, dh = 0.0;
+      interval = view_.find(w_row, interval);
+      evaluate(w_row, interval, h, dh);
+      for (int ix = 0; ix < g_.nx; ++ix) put(begin + static_cast<std::size_t>(ix), g_.x(ix), h, dh, a_row);
+      return;
+    }
+    for (int ix = 0; ix < g_.nx; ++ix) {
+      const double x = g_.x(ix), w = w_row + p_.wx * x;
+      const int found = view_.find(w, interval);
+      if (found >= 0) interval = found;
+      double h = 0.0, dh = 0.0;
+      evaluate(w, found, h, dh);
+      put(begin + static_cast<std::size_t>(ix), x, h, dh, a_row);
+    }
+  }
+
+ private:
+  void evaluate(double w, int interval, double& h, double& dh) const {
+    if (interval < 0)
+      h = dh = kNaN;
+    else if (slopes_)
+      h = view_.height_and_slope(w, interval, dh);
+    else
+      h = view_.height(w, interval);
+  }
+  void put(std::size_t i, double x, double h, double dh, double a_row) const {
+    if (!out_.z.empty()) out_.z[i] = (h - (a_row + p_.ax * x)) / p_.m;
+    if (!out_.dzdx.empty()) out_.dzdx[i] = (dh * p_.wx - p_.ax) / p_.m;
+    if (!out_.dzdy.empty()) out_.dzdy[i] = (dh * p_.wy - p_.ay) / p_.m;
+  }
+
+  const Projection& p_;
+  const ChainView& view_;
+  const Grid2& g_;
+  const HeightsOut& out_;
+  bool one_w_ = false, slopes_ = false;
+};
+
+}  // namespace
+
+PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain)) {}
+
+Box3 PrismaticSurface::bounds() const {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity();
+  double low[2] = {kInfinity, kInfinity}, high[2] = {-kInfinity, -kInfinity};
+  const auto include = [&](const ChainPoint& p) {
+    low[0] = std::min(low[0], p.y), high[0] = std::max(high[0], p.y);
+    low[1] = std::min(low[1], p.z), high[1] = std::max(high[1], p.z);
+  };
+  for (const ChainSegment& seg : chain_) {
+    include(point_on(seg, 0.0));
+    include(point_on(seg, seg.length));
+    if (seg.curvature == 0.0) continue;
+    // extremes of y and z lie where the inclination is a multiple of 90 degrees
+    const double quarter = std::acos(0.0), a = seg.angle, b = a + seg.curvature * seg.length;
+    for (double q = std::ceil(std::min(a, b) / quarter); q * quarter <= std::max(a, b); q += 1.0)
+      include(point_on(seg, std::clamp((q * quarter - a) / seg.curvature, 0.0, seg.length)));
+  }
+  return {{-kInfinity, low[0], low[1]}, {kInfinity, high[0], high[1]}};
+}
+
+void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const Projection projection(plane_grid.X_SP);
+  const Grid2& g = plane_grid.grid;
+  if (projection.degenerate()) {
+    for (const auto array : {out.z, out.dzdx, out.dzdy}) std::fill(array.begin(), array.end(), kNaN);
+    return;
+  }
+  const ChainView view(chain_, projection.d_y, projection.d_z);
+  const RowWriter rows(projection, view, g, out);
+  constexpr std::size_t kWorthThreads = 50'000;
+  if (g.size() < kWorthThreads)
+    for (int iy = 0; iy < g.ny; ++iy) rows.write(iy);
+  else
+    parallel_for(static_cast<std::size_t>(g.ny), [&](std::size_t iy) { rows.write(static_cast<int>(iy)); });
+}
+
+void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  const Projection p(X_SP);
+  std::fill(out.begin(), out.end(), SurfacePoint{});
+  if (p.degenerate()) return;
+  const ChainView view(chain_, p.d_y, p.d_z);
+  int interval = 0;
+  for (std::size_t i = 0; i < points_P.size(); ++i) {
+    const double x = points_P[i].x(), y = points_P[i].y();
+    const double w = p.w0 + p.wx * x + p.wy * y;
+    const int found = view.find(w, interval);
+    if (found < 0) continue;
+    interval = found;
+    const ChainView::Hit hit = view.hit(w, found);
+    const ChainSegment& seg = chain_[static_cast<std::size_t>(hit.segment)];
+    const ChainPoint q = point_on(seg, hit.distance);
+    const double t = (view.height(w, found) - (p.a0 + p.ax * x + p.ay * y)) / p.m;
+    SurfacePoint& o = out[i];
+    o.status = hit.hides_others ? LocateStatus::ambiguous : LocateStatus::converged;
+    o.position_S = X_SP.apply({x, y, t});
+    o.u = o.position_S.x();
+    o.v = seg.s + hit.distance;
+    o.normal_S = {0.0, std::sin(q.angle), -std::cos(q.angle)};
+    o.curvature_1 = std::max(seg.curvature, 0.0);
+    o.curvature_2 = std::min(seg.curvature, 0.0);
+  }
+}
+
+HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
+  const Projection p(X_SP);
+  if (p.degenerate()) return {0.0, 0.0, true};
+  const ChainView view(chain_, p.d_y, p.d_z);
+  const double xm = 0.5 * (r.x_min + r.x_max), ym = 0.5 * (r.y_min + r.y_max);
+  const double hx = 0.5 * (r.x_max - r.x_min), hy = 0.5 * (r.y_max - r.y_min);
+  const double w = p.w0 + p.wx * xm + p.wy * ym, w_half = std::fabs(p.wx) * hx + std::fabs(p.wy) * hy;
+  const double a = p.a0 + p.ax * xm + p.ay * ym, a_half = std::fabs(p.ax) * hx + std::fabs(p.ay) * hy;
+  constexpr double kRounding = 1e-12;  // [m]
+  const auto h = view.range(w - w_half - kRounding, w + w_half + kRounding);
+  if (!h) return {0.0, 0.0, true};
+  return {(h->first - a - a_half - kRounding) / p.m, (h->second - a + a_half + kRounding) / p.m, false};
+}
+
+}  // namespace treadmark::analytic

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/backends/analytic/chain.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::analytic {
+
+/// A chain of arcs and lines extruded along x without end: a rail. Every query is in closed form: a line along the
+/// plane normal meets the surface where its projection to the y-z plane meets the chain. u = x [m], v = arc length
+/// along the chain [m].
+class PrismaticSurface final : public Surface {
+ public:
+  explicit PrismaticSurface(const ArcChain& chain);
+
+  std::string_view backend() const override { return "analytic"; }
+  Facing facing() const override { return Facing::up; }
+  Box3 bounds() const override;
+  std::size_t memory_bytes() const override { return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment); }
+
+ private:
+  void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+
+  std::vector<ChainSegment> chain_;
+};
+
+}  // namespace treadmark::analytic
