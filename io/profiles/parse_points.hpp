@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <string>
+#include <string_view>
+
+#include "treadmark/core/profile.hpp"
+#include "treadmark/io/profiles/raw_points.hpp"
+
+namespace treadmark::io::profiles {
+
+/// Content of a Simpack rail or wheel profile: points as they stand and what the header asks to do with them.
+struct SimpackContent {
+  RawPoints points;                    ///< file units
+  double near_distance = 1e-4;         ///< point.dist.min, file units
+  double shift_y = 0.0, shift_z = 0.0; ///< file units
+  double y_min = 1.0, y_max = 0.0;     ///< points outside are deleted; no bound unless min < max
+  double z_min = 1.0, z_max = 0.0;     ///< z is clipped; no bound unless min < max
+  bool mirror_y = false, mirror_z = false;
+  bool inversion = false;              ///< points stand in the wrong order
+  double units_per_metre = 1.0;        ///< 1000 for points in mm
+};
+
+/// Content of a MiniProf or two-column file.
+struct ColumnContent {
+  RawPoints points;                    ///< file units
+  double offset_y = 0.0, offset_z = 0.0;
+};
+
+/// The parsers throw Error(input_data) with the line and column of what they cannot accept, and need no more memory
+/// than a fixed multiple of the text. `file` is only used in messages.
+SimpackContent parse_simpack(std::string_view text, const std::string& file, Body body);
+ColumnContent parse_miniprof(std::string_view text, const std::string& file);
+ColumnContent parse_two_column(std::string_view text, const std::string& file);
+
+}  // namespace treadmark::io::profiles
