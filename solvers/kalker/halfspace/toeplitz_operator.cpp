@@ -58,6 +58,31 @@ Spectrum ToeplitzTransform::kernel_spectrum(const OffsetKernel& kernel) const {
   return spectrum;
 }
 
+Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) const {
+  const int px = padded_nx(), py = padded_ny();
+  AlignedVector<double> field;
+  field.reserve(product(px, py));
+  const double scale = 1.0 / (static_cast<double>(px) * py);
+  for (int iy = 0; iy < py; ++iy)
+    for (int ix = 0; ix < px; ++ix) field.push_back(scale * kernel(2 * ix <= px ? ix : ix - px, 2 * iy <= py ? iy : iy - py));
+  Spectrum spectrum(spectrum_size());
+  RealFft2d(px, py).forward(field, spectrum);
+  return spectrum;
+}
+
+void ToeplitzTransform::convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,
+                                 std::span<double> result) const {
+  check_size(kernel_spectrum.size(), spectrum_size());
+  const std::span<std::complex<double>> spectrum = spectrum_field(spectrum_size());
+  forward(field, spectrum);
+  for (std::size_t k = 0; k < spectrum.size(); ++k) {
+    // Written out, because operator* of std::complex checks for infinities.
+    const std::complex<double> a = spectrum[k], b = kernel_spectrum[k];
+    spectrum[k] = {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
+  }
+  inverse(spectrum, result);
+}
+
 void ToeplitzTransform::forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const {
   check_size(field.size(), size());
   const std::span<double> real = padded_field(fft_.real_size());
@@ -98,14 +123,7 @@ void ToeplitzOperator::apply(std::span<const double> p, std::span<double> u) con
   check_size(p.size(), size());
   check_size(u.size(), size());
   if (!transform_) return apply_directly(p, u);
-  const std::span<std::complex<double>> spectrum = spectrum_field(spectrum_.size());
-  transform_->forward(p, spectrum);
-  for (std::size_t k = 0; k < spectrum_.size(); ++k) {
-    // Written out, because operator* of std::complex checks for infinities.
-    const std::complex<double> a = spectrum[k], b = spectrum_[k];
-    spectrum[k] = {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-  }
-  transform_->inverse(spectrum, u);
+  transform_->convolve(spectrum_, p, u);
 }
 
 void ToeplitzOperator::apply_directly(std::span<const double> p, std::span<double> u) const {

@@ -31,6 +31,13 @@ class ToeplitzTransform {
 
   /// Spectrum of a kernel, scaled so that a product with a field's spectrum needs no further factor.
   Spectrum kernel_spectrum(const OffsetKernel& kernel) const;
+  /// The same product, but the kernel is evaluated at all offsets of the padded field, |dix| <= padded_nx/2 and
+  /// |diy| <= padded_ny/2. For a symmetric decaying kernel the spectrum is then free of the ripples that a cut leaves, so
+  /// that its reciprocal makes a preconditioner.
+  Spectrum wrapped_kernel_spectrum(const OffsetKernel& kernel) const;
+  /// field -> kernel * field. Sizes nx * ny; input and output may be the same.
+  void convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,
+                std::span<double> result) const;
   void forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const;
   /// spectrum is overwritten.
   void inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const;

@@ -1,0 +1,162 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numeric>
+
+namespace treadmark::kalker {
+
+namespace {
+
+/// Without a threshold rounding could move an element into the contact and out again for ever.
+constexpr double kReleaseShare = 0.01;
+
+double dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
+  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+}
+
+double sum(std::span<const double> field) { return std::accumulate(field.begin(), field.end(), 0.0); }
+
+}  // namespace
+
+double BoundConstrainedCg::remove_mean(std::span<double> field) const {
+  const double mean = sum(field) / count_;
+  for (std::size_t i = 0; i < field.size(); ++i) field[i] = inside_[i] * (field[i] - mean);
+  return mean;
+}
+
+void BoundConstrainedCg::update_displacement(const BoxProblem& problem) {
+  problem.op->displacement(p, u);
+  ++products;
+}
+
+void BoundConstrainedCg::scale_to_sum(const BoxProblem& problem) {
+  const double factor = problem.pressure_sum / sum(p);
+  for (double& value : p) value *= factor;
+}
+
+void BoundConstrainedCg::start(const BoxProblem& problem) {
+  const std::size_t n = p.size();
+  for (auto* field : {&u, &inside_, &e_, &r_, &r_previous_, &z_, &v_, &q_}) field->assign(n, 0.0);
+  count_ = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (problem.gap[i] >= kNeverInContact || !(p[i] > 0.0)) p[i] = 0.0;
+    inside_[i] = p[i] > 0.0 ? 1.0 : 0.0;
+    count_ += inside_[i];
+  }
+  if (count_ == 0.0) return;
+  if (problem.sum_prescribed) scale_to_sum(problem);
+  update_displacement(problem);
+  if (problem.sum_prescribed) return;
+  // Best multiple of the start values in the sense of the energy.
+  double work = 0.0;
+  for (std::size_t i = 0; i < n; ++i)
+    if (inside_[i] > 0.0) work += p[i] * (approach - problem.gap[i]);
+  const double factor = work / dot(p, u);
+  if (!(factor > 0.0)) return;
+  for (double& value : p) value *= factor;
+  for (double& value : u) value *= factor;
+}
+
+void BoundConstrainedCg::update_residual(const BoxProblem& problem) {
+  if (problem.sum_prescribed) {
+    double total = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) total += inside_[i] * (problem.gap[i] + u[i]);
+    approach = total / count_;
+  }
+  for (std::size_t i = 0; i < p.size(); ++i) e_[i] = problem.gap[i] - approach + u[i];
+}
+
+double BoundConstrainedCg::negligible_overlap(double eps) const {
+  return kReleaseShare * eps * std::sqrt(dot(u, u) / static_cast<double>(u.size()));
+}
+
+void BoundConstrainedCg::release(const BoxProblem& problem) {
+  const double threshold = -negligible_overlap(problem.eps);
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (inside_[i] > 0.0 || !(e_[i] < threshold)) continue;
+    inside_[i] = 1.0;
+    count_ += 1.0;
+  }
+}
+
+bool BoundConstrainedCg::touches_open_side(const BoxProblem& problem) const {
+  const int nx = problem.nx, ny = problem.ny;
+  const auto inside = [&](int ix, int iy) { return inside_[static_cast<std::size_t>(ix + nx * iy)] > 0.0; };
+  for (int iy = 0; iy < ny; ++iy)
+    if ((problem.open_left && inside(0, iy)) || (problem.open_right && inside(nx - 1, iy))) return true;
+  for (int ix = 0; ix < nx; ++ix)
+    if ((problem.open_low && inside(ix, 0)) || (problem.open_high && inside(ix, ny - 1))) return true;
+  return false;
+}
+
+bool BoundConstrainedCg::clip() {
+  int left = 0;
+  for (std::size_t i = 0; i < p.size(); ++i) {
+    if (!(p[i] < 0.0)) continue;
+    p[i] = 0.0;
+    inside_[i] = 0.0;
+    ++left;
+  }
+  count_ -= left;
+  return left > 0;
+}
+
+BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem) {
+  start(problem);
+  if (problem.sum_prescribed && count_ == 0.0) return Outcome::no_contact;
+  bool clipped = false, have_direction = false;
+  double zr_previous = 0.0;
+  for (int iteration = 0;; ++iteration) {
+    update_residual(problem);
+    release(problem);
+    if (count_ == 0.0) return Outcome::no_contact;
+    if (touches_open_side(problem)) return Outcome::box_too_small;
+
+    // Residual in the contact and, from it, an estimate of the error of p.
+    for (std::size_t i = 0; i < p.size(); ++i) r_[i] = inside_[i] * e_[i];
+    if (problem.sum_prescribed) approach += remove_mean(r_);
+    problem.op->precondition(r_, z_);
+    ++products;
+    for (std::size_t i = 0; i < p.size(); ++i) z_[i] *= inside_[i];
+    if (problem.sum_prescribed) remove_mean(z_);
+    const double p_norm = std::sqrt(dot(p, p));
+    residual = p_norm > 0.0 ? std::sqrt(dot(z_, z_)) / p_norm : 1.0;
+    if (residual <= problem.eps && !clipped) return Outcome::converged;
+    if (iteration >= problem.max_iterations) return Outcome::iteration_limit;
+
+    // Polak-Ribiere direction, restricted to the elements in contact now.
+    double zr = 0.0, zr_old = 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      zr += z_[i] * r_[i];
+      zr_old += z_[i] * r_previous_[i];
+    }
+    const double beta = have_direction && zr_previous > 0.0 ? std::max(0.0, (zr - zr_old) / zr_previous) : 0.0;
+    for (std::size_t i = 0; i < p.size(); ++i) v_[i] = inside_[i] * (z_[i] + beta * v_[i]);
+    if (problem.sum_prescribed) remove_mean(v_);
+    zr_previous = zr;
+    r_previous_ = r_;
+    have_direction = true;
+
+    problem.op->displacement(v_, q_);
+    ++products;
+    const double curvature = dot(v_, q_);
+    if (!(curvature > 0.0)) return Outcome::iteration_limit;
+    const double step = dot(r_, v_) / curvature;
+    for (std::size_t i = 0; i < p.size(); ++i) {
+      p[i] -= step * v_[i];
+      u[i] -= step * q_[i];
+    }
+    ++iterations;
+
+    clipped = clip();
+    if (clipped) {
+      if (problem.sum_prescribed) scale_to_sum(problem);
+      update_displacement(problem);
+    }
+  }
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,215 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/normal/hertz.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+using std::numbers::pi;
+
+/// Complete elliptic integrals for the axis ratio g <= 1: K, E of modulus k = sqrt(1 - g^2), and (E - g^2 K) / k^2.
+struct EllipticIntegrals {
+  double first, second, combined;
+};
+
+EllipticIntegrals elliptic_integrals(double g) {
+  const double k_squared = (1.0 - g) * (1.0 + g);
+  const double k = std::sqrt(k_squared);
+  const double first = std::comp_ellint_1(k), second = std::comp_ellint_2(k);
+  // The quotient loses its digits for nearly circular contacts; series of the integral of cos^2/sqrt(1 - k^2 sin^2).
+  const double combined = k_squared < 1e-4 ? pi / 4.0 * (1.0 + k_squared / 8.0 + 3.0 * k_squared * k_squared / 64.0)
+                                           : (second - g * g * first) / k_squared;
+  return {first, second, combined};
+}
+
+void require_positive(double value, const char* name) {
+  if (!(value > 0.0) || !std::isfinite(value))
+    throw Error(ErrorKind::configuration, std::string("Hertzian contact: ") + name + " is " + std::to_string(value), {},
+                "it must be positive and finite");
+}
+
+/// Plane strain modulus of the pair, e* = G/(1 - nu).
+double modulus(const CombinedMaterial& material) {
+  require_positive(material.shear_modulus, "the shear modulus");
+  return material.shear_modulus / (1.0 - material.poisson);
+}
+
+/// Axis ratio g for a ratio of curvatures, both in (0, 1]; the first falls with the second.
+double axis_ratio(double curvature_ratio) {
+  double low = 0.0, high = 1.0;
+  for (int i = 0; i < 200 && high - low > 1e-16 * high; ++i) {
+    const double middle = 0.5 * (low + high);
+    if (middle <= 0.0) break;
+    (hertz_curvature_ratio(middle) < curvature_ratio ? low : high) = middle;
+  }
+  return 0.5 * (low + high);
+}
+
+HertzShape line(double curvature_x, double a, double half_length, double force) {
+  HertzShape shape;
+  shape.curvature_x = curvature_x;
+  shape.semi_axis_x = a;
+  shape.semi_axis_y = half_length;
+  shape.force = force;
+  return shape;
+}
+
+double line_force(const HertzLoad& load) {
+  if (!load.force_prescribed)
+    throw Error(ErrorKind::configuration, "the approach of a Hertzian line contact cannot be prescribed", {},
+                "prescribe the force");
+  require_positive(load.value, "the force");
+  return load.value;
+}
+
+}  // namespace
+
+double hertz_curvature_ratio(double g) {
+  const auto [first, second, combined] = elliptic_integrals(g);
+  return (second - combined) / combined;
+}
+
+HertzShape hertz_from_curvatures(double curvature_x, double curvature_y, const HertzLoad& load,
+                                 const CombinedMaterial& material) {
+  require_positive(curvature_x, "curvature A");
+  require_positive(curvature_y, "curvature B");
+  require_positive(load.value, load.force_prescribed ? "the force" : "the approach");
+  const double g = axis_ratio(std::min(curvature_x, curvature_y) / std::max(curvature_x, curvature_y));
+  const auto [first, second, combined] = elliptic_integrals(g);
+  const double rho = 2.0 / (curvature_x + curvature_y), e_star = modulus(material);
+
+  HertzShape shape;
+  shape.curvature_x = curvature_x;
+  shape.curvature_y = curvature_y;
+  double c = 0.0;  // sqrt(ab)
+  if (load.force_prescribed) {
+    shape.force = load.value;
+    c = std::cbrt(3.0 * shape.force * rho * second / (4.0 * pi * e_star * std::sqrt(g)));
+    shape.approach = 2.0 * c * c * g * first / (rho * second);
+  } else {
+    shape.approach = load.value;
+    c = std::sqrt(shape.approach * rho * second / (2.0 * first * g));
+    shape.force = 4.0 * pi * c * c * c * e_star * std::sqrt(g) / (3.0 * rho * second);
+  }
+  const double small = c * std::sqrt(g), large = c / std::sqrt(g);
+  shape.semi_axis_x = curvature_x >= curvature_y ? small : large;
+  shape.semi_axis_y = curvature_x >= curvature_y ? large : small;
+  return shape;
+}
+
+HertzShape hertz_from_curvature_and_ratio(double curvature_x, double ratio, const HertzLoad& load,
+                                          const CombinedMaterial& material) {
+  require_positive(curvature_x, "curvature A");
+  require_positive(ratio, "the aspect ratio a/b");
+  const double curvature_ratio = hertz_curvature_ratio(std::min(ratio, 1.0 / ratio));
+  const double curvature_y = ratio <= 1.0 ? curvature_x * curvature_ratio : curvature_x / curvature_ratio;
+  return hertz_from_curvatures(curvature_x, curvature_y, load, material);
+}
+
+HertzShape hertz_from_semi_axes(double a, double b, const HertzLoad& load, const CombinedMaterial& material) {
+  require_positive(a, "semi-axis a");
+  require_positive(b, "semi-axis b");
+  require_positive(load.value, load.force_prescribed ? "the force" : "the approach");
+  const double g = std::min(a, b) / std::max(a, b), c = std::sqrt(a * b), e_star = modulus(material);
+  const auto [first, second, combined] = elliptic_integrals(g);
+
+  HertzShape shape;
+  shape.semi_axis_x = a;
+  shape.semi_axis_y = b;
+  double rho = 0.0;
+  if (load.force_prescribed) {
+    shape.force = load.value;
+    rho = 4.0 * pi * e_star * std::sqrt(g) * c * c * c / (3.0 * shape.force * second);
+    shape.approach = 2.0 * c * c * g * first / (rho * second);
+  } else {
+    shape.approach = load.value;
+    rho = 2.0 * c * c * g * first / (shape.approach * second);
+    shape.force = 4.0 * pi * c * c * c * e_star * std::sqrt(g) / (3.0 * rho * second);
+  }
+  const double ratio = (second - combined) / combined;
+  const double large = 2.0 / (rho * (1.0 + ratio)), small = large * ratio;
+  shape.curvature_x = a <= b ? large : small;
+  shape.curvature_y = a <= b ? small : large;
+  return shape;
+}
+
+HertzShape hertz_line_from_curvature(double curvature_x, double half_length, const HertzLoad& load,
+                                     const CombinedMaterial& material) {
+  require_positive(curvature_x, "curvature A");
+  require_positive(half_length, "the half length");
+  const double force = line_force(load), per_length = force / (2.0 * half_length);
+  return line(curvature_x, std::sqrt(2.0 * per_length / (curvature_x * pi * modulus(material))), half_length, force);
+}
+
+HertzShape hertz_line_from_semi_axis(double a, double half_length, const HertzLoad& load,
+                                     const CombinedMaterial& material) {
+  require_positive(a, "semi-axis a");
+  require_positive(half_length, "the half length");
+  const double force = line_force(load), per_length = force / (2.0 * half_length);
+  return line(2.0 * per_length / (a * a * pi * modulus(material)), a, half_length, force);
+}
+
+bool is_line_contact(const HertzShape& shape) { return shape.curvature_y == 0.0; }
+
+double hertz_max_pressure(const HertzShape& shape) { return hertz_pressure(shape, 0.0, 0.0); }
+
+double hertz_pressure(const HertzShape& shape, double x, double y) {
+  const double a = shape.semi_axis_x, b = shape.semi_axis_y, s = x / a, t = y / b;
+  if (is_line_contact(shape)) {
+    if (std::abs(t) > 1.0 || s * s >= 1.0) return 0.0;
+    return shape.force / (pi * a * b) * std::sqrt(1.0 - s * s);
+  }
+  const double depth = 1.0 - s * s - t * t;
+  return depth > 0.0 ? 1.5 * shape.force / (pi * a * b) * std::sqrt(depth) : 0.0;
+}
+
+double parabolic_pressure(const HertzShape& shape, double x, double y) {
+  const double a = shape.semi_axis_x, b = shape.semi_axis_y, s = x / a, t = y / b;
+  if (is_line_contact(shape))
+    return std::abs(t) > 1.0 ? 0.0 : 0.375 * shape.force / (a * b) * std::max(0.0, 1.0 - s * s);
+  return 2.0 * shape.force / (pi * a * b) * std::max(0.0, 1.0 - s * s - t * t);
+}
+
+Grid2 hertz_grid(const HertzShape& shape, int nx, int ny, double scale) {
+  require_positive(scale, "the scale of the grid");
+  if (nx < 1 || ny < 1) throw Error(ErrorKind::configuration, "a Hertzian grid needs at least one element each way");
+  Grid2 grid;
+  grid.nx = nx;
+  grid.ny = ny;
+  grid.dx = 2.0 * scale * shape.semi_axis_x / nx;
+  grid.dy = 2.0 * scale * shape.semi_axis_y / ny;
+  if (is_line_contact(shape)) {
+    int rows_inside = ny;
+    if (scale > 1.0) {
+      rows_inside = std::max(1, static_cast<int>(std::lround(ny / scale)));
+      if ((ny - rows_inside) % 2 != 0) ++rows_inside;
+    }
+    grid.dy = 2.0 * shape.semi_axis_y / rows_inside;
+  }
+  grid.x0 = -0.5 * (nx - 1) * grid.dx;
+  grid.y0 = -0.5 * (ny - 1) * grid.dy;
+  return grid;
+}
+
+std::vector<double> hertz_gap(const HertzShape& shape, const Grid2& grid) {
+  std::vector<double> gap;
+  gap.reserve(grid.size());
+  const bool line_contact = is_line_contact(shape);
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const double x = grid.x(ix), y = grid.y(iy);
+      const bool beyond_end = line_contact && std::abs(y) > shape.semi_axis_y;
+      gap.push_back(beyond_end ? std::nan("") : shape.curvature_x * x * x + shape.curvature_y * y * y);
+    }
+  return gap;
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/normal/normal_operator.hpp"
+
+#include <algorithm>
+
+namespace treadmark::kalker {
+
+namespace {
+
+/// Boxes kept at the same time; a sequence of similar problems needs a handful.
+constexpr std::size_t kMaxOperators = 64;
+
+/// Reciprocal of a symmetric positive kernel's spectrum (Vollebregt 2014): the inverse on a periodic grid.
+Spectrum reciprocal(const Spectrum& spectrum, double transform_size) {
+  double largest = 0.0;
+  for (const auto& value : spectrum) largest = std::max(largest, value.real());
+  // The periodic continuation of a slowly decaying kernel may leave values near zero; these must not be amplified.
+  const double floor = 1e-8 * largest;
+  Spectrum result;
+  result.reserve(spectrum.size());
+  const double scale = 1.0 / (transform_size * transform_size);
+  for (const auto& value : spectrum) result.emplace_back(scale / std::max(value.real(), floor));
+  return result;
+}
+
+}  // namespace
+
+const NormalOperator& NormalOperatorCache::get(int nx, int ny, double dx, double dy, double shear_modulus,
+                                               double poisson) {
+  if (!table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson ||
+      shear_modulus_ != shear_modulus) {
+    operators_.clear();
+    if (!table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson)
+      table_.emplace(Component::nn, dx, dy, poisson);
+    shear_modulus_ = shear_modulus;
+  }
+  if (const auto known = operators_.find({nx, ny}); known != operators_.end()) return *known->second;
+  if (operators_.size() >= kMaxOperators) operators_.clear();
+
+  auto made = std::make_unique<NormalOperator>(NormalOperator{ToeplitzTransform(nx, ny), {}, {}});
+  const int reach_x = made->transform.padded_nx() / 2, reach_y = made->transform.padded_ny() / 2;
+  table_->grow(reach_x + 1, reach_y + 1);
+  made->influence = made->transform.wrapped_kernel_spectrum(
+      [&](int dix, int diy) { return (*table_)(dix, diy) / shear_modulus; });
+  made->preconditioner =
+      reciprocal(made->influence, static_cast<double>(made->transform.padded_nx()) * made->transform.padded_ny());
+  return *(operators_[{nx, ny}] = std::move(made));
+}
+
+}  // namespace treadmark::kalker

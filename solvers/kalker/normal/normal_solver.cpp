@@ -1,0 +1,306 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/normal/normal_solver.hpp"
+
+#include <cmath>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
+#include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
+#include "treadmark/solvers/kalker/normal/element_box.hpp"
+#include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/kalker/normal/normal_operator.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+/// Elements around the estimated contact that may become part of it without a new box.
+constexpr int kMargin = 2;
+
+/// Grids line up when they are displaced by whole elements up to this share of an element.
+constexpr double kLinedUp = 1e-6;
+
+[[noreturn]] void refuse(const std::string& message, const std::string& advice = {}) {
+  throw Error(ErrorKind::configuration, "normal contact: " + message, {}, advice);
+}
+
+void check(const ContactProblem& problem) {
+  const Grid2& grid = problem.grid;
+  if (grid.nx < 1 || grid.ny < 1 || !(grid.dx > 0.0) || !(grid.dy > 0.0) || !std::isfinite(grid.dx * grid.dy))
+    refuse("the grid has " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " elements of " +
+               std::to_string(grid.dx) + " x " + std::to_string(grid.dy) + " m",
+           "numbers and sizes must be positive");
+  if (problem.normal_model == NormalModel::full && problem.gap.size() != grid.size())
+    refuse("the gap has " + std::to_string(problem.gap.size()) + " values for " + std::to_string(grid.size()) +
+           " elements");
+  const Material& m = problem.material;
+  for (const double g : {m.shear_modulus_1, m.shear_modulus_2})
+    if (!(g > 0.0)) refuse("a shear modulus is " + std::to_string(g) + " Pa", "it must be positive");
+  for (const double nu : {m.poisson_1, m.poisson_2})
+    if (!(nu > -1.0 && nu <= 0.5)) refuse("Poisson's ratio is " + std::to_string(nu), "use a value from 0 to 0.5");
+  if (problem.force_prescribed && !(problem.normal_force >= 0.0 && std::isfinite(problem.normal_force)))
+    refuse("the normal force is " + std::to_string(problem.normal_force) + " N", "it must not be negative");
+  if (!problem.force_prescribed && !std::isfinite(problem.approach))
+    refuse("the approach is " + std::to_string(problem.approach) + " m");
+  if (!(problem.settings.eps > 0.0) || problem.settings.max_iterations < 1)
+    refuse("the accuracy and the number of iterations must be positive");
+}
+
+/// Box of the elements of a grid for which a condition on the index holds.
+template <class Condition>
+ElementBox bounding_box(const Grid2& grid, const Condition& condition) {
+  ElementBox box;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const std::size_t row = grid.index(0, iy);
+    int first = 0, last = grid.nx - 1;
+    while (first < grid.nx && !condition(row + static_cast<std::size_t>(first))) ++first;
+    if (first == grid.nx) continue;
+    while (!condition(row + static_cast<std::size_t>(last))) --last;
+    box.include(first, iy);
+    box.include(last, iy);
+  }
+  return box;
+}
+
+/// One direction of a box: with margins, then grown to a size that transforms like, and moved into 0 .. limit.
+void round_interval(int& begin, int& end, int limit) {
+  begin = std::max(0, begin - kMargin);
+  end = std::min(limit, end + kMargin);
+  const int size = std::min(limit, NormalOperatorCache::rounded_up(end - begin));
+  begin = std::max(0, begin - (size - (end - begin)) / 2);
+  end = std::min(limit, begin + size);
+  begin = end - size;
+}
+
+ElementBox rounded(ElementBox box, const Grid2& grid) {
+  round_interval(box.x0, box.x1, grid.nx);
+  round_interval(box.y0, box.y1, grid.ny);
+  return box;
+}
+
+AlignedVector<double> cut(const Grid2& grid, std::span<const double> field, const ElementBox& box) {
+  AlignedVector<double> part;
+  part.reserve(box.size());
+  for (int iy = box.y0; iy < box.y1; ++iy) {
+    const auto row = field.begin() + static_cast<std::ptrdiff_t>(grid.index(box.x0, iy));
+    part.insert(part.end(), row, row + box.nx());
+  }
+  return part;
+}
+
+void paste(const Grid2& grid, std::span<double> field, const ElementBox& box, const AlignedVector<double>& part) {
+  auto source = part.begin();
+  for (int iy = box.y0; iy < box.y1; ++iy, source += box.nx())
+    std::copy(source, source + box.nx(), field.begin() + static_cast<std::ptrdiff_t>(grid.index(box.x0, iy)));
+}
+
+}  // namespace
+
+struct NormalSolver::Workspace {
+  NormalOperatorCache operators;
+  BoundConstrainedCg cg;
+  std::vector<double> gap;  ///< without NaN
+  Grid2 last_grid;
+  std::vector<double> last_pressure;  ///< on last_grid; empty = none
+
+  /// Pressures of the last problem on another grid; false if there are none or the grids do not line up.
+  bool take_last(const Grid2& grid, std::vector<double>& pressure) const;
+  void solve_full(const ContactProblem& problem, const CombinedMaterial& material, ContactSolution& solution);
+  void first_pressure(const ContactProblem& problem, const ContactEstimate& estimate, std::vector<double>& pressure) const;
+};
+
+bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& pressure) const {
+  if (last_pressure.empty() || grid.dx != last_grid.dx || grid.dy != last_grid.dy) return false;
+  const double shift_x = (grid.x0 - last_grid.x0) / grid.dx, shift_y = (grid.y0 - last_grid.y0) / grid.dy;
+  if (std::abs(shift_x) > 1e6 || std::abs(shift_y) > 1e6) return false;
+  const int sx = static_cast<int>(std::lround(shift_x)), sy = static_cast<int>(std::lround(shift_y));
+  if (std::abs(shift_x - sx) > kLinedUp || std::abs(shift_y - sy) > kLinedUp) return false;
+  bool any = false;
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const int jx = ix + sx, jy = iy + sy;
+      if (jx < 0 || jy < 0 || jx >= last_grid.nx || jy >= last_grid.ny) continue;
+      const std::size_t i = grid.index(ix, iy);
+      pressure[i] = gap[i] < kNeverInContact ? last_pressure[last_grid.index(jx, jy)] : 0.0;
+      any = any || pressure[i] > 0.0;
+    }
+  return any;
+}
+
+/// Semi-ellipsoidal pressure of arbitrary size over the elements that are thought to be in contact.
+void NormalSolver::Workspace::first_pressure(const ContactProblem& problem, const ContactEstimate& estimate,
+                                             std::vector<double>& pressure) const {
+  if (problem.hertz && !is_line_contact(*problem.hertz) && problem.hertz->semi_axis_x > 0.0) {
+    bool any = false;
+    for (int iy = 0; iy < problem.grid.ny; ++iy)
+      for (int ix = 0; ix < problem.grid.nx; ++ix) {
+        const std::size_t i = problem.grid.index(ix, iy);
+        if (gap[i] >= kNeverInContact) continue;
+        pressure[i] = hertz_pressure(*problem.hertz, problem.grid.x(ix), problem.grid.y(iy));
+        any = any || pressure[i] > 0.0;
+      }
+    if (any) return;
+  }
+  for (std::size_t i = 0; i < gap.size(); ++i) {
+    const double depth = gap[i] - estimate.least_gap;
+    // The element of least gap belongs to the contact however small that is.
+    if (depth <= 0.0)
+      pressure[i] = 1.0;
+    else if (depth < estimate.threshold)
+      pressure[i] = std::sqrt(1.0 - depth / estimate.threshold);
+  }
+}
+
+void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const CombinedMaterial& material,
+                                         ContactSolution& solution) {
+  const Grid2& grid = problem.grid;
+  gap.assign(problem.gap.begin(), problem.gap.end());
+  for (double& h : gap)
+    if (std::isnan(h) || h > kNeverInContact) h = kNeverInContact;
+  for (const double h : gap)
+    if (h < -kNeverInContact) refuse("the gap is not finite");
+
+  const auto report_no_contact = [&] {
+    solution.status = solution.normal.status = Status::no_contact;
+    last_pressure.clear();
+  };
+  const ContactEstimate estimate = estimate_contact(problem, gap, material);
+  solution.approach = problem.force_prescribed ? 0.0 : problem.approach;
+  if (!estimate.contact) return report_no_contact();
+
+  std::vector<double>& pressure = solution.pressure;
+  if (!take_last(grid, pressure)) first_pressure(problem, estimate, pressure);
+
+  const auto op = [&](const ElementBox& box) -> const NormalOperator& {
+    return operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson);
+  };
+  ElementBox box = rounded(bounding_box(grid, [&](std::size_t i) { return pressure[i] > 0.0; }), grid);
+  cg.iterations = cg.products = 0;
+  cg.approach = problem.approach;
+  BoundConstrainedCg::Outcome outcome;
+  for (;;) {
+    const AlignedVector<double> box_gap = cut(grid, gap, box);
+    cg.p = cut(grid, pressure, box);
+    BoxProblem part;
+    part.op = &op(box);
+    part.gap = box_gap;
+    part.nx = box.nx();
+    part.ny = box.ny();
+    part.sum_prescribed = problem.force_prescribed;
+    part.pressure_sum = problem.normal_force / grid.cell_area();
+    part.eps = problem.settings.eps;
+    part.max_iterations = problem.settings.max_iterations - cg.iterations;
+    part.open_left = box.x0 > 0;
+    part.open_right = box.x1 < grid.nx;
+    part.open_low = box.y0 > 0;
+    part.open_high = box.y1 < grid.ny;
+    outcome = cg.solve(part);
+    paste(grid, pressure, box, cg.p);
+    if (outcome == BoundConstrainedCg::Outcome::box_too_small) {
+      ElementBox larger = box;
+      larger.include(std::max(0, box.x0 - 1), std::max(0, box.y0 - 1));
+      larger.include(std::min(grid.nx, box.x1 + 1) - 1, std::min(grid.ny, box.y1 + 1) - 1);
+      box = rounded(larger, grid);
+      continue;
+    }
+    if (outcome != BoundConstrainedCg::Outcome::converged) break;
+
+    // Outside the box only elements below the approach can overlap, because u is nowhere negative. Check these.
+    ElementBox whole = bounding_box(grid, [&](std::size_t i) { return gap[i] < cg.approach; });
+    if (box.contains(whole)) {
+      paste(grid, solution.displacement_n, box, cg.u);
+      break;
+    }
+    whole.include(box);
+    whole = rounded(whole, grid);
+    AlignedVector<double> whole_u(whole.size());
+    op(whole).displacement(cut(grid, pressure, whole), whole_u);
+    ++cg.products;
+    paste(grid, solution.displacement_n, whole, whole_u);
+    const double limit = cg.approach - cg.negligible_overlap(problem.settings.eps);
+    ElementBox overlapping;
+    for (int iy = whole.y0; iy < whole.y1; ++iy)
+      for (int ix = whole.x0; ix < whole.x1; ++ix) {
+        const std::size_t i = grid.index(ix, iy);
+        if (gap[i] + solution.displacement_n[i] < limit && !box.contains(ElementBox{ix, iy, ix + 1, iy + 1}))
+          overlapping.include(ix, iy);
+      }
+    if (overlapping.empty()) break;
+    overlapping.include(box);
+    box = rounded(overlapping, grid);
+  }
+
+  if (outcome == BoundConstrainedCg::Outcome::no_contact) return report_no_contact();
+  solution.approach = cg.approach;
+  solution.normal.iterations = cg.iterations;
+  solution.normal.residual = cg.residual;
+  if (outcome == BoundConstrainedCg::Outcome::iteration_limit) {
+    solution.status = solution.normal.status = Status::not_converged;
+    solution.normal.message = "the normal problem did not reach the accuracy in " + std::to_string(cg.iterations) +
+                              " iterations";
+    paste(grid, solution.displacement_n, box, cg.u);
+  }
+  last_grid = grid;
+  last_pressure = pressure;
+}
+
+namespace {
+
+/// Pressures assumed from the Hertz ellipse; the displacement is that of the undeformed contact area.
+void assume_pressure(const ContactProblem& problem, ContactSolution& solution) {
+  if (!problem.hertz || !(problem.hertz->semi_axis_x > 0.0) || !(problem.hertz->semi_axis_y > 0.0))
+    refuse("an assumed pressure distribution needs a Hertz ellipse", "set problem.hertz with positive semi-axes");
+  const HertzShape& hertz = *problem.hertz;
+  const auto pressure = problem.normal_model == NormalModel::elliptic ? hertz_pressure : parabolic_pressure;
+  const Grid2& grid = problem.grid;
+  bool any = false;
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      const double x = grid.x(ix), y = grid.y(iy);
+      solution.pressure[i] = pressure(hertz, x, y);
+      if (!(solution.pressure[i] > 0.0)) continue;
+      solution.displacement_n[i] = hertz.approach - hertz.curvature_x * x * x - hertz.curvature_y * y * y;
+      any = true;
+    }
+  solution.approach = hertz.approach;
+  if (!any) solution.status = solution.normal.status = Status::no_contact;
+}
+
+}  // namespace
+
+NormalSolver::NormalSolver() : workspace_(std::make_unique<Workspace>()) {}
+NormalSolver::~NormalSolver() = default;
+NormalSolver::NormalSolver(NormalSolver&&) noexcept = default;
+NormalSolver& NormalSolver::operator=(NormalSolver&&) noexcept = default;
+
+void NormalSolver::reset() { workspace_->last_pressure.clear(); }
+
+void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+  check(problem);
+  const std::size_t n = problem.grid.size();
+  solution = ContactSolution();
+  solution.pressure.assign(n, 0.0);
+  solution.displacement_n.assign(n, 0.0);
+  solution.state.assign(n, ElementState::exterior);
+  if (problem.normal_model == NormalModel::full)
+    workspace_->solve_full(problem, combine(problem.material), solution);
+  else
+    assume_pressure(problem, solution);
+
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const double p = solution.pressure[i];
+    if (!(p > 0.0)) continue;
+    solution.state[i] = ElementState::adhesion;
+    ++solution.elements_contact;
+    sum += p;
+    solution.max_pressure = std::max(solution.max_pressure, p);
+  }
+  solution.elements_adhesion = solution.elements_contact;
+  solution.force_n = sum * problem.grid.cell_area();
+}
+
+}  // namespace treadmark::kalker
