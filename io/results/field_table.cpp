@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/field_table.hpp"
+
+#include <fmt/format.h>
+
+#include <cstddef>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::io {
+
+void check_field_sizes(const PatchFields& fields, int case_number, int patch_number) {
+  const auto check = [&](std::string_view name, std::size_t size) {
+    if (size == 0 || size == fields.grid.size()) return;
+    throw Error(ErrorKind::configuration,
+                fmt::format("case {}, patch {}: field {} has {} values on a grid of {} elements", case_number,
+                            patch_number, name, size, fields.grid.size()));
+  };
+  for (const FieldColumn& column : kFieldColumns) check(column.name, (fields.*column.values).size());
+  check("state", fields.state.size());
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,242 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/picture_svg.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <iterator>
+#include <numbers>
+
+#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/field_table.hpp"
+#include "treadmark/io/results/picture_patch.hpp"
+
+namespace treadmark::io {
+namespace {
+
+// Sizes in pixels.
+constexpr double kPanel = 170.0;                                                   // longest side of a panel
+constexpr double kGapX = 44.0, kGapY = 58.0, kLeft = 58.0, kTop = 44.0, kBottom = 44.0, kLegend = 120.0;
+constexpr double kLine = 1.1;
+constexpr double kMargin = 0.06;    // of the window, around the contact
+constexpr double kEqualScale = 4.0; // windows longer than this get their own scale in each direction
+constexpr double kShape = 1.7;      // wished width over height of the picture
+
+struct CasePicture {
+  const CaseResult* result = nullptr;
+  std::vector<PatchPicture> patches;
+  Window extent;
+  bool contact = false;
+};
+
+CasePicture make_case_picture(const CaseResult& result) {
+  CasePicture picture{&result, {}, {}, false};
+  int number = 0;
+  for (const PatchResult& patch : result.patches) {
+    check_field_sizes(patch.fields, result.number, ++number);
+    PatchPicture shown = make_patch_picture(patch.fields);
+    if (shown.nx == 0) continue;
+    if (picture.contact)
+      picture.extent.include(shown.extent());
+    else
+      picture.extent = shown.extent();
+    picture.contact = true;
+    picture.patches.push_back(std::move(shown));
+  }
+  return picture;
+}
+
+/// The windows of all cases have one size; one place too if that does not make them much larger.
+struct Layout {
+  double width = 10.0, height = 10.0;   ///< of a window [mm]
+  double scale_x = 17.0, scale_y = 17.0;  ///< [px/mm]
+  bool common = false;
+  Window all;
+  int columns = 1, rows = 1;
+
+  double panel_width() const { return width * scale_x; }
+  double panel_height() const { return height * scale_y; }
+  double picture_width() const { return kLeft + columns * panel_width() + (columns - 1) * kGapX + kLegend; }
+  double picture_height() const { return kTop + rows * panel_height() + (rows - 1) * kGapY + kBottom; }
+
+  Window window(const CasePicture& picture) const {
+    const Window& target = common || !picture.contact ? all : picture.extent;
+    const double x = 0.5 * (target.x_low + target.x_high), y = 0.5 * (target.y_low + target.y_high);
+    return {x - 0.5 * width, x + 0.5 * width, y - 0.5 * height, y + 0.5 * height};
+  }
+};
+
+Layout make_layout(const std::vector<CasePicture>& cases) {
+  Layout layout;
+  bool any = false;
+  double width = 0.0, height = 0.0;
+  for (const CasePicture& picture : cases) {
+    if (!picture.contact) continue;
+    width = std::max(width, picture.extent.width());
+    height = std::max(height, picture.extent.height());
+    if (any)
+      layout.all.include(picture.extent);
+    else
+      layout.all = picture.extent;
+    any = true;
+  }
+  if (any) {
+    layout.common = layout.all.width() * layout.all.height() <= 2.0 * width * height;
+    if (layout.common) {
+      width = layout.all.width();
+      height = layout.all.height();
+    }
+    layout.width = width * (1.0 + 2.0 * kMargin);
+    layout.height = height * (1.0 + 2.0 * kMargin);
+    layout.scale_x = layout.scale_y = kPanel / std::max(layout.width, layout.height);
+    if (std::max(layout.width, layout.height) > kEqualScale * std::min(layout.width, layout.height)) {
+      layout.scale_x = kPanel / layout.width;
+      layout.scale_y = kPanel / layout.height;
+    }
+  }
+  const int count = std::max(1, static_cast<int>(cases.size()));
+  double best = 0.0;
+  for (int columns = 1; columns <= count; ++columns) {
+    Layout trial = layout;
+    trial.columns = columns;
+    trial.rows = (count + columns - 1) / columns;
+    const double misfit = std::abs(std::log(trial.picture_width() / trial.picture_height() / kShape));
+    if (columns == 1 || misfit < best) {
+      best = misfit;
+      layout.columns = trial.columns;
+      layout.rows = trial.rows;
+    }
+  }
+  return layout;
+}
+
+std::string text(double x, double y, const std::string& words, const char* anchor = "middle", const char* more = "") {
+  std::string safe;
+  for (const char c : words) {
+    if (c == '&') safe += "&amp;";
+    else if (c == '<') safe += "&lt;";
+    else if (c == '>') safe += "&gt;";
+    else safe += c;
+  }
+  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, safe);
+}
+
+/// Round step of an axis with about four intervals.
+double tick_step(double length) {
+  const double rough = length / 4.0, power = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= rough) return factor * power;
+  return 10.0 * power;
+}
+
+std::string draw_axes(const Layout& layout, const Window& window) {
+  const double width = layout.panel_width(), height = layout.panel_height();
+  std::string out;
+  const auto ticks = [](double low, double high, auto&& mark) {
+    const double step = tick_step(high - low);
+    for (double i = std::ceil(low / step); i * step <= high; ++i) mark(i * step + 0.0);
+  };
+  ticks(window.x_low, window.x_high, [&](double value) {
+    const double x = (value - window.x_low) * layout.scale_x;
+    out += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v4\"/>\n", x, height);
+    out += text(x, height + 14.0, fmt::format("{:.6g}", value));
+  });
+  ticks(window.y_low, window.y_high, [&](double value) {
+    const double y = (window.y_high - value) * layout.scale_y;
+    out += fmt::format("<path class=\"tick\" d=\"M0 {:.1f}h-4\"/>\n", y);
+    out += text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
+  });
+  return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
+}
+
+std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index) {
+  const CaseResult& result = *picture.result;
+  const Window window = layout.window(picture);
+  const double width = layout.panel_width(), height = layout.panel_height();
+  const int column = index % layout.columns, row = index / layout.columns;
+  std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n", kLeft + column * (width + kGapX),
+                                kTop + row * (height + kGapY));
+
+  const std::string title = result.has_wheelset
+                                ? fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi)
+                                : fmt::format("case {}", result.number);
+  out += text(0.5 * width, -20.0, title, "middle", " class=\"title\"");
+  if (picture.contact) {
+    double force = 0.0, pressure = 0.0;
+    for (const PatchResult& patch : result.patches) {
+      force += patch.fn;
+      pressure = std::max(pressure, patch.pmax);
+    }
+    out += text(0.5 * width, -7.0, fmt::format("{:.4g} kN, {:.4g} MPa", force * 1e-3, pressure * 1e-6));
+    out += fmt::format("<g transform=\"scale({:.6g} {:.6g}) translate({:.6g} {:.6g})\">\n", layout.scale_x,
+                       -layout.scale_y, -window.x_low, -window.y_high);
+    for (const PatchPicture& patch : picture.patches) out += draw_patch(patch, top_pressure, kLine);
+    out += "</g>\n";
+  } else {
+    std::string words(to_string(result.status));
+    std::replace(words.begin(), words.end(), '_', ' ');
+    out += text(0.5 * width, 0.5 * height, result.status == Status::ok ? "no fields" : words);
+  }
+  out += draw_axes(layout, window);
+  if (column == 0)
+    out += text(-40.0, 0.5 * height, "y [mm]", "middle", fmt::format(" transform=\"rotate(-90 -40 {:.1f})\"", 0.5 * height).c_str());
+  out += text(0.5 * width, height + 28.0, "x [mm]");
+  return out + "</g>\n";
+}
+
+std::string draw_legend(const Layout& layout, double top_pressure) {
+  constexpr double kBarWidth = 14.0;
+  const double height = std::min(layout.picture_height() - kTop - kBottom - 56.0, 240.0);
+  std::string out = fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", layout.picture_width() - kLegend + 32.0, kTop);
+  out += text(0.0, -7.0, "pressure [MPa]", "start");
+  const double step_height = height / kPressureSteps;
+  for (int step = 0; step < kPressureSteps; ++step)
+    out += fmt::format("<rect x=\"0\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+                       height - (step + 1) * step_height, kBarWidth, step_height + 0.2, step_colour(step));
+  const double top_mpa = top_pressure * 1e-6;
+  if (top_mpa > 0.0) {
+    const double step = tick_step(top_mpa);
+    for (double i = 0.0; i * step <= top_mpa; ++i) {
+      const double y = height * (1.0 - i * step / top_mpa);
+      out += fmt::format("<path class=\"tick\" d=\"M{} {:.1f}h4\"/>\n", kBarWidth, y);
+      out += text(kBarWidth + 7.0, y + 3.5, fmt::format("{:.4g}", i * step), "start");
+    }
+  }
+  out += fmt::format("<path stroke=\"#1a1a2e\" stroke-width=\"{}\" d=\"M0 {:.1f}h14\"/>\n", kLine + 0.4, height + 20.0);
+  out += text(20.0, height + 23.5, "edge of contact", "start");
+  out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"14\" height=\"10\" fill=\"{}\"/>\n", height + 33.0, step_colour(kPressureSteps / 2));
+  out += fmt::format("<path stroke=\"#ffffff\" stroke-width=\"{}\" d=\"M0 {:.1f}h14\"/>\n", kLine + 0.4, height + 38.0);
+  out += text(20.0, height + 41.5, "edge of adhesion", "start");
+  return out + "</g>\n";
+}
+
+}  // namespace
+
+std::string pressure_svg(const RunResult& run) {
+  std::vector<CasePicture> cases;
+  double top_pressure = 0.0;
+  for (const CaseResult& result : run.cases) {
+    cases.push_back(make_case_picture(result));
+    for (const PatchPicture& patch : cases.back().patches)
+      top_pressure = std::max(top_pressure, *std::max_element(patch.pressure.begin(), patch.pressure.end()));
+  }
+  const Layout layout = make_layout(cases);
+
+  std::string out = fmt::format(
+      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
+      "font-family=\"sans-serif\" font-size=\"10\" fill=\"#222222\">\n"
+      "<style>.title{{font-size:12px;font-weight:bold}}.tick{{fill:none;stroke:#666666;stroke-width:.7}}</style>\n"
+      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
+      layout.picture_width(), layout.picture_height());
+  int index = 0;
+  for (const CasePicture& picture : cases) out += draw_panel(picture, layout, top_pressure, index++);
+  return out + draw_legend(layout, top_pressure) + "</svg>\n";
+}
+
+void write_pressure_svg(const std::filesystem::path& path, const RunResult& run) {
+  write_text_file(path, pressure_svg(run));
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/summary.hpp"
+
+#include <fmt/format.h>
+
+#include <iterator>
+#include <numbers>
+
+namespace treadmark::io {
+namespace {
+
+constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr int kLabel = 26;   // width of the first column
+constexpr int kColumn = 14;  // width of a column of numbers
+
+/// "label  unit  value value ..." with the values right-aligned under one another.
+class Table {
+ public:
+  void line(const std::string& text) { text_ += text + "\n"; }
+
+  template <class Value>
+  void row(const char* label, const char* unit, const char* format, const std::vector<PatchResult>& patches, Value value) {
+    text_ += fmt::format("  {:<{}}{:<9}", label, kLabel, unit);
+    for (const PatchResult& patch : patches)
+      text_ += fmt::format("{:>{}}", fmt::format(fmt::runtime(format), value(patch)), kColumn);
+    text_ += "\n";
+  }
+
+  std::string take() { return std::move(text_); }
+
+ private:
+  std::string text_;
+};
+
+std::string three(double a, double b, double c, const char* format) {
+  std::string text;
+  for (const double value : {a, b, c}) text += fmt::format("{:>{}}", fmt::format(fmt::runtime(format), value), kColumn);
+  return text;
+}
+
+void add_wheelset(Table& table, const CaseResult& result) {
+  table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset s, y, z", kLabel, "[mm]",
+                         three(result.s * 1e3, result.y * 1e3, result.z * 1e3, "{:.4f}")));
+  table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset roll, yaw, pitch", kLabel, "[deg]",
+                         three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees, "{:.4f}")));
+  table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]",
+                         three(result.force_tr.x(), result.force_tr.y(), result.force_tr.z(), "{:.5g}")));
+}
+
+void add_patches(Table& table, const std::vector<PatchResult>& patches) {
+  std::string heading = fmt::format("  {:<{}}{:<9}", "patch", kLabel, "");
+  for (std::size_t i = 1; i <= patches.size(); ++i) heading += fmt::format("{:>{}}", i, kColumn);
+  table.line(heading);
+
+  if (patches.front().has_reference) {
+    table.row("position x_tr", "[mm]", "{:.4f}", patches, [](const PatchResult& p) { return p.x_tr * 1e3; });
+    table.row("position y_tr", "[mm]", "{:.4f}", patches, [](const PatchResult& p) { return p.y_tr * 1e3; });
+    table.row("position z_tr", "[mm]", "{:.4f}", patches, [](const PatchResult& p) { return p.z_tr * 1e3; });
+    table.row("contact angle", "[deg]", "{:.4f}", patches, [](const PatchResult& p) { return p.angle * kDegrees; });
+  }
+  const bool shift = patches.front().shift;
+  table.row("normal force Fn", "[N]", "{:.5g}", patches, [](const PatchResult& p) { return p.fn; });
+  table.row("longitudinal force Fx", "[N]", "{:.5g}", patches, [](const PatchResult& p) { return p.fx; });
+  table.row("lateral force Fs", "[N]", "{:.5g}", patches, [](const PatchResult& p) { return p.fs; });
+  table.row("spin moment Mn", "[N mm]", "{:.5g}", patches, [](const PatchResult& p) { return p.mn * 1e3; });
+  table.row("approach", "[mm]", "{:.5g}", patches, [](const PatchResult& p) { return p.approach * 1e3; });
+  table.row("largest pressure", "[MPa]", "{:.5g}", patches, [](const PatchResult& p) { return p.pmax * 1e-6; });
+  if (shift) {
+    table.row("shift x", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.xi * 1e3; });
+    table.row("shift s", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.eta * 1e3; });
+    table.row("turn", "[rad]", "{:.4g}", patches, [](const PatchResult& p) { return p.phi; });
+  } else {
+    table.row("creepage xi", "[-]", "{:.4g}", patches, [](const PatchResult& p) { return p.xi; });
+    table.row("creepage eta", "[-]", "{:.4g}", patches, [](const PatchResult& p) { return p.eta; });
+    table.row("spin phi", "[rad/mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.phi * 1e-3; });
+  }
+  table.row("elastic energy", "[J]", "{:.4g}", patches, [](const PatchResult& p) { return p.elastic_energy; });
+  table.row(shift ? "frictional work" : "frictional power", shift ? "[J]" : "[W]", "{:.4g}", patches,
+            [](const PatchResult& p) { return p.frictional_power; });
+  table.row("elements in contact", "", "{}", patches, [](const PatchResult& p) { return p.ncon; });
+  table.row("  adhesion / slip", "", "{}", patches,
+            [](const PatchResult& p) { return fmt::format("{} / {}", p.nadh, p.nslip); });
+}
+
+}  // namespace
+
+std::string summary(const CaseResult& result) {
+  Table table;
+  std::string heading = fmt::format("case {}: {}", result.number, to_string(result.status));
+  if (!result.message.empty()) heading += " (" + result.message + ")";
+  if (result.patches.size() > 1) heading += fmt::format(", {} patches", result.patches.size());
+  table.line(heading + fmt::format(", {:.3f} s", result.seconds));
+  if (result.has_wheelset) add_wheelset(table, result);
+  if (!result.patches.empty()) add_patches(table, result.patches);
+  return table.take();
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,261 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/write_hdf5.hpp"
+
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <array>
+#include <string>
+#include <string_view>
+#include <utility>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/field_table.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr int kDeflateLevel = 4;
+constexpr hsize_t kMaxChunk = 512;  // elements along a side: chunks stay below 2 MiB
+
+[[noreturn]] void fail(std::string_view what) {
+  throw Error(ErrorKind::configuration, fmt::format("HDF5: cannot write {}", what), {},
+              "check that the disk is not full and the folder is writable");
+}
+
+/// Owns an HDF5 identifier.
+class Handle {
+ public:
+  Handle(hid_t id, herr_t (*closer)(hid_t), std::string_view what) : id_(id), close_(closer) {
+    if (id_ < 0) fail(what);
+  }
+  ~Handle() {
+    if (id_ >= 0) close_(id_);
+  }
+  Handle(const Handle&) = delete;
+  Handle& operator=(const Handle&) = delete;
+  operator hid_t() const noexcept { return id_; }
+
+  /// Closes now and reports failure, which the destructor cannot: data may be flushed only here.
+  void close(std::string_view what) {
+    if (close_(std::exchange(id_, -1)) < 0) fail(what);
+  }
+
+ private:
+  hid_t id_;
+  herr_t (*close_)(hid_t);
+};
+
+/// Keeps the HDF5 library from printing its error stack.
+class QuietErrors {
+ public:
+  QuietErrors() {
+    H5Eget_auto2(H5E_DEFAULT, &function_, &data_);
+    H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+  }
+  ~QuietErrors() { H5Eset_auto2(H5E_DEFAULT, function_, data_); }
+  QuietErrors(const QuietErrors&) = delete;
+  QuietErrors& operator=(const QuietErrors&) = delete;
+
+ private:
+  H5E_auto2_t function_ = nullptr;
+  void* data_ = nullptr;
+};
+
+void write_attribute(hid_t object, const std::string& name, hid_t type, hid_t space, const void* data) {
+  const Handle attribute(H5Acreate2(object, name.c_str(), type, space, H5P_DEFAULT, H5P_DEFAULT), H5Aclose, name);
+  if (H5Awrite(attribute, type, data) < 0) fail(name);
+}
+
+void add(hid_t object, const std::string& name, double value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, space, &value);
+}
+
+void add(hid_t object, const std::string& name, int value) {
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  write_attribute(object, name, H5T_NATIVE_INT, space, &value);
+}
+
+void add(hid_t object, const std::string& name, const Vec3& value) {
+  const hsize_t size = 3;
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, space, value.data());
+}
+
+void add(hid_t object, const std::string& name, const Mat3& value) {
+  const hsize_t size[2] = {3, 3};
+  const Handle space(H5Screate_simple(2, size, nullptr), H5Sclose, name);
+  const Mat3 rows = value.transpose();  // stored by columns: HDF5 counts by rows
+  write_attribute(object, name, H5T_NATIVE_DOUBLE, space, rows.data());
+}
+
+Handle string_type(const std::string& name) {
+  return {[&] {
+            const hid_t type = H5Tcopy(H5T_C_S1);
+            if (type >= 0 && (H5Tset_size(type, H5T_VARIABLE) < 0 || H5Tset_cset(type, H5T_CSET_UTF8) < 0)) {
+              H5Tclose(type);
+              return hid_t{-1};
+            }
+            return type;
+          }(),
+          H5Tclose, name};
+}
+
+void add(hid_t object, const std::string& name, const std::string& value) {
+  const Handle type = string_type(name);
+  const Handle space(H5Screate(H5S_SCALAR), H5Sclose, name);
+  const char* text = value.c_str();
+  write_attribute(object, name, type, space, &text);
+}
+
+void add(hid_t object, const std::string& name, const std::vector<std::string>& values) {
+  const Handle type = string_type(name);
+  const hsize_t size = values.size();
+  const Handle space(H5Screate_simple(1, &size, nullptr), H5Sclose, name);
+  std::vector<const char*> texts;
+  for (const std::string& value : values) texts.push_back(value.c_str());
+  write_attribute(object, name, type, space, texts.empty() ? static_cast<const void*>(&name) : texts.data());
+}
+
+Handle make_group(hid_t parent, const std::string& name) {
+  return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
+}
+
+/// A dataset [ny, nx], or [nx] when ny = 0.
+void write_dataset(hid_t group, const std::string& name, hid_t type, const void* data, int ny, int nx,
+                   const std::string& unit, const std::string& meaning) {
+  const int rank = ny == 0 ? 1 : 2;
+  std::array<hsize_t, 2> size{static_cast<hsize_t>(ny), static_cast<hsize_t>(nx)};
+  if (rank == 1) size[0] = size[1];
+  const Handle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose, name);
+  const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
+  if (rank == 2 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    const std::array<hsize_t, 2> chunk{std::min(size[0], kMaxChunk), std::min(size[1], kMaxChunk)};
+    if (H5Pset_chunk(creation, rank, chunk.data()) < 0 || H5Pset_shuffle(creation) < 0 ||
+        H5Pset_deflate(creation, kDeflateLevel) < 0)
+      fail(name);
+  }
+  Handle dataset(H5Dcreate2(group, name.c_str(), type, space, H5P_DEFAULT, creation, H5P_DEFAULT), H5Dclose, name);
+  if (H5Dwrite(dataset, type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) fail(name);
+  add(dataset, "unit", unit);
+  add(dataset, "meaning", meaning);
+  dataset.close(name);
+}
+
+void write_fields(hid_t group, const PatchResult& patch) {
+  const PatchFields& fields = patch.fields;
+  const Grid2& grid = fields.grid;
+  if (grid.size() == 0) return;
+  std::vector<double> x, s;
+  for (int ix = 0; ix < grid.nx; ++ix) x.push_back(grid.x(ix));
+  for (int iy = 0; iy < grid.ny; ++iy) s.push_back(grid.y(iy));
+  write_dataset(group, "x", H5T_NATIVE_DOUBLE, x.data(), 0, grid.nx, "m", "element centres along the columns");
+  write_dataset(group, "s", H5T_NATIVE_DOUBLE, s.data(), 0, grid.ny, "m", "element centres along the rows");
+  for (const FieldColumn& column : kFieldColumns) {
+    const std::vector<double>& values = fields.*column.values;
+    if (values.empty()) continue;
+    write_dataset(group, std::string(column.name), H5T_NATIVE_DOUBLE, values.data(), grid.ny, grid.nx,
+                  std::string(patch.shift ? column.unit_shift : column.unit), std::string(column.meaning));
+  }
+  if (!fields.state.empty())
+    write_dataset(group, "state", H5T_NATIVE_UINT8, fields.state.data(), grid.ny, grid.nx, "1",
+                  "0 exterior, 1 adhesion, 2 slip");
+}
+
+void write_patch(hid_t group, const PatchResult& patch) {
+  const Grid2& grid = patch.fields.grid;
+  add(group, "frame", "x, s, n: s along the rail profile, n into the rail; X_TC places it in track axes");
+  add(group, "X_TC_origin", patch.fields.X_TC.origin);
+  add(group, "X_TC_rotation", patch.fields.X_TC.rotation);
+  add(group, "nx", grid.nx);
+  add(group, "ny", grid.ny);
+  add(group, "shift", patch.shift ? 1 : 0);
+  const std::pair<const char*, double> numbers[] = {
+      {"x0", grid.x0},          {"s0", grid.y0},           {"dx", grid.dx},
+      {"ds", grid.dy},          {"fn", patch.fn},          {"fx", patch.fx},
+      {"fs", patch.fs},         {"mn", patch.mn},          {"xi", patch.xi},
+      {"eta", patch.eta},       {"phi", patch.phi},        {"approach", patch.approach},
+      {"pmax", patch.pmax},     {"elastic_energy", patch.elastic_energy},
+      {"frictional_power", patch.frictional_power},        {"shear_modulus", patch.shear_modulus}};
+  for (const auto& [name, value] : numbers) add(group, name, value);
+  if (patch.has_rolling) {
+    add(group, "chi", patch.chi);
+    add(group, "dq", patch.dq);
+    add(group, "velocity", patch.velocity);
+  }
+  if (patch.has_reference) {
+    add(group, "reference_track", Vec3(patch.x_tr, patch.y_tr, patch.z_tr));
+    add(group, "reference_rail", Vec3(patch.x_rail, patch.y_rail, patch.z_rail));
+    add(group, "reference_wheel", Vec3(patch.x_wheel, patch.y_wheel, patch.z_wheel));
+    add(group, "contact_angle", patch.angle);
+    add(group, "s_rail", patch.s_rail);
+  }
+  write_fields(group, patch);
+}
+
+void write_case(hid_t group, const CaseResult& result) {
+  add(group, "number", result.number);
+  add(group, "status", std::string(to_string(result.status)));
+  add(group, "message", result.message);
+  add(group, "seconds", result.seconds);
+  if (result.has_wheelset) {
+    add(group, "wheelset_position", Vec3(result.s, result.y, result.z));
+    add(group, "wheelset_roll_yaw_pitch", Vec3(result.roll, result.yaw, result.pitch));
+    add(group, "wheelset_velocity", Vec3(result.vs, result.vy, result.vz));
+    add(group, "wheelset_rates_roll_yaw_pitch", Vec3(result.vroll, result.vyaw, result.vpitch));
+    add(group, "force_on_rail_track", result.force_tr);
+    add(group, "force_on_rail_wheelset", result.force_ws);
+    add(group, "moment_on_rail_at_rail", result.moment_rail);
+    add(group, "moment_on_rail_at_wheel", result.moment_wheel);
+  }
+  int number = 0;
+  for (const PatchResult& patch : result.patches) {
+    ++number;
+    check_field_sizes(patch.fields, result.number, number);
+    const Handle patch_group = make_group(group, fmt::format("patch_{}", number));
+    write_patch(patch_group, patch);
+  }
+}
+
+void write_run(hid_t file, const RunResult& run) {
+  add(file, "format", "treadmark result 1");
+  add(file, "units", "SI");
+  add(file, "axes", "x forward, y right, z down; forces and tractions act on the rail");
+  add(file, "version", run.version);
+  add(file, "git", run.git);
+  add(file, "threads", run.threads);
+  add(file, "seconds", run.seconds);
+  add(file, "input", run.input_file);
+  add(file, "sha256", run.input_sha256);
+  std::vector<std::string> files, hashes;
+  for (const auto& [name, hash] : run.geometry_sha256) {
+    files.push_back(name);
+    hashes.push_back(hash);
+  }
+  add(file, "geometry_files", files);
+  add(file, "geometry_sha256", hashes);
+  add(file, "settings", run.settings);
+  add(file, "complete", run.complete ? 1 : 0);
+  add(file, "cases_total", run.cases_total);
+  for (const CaseResult& result : run.cases) {
+    const Handle group = make_group(file, fmt::format("case_{:04}", result.number));
+    write_case(group, result);
+  }
+}
+
+}  // namespace
+
+void write_hdf5(const std::filesystem::path& path, const RunResult& run) {
+  const QuietErrors quiet;
+  AtomicFile target(path);
+  Handle file(H5Fcreate(target.temporary().c_str(), H5F_ACC_TRUNC, H5P_DEFAULT, H5P_DEFAULT), H5Fclose, path.string());
+  write_run(file, run);
+  file.close(path.string());
+  target.commit();
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/write_vtk.hpp"
+
+#include <fmt/format.h>
+
+#include <bit>
+#include <cstdint>
+#include <span>
+
+#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/base64.hpp"
+#include "treadmark/io/results/field_table.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr const char* kByteOrder = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
+
+template <class T>
+constexpr const char* type_name() {
+  if constexpr (std::is_same_v<T, double>) return "Float64";
+  if constexpr (std::is_same_v<T, float>) return "Float32";
+  return "UInt8";
+}
+
+/// A DataArray element with its values as base64, preceded by their size in bytes.
+template <class T>
+std::string data_array(const std::string& name, const std::vector<T>& values, int components) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  return fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}{}</DataArray>\n",
+                     type_name<T>(), name, components, to_base64(std::as_bytes(std::span(&size, 1))),
+                     to_base64(std::as_bytes(std::span(values))));
+}
+
+/// Corners of the elements in track axes, (nx + 1) (ny + 1) points.
+std::vector<double> corner_points(const PatchFields& fields) {
+  const Grid2& grid = fields.grid;
+  std::vector<double> points;
+  points.reserve(3 * static_cast<std::size_t>(grid.nx + 1) * static_cast<std::size_t>(grid.ny + 1));
+  for (int iy = 0; iy <= grid.ny; ++iy)
+    for (int ix = 0; ix <= grid.nx; ++ix) {
+      const Vec3 p_T = fields.X_TC.apply({grid.x0 + (ix - 0.5) * grid.dx, grid.y0 + (iy - 0.5) * grid.dy, 0.0});
+      points.insert(points.end(), {p_T.x(), p_T.y(), p_T.z()});
+    }
+  return points;
+}
+
+std::vector<float> as_float(const std::vector<double>& values) { return {values.begin(), values.end()}; }
+
+/// Traction on the rail as a vector in track axes, for arrows.
+std::vector<float> traction_vectors(const PatchFields& fields) {
+  std::vector<float> out;
+  out.reserve(3 * fields.pressure.size());
+  const bool tangential = !fields.traction_x.empty() && !fields.traction_s.empty();
+  for (std::size_t i = 0; i < fields.pressure.size(); ++i) {
+    const Vec3 t_T = fields.X_TC.rotation * Vec3(tangential ? fields.traction_x[i] : 0.0,
+                                                 tangential ? fields.traction_s[i] : 0.0, fields.pressure[i]);
+    for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(t_T[k]));
+  }
+  return out;
+}
+
+}  // namespace
+
+std::string patch_to_vts(const PatchResult& patch, int case_number, int patch_number) {
+  const PatchFields& fields = patch.fields;
+  check_field_sizes(fields, case_number, patch_number);
+  const std::string extent = fmt::format("0 {} 0 {} 0 0", fields.grid.nx, fields.grid.ny);
+
+  std::string cells;
+  for (const FieldColumn& column : kFieldColumns) {
+    const std::vector<double>& values = fields.*column.values;
+    if (values.empty()) continue;
+    const std::string_view unit = patch.shift ? column.unit_shift : column.unit;
+    cells += data_array(unit == "1" ? std::string(column.name) : fmt::format("{}_{}", column.name, unit),
+                        as_float(values), 1);
+  }
+  if (!fields.pressure.empty()) cells += data_array("traction_on_rail_Pa", traction_vectors(fields), 3);
+  if (!fields.state.empty()) cells += data_array("state", fields.state, 1);
+
+  return fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="StructuredGrid" version="1.0" byte_order="{}" header_type="UInt64">
+  <StructuredGrid WholeExtent="{}">
+    <Piece Extent="{}">
+      <CellData>
+{}      </CellData>
+      <Points>
+{}      </Points>
+    </Piece>
+  </StructuredGrid>
+</VTKFile>
+)",
+                     kByteOrder, extent, extent, cells, data_array("points_m", corner_points(fields), 3));
+}
+
+std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder, const RunResult& run,
+                                             const std::string& stem) {
+  std::vector<std::filesystem::path> written;
+  std::string entries;
+  for (const CaseResult& result : run.cases) {
+    int number = 0;
+    for (const PatchResult& patch : result.patches) {
+      ++number;
+      if (patch.fields.grid.size() == 0) continue;
+      const std::string name = fmt::format("{}_case{:04}_patch{}.vts", stem, result.number, number);
+      write_text_file(folder / name, patch_to_vts(patch, result.number, number));
+      written.push_back(folder / name);
+      entries += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", result.number,
+                             number - 1, name);
+    }
+  }
+  const std::filesystem::path collection = folder / (stem + ".pvd");
+  write_text_file(collection, fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="Collection" version="1.0" byte_order="{}" header_type="UInt64">
+  <Collection>
+{}  </Collection>
+</VTKFile>
+)",
+                                          kByteOrder, entries));
+  written.push_back(collection);
+  return written;
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "treadmark/io/results/result_model.hpp"
+
+namespace treadmark::testing {
+
+/// A patch with a half-ellipsoid of pressure over a circle of radius 4 mm, its trailing half in slip.
+io::PatchResult ball_patch(int nx, int ny, double pmax);
+
+/// One case with a wheelset and two patches on a rolled contact plane (rolling), one shift case without a wheelset,
+/// one case without contact and one that failed with numbers that are not finite.
+io::RunResult sample_run();
+
+/// An empty folder of its own for a test, removed at the end.
+class TemporaryFolder {
+ public:
+  TemporaryFolder();
+  ~TemporaryFolder();
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+  std::size_t count_files() const;
+
+ private:
+  std::filesystem::path path_;
+};
+
+std::string read_text(const std::filesystem::path& path);
+
+}  // namespace treadmark::testing

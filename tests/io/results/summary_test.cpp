@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/summary.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "treadmark/tests/io/results/sample_run.hpp"
+
+namespace treadmark {
+namespace {
+
+using ::testing::ContainsRegex;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(Summary, NamesQuantitiesWithUnitsAndOneColumnAPatch) {
+  const std::string text = io::summary(testing::sample_run().cases[0]);
+  EXPECT_THAT(text, HasSubstr("case 1: ok, 2 patches, 0.500 s\n"));
+  EXPECT_THAT(text, ContainsRegex("wheelset s, y, z +\\[mm\\] +160.0000 +-2.0000 +0.3729\n"));
+  EXPECT_THAT(text, ContainsRegex("force on rail x, y, z +\\[N\\] +7499 +322.1 +1.25e\\+05\n"));
+  EXPECT_THAT(text, ContainsRegex("position y_tr +\\[mm\\] +759.3304 +770.3304\n"));
+  EXPECT_THAT(text, ContainsRegex("creepage xi +\\[-\\] +-0.0004157 +-0.0004157\n"));
+  EXPECT_THAT(text, ContainsRegex("frictional power +\\[W\\] +-4.846 +-4.846\n"));
+}
+
+TEST(Summary, ShiftCasesSpeakOfLengthsAndWork) {
+  const std::string text = io::summary(testing::sample_run().cases[1]);
+  EXPECT_THAT(text, HasSubstr("case 2: not_converged (the outer loop stopped after 100 rounds)"));
+  EXPECT_THAT(text, ContainsRegex("shift x +\\[mm\\] +0.008155\n"));
+  EXPECT_THAT(text, ContainsRegex("frictional work +\\[J\\] +-2.75e-06\n"));
+  EXPECT_THAT(text, Not(HasSubstr("wheelset")));
+}
+
+TEST(Summary, ColumnsAreAligned) {
+  std::istringstream lines(io::summary(testing::sample_run().cases[0]));
+  std::string line;
+  std::getline(lines, line);
+  std::size_t end_of_patch_rows = 0;
+  bool in_patches = false;
+  while (std::getline(lines, line)) {
+    if (line.starts_with("  patch ")) {
+      in_patches = true;
+      end_of_patch_rows = line.size();
+    }
+    if (in_patches) {
+      EXPECT_EQ(line.size(), end_of_patch_rows) << line;
+    }
+  }
+  EXPECT_TRUE(in_patches);
+}
+
+TEST(Summary, ACaseWithoutContactIsShort) {
+  const std::string text = io::summary(testing::sample_run().cases[2]);
+  EXPECT_THAT(text, HasSubstr("case 3: no_contact"));
+  EXPECT_THAT(text, Not(HasSubstr("patch")));
+}
+
+}  // namespace
+}  // namespace treadmark

@@ -1,0 +1,131 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/write_vtk.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <cstdint>
+#include <cstring>
+#include <span>
+#include <stdexcept>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/results/base64.hpp"
+#include "treadmark/tests/io/results/sample_run.hpp"
+#include "treadmark/tests/io/results/xml_reader.hpp"
+
+namespace treadmark {
+namespace {
+
+constexpr double kSinglePrecision = 1e-7;  // fields are stored as Float32
+constexpr double kRounding = 1e-15;        // [m], of the sums behind a corner's place
+
+std::string decode_base64(const std::string& text) {
+  std::string bytes;
+  std::uint32_t group = 0;
+  int bits = 0;
+  for (const char c : text) {
+    if (c == '=') break;
+    const int digit = c >= 'A' && c <= 'Z' ? c - 'A' : c >= 'a' && c <= 'z' ? c - 'a' + 26 : c >= '0' && c <= '9' ? c - '0' + 52
+                      : c == '+' ? 62 : c == '/' ? 63 : -1;
+    if (digit < 0) throw std::runtime_error("not base64");
+    group = group << 6 | static_cast<std::uint32_t>(digit);
+    if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
+  }
+  return bytes;
+}
+
+/// Values of a DataArray: the header and the data are two base64 texts, the first of 8 bytes (12 digits).
+template <class T>
+std::vector<T> values(const testing::XmlElement& array) {
+  const std::string header = decode_base64(array.text.substr(0, 12)), data = decode_base64(array.text.substr(12));
+  std::uint64_t size = 0;
+  std::memcpy(&size, header.data(), sizeof size);
+  EXPECT_EQ(size, data.size());
+  std::vector<T> out(data.size() / sizeof(T));
+  std::memcpy(out.data(), data.data(), out.size() * sizeof(T));
+  return out;
+}
+
+TEST(Base64, AgreesWithTheExamplesOfTheStandard) {
+  // RFC 4648, section 10.
+  const std::pair<std::string, std::string> examples[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"},
+                                                          {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  for (const auto& [plain, coded] : examples) EXPECT_EQ(io::to_base64(std::as_bytes(std::span(plain))), coded);
+}
+
+TEST(WriteVtk, CornersLieInTrackAxes) {
+  const io::RunResult run = testing::sample_run();
+  const io::PatchResult& patch = run.cases[0].patches[1];
+  const testing::XmlElement root = testing::read_xml(io::patch_to_vts(patch, 1, 2));
+  EXPECT_EQ(root.attributes.at("type"), "StructuredGrid");
+  EXPECT_EQ(root.find("Piece").at(0)->attributes.at("Extent"), "0 24 0 20 0 0");
+  const auto points = values<double>(*root.find("DataArray", "Name", "points_m").at(0));
+  ASSERT_EQ(points.size(), 3u * 25u * 21u);
+
+  // The centre of an element's corners is its centre; rolled by hand about x by the contact angle.
+  const io::PatchFields& fields = patch.fields;
+  const int ix = 7, iy = 3;
+  double centre[3] = {0, 0, 0};
+  for (const int jy : {iy, iy + 1})
+    for (const int jx : {ix, ix + 1})
+      for (std::size_t k = 0; k < 3; ++k) centre[k] += 0.25 * points[3 * static_cast<std::size_t>(jx + 25 * jy) + k];
+  const double s = fields.grid.y(iy);
+  EXPECT_NEAR(centre[0], patch.x_tr + fields.grid.x(ix), kRounding);
+  EXPECT_NEAR(centre[1], patch.y_tr + std::cos(patch.angle) * s, kRounding);
+  EXPECT_NEAR(centre[2], patch.z_tr + std::sin(patch.angle) * s, kRounding);
+}
+
+TEST(WriteVtk, CellsCarryTheFieldsWithUnitsInTheirNames) {
+  const io::RunResult run = testing::sample_run();
+  const io::PatchResult& patch = run.cases[0].patches[1];
+  const testing::XmlElement root = testing::read_xml(io::patch_to_vts(patch, 1, 2));
+  const auto pressure = values<float>(*root.find("DataArray", "Name", "pressure_Pa").at(0));
+  ASSERT_EQ(pressure.size(), patch.fields.pressure.size());
+  for (std::size_t i = 0; i < pressure.size(); ++i)
+    EXPECT_NEAR(pressure[i], patch.fields.pressure[i], kSinglePrecision * patch.pmax);
+  const auto state = values<std::uint8_t>(*root.find("DataArray", "Name", "state").at(0));
+  EXPECT_EQ(state, patch.fields.state);
+  EXPECT_EQ(root.find("DataArray", "Name", "slip_x").size(), 1u);
+
+  // The traction vector has the length of its components and pushes the rail down (z down).
+  const auto vectors = values<float>(*root.find("DataArray", "Name", "traction_on_rail_Pa").at(0));
+  const std::size_t i = patch.fields.grid.index(12, 10);
+  const double size = std::hypot(patch.fields.pressure[i], patch.fields.traction_x[i], patch.fields.traction_s[i]);
+  EXPECT_NEAR(std::hypot(vectors[3 * i], vectors[3 * i + 1], vectors[3 * i + 2]), size, 4 * kSinglePrecision * size);
+  EXPECT_GT(vectors[3 * i + 2], 0.0f);
+
+  const testing::XmlElement shift = testing::read_xml(io::patch_to_vts(run.cases[1].patches[0], 2, 1));
+  EXPECT_EQ(shift.find("DataArray", "Name", "slip_x_m").size(), 1u);
+}
+
+TEST(WriteVtk, TheCollectionNamesEveryPatchFile) {
+  const testing::TemporaryFolder folder;
+  const auto written = io::write_vtk(folder.path() / "vtk", testing::sample_run(), "flat");
+  ASSERT_EQ(written.size(), 4u);  // 2 + 1 patches with fields, and the collection
+  const testing::XmlElement root = testing::read_xml(testing::read_text(written.back()));
+  const auto sets = root.find("DataSet");
+  ASSERT_EQ(sets.size(), 3u);
+  for (std::size_t i = 0; i < sets.size(); ++i) {
+    EXPECT_EQ(folder.path() / "vtk" / sets[i]->attributes.at("file"), written[i]);
+    EXPECT_NO_THROW(testing::read_xml(testing::read_text(written[i])));
+  }
+  EXPECT_EQ(sets[1]->attributes.at("file"), "flat_case0001_patch2.vts");
+  EXPECT_EQ(sets[1]->attributes.at("part"), "1");
+  EXPECT_EQ(sets[2]->attributes.at("timestep"), "2");
+}
+
+TEST(WriteVtk, RefusesFieldsThatDoNotMatchTheirGrid) {
+  io::PatchResult patch = testing::ball_patch(5, 4, 1e9);
+  patch.fields.state.pop_back();
+  EXPECT_THROW(io::patch_to_vts(patch, 1, 1), Error);
+}
+
+TEST(XmlReader, RejectsWhatIsNotWellFormed) {
+  for (const char* broken : {"<a><b></a></b>", "<a>", "<a x=1/>", "<a>&</a>", "<a/><b/>", "<a x=\"1\" x=\"2\"/>"})
+    EXPECT_THROW(testing::read_xml(broken), std::runtime_error) << broken;
+}
+
+}  // namespace
+}  // namespace treadmark
