@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
+
+namespace treadmark::kalker {
+
+/// Where the tractions were one step ago, seen from the contact: rolling carries the material by one element a step.
+enum class Transport {
+  none,      ///< no history: displacements count in full
+  forward,   ///< rolling in +x: the element ahead has the higher x index
+  backward,  ///< rolling in -x
+};
+
+/// What determines the coefficients of a box of elements.
+struct ComplianceKey {
+  int nx = 0, ny = 0;         ///< elements of the box
+  double dx = 0.0, dy = 0.0;  ///< [m]
+  double poisson = 0.0, shear_modulus = 0.0;
+  double layer = 0.0;         ///< flexibility of a thin elastic layer [m/Pa]
+  friend bool operator==(const ComplianceKey&, const ComplianceKey&) = default;
+};
+
+/// Tangential displacements of a box of elements under tangential tractions, both components: u = B p, with
+/// B = C/G + layer. A step of steady rolling changes the displacement of a particle by u(x) - u(x + dx) = B (p - p_ahead),
+/// which is B times a difference along the row, so that all products need the same three transforms.
+/// Fields are nx * ny values each [Pa], [m]. Not thread-safe: work arrays are members.
+class Compliance {
+ public:
+  explicit Compliance(const ComplianceKey& key);
+
+  const ComplianceKey& key() const { return key_; }
+  std::size_t size() const { return transform_.size(); }
+
+  /// Displacement (none) or its change in a step of rolling.
+  void apply(Transport transport, std::span<const double> px, std::span<const double> py, std::span<double> ux,
+             std::span<double> uy);
+  /// p with B p = u on a periodic continuation of the box: an approximate inverse.
+  void apply_inverse(std::span<const double> ux, std::span<const double> uy, std::span<double> px, std::span<double> py);
+
+  /// Coefficients at an offset "observation minus source", |dix| <= nx, |diy| < ny [m/Pa].
+  struct Block {
+    double xx = 0.0, xy = 0.0, yy = 0.0;
+  };
+  Block at(int dix, int diy) const;
+
+ private:
+  void transform_product(std::span<const double> ax, std::span<const double> ay, std::span<double> bx,
+                         std::span<double> by, std::span<const Block> symbol, Transport transport);
+
+  ComplianceKey key_;
+  ToeplitzTransform transform_;
+  std::vector<Block> table_;                  ///< offsets 0..padded_nx/2, 0..padded_ny/2
+  std::vector<Block> symbol_, inverse_symbol_;
+  std::vector<std::complex<double>> step_;    ///< 1 - exp(2 pi i k / padded_nx)
+  Spectrum spectrum_x_, spectrum_y_;
+};
+
+}  // namespace treadmark::kalker

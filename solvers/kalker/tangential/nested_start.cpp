@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/tangential/nested_start.hpp"
+
+#include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+constexpr int kSmallPatch = 400;      ///< elements; below, Newton's method from zero is as fast
+constexpr double kAccuracy = 3e-3;    ///< of the coarse problem; its discretisation error is larger
+constexpr int kCoarseSweeps = 8;
+
+}  // namespace
+
+Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<const double> bound,
+                    const Creepage& creepage, double spin_offset_factor, ComplianceCache& cache) {
+  const std::size_t n = patch.cell.size();
+  Field2 start(2 * n);
+  if (patch.size() < kSmallPatch) return start;
+
+  // Coarse elements are pairs of columns and, unless there is one row only, of rows.
+  const Grid2& fine = patch.grid;
+  const int ratio_y = patch.box_ny > 1 ? 2 : 1;
+  Grid2 coarse;
+  coarse.dx = 2.0 * fine.dx;
+  coarse.dy = ratio_y * fine.dy;
+  coarse.nx = (patch.box_nx + 1) / 2;
+  coarse.ny = (patch.box_ny + ratio_y - 1) / ratio_y;
+  coarse.x0 = fine.x(patch.box_x) + 0.5 * fine.dx;
+  coarse.y0 = fine.y(patch.box_y) + 0.5 * (ratio_y - 1) * fine.dy;
+  const auto parent = [&](std::size_t i) {
+    return coarse.index((patch.column[i] - patch.box_x) / 2, (patch.row[i] - patch.box_y) / ratio_y);
+  };
+  std::vector<double> coarse_bound(coarse.size());
+  std::vector<ElementState> state(coarse.size(), ElementState::exterior);
+  for (std::size_t i = 0; i < n; ++i) {
+    coarse_bound[parent(i)] += bound[i] / (2.0 * ratio_y);
+    state[parent(i)] = ElementState::adhesion;
+  }
+
+  const Patch coarse_patch = make_patch(coarse, patch.transport, state);
+  ComplianceKey coarse_key = key;
+  coarse_key.nx = coarse_patch.box_nx;
+  coarse_key.ny = coarse_patch.box_ny;
+  coarse_key.dx = coarse.dx;
+  coarse_key.dy = coarse.dy;
+  FrictionProblem problem;
+  problem.rigid_slip = rigid_slip(coarse_patch, creepage, spin_offset_factor);
+  problem.bound.resize(coarse_patch.cell.size());
+  for (int i = 0; i < coarse_patch.size(); ++i)
+    problem.bound[static_cast<std::size_t>(i)] = coarse_bound[coarse_patch.grid_index(i)];
+  FrictionState solution;
+  solution.traction = nested_start(coarse_patch, coarse_key, problem.bound, creepage, spin_offset_factor, cache);
+  PatchOperator matrix(coarse_patch, cache.get(coarse_key));
+  problem.matrix = &matrix;
+  FrictionSolve().run(problem, solution, kAccuracy, kCoarseSweeps);
+
+  // The share of the bound is what carries over best: it keeps slip elements slipping.
+  std::vector<double> share_x(coarse.size()), share_y(coarse.size());
+  const std::size_t m = coarse_patch.cell.size();
+  for (std::size_t i = 0; i < m; ++i) {
+    if (!(problem.bound[i] > 0.0)) continue;
+    const std::size_t at = coarse_patch.grid_index(static_cast<int>(i));
+    share_x[at] = solution.traction[i] / problem.bound[i];
+    share_y[at] = solution.traction[m + i] / problem.bound[i];
+  }
+  for (std::size_t i = 0; i < n; ++i) {
+    start[i] = share_x[parent(i)] * bound[i];
+    start[n + i] = share_y[parent(i)] * bound[i];
+  }
+  return start;
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <span>
+
+#include "treadmark/solvers/kalker/tangential/compliance_cache.hpp"
+#include "treadmark/solvers/kalker/tangential/friction_solve.hpp"
+
+namespace treadmark::kalker {
+
+/// Start values from the same problem on elements of twice the size, solved roughly and in the same manner.
+/// key: coefficients of the patch; bound: friction bound per element [Pa]. Returns tractions within the bound, which are
+/// zero where the patch is too small for this to pay.
+Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<const double> bound,
+                    const Creepage& creepage, double spin_offset_factor, ComplianceCache& cache);
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/solvers/kalker/tangential/compliance_cache.hpp"
+#include "treadmark/solvers/kalker/tangential/friction_solve.hpp"
+
+namespace treadmark::kalker {
+
+/// The friction problem of one patch at creepages that may change from call to call; starts from the last solution.
+class PatchSolver {
+ public:
+  /// All must outlive the solver. pressure: per element of the patch [Pa].
+  PatchSolver(const ContactProblem& problem, const Patch& patch, std::vector<double> pressure, ComplianceCache& cache);
+
+  /// Start values: tractions [Pa] and slip speeds [m/s], the latter for friction that depends on them.
+  void start_from(Field2 traction, std::vector<double> slip_speed);
+
+  /// Tractions for given creepages, with friction that fits the slip. False if the accuracy was not reached.
+  bool solve(const Creepage& creepage);
+
+  /// Sum of tractions relative to the static bound: x, y.
+  std::array<double, 2> relative_force() const;
+  /// Change of relative_force per unit of creepage xi (component 0) or eta (1), at unchanged friction coefficients.
+  std::array<double, 2> relative_stiffness(int component);
+  /// Every element slides against a given direction.
+  void slide(std::array<double, 2> direction);
+  bool sliding() const;
+
+  PatchOperator& matrix() { return matrix_; }
+  const FrictionState& state() const { return state_; }
+  const std::vector<double>& friction() const { return friction_; }
+  const std::vector<double>& bound() const { return problem_.bound; }
+  const std::vector<double>& slip_speed() const { return slip_speed_; }
+  /// Violation of the conditions relative to the bound, both rms.
+  double residual() const;
+  int steps() const { return steps_; }
+  int sweeps() const { return sweeps_; }
+  int friction_rounds() const { return rounds_; }
+
+ private:
+  void set_bound();
+  bool solve_at_fixed_friction(double eps);
+  std::vector<double> new_slip_speed() const;
+  double time_step() const;
+
+  const ContactProblem& input_;
+  const Patch& patch_;
+  std::vector<double> pressure_;
+  ComplianceCache& cache_;
+  ComplianceKey key_;
+  PatchOperator matrix_;
+  FrictionSolve friction_solve_;
+  FrictionProblem problem_;
+  FrictionState state_;
+  Creepage creepage_;
+  std::vector<double> friction_, slip_speed_;
+  std::array<Field2, 2> predicted_;   ///< change of tractions per unit of creepage, by relative_stiffness
+  bool started_ = false;
+  int steps_ = 0, sweeps_ = 0, rounds_ = 0;
+};
+
+/// Coefficients that a patch needs.
+ComplianceKey compliance_key(const Patch& patch, const Material& material);
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+
+#include "treadmark/solvers/kalker/contact_problem.hpp"
+
+namespace treadmark::kalker {
+
+/// Tangential problem of one patch with given pressures: tractions, slip, division into adhesion and slip areas, and the
+/// creepages that belong to prescribed forces (Kalker 1990; method in README.md of this folder).
+/// Keeps influence coefficients and the last tractions; the latter are the start values of the next problem when its grid
+/// has the same steps and is displaced by whole elements. Not thread-safe; use one per thread. Results depend on the
+/// sequence of problems only within the accuracy asked for (settings.eps), and not on the number of threads.
+class TangentialSolver {
+ public:
+  TangentialSolver();
+  ~TangentialSolver();
+  TangentialSolver(TangentialSolver&&) noexcept;
+  TangentialSolver& operator=(TangentialSolver&&) noexcept;
+
+  /// In: problem.grid, material, friction, regime shift or steady, creepage, rolling, settings; solution.pressure and
+  /// solution.state (not exterior = in contact; an empty state: where the pressure is positive).
+  /// Out: traction_x/y, displacement_x/y (elements of the contact area's bounding box, else 0), slip_x/y, friction, state,
+  /// creepage, rolling_step and the report `tangential`: residual is the rms violation of the friction conditions
+  /// relative to the rms friction bound. A solution that misses the accuracy has Status::not_converged.
+  /// Errors: Error(configuration) for inconsistent sizes, elastically dissimilar bodies (K <> 0), directions of rolling
+  /// other than 0 and pi, steps or velocities that are not positive.
+  void solve(const ContactProblem& problem, ContactSolution& solution);
+
+  /// Forgets the last tractions (not the coefficients).
+  void reset();
+
+ private:
+  struct Workspace;
+  std::unique_ptr<Workspace> workspace_;
+};
+
+}  // namespace treadmark::kalker
