@@ -59,7 +59,14 @@ class RowWriter {
       double h = 0.0, dh = 0.0;
       interval = view_.find(w_row, interval);
       evaluate(w_row, interval, h, dh);
-      for (int ix = 0; ix < g_.nx; ++ix) put(begin + static_cast<std::size_t>(ix), g_.x(ix), h, dh, a_row);
+      if (!out_.z.empty()) {
+        const double z0 = (h - a_row) / p_.m, zx = -p_.ax / p_.m;
+        double* z = out_.z.data() + begin;
+        for (int ix = 0; ix < g_.nx; ++ix) z[ix] = z0 + zx * g_.x(ix);
+      }
+      const auto n = static_cast<std::size_t>(g_.nx);
+      if (!out_.dzdx.empty()) std::fill_n(out_.dzdx.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wx - p_.ax) / p_.m);
+      if (!out_.dzdy.empty()) std::fill_n(out_.dzdy.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wy - p_.ay) / p_.m);
       return;
     }
     for (int ix = 0; ix < g_.nx; ++ix) {

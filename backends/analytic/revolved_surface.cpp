@@ -33,7 +33,7 @@ void march_row(const WheelBody& body, const PlaneGrid& plane_grid, const Heights
     const std::size_t i = g.index(ix, iy);
     double guess = 3.0 * (t1 - t2) + t3;
     if (std::isnan(guess)) guess = std::isnan(t2) ? t1 : 2.0 * t1 - t2;
-    const bool found = ray.cast(row + X.rotation.col(0) * g.x(ix), guess, hit);
+    const bool found = ray.cast(row + X.rotation.col(0) * g.x(ix), guess, hit, slopes);
     t3 = t2;
     t2 = t1;
     t1 = found ? hit.t : kNaN;
@@ -92,7 +92,7 @@ void RevolvedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     out[i] = {};
     if (!ray.cast(X_SP.apply({points_P[i].x(), points_P[i].y(), 0.0}), kNaN, hit)) continue;
-    out[i].position_S = {hit.x, hit.y, hit.z};
+    out[i].position_S = X_SP.apply({points_P[i].x(), points_P[i].y(), hit.t});
     fill_shape(body_, hit, out[i]);
     out[i].status = ray.hides_others(hit) ? LocateStatus::ambiguous : LocateStatus::converged;
   }

@@ -106,7 +106,8 @@ double WheelRay::gap(double t, double& slope, WheelHit& at) {
   slope = (at.x * n_.x() + at.z * n_.z()) / at.r;
   if (!body_.flats.empty()) {
     double d_theta = 0.0, d_y = 0.0;
-    g += body_.flats.depth(at.x, at.y, at.z, at.r, d_theta, d_y);
+    at.depth = body_.flats.depth(at.x, at.y, at.z, at.r, d_theta, d_y);
+    g += at.depth;
     at.f_theta = d_theta;
     at.f_y += d_y;
     slope += d_theta * spin_ / (at.r * at.r);
@@ -115,9 +116,8 @@ double WheelRay::gap(double t, double& slope, WheelHit& at) {
   return g;
 }
 
-bool WheelRay::newton(double guess, WheelHit& hit) {
+bool WheelRay::newton(double guess, WheelHit& hit, bool exact) {
   constexpr int kSteps = 8;
-  constexpr double kQuadratic = 1e-9, kExact = 1e-13;  // [m] after a step of kQuadratic the error is far below rounding
   constexpr double kSteep = 50.0;
   double t = guess;
   for (int i = 0; i < kSteps; ++i) {
@@ -126,15 +126,12 @@ bool WheelRay::newton(double guess, WheelHit& hit) {
     const double step = g / slope;
     if (!(std::fabs(step) < body_.nominal_radius) || !(std::fabs(slope) < kSteep)) return false;
     t -= step;
-    if (std::fabs(step) > kQuadratic) continue;
-    if (std::fabs(step) > kExact) {
-      gap(t, slope, hit);
-    } else {
-      hit.x -= step * n_.x();
-      hit.y -= step * n_.y();
-      hit.z -= step * n_.z();
-      hit.t = t;
-    }
+    // The next step would be the square of this one times d2g/dt2 over twice the slope: below rounding for curvatures up
+    // to 100/m, where a steep profile has (1 + f_y^2)^1.5 of it in its second derivative.
+    if (std::fabs(step) > kNear * std::min(1.0, std::fabs(slope)) / (1.0 + hit.f_y * hit.f_y)) continue;
+    constexpr double kExact = 1e-11;  // [m] moves slopes by less than 1e-9
+    if (exact && std::fabs(step) > kExact) gap(t, slope, hit);
+    hit.t = t;
     return slope > 0.0 && t >= t_low_ && t <= t_high_;
   }
   return false;
@@ -148,11 +145,8 @@ bool WheelRay::is_outermost(const WheelHit& hit) const {
   const double n_y = n_.y();
   if (n_y > 0.0) margin -= body_.chords.greatest_right(hit.y) * n_y;
   if (n_y < 0.0) margin -= body_.chords.least_left(hit.y) * n_y;
-  if (!body_.flats.empty()) {
-    double d_theta = 0.0, d_y = 0.0;
-    if (body_.flats.depth(hit.x, hit.y, hit.z, hit.r, d_theta, d_y) > 0.0)
-      margin -= body_.flats.max_d_theta() * std::fabs(spin_) / (hit.r * hit.r) + body_.flats.max_d_y() * std::fabs(n_y);
-  }
+  if (hit.depth > 0.0)
+    margin -= body_.flats.max_d_theta() * std::fabs(spin_) / (hit.r * hit.r) + body_.flats.max_d_y() * std::fabs(n_y);
   return margin > 0.0;
 }
 
@@ -217,11 +211,11 @@ double WheelRay::search(Bracket a, Bracket b, int depth) {
   return std::isnan(upper) ? search(a, m, depth + 1) : upper;
 }
 
-bool WheelRay::cast(const Vec3& origin, double guess, WheelHit& hit) {
+bool WheelRay::cast(const Vec3& origin, double guess, WheelHit& hit, bool exact) {
   o_ = origin;
   if (!clip()) return false;
   if (!(guess >= t_low_ && guess <= t_high_)) guess = t_high_;
-  if (newton(guess, hit) && is_outermost(hit)) return true;
+  if (newton(guess, hit, exact) && is_outermost(hit)) return true;
   double slope = 0.0;
   Bracket a{t_low_, 0.0}, b{t_high_, 0.0};
   a.g = gap(a.t, slope, hit);

@@ -45,6 +45,7 @@ struct WheelHit {
   double x = 0.0, y = 0.0, z = 0.0, r = 0.0;
   double f_theta = 0.0;  ///< dF/dtheta [m]
   double f_y = 0.0;      ///< dF/dy [-]
+  double depth = 0.0;    ///< D [m]
 };
 
 /// Finds where lines o + t n meet a wheel, for one direction n: the hit with the greatest t on the half of the wheel
@@ -55,8 +56,9 @@ class WheelRay {
  public:
   WheelRay(const WheelBody& body, const Vec3& direction);
 
-  /// False: no hit. guess = NaN: none.
-  bool cast(const Vec3& origin, double guess, WheelHit& hit);
+  /// False: no hit. guess = NaN: none. Without `exact` only t is final, the rest of the hit belongs to a point within kNear of it.
+  bool cast(const Vec3& origin, double guess, WheelHit& hit, bool exact = true);
+  static constexpr double kNear = 3e-8;  ///< [m]
   /// Whether the line of the last successful cast meets the wheel again below the hit.
   bool hides_others(const WheelHit& hit);
 
@@ -66,7 +68,7 @@ class WheelRay {
   };
   bool clip();
   double gap(double t, double& slope, WheelHit& at);
-  bool newton(double guess, WheelHit& hit);
+  bool newton(double guess, WheelHit& hit, bool exact);
   bool is_outermost(const WheelHit& hit) const;
   double search(Bracket a, Bracket b, int depth);
   double polish(Bracket a, Bracket b);

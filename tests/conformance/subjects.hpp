@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <functional>
+#include <iosfwd>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/surface.hpp"
+#include "treadmark/core/surface_spec.hpp"
+
+namespace treadmark::testing {
+
+/// A shape every backend is asked to represent, with a formula of its own that no backend uses.
+struct Shape {
+  std::string name;
+  SurfaceSpec spec;
+  /// Distance-like function: 0 on the surface, > 0 outside the material; NaN where the profile ends.
+  std::function<double(const Vec3&)> outside;
+  double y_min, y_max;         ///< ends of the profile, surface frame [m]
+  double r_low, r_high;        ///< wheel: radii, rail: heights between which brute force looks [m]
+  std::vector<Pose> planes;    ///< planes near the surface, in its frame
+};
+
+/// How a backend joins the suite, and what it promises.
+struct Contestant {
+  std::string backend;
+  double height;  ///< greatest error normal to the surface [m]
+  double slope;   ///< greatest error of the normal's direction against the formula [rad]
+  double curvature;  ///< relative error of principal curvatures, for most points
+};
+
+struct Subject {
+  Shape shape;
+  Contestant contestant;
+  std::shared_ptr<const Surface> make() const;
+};
+
+std::vector<Shape> shapes();
+std::vector<Contestant> contestants();
+std::vector<Subject> subjects();
+std::ostream& operator<<(std::ostream& out, const Subject& subject);
+
+/// Formulas [mm], written from the standards once more.
+double s1002_mm(double y);
+double rail_60e1_mm(double y);
+
+/// Height of the outermost sign change of shape.outside along the normal of a plane; NaN if there is none. slant is the
+/// cosine between the normal of the surface and the line there.
+struct BruteHit {
+  double z, slant, y;
+};
+BruteHit brute_force(const Shape& shape, const Pose& X_SP, double x, double y);
+/// Gradient of shape.outside by central differences.
+Vec3 gradient(const Shape& shape, const Vec3& p);
+
+}  // namespace treadmark::testing
