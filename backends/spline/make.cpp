@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/spline/make.hpp"
+
+#include "treadmark/backends/spline/fit_profile.hpp"
+#include "treadmark/backends/spline/fit_slices.hpp"
+#include "treadmark/backends/spline/prismatic_surface.hpp"
+#include "treadmark/backends/spline/revolution_surface.hpp"
+#include "treadmark/backends/spline/slice_surface.hpp"
+
+namespace treadmark::spline {
+
+std::shared_ptr<const Surface> make_profile_surface(const Profile& profile, double nominal_radius) {
+  if (profile.body == Body::rail) return std::make_shared<PrismaticSurface>(fit_profile(profile));
+  return std::make_shared<RevolutionSurface>(fit_profile(profile), nominal_radius);
+}
+
+std::shared_ptr<const Surface> make_slice_surface(const SliceSet& slices, double nominal_radius) {
+  if (slices.body == Body::rail) return std::make_shared<SliceRail>(fit_slices(slices), 0.0);
+  return std::make_shared<SliceWheel>(fit_slices(slices), nominal_radius);
+}
+
+}  // namespace treadmark::spline

@@ -1,0 +1,231 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/spline/prismatic_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "treadmark/backends/spline/column_hits.hpp"
+#include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/profile_hull.hpp"
+#include "treadmark/backends/spline/surface_derivatives.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::spline {
+namespace {
+
+constexpr double kLeastNormalPart = 1e-9;  // of the plane normal in the (y, z) plane
+constexpr double kSamePosition = 1e-15;    // [m]
+constexpr std::size_t kLinesPerTask = 32;
+constexpr int kMaxHullHalvings = 8;
+
+Vec2 lateral(const Vec3& v) { return {v.y(), v.z()}; }
+
+// The view of the profile along the plane normal: w across the line of sight, depth along it.
+struct View {
+  Vec2 depth, width;  // unit vectors in (y, z)
+  double normal_part;
+
+  explicit View(const Vec3& normal) : depth(lateral(normal)), width(0.0, 0.0), normal_part(depth.norm()) {
+    if (!visible()) return;
+    depth /= normal_part;
+    width = {depth.y(), -depth.x()};
+  }
+  bool visible() const { return normal_part > kLeastNormalPart; }
+};
+
+// The profile turned into a view; s = w, n = depth.
+class ViewedProfile {
+ public:
+  static constexpr double kStep = 1e-8, kStepU = 1e-8, kFine = 1e-15;
+
+  ViewedProfile(const ProfileSpline& profile, const View& view) : breaks_(profile.breaks()) {
+    cells_.reserve(profile.segments().size());
+    for (const CubicSegment& c : profile.segments()) {
+      CubicSegment& turned = cells_.emplace_back();
+      for (int k = 0; k < 4; ++k) {
+        turned.y[k] = view.width.x() * c.y[k] + view.width.y() * c.z[k];
+        turned.z[k] = view.depth.x() * c.y[k] + view.depth.y() * c.z[k];
+      }
+    }
+  }
+
+  SectionPoint point(int cell, double v, double) const {
+    const CubicSegment& c = cells_[static_cast<std::size_t>(cell)];
+    const double t = v - breaks_[static_cast<std::size_t>(cell)];
+    return {c.y[0] + t * (c.y[1] + t * (c.y[2] + t * c.y[3])), c.z[0] + t * (c.z[1] + t * (c.z[2] + t * c.z[3])),
+            c.y[1] + t * (2.0 * c.y[2] + 3.0 * t * c.y[3]), c.z[1] + t * (2.0 * c.z[2] + 3.0 * t * c.z[3])};
+  }
+
+  void raster(const Samples& samples, ColumnHits& hits) const {
+    SectionRaster<ViewedProfile, ColumnHits> raster(*this, samples, hits);
+    for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {
+      const double a = breaks_[static_cast<std::size_t>(k)], b = breaks_[static_cast<std::size_t>(k) + 1];
+      raster.cell(k, a, point(k, a, 0.0), b, point(k, b, 0.0));
+    }
+  }
+
+ private:
+  std::span<const double> breaks_;
+  std::vector<CubicSegment> cells_;
+};
+
+void fill(std::span<double> values, double value) { std::fill(values.begin(), values.end(), value); }
+
+}  // namespace
+
+PrismaticSurface::PrismaticSurface(ProfileSpline profile) : profile_(std::move(profile)) {}
+
+Vec3 PrismaticSurface::point(double u, double v) const {
+  const Vec2 p = profile_.position(v);
+  return {u, p.x(), p.y()};
+}
+
+Box3 PrismaticSurface::bounds() const {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  Interval y = Interval::none(), z = Interval::none();
+  for (std::size_t k = 0; k < profile_.segments().size(); ++k) {
+    const BezierCubic hull(profile_.segments()[k], profile_.breaks()[k + 1] - profile_.breaks()[k]);
+    y.include(hull.range({1.0, 0.0}));
+    z.include(hull.range({0.0, 1.0}));
+  }
+  return {{-kInfinite, y.low, z.low}, {kInfinite, y.high, z.high}};
+}
+
+std::size_t PrismaticSurface::memory_bytes() const {
+  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes();
+}
+
+void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  View view(plane_grid.X_SP.rotation.col(2));
+  if (!view.visible()) {
+    for (const auto values : {out.z, out.dzdx, out.dzdy}) fill(values, kNaN);
+    return;
+  }
+  // (w along, w across) is a unit vector, so the greater part serves for marching.
+  const Mat3& axes = plane_grid.X_SP.rotation;
+  const bool along_y = std::abs(view.width.dot(lateral(axes.col(1)))) >= std::abs(view.width.dot(lateral(axes.col(0))));
+  const GridLines g(plane_grid, along_y);
+  if (view.width.dot(lateral(g.along)) < 0.0) view.width = -view.width;
+  const double w_along = view.width.dot(lateral(g.along)), w_across = view.width.dot(lateral(g.across));
+  const double w_origin = view.width.dot(lateral(g.origin));
+  const double depth_along = view.depth.dot(lateral(g.along)), depth_across = view.depth.dot(lateral(g.across));
+  const double depth_origin = view.depth.dot(lateral(g.origin));
+  const double scale = 1.0 / view.normal_part;
+
+  const ViewedProfile viewed(profile_, view);
+  const auto [z, dz_along, dz_across] = g.along_is_y ? std::tuple(out.z, out.dzdy, out.dzdx) : std::tuple(out.z, out.dzdx, out.dzdy);
+  const bool slopes = !dz_along.empty() || !dz_across.empty();
+
+  const auto raster_line = [&](int line, ColumnHits& hits) {
+    hits.clear();
+    const Samples samples{w_origin + w_across * g.across_at(line) + w_along * g.samples.first, w_along * g.samples.step,
+                          g.samples.count};
+    viewed.raster(samples, hits);
+    if (!slopes) return;
+    for (std::size_t i = 0; i < hits.n.size(); ++i) {
+      if (std::isnan(hits.n[i])) continue;
+      const SectionPoint p = viewed.point(hits.cell[i], hits.v[i], 0.0);
+      hits.u[i] = p.dn / p.ds;  // slope of the viewed curve
+    }
+  };
+  const auto write_line = [&](int line, const ColumnHits& hits) {
+    const double across = g.across_at(line);
+    const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
+    for (std::size_t i = 0; i < hits.n.size(); ++i) {
+      const std::size_t k = start + i * g.along_stride;
+      const double along = g.samples.first + static_cast<double>(i) * g.samples.step;
+      if (!z.empty()) z[k] = scale * (hits.n[i] - (depth_origin + depth_across * across + depth_along * along));
+      if (!slopes) continue;
+      const double slope = std::isnan(hits.n[i]) ? kNaN : hits.u[i];
+      if (!dz_along.empty()) dz_along[k] = scale * (slope * w_along - depth_along);
+      if (!dz_across.empty()) dz_across[k] = scale * (slope * w_across - depth_across);
+    }
+  };
+
+  const double across_reach = std::max(std::abs(g.across_at(0)), std::abs(g.across_at(g.lines - 1)));
+  if (std::abs(w_across) * across_reach < kSamePosition && std::abs(depth_across) * across_reach < kSamePosition) {
+    // A plane that is only rolled: all lines are the same.
+    ColumnHits hits(g.samples.count, Facing::up);
+    raster_line(0, hits);
+    write_line(0, hits);
+    for (const auto values : {z, dz_along, dz_across}) {
+      if (values.empty()) continue;
+      if (g.along_is_y) {
+        for (std::size_t i = 0; i < hits.n.size(); ++i)
+          fill(values.subspan(i * g.along_stride, static_cast<std::size_t>(g.lines)), values[i * g.along_stride]);
+      } else {
+        for (int line = 1; line < g.lines; ++line)
+          std::copy_n(values.begin(), g.samples.count,
+                      values.begin() + static_cast<std::ptrdiff_t>(static_cast<std::size_t>(line) * g.across_stride));
+      }
+    }
+    return;
+  }
+  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
+  parallel_for(tasks, [&](std::size_t task) {
+    ColumnHits hits(g.samples.count, Facing::up);
+    const int first = static_cast<int>(task * kLinesPerTask);
+    for (int line = first; line < std::min(g.lines, first + static_cast<int>(kLinesPerTask)); ++line) {
+      raster_line(line, hits);
+      write_line(line, hits);
+    }
+  });
+}
+
+void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  const View view(X_SP.rotation.col(2));
+  if (!view.visible()) {
+    std::fill(out.begin(), out.end(), SurfacePoint{});
+    return;
+  }
+  const ViewedProfile viewed(profile_, view);
+  ColumnHits hits(1, Facing::up);
+  for (std::size_t i = 0; i < points_P.size(); ++i) {
+    const Vec3 foot = X_SP.apply({points_P[i].x(), points_P[i].y(), 0.0});
+    out[i] = {};
+    hits.clear();
+    viewed.raster({view.width.dot(lateral(foot)), 1.0, 1}, hits);
+    if (std::isnan(hits.n[0])) continue;
+    out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
+    const double n = (hits.n[0] - view.depth.dot(lateral(foot))) / view.normal_part;
+    const double v = hits.v[0];
+    out[i].u = foot.x() + n * X_SP.rotation(0, 2);
+    out[i].v = v;
+    const Vec2 d = profile_.derivative(v), dd = profile_.second_derivative(v);
+    set_geometry({point(out[i].u, v), {1, 0, 0}, {0, d.x(), d.y()}, Vec3::Zero(), Vec3::Zero(), {0, dd.x(), dd.y()}}, out[i]);
+  }
+}
+
+HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
+  const View view(X_SP.rotation.col(2));
+  if (!view.visible()) return {0.0, 0.0, true};
+  const Interval x{r.x_min, r.x_max}, y{r.y_min, r.y_max};
+  const auto over_rectangle = [&](const Vec2& direction) {
+    return direction.dot(lateral(X_SP.rotation.col(0))) * x + direction.dot(lateral(X_SP.rotation.col(1))) * y +
+           direction.dot(lateral(X_SP.origin));
+  };
+  Interval window = over_rectangle(view.width);
+  const double slack = 1e-12 + 1e-9 * window.width();
+  window = {window.low - slack, window.high + slack};
+  Interval depth = Interval::none();
+  const auto add = [&](const auto& self, const BezierCubic& curve, int halvings) -> void {
+    const Interval w = curve.range(view.width);
+    if (!w.overlaps(window)) return;
+    if (halvings < kMaxHullHalvings && w.width() > 2.0 * window.width() + 1e-5) {
+      for (const BezierCubic& half : curve.halves()) self(self, half, halvings + 1);
+      return;
+    }
+    depth.include(curve.range(view.depth));
+  };
+  for (std::size_t k = 0; k < profile_.segments().size(); ++k)
+    add(add, BezierCubic(profile_.segments()[k], profile_.breaks()[k + 1] - profile_.breaks()[k]), 0);
+  if (depth.empty()) return {0.0, 0.0, true};
+  const Interval n = (1.0 / view.normal_part) * (depth + -1.0 * over_rectangle(view.depth));
+  const double rounding = 1e-12 * (1.0 + std::abs(n.low) + std::abs(n.high));
+  return {n.low - rounding, n.high + rounding, false};
+}
+
+}  // namespace treadmark::spline

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/backends/spline/profile_spline.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::spline {
+
+/// A rail of constant cross-section: p(u, v) = (u, y(v), z(v)), u = x unlimited, v = arc length along the profile [m].
+/// Heights are those of one plane curve for a plane in any position. A plane whose normal runs along x meets nothing.
+class PrismaticSurface final : public Surface {
+ public:
+  explicit PrismaticSurface(ProfileSpline profile);
+
+  const ProfileSpline& profile() const { return profile_; }
+  Vec3 point(double u, double v) const;
+
+  std::string_view backend() const override { return "spline"; }
+  Facing facing() const override { return Facing::up; }
+  Box3 bounds() const override;
+  std::size_t memory_bytes() const override;
+
+ private:
+  void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+
+  ProfileSpline profile_;
+};
+
+}  // namespace treadmark::spline

@@ -1,0 +1,191 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/spline/revolution_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "treadmark/backends/spline/column_hits.hpp"
+#include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/profile_hull.hpp"
+#include "treadmark/backends/spline/surface_derivatives.hpp"
+#include "treadmark/backends/spline/wheel_view.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::spline {
+namespace {
+
+constexpr std::size_t kLinesPerTask = 16;
+constexpr int kMaxHullHalvings = 8;
+
+// The wheel cut at one value of the across coordinate.
+class RevolutionSection {
+ public:
+  static constexpr double kStep = 1e-8, kStepU = 1e-8, kFine = 1e-15;
+
+  RevolutionSection(const ProfileSpline& profile, const WheelView& view, double across)
+      : breaks_(profile.breaks()), cells_(profile.segments()) {
+    a0_ = (across + view.across_origin) / view.across_e, ay_ = -view.across_y / view.across_e;
+    s0_ = view.along_e * a0_ - view.along_origin, sy_ = view.along_e * ay_ + view.along_y, sb_ = view.along_f;
+    n0_ = view.normal_e * a0_ - view.normal_origin, ny_ = view.normal_e * ay_ + view.normal_y, nb_ = view.normal_f;
+  }
+
+  SectionPoint point(int cell, double v, double) const {
+    const CubicSegment& c = cells_[static_cast<std::size_t>(cell)];
+    const double t = v - breaks_[static_cast<std::size_t>(cell)];
+    const double y = c.y[0] + t * (c.y[1] + t * (c.y[2] + t * c.y[3]));
+    const double r = c.z[0] + t * (c.z[1] + t * (c.z[2] + t * c.z[3]));
+    const double dy = c.y[1] + t * (2.0 * c.y[2] + 3.0 * t * c.y[3]);
+    const double dr = c.z[1] + t * (2.0 * c.z[2] + 3.0 * t * c.z[3]);
+    const double a = a0_ + ay_ * y;
+    const double b = std::sqrt(r * r - a * a);
+    const double db = (r * dr - a * ay_ * dy) / b;
+    return {s0_ + sy_ * y + sb_ * b, n0_ + ny_ * y + nb_ * b, sy_ * dy + sb_ * db, ny_ * dy + nb_ * db};
+  }
+
+  /// Position across and towards the plane, for the angle about the axle.
+  Vec2 a_b(double y, double r) const {
+    const double a = a0_ + ay_ * y;
+    return {a, std::sqrt(r * r - a * a)};
+  }
+
+  void raster(const Samples& samples, ColumnHits& hits) const {
+    SectionRaster<RevolutionSection, ColumnHits> raster(*this, samples, hits);
+    for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {
+      const double a = breaks_[static_cast<std::size_t>(k)], b = breaks_[static_cast<std::size_t>(k) + 1];
+      raster.cell(k, a, point(k, a, 0.0), b, point(k, b, 0.0));
+    }
+  }
+
+ private:
+  std::span<const double> breaks_;
+  std::span<const CubicSegment> cells_;
+  double a0_, ay_, s0_, sy_, sb_, n0_, ny_, nb_;
+};
+
+ProfileSpline add_radius(const ProfileSpline& profile, double nominal_radius) {
+  std::vector<CubicSegment> cells(profile.segments().begin(), profile.segments().end());
+  for (CubicSegment& cell : cells) cell.z[0] += nominal_radius;
+  return ProfileSpline({profile.breaks().begin(), profile.breaks().end()}, std::move(cells),
+                       {profile.kinks().begin(), profile.kinks().end()});
+}
+
+BezierCubic hull(const ProfileSpline& profile, std::size_t k) {
+  return BezierCubic(profile.segments()[k], profile.breaks()[k + 1] - profile.breaks()[k]);
+}
+
+SurfaceDerivatives derivatives(const ProfileSpline& profile, double u, double v) {
+  const Vec2 p = profile.position(v), d = profile.derivative(v), dd = profile.second_derivative(v);
+  const double sine = std::sin(u), cosine = std::cos(u);
+  const Vec3 outward(sine, 0.0, cosine), forward(cosine, 0.0, -sine), axle(0.0, 1.0, 0.0);
+  return {p.y() * outward + p.x() * axle, p.y() * forward,        d.y() * outward + d.x() * axle,
+          -p.y() * outward,               d.y() * forward,        dd.y() * outward + dd.x() * axle};
+}
+
+}  // namespace
+
+RevolutionSurface::RevolutionSurface(ProfileSpline profile, double nominal_radius)
+    : profile_(add_radius(profile, nominal_radius)), nominal_radius_(nominal_radius) {
+  for (std::size_t k = 0; k < profile_.segments().size(); ++k)
+    if (!(hull(profile_, k).range({0.0, 1.0}).low > 0.0))
+      throw Error(ErrorKind::configuration, "a wheel's radius must be positive over its whole profile", {},
+                  "check the nominal radius and the unit of the profile");
+}
+
+Vec3 RevolutionSurface::point(double u, double v) const {
+  const Vec2 p = profile_.position(v);
+  return {p.y() * std::sin(u), p.x(), p.y() * std::cos(u)};
+}
+
+Box3 RevolutionSurface::bounds() const {
+  Interval y = Interval::none(), r = Interval::none();
+  for (std::size_t k = 0; k < profile_.segments().size(); ++k) {
+    y.include(hull(profile_, k).range({1.0, 0.0}));
+    r.include(hull(profile_, k).range({0.0, 1.0}));
+  }
+  return {{-r.high, y.low, -r.high}, {r.high, y.high, r.high}};
+}
+
+std::size_t RevolutionSurface::memory_bytes() const {
+  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes();
+}
+
+void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const GridLines g(plane_grid, wheel_lines_along_y(plane_grid.X_SP.rotation));
+  const WheelView view(g.across, g.along, g.normal, g.origin);
+  const auto dz_along = g.along_is_y ? out.dzdy : out.dzdx, dz_across = g.along_is_y ? out.dzdx : out.dzdy;
+  const bool slopes = !dz_along.empty() || !dz_across.empty();
+  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
+  parallel_for(tasks, [&](std::size_t task) {
+    ColumnHits hits(g.samples.count, Facing::down);
+    const int first = static_cast<int>(task * kLinesPerTask);
+    for (int line = first; line < std::min(g.lines, first + static_cast<int>(kLinesPerTask)); ++line) {
+      hits.clear();
+      const RevolutionSection section(profile_, view, g.across_at(line));
+      section.raster(g.samples, hits);
+      const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
+      if (!out.z.empty())
+        for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
+      if (!slopes) continue;
+      for (std::size_t i = 0; i < hits.n.size(); ++i) {
+        double along = hits.n[i], across = hits.n[i];  // NaN stays
+        if (!std::isnan(hits.n[i])) {
+          const Vec2 p = profile_.position(hits.v[i]), d = profile_.derivative(hits.v[i]);
+          // Normal of the surface: forward x tangent, with the angle expressed by (a, b).
+          const Vec2 ab = section.a_b(p.x(), p.y());
+          const Vec3 outward = (ab.x() * view.e + ab.y() * view.f) / p.y();
+          const Vec3 normal = d.x() * outward - d.y() * Vec3(0.0, 1.0, 0.0);
+          const double upright = normal.dot(g.normal);
+          along = -normal.dot(g.along) / upright;
+          across = -normal.dot(g.across) / upright;
+        }
+        if (!dz_along.empty()) dz_along[start + i * g.along_stride] = along;
+        if (!dz_across.empty()) dz_across[start + i * g.along_stride] = across;
+      }
+    }
+  });
+}
+
+void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  const bool along_y = wheel_lines_along_y(X_SP.rotation);
+  const WheelView view(X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin);
+  ColumnHits hits(1, Facing::down);
+  for (std::size_t i = 0; i < points_P.size(); ++i) {
+    out[i] = {};
+    hits.clear();
+    const RevolutionSection section(profile_, view, points_P[i][along_y ? 0 : 1]);
+    section.raster({points_P[i][along_y ? 1 : 0], 1.0, 1}, hits);
+    if (std::isnan(hits.n[0])) continue;
+    out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
+    const double v = hits.v[0];
+    const Vec2 p = profile_.position(v);
+    const Vec2 ab = section.a_b(p.x(), p.y());
+    out[i].u = view.angle(ab.x(), ab.y());
+    out[i].v = v;
+    set_geometry(derivatives(profile_, out[i].u, v), out[i]);
+  }
+}
+
+HeightBounds RevolutionSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
+  const bool along_y = wheel_lines_along_y(X_SP.rotation);
+  const WheelView view(X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin);
+  const Interval x{r.x_min - 1e-9, r.x_max + 1e-9}, y{r.y_min - 1e-9, r.y_max + 1e-9};
+  const WheelBoxBounds box{view, along_y ? x : y, along_y ? y : x};
+  Interval n = Interval::none();
+  const auto add = [&](const auto& self, const BezierCubic& curve, int halvings) -> void {
+    const auto part = box.of(curve.range({1.0, 0.0}), curve.range({0.0, 1.0}));
+    if (part.n.empty()) return;
+    if (halvings < kMaxHullHalvings && part.s.width() > 2.0 * box.along.width() + 1e-5) {
+      for (const BezierCubic& half : curve.halves()) self(self, half, halvings + 1);
+      return;
+    }
+    n.include(part.n);
+  };
+  for (std::size_t k = 0; k < profile_.segments().size(); ++k) add(add, hull(profile_, k), 0);
+  if (n.empty()) return {0.0, 0.0, true};
+  return {n.low - 1e-12, n.high + 1e-12, false};
+}
+
+}  // namespace treadmark::spline

@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/backends/spline/profile_spline.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::spline {
+
+/// A round wheel: p(u, v) = (r sin u, y(v), r cos u), r = nominal radius + z(v), u = angle about the axle [rad],
+/// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of the
+/// wheel to its far side is a miss. Within a profile segment of x = +-r, where the surface stands upright over the plane,
+/// points may be misses too.
+class RevolutionSurface final : public Surface {
+ public:
+  /// Errors: Error(configuration) unless the radius is positive everywhere.
+  RevolutionSurface(ProfileSpline profile, double nominal_radius);
+
+  const ProfileSpline& profile() const { return profile_; }
+  double nominal_radius() const { return nominal_radius_; }
+  Vec3 point(double u, double v) const;
+
+  std::string_view backend() const override { return "spline"; }
+  Facing facing() const override { return Facing::down; }
+  Box3 bounds() const override;
+  std::size_t memory_bytes() const override;
+
+ private:
+  void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+
+  ProfileSpline profile_;  // (y, r)
+  double nominal_radius_;
+};
+
+}  // namespace treadmark::spline

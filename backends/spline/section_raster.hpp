@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treadmark::spline {
+
+// A section is the curve in which a plane spanned by a grid line and the direction of heights cuts a surface:
+// (s(v), n(v)), s along the grid line, n the height. It comes in cells between breaks of v, smooth inside.
+// Rastering a section means finding n at the positions s of grid points: cells are cut into pieces with monotonic s, and on
+// each piece s(v) = s_i is solved by Newton's method, started from the inverse Hermite cubic and kept inside a bracket.
+// Every hit is found this way, folds included; which one to keep is up to the receiver.
+
+/// A point of a section: position, derivatives along v, and the surface parameter u that goes with it.
+struct SectionPoint {
+  double s, n, ds, dn;
+  double u = 0.0, du = 0.0;
+  double u_step = 0.0;  ///< last correction of u; the point lies on the section up to its square
+};
+
+/// Grid points first + i step, 0 <= i < count, step > 0.
+struct Samples {
+  double first, step;
+  int count;
+  double last() const { return first + step * (count - 1); }
+};
+
+inline constexpr int kMaxCellHalvings = 8;
+inline constexpr int kMaxSolveSteps = 100;
+/// Part of a grid step by which a grid point may miss the end of a surface and still count as on it.
+inline constexpr double kEdgeSlack = 1e-9;
+
+/// Section: point(cell, v, u) const, kStep and kStepU: corrections of v and u below which a hit is converged (its error is
+/// their square times curvature), kFine: the same next to a fold.
+/// hit(i, n, cell, v, u): called for every grid point i that a piece covers; ends of pieces may be reported twice.
+template <class Section, class Hit>
+class SectionRaster {
+ public:
+  SectionRaster(const Section& section, const Samples& samples, Hit& hit)
+      : section_(section), samples_(samples), hit_(hit), inverse_step_(1.0 / samples.step),
+        low_(samples.first - kEdgeSlack * samples.step), high_(samples.last() + kEdgeSlack * samples.step) {}
+
+  /// One cell from a to b (parameters va < vb).
+  void cell(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, int halvings = 0) {
+    const double h = vb - va, rise = b.s - a.s;
+    // A cubic stays within this of its ends; also leaves out cells with an end where there is no surface (NaN).
+    const double reach = h * std::max(std::abs(a.ds), std::abs(b.ds));
+    if (!(std::max(a.s, b.s) + reach >= low_ && std::min(a.s, b.s) - reach <= high_)) return;
+    // Sufficient for a monotonic cubic (Fritsch and Carlson 1980).
+    const double limit = 3.0 * std::abs(rise);
+    if (a.ds * rise >= 0.0 && b.ds * rise >= 0.0 && reach <= limit)
+      return piece(cell, va, a, vb, b, section_.kStep);
+    if (halvings < kMaxCellHalvings) {
+      const double vm = 0.5 * (va + vb);
+      const SectionPoint m = on_section(cell, vm, a.u + a.du * (vm - va));
+      this->cell(cell, va, a, vm, m, halvings + 1);
+      this->cell(cell, vm, m, vb, b, halvings + 1);
+    } else if (a.ds * b.ds < 0.0) {
+      fold(cell, va, a, vb, b);
+    } else {
+      piece(cell, va, a, vb, b, section_.kFine);
+    }
+  }
+
+ private:
+  SectionPoint on_section(int cell, double v, double u) const {
+    SectionPoint p = section_.point(cell, v, u);
+    for (int i = 0; i < 20 && std::abs(p.u_step) > section_.kStepU; ++i) p = section_.point(cell, v, p.u);
+    return p;
+  }
+
+  // Cuts at ds = 0.
+  void fold(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b) {
+    double low = va, high = vb;
+    SectionPoint m = a;
+    for (int i = 0; i < 60 && high - low > section_.kFine; ++i) {
+      const double vm = 0.5 * (low + high);
+      m = on_section(cell, vm, a.u + a.du * (vm - va));
+      (m.ds * a.ds > 0.0 ? low : high) = vm;
+    }
+    const double vm = 0.5 * (low + high);
+    m = on_section(cell, vm, m.u);
+    piece(cell, va, a, vm, m, section_.kFine);
+    piece(cell, vm, m, vb, b, section_.kFine);
+  }
+
+  void piece(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, double step_limit) {
+    const double low = std::min(a.s, b.s), high = std::max(a.s, b.s);
+    int first = 0, last = samples_.count - 1;
+    if (low > samples_.first) first = static_cast<int>(std::min((low - samples_.first) * inverse_step_ + (1.0 - kEdgeSlack), 2e9));
+    if (high < samples_.last()) {
+      const double reach = (high - samples_.first) * inverse_step_ + kEdgeSlack;
+      if (reach < 0.0) return;
+      last = static_cast<int>(reach);
+    }
+    if (first > last) return;
+
+    const double h = vb - va, rise = b.s - a.s;
+    if (!(high - low > 1e-15)) {  // upright: the whole piece lies over one position
+      for (int i = first; i <= last; ++i) {
+        hit_(i, a.n, cell, va, a.u);
+        hit_(i, b.n, cell, vb, b.u);
+      }
+      return;
+    }
+    const double inverse_rise = 1.0 / rise, inverse_h = 1.0 / h;
+    const double secant = std::abs(rise) * inverse_h;
+    const double slope_a = std::min(secant / std::abs(a.ds), 3.0), slope_b = std::min(secant / std::abs(b.ds), 3.0);
+    const double c2 = 3.0 - 2.0 * slope_a - slope_b, c3 = slope_a + slope_b - 2.0;
+    const double secant_u = (b.u - a.u), end_u = a.du * h, bend_u = b.du * h;
+    for (int i = first; i <= last; ++i) {
+      const double target = samples_.first + i * samples_.step;
+      const double x = std::clamp((target - a.s) * inverse_rise, 0.0, 1.0);
+      const double f = std::clamp(x * (slope_a + x * (c2 + x * c3)), 0.0, 1.0);
+      const double u = a.u + f * (end_u + f * (3.0 * secant_u - 2.0 * end_u - bend_u + f * (end_u + bend_u - 2.0 * secant_u)));
+      solve(i, target, cell, va, vb, va + f * h, u, rise > 0.0, step_limit);
+    }
+  }
+
+  void solve(int i, double target, int cell, double va, double vb, double v, double u, bool rising, double step_limit) {
+    double low = va, high = vb;
+    for (int iteration = 0; iteration < kMaxSolveSteps; ++iteration) {
+      const SectionPoint p = section_.point(cell, v, u);
+      const double miss = target - p.s;
+      const double step = miss / p.ds;
+      if (std::abs(step) <= step_limit && std::abs(p.u_step) <= section_.kStepU)
+        return hit_(i, p.n + step * p.dn, cell, std::clamp(v + step, va, vb), p.u + step * p.du);
+      if (std::isnan(p.s)) return;
+      // Only a point on the section says on which side of it the solution lies.
+      if (std::abs(p.u_step) <= section_.kStepU) ((miss > 0.0) == rising ? low : high) = v;
+      double next = std::clamp(v + step, va, vb);
+      if (!(next >= low && next <= high)) next = 0.5 * (low + high);
+      if (next == v && std::abs(p.u_step) <= section_.kStepU) return hit_(i, p.n, cell, v, p.u);
+      u = p.u + p.du * (next - v);
+      v = next;
+    }
+    // The bracket has shrunk to rounding at a fold; the height there is as good as its end.
+    const SectionPoint p = on_section(cell, v, u);
+    if (std::abs(target - p.s) <= 1e-9) hit_(i, p.n, cell, v, p.u);
+  }
+
+  const Section& section_;
+  const Samples& samples_;
+  Hit& hit_;
+  double inverse_step_, low_, high_;
+};
+
+}  // namespace treadmark::spline

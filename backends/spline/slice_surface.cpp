@@ -1,0 +1,136 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/spline/slice_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <type_traits>
+
+#include "treadmark/backends/spline/column_hits.hpp"
+#include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/slice_bounds.hpp"
+#include "treadmark/backends/spline/slice_section.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::spline {
+namespace {
+
+// Lines of a task share their cuts; fixed, so that results do not depend on the number of threads.
+constexpr std::size_t kLinesPerTask = 16;
+
+template <class Geometry>
+constexpr bool kIsWheel = std::is_same_v<Geometry, WheelGeometry>;
+
+template <class Geometry>
+SliceNet with_radius(SliceNet net, double nominal_radius) {
+  if constexpr (kIsWheel<Geometry>)
+    for (int span = 0; span < net.spans(); ++span)
+      for (int line = 0; line < net.lines(); ++line) net.line(span, line).power[0].w += nominal_radius;
+  return net;
+}
+
+template <class Geometry>
+void raster(const SliceNet& net, const SliceSection<Geometry>& section, const Samples& samples, ColumnHits& hits) {
+  hits.clear();
+  SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits);
+  for (int k = 0; k < net.cells(); ++k)
+    raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+}
+
+}  // namespace
+
+template <class Geometry>
+SliceSurface<Geometry>::SliceSurface(SliceNet net, double nominal_radius)
+    : net_(with_radius<Geometry>(std::move(net), nominal_radius)), geometry_(nominal_radius), hulls_(net_) {
+  if (hulls_.all().empty()) throw Error(ErrorKind::input_data, "the slices leave no surface");
+  if (kIsWheel<Geometry> && !(hulls_.all().w.low > 0.0))
+    throw Error(ErrorKind::configuration, "a wheel's radius must be positive on all slices", {},
+                "check the nominal radius and the unit of the slices");
+}
+
+template <class Geometry>
+Vec3 SliceSurface<Geometry>::point(double u, double v) const {
+  const int cell = std::clamp(static_cast<int>(v) - 1, 0, net_.cells() - 1);
+  return geometry_.derivatives(u, net_.at(net_.find(u), cell, v - (cell + 1)), {}).p;
+}
+
+template <class Geometry>
+Facing SliceSurface<Geometry>::facing() const {
+  return kIsWheel<Geometry> ? Facing::down : Facing::up;
+}
+
+template <class Geometry>
+Box3 SliceSurface<Geometry>::bounds() const {
+  const auto& all = hulls_.all();
+  if constexpr (kIsWheel<Geometry>) return {{-all.w.high, all.y.low, -all.w.high}, {all.w.high, all.y.high, all.w.high}};
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  return {{-kInfinite, all.y.low, all.w.low}, {kInfinite, all.y.high, all.w.high}};
+}
+
+template <class Geometry>
+std::size_t SliceSurface<Geometry>::memory_bytes() const {
+  return sizeof(*this) + net_.memory_bytes() + hulls_.memory_bytes();
+}
+
+template <class Geometry>
+void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const GridLines g(plane_grid, Geometry::lines_along_y(plane_grid.X_SP.rotation));
+  const auto dz_along = g.along_is_y ? out.dzdy : out.dzdx, dz_across = g.along_is_y ? out.dzdx : out.dzdy;
+  const bool slopes = !dz_along.empty() || !dz_across.empty();
+  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
+  parallel_for(tasks, [&](std::size_t task) {
+    ColumnHits hits(g.samples.count, facing());
+    SliceSection<Geometry> section(net_, geometry_, g.across, g.along, g.normal, g.origin);
+    const int first = static_cast<int>(task * kLinesPerTask);
+    for (int line = first; line < std::min(g.lines, first + static_cast<int>(kLinesPerTask)); ++line) {
+      section.cut(g.across_at(line));
+      raster(net_, section, g.samples, hits);
+      const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
+      if (!out.z.empty())
+        for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
+      if (!slopes) continue;
+      for (std::size_t i = 0; i < hits.n.size(); ++i) {
+        typename SliceSection<Geometry>::Slopes slope{hits.n[i], hits.n[i]};  // NaN stays
+        if (!std::isnan(hits.n[i])) slope = section.slopes(hits.cell[i], hits.v[i], hits.u[i]);
+        if (!dz_along.empty()) dz_along[start + i * g.along_stride] = slope.along;
+        if (!dz_across.empty()) dz_across[start + i * g.along_stride] = slope.across;
+      }
+    }
+  });
+}
+
+template <class Geometry>
+void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  const int along = Geometry::lines_along_y(X_SP.rotation) ? 1 : 0;
+  ColumnHits hits(1, facing());
+  for (std::size_t i = 0; i < points_P.size(); ++i) {
+    out[i] = {};
+    SliceSection<Geometry> section(net_, geometry_, X_SP.rotation.col(1 - along), X_SP.rotation.col(along),
+                                   X_SP.rotation.col(2), X_SP.origin);
+    section.cut(points_P[i][1 - along]);
+    raster(net_, section, {points_P[i][along], 1.0, 1}, hits);
+    if (std::isnan(hits.n[0])) continue;
+    out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
+    out[i].u = kIsWheel<Geometry> ? wrap_angle(hits.u[0]) : hits.u[0];
+    out[i].v = hits.v[0];
+    const SliceNet::Place place = net_.find(hits.u[0]);
+    const double f = hits.v[0] - (hits.cell[0] + 1);
+    set_geometry(geometry_.derivatives(hits.u[0], net_.at(place, hits.cell[0], f), net_.second_at(place, hits.cell[0], f)),
+                 out[i]);
+  }
+}
+
+template <class Geometry>
+HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const {
+  const bool along_y = Geometry::lines_along_y(X_SP.rotation);
+  const Interval x{rectangle_P.x_min - 1e-9, rectangle_P.x_max + 1e-9}, y{rectangle_P.y_min - 1e-9, rectangle_P.y_max + 1e-9};
+  const Interval n = slice_height_bounds(geometry_, hulls_, X_SP, along_y, along_y ? x : y, along_y ? y : x);
+  if (n.empty()) return {0.0, 0.0, true};
+  return {n.low - 1e-12, n.high + 1e-12, false};
+}
+
+template class SliceSurface<RailGeometry>;
+template class SliceSurface<WheelGeometry>;
+
+}  // namespace treadmark::spline
