@@ -1,0 +1,315 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/cases/case_keys.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <numbers>
+#include <regex>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/key_builder.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+constexpr double kDegree = std::numbers::pi / 180.0;
+constexpr std::size_t kLongestText = 4096;
+constexpr std::size_t kLongestPattern = 64;  // keeps the regular expression engine within its stack
+
+struct UnitEnding {
+  std::string_view ending;
+  double si;
+};
+// Longer endings first.
+constexpr UnitEnding kUnits[] = {
+    {"_mm_per_MPa", 1e-9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
+    {"_mm3", 1e-9},        {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
+    {"_N", 1.0},
+};
+
+std::string_view plain(KeyType type) {
+  switch (type) {
+    case KeyType::number: return "a number";
+    case KeyType::integer: return "an integer";
+    case KeyType::flag: return "true or false";
+    case KeyType::text:
+    case KeyType::path: return "text";
+    case KeyType::choice: return "one word";
+    case KeyType::number_list: return "a list of numbers";
+    case KeyType::table_list: return "a list of tables";
+  }
+  return "a value";
+}
+
+[[noreturn]] void fail(std::string message, const SourcePosition& where, std::string advice = {}) {
+  throw Error(ErrorKind::configuration, std::move(message), where, std::move(advice));
+}
+
+void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
+  if (!std::isfinite(value)) fail(fmt::format("{} must be finite", key.path), where);
+  if (key.above && !(value > *key.above)) fail(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
+  if (key.at_least && value < *key.at_least) fail(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
+  if (key.at_most && value > *key.at_most) fail(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
+}
+
+/// Damerau-Levenshtein distance (restricted: adjacent transpositions).
+std::size_t edit_distance(std::string_view a, std::string_view b) {
+  std::vector<std::vector<std::size_t>> d(a.size() + 1, std::vector<std::size_t>(b.size() + 1));
+  for (std::size_t i = 0; i <= a.size(); ++i) d[i][0] = i;
+  for (std::size_t j = 0; j <= b.size(); ++j) d[0][j] = j;
+  for (std::size_t i = 1; i <= a.size(); ++i)
+    for (std::size_t j = 1; j <= b.size(); ++j) {
+      d[i][j] = std::min({d[i - 1][j] + 1, d[i][j - 1] + 1, d[i - 1][j - 1] + (a[i - 1] == b[j - 1] ? 0 : 1)});
+      if (i > 1 && j > 1 && a[i - 1] == b[j - 2] && a[i - 2] == b[j - 1]) d[i][j] = std::min(d[i][j], d[i - 2][j - 2] + 1);
+    }
+  return d[a.size()][b.size()];
+}
+
+std::string_view leaf(std::string_view path) {
+  const std::size_t dot = path.rfind('.');
+  return dot == std::string_view::npos ? path : path.substr(dot + 1);
+}
+
+[[noreturn]] void unknown_key(std::string_view path, std::span<const std::string> known, const SourcePosition& where) {
+  const std::string near = nearest_key(path, known);
+  fail(fmt::format("unknown key '{}'", path.substr(0, 100)), where,
+       near.empty() ? "see docs/case-file.md for all keys" : fmt::format("did you mean '{}'?", near));
+}
+
+const std::vector<std::string>& all_paths() {
+  static const std::vector<std::string> paths = [] {
+    std::vector<std::string> list;
+    for (const CaseKey& key : case_keys()) list.push_back(key.info.path);
+    return list;
+  }();
+  return paths;
+}
+
+const std::map<std::string, const CaseKey*, std::less<>>& keys_by_path() {
+  static const auto index = [] {
+    std::map<std::string, const CaseKey*, std::less<>> map;
+    for (const CaseKey& key : case_keys()) map[key.info.path] = &key;
+    return map;
+  }();
+  return index;
+}
+
+bool is_section(std::string_view path) {
+  static const auto sections = [] {
+    std::set<std::string, std::less<>> set;
+    for (const CaseKey& key : case_keys())
+      for (std::size_t dot = key.info.path.find('.'); dot != std::string::npos; dot = key.info.path.find('.', dot + 1))
+        set.insert(key.info.path.substr(0, dot));
+    return set;
+  }();
+  return sections.contains(path);
+}
+
+struct Assignment {
+  const CaseKey* key = nullptr;
+  const CaseValue* value = nullptr;
+  SourcePosition where;
+};
+
+void collect(const CaseTable& table, const std::string& prefix, std::vector<Assignment>& out) {
+  for (const CaseEntry& entry : table) {
+    const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
+    const auto found = keys_by_path().find(path);
+    if (found != keys_by_path().end()) {
+      out.push_back({found->second, &entry.value, entry.key_where});
+    } else if (is_section(path)) {
+      if (!entry.value.is_table()) fail(fmt::format("{} must be a table, found {}", path, entry.value.kind()), entry.value.where);
+      collect(entry.value.table(), path, out);
+    } else {
+      unknown_key(path, all_paths(), entry.key_where);
+    }
+  }
+}
+
+struct Chosen {
+  const KeyInfo* key;
+  SourcePosition where;
+};
+
+void check_exclusive(const KeyInfo& key, const SourcePosition& where, std::map<std::string, Chosen>& groups) {
+  if (key.group.empty()) return;
+  const auto [other, fresh] = groups.try_emplace(key.group, Chosen{&key, where});
+  if (!fresh && other->second.key->alternative != key.alternative)
+    fail(fmt::format("{} and {} exclude each other", other->second.key->path, key.path), where, "give one of them");
+}
+
+void check_elements(const KeyInfo& list, const CaseTable& entries, const SourcePosition& where, bool complete) {
+  std::vector<std::string> known;
+  for (const KeyInfo& element : list.elements) known.push_back(element.path);
+  std::map<std::string, Chosen> groups;
+  for (const CaseEntry& entry : entries) {
+    const auto found = std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
+    if (found == list.elements.end()) unknown_key(entry.key, known, entry.key_where);
+    check_value(*found, entry.value);
+    check_exclusive(*found, entry.key_where, groups);
+  }
+  for (const KeyInfo& element : list.elements) {
+    const bool given = std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
+    if (complete && element.required && !given)
+      fail(fmt::format("{} of {} is missing", element.path, list.path), where);
+  }
+}
+
+void check_scope(const Case& c, const KeyInfo& key, const SourcePosition& where) {
+  const bool patch = std::holds_alternative<BasicCase>(c.content);
+  if (key.scope == KeyScope::wheel_rail && patch)
+    fail(fmt::format("{} belongs to a wheel-rail case, but this is a [patch] case", key.path), where);
+  if (key.scope == KeyScope::patch && !patch)
+    fail(fmt::format("{} belongs to a [patch] case, but this is a wheel-rail case", key.path), where);
+}
+
+/// Where text is expected, a word that happens to be a TOML number (60E1) is that word.
+CaseValue meant_value(const KeyInfo& key, const CaseOverride& assignment) {
+  const bool textual = key.type == KeyType::text || key.type == KeyType::path || key.type == KeyType::choice;
+  const CaseValue& value = assignment.value;
+  if (!textual || value.is_list() || value.is_table() || std::holds_alternative<std::string>(value.data)) return value;
+  return {value.where, assignment.raw};
+}
+
+}  // namespace
+
+std::span<const CaseKey> case_keys() {
+  static const std::vector<CaseKey> keys = [] {
+    KeyList list;
+    add_general_keys(list);
+    add_wheel_rail_keys(list);
+    add_shape_keys(list);
+    add_patch_keys(list);
+    return std::move(list.keys);
+  }();
+  return keys;
+}
+
+double unit_of_key(std::string_view path) {
+  for (const UnitEnding& unit : kUnits)
+    if (path.ends_with(unit.ending)) return unit.si;
+  return 1.0;
+}
+
+std::string nearest_key(std::string_view path, std::span<const std::string> known) {
+  constexpr std::size_t kLongest = 100;
+  if (path.empty() || path.size() > kLongest) return {};
+  std::string best;
+  std::size_t best_distance = path.size() + 1;
+  for (const std::string& candidate : known) {
+    std::size_t distance = edit_distance(path, candidate);
+    // The same name in another section, or the unit forgotten, is as near as a slip of the finger.
+    if (leaf(path) == leaf(candidate)) distance = std::min<std::size_t>(distance, 2);
+    if (candidate.starts_with(std::string(path) + '_')) distance = std::min<std::size_t>(distance, 1);
+    if (distance < best_distance) {
+      best_distance = distance;
+      best = candidate;
+    }
+  }
+  const std::size_t tolerated = std::max<std::size_t>(2, leaf(path).size() / 3);
+  return best_distance <= tolerated ? best : std::string();
+}
+
+void check_value(const KeyInfo& key, const CaseValue& value) {
+  const auto wrong = [&] { fail(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where); };
+  const bool integer = std::holds_alternative<std::int64_t>(value.data);
+  const bool number = integer || std::holds_alternative<double>(value.data);
+  const bool text = std::holds_alternative<std::string>(value.data);
+  switch (key.type) {
+    case KeyType::number:
+      if (!number) wrong();
+      check_range(key, value.number(), value.where);
+      return;
+    case KeyType::integer:
+      if (!integer) wrong();
+      check_range(key, value.number(), value.where);
+      return;
+    case KeyType::flag:
+      if (!std::holds_alternative<bool>(value.data)) wrong();
+      return;
+    case KeyType::path:
+    case KeyType::text:
+      if (!text) wrong();
+      if (value.text().empty()) fail(fmt::format("{} must not be empty", key.path), value.where);
+      if (value.text().size() > kLongestText) fail(fmt::format("{} is too long", key.path), value.where);
+      if (!key.pattern.empty() &&
+          (value.text().size() > kLongestPattern || !std::regex_match(value.text(), std::regex(key.pattern))))
+        fail(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestPattern), key.pattern), value.where);
+      return;
+    case KeyType::choice:
+      if (!text) wrong();
+      if (std::find(key.choices.begin(), key.choices.end(), value.text()) == key.choices.end()) {
+        std::string choices;
+        for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
+        fail(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, 64), choices), value.where);
+      }
+      return;
+    case KeyType::number_list:
+      if (!value.is_list()) wrong();
+      for (const CaseValue& one : value.list()) {
+        if (!std::holds_alternative<std::int64_t>(one.data) && !std::holds_alternative<double>(one.data))
+          fail(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where);
+        check_range(key, one.number(), one.where);
+      }
+      return;
+    case KeyType::table_list:
+      if (!value.is_list()) wrong();
+      for (const CaseValue& one : value.list()) {
+        if (!one.is_table()) fail(fmt::format("{} must be a list of tables, found {} in it", key.path, one.kind()), one.where);
+        check_elements(key, one.table(), one.where, true);
+      }
+      return;
+  }
+}
+
+void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder) {
+  std::vector<Assignment> assignments;
+  collect(table, "", assignments);
+  std::map<std::string, Chosen> groups;
+  for (const Assignment& a : assignments) {
+    check_scope(target, a.key->info, a.where);
+    check_value(a.key->info, *a.value);
+    check_exclusive(a.key->info, a.where, groups);
+  }
+  std::stable_sort(assignments.begin(), assignments.end(), [](const Assignment& a, const Assignment& b) { return a.key < b.key; });
+  for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);
+}
+
+void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder) {
+  const SourcePosition& where = assignment.value.where;
+  const std::string& path = assignment.path;
+  if (const auto found = keys_by_path().find(path); found != keys_by_path().end()) {
+    check_scope(target, found->second->info, where);
+    const KeyInfo& key = found->second->info;
+    const CaseValue value = meant_value(key, assignment);
+    check_value(key, value);
+    found->second->set(target, value, folder);
+    return;
+  }
+  // list.index.key, for example wheel.flats.0.depth_mm
+  for (const CaseKey& key : case_keys()) {
+    if (key.info.type != KeyType::table_list || !path.starts_with(key.info.path + '.')) continue;
+    const std::string_view rest = std::string_view(path).substr(key.info.path.size() + 1);
+    const std::size_t dot = rest.find('.');
+    std::size_t index = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), index);
+    if (dot == std::string_view::npos || error != std::errc{} || end != rest.data() + dot)
+      fail(fmt::format("{} is a list", key.info.path), where, fmt::format("write {}.0.{}=value", key.info.path, key.info.elements.front().path));
+    check_scope(target, key.info, where);
+    const std::string name(rest.substr(dot + 1));
+    const auto element = std::find_if(key.info.elements.begin(), key.info.elements.end(), [&](const KeyInfo& k) { return k.path == name; });
+    const CaseTable entries{{name, where, element == key.info.elements.end() ? assignment.value : meant_value(*element, assignment)}};
+    check_elements(key.info, entries, where, false);
+    key.set_element(target, index, entries, where);
+    return;
+  }
+  unknown_key(path, all_paths(), where);
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/cases/case_value.hpp"
+
+namespace treadmark::io {
+
+enum class KeyType { number, integer, flag, text, choice, path, number_list, table_list };
+
+/// Which cases a key belongs to.
+enum class KeyScope { any, wheel_rail, patch };
+
+/// What is published about one key of the case file: the reader, the schema and the documentation all come from it.
+struct KeyInfo {
+  std::string path;                  ///< "wheelset.pitch_deg"; within a table_list the name only
+  KeyType type = KeyType::number;
+  std::string doc;
+  std::string default_text;          ///< as TOML; empty = none
+  std::optional<double> above, at_least, at_most;   ///< limits in the unit of the key
+  std::vector<std::string> choices;
+  std::string pattern;               ///< regular expression for text; empty = anything
+  std::string group, alternative;    ///< keys of one group with different alternatives exclude each other
+  KeyScope scope = KeyScope::any;
+  bool required = false;             ///< in a table_list
+  std::vector<KeyInfo> elements;     ///< keys of the tables of a table_list
+};
+
+/// One key with the way to its place in a Case.
+struct CaseKey {
+  KeyInfo info;
+  /// value has been checked against info; relative paths count from folder.
+  std::function<void(Case&, const CaseValue& value, const std::filesystem::path& folder)> set;
+  /// table_list only: changes some keys of the element with this index (which exists, or Error).
+  std::function<void(Case&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element;
+};
+
+/// All keys, in the order in which they are applied. Immutable; safe to use from several threads.
+std::span<const CaseKey> case_keys();
+
+/// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _GPa, _MPa, _m_s, _per_m ...).
+double unit_of_key(std::string_view path);
+
+/// Type and range; throws Error (configuration) at the value.
+void check_value(const KeyInfo& key, const CaseValue& value);
+
+/// Applies the entries of one layer of a case file (defaults, one [[cases]] entry): checks names, types, ranges and
+/// exclusions first, so that a Case is changed only when everything is right.
+void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder);
+
+/// Applies one override; its path may also name a key of a list element ("wheel.flats.0.depth_mm").
+void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder);
+
+/// The known key that an unknown one was probably meant to be; empty when nothing is near.
+std::string nearest_key(std::string_view path, std::span<const std::string> known);
+
+}  // namespace treadmark::io

@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/cases/key_builder.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+using B = BasicCase;
+
+HertzInput& hertz(B& c) {
+  if (!std::holds_alternative<HertzInput>(c.geometry)) c.geometry = HertzInput{};
+  return std::get<HertzInput>(c.geometry);
+}
+GapInput& gap(B& c) {
+  if (!std::holds_alternative<GapInput>(c.geometry)) c.geometry = GapInput{};
+  return std::get<GapInput>(c.geometry);
+}
+
+void add_load(KeyList& list) {
+  const auto vertical = [&](const std::string& name, Limits limits, const std::string& doc, double B::*member, bool force) {
+    list.number<B>("patch." + name, limits, doc, [member](B& c) -> double& { return c.*member; });
+    CaseKey& key = list.keys.back();
+    key.info.group = "patch normal";
+    key.info.alternative = name;
+    key.info.default_text.clear();
+    key.set = [member, force, unit = unit_of_key(name)](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      content_of<B>(c).*member = v.number() * unit;
+      content_of<B>(c).normal_force_prescribed = force;
+    };
+  };
+  vertical("normal_force_N", kPositive, "normal force (one of this and approach_mm is required)", &B::normal_force, true);
+  vertical("approach_mm", kAnyNumber, "prescribed approach of the bodies", &B::approach, false);
+
+  // Creepage, shift and force are three ways to say what drives one direction.
+  const auto driven = [&](const std::string& name, const std::string& doc, const std::string& direction, double B::*member,
+                          std::optional<double> B::*force) {
+    list.number<B>("patch." + name, kAnyNumber, doc, [member](B& c) -> double& { return c.*member; });
+    CaseKey& key = list.keys.back();
+    key.info.group = "patch " + direction;
+    key.info.alternative = name;
+    key.set = [member, force, unit = unit_of_key(name)](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      content_of<B>(c).*member = v.number() * unit;
+      (content_of<B>(c).*force).reset();
+    };
+  };
+  const auto forced = [&](const std::string& name, const std::string& doc, const std::string& direction, double B::*member,
+                          std::optional<double> B::*force) {
+    KeyInfo info = key_info("patch." + name, KeyType::number, doc);
+    info.at_least = -1.0;
+    info.at_most = 1.0;
+    info.group = "patch " + direction;
+    info.alternative = name;
+    info.scope = KeyScope::patch;
+    list.add(info).set = [member, force](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      content_of<B>(c).*force = v.number();
+      content_of<B>(c).*member = 0.0;
+    };
+  };
+  driven("creepage_x", "longitudinal creepage (rail - wheel)/V", "x", &B::xi, &B::fx_relative);
+  driven("shift_x_mm", "longitudinal shift (regime = \"shift\")", "x", &B::xi, &B::fx_relative);
+  forced("force_x_relative", "longitudinal force on body 1 over mu F_n, instead of the creepage", "x", &B::xi, &B::fx_relative);
+  driven("creepage_y", "lateral creepage", "y", &B::eta, &B::fy_relative);
+  driven("shift_y_mm", "lateral shift (regime = \"shift\")", "y", &B::eta, &B::fy_relative);
+  forced("force_y_relative", "lateral force on body 1 over mu F_n; needs force_x_relative", "y", &B::eta, &B::fy_relative);
+  for (const auto& [name, doc] : {std::pair<std::string, std::string>{"spin_rad_m", "spin creepage"},
+                                  {"shift_rotation_rad", "rotation of a shift (regime = \"shift\")"}}) {
+    KeyInfo& info = list.number<B>("patch." + name, kAnyNumber, doc, [](B& c) -> double& { return c.phi; });
+    info.group = "patch rotation";
+    info.alternative = name;
+  }
+  list.number<B>("patch.spin_center_x_mm", kAnyNumber, "x of the point about which the spin acts",
+                 [](B& c) -> double& { return c.spin_x; });
+  list.number<B>("patch.spin_center_y_mm", kAnyNumber, "y of the point about which the spin acts",
+                 [](B& c) -> double& { return c.spin_y; });
+}
+
+void add_rolling(KeyList& list) {
+  list.angle<B>("patch.rolling_direction", kAnyNumber, "rolling direction chi: 0 = +x", [](B& c) -> double& { return c.chi; });
+  list.number<B>("patch.rolling_step_mm", kPositive, "distance rolled per step", [](B& c) -> double& { return c.dq; });
+  list.number<B>("patch.velocity_m_s", kPositive, "rolling velocity", [](B& c) -> double& { return c.velocity; });
+  list.number<B>("patch.spin_offset_factor", kNotNegative, "share of the rolling step by which the spin centre is moved",
+                 [](B& c) -> double& { return c.spin_offset_factor; });
+  using N = NormalModelInput;
+  list.choice<B, N>("patch.normal_model", {{"full", N::full}, {"elliptic", N::elliptic}, {"parabolic", N::parabolic}},
+                    "pressure: solved, or the Hertzian ellipsoid or a paraboloid ([patch.hertz] only)",
+                    [](B& c) -> N& { return c.normal_model; });
+  using T = TangentialModelInput;
+  list.choice<B, T>("patch.tangential_model", {{"full", T::full}, {"fastsim", T::fastsim}}, "tractions: exact or simplified theory",
+                    [](B& c) -> T& { return c.tangential_model; });
+  list.number<B>("patch.fastsim_k0", kPositive, "FASTSIM: initial slope reduction", [](B& c) -> double& { return c.fastsim_k0; });
+  list.number<B>("patch.fastsim_alpha", kNotNegative, "FASTSIM: slope at large creepage over the initial one",
+                 [](B& c) -> double& { return c.fastsim_alpha; });
+  list.number<B>("patch.fastsim_beta", kNotNegative, "FASTSIM: rate of the slope reduction",
+                 [](B& c) -> double& { return c.fastsim_beta; });
+}
+
+void add_geometry(KeyList& list) {
+  constexpr double kMost = 4e6;
+  list.integer<B>("patch.mx", 1, kMost, "elements in x", [](B& c) -> int& { return c.mx; }).default_text.clear();
+  list.integer<B>("patch.my", 1, kMost, "elements in y", [](B& c) -> int& { return c.my; }).default_text.clear();
+  list.number<B>("patch.x0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)", [](B& c) -> double& { return c.x0; });
+  list.number<B>("patch.y0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)", [](B& c) -> double& { return c.y0; });
+  list.number<B>("patch.dx_mm", kPositive, "element size in x ([patch.gap] only)", [](B& c) -> double& { return c.dx; })
+      .default_text.clear();
+  list.number<B>("patch.dy_mm", kPositive, "element size in y ([patch.gap] only)", [](B& c) -> double& { return c.dy; })
+      .default_text.clear();
+
+  using Given = HertzInput::Given;
+  list.choice<B, Given>("patch.hertz.given",
+                        {{"curvatures", Given::curvatures},
+                         {"curvature_and_ratio", Given::curvature_and_ratio},
+                         {"semi_axes", Given::semi_axes},
+                         {"line_curvature", Given::line_curvature},
+                         {"line_semi_axis", Given::line_semi_axis}},
+                        "Hertzian contact: what describes it (the grid follows from it, mx, my and scale)",
+                        [](B& c) -> Given& { return hertz(c).given; });
+  const auto hertz_number = [&](const std::string& name, const std::string& doc, double HertzInput::*member) {
+    KeyInfo& info = list.number<B>("patch.hertz." + name, kPositive, doc, [member](B& c) -> double& { return hertz(c).*member; });
+    if (info.default_text == "0") info.default_text.clear();
+  };
+  hertz_number("curvature_x_per_m", "A = 1/(2 R_x), all but semi-axes cases", &HertzInput::a1);
+  hertz_number("curvature_y_per_m", "B = 1/(2 R_y), \"curvatures\"", &HertzInput::b1);
+  hertz_number("semi_axis_x_mm", "a, \"semi_axes\" and \"line_semi_axis\"", &HertzInput::aa);
+  hertz_number("semi_axis_y_mm", "b, \"semi_axes\"; half width of a line contact", &HertzInput::bb);
+  hertz_number("axis_ratio", "a/b, \"curvature_and_ratio\"", &HertzInput::aob);
+  hertz_number("scale", "potential contact area over the ellipse", &HertzInput::scale);
+
+  using Kind = GapInput::Kind;
+  list.choice<B, Kind>("patch.gap.kind",
+                       {{"quadratic", Kind::quadratic},
+                        {"circular", Kind::circular},
+                        {"sinusoidal", Kind::sinusoidal},
+                        {"per_element", Kind::per_element}},
+                       "undeformed distance by formula or for every element", [](B& c) -> Kind& { return gap(c).kind; });
+  KeyInfo coefficients = key_info("patch.gap.coefficients_si", KeyType::number_list,
+                                  "coefficients of the undeformed distance in SI units, see below");
+  coefficients.scope = KeyScope::patch;
+  list.add(coefficients).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    auto& target = gap(content_of<B>(c)).coefficients;
+    target.clear();
+    for (const CaseValue& one : v.list()) target.push_back(one.number());
+  };
+}
+
+}  // namespace
+
+void add_patch_keys(KeyList& list) {
+  add_load(list);
+  add_rolling(list);
+  add_geometry(list);
+}
+
+}  // namespace treadmark::io

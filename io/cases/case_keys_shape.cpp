@@ -1,0 +1,273 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <utility>
+
+#include "treadmark/io/cases/key_builder.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+using W = WheelRailCase;
+
+/// Key of the tables in a list such as wheel.flats.
+template <class Element>
+struct ElementKey {
+  KeyInfo info;
+  std::function<void(Element&, const CaseValue&)> set;
+};
+
+template <class Element>
+ElementKey<Element> element_number(std::string name, Limits limits, std::string doc, double Element::*member) {
+  KeyInfo info = key_info(name, KeyType::number, std::move(doc));
+  info.above = limits.above;
+  info.at_least = limits.at_least;
+  info.at_most = limits.at_most;
+  const double unit = unit_of_key(name);
+  return {std::move(info), [member, unit](Element& e, const CaseValue& v) { e.*member = v.number() * unit; }};
+}
+
+/// Adds a key for a list of tables; elements(c) is the vector in the case, made(c) prepares the case for a new list.
+template <class Element, class Elements>
+void add_list(KeyList& list, KeyInfo info, std::vector<ElementKey<Element>> keys, Elements elements) {
+  for (const auto& key : keys) info.elements.push_back(key.info);
+  const auto fill = [keys](Element& e, const CaseTable& entries) {
+    for (const auto& key : keys)
+      for (const CaseEntry& entry : entries)
+        if (entry.key == key.info.path) key.set(e, entry.value);
+  };
+  const std::string path = info.path;
+  CaseKey& added = list.add(std::move(info));
+  added.set = [fill, elements](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    std::vector<Element> fresh;
+    for (const CaseValue& one : v.list()) fill(fresh.emplace_back(), one.table());
+    *elements(content_of<W>(c), true) = std::move(fresh);
+  };
+  added.set_element = [fill, elements, path](Case& c, std::size_t index, const CaseTable& entries, const SourcePosition& where) {
+    std::vector<Element>* existing = elements(content_of<W>(c), false);
+    const std::size_t count = existing == nullptr ? 0 : existing->size();
+    if (index >= count)
+      throw Error(ErrorKind::configuration, fmt::format("{} has {} entries, number {} (counted from 0) does not exist", path,
+                                                        count, index), where);
+    fill((*existing)[index], entries);
+  };
+}
+
+void add_flats(KeyList& list) {
+  using Shape = WheelFlat::Shape;
+  KeyInfo shape = key_info("shape", KeyType::choice, "rounded: cosine dent; fresh: straight chord whose depth follows from the length");
+  shape.choices = {"rounded", "fresh"};
+  shape.default_text = "\"rounded\"";
+  auto length = element_number<WheelFlat>("length_mm", kPositive, "length along the circumference", &WheelFlat::length);
+  length.info.required = true;
+  auto theta_deg = element_number<WheelFlat>("theta_center_deg", kAnyNumber, "angle of the middle on the wheel", &WheelFlat::theta_center);
+  auto theta_rad = element_number<WheelFlat>("theta_center_rad", kAnyNumber, "angle of the middle on the wheel", &WheelFlat::theta_center);
+  for (auto* key : {&theta_deg, &theta_rad}) {
+    key->info.group = "theta_center";
+    key->info.alternative = key->info.path;
+    key->info.default_text = "0";
+  }
+  auto y_center = element_number<WheelFlat>("y_center_mm", kAnyNumber, "lateral middle in wheel profile coordinates", &WheelFlat::y_center);
+  auto width = element_number<WheelFlat>("width_mm", kNotNegative, "lateral width over which the depth fades to 0; 0 = whole width",
+                                         &WheelFlat::width);
+  y_center.info.default_text = width.info.default_text = "0";
+
+  KeyInfo flats = key_info("wheel.flats", KeyType::table_list, "flats worn into the wheel");
+  flats.scope = KeyScope::wheel_rail;
+  add_list<WheelFlat>(
+      list, flats,
+      {{shape, [](WheelFlat& f, const CaseValue& v) { f.shape = v.text() == "fresh" ? Shape::fresh : Shape::rounded; }},
+       length,
+       element_number<WheelFlat>("depth_mm", kPositive, "greatest radial depth; required for rounded flats only", &WheelFlat::depth),
+       theta_deg, theta_rad, y_center, width},
+      [](W& c, bool) { return &c.wheel.flats; });
+}
+
+/// Keys of wheel.shape or rail.shape.
+class ShapeKeys {
+ public:
+  ShapeKeys(KeyList& list, std::string body, SurfaceSource W::*surface, std::string standard)
+      : list_(list), prefix_(body + ".shape."), body_(std::move(body)), surface_(surface), standard_(std::move(standard)) {}
+
+  void add() {
+    add_geometry();
+    add_file_options();
+    KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation; without it the one that fits the shape");
+    backend.pattern = "^[a-z][a-z0-9_-]*$";
+    backend.scope = KeyScope::wheel_rail;
+    list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      (content_of<W>(c).*surface).backend = v.text();
+    };
+  }
+
+ private:
+  KeyInfo info(const std::string& name, KeyType type, std::string doc) const {
+    KeyInfo key = key_info(prefix_ + name, type, std::move(doc));
+    key.scope = KeyScope::wheel_rail;
+    return key;
+  }
+
+  void add_geometry() {
+    KeyInfo file = info("file", KeyType::path, "profile or slices file, relative to the folder of the case file");
+    file.group = prefix_;
+    file.alternative = "file";
+    list_.add(file).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+      SurfaceSource& s = content_of<W>(c).*surface;
+      if (!std::holds_alternative<GeometryFile>(s.geometry)) s.geometry = GeometryFile{};
+      std::string name = v.text();
+      std::replace(name.begin(), name.end(), '\\', '/');
+      std::get<GeometryFile>(s.geometry).file = (folder / name).lexically_normal();
+      s.where = v.where;
+    };
+
+    KeyInfo standard = info("standard", KeyType::choice, "standard profile from its published formula");
+    standard.choices = {standard_};
+    standard.group = prefix_;
+    standard.alternative = "standard";
+    list_.add(standard).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      SurfaceSource& s = content_of<W>(c).*surface;
+      s.geometry = StandardProfile{v.text()};
+      s.where = v.where;
+    };
+
+    using Segment = ArcChain::Segment;
+    auto length = element_number<Segment>("length_mm", kPositive, "arc length", &Segment::length);
+    length.info.required = true;
+    auto curvature = element_number<Segment>("curvature_per_m", kAnyNumber, "curvature, positive bends towards +z (down); 0 = straight",
+                                             &Segment::curvature);
+    curvature.info.default_text = "0";
+    KeyInfo radius = key_info("radius_mm", KeyType::number, "radius instead of the curvature, with its sign");
+    radius.group = curvature.info.group = "curvature";
+    radius.alternative = "radius";
+    curvature.info.alternative = "curvature";
+    const auto set_radius = [](Segment& s, const CaseValue& v) {
+      if (v.number() == 0.0)
+        throw Error(ErrorKind::configuration, "radius_mm must not be 0", v.where, "use curvature_per_m = 0 for a straight line");
+      s.curvature = 1.0 / (v.number() * unit_of_key("radius_mm"));
+    };
+    KeyInfo arcs = info("arcs", KeyType::table_list, "chain of arcs and straight lines with increasing y");
+    arcs.group = prefix_;
+    arcs.alternative = "arcs";
+    add_list<Segment>(list_, arcs, {length, curvature, {radius, set_radius}},
+                      [surface = surface_](W& c, bool create) -> std::vector<Segment>* {
+                        SurfaceSource& s = c.*surface;
+                        if (create && !std::holds_alternative<ArcChain>(s.geometry)) s.geometry = ArcChain{};
+                        ArcChain* chain = std::get_if<ArcChain>(&s.geometry);
+                        return chain == nullptr ? nullptr : &chain->segments;
+                      });
+    const auto start = [&](const std::string& name, const std::string& doc, double ArcChain::*member) -> KeyInfo& {
+      KeyInfo key = info(name, KeyType::number, doc);
+      key.default_text = "0";
+      CaseKey& added = list_.add(key);
+      added.set = [surface = surface_, member, name, unit = unit_of_key(name)](Case& c, const CaseValue& v,
+                                                                                const std::filesystem::path&) {
+        ArcChain* chain = std::get_if<ArcChain>(&(content_of<W>(c).*surface).geometry);
+        if (chain == nullptr) throw Error(ErrorKind::configuration, name + " belongs to a shape given by arcs", v.where);
+        chain->*member = v.number() * unit;
+      };
+      return added.info;
+    };
+    start("start_y_mm", "y where the chain of arcs starts", &ArcChain::start_y);
+    start("start_z_mm", "z where the chain of arcs starts", &ArcChain::start_z);
+    for (const std::string unit : {"deg", "rad"}) {
+      KeyInfo& angle = start("start_angle_" + unit, "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
+      angle.group = prefix_ + "start_angle";
+      angle.alternative = unit;
+    }
+  }
+
+  /// change: ProfileOptions&, const CaseValue&.
+  template <class Change>
+  void option(KeyInfo key, Change change) {
+    const std::string path = key.path;
+    list_.add(std::move(key)).set = [surface = surface_, change, path](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
+      if (file == nullptr) throw Error(ErrorKind::configuration, path + " belongs to a shape given by a file", v.where);
+      change(file->options, v);
+    };
+  }
+
+  void add_file_options() {
+    using Method = SmoothingOptions::Method;
+    const ProfileOptions fresh;
+    KeyInfo mirror_y = info("mirror_y", KeyType::flag, "negate y of the file");
+    mirror_y.default_text = "false";
+    option(mirror_y, [](ProfileOptions& o, const CaseValue& v) { o.mirror_y = v.flag() ? 1 : 0; });
+    KeyInfo mirror_z = info("mirror_z", KeyType::choice, "negate z of the file; automatic: decide from the data");
+    mirror_z.choices = {"automatic", "yes", "no"};
+    mirror_z.default_text = "\"automatic\"";
+    option(mirror_z, [](ProfileOptions& o, const CaseValue& v) { o.mirror_z = v.text() == "yes" ? 1 : v.text() == "no" ? -1 : 0; });
+    KeyInfo scale = info("scale_to_mm", KeyType::number, "factor from file units to mm (1000 for a file in m)");
+    scale.at_least = 1e-6;
+    scale.default_text = "1";
+    option(scale, [](ProfileOptions& o, const CaseValue& v) { o.scale = v.number(); });
+
+    KeyInfo lambda = info("smoothing_lambda_mm3", KeyType::number, "smoothing parameter of an unweighted smoothing spline; 0 = interpolate");
+    KeyInfo wavelength = info("smoothing_wavelength_mm", KeyType::number, "cut-off wavelength of a weighted smoothing spline");
+    for (KeyInfo* key : {&lambda, &wavelength}) {
+      key->at_least = 0.0;
+      key->group = prefix_ + "smoothing";
+      key->alternative = key->path;
+    }
+    lambda.default_text = "0";
+    option(lambda, [](ProfileOptions& o, const CaseValue& v) {
+      o.smoothing.method = Method::spline;
+      o.smoothing.strength = v.number() * unit_of_key("lambda_mm3");
+    });
+    option(wavelength, [](ProfileOptions& o, const CaseValue& v) {
+      if (o.smoothing.method == Method::spline) o.smoothing.method = Method::weighted_spline;
+      o.smoothing.strength = v.number() * unit_of_key("wavelength_mm");
+    });
+    KeyInfo method = info("smoothing_method", KeyType::choice, "with smoothing_wavelength_mm: kind of weighted smoothing spline");
+    method.choices = {"weighted_spline", "weighted_bspline"};
+    method.default_text = "\"weighted_spline\"";
+    option(method, [](ProfileOptions& o, const CaseValue& v) {
+      if (o.smoothing.method == Method::spline)
+        throw Error(ErrorKind::configuration, "smoothing_method needs smoothing_wavelength_mm", v.where);
+      o.smoothing.method = v.text() == "weighted_bspline" ? Method::weighted_bspline : Method::weighted_spline;
+    });
+
+    const auto angle = [&](const std::string& name, const std::string& doc, double initial, double least, auto change) {
+      KeyInfo key = info(name, KeyType::number, doc);
+      key.at_least = least;
+      key.at_most = 180.0;
+      key.default_text = fmt::format("{:.10g}", initial / unit_of_key("x_deg"));
+      option(key, [change](ProfileOptions& o, const CaseValue& v) { change(o, v.number() * unit_of_key("x_deg")); });
+    };
+    constexpr double kLeastKink = 0.01, kLeastZigzag = 45.0;
+    angle("kink_high_deg", "turning angle above which a point may be a kink; sets kink_low_deg to a fifth", fresh.smoothing.kink_high,
+          kLeastKink, [](ProfileOptions& o, double value) {
+            o.smoothing.kink_high = value;
+            o.smoothing.kink_low = value / 5.0;
+          });
+    angle("kink_low_deg", "turning angle below which the neighbours of a kink must stay", fresh.smoothing.kink_low, kLeastKink / 5.0,
+          [](ProfileOptions& o, double value) { o.smoothing.kink_low = value; });
+    KeyInfo width = info("kink_width_mm", KeyType::number, "arc length on both sides of a kink in which neighbours are looked at");
+    width.above = 0.0;
+    width.default_text = fmt::format("{:.10g}", fresh.smoothing.kink_width / unit_of_key("x_mm"));
+    option(width, [](ProfileOptions& o, const CaseValue& v) { o.smoothing.kink_width = v.number() * unit_of_key("x_mm"); });
+    angle("zigzag_threshold_deg", "two successive turns sharper than this are a zig-zag and averaged", fresh.zigzag_threshold, kLeastZigzag,
+          [](ProfileOptions& o, double value) { o.zigzag_threshold = value; });
+    KeyInfo omit = info("max_omit", KeyType::number, "share of points that cleaning may remove");
+    omit.at_least = 0.0;
+    omit.at_most = 1.0;
+    omit.default_text = fmt::format("{:.10g}", fresh.max_omit);
+    option(omit, [](ProfileOptions& o, const CaseValue& v) { o.max_omit = v.number(); });
+  }
+
+  KeyList& list_;
+  std::string prefix_, body_;
+  SurfaceSource W::*surface_;
+  std::string standard_;
+};
+
+}  // namespace
+
+void add_shape_keys(KeyList& list) {
+  ShapeKeys(list, "rail", &W::rail, "60E1").add();
+  ShapeKeys(list, "wheel", &W::wheel, "S1002").add();
+  add_flats(list);
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,190 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <charconv>
+#include <cmath>
+#include <numbers>
+
+#include "treadmark/io/cases/key_builder.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+using W = WheelRailCase;
+
+void add_track(KeyList& list) {
+  list.number<W>("track.gauge_mm", kPositive, "track gauge; the rail is placed by its gauge point",
+                 [](W& c) -> double& { return c.track.gauge_width; });
+  CaseKey& gauge = list.keys.back();
+  gauge.info.group = "track placement";
+  gauge.info.alternative = "gauge";
+  gauge.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    TrackInput& t = content_of<W>(c).track;
+    t.gauge_width = v.number() * unit_of_key("gauge_mm");
+    t.gauge_based = true;
+  };
+  list.number<W>("track.gauge_height_mm", kPositive, "depth below the rail top at which the gauge is measured",
+                 [](W& c) -> double& { return c.track.gauge_height; });
+  const auto absolute = [&](const std::string& name, const std::string& doc, double TrackInput::*member) {
+    list.number<W>("track." + name, kAnyNumber, doc, [member](W& c) -> double& { return c.track.*member; });
+    CaseKey& key = list.keys.back();
+    key.info.group = "track placement";
+    key.info.alternative = "absolute";
+    key.set = [member](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      TrackInput& t = content_of<W>(c).track;
+      t.*member = v.number() * unit_of_key("y_mm");
+      t.gauge_based = false;
+    };
+  };
+  absolute("rail_y_mm", "rail profile origin placed at this y instead of by the gauge", &TrackInput::rail_y0);
+  absolute("rail_z_mm", "rail profile origin placed at this z instead of by the gauge", &TrackInput::rail_z0);
+
+  constexpr Limits kCant{{}, -45.0, 45.0};
+  list.angle<W>("track.cant", kCant, "rail inclination, positive = rail head turned inward",
+                [](W& c) -> double& { return c.track.cant; });
+  KeyInfo ratio = key_info("track.cant", KeyType::text, "rail inclination as a ratio, for example \"1:40\"");
+  ratio.pattern = "^1:[0-9]+(\\.[0-9]+)?$";
+  ratio.group = "track.cant";
+  ratio.alternative = "ratio";
+  ratio.scope = KeyScope::wheel_rail;
+  list.add(ratio).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    const std::string& text = v.text();
+    double run = 0.0;
+    std::from_chars(text.data() + 2, text.data() + text.size(), run);
+    if (!(run >= 1.0))
+      throw Error(ErrorKind::configuration, "track.cant must lie between 1:1 and flat", v.where, "for example \"1:40\"");
+    content_of<W>(c).track.cant = std::atan(1.0 / run);
+  };
+  list.number<W>("track.curvature_per_m", kAnyNumber, "curvature of the track, positive in a curve to the right",
+                 [](W& c) -> double& { return c.track.curvature; });
+  list.number<W>("track.irregularity_y_mm", kAnyNumber, "lateral irregularity of the rail",
+                 [](W& c) -> double& { return c.track.dy; });
+  list.number<W>("track.irregularity_z_mm", kAnyNumber, "vertical irregularity of the rail, positive down",
+                 [](W& c) -> double& { return c.track.dz; });
+  list.angle<W>("track.irregularity_roll", kAnyNumber, "roll irregularity of the rail",
+                [](W& c) -> double& { return c.track.roll; });
+  list.number<W>("track.irregularity_vy_m_s", kAnyNumber, "lateral velocity of the rail",
+                 [](W& c) -> double& { return c.track.vy; });
+  list.number<W>("track.irregularity_vz_m_s", kAnyNumber, "vertical velocity of the rail",
+                 [](W& c) -> double& { return c.track.vz; });
+  list.number<W>("track.irregularity_vroll_rad_s", kAnyNumber, "roll rate of the rail",
+                 [](W& c) -> double& { return c.track.vroll; });
+}
+
+void add_wheelset(KeyList& list) {
+  list.number<W>("wheelset.flange_back_distance_mm", kNotNegative, "distance between the flange backs of the two wheels",
+                 [](W& c) -> double& { return c.wheelset.flange_back_distance; });
+  list.number<W>("wheelset.flange_back_position_mm", kAnyNumber, "y of the flange back in wheel profile coordinates",
+                 [](W& c) -> double& { return c.wheelset.flange_back_position; });
+  list.number<W>("wheelset.nominal_radius_mm", kPositive, "wheel radius where the profile has z = 0",
+                 [](W& c) -> double& { return c.wheelset.nominal_radius; });
+  KeyInfo tape = key_info("wheelset.tape_line_y_mm", KeyType::number,
+                          "y of the tape line in wheel profile coordinates; without it the profile's z = 0 counts");
+  tape.scope = KeyScope::wheel_rail;
+  list.add(tape).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<W>(c).wheelset.tape_line = v.number() * unit_of_key("y_mm");
+  };
+  list.number<W>("wheelset.s_mm", kAnyNumber, "position along the track", [](W& c) -> double& { return c.wheelset.s; });
+  list.number<W>("wheelset.y_mm", kAnyNumber, "lateral position", [](W& c) -> double& { return c.wheelset.y; });
+
+  const auto vertical = [&](const std::string& name, Limits limits, const std::string& doc, auto place, bool force) {
+    list.number<W>("wheelset." + name, limits, doc, place);
+    CaseKey& key = list.keys.back();
+    key.info.group = "wheelset vertical";
+    key.info.alternative = name;
+    key.info.default_text.clear();
+    key.set = [place, force, unit = unit_of_key(name)](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      W& content = content_of<W>(c);
+      place(content) = v.number() * unit;
+      content.vertical_force_prescribed = force;
+    };
+  };
+  vertical("vertical_force_N", kPositive, "vertical force of this wheel on the rail (one of this and z_mm is required)",
+           [](W& c) -> double& { return c.vertical_force; }, true);
+  vertical("z_mm", kAnyNumber, "prescribed vertical displacement of the axle, positive down",
+           [](W& c) -> double& { return c.wheelset.z; }, false);
+  list.angle<W>("wheelset.roll", kAnyNumber, "roll angle", [](W& c) -> double& { return c.wheelset.roll; });
+  list.angle<W>("wheelset.yaw", kAnyNumber, "yaw angle", [](W& c) -> double& { return c.wheelset.yaw; });
+  list.angle<W>("wheelset.pitch", kAnyNumber, "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
+                [](W& c) -> double& { return c.wheelset.pitch; });
+  list.number<W>("wheelset.velocity_m_s", kAnyNumber, "forward velocity", [](W& c) -> double& { return c.wheelset.vs; });
+  list.number<W>("wheelset.vy_m_s", kAnyNumber, "lateral velocity", [](W& c) -> double& { return c.wheelset.vy; });
+  list.number<W>("wheelset.vz_m_s", kAnyNumber, "vertical velocity", [](W& c) -> double& { return c.wheelset.vz; });
+  list.number<W>("wheelset.vroll_rad_s", kAnyNumber, "roll rate", [](W& c) -> double& { return c.wheelset.vroll; });
+  list.number<W>("wheelset.vyaw_rad_s", kAnyNumber, "yaw rate", [](W& c) -> double& { return c.wheelset.vyaw; });
+  list.number<W>("wheelset.vpitch_rad_s", kAnyNumber, "pitch rate, negative when rolling forward (pure rolling: -velocity/radius)",
+                 [](W& c) -> double& { return c.wheelset.vpitch; });
+}
+
+void add_flexible_wheelset(KeyList& list) {
+  const auto deviation = [&](const std::string& name, const std::string& doc, double WheelsetInput::*member) {
+    list.number<W>("wheelset.deviation_" + name, kAnyNumber, doc, [member](W& c) -> double& { return c.wheelset.*member; });
+  };
+  const auto rotation = [&](const std::string& name, const std::string& doc, double WheelsetInput::*member) {
+    list.angle<W>("wheelset.deviation_" + name, kAnyNumber, doc, [member](W& c) -> double& { return c.wheelset.*member; });
+  };
+  deviation("x_mm", "longitudinal deviation of the wheel of a flexible wheelset", &WheelsetInput::dx);
+  deviation("y_mm", "lateral deviation", &WheelsetInput::dy);
+  deviation("z_mm", "vertical deviation", &WheelsetInput::dz);
+  rotation("roll", "roll deviation", &WheelsetInput::droll);
+  rotation("yaw", "yaw deviation", &WheelsetInput::dyaw);
+  rotation("pitch", "pitch deviation", &WheelsetInput::dpitch);
+  deviation("vx_m_s", "rate of the longitudinal deviation", &WheelsetInput::dvx);
+  deviation("vy_m_s", "rate of the lateral deviation", &WheelsetInput::dvy);
+  deviation("vz_m_s", "rate of the vertical deviation", &WheelsetInput::dvz);
+  deviation("vroll_rad_s", "rate of the roll deviation", &WheelsetInput::dvroll);
+  deviation("vyaw_rad_s", "rate of the yaw deviation", &WheelsetInput::dvyaw);
+  deviation("vpitch_rad_s", "rate of the pitch deviation", &WheelsetInput::dvpitch);
+}
+
+void add_discretisation(KeyList& list) {
+  list.number<W>("discretisation.dx_mm", kPositive, "element size in rolling direction",
+                 [](W& c) -> double& { return c.discretisation.dx; });
+  list.number<W>("discretisation.ds_mm", kPositive, "element size in lateral direction",
+                 [](W& c) -> double& { return c.discretisation.ds; });
+  list.number<W>("discretisation.dq_relative", kPositive, "rolling step over dx",
+                 [](W& c) -> double& { return c.discretisation.dq_relative; });
+  list.angle<W>("discretisation.angle_separation", kNotNegative, "patches whose contact angles differ by more stay apart",
+                [](W& c) -> double& { return c.discretisation.angle_separation; });
+  list.number<W>("discretisation.separation_mm", kNotNegative, "patches farther apart than this do not influence each other",
+                 [](W& c) -> double& { return c.discretisation.separation; });
+  list.number<W>("discretisation.combination_mm", kNotNegative, "patches nearer than this become one",
+                 [](W& c) -> double& { return c.discretisation.combination; });
+  KeyInfo turning = key_info("discretisation.turning_mm", KeyType::number,
+                             "patches nearer than this get similar contact angles; default 2 separation - combination");
+  turning.scope = KeyScope::wheel_rail;
+  list.add(turning).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<W>(c).discretisation.turning = v.number() * unit_of_key("turning_mm");
+  };
+  list.number<W>("discretisation.near_miss_mm", kAnyNumber, "near misses with a smaller gap extend a patch; negative = off",
+                 [](W& c) -> double& { return c.discretisation.near_miss; });
+  list.integer<W>("discretisation.max_elements", 100, 1000000, "greatest size of a potential contact area",
+                  [](W& c) -> int& { return c.discretisation.max_elements; });
+  list.choice<W, bool>("discretisation.weight", {{"squared", false}, {"linear", true}},
+                       "weight of the interpenetration in the contact reference point",
+                       [](W& c) -> bool& { return c.discretisation.linear_weight; });
+  list.choice<W, int>("discretisation.method", {{"automatic", 2}, {"grid", 5}, {"grid_steep", 6}, {"initial_contact", 7}},
+                      "contact search: automatic (locus for constant profiles), on a grid, on a grid for steep slopes, or with the "
+                      "reference at the initial contact point",
+                      [](W& c) -> int& { return c.discretisation.method; });
+  KeyInfo mesh = key_info("discretisation.reference_search_mesh", KeyType::flag,
+                          "search on the coarse mesh of the reference program (for comparison)");
+  mesh.scope = KeyScope::wheel_rail;
+  mesh.default_text = "false";
+  list.add(mesh).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<W>(c).discretisation.reference_search_mesh = v.flag();
+  };
+}
+
+}  // namespace
+
+void add_wheel_rail_keys(KeyList& list) {
+  list.choice<W, Side>("case.side", {{"left", Side::left}, {"right", Side::right}}, "side of the track that the wheel runs on",
+                       [](W& c) -> Side& { return c.side; });
+  add_track(list);
+  add_wheelset(list);
+  add_flexible_wheelset(list);
+  add_discretisation(list);
+}
+
+}  // namespace treadmark::io

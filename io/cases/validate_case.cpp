@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/cases/validate_case.hpp"
+
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
+namespace treadmark::io {
+
+namespace {
+
+constexpr long kMostElements = 4000000;
+constexpr double kDissimilar = 1e-4;
+
+class Checker {
+ public:
+  explicit Checker(const Case& c) : where_(c.where), number_(c.number) {}
+
+  void require(bool good, const std::string& message, std::string advice = {}) const {
+    if (!good) throw Error(ErrorKind::configuration, fmt::format("case {}: {}", number_, message), where_, std::move(advice));
+  }
+
+  void surface(const SurfaceSource& s, const std::string& body) const {
+    if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
+      require(!file->file.empty(), body + ".shape is missing",
+              fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
+      require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
+              body + ".shape: kink_low_deg must not exceed kink_high_deg");
+    }
+    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    for (const WheelFlat& flat : s.flats)
+      require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
+  }
+
+  void material(const Material& m, RegimeInput regime) const {
+    const double difference = combine(m).difference;
+    require(regime == RegimeInput::none || std::abs(difference) < kDissimilar,
+            fmt::format("dissimilar materials (K = {:.3g}) couple the normal and the tangential problem, which is not supported",
+                        difference), "case.regime = \"none\" is possible");
+  }
+
+  void friction(const FrictionLaw& f) const {
+    if (f.kind == FrictionLaw::Kind::coulomb) {
+      require(f.amplitude_1 == 0.0 && f.amplitude_2 == 0.0, "friction amplitudes belong to a falling law",
+              "give friction.law = \"linear\", \"rational\" or \"exponential\"");
+      return;
+    }
+    require(f.amplitude_1 == 0.0 || f.half_velocity_1 > 0.0, "friction.half_velocity_1_m_s must be positive");
+    require(f.amplitude_2 == 0.0 || f.half_velocity_2 > 0.0, "friction.half_velocity_2_m_s must be positive");
+  }
+
+  void wheel_rail(const WheelRailCase& c) const {
+    surface(c.rail, "rail");
+    surface(c.wheel, "wheel");
+    require(c.regime != RegimeInput::shift, "case.regime = \"shift\" is not supported for a wheel on a rail",
+            "\"none\" and \"steady\" are");
+    require(!c.vertical_force_prescribed || c.vertical_force > 0.0, "the vertical load is missing",
+            "give wheelset.vertical_force_N or wheelset.z_mm");
+    const DiscretisationInput& d = c.discretisation;
+    require(d.separation >= d.combination, "discretisation.separation_mm must not be less than combination_mm");
+    material(c.material, c.regime);
+    friction(c.friction);
+  }
+
+  void hertz(const HertzInput& h) const {
+    using Given = HertzInput::Given;
+    const auto positive = [&](double value, const std::string& name) {
+      require(value > 0.0, fmt::format("patch.hertz.{} is missing", name));
+    };
+    const bool a1 = h.given == Given::curvatures || h.given == Given::curvature_and_ratio || h.given == Given::line_curvature;
+    if (a1) positive(h.a1, "curvature_x_per_m");
+    else positive(h.aa, "semi_axis_x_mm");
+    if (h.given == Given::curvatures) positive(h.b1, "curvature_y_per_m");
+    else if (h.given == Given::curvature_and_ratio) positive(h.aob, "axis_ratio");
+    else positive(h.bb, "semi_axis_y_mm");
+  }
+
+  void gap(const GapInput& g, const BasicCase& c) const {
+    require(c.dx > 0.0 && c.dy > 0.0, "patch.dx_mm and patch.dy_mm are missing");
+    const std::size_t count = g.coefficients.size();
+    using Kind = GapInput::Kind;
+    switch (g.kind) {
+      case Kind::quadratic:
+        require(count == 6, fmt::format("patch.gap.coefficients_si has {} values, a quadratic gap needs 6", count));
+        return;
+      case Kind::circular:
+        require(count >= 5, fmt::format("patch.gap.coefficients_si has {} values, a circular gap needs at least 5", count));
+        require(g.coefficients[1] != 0.0, "patch.gap: the radius of a circular gap must not be 0");
+        return;
+      case Kind::sinusoidal:
+        require(count == 8, fmt::format("patch.gap.coefficients_si has {} values, a sinusoidal gap needs 8", count));
+        require(g.coefficients[6] != 0.0 && g.coefficients[7] != 0.0, "patch.gap: b7 and b8 must not be 0");
+        return;
+      case Kind::per_element:
+        require(count == static_cast<std::size_t>(c.mx) * static_cast<std::size_t>(c.my),
+                fmt::format("patch.gap.coefficients_si has {} values for {} elements", count, static_cast<long>(c.mx) * c.my));
+        return;
+    }
+  }
+
+  void basic(const BasicCase& c) const {
+    require(c.mx >= 1 && c.my >= 1, "patch.mx and patch.my are missing");
+    require(static_cast<long>(c.mx) * c.my <= kMostElements,
+            fmt::format("potential contact too large: {} x {} elements, at most {}", c.mx, c.my, kMostElements));
+    if (const auto* h = std::get_if<HertzInput>(&c.geometry)) hertz(*h);
+    else gap(std::get<GapInput>(c.geometry), c);
+    require(!c.normal_force_prescribed || c.normal_force > 0.0, "the normal load is missing",
+            "give patch.normal_force_N or patch.approach_mm");
+    require(!c.fy_relative || c.fx_relative, "patch.force_y_relative needs patch.force_x_relative");
+    require(c.normal_model == NormalModelInput::full || std::holds_alternative<HertzInput>(c.geometry),
+            "patch.normal_model: elliptic and parabolic pressures need [patch.hertz]");
+    if (c.regime == RegimeInput::steady) {
+      require(c.dq > 0.0, "patch.rolling_step_mm is missing");
+      require(c.velocity > 0.0, "patch.velocity_m_s is missing");
+    }
+    material(c.material, c.regime);
+    friction(c.friction);
+  }
+
+ private:
+  SourcePosition where_;
+  int number_;
+};
+
+}  // namespace
+
+void validate_case(const Case& c) {
+  const Checker check(c);
+  if (const auto* rail = std::get_if<WheelRailCase>(&c.content)) check.wheel_rail(*rail);
+  else check.basic(std::get<BasicCase>(c.content));
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,270 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <numbers>
+#include <regex>
+#include <set>
+#include <sstream>
+
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/tests/support/shared_data.hpp"
+
+namespace treadmark::io {
+namespace {
+
+namespace fs = std::filesystem;
+constexpr double kDegree = std::numbers::pi / 180.0;
+const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); }
+const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
+fs::path example(const fs::path& shared, const std::string& name) { return shared / "data" / "contact_examples" / name; }
+
+TEST(ContactData, Wheelflat) {
+  TREADMARK_REQUIRE_SHARED();
+  const CaseFile f = read_contact_input(example(*shared, "wheelflat.inp"));
+  ASSERT_EQ(f.cases.size(), 26u);
+  for (std::size_t i = 0; i < 26; ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(f.cases[i].number, static_cast<int>(i) + 1);
+    const WheelRailCase& c = rail_case(f, i);
+    EXPECT_EQ(c.side, Side::right);
+    EXPECT_EQ(c.regime, RegimeInput::steady);
+    EXPECT_NEAR(c.wheelset.pitch, (-25.0 - static_cast<double>(i)) * kDegree, 1e-12);
+    EXPECT_DOUBLE_EQ(c.wheelset.vs, 2.0);
+    EXPECT_DOUBLE_EQ(c.wheelset.vpitch, -4.08190679);
+    EXPECT_TRUE(c.vertical_force_prescribed);
+    EXPECT_DOUBLE_EQ(c.vertical_force, 125e3);
+    EXPECT_DOUBLE_EQ(c.wheelset.nominal_radius, 0.49);
+    EXPECT_DOUBLE_EQ(c.track.cant, 0.02);
+    EXPECT_DOUBLE_EQ(c.discretisation.dx, 0.4e-3);
+    EXPECT_DOUBLE_EQ(c.discretisation.angle_separation, 90 * kDegree);
+    EXPECT_EQ(c.discretisation.method, 2);
+    EXPECT_DOUBLE_EQ(c.material.shear_modulus_1, 82e9);
+    EXPECT_DOUBLE_EQ(c.friction.kinetic, 0.3);
+    const auto& wheel = std::get<GeometryFile>(c.wheel.geometry);
+    EXPECT_EQ(wheel.file, example(*shared, "S1002_flat.slcw"));
+    EXPECT_EQ(wheel.options.mirror_z, -1);
+    EXPECT_DOUBLE_EQ(wheel.options.smoothing.strength, 5e-9);
+    EXPECT_EQ(std::get<GeometryFile>(c.rail.geometry).file, example(*shared, "r300_wide.prr"));
+    EXPECT_DOUBLE_EQ(std::get<GeometryFile>(c.rail.geometry).options.smoothing.strength, 0.0);
+  }
+  EXPECT_EQ(f.cases[0].where.line, 7);
+}
+
+TEST(ContactData, ManchesterBenchmark) {
+  TREADMARK_REQUIRE_SHARED();
+  for (const bool left : {true, false}) {
+    const CaseFile f = read_contact_input(example(*shared, left ? "mbench_a22_left.inp" : "mbench_a22_right.inp"));
+    ASSERT_EQ(f.cases.size(), 21u);
+    for (std::size_t i = 0; i < 21; ++i) {
+      SCOPED_TRACE(i);
+      const WheelRailCase& c = rail_case(f, i);
+      EXPECT_EQ(c.side, left ? Side::left : Side::right);
+      EXPECT_NEAR(c.wheelset.y, 0.5e-3 * static_cast<double>(i), 1e-12);
+      EXPECT_NEAR(c.wheelset.yaw, 1.2e-3 * static_cast<double>(i), 1e-12);
+      EXPECT_DOUBLE_EQ(c.vertical_force, 10e3);
+      EXPECT_DOUBLE_EQ(c.discretisation.dx, 0.2e-3);
+      EXPECT_DOUBLE_EQ(c.track.gauge_width, 1.435);
+      EXPECT_DOUBLE_EQ(c.track.cant, 0.0);
+      EXPECT_DOUBLE_EQ(c.wheelset.nominal_radius, 0.46);
+      EXPECT_EQ(std::get<GeometryFile>(c.wheel.geometry).file.filename(), "MBench_S1002_v3.prw");
+    }
+    EXPECT_DOUBLE_EQ(rail_case(f, 1).wheelset.roll, -0.00002304);
+    EXPECT_DOUBLE_EQ(rail_case(f, 2).wheelset.vpitch, -4.34657520);
+  }
+}
+
+TEST(ContactData, Cattaneo) {
+  TREADMARK_REQUIRE_SHARED();
+  const CaseFile f = read_contact_input(example(*shared, "cattaneo.inp"));
+  ASSERT_EQ(f.cases.size(), 2u);
+  const BasicCase &first = basic_case(f, 0), &second = basic_case(f, 1);
+  EXPECT_EQ(first.regime, RegimeInput::none);
+  EXPECT_DOUBLE_EQ(first.normal_force, 9.1954);
+  EXPECT_DOUBLE_EQ(first.material.shear_modulus_1, 200e6);
+  EXPECT_DOUBLE_EQ(first.material.poisson_2, 0.42);
+  const HertzInput& h = std::get<HertzInput>(first.geometry);
+  EXPECT_EQ(h.given, HertzInput::Given::semi_axes);
+  EXPECT_DOUBLE_EQ(h.aa, 1e-3);
+  EXPECT_DOUBLE_EQ(h.scale, 1.26667);
+  EXPECT_EQ(first.mx * first.my, 361);
+  EXPECT_EQ(second.regime, RegimeInput::shift);
+  EXPECT_DOUBLE_EQ(second.fx_relative.value(), -0.875);
+  EXPECT_DOUBLE_EQ(second.fy_relative.value(), 0.0);
+  EXPECT_DOUBLE_EQ(second.dx, 0.13333e-3);
+  EXPECT_NEAR(second.x0, -1.26667e-3 + 0.5 * 0.13333e-3, 1e-15);
+  EXPECT_DOUBLE_EQ(std::get<GapInput>(second.geometry).coefficients.at(2), 10.0);
+  EXPECT_DOUBLE_EQ(second.solver.eps, 1e-4);  // kept by G = 1
+}
+
+TEST(ContactData, Carter) {
+  TREADMARK_REQUIRE_SHARED();
+  const CaseFile f = read_contact_input(example(*shared, "carter2d.inp"));
+  ASSERT_EQ(f.cases.size(), 1u);
+  const BasicCase& c = basic_case(f, 0);
+  EXPECT_DOUBLE_EQ(c.normal_force, 35780.0);
+  EXPECT_DOUBLE_EQ(c.xi, -0.00024);
+  EXPECT_DOUBLE_EQ(c.dq, 0.0401e-3);
+  EXPECT_DOUBLE_EQ(c.velocity, 30.0);
+  EXPECT_EQ(c.mx, 55);
+  EXPECT_EQ(c.my, 1);
+  EXPECT_DOUBLE_EQ(c.x0, -1.05e-3);
+  EXPECT_DOUBLE_EQ(c.dy, 0.2);
+  EXPECT_DOUBLE_EQ(std::get<GapInput>(c.geometry).coefficients.at(0), 1.0);
+}
+
+TEST(ContactData, TractionCurve) {
+  TREADMARK_REQUIRE_SHARED();
+  const CaseFile f = read_contact_input(example(*shared, "tractcurv.inp"));
+  ASSERT_EQ(f.cases.size(), 120u);
+  for (std::size_t i = 0; i < 120; ++i) {
+    SCOPED_TRACE(i);
+    const BasicCase& c = basic_case(f, i);
+    const std::size_t series = i / 30;
+    EXPECT_DOUBLE_EQ(c.normal_force, 106700.0);
+    EXPECT_EQ(c.mx, 48);
+    EXPECT_EQ(c.my, 44);
+    const HertzInput& h = std::get<HertzInput>(c.geometry);
+    EXPECT_DOUBLE_EQ(h.a1, 0.8);
+    EXPECT_DOUBLE_EQ(h.aob, 0.5);
+    EXPECT_DOUBLE_EQ(c.velocity, 10.0);
+    EXPECT_EQ(c.tangential_model, series >= 2 ? TangentialModelInput::fastsim : TangentialModelInput::full);
+    EXPECT_EQ(c.normal_model, series >= 2 ? NormalModelInput::parabolic : NormalModelInput::full);
+    EXPECT_EQ(c.friction.kind, series % 2 == 1 ? FrictionLaw::Kind::exponential : FrictionLaw::Kind::coulomb);
+    EXPECT_NEAR(c.material.layer_flexibility, series == 1 ? 1.25e-3 / 8.2e9 : 0.0, 1e-20);
+    EXPECT_DOUBLE_EQ(c.fastsim_k0, series == 3 ? 0.54 : 1.0);
+    if (i % 30 == 0) {
+      EXPECT_DOUBLE_EQ(c.xi, 1e-5);
+    }
+  }
+  EXPECT_DOUBLE_EQ(basic_case(f, 3).xi, 0.0012);
+  EXPECT_DOUBLE_EQ(basic_case(f, 40).friction.kinetic, 0.14);
+  EXPECT_DOUBLE_EQ(basic_case(f, 40).friction.amplitude_1, 0.19);
+  EXPECT_DOUBLE_EQ(basic_case(f, 40).friction.half_velocity_1, 1.25);
+  EXPECT_DOUBLE_EQ(basic_case(f, 40).friction.memory_distance, 3e-6);
+  EXPECT_DOUBLE_EQ(basic_case(f, 119).friction.half_velocity_1, 0.99);
+  EXPECT_DOUBLE_EQ(basic_case(f, 119).fastsim_alpha, 0.02);
+}
+
+TEST(ContactData, TestBankFilesThatAreSupported) {
+  TREADMARK_REQUIRE_SHARED();
+  const fs::path bank = *shared / "data" / "contact_testbank";
+  const CaseFile flat = read_contact_input(bank / "examples_oor" / "rounded_flat_d09.inp");
+  ASSERT_EQ(flat.cases.size(), 15u);
+  EXPECT_NEAR(rail_case(flat, 14).wheelset.pitch, 7 * kDegree, 1e-12);
+  EXPECT_FALSE(rail_case(flat, 0).track.gauge_based);
+  EXPECT_EQ(std::get<GeometryFile>(rail_case(flat, 0).wheel.geometry).file, bank / "profiles" / "flat_d09.slcw");
+  for (const auto* name : {"two_patches.inp", "cross_brute.inp", "wing_brute.inp"}) {
+    const CaseFile f = read_contact_input(bank / "examples_s+c" / name);
+    ASSERT_EQ(f.cases.size(), 1u) << name;
+    EXPECT_EQ(rail_case(f, 0).discretisation.method, 5) << name;
+    EXPECT_DOUBLE_EQ(rail_case(f, 0).track.rail_y0, 0.75) << name;
+    EXPECT_TRUE(fs::exists(std::get<GeometryFile>(rail_case(f, 0).rail.geometry).file)) << name;
+  }
+  const CaseFile two = read_contact_input(bank / "examples_s+c" / "two_patches.inp");
+  EXPECT_DOUBLE_EQ(rail_case(two, 0).wheelset.s, 0.16);
+  EXPECT_DOUBLE_EQ(std::get<GeometryFile>(rail_case(two, 0).rail.geometry).options.scale, 1000.0);
+  const CaseFile cross = read_contact_input(bank / "examples_s+c" / "cross_brute.inp");
+  EXPECT_FALSE(rail_case(cross, 0).vertical_force_prescribed);
+  EXPECT_DOUBLE_EQ(rail_case(cross, 0).wheelset.z, -2.1275e-3);
+}
+
+struct Refused {
+  const char *file, *expected;
+};
+class RefusedData : public ::testing::TestWithParam<Refused> {};
+TEST_P(RefusedData, NamesTheFeature) {
+  TREADMARK_REQUIRE_SHARED();
+  try {
+    read_contact_input(*shared / "data" / GetParam().file);
+    FAIL() << "was read";
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::configuration);
+    EXPECT_GT(error.where().line, 0);
+    EXPECT_GT(error.where().column, 0);
+    EXPECT_THAT(error.what(), ::testing::HasSubstr(GetParam().expected));
+  }
+}
+INSTANTIATE_TEST_SUITE_P(
+    Files, RefusedData,
+    ::testing::Values(Refused{"contact_examples/bentall.inp", ":29:4: dissimilar materials"},
+                      Refused{"contact_examples/catt_to_cart.inp", ":36:5: T (TANG) = 2, transient rolling"},
+                      Refused{"contact_examples/conformal.inp", ":2047:8: E (EXRHS) = 9, extra rigid slip"},
+                      Refused{"contact_examples/ertz_temperature.inp", ":13:2: H (HEAT) = 3, surface temperatures"},
+                      Refused{"contact_examples/fastsim.inp", ":66:6: M (MATER) = 5, FaStrip"},
+                      Refused{"contact_examples/mbench_a22_kpec.inp", ":15:4: B (BOUND) = 5, KPEC"},
+                      Refused{"contact_examples/mbench_a22_kpec.inp", "M (MATER) = 3, FASTSIM"},
+                      Refused{"contact_examples/mbench_a22_varfric.inp", "S (STRESS) = 3, subsurface stresses"},
+                      Refused{"contact_examples/mbench_a22_varfric.inp", "V (VARFRC) = 1, friction varies"},
+                      Refused{"contact_examples/plastic_3bl.inp", ":26:28: M (MATER) = 4 with TAU_C0 = 560, plasticity"},
+                      Refused{"contact_examples/spence35.inp", ":38:8: S (STRESS) = 3"},
+                      Refused{"contact_examples/spence35.inp", "dissimilar materials"},
+                      Refused{"contact_examples/subsurf.inp", ":14:8: S (STRESS) = 3"},
+                      Refused{"contact_examples/veldep_fric.inp", "T (TANG) = 2, transient rolling"},
+                      Refused{"contact_examples/visc_cylindr.inp", "M (MATER) = 1, viscoelastic"},
+                      Refused{"contact_testbank/examples_conformal/groove_li.inp", "F (FORCE) = 1, longitudinal force"},
+                      Refused{"contact_testbank/examples_conformal/groove_li.inp", "D (DISCNS) = 4, conformal contact"},
+                      Refused{"contact_testbank/examples_plast/catt2d_plast.inp", "TAU_C0 = 35, plasticity"},
+                      Refused{"contact_testbank/examples_trans/m1_catt_shift.inp", ":4:5: T (TANG) = 1, shift"},
+                      Refused{"contact_testbank/examples_trans/m1_trans_roll.inp", ":4:5: T (TANG) = 2, transient rolling"},
+                      Refused{"contact_testbank/examples_trans/t1_merge_cp.inp", "T (TANG) = 1, shift"},
+                      Refused{"contact_testbank/examples_trans/t3_t2_force.inp", "V (VARFRC) = 1"}));
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
+
+std::vector<fs::path> all_inputs(const fs::path& shared) {
+  std::vector<fs::path> files;
+  for (const auto& entry : fs::recursive_directory_iterator(shared / "data"))
+    if (entry.path().extension() == ".inp") files.push_back(entry.path());
+  std::sort(files.begin(), files.end());
+  return files;
+}
+
+TEST(ContactData, EveryFileIsAccountedFor) {
+  TREADMARK_REQUIRE_SHARED();
+  const std::set<std::string> readable{"wheelflat", "mbench_a22_left", "mbench_a22_right", "cattaneo", "carter2d", "tractcurv",
+                                       "rounded_flat_d09", "two_patches", "cross_brute", "wing_brute"};
+  for (const fs::path& file : all_inputs(*shared)) {
+    if (readable.contains(file.stem())) {
+      EXPECT_NO_THROW(read_contact_input(file)) << file;
+    } else {
+      EXPECT_THROW(read_contact_input(file), Error) << file;
+    }
+  }
+}
+
+/// With every case marked as skipped (R = 3) nothing is refused, so each file must be understood to its last line.
+TEST(ContactData, GrammarOfEveryFileIsReadToTheEnd) {
+  TREADMARK_REQUIRE_SHARED();
+  const std::regex third_word(R"((\n\s*\d*)1(\s+(X-)?(H-)?G-I-A-O-W-R))");
+  for (const fs::path& file : all_inputs(*shared)) {
+    const std::string text = content(file);
+    const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), third_word), {});
+    ASSERT_GT(count, 0) << file;
+    CaseFile f;
+    ASSERT_NO_THROW(f = parse_contact_input(std::regex_replace(text, third_word, "$013$2"), file)) << file;
+    EXPECT_EQ(f.cases.size(), 0u) << file;
+  }
+}
+
+TEST(ContactData, OverridesReachCasesOfContactInput) {
+  TREADMARK_REQUIRE_SHARED();
+  const std::vector<std::string> overrides{"wheelset.y_mm=3", "wheel.backend=spline"};
+  const CaseFile f = read_any_case(example(*shared, "wheelflat.inp"), overrides);
+  ASSERT_EQ(f.cases.size(), 26u);
+  for (std::size_t i = 0; i < 26; ++i) {
+    EXPECT_DOUBLE_EQ(rail_case(f, i).wheelset.y, 3e-3);
+    EXPECT_EQ(rail_case(f, i).wheel.backend, "spline");
+  }
+}
+
+}  // namespace
+}  // namespace treadmark::io

@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <sstream>
+
+#include "treadmark/io/cases/contact_digits.hpp"
+#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/tests/io/cases/contact_writer.hpp"
+
+namespace treadmark::io {
+namespace {
+
+using testing::ContactWriter;
+
+CaseFile parse(const std::string& text) { return parse_contact_input(text, "test.inp"); }
+
+std::string error_of(const std::string& text) {
+  try {
+    parse(text);
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::configuration);
+    return error.what();
+  }
+  return "no error";
+}
+
+ContactWriter first_case_with(int module, const DigitValue& d) {
+  ContactWriter w(module);
+  w.set(std::string(d.keyword), std::max(0, d.value));
+  if (d.keyword == "INFLCF" && d.value <= 1) w.set("INFLCF", d.value);
+  return w;
+}
+
+struct Named {
+  int module;
+  DigitValue digit;
+};
+std::vector<Named> digits_that_are(DigitSupport support) {
+  std::vector<Named> list;
+  for (const DigitValue& d : contact_digits())
+    for (const int module : {1, 3})
+      if ((d.module == 0 || d.module == module) && d.support == support) list.push_back({module, d});
+  return list;
+}
+std::string name_of(const ::testing::TestParamInfo<Named>& info) {
+  return "Module" + std::to_string(info.param.module) + std::string(info.param.digit.keyword) + std::to_string(std::max(0, info.param.digit.value));
+}
+
+class UnsupportedDigit : public ::testing::TestWithParam<Named> {};
+
+TEST_P(UnsupportedDigit, IsRefusedByNameValueMeaningAndPosition) {
+  const auto& [module, d] = GetParam();
+  const std::string text = first_case_with(module, d).str() + "0\n";
+  const std::string expected = std::string(1, d.letter) + " (" + std::string(d.keyword) + ") = " + std::to_string(d.value) + ", " +
+                               std::string(d.meaning) + ", is not supported";
+  const std::string message = error_of(text);
+  ASSERT_NE(message.find(expected), std::string::npos) << message;
+
+  // The position points at the digit itself.
+  int line = 0, column = 0;
+  ASSERT_EQ(std::sscanf(message.c_str(), "test.inp:%d:%d:", &line, &column), 2) << message;
+  std::istringstream stream(text);
+  std::string written;
+  for (int i = 0; i < line; ++i) std::getline(stream, written);
+  EXPECT_EQ(written.at(static_cast<std::size_t>(column) - 1), '0' + d.value) << written;
+}
+
+TEST_P(UnsupportedDigit, IsReadToItsEndWhenTheCaseIsSkipped) {
+  const auto& [module, d] = GetParam();
+  if ((module == 1 && d.keyword == "INFLCF" && d.value == 9) || (d.keyword == "MATER" && d.value >= 6)) return;  // no grammar known
+  // What follows must be found in its place, so the refused case has been read completely.
+  const std::string text = first_case_with(module, d).set("RETURN", 3).str() + ContactWriter(module).str() + "0\n";
+  const CaseFile f = parse(text);
+  ASSERT_EQ(f.cases.size(), 1u);
+  EXPECT_EQ(f.cases[0].number, 2);
+}
+
+INSTANTIATE_TEST_SUITE_P(All, UnsupportedDigit, ::testing::ValuesIn(digits_that_are(DigitSupport::no)), name_of);
+
+class SupportedDigit : public ::testing::TestWithParam<Named> {};
+
+TEST_P(SupportedDigit, IsAcceptedInASecondCase) {
+  const auto& [module, d] = GetParam();
+  EXPECT_EQ(parse(ContactWriter(module).str() + first_case_with(module, d).set("RETURN", d.keyword == "RETURN" ? d.value : 1).str(true) +
+                  (d.keyword == "RETURN" && d.value % 2 == 0 ? ContactWriter(module).str(false) : "") + "0\n")
+                .cases.size(),
+            d.keyword == "RETURN" ? (d.value == 0 ? 3u : d.value == 1 ? 2u : d.value == 2 ? 2u : 1u) : 2u);
+}
+
+INSTANTIATE_TEST_SUITE_P(Yes, SupportedDigit, ::testing::ValuesIn(digits_that_are(DigitSupport::yes)), name_of);
+INSTANTIATE_TEST_SUITE_P(NoEffect, SupportedDigit, ::testing::ValuesIn(digits_that_are(DigitSupport::no_effect)), name_of);
+
+TEST(ContactRefusal, DigitsThatDoNotExist) {
+  EXPECT_NE(error_of(ContactWriter(1).set("TANG", 4).str()).find("T (TANG) = 4 does not exist in module 1"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).line("word1", "1203100").str()).find("at most 6"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).line("module", "2").str()).find("MODULE = 2 does not exist"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).line("word2", "-22033").str()).find("must not be negative"), std::string::npos);
+}
+
+TEST(ContactRefusal, Damping) {
+  const std::string text = ContactWriter(1).line("word2", "0022033 2").line("damping", "1. 2. 3. 4.").str();
+  EXPECT_NE(error_of(text).find("M2 (second integer of the line VLDCMZE) = 2, damping, is not supported"), std::string::npos);
+}
+
+TEST(ContactRefusal, HistoryOfAShift) {
+  const std::string first = ContactWriter(3).set("TANG", 1).str();
+  EXPECT_NE(error_of(first + ContactWriter(3).set("TANG", 1).set("PVTIME", 0).str()).find("P (PVTIME) = 0, continue"), std::string::npos);
+  EXPECT_EQ(parse(first + ContactWriter(3).set("TANG", 1).set("PVTIME", 3).str()).cases.size(), 2u);
+  EXPECT_EQ(parse(first + ContactWriter(3).set("TANG", 1).set("PVTIME", 1).str()).cases.size(), 2u);
+  EXPECT_EQ(parse(ContactWriter(3).set("TANG", 1).set("PVTIME", 0).str()).cases.size(), 1u);  // a first case starts anew
+  const std::string with_history = first + ContactWriter(3).set("PVTIME", 0).str() + ContactWriter(3).set("TANG", 1).set("PVTIME", 3).str();
+  EXPECT_NE(error_of(with_history).find("P (PVTIME) = 3"), std::string::npos);
+}
+
+TEST(ContactRefusal, DissimilarMaterials) {
+  const std::string line = "0.31 0.28 23000. 82000.";
+  EXPECT_NE(error_of(ContactWriter(3).line("material", line).str()).find("dissimilar materials"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).line("material", line).str()).find("dissimilar materials"), std::string::npos);
+  EXPECT_EQ(parse(ContactWriter(3).set("TANG", 0).line("material", line).str()).cases.size(), 1u);
+}
+
+TEST(ContactRefusal, GeometryOfBasicCases) {
+  EXPECT_NE(error_of(ContactWriter(3).line("ipotcn", "-6").line("potcon", "4 4 1. 1. 1. 1.1").line("hertz", "").str()).find("IPOTCN = -6"),
+            std::string::npos);
+  for (const auto& [plan, lines] : {std::pair<std::string, std::string>{"2", "\n 1 2 3 4 5 6"},
+                                    {"3", "\n 1 2 3 4 5 6 7 8"},
+                                    {"4", "\n 3\n 0 1 0 1\n 0 1 2 3\n 0 1 4 5\n 0.1 0.2\n 0.3"}}) {
+    const std::string text = ContactWriter(3).line("ibase", "1 " + plan).line("gap", "0.001 0 0.001 0 0 0" + lines).str();
+    EXPECT_NE(error_of(text + "0\n").find("IPLAN = " + plan), std::string::npos) << error_of(text + "0\n");
+  }
+  EXPECT_NE(error_of(ContactWriter(3).set("BOUND", 2).str()).find("B (BOUND) = 2, elliptic pressure, without Hertzian"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).line("potcon", "10000 10000 0 0 1 1").str()).find("potential contact too large"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).line("potcon", "99999999 99999999 0 0 1 1").str()).find("potential contact too large"), std::string::npos);
+}
+
+TEST(ContactRefusal, ExtraSlipThatIsKept) {
+  const std::string first = ContactWriter(3).set("EXRHS", 9).set("RETURN", 3).str();
+  EXPECT_NE(error_of(first + ContactWriter(3).set("EXRHS", 1).str()).find("E (EXRHS) = 1 keeps the extra rigid slip"), std::string::npos);
+  EXPECT_EQ(parse(first + ContactWriter(3).set("EXRHS", 0).str() + ContactWriter(3).set("EXRHS", 1).str()).cases.size(), 2u);
+}
+
+TEST(ContactRefusal, KeptMethodsOfSkippedCases) {
+  const std::string conformal = ContactWriter(1).set("DISCNS", 4).set("RETURN", 3).str();
+  EXPECT_NE(error_of(conformal + ContactWriter(1).set("DISCNS", 1).str()).find("D (DISCNS) = 1 keeps D = 4"), std::string::npos);
+  const std::string thermal = ContactWriter(3).set("FRCLAW", 6).set("RETURN", 3).str();
+  EXPECT_NE(error_of(thermal + ContactWriter(3).set("FRCLAW", 1).str()).find("L (FRCLAW) = 1 keeps"), std::string::npos);
+}
+
+TEST(ContactRefusal, AllRefusalsOfACaseAreTold) {
+  const std::string message = error_of(ContactWriter(1).set("BOUND", 5).set("MATER", 3).str());
+  EXPECT_NE(message.find("B (BOUND) = 5"), std::string::npos);
+  EXPECT_NE(message.find("also line 3: M (MATER) = 3"), std::string::npos) << message;
+}
+
+TEST(ContactFirstCase, HasNothingToKeep) {
+  EXPECT_NE(error_of(ContactWriter(1).set("FRCLAW", 1).str()).find("L (FRCLAW) = 1 in the first case"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("DISCNS", 0).str()).find("D (DISCNS) = 0 in the first case"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).set("DISCNS", 1).str()).find("D (DISCNS) = 1 in the first case"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("INFLCF", 1).str()).find("keeps the material"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("ZTRACK", 2).str()).find("keeps the rail"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("EWHEEL", 2).str()).find("keeps the wheel"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).set("RZNORM", 0).str()).find("keeps the undeformed distance"), std::string::npos);
+}
+
+TEST(ContactRules, NeedCertainLines) {
+  ContactWriter switched(1);
+  switched.set("NORM", 0).set("EWHEEL", 0);
+  EXPECT_NE(error_of(ContactWriter(1).str() + switched.str()).find("needs E (EWHEEL) > 0"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).set("TANG", 0).str() + ContactWriter(3).set("INFLCF", 0).str()).find("rolling line CHI"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 3).str()).find("K0_MF"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 4).str()).find("GG3"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).line("rail", "'a.slcs' 0 1. 0.").str()).find("GAUGHT <= 0"), std::string::npos);
+  const std::string each = ContactWriter(3).line("ibase", "9 1").line("gap", "1 2 3 4 5 6").str();
+  EXPECT_NE(error_of(each + ContactWriter(3).set("RZNORM", 0).line("potcon", "4 4 0 0 1 1").str()).find("number of elements has changed"),
+            std::string::npos);
+}
+
+struct WrongLine {
+  int module;
+  const char *line, *text, *expected;
+};
+class WrongValue : public ::testing::TestWithParam<WrongLine> {};
+TEST_P(WrongValue, IsNamed) {
+  const WrongLine& w = GetParam();
+  const std::string message = error_of(ContactWriter(w.module).line(w.line, w.text).str() + "0\n");
+  EXPECT_NE(message.find(w.expected), std::string::npos) << message;
+  EXPECT_EQ(message.rfind("test.inp:", 0), 0u) << message;
+}
+INSTANTIATE_TEST_SUITE_P(
+    Lines, WrongValue,
+    ::testing::Values(WrongLine{1, "solver", "999 abc 30 1 1e-5", "expected MAXIN (an integer) of the line MAXGS, found 'abc'"},
+                      WrongLine{1, "solver", "999 -1 30 1 1e-5", "MAXIN"}, WrongLine{1, "solver", "999 1 30 1 0.0", "EPS must be positive"},
+                      WrongLine{1, "friction", "0.3 0.2", "must equal FSTAT"}, WrongLine{1, "friction", "0.0 0.0", "at least 0.0001"},
+                      WrongLine{1, "material", "0.28 0.6 82000. 82000.", "POISS2 = 0.6"}, WrongLine{1, "material", "0.28 0.28 0. 82000.", "GG1 must be positive"},
+                      WrongLine{1, "grid", "0. 0.4 1. 90d 8. 4.", "DX must be positive"}, WrongLine{1, "grid", "0.4 0.4 1. 90d 3. 4.", "D_SEP must not be less"},
+                      WrongLine{1, "track", "14. 0 -1435. 0.", "GAUGWD must be positive"}, WrongLine{1, "rail", "rail.prr 0 1. 0.", "the file name (text in single quotes)"},
+                      WrongLine{1, "rail", "'a.prr' 2 1. 0.", "MIRRORY"}, WrongLine{1, "rail", "'a.prr' 0 0. 0.", "SCALE"},
+                      WrongLine{1, "rail", "'a.prr' 0 1. -1.", "SMOOTH"}, WrongLine{1, "rail", "'a.prr' 0 1. 0. 3", "MIRRORZ"},
+                      WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 3", "PRFOPT"}, WrongLine{1, "rail", "'' 0 1. 0.", "no file name"},
+                      WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 1\n 5 1 1 1 1", "ISMOOTH"}, WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 1\n 0 1 1 2 1", "KINKLOW"},
+                      WrongLine{1, "wheelset", "1360. -70. 0.", "NOMRAD must be positive"}, WrongLine{1, "position", "0. 0. 1d5x 0. 0. 0.", "expected FZ (a number)"},
+                      WrongLine{1, "position", "0. 0. 1e5 0. 0. PITCH,", "expected PITCH (an angle)"},
+                      WrongLine{3, "kinematics", "1. x", "expected CKSI"}, WrongLine{3, "rolling", "0. 0. 1000.", "DQ must be positive"},
+                      WrongLine{3, "rolling", "0. 0.4 0.", "VELOC must be positive"}, WrongLine{3, "ipotcn", "0", "IPOTCN = 0 does not exist"},
+                      WrongLine{3, "ipotcn", "5", "IPOTCN = 5 does not exist"}, WrongLine{3, "potcon", "0 2 0 0 1 1", "MX and MY must be positive"},
+                      WrongLine{3, "potcon", "3 2 0 0 0. 1", "DX must be positive"}, WrongLine{3, "ibase", "4 1", "IBASE = 4 does not exist"},
+                      WrongLine{3, "ibase", "1 5", "IPLAN = 5 does not exist"}, WrongLine{3, "gap", "1 2 3 4 5 six", "expected B6"}));
+
+/// A file that breaks off anywhere but between cases is an error that says so.
+class Truncated : public ::testing::TestWithParam<int> {};
+TEST_P(Truncated, IsToldWhereItEnds) {
+  ContactWriter w(GetParam());
+  w.set("FRCLAW", 4);
+  const std::string text = w.str();
+  std::vector<std::size_t> ends;
+  for (std::size_t i = text.find('\n'); i + 1 < text.size(); i = text.find('\n', i + 1)) ends.push_back(i);
+  ASSERT_GT(ends.size(), 8u);
+  for (const std::size_t end : ends) EXPECT_NE(error_of(text.substr(0, end)).find("the file ends"), std::string::npos) << text.substr(0, end);
+  EXPECT_NE(error_of("").find("contains no case"), std::string::npos);
+  EXPECT_NE(error_of("% only a comment\n").find("contains no case"), std::string::npos);
+}
+INSTANTIATE_TEST_SUITE_P(Modules, Truncated, ::testing::Values(1, 3));
+
+TEST(ContactDocumentation, TableOfDigitsIsUpToDate) {
+  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/contact-input.md");
+  std::stringstream text;
+  text << stream.rdbuf();
+  EXPECT_NE(text.str().find(contact_digit_table()), std::string::npos) << "docs/contact-input.md must contain:\n" << contact_digit_table();
+}
+
+}  // namespace
+}  // namespace treadmark::io

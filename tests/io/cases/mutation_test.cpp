@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <fstream>
+#include <random>
+#include <sstream>
+
+#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/tests/io/cases/contact_writer.hpp"
+
+namespace treadmark::io {
+namespace {
+
+using testing::ContactWriter;
+
+/// A few random edits: characters changed, removed, doubled, blocks moved, numbers blown up. Same seed, same edits.
+std::string mutated(std::string text, std::mt19937& random) {
+  const auto below = [&](std::size_t n) { return n == 0 ? 0 : random() % n; };
+  const std::string characters = "0123456789.-+eEdr'%\"[]{}=,_ \n\tabcxyz:#\\\xff";
+  for (std::size_t edits = 1 + below(6); edits > 0 && !text.empty(); --edits) {
+    const std::size_t at = below(text.size()), length = 1 + below(12);
+    switch (below(6)) {
+      case 0: text[at] = characters[below(characters.size())]; break;
+      case 1: text.erase(at, length); break;
+      case 2: text.insert(at, text.substr(below(text.size()), length)); break;
+      case 3: text.insert(at, 1, characters[below(characters.size())]); break;
+      case 4: text.resize(at); break;
+      default: text.insert(at, "99999999999"); break;
+    }
+  }
+  return text;
+}
+
+/// Returns how many mutants were still accepted; anything but Error fails the test by escaping.
+template <class Parse>
+int accepted(const std::string& text, unsigned seed, int count, Parse parse) {
+  std::mt19937 random(seed);
+  int good = 0;
+  for (int i = 0; i < count; ++i) {
+    const std::string mutant = mutated(text, random);
+    try {
+      parse(mutant);
+      ++good;
+    } catch (const Error&) {
+    }
+  }
+  return good;
+}
+
+constexpr int kMutants = 3000;
+
+TEST(Mutation, ContactInputOnlyThrowsError) {
+  std::string text = ContactWriter(1).set("EWHEEL", 5).set("FRCLAW", 4).set("MATER", 4).str();
+  text += ContactWriter(1).set("STRESS", 3).set("VARFRC", 1).set("HEAT", 3).set("INFLCF", 4).set("RETURN", 3).str();
+  text += ContactWriter(3).set("MATER", 3).set("GAUSEI", 2).str();
+  text += ContactWriter(3).set("EXRHS", 9).line("ibase", "2 1").line("gap", "2 0. 460. -10. 20.\n 0. 1.").set("RETURN", 2).str();
+  text += ContactWriter(3).str(false) + "0 MODULE\n";
+  const int good = accepted(text, 1, kMutants, [](const std::string& t) { parse_contact_input(t, "m.inp"); });
+  EXPECT_GT(good, 0);
+  EXPECT_LT(good, kMutants);
+}
+
+TEST(Mutation, CaseFileOnlyThrowsError) {
+  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/examples/wheel-flat.toml");
+  std::stringstream example;
+  example << stream.rdbuf();
+  const std::string patch =
+      "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\ncreepage_x = -1e-3\nrolling_step_mm = 0.4\nvelocity_m_s = 30\n"
+      "hertz.given = \"semi_axes\"\nhertz.semi_axis_x_mm = 4.0\nhertz.semi_axis_y_mm = 2.0\n[case]\nregime = \"steady\"\n"
+      "[[cases]]\npatch.creepage_y = [0.0, 1e-3]\n[[cases]]\npatch.force_x_relative = -0.5\n";
+  for (const std::string& text : {example.str(), patch}) {
+    const int good = accepted(text, 2, kMutants / 2, [](const std::string& t) { parse_case_text(t, "m.toml"); });
+    EXPECT_GT(good, 0);
+    EXPECT_LT(good, kMutants / 2);
+  }
+}
+
+TEST(Mutation, OverridesOnlyThrowError) {
+  const std::string text = "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.z_mm = 1\n[[wheel.flats]]\n"
+                           "length_mm = 9\ndepth_mm = 1\n";
+  for (const std::string one : {"wheelset.y_mm=3", "wheel.flats.0.depth_mm=0.5", "rail.shape.standard=60E1", "track.cant=\"1:40\""}) {
+    accepted(one, 3, kMutants / 10, [&](const std::string& t) {
+      const std::vector<std::string> overrides{t};
+      parse_case_text(text, "m.toml", overrides);
+    });
+  }
+}
+
+}  // namespace
+}  // namespace treadmark::io
