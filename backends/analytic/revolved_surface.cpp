@@ -92,7 +92,8 @@ void RevolvedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     out[i] = {};
     if (!ray.cast(X_SP.apply({points_P[i].x(), points_P[i].y(), 0.0}), kNaN, hit)) continue;
-    out[i].position_S = X_SP.apply({points_P[i].x(), points_P[i].y(), hit.t});
+    ray.refine(hit);
+    out[i].position_S = {hit.x, hit.y, hit.z};
     fill_shape(body_, hit, out[i]);
     out[i].status = ray.hides_others(hit) ? LocateStatus::ambiguous : LocateStatus::converged;
   }

@@ -30,7 +30,13 @@ void sample_piece(const GraphCurve& curve, int piece, double step, Profile& out)
   const Jet middle = curve.jet(0.5 * (from + to), piece);
   const double k = middle.ddh / std::pow(1.0 + middle.dh * middle.dh, 1.5);
   const bool arc = k != 0.0 && std::fabs((std::sin(beta) - std::sin(alpha)) - k * (to - from)) < 1e-9;
-  const double length = arc ? (beta - alpha) / k : std::hypot(to - from, b.h - a.h) * (1.0 + 0.02);
+  double length = (beta - alpha) / k;
+  if (!arc) {
+    // equal steps in y are longest where the piece is steepest
+    double steepest = 0.0;
+    for (int i = 0; i <= 32; ++i) steepest = std::max(steepest, std::fabs(curve.jet(from + (to - from) * i / 32, piece).dh));
+    length = (to - from) * std::hypot(1.0, steepest);
+  }
   const int n = std::max(1, static_cast<int>(std::ceil(length / step - 1e-9)));
   for (int i = 0; i < n; ++i) {
     const double f = static_cast<double>(i) / n;

@@ -226,6 +226,11 @@ bool WheelRay::cast(const Vec3& origin, double guess, WheelHit& hit, bool exact)
   return true;
 }
 
+void WheelRay::refine(WheelHit& hit) {
+  double slope = 0.0;
+  gap(hit.t, slope, hit);
+}
+
 bool WheelRay::hides_others(const WheelHit& hit) {
   constexpr double kApart = 1e-9;  // [m]
   if (!(hit.t - kApart > t_low_)) return false;

@@ -59,6 +59,8 @@ class WheelRay {
   /// False: no hit. guess = NaN: none. Without `exact` only t is final, the rest of the hit belongs to a point within kNear of it.
   bool cast(const Vec3& origin, double guess, WheelHit& hit, bool exact = true);
   static constexpr double kNear = 3e-8;  ///< [m]
+  /// Everything about the last hit at exactly its t.
+  void refine(WheelHit& hit);
   /// Whether the line of the last successful cast meets the wheel again below the hit.
   bool hides_others(const WheelHit& hit);
 
