@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/solvers/kalker/contact_problem.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+double at(const std::vector<double>& field, std::size_t i) { return i < field.size() ? field[i] : 0.0; }
+
+/// Simplified theory and assumed pressures have no displacement field that belongs to the tractions.
+bool has_elastic_energy(const ContactProblem& problem) {
+  const bool assumed = problem.normal_model != NormalModel::full;
+  const bool simplified = problem.regime != Regime::frictionless && problem.tangential_model == TangentialModel::fastsim;
+  return !assumed && !simplified;
+}
+
+}  // namespace
+
+void accumulate_totals(const ContactProblem& problem, ContactSolution& solution) {
+  const Grid2& grid = problem.grid;
+  double fn = 0.0, fx = 0.0, fy = 0.0, mx = 0.0, my = 0.0, mn = 0.0, energy = 0.0, power = 0.0;
+  solution.max_pressure = 0.0;
+  solution.elements_adhesion = solution.elements_slip = 0;
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      if (i >= solution.state.size() || solution.state[i] == ElementState::exterior) continue;
+      ++(solution.state[i] == ElementState::slip ? solution.elements_slip : solution.elements_adhesion);
+      const double x = grid.x(ix), y = grid.y(iy);
+      const double pn = solution.pressure[i], px = at(solution.traction_x, i), py = at(solution.traction_y, i);
+      fn += pn;
+      fx += px;
+      fy += py;
+      mx += pn * y;
+      my -= pn * x;
+      mn += py * x - px * y;
+      energy += pn * at(solution.displacement_n, i) + px * at(solution.displacement_x, i) + py * at(solution.displacement_y, i);
+      power += px * at(solution.slip_x, i) + py * at(solution.slip_y, i);
+      solution.max_pressure = std::max(solution.max_pressure, pn);
+    }
+  solution.elements_contact = solution.elements_adhesion + solution.elements_slip;
+
+  const double area = grid.cell_area();
+  solution.force_n = fn * area;
+  solution.force_x = fx * area;
+  solution.force_y = fy * area;
+  solution.moment_x = mx * area;
+  solution.moment_y = my * area;
+  solution.moment_n = mn * area;
+  solution.elastic_energy = has_elastic_energy(problem) ? 0.5 * energy * area : 0.0;
+  solution.frictional_power = power * area * (problem.regime == Regime::steady ? problem.rolling.velocity : 1.0);
+
+  // A moment below the accuracy of the tractions is zero; the lever is that of the contact's own size.
+  const double lever = std::sqrt(solution.elements_contact * area);
+  const double negligible = 0.5 * problem.settings.eps * solution.force_n * problem.friction.static_friction() * lever;
+  if (std::abs(solution.moment_n) < negligible) solution.moment_n = 0.0;
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <numeric>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+[[noreturn]] void refuse(const std::string& message, const std::string& advice = {}) {
+  throw Error(ErrorKind::configuration, "FASTSIM: " + message, {}, advice);
+}
+
+/// +1 for rolling along +x, -1 along -x.
+double rolling_sign(const ContactProblem& problem) {
+  constexpr double kTolerance = 1e-6;
+  const double cosine = std::cos(problem.rolling.chi);
+  if (std::abs(std::abs(cosine) - 1.0) > kTolerance)
+    refuse("the direction of rolling is " + std::to_string(problem.rolling.chi) + " rad", "use 0 or pi");
+  return cosine > 0.0 ? 1.0 : -1.0;
+}
+
+void check(const ContactProblem& problem, const ContactSolution& solution) {
+  if (problem.regime != Regime::steady) refuse("only steady rolling is possible", "use the full tangential model");
+  if (solution.pressure.size() != problem.grid.size()) refuse("there are no pressures on this grid");
+  if (!(problem.rolling.velocity > 0.0)) refuse("the rolling velocity must be positive");
+  if (!(problem.fastsim.k0 > 0.0) || !(problem.fastsim.alpha > 0.0 && problem.fastsim.alpha <= 1.0) ||
+      !(problem.fastsim.beta >= 0.0))
+    refuse("the slope reduction needs k0 > 0, 0 < alpha <= 1, beta >= 0");
+}
+
+/// Traction row by row, from the leading edge backwards: what the material brings along from the element ahead, changed
+/// by the rigid slip, unless friction bounds it.
+class Sweep {
+ public:
+  Sweep(const ContactProblem& problem, ContactSolution& solution)
+      : problem_(problem), solution_(solution), sign_(rolling_sign(problem)), dq_(problem.grid.dx),
+        equivalent_(equivalent_ellipse(problem.grid, solution.pressure)) {
+    normal_force_ = std::accumulate(solution.pressure.begin(), solution.pressure.end(), 0.0) * problem.grid.cell_area();
+  }
+
+  double normal_force() const { return normal_force_; }
+
+  /// Fills the fields for one creepage; returns the force on body 1 [N].
+  Vec2 run(const Creepage& creepage, bool blended);
+
+ private:
+  void element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex, Vec2& u);
+
+  const ContactProblem& problem_;
+  ContactSolution& solution_;
+  double sign_, dq_;
+  EquivalentEllipse equivalent_;
+  double normal_force_ = 0.0;
+};
+
+Vec2 Sweep::run(const Creepage& creepage, bool blended) {
+  const Grid2& grid = problem_.grid;
+  const double mu = problem_.friction.at(problem_.rolling.velocity * std::hypot(creepage.xi, creepage.eta));
+  const Flexibilities flex = flexibilities(problem_, creepage, mu, normal_force_, equivalent_, blended);
+  for (auto* field : {&solution_.traction_x, &solution_.traction_y, &solution_.displacement_x, &solution_.displacement_y,
+                      &solution_.slip_x, &solution_.slip_y})
+    field->assign(grid.size(), 0.0);
+  solution_.friction.assign(grid.size(), mu);
+  solution_.state.assign(grid.size(), ElementState::exterior);
+
+  Vec2 sum = Vec2::Zero();
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    Vec2 u = Vec2::Zero();
+    for (int step = 0; step < grid.nx; ++step) {
+      const int ix = sign_ > 0.0 ? grid.nx - 1 - step : step;
+      const std::size_t i = grid.index(ix, iy);
+      if (!(solution_.pressure[i] > 0.0)) {
+        u.setZero();
+        continue;
+      }
+      element(i, grid.x(ix), grid.y(iy), creepage, mu, flex, u);
+      sum += Vec2(solution_.traction_x[i], solution_.traction_y[i]);
+    }
+  }
+  return sum * grid.cell_area();
+}
+
+void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,
+                    Vec2& u) {
+  const double lever_x = x - creepage.spin_x + sign_ * problem_.rolling.spin_offset_factor * dq_;
+  const double lever_y = y - creepage.spin_y;
+  const Vec2 rigid(creepage.xi - flex.spin_x * creepage.phi * lever_y, creepage.eta + flex.spin_y * creepage.phi * lever_x);
+  const Vec2 ahead = u;
+  const Vec2 flexibility(flex.lx / flex.slope, flex.ly / flex.slope);
+  u = ahead - dq_ * rigid;
+  Vec2 traction = u.cwiseQuotient(flexibility);
+  const double bound = mu * solution_.pressure[i], size = traction.norm();
+  solution_.state[i] = ElementState::adhesion;
+  if (size > bound) {
+    traction *= bound / size;
+    u = traction.cwiseProduct(flexibility);
+    solution_.state[i] = ElementState::slip;
+    const Vec2 slip = (u - ahead) / dq_ + rigid;
+    solution_.slip_x[i] = slip.x();
+    solution_.slip_y[i] = slip.y();
+  }
+  solution_.traction_x[i] = traction.x();
+  solution_.traction_y[i] = traction.y();
+  solution_.displacement_x[i] = u.x();
+  solution_.displacement_y[i] = u.y();
+}
+
+/// Creepages for prescribed forces: damped Newton iterations with differences, in units of full-slip creepage.
+void find_creepage(const ContactProblem& problem, Sweep& sweep, ContactSolution& solution) {
+  const double full = problem.friction.static_friction() * sweep.normal_force();
+  const bool find_x = problem.fx_relative.has_value(), find_y = problem.fy_relative.has_value();
+  Creepage creepage = problem.creepage;
+  const CombinedMaterial material = combine(problem.material);
+  const EquivalentEllipse ellipse = equivalent_ellipse(problem.grid, solution.pressure);
+  const double unit = full / (material.shear_modulus * ellipse.a * ellipse.b * 4.0);
+  if (find_x) creepage.xi = -*problem.fx_relative * unit;
+  if (find_y) creepage.eta = -*problem.fy_relative * unit;
+
+  const auto mismatch = [&](const Creepage& c) {
+    const Vec2 force = sweep.run(c, false) / full;
+    return Vec2(find_x ? force.x() - *problem.fx_relative : 0.0, find_y ? force.y() - *problem.fy_relative : 0.0);
+  };
+  Report& report = solution.tangential;
+  Vec2 residual = mismatch(creepage);
+  for (report.iterations = 0; report.iterations < problem.settings.max_force; ++report.iterations) {
+    if (residual.lpNorm<Eigen::Infinity>() <= problem.settings.eps) break;
+    const double h = 1e-4 * unit;
+    Eigen::Matrix2d jacobian = Eigen::Matrix2d::Identity();
+    for (int k = 0; k < 2; ++k) {
+      if (!(k == 0 ? find_x : find_y)) continue;
+      Creepage moved = creepage;
+      (k == 0 ? moved.xi : moved.eta) += h;
+      jacobian.col(k) = (mismatch(moved) - residual) / h;
+    }
+    if (!find_x) jacobian.row(0) << 1.0, 0.0;
+    if (!find_y) jacobian.row(1) << 0.0, 1.0;
+    const double determinant = jacobian.determinant();
+    if (determinant == 0.0 || !std::isfinite(determinant)) break;
+    const Vec2 step(-(jacobian(1, 1) * residual.x() - jacobian(0, 1) * residual.y()) / determinant,
+                    -(jacobian(0, 0) * residual.y() - jacobian(1, 0) * residual.x()) / determinant);
+    double damping = 1.0;
+    for (int halving = 0; halving < 20; ++halving, damping *= 0.5) {
+      Creepage trial = creepage;
+      if (find_x) trial.xi += damping * step.x();
+      if (find_y) trial.eta += damping * step.y();
+      const Vec2 next = mismatch(trial);
+      if (!(next.norm() < residual.norm()) && halving < 19) continue;
+      creepage = trial;
+      residual = next;
+      break;
+    }
+  }
+  sweep.run(creepage, false);
+  solution.creepage = creepage;
+  report.residual = residual.lpNorm<Eigen::Infinity>();
+  if (report.residual <= problem.settings.eps) return;
+  report.status = solution.status = Status::not_converged;
+  report.message = "no creepage was found for the prescribed tangential force";
+}
+
+}  // namespace
+
+void solve_fastsim(const ContactProblem& problem, ContactSolution& solution) {
+  check(problem, solution);
+  solution.tangential = Report();
+  solution.rolling_step = problem.grid.dx;
+  solution.creepage = problem.creepage;
+  Sweep sweep(problem, solution);
+  if (problem.fx_relative || problem.fy_relative)
+    find_creepage(problem, sweep, solution);
+  else
+    sweep.run(problem.creepage, true);
+}
+
+}  // namespace treadmark::kalker

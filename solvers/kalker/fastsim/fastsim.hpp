@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/solvers/kalker/contact_problem.hpp"
+
+namespace treadmark::kalker {
+
+/// Steady rolling by simplified theory (FASTSIM, Kalker 1982) with three flexibilities from the linear theory, blended
+/// with a single one for large creepage, and optional slope reduction (Spiryagin et al. 2013). The rolling step is dx, the
+/// direction of rolling 0 or pi. Friction depends on the one slip velocity V sqrt(xi^2 + eta^2).
+/// Thread-safe: no state is kept.
+///
+/// In: problem.grid, material, friction, creepage or relative forces, rolling, fastsim, hertz (its semi-axes replace those
+/// of an ellipse equivalent to the contact area in the flexibilities); solution.pressure.
+/// Out: traction_x/y, displacement_x/y (of the simplified theory), slip_x/y, friction, state, creepage, rolling_step and
+/// the report `tangential`. Prescribed forces are found by Newton iterations on the creepage to settings.eps times the
+/// friction bound; a force that friction cannot transmit gives Status::not_converged.
+/// Errors: Error(configuration) for another regime than steady, other directions of rolling, sizes that do not fit.
+void solve_fastsim(const ContactProblem& problem, ContactSolution& solution);
+
+}  // namespace treadmark::kalker
