@@ -42,37 +42,62 @@ class BoundaryEdges {
   std::vector<unsigned char> out_;
 };
 
-/// One closed loop from a point, removing its edges. A left turn comes first where two loops touch at a corner.
-void append_loop(BoundaryEdges& edges, int start_x, int start_y, std::string& path) {
-  int x = start_x, y = start_y, direction = 0;
+/// A loop from its lowest, leftmost corner, removing its edges. A left turn comes first where two loops touch at a corner.
+Loop take_loop(BoundaryEdges& edges, int x, int y) {
+  Loop loop{{x, y}};
+  int direction = 0;
   while (!edges.has(x, y, direction)) ++direction;
-  fmt::format_to(std::back_inserter(path), "M{} {}", x, y);
-  for (int length = 0;;) {
+  while (true) {
     edges.remove(x, y, direction);
     x += kStepX[static_cast<std::size_t>(direction)];
     y += kStepY[static_cast<std::size_t>(direction)];
-    ++length;
     int next = -1;
     for (const int turn : {1, 0, 3})
       if (next < 0 && edges.has(x, y, (direction + turn) % 4)) next = (direction + turn) % 4;
-    if (next == direction) continue;
-    if (next < 0) break;  // back at the start: "z" draws the last run
-    const int sign = direction < 2 ? 1 : -1;
-    fmt::format_to(std::back_inserter(path), "{}{}", direction % 2 == 0 ? 'h' : 'v', sign * length);
+    if (next < 0) return loop;  // back at the start
+    if (next != direction) loop.push_back({x, y});
     direction = next;
-    length = 0;
   }
-  path += 'z';
 }
 
 }  // namespace
 
-std::string outline_path(const CellMask& mask) {
+std::vector<Loop> outline(const CellMask& mask) {
   BoundaryEdges edges(mask);
-  std::string path;
+  std::vector<Loop> loops;
   for (int y = 0; y <= mask.ny; ++y)
     for (int x = 0; x <= mask.nx; ++x)
-      while (edges.has_any(x, y)) append_loop(edges, x, y, path);
+      while (edges.has_any(x, y)) loops.push_back(take_loop(edges, x, y));
+  return loops;
+}
+
+std::string path_in_cells(const std::vector<Loop>& loops) {
+  std::string path;
+  const auto out = std::back_inserter(path);
+  for (const Loop& loop : loops) {
+    fmt::format_to(out, "M{} {}", loop[0][0], loop[0][1]);
+    for (std::size_t i = 1; i < loop.size(); ++i) {
+      const int right = loop[i][0] - loop[i - 1][0], up = loop[i][1] - loop[i - 1][1];
+      fmt::format_to(out, "{}{}", right != 0 ? 'h' : 'v', right != 0 ? right : up);
+    }
+    path += 'z';
+  }
+  return path;
+}
+
+std::string path_at(const std::vector<Loop>& loops, double x0, double y0, double step_x, double step_y) {
+  std::string path;
+  const auto out = std::back_inserter(path);
+  for (const Loop& loop : loops) {
+    fmt::format_to(out, "M{:.1f} {:.1f}", x0 + loop[0][0] * step_x, y0 + loop[0][1] * step_y);
+    for (std::size_t i = 1; i < loop.size(); ++i) {
+      if (loop[i][0] != loop[i - 1][0])
+        fmt::format_to(out, "H{:.1f}", x0 + loop[i][0] * step_x);
+      else
+        fmt::format_to(out, "V{:.1f}", y0 + loop[i][1] * step_y);
+    }
+    path += 'z';
+  }
   return path;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <string>
 #include <vector>
 
@@ -18,8 +19,16 @@ struct CellMask {
   }
 };
 
-/// Boundary of the set as SVG path data in cell units (cell ix, iy spans [ix, ix+1] x [iy, iy+1]); holes run the other
-/// way round, so that both fill rules agree. Empty for an empty set. Thread-safe.
-std::string outline_path(const CellMask& mask);
+/// Closed loop of corners in cell units (cell ix, iy spans [ix, ix+1] x [iy, iy+1]);.
+using Loop = std::vector<std::array<int, 2>>;
+
+/// Boundary of the set; holes run the other way round, so that both fill rules agree. Thread-safe.
+std::vector<Loop> outline(const CellMask& mask);
+
+/// SVG path data of loops in cell units.
+std::string path_in_cells(const std::vector<Loop>& loops);
+
+/// SVG path data with the corners at (x0 + ix * step_x, y0 + iy * step_y).
+std::string path_at(const std::vector<Loop>& loops, double x0, double y0, double step_x, double step_y);
 
 }  // namespace treadmark::io

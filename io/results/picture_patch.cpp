@@ -89,24 +89,26 @@ PatchPicture make_patch_picture(const PatchFields& fields) {
 
 std::string step_colour(int step) { return colour((step + 0.5) / kPressureSteps); }
 
-std::string draw_patch(const PatchPicture& picture, double top_pressure, double line_width_px) {
+std::string draw_patch(const PatchPicture& picture, double top_pressure, const PanelScale& panel) {
   if (picture.nx == 0) return {};
-  std::string out = fmt::format("<g transform=\"translate({:.6g} {:.6g}) scale({:.6g} {:.6g})\">\n", picture.x_low,
-                                picture.y_low, picture.dx, picture.dy);
+  const double x0 = (picture.x_low - panel.window.x_low) * panel.scale_x;
+  const double y0 = (panel.window.y_high - picture.y_low) * panel.scale_y;
+  const double step_x = picture.dx * panel.scale_x, step_y = -picture.dy * panel.scale_y;
+
+  std::string out = fmt::format("<g transform=\"translate({:.6g} {:.6g}) scale({:.6g} {:.6g})\">\n", x0, y0, step_x, step_y);
   for (int step = 0; step < kPressureSteps; ++step) {
-    const std::string path = outline_path(picture.above(step == 0 ? 0.0 : top_pressure * step / kPressureSteps));
-    if (path.empty()) break;
-    out += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", step_colour(step), path);
+    const auto loops = outline(picture.above(step == 0 ? 0.0 : top_pressure * step / kPressureSteps));
+    if (loops.empty()) break;
+    out += fmt::format("<path fill=\"{}\" d=\"{}\"/>\n", step_colour(step), path_in_cells(loops));
   }
-  const auto line = [&](const CellMask& mask, const char* stroke, double width) {
-    const std::string path = outline_path(mask);
-    if (!path.empty())
-      out += fmt::format("<path fill=\"none\" stroke=\"{}\" stroke-width=\"{:.3g}\" vector-effect=\"non-scaling-stroke\" d=\"{}\"/>\n",
-                         stroke, width, path);
+  out += "</g>\n";
+  const auto line = [&](const std::vector<char>& cells, const char* name) {
+    const auto loops = outline({picture.nx, picture.ny, cells});
+    if (!loops.empty()) out += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", name, path_at(loops, x0, y0, step_x, step_y));
   };
-  line({picture.nx, picture.ny, picture.adhesion}, "#ffffff", line_width_px);
-  line({picture.nx, picture.ny, picture.contact}, "#1a1a2e", line_width_px);
-  return out + "</g>\n";
+  line(picture.adhesion, "adhesion");
+  line(picture.contact, "contact");
+  return out;
 }
 
 }  // namespace treadmark::io

@@ -33,9 +33,15 @@ struct PatchPicture {
 
 PatchPicture make_patch_picture(const PatchFields& fields);
 
-/// SVG elements of the patch in the picture's plane, y up: filled steps of pressure up to top_pressure [Pa], the edge of
-/// contact (dark) and of the adhesion area (white). Line width in pixels.
-std::string draw_patch(const PatchPicture& picture, double top_pressure, double line_width_px);
+/// Where the picture's plane lies on a panel: x_px = (x_mm - window.x_low) scale_x, y_px = (window.y_high - y_mm) scale_y.
+struct PanelScale {
+  Window window;
+  double scale_x = 1.0, scale_y = 1.0;  ///< [px/mm]
+};
+
+/// SVG elements of a patch on its panel: filled steps of pressure up to top_pressure [Pa], the edge of contact (dark) and
+/// of the adhesion area (white).
+std::string draw_patch(const PatchPicture& picture, double top_pressure, const PanelScale& panel);
 
 /// Steps of pressure in the picture; step k of 0 .. kPressureSteps-1 has the colour of its middle.
 inline constexpr int kPressureSteps = 20;

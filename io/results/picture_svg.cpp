@@ -18,8 +18,7 @@ namespace {
 
 // Sizes in pixels.
 constexpr double kPanel = 170.0;                                                   // longest side of a panel
-constexpr double kGapX = 44.0, kGapY = 58.0, kLeft = 58.0, kTop = 44.0, kBottom = 44.0, kLegend = 120.0;
-constexpr double kLine = 1.1;
+constexpr double kGapX = 44.0, kGapY = 64.0, kLeft = 58.0, kTop = 44.0, kBottom = 44.0, kLegend = 156.0;
 constexpr double kMargin = 0.06;    // of the window, around the contact
 constexpr double kEqualScale = 4.0; // windows longer than this get their own scale in each direction
 constexpr double kShape = 1.7;      // wished width over height of the picture
@@ -102,7 +101,8 @@ Layout make_layout(const std::vector<CasePicture>& cases) {
     Layout trial = layout;
     trial.columns = columns;
     trial.rows = (count + columns - 1) / columns;
-    const double misfit = std::abs(std::log(trial.picture_width() / trial.picture_height() / kShape));
+    const double empty = 1.0 - static_cast<double>(count) / (trial.columns * trial.rows);
+    const double misfit = empty + std::abs(std::log(trial.picture_width() / trial.picture_height() / kShape));
     if (columns == 1 || misfit < best) {
       best = misfit;
       layout.columns = trial.columns;
@@ -123,9 +123,14 @@ std::string text(double x, double y, const std::string& words, const char* ancho
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, safe);
 }
 
-/// Round step of an axis with about four intervals.
+/// Three significant digits or all before the point.
+std::string three_digits(double value) {
+  return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+/// Round step of an axis with at most six intervals.
 double tick_step(double length) {
-  const double rough = length / 4.0, power = std::pow(10.0, std::floor(std::log10(rough)));
+  const double rough = length / 6.0, power = std::pow(10.0, std::floor(std::log10(rough)));
   for (const double factor : {1.0, 2.0, 5.0})
     if (factor * power >= rough) return factor * power;
   return 10.0 * power;
@@ -151,7 +156,7 @@ std::string draw_axes(const Layout& layout, const Window& window) {
   return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
 }
 
-std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index) {
+std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index, int case_count) {
   const CaseResult& result = *picture.result;
   const Window window = layout.window(picture);
   const double width = layout.panel_width(), height = layout.panel_height();
@@ -169,11 +174,9 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, double 
       force += patch.fn;
       pressure = std::max(pressure, patch.pmax);
     }
-    out += text(0.5 * width, -7.0, fmt::format("{:.4g} kN, {:.4g} MPa", force * 1e-3, pressure * 1e-6));
-    out += fmt::format("<g transform=\"scale({:.6g} {:.6g}) translate({:.6g} {:.6g})\">\n", layout.scale_x,
-                       -layout.scale_y, -window.x_low, -window.y_high);
-    for (const PatchPicture& patch : picture.patches) out += draw_patch(patch, top_pressure, kLine);
-    out += "</g>\n";
+    out += text(0.5 * width, -7.0, three_digits(force * 1e-3) + " kN, " + three_digits(pressure * 1e-6) + " MPa");
+    for (const PatchPicture& patch : picture.patches)
+      out += draw_patch(patch, top_pressure, {window, layout.scale_x, layout.scale_y});
   } else {
     std::string words(to_string(result.status));
     std::replace(words.begin(), words.end(), '_', ' ');
@@ -182,7 +185,7 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, double 
   out += draw_axes(layout, window);
   if (column == 0)
     out += text(-40.0, 0.5 * height, "y [mm]", "middle", fmt::format(" transform=\"rotate(-90 -40 {:.1f})\"", 0.5 * height).c_str());
-  out += text(0.5 * width, height + 28.0, "x [mm]");
+  if (index + layout.columns >= case_count) out += text(0.5 * width, height + 28.0, "x [mm]");
   return out + "</g>\n";
 }
 
@@ -204,10 +207,10 @@ std::string draw_legend(const Layout& layout, double top_pressure) {
       out += text(kBarWidth + 7.0, y + 3.5, fmt::format("{:.4g}", i * step), "start");
     }
   }
-  out += fmt::format("<path stroke=\"#1a1a2e\" stroke-width=\"{}\" d=\"M0 {:.1f}h14\"/>\n", kLine + 0.4, height + 20.0);
+  out += fmt::format("<path class=\"contact\" d=\"M0 {:.1f}h14\"/>\n", height + 20.0);
   out += text(20.0, height + 23.5, "edge of contact", "start");
   out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"14\" height=\"10\" fill=\"{}\"/>\n", height + 33.0, step_colour(kPressureSteps / 2));
-  out += fmt::format("<path stroke=\"#ffffff\" stroke-width=\"{}\" d=\"M0 {:.1f}h14\"/>\n", kLine + 0.4, height + 38.0);
+  out += fmt::format("<path class=\"adhesion\" d=\"M0 {:.1f}h14\"/>\n", height + 38.0);
   out += text(20.0, height + 41.5, "edge of adhesion", "start");
   return out + "</g>\n";
 }
@@ -227,11 +230,13 @@ std::string pressure_svg(const RunResult& run) {
   std::string out = fmt::format(
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "font-family=\"sans-serif\" font-size=\"10\" fill=\"#222222\">\n"
-      "<style>.title{{font-size:12px;font-weight:bold}}.tick{{fill:none;stroke:#666666;stroke-width:.7}}</style>\n"
+      "<style>.title{{font-size:12px;font-weight:bold}}.tick{{fill:none;stroke:#666666;stroke-width:.7}}"
+      ".contact{{fill:none;stroke:#1a1a2e;stroke-width:1.2}}.adhesion{{fill:none;stroke:#ffffff;stroke-width:1.2}}</style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
       layout.picture_width(), layout.picture_height());
   int index = 0;
-  for (const CasePicture& picture : cases) out += draw_panel(picture, layout, top_pressure, index++);
+  for (const CasePicture& picture : cases)
+    out += draw_panel(picture, layout, top_pressure, index++, static_cast<int>(cases.size()));
   return out + draw_legend(layout, top_pressure) + "</svg>\n";
 }
 

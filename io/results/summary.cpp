@@ -4,8 +4,10 @@
 
 #include <fmt/format.h>
 
-#include <iterator>
+#include <algorithm>
+#include <cmath>
 #include <numbers>
+#include <utility>
 
 namespace treadmark::io {
 namespace {
@@ -33,19 +35,32 @@ class Table {
   std::string text_;
 };
 
-std::string three(double a, double b, double c, const char* format) {
+/// Five significant digits, without an exponent where the number is of ordinary size.
+std::string five_digits(double value) {
+  const double size = std::abs(value);
+  if (!(size >= 1e-3 && size < 1e9)) return fmt::format("{:.5g}", value);
+  return fmt::format("{:.{}f}", value, std::max(0, 4 - static_cast<int>(std::floor(std::log10(size)))));
+}
+
+std::string three(double a, double b, double c) {
   std::string text;
-  for (const double value : {a, b, c}) text += fmt::format("{:>{}}", fmt::format(fmt::runtime(format), value), kColumn);
+  for (const double value : {a, b, c}) text += fmt::format("{:>{}.4f}", value, kColumn);
+  return text;
+}
+
+std::string three_forces(const Vec3& force) {
+  std::string text;
+  for (const double value : force) text += fmt::format("{:>{}}", five_digits(value), kColumn);
   return text;
 }
 
 void add_wheelset(Table& table, const CaseResult& result) {
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset s, y, z", kLabel, "[mm]",
-                         three(result.s * 1e3, result.y * 1e3, result.z * 1e3, "{:.4f}")));
+                         three(result.s * 1e3, result.y * 1e3, result.z * 1e3)));
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset roll, yaw, pitch", kLabel, "[deg]",
-                         three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees, "{:.4f}")));
+                         three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees)));
   table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]",
-                         three(result.force_tr.x(), result.force_tr.y(), result.force_tr.z(), "{:.5g}")));
+                         three_forces(result.force_tr)));
 }
 
 void add_patches(Table& table, const std::vector<PatchResult>& patches) {
@@ -60,12 +75,12 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
     table.row("contact angle", "[deg]", "{:.4f}", patches, [](const PatchResult& p) { return p.angle * kDegrees; });
   }
   const bool shift = patches.front().shift;
-  table.row("normal force Fn", "[N]", "{:.5g}", patches, [](const PatchResult& p) { return p.fn; });
-  table.row("longitudinal force Fx", "[N]", "{:.5g}", patches, [](const PatchResult& p) { return p.fx; });
-  table.row("lateral force Fs", "[N]", "{:.5g}", patches, [](const PatchResult& p) { return p.fs; });
-  table.row("spin moment Mn", "[N mm]", "{:.5g}", patches, [](const PatchResult& p) { return p.mn * 1e3; });
-  table.row("approach", "[mm]", "{:.5g}", patches, [](const PatchResult& p) { return p.approach * 1e3; });
-  table.row("largest pressure", "[MPa]", "{:.5g}", patches, [](const PatchResult& p) { return p.pmax * 1e-6; });
+  table.row("normal force Fn", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fn); });
+  table.row("longitudinal force Fx", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fx); });
+  table.row("lateral force Fs", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fs); });
+  table.row("spin moment Mn", "[N mm]", "{}", patches, [](const PatchResult& p) { return five_digits(p.mn * 1e3); });
+  table.row("approach", "[mm]", "{}", patches, [](const PatchResult& p) { return five_digits(p.approach * 1e3); });
+  table.row("largest pressure", "[MPa]", "{}", patches, [](const PatchResult& p) { return five_digits(p.pmax * 1e-6); });
   if (shift) {
     table.row("shift x", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.xi * 1e3; });
     table.row("shift s", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.eta * 1e3; });

@@ -55,13 +55,15 @@ TEST(Outline, EnclosesExactlyTheCells) {
       mask.inside.push_back(random() % 3 != 0);  // holes, islands and cells touching at corners
       count += mask.inside.back();
     }
-    EXPECT_EQ(path_area(io::outline_path(mask)), count);
+    EXPECT_EQ(path_area(io::path_in_cells(io::outline(mask))), count);
   }
 }
 
 TEST(Outline, ARectangleIsOneLoopOfFourSides) {
-  EXPECT_EQ(io::outline_path({3, 2, std::vector<char>(6, 1)}), "M0 0h3v2h-3z");
-  EXPECT_EQ(io::outline_path({3, 2, std::vector<char>(6, 0)}), "");
+  const auto loops = io::outline({3, 2, std::vector<char>(6, 1)});
+  EXPECT_EQ(io::path_in_cells(loops), "M0 0h3v2h-3z");
+  EXPECT_EQ(io::path_at(loops, 10.0, 20.0, 2.0, -0.5), "M10.0 20.0H16.0V19.0H10.0z");
+  EXPECT_TRUE(io::outline({3, 2, std::vector<char>(6, 0)}).empty());
 }
 
 TEST(ColourMap, LightnessGrowsEvenly) {

@@ -20,7 +20,7 @@ TEST(Summary, NamesQuantitiesWithUnitsAndOneColumnAPatch) {
   const std::string text = io::summary(testing::sample_run().cases[0]);
   EXPECT_THAT(text, HasSubstr("case 1: ok, 2 patches, 0.500 s\n"));
   EXPECT_THAT(text, ContainsRegex("wheelset s, y, z +\\[mm\\] +160.0000 +-2.0000 +0.3729\n"));
-  EXPECT_THAT(text, ContainsRegex("force on rail x, y, z +\\[N\\] +7499 +322.1 +1.25e\\+05\n"));
+  EXPECT_THAT(text, ContainsRegex("force on rail x, y, z +\\[N\\] +7499.0 +322.10 +125000\n"));
   EXPECT_THAT(text, ContainsRegex("position y_tr +\\[mm\\] +759.3304 +770.3304\n"));
   EXPECT_THAT(text, ContainsRegex("creepage xi +\\[-\\] +-0.0004157 +-0.0004157\n"));
   EXPECT_THAT(text, ContainsRegex("frictional power +\\[W\\] +-4.846 +-4.846\n"));
