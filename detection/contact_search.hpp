@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/interpenetration.hpp"
+#include "treadmark/detection/wheel_facets.hpp"
 
 namespace treadmark::detection {
 
@@ -18,6 +20,8 @@ struct SearchSettings {
   bool refine = true;
   int refined_points = 64;
   double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
+  /// Faceted wheel on the first grid, for agreement with the reference program; refined grids are always exact.
+  std::optional<WheelFacets> facets;
   /// The contact reference is the point of deepest penetration instead of the weighted centre.
   bool reference_at_deepest = false;
 };

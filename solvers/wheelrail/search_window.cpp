@@ -22,24 +22,26 @@ int checked_count(double n) {
 // The wheel circle is followed over +-0.2 rad: further out no wheel can touch a rail or roller.
 constexpr double kHalfAngle = 0.2;
 
-Grid2 reference_grid(const Geometry& geometry, const Problem& p, const Placement& placed, const LateralRange& rail) {
+// One grid whose steps follow dx, ds: for a round wheel exact, for an out-of-round one on facets between sections.
+Grid2 reference_grid(const Geometry& geometry, const Problem& p, const Placement& placed, const LateralRange& rail,
+                     std::optional<detection::WheelFacets>& facets) {
   const Discretisation& d = p.discretisation;
   const double radius = p.wheelset.nominal_radius;
   const bool steep = d.search == Discretisation::SearchGrid::reference_steep;
-  double half = 0.0;
-  int nx = 0;
+  detection::LongitudinalRange range;
+  Grid2 grid;
   if (geometry.constant_profiles) {
     constexpr double kSmallWheel = 30.5e-3;
-    half = (steep || radius < kSmallWheel) ? 0.242 * radius : radius / 8.0;
-    nx = odd(checked_count(std::round(2.0 * half / (1.5 * d.dx) + 2.0)));
+    const double half = (steep || radius < kSmallWheel) ? 0.242 * radius : radius / 8.0;
+    range = {placed.X_TA.origin.x() - half, placed.X_TA.origin.x() + half};
+    grid.nx = odd(checked_count(std::round(2.0 * half / (1.5 * d.dx) + 2.0)));
   } else {
-    half = geometry.wheel->bounds().max.z() * std::sin(kHalfAngle);
-    nx = odd(checked_count(std::round(2.0 * kHalfAngle * radius / (4.0 * d.dx) + 2.0)));
+    grid.nx = odd(checked_count(std::round(2.0 * kHalfAngle * radius / (4.0 * d.dx) + 2.0)));
+    facets = detection::WheelFacets{kHalfAngle, grid.nx};
+    range = detection::facet_range(*geometry.wheel, placed.X_TA, *facets);
   }
-  Grid2 grid;
-  grid.nx = nx;
-  grid.dx = 2.0 * half / (nx - 1);
-  grid.x0 = placed.X_TA.origin.x() - half;
+  grid.dx = (range.x_max - range.x_min) / (grid.nx - 1);
+  grid.x0 = range.x_min;
   grid.dy = (steep ? 0.3 : 0.75) * d.ds;
   grid.ny = checked_count(std::floor((rail.y_max - rail.y_min) / grid.dy)) + 1;
   grid.y0 = 0.5 * (rail.y_min + rail.y_max) - 0.5 * (grid.ny - 1) * grid.dy;
@@ -73,7 +75,7 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
 
   detection::SearchSettings s;
   s.refine = d.search == Discretisation::SearchGrid::refined;
-  s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail);
+  s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.facets);
   s.refined_dx = 0.3 * d.dx;
   s.refined_dy = 0.3 * d.ds;
   s.refined_points = geometry.constant_profiles ? 64 : 120;
