@@ -41,7 +41,7 @@ Parsed parse(std::string_view word) {
 
 }  // namespace
 
-std::string quoted(std::string_view text) {
+std::string printable(std::string_view text) {
   std::string shown = "'";
   for (const char c : text.substr(0, 40)) shown += (c >= ' ' && c <= '~') ? c : '?';
   if (text.size() > 40) shown += "...";
@@ -104,14 +104,14 @@ double to_number(const LineScanner& scanner, const Word& word) {
     case Numeric::finite:
       return parsed.value;
     case Numeric::not_finite:
-      scanner.fail("the number " + quoted(word.text) + " is not finite", word.column, "remove or repair the point");
+      scanner.fail("the number " + printable(word.text) + " is not finite", word.column, "remove or repair the point");
     case Numeric::out_of_range:
-      scanner.fail("the number " + quoted(word.text) + " is out of range", word.column);
+      scanner.fail("the number " + printable(word.text) + " is out of range", word.column);
     case Numeric::no:
       break;
   }
   const bool comma = word.text.find(',') != std::string_view::npos;
-  scanner.fail("a number is expected, this is " + quoted(word.text), word.column,
+  scanner.fail("a number is expected, this is " + printable(word.text), word.column,
                comma ? "write decimal points and separate numbers by blanks" : "");
 }
 
@@ -121,7 +121,7 @@ int to_integer(const LineScanner& scanner, const Word& word) {
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value > 1'000'000'000 || value < -1'000'000'000)
-    scanner.fail("a whole number is expected, this is " + quoted(word.text), word.column);
+    scanner.fail("a whole number is expected, this is " + printable(word.text), word.column);
   return value;
 }
 

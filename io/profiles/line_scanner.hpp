@@ -20,7 +20,7 @@ struct Word {
 };
 
 /// A word fit for a message: at most 40 characters, what cannot be printed replaced by '?'.
-std::string quoted(std::string_view text);
+std::string printable(std::string_view text);
 
 /// Lower-case copy (ASCII).
 std::string lower(std::string_view text);

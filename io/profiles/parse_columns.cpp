@@ -80,7 +80,7 @@ ColumnContent parse_miniprof(std::string_view text, const std::string& file) {
     }
     const std::size_t sign = scanner.line().find('=');
     if (sign == std::string_view::npos)
-      scanner.fail("'Key=value' or numbers are expected, this is " + quoted(first->text), first->column);
+      scanner.fail("'Key=value' or numbers are expected, this is " + printable(first->text), first->column);
     header_seen = true;
     const auto start = static_cast<std::size_t>(first->column - 1);
     std::string key = lower(scanner.line().substr(start, sign - start));

@@ -25,7 +25,7 @@ class SimpackParser {
       drop_comment();
       if (const std::optional<Word> first = scanner_.next_word()) statement(*first);
     }
-    if (!skipped_.empty()) scanner_.fail("the file ends without '" + skipped_ + ".end'", 0, "is the file truncated?");
+    if (!skipped_.empty()) scanner_.fail("the file ends without " + printable(skipped_ + ".end"), 0, "is the file truncated?");
     switch (section_) {
       case Section::header: scanner_.fail("the file ends without 'header.end'", 0, "is the file truncated?");
       case Section::points: scanner_.fail("the file ends without 'point.end'", 0, "is the file truncated?");
@@ -60,13 +60,13 @@ class SimpackParser {
     if (word.ends_with(".end") && !has_sign) return end(word, first);
     if (section_ == Section::points) to_number(scanner_, first);  // says what is wrong with the word
     if (section_ == Section::none)
-      scanner_.fail("text outside the sections: " + quoted(first.text), first.column, "is this a Simpack profile?");
+      scanner_.fail("text outside the sections: " + printable(first.text), first.column, "is this a Simpack profile?");
     key_and_value(first);
   }
 
   void begin(const std::string& word, const Word& first) {
     if (section_ == Section::points)
-      scanner_.fail(quoted(first.text) + " before 'point.end'", first.column, "is the file damaged?");
+      scanner_.fail(printable(first.text) + " before 'point.end'", first.column, "is the file damaged?");
     if (word == "header.begin" && section_ == Section::none) {
       section_ = Section::header;
     } else if (word == "spline.begin" && section_ == Section::none) {
@@ -76,7 +76,7 @@ class SimpackParser {
       have_points_ = true;
       section_ = Section::points;
     } else if (word == "header.begin" || word == "spline.begin" || word == "point.begin") {
-      scanner_.fail(quoted(first.text) + " does not belong here", first.column, "is a section not ended?");
+      scanner_.fail(printable(first.text) + " does not belong here", first.column, "is a section not ended?");
     } else {
       skipped_ = word.substr(0, word.size() - 6);
     }
@@ -89,7 +89,7 @@ class SimpackParser {
                (word == "header.end" && section_ == Section::header)) {
       section_ = Section::none;
     } else {
-      scanner_.fail(quoted(first.text) + " ends a section that is not open", first.column, "is a section not ended?");
+      scanner_.fail(printable(first.text) + " ends a section that is not open", first.column, "is a section not ended?");
     }
   }
 
@@ -101,7 +101,7 @@ class SimpackParser {
     if (const std::optional<Word> weight = scanner_.next_word()) {
       to_number(scanner_, *weight);
       if (const std::optional<Word> more = scanner_.next_word())
-        scanner_.fail("a point has y, z and a weight, this is more: " + quoted(more->text), more->column);
+        scanner_.fail("a point has y, z and a weight, this is more: " + printable(more->text), more->column);
     }
     content_.points.add(y, z, scanner_.number());
   }
@@ -109,7 +109,7 @@ class SimpackParser {
   void key_and_value(const Word& first) {
     const std::size_t sign = scanner_.line().find('=');
     if (sign == std::string_view::npos)
-      scanner_.fail("'key = value' is expected, this is " + quoted(first.text), first.column);
+      scanner_.fail("'key = value' is expected, this is " + printable(first.text), first.column);
     const auto start = static_cast<std::size_t>(first.column - 1);
     if (sign <= start) scanner_.fail("a key is missing before '='", first.column);
     std::string key = lower(scanner_.line().substr(start, sign - start));
@@ -152,7 +152,7 @@ class SimpackParser {
     const std::optional<Word> word = scanner_.next_word();
     if (!word) scanner_.fail("'" + key + "' has no value", static_cast<int>(scanner_.line().size()));
     if (const std::optional<Word> more = scanner_.next_word())
-      scanner_.fail("'" + key + "' takes one value, this is more: " + quoted(more->text), more->column);
+      scanner_.fail("'" + key + "' takes one value, this is more: " + printable(more->text), more->column);
     return *word;
   }
 

@@ -5,14 +5,10 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/core/error.hpp"
-
 namespace treadmark::io::profiles {
 
-/// More points are refused.
-inline constexpr std::size_t kMaxPoints = 10'000'000;
-
-/// Points of one profile while it is being read: file units at first, mm at the end of the clean-up.
+/// Points of one profile while it is being read: file units at first, mm at the end of the clean-up. There is at most
+/// one point in a line, so the limit on lines limits them too.
 struct RawPoints {
   std::string file;
   std::vector<double> y, z;
@@ -21,8 +17,6 @@ struct RawPoints {
   std::size_t size() const { return y.size(); }
 
   void add(double y_value, double z_value, int line_number) {
-    if (size() == kMaxPoints)
-      throw Error(ErrorKind::input_data, "more than 10 million points", {file, line_number, 0}, "thin out the points");
     y.push_back(y_value);
     z.push_back(z_value);
     line.push_back(line_number);

@@ -20,7 +20,10 @@ fs::path portable_path(std::string name) {
 std::string read_text(const fs::path& file, const std::string& what, const SourcePosition& referenced_from) {
   const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
   const auto refuse = [&](const std::string& why, const std::string& advice) {
-    throw Error(ErrorKind::input_data, fmt::format("the {} file '{}' {}", what, file.string(), why), where, advice);
+    std::string name = file.string();
+    for (char& c : name)
+      if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    throw Error(ErrorKind::input_data, fmt::format("the {} file '{}' {}", what, name, why), where, advice);
   };
 
   std::error_code code;
@@ -29,6 +32,7 @@ std::string read_text(const fs::path& file, const std::string& what, const Sourc
   const fs::file_status status = fs::status(actual, code);
   if (status.type() == fs::file_type::not_found)
     refuse("does not exist", "names are relative to the folder of the file that mentions them");
+  if (status.type() == fs::file_type::none) refuse("cannot be looked up: " + code.message(), "check its name");
   if (!fs::is_regular_file(status)) refuse("is not a regular file", "name a text file");
   const std::uintmax_t size = fs::file_size(actual, code);
   if (code) refuse("cannot be read: " + code.message(), "check its permissions");

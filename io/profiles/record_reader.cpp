@@ -3,6 +3,11 @@
 #include "treadmark/io/profiles/record_reader.hpp"
 
 namespace treadmark::io::profiles {
+namespace {
+
+constexpr std::size_t kLongestName = 4096;
+
+}  // namespace
 
 bool RecordReader::more() {
   for (;;) {
@@ -41,10 +46,11 @@ int RecordReader::integer(const std::string& what) {
 std::string RecordReader::name(const std::string& what) {
   if (!more()) scanner_.fail("the file ends where " + what + " is expected", 0, "is the file truncated?");
   const std::string_view rest = scanner_.line().substr(scanner_.offset());
-  if (rest.front() != '\'') fail(what + " in single quotes is expected, this is " + quoted(rest));
+  if (rest.front() != '\'') fail(what + " in single quotes is expected, this is " + printable(rest));
   const std::size_t end = rest.find('\'', 1);
   if (end == std::string_view::npos) fail("the single quote before " + what + " is not closed");
   if (end == 1) fail(what + " is empty");
+  if (end > kLongestName) fail(what + " is longer than 4096 characters");
   scanner_.set_offset(scanner_.offset() + end + 1);
   return std::string(rest.substr(1, end - 1));
 }

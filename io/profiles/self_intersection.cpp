@@ -2,7 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <limits>
+#include <vector>
 
+#include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
 
 namespace treadmark::io::profiles {

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <random>
+
+#include "samples.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+
+namespace treadmark::io {
+namespace {
+
+using testing::columns;
+using testing::rail_points;
+using testing::wheel_points;
+
+constexpr int kTrials = 1500;  // for each format
+
+/// A copy with up to eight flipped, inserted, deleted or repeated pieces, or cut short.
+std::string mutated(const std::string& valid, std::mt19937& random) {
+  static const std::vector<std::string> kPieces = {"\n", " ", "-", "1e308", "nan", "'", "=", "%", "99999999999", ".begin", ","};
+  std::string text = valid;
+  const unsigned changes = 1 + random() % 8;
+  for (unsigned k = 0; k < changes && !text.empty(); ++k) {
+    const std::size_t at = random() % text.size();
+    switch (random() % 6) {
+      case 0: text[at] = static_cast<char>(random() % 256); break;
+      case 1: text[at] = static_cast<char>(text[at] ^ (1u << (random() % 7))); break;
+      case 2: text.insert(at, kPieces[random() % kPieces.size()]); break;
+      case 3: text.erase(at, 1 + random() % 20); break;
+      case 4: text.insert(at, text.substr(random() % text.size(), random() % 60)); break;
+      default: if (random() % 3 == 0) text.resize(at); break;
+    }
+  }
+  return text;
+}
+
+/// Every result is a sound profile or an Error with a message; anything else ends the test.
+template <class Read>
+void survive(const std::string& valid, Read read) {
+  std::mt19937 random(20240607);
+  ASSERT_NO_THROW(read(valid));
+  int accepted = 0, refused = 0;
+  for (int trial = 0; trial < kTrials; ++trial) {
+    const std::string text = mutated(valid, random);
+    try {
+      read(text);
+      ++accepted;
+    } catch (const Error& error) {
+      EXPECT_FALSE(error.message().empty());
+      for (const char c : std::string(error.what())) ASSERT_TRUE(c >= ' ' && c <= '~') << error.what();
+      ++refused;
+    }
+  }
+  EXPECT_GT(accepted, kTrials / 100);
+  EXPECT_GT(refused, kTrials / 10);
+}
+
+void expect_sound(const Profile& p, Body body) {
+  ASSERT_GE(p.y.size(), 2u);
+  ASSERT_EQ(p.y.size(), p.z.size());
+  EXPECT_EQ(p.body, body);
+  EXPECT_EQ(p.y.back() > p.y.front(), body == Body::rail);
+  double length = 0.0;
+  for (std::size_t i = 1; i < p.y.size(); ++i) {
+    const double step = std::hypot(p.y[i] - p.y[i - 1], p.z[i] - p.z[i - 1]);
+    EXPECT_TRUE(std::isfinite(step));
+    length += step;
+  }
+  EXPECT_GE(length, 0.0049999);
+  EXPECT_LE(length, 0.5000001);
+}
+
+TEST(MutatedFiles, Simpack) {
+  const std::string text = testing::simpack(Body::wheel, wheel_points(), "mirror.y = 0\nshift.z = 0.5\nrotate = 0\n");
+  survive(text, [](const std::string& t) {
+    expect_sound(testing::parse(t, Body::wheel, {}, ProfileFormat::simpack), Body::wheel);
+  });
+}
+
+TEST(MutatedFiles, MiniProf) {
+  const std::string text = "Program=MiniProf\nColumnDef=X,Y\nXOffset=0.5\nYOffset=-1\n\n" + columns(rail_points());
+  survive(text, [](const std::string& t) {
+    expect_sound(testing::parse(t, Body::rail, {}, ProfileFormat::miniprof), Body::rail);
+  });
+}
+
+TEST(MutatedFiles, TwoColumns) {
+  survive(columns(rail_points()), [](const std::string& t) { expect_sound(testing::parse(t, Body::rail), Body::rail); });
+}
+
+TEST(MutatedFiles, Slices) {
+  const std::string text =
+      "0.0 1.0 OFFSET SCALE\n5 NSLC\n4 1 1\n2\n-2 'a'\n-1 'b'\n0 'c'\n1.0 'd'\n2.5 'e'\n1\n2\n"
+      "-2 0 10 20 99\n-1 0 10 20 99\n0 -1 10 20 99\n1.0 0 10 20 -1\n2.5 0 10 20 99\n";
+  survive(text, [](const std::string& t) {
+    const SliceSet set = parse_slices(t, "sample", Body::wheel, [](const std::string&, const SourcePosition&) {
+      return testing::parse(columns(wheel_points()), Body::wheel);
+    });
+    ASSERT_GE(set.u.size(), 4u);
+    ASSERT_EQ(set.profiles.size(), set.u.size());
+    for (std::size_t i = 1; i < set.u.size(); ++i) EXPECT_GT(set.u[i], set.u[i - 1]);
+    for (const auto& row : set.features) EXPECT_EQ(row.size(), set.features.front().size());
+  });
+}
+
+}  // namespace
+}  // namespace treadmark::io

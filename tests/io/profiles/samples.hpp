@@ -1,0 +1,107 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <gtest/gtest.h>
+#include <unistd.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
+
+namespace treadmark::testing {
+
+struct Point {
+  double y, z;
+};
+
+/// Head of a rail [mm], z down, increasing y: a parabola of radius 300 mm at the top.
+inline std::vector<Point> rail_points() {
+  std::vector<Point> points;
+  for (int i = -18; i <= 18; ++i) points.push_back({2.0 * i, 4.0 * i * i / 600.0});
+  return points;
+}
+
+/// A cone 1:20 with a flange [mm], z down, decreasing y.
+inline std::vector<Point> wheel_points() {
+  std::vector<Point> points;
+  for (int i = 60; i >= -68; i -= 2) {
+    const double y = i;
+    points.push_back({y, -y / 20.0 + 28.0 * std::exp(-std::pow((y + 56.0) / 8.0, 2))});
+  }
+  return points;
+}
+
+inline std::string columns(const std::vector<Point>& points) {
+  std::string text;
+  for (const Point& p : points) text += std::to_string(p.y) + "  " + std::to_string(p.z) + "\n";
+  return text;
+}
+
+/// A Simpack file in mm with further lines for its spline section.
+inline std::string simpack(Body body, const std::vector<Point>& points, const std::string& keys = "") {
+  return std::string("header.begin\n  version = 1\n  type = ") + (body == Body::rail ? "0" : "1") +
+         "\nheader.end\nspline.begin\n  units.len.f = 1000.\n" + keys + "point.begin\n" + columns(points) +
+         "point.end\nspline.end\n";
+}
+
+inline Profile parse(const std::string& text, Body body, const io::ProfileOptions& options = {},
+                     io::ProfileFormat format = io::ProfileFormat::two_column) {
+  return io::parse_profile(text, "sample", format, body, options);
+}
+
+/// The Error that the call throws; a test failure when it throws none.
+template <class Call>
+Error error_of(Call call) {
+  try {
+    call();
+  } catch (const Error& error) {
+    return error;
+  }
+  ADD_FAILURE() << "no Error was thrown";
+  return Error(ErrorKind::numerical, "no Error was thrown");
+}
+
+/// Checks the place and a part of the message of an error.
+#define TREADMARK_EXPECT_ERROR(call, part, line_, column_)                              \
+  do {                                                                                  \
+    const treadmark::Error caught = treadmark::testing::error_of([&] { (void)(call); }); \
+    EXPECT_NE(std::string(caught.what()).find(part), std::string::npos) << caught.what(); \
+    EXPECT_EQ(caught.where().line, line_) << caught.what();                             \
+    EXPECT_EQ(caught.where().column, column_) << caught.what();                         \
+    EXPECT_EQ(caught.kind(), treadmark::ErrorKind::input_data) << caught.what();        \
+  } while (false)
+
+/// A folder that is removed with its content at the end of a test.
+class TemporaryFolder {
+ public:
+  TemporaryFolder() {
+    std::string pattern = (std::filesystem::temp_directory_path() / "treadmark_profiles_XXXXXX").string();
+    if (mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
+    path_ = pattern;
+  }
+  ~TemporaryFolder() {
+    std::error_code code;
+    std::filesystem::remove_all(path_, code);
+  }
+  TemporaryFolder(const TemporaryFolder&) = delete;
+  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
+
+  std::filesystem::path write(const std::string& name, const std::string& content) const {
+    const std::filesystem::path file = path_ / name;
+    std::filesystem::create_directories(file.parent_path());
+    std::ofstream(file, std::ios::binary) << content;
+    return file;
+  }
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace treadmark::testing
