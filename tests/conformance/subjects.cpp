@@ -15,9 +15,10 @@ namespace treadmark::testing {
 std::vector<Contestant> contestants() {
   return {
       // closed form: rounding only; the published joints of S1002 are steps of up to 0.12 um
-      {"analytic", 2e-12, 1e-6, 1e-3},
-      // a cubic spline rounds off the jumps of curvature between the arcs, 0.1 um at the spacing create.cpp samples with
-      {"spline", 3e-7, 2e-3, 3e-2},
+      {"analytic", {2e-12, 1e-6, 1e-3}, {2e-12, 1e-6, 1e-3}},
+      // a cubic spline rounds off the jumps of curvature between the arcs: up to 77/m over a spacing h = 0.25 mm, that is
+      // about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm
+      {"spline", {4e-7, 4e-3, 3e-2}, {1.6e-6, 8e-3, 3e-2}},
   };
 }
 

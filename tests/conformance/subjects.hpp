@@ -25,16 +25,21 @@ struct Shape {
 };
 
 /// How a backend joins the suite, and what it promises.
+struct Tolerance {
+  double height;     ///< greatest error normal to the surface [m]
+  double slope;      ///< greatest error of the normal's direction against the formula [rad]
+  double curvature;  ///< relative error of principal curvatures, for most points
+};
 struct Contestant {
   std::string backend;
-  double height;  ///< greatest error normal to the surface [m]
-  double slope;   ///< greatest error of the normal's direction against the formula [rad]
-  double curvature;  ///< relative error of principal curvatures, for most points
+  Tolerance constant;  ///< for shapes of one cross-section
+  Tolerance flats;     ///< for wheels with flats
 };
 
 struct Subject {
   Shape shape;
   Contestant contestant;
+  const Tolerance& tolerance() const { return shape.spec.flats.empty() ? contestant.constant : contestant.flats; }
   std::shared_ptr<const Surface> make() const;
 };
 
