@@ -1,0 +1,79 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark {
+namespace {
+
+/// Heights that tell where they were asked for: z = x + 10 y of the plane, nothing for x < 0.
+class Marked final : public Surface {
+ public:
+  std::string_view backend() const override { return "marked"; }
+  Facing facing() const override { return Facing::up; }
+  Box3 bounds() const override { return {}; }
+  std::size_t memory_bytes() const override { return 0; }
+
+ private:
+  void do_heights(const PlaneGrid& p, const HeightsOut& out) const override {
+    for (int iy = 0; iy < p.grid.ny; ++iy)
+      for (int ix = 0; ix < p.grid.nx; ++ix) {
+        const double x = p.grid.x(ix), y = p.grid.y(iy);
+        if (!out.z.empty()) out.z[p.grid.index(ix, iy)] = x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x + 10.0 * y;
+      }
+  }
+  void do_locate(const Pose&, std::span<const Vec2>, std::span<SurfacePoint>) const override {}
+  HeightBounds do_height_bounds(const Pose&, const Rectangle&) const override { return {}; }
+};
+
+TEST(Grid, RunsRowByRow) {
+  const Grid2 g{1.0, 2.0, 0.1, 0.2, 3, 4};
+  EXPECT_EQ(g.size(), 12u);
+  EXPECT_EQ(g.index(0, 0), 0u);
+  EXPECT_EQ(g.index(2, 0), 2u);
+  EXPECT_EQ(g.index(0, 1), 3u);
+  EXPECT_EQ(g.index(2, 3), 11u);
+  EXPECT_NEAR(g.x(2), 1.2, 1e-15);
+  EXPECT_NEAR(g.y(3), 2.6, 1e-15);
+  EXPECT_NEAR(g.cell_area(), 0.02, 1e-15);
+}
+
+TEST(SurfaceContract, HeightAtIsAGridOfOnePoint) {
+  EXPECT_NEAR(height_at(Marked(), {}, {0.3, 0.2}), 2.3, 1e-15);
+  EXPECT_TRUE(std::isnan(height_at(Marked(), {}, {-0.3, 0.2})));
+}
+
+TEST(SurfaceContract, NothingThereIsNeverPenetration) {
+  const double nothing = height_at(Marked(), {}, {-1.0, 0.0});
+  EXPECT_FALSE(nothing - 1.0 < 0.0);
+  EXPECT_FALSE(1.0 - nothing < 0.0);
+}
+
+TEST(SurfaceContract, RefusesWrongSizes) {
+  const Marked surface;
+  std::vector<double> z(6);
+  const PlaneGrid good{{}, {0.0, 0.0, 0.1, 0.1, 3, 2}};
+  EXPECT_NO_THROW(surface.heights(good, {z, {}, {}}));
+  EXPECT_NO_THROW(surface.heights(good, {}));
+  z.resize(5);
+  EXPECT_THROW(surface.heights(good, {z, {}, {}}), Error);
+  EXPECT_THROW(surface.heights(good, {{}, z, {}}), Error);
+  EXPECT_THROW(surface.heights(good, {{}, {}, z}), Error);
+  for (const Grid2& bad : {Grid2{0, 0, 0.1, 0.1, 0, 2}, Grid2{0, 0, 0.1, 0.1, 2, -1}, Grid2{0, 0, 0.0, 0.1, 2, 2},
+                           Grid2{0, 0, 0.1, std::nan(""), 2, 2}})
+    EXPECT_THROW(surface.heights({{}, bad}, {}), Error);
+  const std::vector<Vec2> points(2);
+  std::vector<SurfacePoint> located(3);
+  EXPECT_THROW(surface.locate({}, points, located), Error);
+  EXPECT_THROW(surface.height_bounds({}, {1.0, 0.0, 0.0, 1.0}), Error);
+  EXPECT_THROW(surface.height_bounds({}, {0.0, 1.0, 0.0, std::nan("")}), Error);
+}
+
+}  // namespace
+}  // namespace treadmark
