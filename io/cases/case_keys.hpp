@@ -7,6 +7,7 @@
 #include <optional>
 #include <span>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
@@ -27,7 +28,8 @@ struct KeyInfo {
   std::string default_text;          ///< as TOML; empty = none
   std::optional<double> above, at_least, at_most;   ///< limits in the unit of the key
   std::vector<std::string> choices;
-  std::string pattern;               ///< regular expression for text; empty = anything
+  std::string pattern;               ///< text: regular expression for the schema and messages; empty = anything
+  bool (*matches)(std::string_view) = nullptr;  ///< text: what pattern says, as code; set with it
   std::string group, alternative;    ///< keys of one group with different alternatives exclude each other
   KeyScope scope = KeyScope::any;
   bool required = false;             ///< in a table_list

@@ -8,7 +8,7 @@ namespace {
 
 /// A key that both kinds of case have in a member of the same name and type.
 template <class Place>
-CaseKey& shared_number(KeyList& list, const std::string& path, Limits limits, const std::string& doc, Place place) {
+CaseKey& shared_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc, Place place) {
   list.number<WheelRailCase>(path, limits, doc, place);
   CaseKey& key = list.keys.back();
   key.info.scope = KeyScope::any;
@@ -44,8 +44,8 @@ CaseKey& shared_choice(KeyList& list, const std::string& path, std::vector<std::
 }
 
 void add_material(KeyList& list) {
-  constexpr Limits kPoisson{{}, 0.0, 0.5};
-  const auto both = [&](const std::string& path, Limits limits, const std::string& doc, auto first, auto second) {
+  constexpr KeyLimits kPoisson{{}, 0.0, 0.5};
+  const auto both = [&](const std::string& path, KeyLimits limits, const std::string& doc, auto first, auto second) {
     CaseKey& key = shared_number(list, path, limits, doc, first);
     const double unit = unit_of_key(path);
     key.set = [first, second, unit](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -72,7 +72,7 @@ void add_friction(KeyList& list) {
   shared_choice<Kind>(list, "friction.law",
                       {{"coulomb", Kind::coulomb}, {"linear", Kind::linear}, {"rational", Kind::rational}, {"exponential", Kind::exponential}},
                       "how friction falls with the slip velocity", [](auto& c) -> Kind& { return c.friction.kind; });
-  constexpr Limits kFriction{{}, 1e-4, {}};
+  constexpr KeyLimits kFriction{{}, 1e-4, {}};
   shared_number(list, "friction.coefficient", kFriction, "coefficient of friction; of falling laws the limit at high slip velocity",
                 [](auto& c) -> double& { return c.friction.kinetic; });
   shared_number(list, "friction.amplitude_1", kAnyNumber, "first falling term at rest, added to the coefficient",

@@ -18,7 +18,7 @@ GapInput& gap(B& c) {
 }
 
 void add_load(KeyList& list) {
-  const auto vertical = [&](const std::string& name, Limits limits, const std::string& doc, double B::*member, bool force) {
+  const auto vertical = [&](const std::string& name, KeyLimits limits, const std::string& doc, double B::*member, bool force) {
     list.number<B>("patch." + name, limits, doc, [member](B& c) -> double& { return c.*member; });
     CaseKey& key = list.keys.back();
     key.info.group = "patch normal";

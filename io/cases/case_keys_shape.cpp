@@ -11,6 +11,12 @@ namespace {
 
 using W = WheelRailCase;
 
+bool is_backend_name(std::string_view text) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz";
+  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
+}
+
 /// Key of the tables in a list such as wheel.flats.
 template <class Element>
 struct ElementKey {
@@ -19,7 +25,7 @@ struct ElementKey {
 };
 
 template <class Element>
-ElementKey<Element> element_number(std::string name, Limits limits, std::string doc, double Element::*member) {
+ElementKey<Element> element_number(std::string name, KeyLimits limits, std::string doc, double Element::*member) {
   KeyInfo info = key_info(name, KeyType::number, std::move(doc));
   info.above = limits.above;
   info.at_least = limits.at_least;
@@ -95,6 +101,7 @@ class ShapeKeys {
     add_file_options();
     KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation; without it the one that fits the shape");
     backend.pattern = "^[a-z][a-z0-9_-]*$";
+    backend.matches = is_backend_name;
     backend.scope = KeyScope::wheel_rail;
     list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       (content_of<W>(c).*surface).backend = v.text();

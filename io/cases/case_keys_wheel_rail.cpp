@@ -12,6 +12,18 @@ namespace {
 
 using W = WheelRailCase;
 
+bool is_digits(std::string_view text) {
+  return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// "1:40", "1:37.5"
+bool is_ratio(std::string_view text) {
+  if (!text.starts_with("1:")) return false;
+  text.remove_prefix(2);
+  const std::size_t dot = text.find('.');
+  return is_digits(text.substr(0, dot)) && (dot == std::string_view::npos || is_digits(text.substr(dot + 1)));
+}
+
 void add_track(KeyList& list) {
   list.number<W>("track.gauge_mm", kPositive, "track gauge; the rail is placed by its gauge point",
                  [](W& c) -> double& { return c.track.gauge_width; });
@@ -39,11 +51,12 @@ void add_track(KeyList& list) {
   absolute("rail_y_mm", "rail profile origin placed at this y instead of by the gauge", &TrackInput::rail_y0);
   absolute("rail_z_mm", "rail profile origin placed at this z instead of by the gauge", &TrackInput::rail_z0);
 
-  constexpr Limits kCant{{}, -45.0, 45.0};
+  constexpr KeyLimits kCant{{}, -45.0, 45.0};
   list.angle<W>("track.cant", kCant, "rail inclination, positive = rail head turned inward",
                 [](W& c) -> double& { return c.track.cant; });
   KeyInfo ratio = key_info("track.cant", KeyType::text, "rail inclination as a ratio, for example \"1:40\"");
   ratio.pattern = "^1:[0-9]+(\\.[0-9]+)?$";
+  ratio.matches = is_ratio;
   ratio.group = "track.cant";
   ratio.alternative = "ratio";
   ratio.scope = KeyScope::wheel_rail;
@@ -87,7 +100,7 @@ void add_wheelset(KeyList& list) {
   list.number<W>("wheelset.s_mm", kAnyNumber, "position along the track", [](W& c) -> double& { return c.wheelset.s; });
   list.number<W>("wheelset.y_mm", kAnyNumber, "lateral position", [](W& c) -> double& { return c.wheelset.y; });
 
-  const auto vertical = [&](const std::string& name, Limits limits, const std::string& doc, auto place, bool force) {
+  const auto vertical = [&](const std::string& name, KeyLimits limits, const std::string& doc, auto place, bool force) {
     list.number<W>("wheelset." + name, limits, doc, place);
     CaseKey& key = list.keys.back();
     key.info.group = "wheelset vertical";

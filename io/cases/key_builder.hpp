@@ -24,12 +24,12 @@ inline KeyInfo key_info(std::string path, KeyType type, std::string doc) {
   return info;
 }
 
-struct Limits {
+struct KeyLimits {
   std::optional<double> above, at_least, at_most;
 };
-inline constexpr Limits kPositive{0.0, {}, {}};
-inline constexpr Limits kNotNegative{{}, 0.0, {}};
-inline constexpr Limits kAnyNumber{};
+inline constexpr KeyLimits kPositive{0.0, {}, {}};
+inline constexpr KeyLimits kNotNegative{{}, 0.0, {}};
+inline constexpr KeyLimits kAnyNumber{};
 
 /// Part of a Case that keys of one scope live in.
 template <class Content>
@@ -53,7 +53,7 @@ class KeyList {
 
   /// place: Content& -> double&.
   template <class Content, class Place>
-  KeyInfo& number(std::string path, Limits limits, std::string doc, Place place) {
+  KeyInfo& number(std::string path, KeyLimits limits, std::string doc, Place place) {
     KeyInfo info = key_info(path, KeyType::number, std::move(doc));
     info.above = limits.above;
     info.at_least = limits.at_least;
@@ -71,7 +71,7 @@ class KeyList {
 
   /// Two keys, base_deg and base_rad, that exclude each other.
   template <class Content, class Place>
-  void angle(const std::string& base, Limits limits_deg, const std::string& doc, Place place) {
+  void angle(const std::string& base, KeyLimits limits_deg, const std::string& doc, Place place) {
     for (const std::string unit : {"deg", "rad"}) {
       KeyInfo& info = number<Content>(base + '_' + unit, limits_deg, doc, place);
       const double factor = unit == "rad" ? unit_of_key("x_deg") : 1.0;

@@ -10,6 +10,7 @@
 
 #include "treadmark/io/cases/contact_case.hpp"
 #include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
 
 namespace treadmark::io {
 
@@ -42,7 +43,7 @@ void check_first_case(const ContactReader& r) {
 CaseFile parse_contact_input(std::string_view content, const std::filesystem::path& name) {
   CaseFile result;
   result.path = name;
-  result.sha256 = text_sha256(content);
+  result.sha256 = sha256_hex(content);
   result.title = name.stem().string();
   const std::filesystem::path folder = name.parent_path();
   ContactText text(content, name.string());

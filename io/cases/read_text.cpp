@@ -6,10 +6,6 @@
 #include <iterator>
 
 #include "treadmark/core/error.hpp"
-#if __has_include("treadmark/io/profiles/sha256.hpp")
-#include "treadmark/io/profiles/sha256.hpp"
-#define TREADMARK_CASES_HAVE_SHA256 1
-#endif
 
 namespace treadmark::io {
 
@@ -20,15 +16,6 @@ std::string read_text(const std::filesystem::path& file) {
   std::ifstream stream(file, std::ios::binary);
   if (!stream) throw Error(ErrorKind::configuration, "the case file cannot be opened", {file.string()}, "check its name");
   return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
-}
-
-std::string text_sha256(std::string_view text) {
-#ifdef TREADMARK_CASES_HAVE_SHA256
-  return sha256_hex(text);
-#else
-  static_cast<void>(text);
-  return {};
-#endif
 }
 
 }  // namespace treadmark::io

@@ -12,6 +12,7 @@
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
 
 namespace treadmark::io {
 
@@ -84,7 +85,7 @@ void expand_entry(const CaseEntry& cases, const CaseValue& entry, const Case& de
 CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
   CaseFile result;
   result.path = name;
-  result.sha256 = text_sha256(text);
+  result.sha256 = sha256_hex(text);
   result.title = name.stem().string();
   const std::vector<CaseOverride> changes = parse_overrides(overrides);
   const std::filesystem::path folder = name.parent_path();

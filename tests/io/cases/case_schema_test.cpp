@@ -66,6 +66,7 @@ TEST(CaseKeys, AreUniqueAndDocumented) {
     EXPECT_TRUE(seen.insert(key.info.path).second) << key.info.path;
     EXPECT_FALSE(key.info.doc.empty()) << key.info.path;
     EXPECT_TRUE(key.set) << key.info.path;
+    EXPECT_EQ(key.info.pattern.empty(), key.info.matches == nullptr) << key.info.path;
     EXPECT_EQ(key.info.type == KeyType::table_list, static_cast<bool>(key.set_element)) << key.info.path;
   }
   EXPECT_GT(seen.size(), 100u);

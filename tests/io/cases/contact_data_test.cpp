@@ -5,12 +5,12 @@
 
 #include <fstream>
 #include <numbers>
-#include <regex>
 #include <set>
 #include <sstream>
 
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {
@@ -21,6 +21,13 @@ constexpr double kDegree = std::numbers::pi / 180.0;
 const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); }
 const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
 fs::path example(const fs::path& shared, const std::string& name) { return shared / "data" / "contact_examples" / name; }
+
+std::string content(const fs::path& file) {
+  std::ifstream stream(file);
+  std::stringstream text;
+  text << stream.rdbuf();
+  return text.str();
+}
 
 TEST(ContactData, Wheelflat) {
   TREADMARK_REQUIRE_SHARED();
@@ -52,6 +59,7 @@ TEST(ContactData, Wheelflat) {
     EXPECT_DOUBLE_EQ(std::get<GeometryFile>(c.rail.geometry).options.smoothing.strength, 0.0);
   }
   EXPECT_EQ(f.cases[0].where.line, 7);
+  EXPECT_EQ(f.sha256, sha256_hex(content(example(*shared, "wheelflat.inp"))));
 }
 
 TEST(ContactData, ManchesterBenchmark) {
@@ -213,13 +221,6 @@ INSTANTIATE_TEST_SUITE_P(
                       Refused{"contact_testbank/examples_trans/t1_merge_cp.inp", "T (TANG) = 1, shift"},
                       Refused{"contact_testbank/examples_trans/t3_t2_force.inp", "V (VARFRC) = 1"}));
 
-std::string content(const fs::path& file) {
-  std::ifstream stream(file);
-  std::stringstream text;
-  text << stream.rdbuf();
-  return text.str();
-}
-
 std::vector<fs::path> all_inputs(const fs::path& shared) {
   std::vector<fs::path> files;
   for (const auto& entry : fs::recursive_directory_iterator(shared / "data"))
@@ -241,16 +242,33 @@ TEST(ContactData, EveryFileIsAccountedFor) {
   }
 }
 
+/// The text with R = 1 replaced by R = 3 in the third control word of every case; count tells how many.
+std::string with_skipped_cases(const std::string& text, int& count) {
+  std::stringstream in(text);
+  std::string out;
+  count = 0;
+  for (std::string line; std::getline(in, line);) {
+    if (line.find("G-I-A-O-W-R") != std::string::npos) {
+      const std::size_t end = line.find_first_not_of("0123456789", line.find_first_of("0123456789"));
+      if (line.at(end - 1) == '1') {
+        line[end - 1] = '3';
+        ++count;
+      }
+    }
+    out += line + '\n';
+  }
+  return out;
+}
+
 /// With every case marked as skipped (R = 3) nothing is refused, so each file must be understood to its last line.
 TEST(ContactData, GrammarOfEveryFileIsReadToTheEnd) {
   TREADMARK_REQUIRE_SHARED();
-  const std::regex third_word(R"((\n\s*\d*)1(\s+(X-)?(H-)?G-I-A-O-W-R))");
   for (const fs::path& file : all_inputs(*shared)) {
-    const std::string text = content(file);
-    const auto count = std::distance(std::sregex_iterator(text.begin(), text.end(), third_word), {});
+    int count = 0;
+    const std::string text = with_skipped_cases(content(file), count);
     ASSERT_GT(count, 0) << file;
     CaseFile f;
-    ASSERT_NO_THROW(f = parse_contact_input(std::regex_replace(text, third_word, "$013$2"), file)) << file;
+    ASSERT_NO_THROW(f = parse_contact_input(text, file)) << file;
     EXPECT_EQ(f.cases.size(), 0u) << file;
   }
 }
