@@ -60,7 +60,9 @@ Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creep
   const FastsimSettings& s = problem.fastsim;
   const double with_spin = eta + equivalent.a * phi;
   const double lateral = std::abs(eta) >= std::abs(with_spin) ? eta : with_spin;
-  const double e = bound > 0.0 ? g * pi * equivalent.a * equivalent.b * s.k0 * c.c11 * std::hypot(xi, lateral) / (4.0 * bound) : 0.0;
+  const double c11 = kalker_coefficients(equivalent.a, equivalent.b, material.poisson).c11;
+  const double e =
+      bound > 0.0 ? g * pi * equivalent.a * equivalent.b * s.k0 * c11 * std::hypot(xi, lateral) / (4.0 * bound) : 0.0;
   result.slope = s.k0 * (s.alpha + (1.0 - s.alpha) / (1.0 + s.beta * e));
   return result;
 }

@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
 
+#include <algorithm>
 #include <array>
+#include <cstdint>
 #include <map>
 #include <mutex>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
 namespace treadmark::kalker {
@@ -21,6 +24,10 @@ std::shared_ptr<const FftPlan> shared_plan(int nx, int ny, int active_rows) {
   auto& plan = plans[{nx, ny, active_rows}];
   if (!plan) plan = make_fft_plan(nx, ny, active_rows);
   return plan;
+}
+
+bool is_aligned(const void* memory) {
+  return reinterpret_cast<std::uintptr_t>(memory) % static_cast<std::size_t>(AlignedAllocator<double>::kAlignment) == 0;
 }
 
 bool has_only_small_factors(int n) {
@@ -44,13 +51,21 @@ RealFft2d::RealFft2d(int nx, int ny, int active_rows) : nx_(nx), ny_(ny), active
 void RealFft2d::forward(std::span<double> real, std::span<std::complex<double>> spectrum) const {
   if (real.size() != real_size() || spectrum.size() != spectrum_size())
     throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
-  plan_->forward(real.data(), spectrum.data());
+  if (is_aligned(real.data()) && is_aligned(spectrum.data())) return plan_->forward(real.data(), spectrum.data());
+  AlignedVector<double> aligned_real(real.begin(), real.end());
+  AlignedVector<std::complex<double>> aligned_spectrum(spectrum.size());
+  plan_->forward(aligned_real.data(), aligned_spectrum.data());
+  std::copy(aligned_spectrum.begin(), aligned_spectrum.end(), spectrum.begin());
 }
 
 void RealFft2d::inverse(std::span<std::complex<double>> spectrum, std::span<double> real) const {
   if (real.size() != real_size() || spectrum.size() != spectrum_size())
     throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
-  plan_->inverse(spectrum.data(), real.data());
+  if (is_aligned(real.data()) && is_aligned(spectrum.data())) return plan_->inverse(spectrum.data(), real.data());
+  AlignedVector<double> aligned_real(real.size());
+  AlignedVector<std::complex<double>> aligned_spectrum(spectrum.begin(), spectrum.end());
+  plan_->inverse(aligned_spectrum.data(), aligned_real.data());
+  std::copy(aligned_real.begin(), aligned_real.end(), real.begin());
 }
 
 int good_fft_size(int n) {

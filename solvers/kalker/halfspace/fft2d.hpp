@@ -14,7 +14,7 @@ class FftPlan;
 /// Unnormalised discrete Fourier transform of real fields with ny rows of nx values: inverse(forward(x)) = nx * ny * x.
 /// Only the first active_rows rows of the field exist; the others are taken as zero by forward and not computed by inverse.
 /// Plans are shared by the whole process. All members may be called from any number of threads at the same time.
-/// Results are the same from run to run when the spans are aligned alike (AlignedVector).
+/// Results do not depend on threads or alignment; arrays of AlignedVector spare a copy.
 class RealFft2d {
  public:
   /// nx must be even. Errors: Error(configuration) for odd or non-positive sizes, or active_rows outside 1..ny.

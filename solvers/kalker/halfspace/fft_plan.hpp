@@ -8,6 +8,7 @@
 namespace treadmark::kalker {
 
 /// One transform size of one FFT library; see RealFft2d for the contract. Immutable, callable from any thread.
+/// Arrays begin at cache lines (AlignedVector).
 class FftPlan {
  public:
   virtual ~FftPlan() = default;

@@ -25,56 +25,40 @@ class FftwPlan final : public FftPlan {
     end_ = static_cast<std::size_t>(columns_) * static_cast<std::size_t>(ny);
     AlignedVector<double> real(static_cast<std::size_t>(nx) * static_cast<std::size_t>(active_rows));
     AlignedVector<std::complex<double>> spectrum(end_);
-    for (int unaligned = 0; unaligned < 2; ++unaligned) {
-      const unsigned flags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT | (unaligned ? FFTW_UNALIGNED : 0u);
-      Set& set = sets_[unaligned];
-      set.rows_forward = fftw_plan_many_dft_r2c(1, &nx, active_rows, real.data(), nullptr, 1, nx, raw(spectrum.data()),
-                                                nullptr, 1, columns_, flags);
-      set.rows_inverse = fftw_plan_many_dft_c2r(1, &nx, active_rows, raw(spectrum.data()), nullptr, 1, columns_,
-                                                real.data(), nullptr, 1, nx, flags);
-      if (!set.rows_forward || !set.rows_inverse) throw std::bad_alloc();
-      if (ny == 1) continue;
-      set.columns_forward = column_plan(ny, spectrum.data(), FFTW_FORWARD, flags);
-      set.columns_inverse = column_plan(ny, spectrum.data(), FFTW_BACKWARD, flags);
-      if (!set.columns_forward || !set.columns_inverse) throw std::bad_alloc();
-    }
+    constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
+    rows_forward_ = fftw_plan_many_dft_r2c(1, &nx, active_rows, real.data(), nullptr, 1, nx, raw(spectrum.data()), nullptr,
+                                           1, columns_, kFlags);
+    rows_inverse_ = fftw_plan_many_dft_c2r(1, &nx, active_rows, raw(spectrum.data()), nullptr, 1, columns_, real.data(),
+                                           nullptr, 1, nx, kFlags);
+    if (!rows_forward_ || !rows_inverse_) throw std::bad_alloc();
+    if (ny == 1) return;
+    const auto column_plan = [&](int sign) {
+      fftw_complex* data = raw(spectrum.data());
+      return fftw_plan_many_dft(1, &ny, columns_, data, nullptr, columns_, 1, data, nullptr, columns_, 1, sign, kFlags);
+    };
+    columns_forward_ = column_plan(FFTW_FORWARD);
+    columns_inverse_ = column_plan(FFTW_BACKWARD);
+    if (!columns_forward_ || !columns_inverse_) throw std::bad_alloc();
   }
   ~FftwPlan() override {
-    for (Set& set : sets_)
-      for (fftw_plan plan : {set.rows_forward, set.columns_forward, set.rows_inverse, set.columns_inverse})
-        if (plan) fftw_destroy_plan(plan);
+    for (fftw_plan plan : {rows_forward_, columns_forward_, rows_inverse_, columns_inverse_})
+      if (plan) fftw_destroy_plan(plan);
   }
   FftwPlan(const FftwPlan&) = delete;
   FftwPlan& operator=(const FftwPlan&) = delete;
 
   void forward(double* real, std::complex<double>* spectrum) const override {
-    const Set& set = set_for(real, spectrum);
     std::fill(spectrum + first_inactive_, spectrum + end_, std::complex<double>());
-    fftw_execute_dft_r2c(set.rows_forward, real, raw(spectrum));
-    if (set.columns_forward) fftw_execute_dft(set.columns_forward, raw(spectrum), raw(spectrum));
+    fftw_execute_dft_r2c(rows_forward_, real, raw(spectrum));
+    if (columns_forward_) fftw_execute_dft(columns_forward_, raw(spectrum), raw(spectrum));
   }
   void inverse(std::complex<double>* spectrum, double* real) const override {
-    const Set& set = set_for(real, spectrum);
-    if (set.columns_inverse) fftw_execute_dft(set.columns_inverse, raw(spectrum), raw(spectrum));
-    fftw_execute_dft_c2r(set.rows_inverse, raw(spectrum), real);
+    if (columns_inverse_) fftw_execute_dft(columns_inverse_, raw(spectrum), raw(spectrum));
+    fftw_execute_dft_c2r(rows_inverse_, raw(spectrum), real);
   }
 
  private:
-  struct Set {
-    fftw_plan rows_forward = nullptr, columns_forward = nullptr, rows_inverse = nullptr, columns_inverse = nullptr;
-  };
-
-  fftw_plan column_plan(int ny, std::complex<double>* data, int sign, unsigned flags) const {
-    return fftw_plan_many_dft(1, &ny, columns_, raw(data), nullptr, columns_, 1, raw(data), nullptr, columns_, 1, sign,
-                              flags);
-  }
-  const Set& set_for(double* real, std::complex<double>* spectrum) const {
-    const bool aligned =
-        fftw_alignment_of(real) == 0 && fftw_alignment_of(reinterpret_cast<double*>(spectrum)) == 0;
-    return sets_[aligned ? 0 : 1];
-  }
-
-  Set sets_[2];
+  fftw_plan rows_forward_ = nullptr, columns_forward_ = nullptr, rows_inverse_ = nullptr, columns_inverse_ = nullptr;
   int columns_;
   std::size_t first_inactive_ = 0, end_ = 0;
 };

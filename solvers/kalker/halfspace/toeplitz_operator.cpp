@@ -3,6 +3,7 @@
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include "treadmark/core/error.hpp"
 
@@ -43,8 +44,40 @@ std::span<std::complex<double>> spectrum_field(std::size_t size) {
 
 }  // namespace
 
+void multiply(std::span<std::complex<double>> spectrum, std::span<const std::complex<double>> factor) {
+  check_size(factor.size(), spectrum.size());
+  // On plain numbers: operator* of std::complex checks for infinities, and whole complex values are copied slowly.
+  double* __restrict a = reinterpret_cast<double*>(spectrum.data());
+  const double* __restrict b = reinterpret_cast<const double*>(factor.data());
+  for (std::size_t k = 0; k < 2 * spectrum.size(); k += 2) {
+    const double real = a[k] * b[k] - a[k + 1] * b[k + 1], imaginary = a[k] * b[k + 1] + a[k + 1] * b[k];
+    a[k] = real;
+    a[k + 1] = imaginary;
+  }
+}
+
 ToeplitzTransform::ToeplitzTransform(int nx, int ny)
     : nx_((check_grid(nx, ny), nx)), ny_(ny), fft_(padded(nx), padded_rows(ny), ny) {}
+
+/// Transform of a field that fills the padded size: the transform of few active rows is used for one band of rows after
+/// the other, because making another plan would cost more.
+Spectrum ToeplitzTransform::whole_spectrum(std::span<const double> padded) const {
+  const int px = padded_nx(), py = padded_ny(), columns = px / 2 + 1;
+  Spectrum sum(spectrum_size()), band(spectrum_size());
+  AlignedVector<double> rows(fft_.real_size());
+  for (int first = 0; first < py; first += ny_) {
+    const auto begin = padded.begin() + static_cast<std::ptrdiff_t>(product(first, px));
+    const std::size_t count = std::min(rows.size(), product(py - first, px));
+    std::fill(std::copy(begin, begin + static_cast<std::ptrdiff_t>(count), rows.begin()), rows.end(), 0.0);
+    fft_.forward(rows, band);
+    for (int ky = 0; ky < py; ++ky) {
+      const std::complex<double> shift =
+          std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(product(ky, first) % static_cast<std::size_t>(py)) / py);
+      for (std::size_t k = product(ky, columns); k < product(ky + 1, columns); ++k) sum[k] += shift * band[k];
+    }
+  }
+  return sum;
+}
 
 Spectrum ToeplitzTransform::kernel_spectrum(const OffsetKernel& kernel) const {
   const int px = padded_nx(), py = padded_ny();
@@ -53,9 +86,7 @@ Spectrum ToeplitzTransform::kernel_spectrum(const OffsetKernel& kernel) const {
   for (int diy = 1 - ny_; diy < ny_; ++diy)
     for (int dix = 1 - nx_; dix < nx_; ++dix)
       field[product((diy + py) % py, px) + static_cast<std::size_t>((dix + px) % px)] = scale * kernel(dix, diy);
-  Spectrum spectrum(spectrum_size());
-  RealFft2d(px, py).forward(field, spectrum);
-  return spectrum;
+  return whole_spectrum(field);
 }
 
 Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) const {
@@ -65,9 +96,7 @@ Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) 
   const double scale = 1.0 / (static_cast<double>(px) * py);
   for (int iy = 0; iy < py; ++iy)
     for (int ix = 0; ix < px; ++ix) field.push_back(scale * kernel(2 * ix <= px ? ix : ix - px, 2 * iy <= py ? iy : iy - py));
-  Spectrum spectrum(spectrum_size());
-  RealFft2d(px, py).forward(field, spectrum);
-  return spectrum;
+  return whole_spectrum(field);
 }
 
 void ToeplitzTransform::convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,
@@ -75,11 +104,7 @@ void ToeplitzTransform::convolve(std::span<const std::complex<double>> kernel_sp
   check_size(kernel_spectrum.size(), spectrum_size());
   const std::span<std::complex<double>> spectrum = spectrum_field(spectrum_size());
   forward(field, spectrum);
-  for (std::size_t k = 0; k < spectrum.size(); ++k) {
-    // Written out, because operator* of std::complex checks for infinities.
-    const std::complex<double> a = spectrum[k], b = kernel_spectrum[k];
-    spectrum[k] = {a.real() * b.real() - a.imag() * b.imag(), a.real() * b.imag() + a.imag() * b.real()};
-  }
+  multiply(spectrum, kernel_spectrum);
   inverse(spectrum, result);
 }
 

@@ -17,6 +17,9 @@ using OffsetKernel = std::function<double(int dix, int diy)>;
 
 using Spectrum = AlignedVector<std::complex<double>>;
 
+/// spectrum[k] *= factor[k]; equal sizes.
+void multiply(std::span<std::complex<double>> spectrum, std::span<const std::complex<double>> factor);
+
 /// Zero-padded transforms of fields with ny rows of nx values, for convolutions with kernels of index offsets.
 /// u = K p reads: forward(p, s); multiply s by kernel_spectrum(K); inverse(s, u). Sums of several kernels and fields are
 /// formed between the transforms. Const members may be called from any number of threads.
@@ -46,6 +49,8 @@ class ToeplitzTransform {
   int padded_ny() const { return fft_.ny(); }
 
  private:
+  Spectrum whole_spectrum(std::span<const double> padded) const;
+
   int nx_, ny_;
   RealFft2d fft_;
 };

@@ -48,15 +48,11 @@ ContactEstimate estimate_contact(const ContactProblem& problem, std::span<const 
                                  const CombinedMaterial& material) {
   ContactEstimate estimate;
   estimate.least_gap = *std::min_element(gap.begin(), gap.end());
-  if (!std::isfinite(estimate.least_gap)) return estimate;
   if (!problem.force_prescribed) {
     estimate.approach = problem.approach;
-    estimate.contact = estimate.least_gap < problem.approach;
     estimate.threshold = kContactShare * (problem.approach - estimate.least_gap);
     return estimate;
   }
-  estimate.contact = problem.normal_force > 0.0;
-  if (!estimate.contact) return estimate;
 
   const double e_star = material.shear_modulus / (1.0 - material.poisson);
   const Grid2& grid = problem.grid;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <string>
 
@@ -108,7 +109,8 @@ struct NormalSolver::Workspace {
   /// Pressures of the last problem on another grid; false if there are none or the grids do not line up.
   bool take_last(const Grid2& grid, std::vector<double>& pressure) const;
   void solve_full(const ContactProblem& problem, const CombinedMaterial& material, ContactSolution& solution);
-  void first_pressure(const ContactProblem& problem, const ContactEstimate& estimate, std::vector<double>& pressure) const;
+  void first_pressure(const ContactProblem& problem, const CombinedMaterial& material,
+                      std::vector<double>& pressure) const;
 };
 
 bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& pressure) const {
@@ -130,7 +132,7 @@ bool NormalSolver::Workspace::take_last(const Grid2& grid, std::vector<double>& 
 }
 
 /// Semi-ellipsoidal pressure of arbitrary size over the elements that are thought to be in contact.
-void NormalSolver::Workspace::first_pressure(const ContactProblem& problem, const ContactEstimate& estimate,
+void NormalSolver::Workspace::first_pressure(const ContactProblem& problem, const CombinedMaterial& material,
                                              std::vector<double>& pressure) const {
   if (problem.hertz && !is_line_contact(*problem.hertz) && problem.hertz->semi_axis_x > 0.0) {
     bool any = false;
@@ -143,6 +145,7 @@ void NormalSolver::Workspace::first_pressure(const ContactProblem& problem, cons
       }
     if (any) return;
   }
+  const ContactEstimate estimate = estimate_contact(problem, gap, material);
   for (std::size_t i = 0; i < gap.size(); ++i) {
     const double depth = gap[i] - estimate.least_gap;
     // The element of least gap belongs to the contact however small that is.
@@ -166,12 +169,13 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
     solution.status = solution.normal.status = Status::no_contact;
     last_pressure.clear();
   };
-  const ContactEstimate estimate = estimate_contact(problem, gap, material);
   solution.approach = problem.force_prescribed ? 0.0 : problem.approach;
-  if (!estimate.contact) return report_no_contact();
+  const double least_gap = *std::min_element(gap.begin(), gap.end());
+  const bool contact = problem.force_prescribed ? problem.normal_force > 0.0 : least_gap < problem.approach;
+  if (!contact || least_gap >= kNeverInContact) return report_no_contact();
 
   std::vector<double>& pressure = solution.pressure;
-  if (!take_last(grid, pressure)) first_pressure(problem, estimate, pressure);
+  if (!take_last(grid, pressure)) first_pressure(problem, material, pressure);
 
   const auto op = [&](const ElementBox& box) -> const NormalOperator& {
     return operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson);

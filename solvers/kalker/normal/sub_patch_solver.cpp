@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/normal/sub_patch_solver.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/normal/normal_operator.hpp"
+#include "treadmark/solvers/kalker/normal/normal_solver.hpp"
+
+namespace treadmark::kalker {
+namespace {
+
+void check(const ContactProblem& problem) {
+  const SubPatches& s = problem.sub_patches;
+  const auto n = static_cast<std::size_t>(s.count);
+  if (problem.force_prescribed || problem.normal_model != NormalModel::full)
+    throw Error(ErrorKind::configuration, "sub-patches need a prescribed approach and the full normal problem");
+  if (s.part.size() != problem.grid.size() || s.coupling.size() != n * n)
+    throw Error(ErrorKind::configuration, "sub-patches need a part for every element and a factor for every pair");
+  for (const double f : s.coupling)
+    if (!(f >= 0.0 && f <= 1.0)) throw Error(ErrorKind::configuration, "a coupling factor is outside 0 to 1");
+}
+
+}  // namespace
+
+struct SubPatchSolver::Workspace {
+  NormalOperatorCache operators;
+  std::vector<NormalSolver> solvers;
+};
+
+SubPatchSolver::SubPatchSolver() : workspace_(std::make_unique<Workspace>()) {}
+SubPatchSolver::~SubPatchSolver() = default;
+SubPatchSolver::SubPatchSolver(SubPatchSolver&&) noexcept = default;
+SubPatchSolver& SubPatchSolver::operator=(SubPatchSolver&&) noexcept = default;
+
+void SubPatchSolver::reset() {
+  for (NormalSolver& solver : workspace_->solvers) solver.reset();
+}
+
+void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+  check(problem);
+  const Grid2& grid = problem.grid;
+  const SubPatches& sub = problem.sub_patches;
+  const auto count = static_cast<std::size_t>(sub.count);
+  const std::size_t n = grid.size();
+  while (workspace_->solvers.size() < count) workspace_->solvers.emplace_back();
+  const CombinedMaterial material = combine(problem.material);
+  const NormalOperator& op =
+      workspace_->operators.get(grid.nx, grid.ny, grid.dx, grid.dy, material.shear_modulus, material.poisson);
+
+  // Displacement by each part alone, everywhere.
+  std::vector<ContactSolution> parts(count);
+  std::vector<std::vector<double>> caused(count, std::vector<double>(n, 0.0));
+  std::vector<double> gap(n);
+  double largest = 0.0, change = 0.0;
+  int rounds = 0;
+  const int max_rounds = std::max(2, problem.settings.max_outer);
+  do {
+    change = 0.0;
+    for (std::size_t k = 0; k < count; ++k) {
+      for (std::size_t i = 0; i < n; ++i) {
+        gap[i] = sub.part[i] == k + 1 ? problem.gap[i] : std::numeric_limits<double>::quiet_NaN();
+        for (std::size_t j = 0; j < count; ++j)
+          if (j != k) gap[i] += sub.coupling[k * count + j] * caused[j][i];
+      }
+      ContactProblem part = problem;
+      part.sub_patches = {};
+      part.gap = gap;
+      const std::vector<double> before = std::move(parts[k].pressure);
+      workspace_->solvers[k].solve(part, parts[k]);
+      if (parts[k].status == Status::no_contact) parts[k].pressure.assign(n, 0.0);
+      for (std::size_t i = 0; i < n; ++i) {
+        largest = std::max(largest, parts[k].pressure[i]);
+        change = std::max(change, std::abs(parts[k].pressure[i] - (before.empty() ? 0.0 : before[i])));
+      }
+      op.displacement(parts[k].pressure, caused[k]);
+    }
+    ++rounds;
+  } while (change > problem.settings.eps * largest && rounds < max_rounds);
+
+  solution = ContactSolution();
+  solution.pressure.assign(n, 0.0);
+  solution.displacement_n.assign(n, 0.0);
+  solution.state.assign(n, ElementState::exterior);
+  solution.approach = problem.approach;
+  double sum = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t own = sub.part[i] > 0 ? sub.part[i] - 1u : 0u;
+    for (std::size_t k = 0; k < count; ++k) {
+      solution.displacement_n[i] += (sub.part[i] > 0 ? sub.coupling[own * count + k] : 1.0) * caused[k][i];
+      solution.pressure[i] += parts[k].pressure[i];
+    }
+    if (!(solution.pressure[i] > 0.0)) continue;
+    solution.state[i] = ElementState::adhesion;
+    ++solution.elements_contact;
+    sum += solution.pressure[i];
+    solution.max_pressure = std::max(solution.max_pressure, solution.pressure[i]);
+  }
+  solution.elements_adhesion = solution.elements_contact;
+  solution.force_n = sum * grid.cell_area();
+  solution.normal.iterations = rounds;
+  solution.normal.residual = largest > 0.0 ? change / largest : 0.0;
+  if (solution.elements_contact == 0) {
+    solution.status = solution.normal.status = Status::no_contact;
+    return;
+  }
+  const bool parts_converged = std::none_of(parts.begin(), parts.end(), [](const ContactSolution& s) {
+    return s.status == Status::not_converged;
+  });
+  if (!parts_converged || change > problem.settings.eps * largest) {
+    solution.status = solution.normal.status = Status::not_converged;
+    solution.normal.message = "the sub-patches of a contact did not come to agree";
+  }
+}
+
+}  // namespace treadmark::kalker
