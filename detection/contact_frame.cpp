@@ -47,9 +47,9 @@ ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch) {
 Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, const ContactFrame& frame,
                              const PotentialContactSettings& settings) {
   const double x_reference = frame.X_TC.origin.x(), y_reference = frame.X_TC.origin.y();
-  const double x_low = patch.box.x_min - x_reference, x_high = patch.box.x_max - x_reference;
-  const double s_low = arc_length(bodies, x_reference, y_reference, patch.box.y_min);
-  const double s_high = arc_length(bodies, x_reference, y_reference, patch.box.y_max);
+  const double x_low = patch.extent.box.x_min - x_reference, x_high = patch.extent.box.x_max - x_reference;
+  const double s_low = arc_length(bodies, x_reference, y_reference, patch.extent.box.y_min);
+  const double s_high = arc_length(bodies, x_reference, y_reference, patch.extent.box.y_max);
 
   double dx = settings.dx, ds = settings.ds;
   const auto first = [](double low, double step) { return std::floor(low / step) - 1.0; };

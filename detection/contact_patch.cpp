@@ -12,31 +12,40 @@ double interval_gap(double a_min, double a_max, double b_min, double b_max) {
   return std::max({0.0, b_min - a_max, a_min - b_max});
 }
 
-ContactPatch merged(const ContactPatch& a, const ContactPatch& b) {
-  ContactPatch m = a.least_gap <= b.least_gap ? a : b;
-  m.box = {std::min(a.box.x_min, b.box.x_min), std::max(a.box.x_max, b.box.x_max), std::min(a.box.y_min, b.box.y_min),
+PatchExtent united(const PatchExtent& a, const PatchExtent& b) {
+  PatchExtent e;
+  e.box = {std::min(a.box.x_min, b.box.x_min), std::max(a.box.x_max, b.box.x_max), std::min(a.box.y_min, b.box.y_min),
            std::max(a.box.y_max, b.box.y_max)};
-  m.z_at_y_min = a.box.y_min <= b.box.y_min ? a.z_at_y_min : b.z_at_y_min;
-  m.z_at_y_max = a.box.y_max >= b.box.y_max ? a.z_at_y_max : b.z_at_y_max;
+  e.z_at_y_min = a.box.y_min <= b.box.y_min ? a.z_at_y_min : b.z_at_y_min;
+  e.z_at_y_max = a.box.y_max >= b.box.y_max ? a.z_at_y_max : b.z_at_y_max;
+  return e;
+}
+
+ContactPatch merged(const ContactPatch& a, const ContactPatch& b, bool keep_parts) {
+  ContactPatch m = a.least_gap <= b.least_gap ? a : b;
+  m.extent = united(a.extent, b.extent);
   m.weight = a.weight + b.weight;
   const double share = m.weight > 0.0 ? a.weight / m.weight : 0.5;
   m.x = share * a.x + (1.0 - share) * b.x;
   m.y = share * a.y + (1.0 - share) * b.y;
   m.inclination = share * a.inclination + (1.0 - share) * b.inclination;
-  m.parts = a.parts;
-  m.parts.insert(m.parts.end(), b.parts.begin(), b.parts.end());
+  m.parts = {m.extent};
+  if (keep_parts) {
+    m.parts = a.parts;
+    m.parts.insert(m.parts.end(), b.parts.begin(), b.parts.end());
+  }
   return m;
 }
 
 // Merges the first pair that satisfies the rule and starts again, until none does.
 template <class Rule>
-void merge_while(std::vector<ContactPatch>& patches, Rule&& rule) {
+void merge_while(std::vector<ContactPatch>& patches, bool keep_parts, Rule&& rule) {
   for (bool changed = true; changed;) {
     changed = false;
     for (std::size_t i = 0; i < patches.size() && !changed; ++i)
       for (std::size_t j = i + 1; j < patches.size() && !changed; ++j)
         if (rule(patches[i], patches[j])) {
-          patches[i] = merged(patches[i], patches[j]);
+          patches[i] = merged(patches[i], patches[j], keep_parts);
           patches.erase(patches.begin() + static_cast<std::ptrdiff_t>(j));
           changed = true;
         }
@@ -44,22 +53,30 @@ void merge_while(std::vector<ContactPatch>& patches, Rule&& rule) {
 }
 
 void extend_by(const ContactPatch& miss, double fraction, ContactPatch& patch) {
+  PatchExtent& e = patch.extent;
   const auto pull = [fraction](double& own, double other) { own = (1.0 - fraction) * own + fraction * other; };
-  if (miss.x < patch.box.x_min) pull(patch.box.x_min, miss.x);
-  if (miss.x > patch.box.x_max) pull(patch.box.x_max, miss.x);
-  if (miss.y < patch.box.y_min) pull(patch.box.y_min, miss.y), pull(patch.z_at_y_min, miss.deepest_T.z());
-  if (miss.y > patch.box.y_max) pull(patch.box.y_max, miss.y), pull(patch.z_at_y_max, miss.deepest_T.z());
+  if (miss.x < e.box.x_min) pull(e.box.x_min, miss.x);
+  if (miss.x > e.box.x_max) pull(e.box.x_max, miss.x);
+  if (miss.y < e.box.y_min) pull(e.box.y_min, miss.y), pull(e.z_at_y_min, miss.deepest_T.z());
+  if (miss.y > e.box.y_max) pull(e.box.y_max, miss.y), pull(e.z_at_y_max, miss.deepest_T.z());
+  patch.parts = {e};
 }
 
 }  // namespace
 
-double patch_distance(const ContactPatch& a, const ContactPatch& b) {
+double patch_distance(const PatchExtent& a, const PatchExtent& b) {
   const double dx = interval_gap(a.box.x_min, a.box.x_max, b.box.x_min, b.box.x_max);
   const double dy = interval_gap(a.box.y_min, a.box.y_max, b.box.y_min, b.box.y_max);
   double dz = 0.0;
   if (dy > 0.0)
     dz = a.box.y_max < b.box.y_min ? b.z_at_y_min - a.z_at_y_max : a.z_at_y_min - b.z_at_y_max;
   return std::sqrt(dx * dx + dy * dy + dz * dz);
+}
+
+double sub_patch_coupling(double distance, const PatchRules& rules) {
+  constexpr double kExponent = 0.8;
+  if (distance <= rules.combination || rules.separation <= rules.combination) return 1.0;
+  return std::pow(std::max(0.0, rules.separation - distance) / (rules.separation - rules.combination), kExponent);
 }
 
 std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, const std::vector<ContactPatch>& near_misses,
@@ -71,14 +88,14 @@ std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, con
   if (rules.near_miss > 0.0)
     for (const ContactPatch& miss : near_misses)
       for (ContactPatch& patch : patches)
-        if (miss.least_gap < rules.near_miss && patch_distance(patch, miss) <= rules.combination)
+        if (miss.least_gap < rules.near_miss && patch_distance(patch.extent, miss.extent) <= rules.combination)
           extend_by(miss, 1.0 - miss.least_gap / rules.near_miss, patch);
 
-  merge_while(patches, [&](const ContactPatch& a, const ContactPatch& b) {
-    return std::abs(a.inclination - b.inclination) <= rules.angle_separation && patch_distance(a, b) <= rules.combination;
+  merge_while(patches, false, [&](const ContactPatch& a, const ContactPatch& b) {
+    return std::abs(a.inclination - b.inclination) <= rules.angle_separation && patch_distance(a.extent, b.extent) <= rules.combination;
   });
-  merge_while(patches, [&](const ContactPatch& a, const ContactPatch& b) {
-    return std::abs(a.inclination - b.inclination) <= rules.angle_separation && patch_distance(a, b) <= rules.separation;
+  merge_while(patches, true, [&](const ContactPatch& a, const ContactPatch& b) {
+    return std::abs(a.inclination - b.inclination) <= rules.angle_separation && patch_distance(a.extent, b.extent) <= rules.separation;
   });
   std::stable_sort(patches.begin(), patches.end(), field_side_first);
 
@@ -88,7 +105,7 @@ std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, con
     for (std::size_t i = 0; i < patches.size(); ++i) own[i] = patches[i].inclination;
     for (std::size_t i = 0; i + 1 < patches.size(); ++i) {
       ContactPatch &a = patches[i], &b = patches[i + 1];
-      const double distance = patch_distance(a, b);
+      const double distance = patch_distance(a.extent, b.extent);
       if (std::abs(own[i] - own[i + 1]) > rules.angle_separation || distance > rules.turning) continue;
       const double common = (a.weight * own[i] + b.weight * own[i + 1]) / (a.weight + b.weight);
       const double fraction =

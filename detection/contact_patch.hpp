@@ -9,16 +9,22 @@
 
 namespace treadmark::detection {
 
+/// Extent of a part of a patch in the common frame T.
+struct PatchExtent {
+  Rectangle box;                              ///< [m]
+  double z_at_y_min = 0.0, z_at_y_max = 0.0;  ///< rail heights at the lateral ends [m]
+};
+
 /// One prospective contact patch: where the undeformed bodies interpenetrate, in the common frame T.
 struct ContactPatch {
-  Rectangle box;                     ///< extent of the interpenetration [m]
-  double z_at_y_min = 0.0, z_at_y_max = 0.0;  ///< rail heights at the lateral ends [m]
+  PatchExtent extent;                ///< of the interpenetration
   double x = 0.0, y = 0.0;           ///< weighted contact reference [m]
   double inclination = 0.0;          ///< weighted contact angle [rad]
   double weight = 0.0;
   double least_gap = 0.0;            ///< [m], negative
   Vec3 deepest_T = Vec3::Zero();     ///< point of least gap, on the rail
-  std::vector<Rectangle> parts;      ///< boxes of the regions that were combined (one = itself)
+  /// Sub-patches that are solved together but influence each other less with growing distance; one = the patch itself.
+  std::vector<PatchExtent> parts;
 };
 
 /// How neighbouring interpenetration regions become contact patches.
@@ -30,13 +36,16 @@ struct PatchRules {
   double near_miss = -1e-3;                     ///< G_MISS [m]; near misses with a smaller gap extend patches; negative = off
 };
 
-/// Combines, turns and sorts (field side first). Regions closer than D_COMB with similar angles, or closer than D_SEP,
-/// become one patch; of patches that stay apart but closer than D_TURN the angles are turned towards each other, so that
+/// Combines, turns and sorts (field side first). Regions closer than D_COMB with similar angles become one patch; those
+/// closer than D_SEP become one patch with several parts; of patches that stay apart but closer than D_TURN the angles are turned towards each other, so that
 /// a merge is no jump. near_misses extend the patches near them.
 std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, const std::vector<ContactPatch>& near_misses,
                                           const PatchRules& rules);
 
-/// Distance between the boxes of two patches, height difference of the facing ends included [m].
-double patch_distance(const ContactPatch& a, const ContactPatch& b);
+/// Distance between two extents, height difference of the facing ends included [m].
+double patch_distance(const PatchExtent& a, const PatchExtent& b);
+
+/// Share of the elastic influence that two sub-patches at a distance have on each other: 1 up to D_COMB, 0 from D_SEP on.
+double sub_patch_coupling(double distance, const PatchRules& rules);
 
 }  // namespace treadmark::detection

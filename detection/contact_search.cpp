@@ -43,17 +43,17 @@ Grid2 refined_grid(const Grid2& g, const Region& r, const SearchSettings& s) {
 ContactPatch to_patch(const GapField& field, const Region& r, bool interpolate_ends, bool at_deepest) {
   const Grid2& g = field.grid;
   ContactPatch p;
-  p.box = interpolate_ends ? crossing_extent(field, r)
+  p.extent.box = interpolate_ends ? crossing_extent(field, r)
                            : Rectangle{g.x(r.ix_min), g.x(r.ix_max), g.y(r.iy_min), g.y(r.iy_max)};
-  p.z_at_y_min = rail_height_near(field, r.ix_deepest, p.box.y_min);
-  p.z_at_y_max = rail_height_near(field, r.ix_deepest, p.box.y_max);
+  p.extent.z_at_y_min = rail_height_near(field, r.ix_deepest, p.extent.box.y_min);
+  p.extent.z_at_y_max = rail_height_near(field, r.ix_deepest, p.extent.box.y_max);
   p.deepest_T = {g.x(r.ix_deepest), g.y(r.iy_deepest), field.rail_z[g.index(r.ix_deepest, r.iy_deepest)]};
   p.x = at_deepest ? p.deepest_T.x() : r.x;
   p.y = at_deepest ? p.deepest_T.y() : r.y;
   p.inclination = r.inclination;
   p.weight = r.weight;
   p.least_gap = r.least_gap;
-  p.parts = {p.box};
+  p.parts = {p.extent};
   return p;
 }
 
@@ -125,7 +125,7 @@ SearchResult ContactSearch::at(double wheel_dz) const {
       // Margins of neighbouring fine grids overlap: a region seen twice counts once.
       auto& list = part.near_miss() ? near_misses : patches;
       const bool known = std::any_of(list.begin(), list.end(), [&](const ContactPatch& other) {
-        return overlap(other.parts.front(), patch.parts.front());
+        return overlap(other.extent.box, patch.extent.box);
       });
       if (!known) list.push_back(patch);
     }

@@ -63,9 +63,17 @@ struct SolverSettings {
   int max_force = 30;       ///< iterations on a prescribed tangential force
 };
 
+/// Parts of a patch that lie apart: elastic influence across is scaled, so that patches come together without a jump.
+struct SubPatches {
+  int count = 0;                     ///< 0 = one ordinary patch
+  std::vector<std::uint8_t> part;    ///< per element: 1 .. count, 0 = never in contact
+  std::vector<double> coupling;      ///< count x count, symmetric, 1 on the diagonal
+};
+
 struct ContactProblem {
   Grid2 grid;                      ///< element centres [m]
   std::span<const double> gap;     ///< undeformed distance h [m], size grid.size(); NaN = never in contact
+  SubPatches sub_patches;          ///< with a prescribed approach only
   Material material;
   FrictionLaw friction;
 

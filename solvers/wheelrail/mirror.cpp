@@ -40,12 +40,16 @@ void flip_axial(Vec3& moment) {
   moment.z() = -moment.z();
 }
 
-void flip(Rectangle& r) { std::swap(r.y_min, r.y_max), r.y_min = -r.y_min, r.y_max = -r.y_max; }
+void flip(detection::PatchExtent& e) {
+  std::swap(e.box.y_min, e.box.y_max);
+  e.box.y_min = -e.box.y_min;
+  e.box.y_max = -e.box.y_max;
+  std::swap(e.z_at_y_min, e.z_at_y_max);
+}
 
 void flip(PatchSolution& p) {
-  flip(p.region.box);
-  std::swap(p.region.z_at_y_min, p.region.z_at_y_max);
-  for (Rectangle& part : p.region.parts) flip(part);
+  flip(p.region.extent);
+  for (detection::PatchExtent& part : p.region.parts) flip(part);
   p.region.y = -p.region.y;
   p.region.inclination = -p.region.inclination;
   p.region.deepest_T.y() = -p.region.deepest_T.y();

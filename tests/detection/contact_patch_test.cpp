@@ -4,18 +4,20 @@
 
 #include <gtest/gtest.h>
 
+#include <cmath>
+
 namespace treadmark::detection {
 namespace {
 
 ContactPatch patch(double y_min, double y_max, double angle, double weight, double z = 0.0) {
   ContactPatch p;
-  p.box = {-5e-3, 5e-3, y_min, y_max};
-  p.z_at_y_min = p.z_at_y_max = z;
+  p.extent.box = {-5e-3, 5e-3, y_min, y_max};
+  p.extent.z_at_y_min = p.extent.z_at_y_max = z;
   p.y = 0.5 * (y_min + y_max);
   p.inclination = angle;
   p.weight = weight;
   p.least_gap = -1e-5 * weight;
-  p.parts = {p.box};
+  p.parts = {p.extent};
   return p;
 }
 
@@ -29,8 +31,8 @@ PatchRules rules() {
 }
 
 TEST(ContactPatch, DistanceCountsHeightOnlyAcross) {
-  EXPECT_NEAR(patch_distance(patch(0.0, 1e-3, 0, 1, 0.0), patch(4e-3, 5e-3, 0, 1, 4e-3)), 5e-3, 1e-15);
-  EXPECT_EQ(patch_distance(patch(0.0, 3e-3, 0, 1, 0.0), patch(2e-3, 5e-3, 0, 1, 4e-3)), 0.0);
+  EXPECT_NEAR(patch_distance(patch(0.0, 1e-3, 0, 1, 0.0).extent, patch(4e-3, 5e-3, 0, 1, 4e-3).extent), 5e-3, 1e-15);
+  EXPECT_EQ(patch_distance(patch(0.0, 3e-3, 0, 1, 0.0).extent, patch(2e-3, 5e-3, 0, 1, 4e-3).extent), 0.0);
 }
 
 TEST(ContactPatch, SortsFieldSideFirst) {
@@ -44,9 +46,19 @@ TEST(ContactPatch, MergesNearOnesWithWeightedReference) {
   ASSERT_EQ(result.size(), 1u);
   EXPECT_NEAR(result[0].inclination, 0.25, 1e-15);
   EXPECT_NEAR(result[0].y, 0.25 * 0.5e-3 + 0.75 * 4e-3, 1e-15);
-  EXPECT_EQ(result[0].box.y_min, 0.0);
-  EXPECT_EQ(result[0].box.y_max, 5e-3);
-  EXPECT_EQ(result[0].parts.size(), 2u);
+  EXPECT_EQ(result[0].extent.box.y_min, 0.0);
+  EXPECT_EQ(result[0].extent.box.y_max, 5e-3);
+  EXPECT_EQ(result[0].parts.size(), 1u);
+}
+
+TEST(ContactPatch, SubPatchesFurtherApartKeepTheirExtents) {
+  const auto result = combine_patches({patch(0.0, 1e-3, 0.1, 1.0), patch(7e-3, 8e-3, 0.3, 3.0)}, {}, rules());
+  ASSERT_EQ(result.size(), 1u);
+  ASSERT_EQ(result[0].parts.size(), 2u);
+  EXPECT_EQ(result[0].parts[0].box.y_min, 7e-3);
+  EXPECT_NEAR(sub_patch_coupling(patch_distance(result[0].parts[0], result[0].parts[1]), rules()), std::pow(0.5, 0.8), 1e-12);
+  EXPECT_EQ(sub_patch_coupling(3e-3, rules()), 1.0);
+  EXPECT_EQ(sub_patch_coupling(9e-3, rules()), 0.0);
 }
 
 TEST(ContactPatch, KeepsDifferentAnglesApart) {
@@ -74,7 +86,7 @@ TEST(ContactPatch, NearMissExtendsThePatchInProportion) {
   miss.least_gap = 0.25e-4;
   const auto result = combine_patches({patch(0.0, 1e-3, 0.0, 1.0)}, {miss}, r);
   ASSERT_EQ(result.size(), 1u);
-  EXPECT_NEAR(result[0].box.y_max, 0.25 * 1e-3 + 0.75 * 3e-3, 1e-12);
+  EXPECT_NEAR(result[0].extent.box.y_max, 0.25 * 1e-3 + 0.75 * 3e-3, 1e-12);
 }
 
 }  // namespace

@@ -54,8 +54,8 @@ TEST_P(RolledPlane, PatchFrameAndDistanceAreThoseOfTheBall) {
   // Vertical depths of a ball are larger downhill: the centre shifts by a share of the depth.
   EXPECT_NEAR(patch.y, 0.0, 2e-6 + 0.6 * penetration * std::abs(std::tan(roll)));
   const double half_width = std::sqrt(2.0 * kRadius * penetration - penetration * penetration);
-  EXPECT_NEAR(patch.box.x_max, half_width, 1e-4);
-  EXPECT_NEAR(patch.box.y_max, half_width * std::cos(roll), 1.5e-4);
+  EXPECT_NEAR(patch.extent.box.x_max, half_width, 1e-4);
+  EXPECT_NEAR(patch.extent.box.y_max, half_width * std::cos(roll), 1.5e-4);
 
   const ContactFrame frame = contact_frame(scene.bodies, patch);
   EXPECT_NEAR(frame.X_TC.rotation.col(2).y(), -std::sin(roll), 1e-12);
