@@ -111,7 +111,7 @@ io::CaseResult solve_basic_case(const io::BasicCase& input) {
     }
 
   io::PatchResult r = patch_result(solution, p.grid, gap, input.material, input.friction);
-  r.shift = input.regime == io::RegimeInput::shift;
+  r.shift = input.regime != io::RegimeInput::steady;  // without rolling there is work, not power
   r.has_rolling = input.regime == io::RegimeInput::steady;
   r.chi = input.chi;
   r.dq = solution.rolling_step;
