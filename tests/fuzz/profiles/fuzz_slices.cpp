@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <cstddef>
+#include <cstdint>
+#include <string_view>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+
+namespace {
+
+/// Every slice is the same short straight profile: the files that a set names are fuzzed by themselves.
+treadmark::SliceSet parse(std::string_view text, treadmark::Body body) {
+  return treadmark::io::parse_slices(text, "fuzz", body, [&](const std::string& name, const treadmark::SourcePosition&) {
+    treadmark::Profile profile;
+    profile.body = body;
+    profile.y = {-0.02, 0.02};
+    profile.z = {0.0, 0.0};
+    profile.name = name;
+    return profile;
+  });
+}
+
+}  // namespace
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  for (const treadmark::Body body : {treadmark::Body::rail, treadmark::Body::wheel}) {
+    try {
+      parse(text, body);
+    } catch (const treadmark::Error&) {
+    }
+  }
+  return 0;
+}
