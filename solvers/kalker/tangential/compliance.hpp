@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <span>
 #include <vector>
 
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
+#include "treadmark/solvers/kalker/tangential/inverse_compliance.hpp"
 
 namespace treadmark::kalker {
 
@@ -39,25 +41,21 @@ class Compliance {
   /// Displacement (none) or its change in a step of rolling.
   void apply(Transport transport, std::span<const double> px, std::span<const double> py, std::span<double> ux,
              std::span<double> uy);
-  /// p with B p = u on a periodic continuation of the box: an approximate inverse.
-  void apply_inverse(std::span<const double> ux, std::span<const double> uy, std::span<double> px, std::span<double> py);
+  /// Approximately the p with B p = u.
+  InverseCompliance& inverse() { return *inverse_; }
 
+  using Block = ComplianceBlock;
   /// Coefficients at an offset "observation minus source", |dix| <= nx, |diy| < ny [m/Pa].
-  struct Block {
-    double xx = 0.0, xy = 0.0, yy = 0.0;
-  };
   Block at(int dix, int diy) const;
 
  private:
-  void transform_product(std::span<const double> ax, std::span<const double> ay, std::span<double> bx,
-                         std::span<double> by, std::span<const Block> symbol, Transport transport);
-
   ComplianceKey key_;
   ToeplitzTransform transform_;
   std::vector<Block> table_;                  ///< offsets 0..padded_nx/2, 0..padded_ny/2
-  std::vector<Block> symbol_, inverse_symbol_;
+  std::vector<Block> symbol_;
   std::vector<std::complex<double>> step_;    ///< 1 - exp(2 pi i k / padded_nx)
   Spectrum spectrum_x_, spectrum_y_;
+  std::optional<InverseCompliance> inverse_;
 };
 
 }  // namespace treadmark::kalker

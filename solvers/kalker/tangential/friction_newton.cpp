@@ -188,7 +188,9 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
       result.converged = true;
       break;
     }
-    tolerance = std::clamp(0.5 * ratio * ratio, kTightestInner, kLoosestInner);
+    // Quadratic convergence needs ever more exact steps, but not more exact ones than the accuracy asks for.
+    const double enough = 0.3 * settings.eps * rms(state.traction) / (std::min(1.0, ratio) * change);
+    tolerance = std::clamp(std::max(0.5 * ratio * ratio, enough), kTightestInner, kLoosestInner);
   }
   return result;
 }

@@ -88,7 +88,7 @@ void PatchOperator::displacement_of_box(std::span<const double> p, std::span<dou
 
 void PatchOperator::inverse_displacement(std::span<const double> u, std::span<double> p) {
   scatter(u);
-  compliance_.apply_inverse(in_x_, in_y_, out_x_, out_y_);
+  compliance_.inverse().apply(in_x_, in_y_, out_x_, out_y_);
   gather(p);
 }
 

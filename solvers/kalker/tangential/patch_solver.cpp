@@ -18,7 +18,7 @@ namespace {
 constexpr double kUsefulStart = 0.1;
 /// Accuracy of slip speeds in the iteration on friction, in multiples of eps.
 constexpr double kSlipAccuracy = 10.0;
-constexpr double kSensitivityAccuracy = 1e-3;
+constexpr double kSensitivityAccuracy = 0.03;
 constexpr int kSensitivityIterations = 60;
 constexpr double kSmallestRelaxation = 0.02;
 
