@@ -1,0 +1,13 @@
+#!/usr/bin/env bash
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+# From a fresh machine to the pressure under a wheel flat: packages, release build, one run.
+set -euo pipefail
+cd "$(dirname "${BASH_SOURCE[0]}")/.."
+
+bash scripts/install-packages.sh
+cmake --preset release -DTREADMARK_BUILD_TESTS=OFF
+cmake --build --preset release
+mkdir -p out/wheel-flat
+build/release/app/treadmark run examples/wheel-flat.toml -o out/wheel-flat --json out/wheel-flat/result.json
+echo "results: out/wheel-flat (numbers in out/wheel-flat/result.json, formats in docs/results.md)" >&2

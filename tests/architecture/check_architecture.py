@@ -1,0 +1,128 @@
+#!/usr/bin/env python3
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""Checks that the sources keep to the architecture. Prints a line a violation; exit status 1 when there is one.
+
+usage: check_architecture.py ROOT
+
+Checked: who may include whom, one source file per heavy third-party header, licence lines, no package hosts.
+"""
+import pathlib
+import re
+import sys
+
+# A folder and the folders it may include from. The longest match decides.
+ALLOWED = {
+    "core": ["core"],
+    "io": ["core", "io"],
+    "backends": ["core", "backends"],
+    "detection": ["core", "detection"],
+    "solvers/kalker": ["core", "solvers/kalker"],
+    "solvers/wheelrail": ["core", "detection", "solvers/kalker", "solvers/wheelrail"],
+    "app": ["core", "io", "backends", "detection", "solvers", "app"],
+    "examples": ["core", "io", "backends", "detection", "solvers", "app"],
+    "bench": ["core", "io", "backends", "detection", "solvers", "app", "bench"],
+    "tests": ["core", "io", "backends", "detection", "solvers", "app", "tests"],
+}
+
+# Headers that cost compile time or bind to a version: in one .cpp of the whole library ("all") or of each folder.
+HEAVY = {
+    r"hdf5(_hl)?\.h": "all",
+    r"fftw3\.h": "all",
+    r"kissfft/.*": "all",
+    r"embree[34]/.*": "all",
+    r"openvdb/.*": "folder",
+    r"CGAL/.*": "folder",
+    r"(oneapi/)?tbb(/.*|\.h)": "all",
+    r"nlohmann/.*": "folder",
+    r"toml\+\+/.*": "folder",
+    r"CLI/.*": "app",  # any file of the command line program, nowhere else
+}
+HEAVY_FREE = ("tests", "bench")
+
+# Put together here, so that this file does not contain them.
+HOSTS = [".".join(parts) for parts in (
+    ("pypi", "org"), ("pythonhosted", "org"), ("anaconda", "org"), ("npmjs", "org"), ("npmjs", "com"), ("crates", "io"),
+    ("proxy", "golang", "org"), ("rubygems", "org"), ("maven", "apache", "org"), ("deb", "debian", "org"),
+    ("security", "debian", "org"), ("archive", "ubuntu", "com"), ("conan", "io"))]
+
+SKIPPED = re.compile(r"(\.git|\.cache|__pycache__)$")
+SKIPPED_AT_ROOT = re.compile(r"(build|out)")  # as in .gitignore
+INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
+SOURCE = (".cpp", ".hpp", ".h", ".c", ".cc", ".cpp.in", ".hpp.in")
+LICENSED = SOURCE + (".py", ".sh", ".cmake", ".cmake.in")
+
+
+def files(folder, at_root=True):
+    for path in sorted(folder.iterdir()):
+        if path.is_symlink():
+            continue
+        if path.is_dir():
+            if not SKIPPED.match(path.name) and not (at_root and SKIPPED_AT_ROOT.match(path.name)):
+                yield from files(path, False)
+        else:
+            yield path
+
+
+def layer(relative):
+    """The longest folder of ALLOWED that contains the file, or None."""
+    fits = [name for name in ALLOWED if relative.startswith(name + "/")]
+    return max(fits, key=len, default=None)
+
+
+def check_includes(relative, text, heavy_users):
+    own = layer(relative)
+    if own is None:
+        yield "no layer: add its folder to ALLOWED in tests/architecture/check_architecture.py"
+        return
+    for quoted, angled in INCLUDE.findall(text):
+        if quoted.startswith("treadmark/") or angled.startswith("treadmark/"):
+            target = (quoted or angled)[len("treadmark/"):]
+            if not any(target.startswith(name + "/") for name in ALLOWED[own]):
+                yield f"{own} must not include {target}"
+        elif quoted and own != "tests":
+            yield f'include "{quoted}" must read "treadmark/<folder>/<file>"'
+        header = quoted or angled
+        for pattern, scope in HEAVY.items():
+            if not re.fullmatch(pattern, header) or own in HEAVY_FREE:
+                continue
+            if scope == "app":
+                if own != "app":
+                    yield f"{header} is for app/ only"
+            elif not relative.endswith(".cpp"):
+                yield f"{header} belongs into one .cpp, not into a header"
+            else:
+                group = relative.rsplit("/", 1)[0] if scope == "folder" else ""
+                heavy_users.setdefault((pattern, group), (header, set()))[1].add(relative)
+
+
+def check(root):
+    """All violations below a folder, as texts "file: what"."""
+    violations, heavy_users = [], {}
+    for path in files(root):
+        relative = path.relative_to(root).as_posix()
+        data = path.read_bytes()
+        if b"\0" in data:
+            continue
+        text = data.decode("utf-8", "replace")
+        if relative.endswith(SOURCE):
+            violations += [f"{relative}: {what}" for what in check_includes(relative, text, heavy_users)]
+        if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:
+            violations.append(f"{relative}: no SPDX-License-Identifier line at its top")
+        violations += [f"{relative}: mentions the package host {host}" for host in HOSTS if host in text.lower()]
+    for header, users in heavy_users.values():
+        if len(users) > 1:
+            violations.append(f"{', '.join(sorted(users))}: {header} belongs into one of them only")
+    return violations
+
+
+def main():
+    if len(sys.argv) != 2 or not (pathlib.Path(sys.argv[1]) / "core").is_dir():
+        sys.exit(__doc__)
+    violations = check(pathlib.Path(sys.argv[1]))
+    print("\n".join(violations) or "the architecture is kept")
+    return 1 if violations else 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,85 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""Plants one violation at a time in a small tree and expects the checker to find it and nothing else."""
+import pathlib
+import tempfile
+import unittest
+
+from check_architecture import HOSTS, check
+
+LICENCE = "// SPDX-License-Identifier: Apache-2.0\n"
+CLEAN = {
+    "core/pose.hpp": "#include <vector>\n",
+    "core/parallel.cpp": '#include <oneapi/tbb/parallel_for.h>\n#include "treadmark/core/pose.hpp"\n',
+    "io/cases/schema.cpp": '#include <nlohmann/json.hpp>\n#include "treadmark/core/pose.hpp"\n',
+    "io/results/json.cpp": '#include <nlohmann/json.hpp>\n#include "treadmark/io/cases/case.hpp"\n',
+    "backends/spline/fit.cpp": '#include "treadmark/backends/create.hpp"\n',
+    "detection/search.cpp": '#include "treadmark/core/pose.hpp"\n',
+    "solvers/kalker/normal/solve.cpp": '#include "treadmark/solvers/kalker/problem.hpp"\n',
+    "solvers/wheelrail/pair.cpp": '#include "treadmark/detection/search.hpp"\n#include "treadmark/solvers/kalker/problem.hpp"\n',
+    "app/cli/main.cpp": '#include <CLI/CLI.hpp>\n#include "treadmark/backends/create.hpp"\n',
+    "app/cli/run.cpp": "#include <CLI/CLI.hpp>\n",
+    "tests/io/read_test.cpp": '#include <hdf5.h>\n#include "samples.hpp"\n#include "treadmark/app/run.hpp"\n',
+    "tests/io/write_test.cpp": "#include <hdf5.h>\n",
+    "build/generated.cpp": '#include "treadmark/app/run.hpp"\n',
+}
+
+
+class Planted(unittest.TestCase):
+    def violations(self, planted, licence=LICENCE):
+        with tempfile.TemporaryDirectory() as folder:
+            for name, text in {**CLEAN, **planted}.items():
+                path = pathlib.Path(folder, name)
+                path.parent.mkdir(parents=True, exist_ok=True)
+                path.write_text((licence if name in planted else LICENCE) + text)
+            return check(pathlib.Path(folder))
+
+    def expect(self, name, text, found, **more):
+        violations = self.violations({name: text}, **more)
+        self.assertEqual(len(violations), 1, violations)
+        self.assertIn(name, violations[0])
+        self.assertIn(found, violations[0])
+
+    def test_clean_tree(self):
+        self.assertEqual(self.violations({}), [])
+
+    def test_layers(self):
+        for name, header in [("core/a.hpp", "io/b.hpp"), ("core/a.cpp", "backends/b.hpp"), ("io/a.cpp", "detection/b.hpp"),
+                             ("io/results/a.cpp", "solvers/kalker/b.hpp"), ("backends/a.cpp", "io/b.hpp"),
+                             ("backends/mesh/a.cpp", "detection/b.hpp"), ("detection/a.cpp", "backends/b.hpp"),
+                             ("solvers/kalker/a.cpp", "detection/b.hpp"), ("solvers/kalker/fastsim/a.cpp", "solvers/wheelrail/b.hpp"),
+                             ("solvers/wheelrail/a.cpp", "backends/b.hpp"), ("solvers/wheelrail/a.cpp", "app/b.hpp"),
+                             ("solvers/wheelrail/a.cpp", "io/b.hpp"), ("app/a.cpp", "tests/b.hpp"),
+                             ("core/a.cpp", "tests/b.hpp"), ("io/a.cpp", "app/b.hpp")]:
+            with self.subTest(name=name, header=header):
+                self.expect(name, f'#include "treadmark/{header}"\n', f"must not include {header}")
+                self.expect(name, f"#  include <treadmark/{header}>\n", f"must not include {header}")
+
+    def test_spelling_of_includes(self):
+        self.expect("core/a.cpp", '#include "pose.hpp"\n', "must read")
+        self.expect("core/a.cpp", '#include "../app/run.hpp"\n', "must read")
+        self.expect("core/outline/a.cpp", '#include "pose.hpp"\n', "must read")  # only /out* and /build* are left out
+
+    def test_heavy_headers(self):
+        for header in ("hdf5.h", "nlohmann/json.hpp", "toml++/toml.h", "fftw3.h", "kissfft/kissfft.hh", "embree3/rtcore.h",
+                       "openvdb/openvdb.h", "CGAL/Simple_cartesian.h", "oneapi/tbb/info.h", "tbb/info.h"):
+            with self.subTest(header=header):
+                self.expect("io/results/a.hpp", f"#include <{header}>\n", "not into a header")
+        self.expect("io/results/a.cpp", "#include <nlohmann/json.hpp>\n", "one of them only")
+        self.expect("backends/a.cpp", "#include <oneapi/tbb/parallel_for.h>\n", "one of them only")
+        self.expect("io/cases/a.cpp", "#include <CLI/CLI.hpp>\n", "app/ only")
+
+    def test_unknown_folder(self):
+        self.expect("gadgets/a.cpp", "int a;\n", "no layer")
+
+    def test_licence(self):
+        self.expect("core/a.hpp", "int a;\n", "SPDX", licence="")
+        self.expect("scripts/a.sh", "true\n", "SPDX", licence="")
+
+    def test_package_hosts(self):
+        for host in HOSTS:
+            self.expect("docs/a.md", f"fetch it from https://{host}/x\n", "package host")
+
+
+if __name__ == "__main__":
+    unittest.main()

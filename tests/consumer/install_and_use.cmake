@@ -1,0 +1,37 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+# Installs the build to an empty prefix, then configures, builds and runs the project beside this file against it.
+file(REMOVE_RECURSE "${WORK}")
+set(sanitize "")
+if(SANITIZE)
+  set(sanitize "-DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE}")
+endif()
+
+function(run)
+  execute_process(COMMAND ${ARGN} RESULT_VARIABLE status OUTPUT_VARIABLE output ERROR_VARIABLE output)
+  if(NOT status EQUAL 0)
+    list(JOIN ARGN " " command)
+    message(FATAL_ERROR "${command}\nended with ${status}:\n${output}")
+  endif()
+endfunction()
+
+run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
+run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" ${sanitize})
+run("${CMAKE_COMMAND}" --build "${WORK}/build")
+run("${WORK}/build/consumer")
+
+# No installed header may refer to one that is not installed.
+file(GLOB_RECURSE headers "${WORK}/prefix/include/*.hpp")
+if(NOT headers)
+  message(FATAL_ERROR "no headers were installed")
+endif()
+foreach(header IN LISTS headers)
+  file(STRINGS "${header}" includes REGEX "^#include \"treadmark/")
+  foreach(line IN LISTS includes)
+    string(REGEX REPLACE "^#include \"([^\"]+)\".*" "\\1" name "${line}")
+    if(NOT EXISTS "${WORK}/prefix/include/${name}")
+      message(FATAL_ERROR "${header} includes ${name}, which is not installed")
+    endif()
+  endforeach()
+endforeach()
