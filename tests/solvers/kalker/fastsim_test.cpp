@@ -1,0 +1,216 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
+#include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
+#include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
+#include "treadmark/solvers/kalker/normal/hertz.hpp"
+
+namespace treadmark::kalker {
+namespace {
+
+const CombinedMaterial kSteel = combine(Material{});
+
+TEST(KalkerCoefficients, ReproduceTheTableAtItsNodes) {
+  constexpr double kRounding = 1e-12;
+  EXPECT_NEAR(kalker_coefficients(1.0, 1.0, 0.25).c11, 4.12, kRounding);
+  EXPECT_NEAR(kalker_coefficients(1.0, 1.0, 0.5).c22, 3.98, kRounding);
+  EXPECT_NEAR(kalker_coefficients(0.5, 1.0, 0.0).c23, 0.827, kRounding);
+  EXPECT_NEAR(kalker_coefficients(2.0, 1.0, 0.25).c22, 4.90, kRounding);
+  EXPECT_NEAR(kalker_coefficients(0.7, 1.0, 0.25).c11, 3.81, kRounding);
+}
+
+TEST(KalkerCoefficients, AreContinuousBetweenNodesAndShapes) {
+  // Linear in the ratio between nodes; the same from both sides at a = b.
+  const double low = kalker_coefficients(0.6, 1.0, 0.25).c11, high = kalker_coefficients(0.7, 1.0, 0.25).c11;
+  EXPECT_NEAR(kalker_coefficients(0.65, 1.0, 0.25).c11, 0.5 * (low + high), 1e-12);
+  for (const double nu : {0.1, 0.28, 0.4}) {
+    const auto below = kalker_coefficients(1.0 - 1e-9, 1.0, nu), above = kalker_coefficients(1.0 + 1e-9, 1.0, nu);
+    EXPECT_NEAR(below.c11, above.c11, 1e-6);
+    EXPECT_NEAR(below.c22, above.c22, 1e-6);
+    EXPECT_NEAR(below.c23, above.c23, 1e-6);
+  }
+  // Where the asymptotic formulas take over: they are good to some per cent there.
+  for (const double nu : {0.0, 0.25, 0.5}) {
+    const auto inside = kalker_coefficients(0.1011, 1.0, nu), outside = kalker_coefficients(0.1009, 1.0, nu);
+    EXPECT_NEAR(inside.c11 / outside.c11, 1.0, 0.05);
+    EXPECT_NEAR(inside.c22 / outside.c22, 1.0, 0.05);
+    const auto inside_long = kalker_coefficients(1.0, 0.1011, nu), outside_long = kalker_coefficients(1.0, 0.1009, nu);
+    EXPECT_NEAR(inside_long.c11 / outside_long.c11, 1.0, 0.08);
+    EXPECT_NEAR(inside_long.c22 / outside_long.c22, 1.0, 0.08);
+  }
+}
+
+TEST(KalkerCoefficients, DoNotDependOnTheUnitOfLength) {
+  const auto one = kalker_coefficients(3e-3, 5e-3, 0.28), other = kalker_coefficients(3.0, 5.0, 0.28);
+  EXPECT_NEAR(one.c11, other.c11, 1e-12);
+  EXPECT_NEAR(one.c23, other.c23, 1e-12);
+}
+
+TEST(KalkerCoefficients, RefuseWhatIsNotInTheTable) {
+  EXPECT_THROW(kalker_coefficients(0.0, 1.0, 0.3), Error);
+  EXPECT_THROW(kalker_coefficients(1.0, 1.0, 0.6), Error);
+}
+
+struct Case {
+  ContactProblem problem;
+  ContactSolution solution;
+};
+
+/// Rolling contact of 6 x 4 mm with an elliptic or parabolic pressure.
+Case rolling(int n, bool parabolic = true) {
+  Case c;
+  const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 80e3}, kSteel);
+  c.problem.grid = hertz_grid(shape, n, n, 1.1);
+  c.problem.hertz = shape;
+  c.problem.regime = Regime::steady;
+  c.problem.tangential_model = TangentialModel::fastsim;
+  for (int iy = 0; iy < n; ++iy)
+    for (int ix = 0; ix < n; ++ix) {
+      const double x = c.problem.grid.x(ix), y = c.problem.grid.y(iy);
+      c.solution.pressure.push_back(parabolic ? parabolic_pressure(shape, x, y) : hertz_pressure(shape, x, y));
+    }
+  return c;
+}
+
+Vec2 force(const Case& c) {
+  Vec2 sum = Vec2::Zero();
+  for (std::size_t i = 0; i < c.solution.pressure.size(); ++i)
+    sum += Vec2(c.solution.traction_x[i], c.solution.traction_y[i]);
+  return sum * c.problem.grid.cell_area();
+}
+
+Vec2 force_at(Case& c, const Creepage& creepage) {
+  c.problem.creepage = creepage;
+  solve_fastsim(c.problem, c.solution);
+  return force(c);
+}
+
+TEST(Fastsim, FollowsLinearTheoryForSmallCreepage) {
+  Case c = rolling(200);
+  const KalkerCoefficients k = kalker_coefficients(6e-3, 4e-3, kSteel.poisson);
+  const double g = kSteel.shear_modulus, ab = 6e-3 * 4e-3;
+  // The blending weight grows linearly with creepage; friction cuts the trailing edge; strips have finite length.
+  constexpr double kLinear = 0.01;
+  EXPECT_NEAR(force_at(c, {1e-7, 0, 0}).x() / (-g * ab * k.c11 * 1e-7), 1.0, kLinear);
+  EXPECT_NEAR(force_at(c, {0, 1e-7, 0}).y() / (-g * ab * k.c22 * 1e-7), 1.0, kLinear);
+  // One quarter is the nominal share of spin: with L3 the lateral force by spin is that of linear theory.
+  const double phi = 1e-5;
+  EXPECT_NEAR(force_at(c, {0, 0, phi}).y() / (-g * std::pow(ab, 1.5) * k.c23 * phi), 1.0, kLinear);
+}
+
+TEST(Fastsim, SaturatesAtTheFrictionBoundAgainstTheSlip) {
+  Case c = rolling(44);
+  const double bound = 0.3 * [&] {
+    double sum = 0.0;
+    for (const double p : c.solution.pressure) sum += p;
+    return sum * c.problem.grid.cell_area();
+  }();
+  const Vec2 f = force_at(c, {0.03, -0.04, 0});
+  EXPECT_NEAR(f.x(), -0.6 * bound, 1e-3 * bound);
+  EXPECT_NEAR(f.y(), 0.8 * bound, 1e-3 * bound);
+}
+
+TEST(Fastsim, RespectsFrictionEverywhere) {
+  for (const bool parabolic : {true, false}) {
+    Case c = rolling(44, parabolic);
+    force_at(c, {1e-3, -5e-4, 0.4});
+    double dissipated = 0.0;
+    int slipping = 0, sticking = 0;
+    for (std::size_t i = 0; i < c.solution.pressure.size(); ++i) {
+      const Vec2 p(c.solution.traction_x[i], c.solution.traction_y[i]), s(c.solution.slip_x[i], c.solution.slip_y[i]);
+      const double bound = 0.3 * c.solution.pressure[i];
+      ASSERT_LE(p.norm(), bound * (1.0 + 1e-12));
+      if (c.solution.state[i] == ElementState::slip) {
+        ++slipping;
+        ASSERT_NEAR(p.norm(), bound, 1e-9 * bound + 1e-9);
+        dissipated += p.dot(s);
+      } else {
+        sticking += c.solution.state[i] == ElementState::adhesion ? 1 : 0;
+        ASSERT_EQ(s.norm(), 0.0);
+      }
+    }
+    EXPECT_LT(dissipated, 0.0) << "friction takes energy out";
+    EXPECT_GT(slipping, 100);
+    EXPECT_GT(sticking, 100);
+  }
+}
+
+TEST(Fastsim, MirrorsWithTheLateralDirection) {
+  Case c = rolling(44), mirrored = rolling(44);
+  const Vec2 f = force_at(c, {5e-4, 4e-4, 0.3}), g = force_at(mirrored, {5e-4, -4e-4, -0.3});
+  EXPECT_NEAR(f.x(), g.x(), 1e-9 * f.norm());
+  EXPECT_NEAR(f.y(), -g.y(), 1e-9 * f.norm());
+}
+
+TEST(Fastsim, RollingBackwardsMirrorsAlongTheTrack) {
+  Case c = rolling(44), backwards = rolling(44);
+  const Vec2 f = force_at(c, {5e-4, 4e-4, 0.3});
+  backwards.problem.rolling.chi = std::acos(-1.0);
+  const Vec2 g = force_at(backwards, {-5e-4, 4e-4, -0.3});
+  EXPECT_NEAR(f.x(), -g.x(), 1e-9 * f.norm());
+  EXPECT_NEAR(f.y(), g.y(), 1e-9 * f.norm());
+}
+
+TEST(Fastsim, FindsCreepageForPrescribedForces) {
+  Case c = rolling(44);
+  c.problem.fx_relative = -0.4;
+  c.problem.fy_relative = 0.3;
+  solve_fastsim(c.problem, c.solution);
+  ASSERT_EQ(c.solution.tangential.status, Status::ok) << c.solution.tangential.message;
+  double normal = 0.0;
+  for (const double p : c.solution.pressure) normal += p;
+  const double bound = 0.3 * normal * c.problem.grid.cell_area();
+  EXPECT_NEAR(force(c).x() / bound, -0.4, 2.0 * c.problem.settings.eps);
+  EXPECT_NEAR(force(c).y() / bound, 0.3, 2.0 * c.problem.settings.eps);
+  EXPECT_GT(c.solution.creepage.xi, 0.0);
+  EXPECT_LT(c.solution.creepage.eta, 0.0);
+
+  c.problem.fx_relative = -1.2;
+  c.problem.fy_relative.reset();
+  solve_fastsim(c.problem, c.solution);
+  EXPECT_EQ(c.solution.status, Status::not_converged);
+}
+
+TEST(Fastsim, FallingFrictionLowersTheForce) {
+  Case c = rolling(44);
+  c.problem.friction = {FrictionLaw::Kind::exponential, 0.1, 0.2, 0.0, 1.0, 0.0};
+  c.problem.rolling.velocity = 10.0;
+  const double slow = force_at(c, {0.01, 0, 0}).norm(), fast = force_at(c, {0.2, 0, 0}).norm();
+  EXPECT_LT(fast, 0.8 * slow);
+  EXPECT_DOUBLE_EQ(c.solution.friction[0], c.problem.friction.at(2.0));
+}
+
+TEST(Fastsim, SlopeReductionWeakensSmallCreepageOnly) {
+  Case c = rolling(44);
+  const double plain_small = force_at(c, {1e-4, 0, 0}).norm(), plain_large = force_at(c, {0.1, 0, 0}).norm();
+  c.problem.fastsim = {0.5, 0.2, 0.6};
+  EXPECT_LT(force_at(c, {1e-4, 0, 0}).norm(), 0.6 * plain_small);
+  EXPECT_NEAR(force_at(c, {0.1, 0, 0}).norm(), plain_large, 1e-6 * plain_large);
+}
+
+TEST(Fastsim, EquivalentEllipseOfAnEllipseIsThatEllipse) {
+  const Case c = rolling(300);
+  const EquivalentEllipse ellipse = equivalent_ellipse(c.problem.grid, c.solution.pressure);
+  EXPECT_NEAR(ellipse.a, 6e-3, 0.01 * 6e-3);
+  EXPECT_NEAR(ellipse.b, 4e-3, 0.01 * 4e-3);
+}
+
+TEST(Fastsim, RefusesWhatItCannotDo) {
+  Case c = rolling(10);
+  c.problem.regime = Regime::shift;
+  EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
+  c.problem.regime = Regime::steady;
+  c.problem.rolling.chi = 0.3;
+  EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
+  c.problem.rolling.chi = 0.0;
+  c.solution.pressure.pop_back();
+  EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
+}
+
+}  // namespace
+}  // namespace treadmark::kalker
