@@ -18,19 +18,20 @@ constexpr double kSweepAccuracy = 0.1;
 }  // namespace
 
 FrictionSolveResult FrictionSolve::run(const FrictionProblem& problem, FrictionState& state, double eps,
-                                       int max_sweeps) {
+                                       int max_iterations) {
   FrictionSolveResult result;
   std::optional<FrictionSweeps> sweeps;
   NewtonSettings settings;
   settings.eps = eps;
+  settings.max_steps = std::min(settings.max_steps, max_iterations);
   for (int count = kFirstSweeps;; count *= 2) {
     const NewtonResult newton = newton_.solve(problem, state, settings);
     result.steps += newton.steps;
     result.converged = newton.converged;
-    if (newton.converged || result.sweeps >= max_sweeps) return result;
+    if (newton.converged || result.sweeps >= max_iterations) return result;
     if (!sweeps) sweeps.emplace(*problem.matrix);
     result.sweeps += sweeps->run(problem, state.traction, kSweepAccuracy * eps,
-                                 std::min(count, max_sweeps - result.sweeps));
+                                 std::min(count, max_iterations - result.sweeps));
     state.update(problem);
   }
 }

@@ -15,8 +15,8 @@ struct FrictionSolveResult {
 /// Newton's method, and Gauss-Seidel sweeps to get on where it makes no progress.
 class FrictionSolve {
  public:
-  /// max_sweeps: total number before giving up.
-  FrictionSolveResult run(const FrictionProblem& problem, FrictionState& state, double eps, int max_sweeps);
+  /// max_iterations: Newton steps at a time, and sweeps in total, before giving up.
+  FrictionSolveResult run(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations);
 
   FrictionNewton& newton() { return newton_; }
 

@@ -97,13 +97,13 @@ bool PatchSolver::solve(const Creepage& creepage) {
   started_ = true;
   creepage_ = creepage;
   predicted_ = {};
+  friction_unsettled_ = false;
   const double eps = input_.settings.eps;
   if (coulomb) return solve_at_fixed_friction(eps);
 
   // Slip speeds and coefficients of friction by relaxed substitution.
   double relaxation = 1.0, last_change = 0.0;
   for (int round = 0; round < std::max(1, input_.settings.max_outer); ++round) {
-    ++rounds_;
     if (!solve_at_fixed_friction(eps)) return false;
     const std::vector<double> speed = new_slip_speed();
     std::vector<double> change(speed.size());
@@ -119,6 +119,7 @@ bool PatchSolver::solve(const Creepage& creepage) {
     friction_ = friction_of_slip(patch_, input_.friction, slip_speed_, time_step());
     set_bound();
   }
+  friction_unsettled_ = true;
   return false;
 }
 

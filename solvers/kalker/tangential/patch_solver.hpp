@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <vector>
 
 #include "treadmark/solvers/kalker/tangential/compliance_cache.hpp"
@@ -38,7 +39,8 @@ class PatchSolver {
   double residual() const;
   int steps() const { return steps_; }
   int sweeps() const { return sweeps_; }
-  int friction_rounds() const { return rounds_; }
+  /// The last call ended because friction and slip did not come to terms.
+  bool friction_unsettled() const { return friction_unsettled_; }
 
  private:
   void set_bound();
@@ -58,8 +60,8 @@ class PatchSolver {
   Creepage creepage_;
   std::vector<double> friction_, slip_speed_;
   std::array<Field2, 2> predicted_;   ///< change of tractions per unit of creepage, by relative_stiffness
-  bool started_ = false;
-  int steps_ = 0, sweeps_ = 0, rounds_ = 0;
+  bool started_ = false, friction_unsettled_ = false;
+  int steps_ = 0, sweeps_ = 0;
 };
 
 /// Coefficients that a patch needs.

@@ -2,10 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/tangential/tangential_solver.hpp"
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/tangential/patch_solver.hpp"
@@ -56,7 +59,8 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
     if (!std::isfinite(value)) refuse("a creepage, spin centre or tangential force is not finite", "check the input");
   if (problem.regime == Regime::steady && !(problem.rolling.velocity > 0.0))
     refuse("the rolling velocity must be positive", "give its magnitude; the direction is chi");
-  if (!(problem.friction.static_friction() >= 0.0)) refuse("the coefficient of friction is negative", "check the friction law");
+  if (!(problem.friction.static_friction() >= 0.0))
+    refuse("the coefficient of friction is negative", "check the friction law");
 }
 
 /// What the next problem may start from.
@@ -261,9 +265,13 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     if (!solver.solve(problem.creepage)) outcome.status = Status::not_converged;
   }
   if (outcome.status != Status::ok && outcome.message.empty())
-    outcome.message = "the friction conditions are violated by " + std::to_string(solver.residual()) +
-                      " of the friction bound after " + std::to_string(solver.steps()) + " Newton steps and " +
-                      std::to_string(solver.sweeps()) + " sweeps";
+    outcome.message =
+        solver.friction_unsettled()
+            ? "friction and slip velocity did not come to terms in " + std::to_string(problem.settings.max_outer) +
+                  " rounds"
+            : "the friction conditions are violated by " + std::to_string(solver.residual()) +
+                  " of the friction bound after " + std::to_string(solver.steps()) + " Newton steps and " +
+                  std::to_string(solver.sweeps()) + " sweeps";
   workspace_->store(problem, patch, solver, outcome.creepage);
 
   // Fields on the problem's grid.
@@ -285,7 +293,8 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     for (int bx = 0; bx < patch.box_nx; ++bx) {
       const int ix = patch.box_x + bx, iy = patch.box_y + by;
       if (ix >= problem.grid.nx || iy >= problem.grid.ny) continue;
-      const std::size_t from = static_cast<std::size_t>(bx) + static_cast<std::size_t>(patch.box_nx) * static_cast<std::size_t>(by);
+      const std::size_t from =
+          static_cast<std::size_t>(bx) + static_cast<std::size_t>(patch.box_nx) * static_cast<std::size_t>(by);
       solution.displacement_x[problem.grid.index(ix, iy)] = ux[from];
       solution.displacement_y[problem.grid.index(ix, iy)] = uy[from];
     }
