@@ -41,6 +41,8 @@ struct CaseKey {
   KeyInfo info;
   /// value has been checked against info; relative paths count from folder.
   std::function<void(Case&, const CaseValue& value, const std::filesystem::path& folder)> set;
+  /// Numbers that are stored as they are: the value in the unit of the key. Empty for all other keys.
+  std::function<double(const Case&)> get;
   /// table_list only: changes some keys of the element with this index (which exists, or Error).
   std::function<void(Case&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element;
 };

@@ -16,6 +16,10 @@ CaseKey& shared_number(KeyList& list, const std::string& path, KeyLimits limits,
   key.set = [place, unit](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::visit([&](auto& content) { place(content) = v.number() * unit; }, c.content);
   };
+  key.get = [place, unit](const Case& c) {
+    Case copy = c;
+    return std::visit([&](auto& content) -> double { return place(content); }, copy.content) / unit;
+  };
   return key;
 }
 

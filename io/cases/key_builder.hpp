@@ -47,7 +47,7 @@ class KeyList {
   std::vector<CaseKey> keys;
 
   CaseKey& add(KeyInfo info) {
-    keys.push_back({std::move(info), {}, {}});
+    keys.push_back({std::move(info), {}, {}, {}});
     return keys.back();
   }
 
@@ -65,6 +65,10 @@ class KeyList {
     CaseKey& key = add(std::move(info));
     key.set = [place, unit](Case& c, const CaseValue& v, const std::filesystem::path&) {
       place(content_of<Content>(c)) = v.number() * unit;
+    };
+    key.get = [place, unit](const Case& c) {
+      Content copy = std::get<Content>(c.content);
+      return place(copy) / unit;
     };
     return key.info;
   }
