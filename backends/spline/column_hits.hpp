@@ -6,6 +6,7 @@
 #include <limits>
 #include <vector>
 
+#include "treadmark/backends/spline/section_raster.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
@@ -34,6 +35,7 @@ class ColumnHits {
   std::vector<double> n, v, u;
   std::vector<int> cell;
   std::vector<char> several;  ///< more than one hit over the point
+  std::vector<HitGuess> queue;
 
  private:
   static constexpr double kSameHit = 1e-9;  // [m], hits nearer than this are the same one, found from two cells

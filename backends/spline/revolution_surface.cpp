@@ -52,11 +52,12 @@ class RevolutionSection {
   }
 
   void raster(const Samples& samples, ColumnHits& hits) const {
-    SectionRaster<RevolutionSection, ColumnHits> raster(*this, samples, hits);
+    SectionRaster<RevolutionSection, ColumnHits> raster(*this, samples, hits, hits.queue);
     for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {
       const double a = breaks_[static_cast<std::size_t>(k)], b = breaks_[static_cast<std::size_t>(k) + 1];
       raster.cell(k, a, point(k, a, 0.0), b, point(k, b, 0.0));
     }
+    raster.finish();
   }
 
  private:

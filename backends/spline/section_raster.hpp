@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 namespace treadmark::spline {
 
@@ -28,6 +28,15 @@ struct Samples {
   double last() const { return first + step * (count - 1); }
 };
 
+/// A grid point to be hit, with a first guess on a piece of the section from va to vb with monotonic s.
+struct HitGuess {
+  double target, v, u;
+  double va, vb;
+  double step_limit;
+  int i, cell;
+  bool rising;
+};
+
 inline constexpr int kMaxCellHalvings = 8;
 inline constexpr int kMaxSolveSteps = 100;
 /// Part of a grid step by which a grid point may miss the end of a surface and still count as on it.
@@ -36,12 +45,29 @@ inline constexpr double kEdgeSlack = 1e-9;
 /// Section: point(cell, v, u) const, kStep and kStepU: corrections of v and u below which a hit is converged (its error is
 /// their square times curvature), kFine: the same next to a fold.
 /// hit(i, n, cell, v, u): called for every grid point i that a piece covers; ends of pieces may be reported twice.
+/// Use: cell(...) for all cells, then finish(). Guesses are collected first, so that the evaluations run without branches.
 template <class Section, class Hit>
 class SectionRaster {
  public:
-  SectionRaster(const Section& section, const Samples& samples, Hit& hit)
-      : section_(section), samples_(samples), hit_(hit), inverse_step_(1.0 / samples.step),
-        low_(samples.first - kEdgeSlack * samples.step), high_(samples.last() + kEdgeSlack * samples.step) {}
+  /// queue: room for guesses, kept between lines.
+  SectionRaster(const Section& section, const Samples& samples, Hit& hit, std::vector<HitGuess>& queue)
+      : section_(section), samples_(samples), hit_(hit), queue_(queue), inverse_step_(1.0 / samples.step),
+        low_(samples.first - kEdgeSlack * samples.step), high_(samples.last() + kEdgeSlack * samples.step) {
+    queue_.clear();
+  }
+
+  /// Solves for all grid points met so far.
+  void finish() {
+    for (const HitGuess& guess : queue_) {
+      const SectionPoint p = section_.point(guess.cell, guess.v, guess.u);
+      const double step = (guess.target - p.s) / p.ds;
+      if (std::abs(step) <= guess.step_limit && std::abs(p.u_step) <= section_.kStepU)
+        hit_(guess.i, p.n + step * p.dn, guess.cell, std::clamp(guess.v + step, guess.va, guess.vb), p.u + step * p.du);
+      else
+        solve(guess);
+    }
+    queue_.clear();
+  }
 
   /// One cell from a to b (parameters va < vb).
   void cell(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, int halvings = 0) {
@@ -116,24 +142,26 @@ class SectionRaster {
       const double x = std::clamp((target - a.s) * inverse_rise, 0.0, 1.0);
       const double f = std::clamp(x * (slope_a + x * (c2 + x * c3)), 0.0, 1.0);
       const double u = a.u + f * (end_u + f * (3.0 * secant_u - 2.0 * end_u - bend_u + f * (end_u + bend_u - 2.0 * secant_u)));
-      solve(i, target, cell, va, vb, va + f * h, u, rise > 0.0, step_limit);
+      queue_.push_back({target, va + f * h, u, va, vb, step_limit, i, cell, rise > 0.0});
     }
   }
 
-  void solve(int i, double target, int cell, double va, double vb, double v, double u, bool rising, double step_limit) {
-    double low = va, high = vb;
+  void solve(const HitGuess& guess) {
+    const auto& [target, first_v, first_u, va, vb, step_limit, i, cell, rising] = guess;
+    double low = va, high = vb, v = first_v, u = first_u;
     for (int iteration = 0; iteration < kMaxSolveSteps; ++iteration) {
       const SectionPoint p = section_.point(cell, v, u);
       const double miss = target - p.s;
       const double step = miss / p.ds;
-      if (std::abs(step) <= step_limit && std::abs(p.u_step) <= section_.kStepU)
+      const bool settled = std::abs(p.u_step) <= section_.kStepU;
+      if (std::abs(step) <= step_limit && settled)
         return hit_(i, p.n + step * p.dn, cell, std::clamp(v + step, va, vb), p.u + step * p.du);
       if (std::isnan(p.s)) return;
       // Only a point on the section says on which side of it the solution lies.
-      if (std::abs(p.u_step) <= section_.kStepU) ((miss > 0.0) == rising ? low : high) = v;
+      if (settled) ((miss > 0.0) == rising ? low : high) = v;
       double next = std::clamp(v + step, va, vb);
       if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-      if (next == v && std::abs(p.u_step) <= section_.kStepU) return hit_(i, p.n, cell, v, p.u);
+      if (next == v && settled) return hit_(i, p.n, cell, v, p.u);
       u = p.u + p.du * (next - v);
       v = next;
     }
@@ -145,6 +173,7 @@ class SectionRaster {
   const Section& section_;
   const Samples& samples_;
   Hit& hit_;
+  std::vector<HitGuess>& queue_;
   double inverse_step_, low_, high_;
 };
 

@@ -11,35 +11,31 @@
 
 namespace treadmark::spline {
 
-/// One coordinate of the surface in a plane frame and its derivatives by u and v.
-struct PlaneCoordinate {
-  double value, by_u, by_v;
+/// Position and derivatives by u and v in a frame that suits the geometry; see point() of each.
+struct TurnedPoint {
+  double p[3], by_u[3], by_v[3];
+};
+
+/// A plane axis in the turned frame: its coordinate of a point p is direction . p - origin.
+struct TurnedAxis {
+  double x = 0.0, y = 0.0, z = 0.0, origin = 0.0;
+
+  double of(const double (&p)[3]) const { return x * p[0] + y * p[1] + z * p[2]; }
 };
 
 /// Rail: p = (u, y, w).
 class RailGeometry {
  public:
-  static constexpr double kStepU = 2e-8;  // [m]
+  static constexpr double kStepU = 1e-7;  // [m]
   static constexpr double kLargestStepU = 1.0;
-
-  class Axis {
-   public:
-    Axis(const Vec3& direction, const Vec3& origin) : d_(direction), origin_(direction.dot(origin)) {}
-    void set_reference(double) {}
-    PlaneCoordinate of(double u, double, double, const NetValue& p) const {
-      return {d_.x() * u + d_.y() * p.value.y + d_.z() * p.value.w - origin_, d_.x() + d_.y() * p.by_u.y + d_.z() * p.by_u.w,
-              d_.y() * p.by_v.y + d_.z() * p.by_v.w};
-    }
-
-   private:
-    Vec3 d_;
-    double origin_;
-  };
-  // Nothing to prepare for an argument.
-  static void sine_cosine(double, double& sine, double& cosine) { sine = cosine = 0.0; }
 
   explicit RailGeometry(double) {}
 
+  /// The turned frame is the surface frame, whatever the reference.
+  static TurnedAxis turned(const Vec3& axis, const Vec3& origin, double) { return {axis.x(), axis.y(), axis.z(), axis.dot(origin)}; }
+  static TurnedPoint point(double u, double, const NetValue& n) {
+    return {{u, n.value.y, n.value.w}, {1.0, n.by_u.y, n.by_u.w}, {0.0, n.by_v.y, n.by_v.w}};
+  }
   static bool lines_along_y(const Mat3& axes) { return std::abs(axes(0, 0)) >= std::abs(axes(0, 1)); }
   /// u near the cut "across . (p - origin) = c" for a first guess.
   double guess_u(const Vec3& across, const Vec3&, const Vec3& origin, double c) const {
@@ -54,39 +50,24 @@ class RailGeometry {
 /// Wheel: p = (w sin u, y, w cos u), w the radius.
 class WheelGeometry {
  public:
-  static constexpr double kStepU = 4e-8;  // [rad]
+  static constexpr double kStepU = 2e-7;  // [rad]
   static constexpr double kLargestStepU = 0.2;
 
-  /// Angles near a reference need no trigonometric functions: reference + small.
-  class Axis {
-   public:
-    Axis(const Vec3& direction, const Vec3& origin) : d_(direction), origin_(direction.dot(origin)) {}
-    void set_reference(double u) {
-      radial_ = d_.x() * std::sin(u) + d_.z() * std::cos(u);
-      tangential_ = d_.x() * std::cos(u) - d_.z() * std::sin(u);
-    }
-    PlaneCoordinate of(double, double sine, double cosine, const NetValue& p) const {
-      const double radial = radial_ * cosine + tangential_ * sine, tangential = tangential_ * cosine - radial_ * sine;
-      return {radial * p.value.w + d_.y() * p.value.y - origin_,
-              tangential * p.value.w + radial * p.by_u.w + d_.y() * p.by_u.y, radial * p.by_v.w + d_.y() * p.by_v.y};
-    }
-
-   private:
-    Vec3 d_;
-    double origin_, radial_ = 0.0, tangential_ = 0.0;
-  };
-  static void sine_cosine(double x, double& sine, double& cosine) {
-    if (std::abs(x) < kSmallAngle) {
-      const double q = x * x;
-      sine = x * (1.0 - q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0) * (1.0 - q * (1.0 / 72.0)))));
-      cosine = 1.0 - q * 0.5 * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0))));
-    } else {
-      sine = std::sin(x);
-      cosine = std::cos(x);
-    }
-  }
-
   explicit WheelGeometry(double nominal_radius) : radius_(nominal_radius) {}
+
+  /// The turned frame has z towards the reference angle, so that the angle to it is small and needs no trigonometry.
+  static TurnedAxis turned(const Vec3& axis, const Vec3& origin, double reference) {
+    const double sine = std::sin(reference), cosine = std::cos(reference);
+    return {axis.x() * cosine - axis.z() * sine, axis.y(), axis.x() * sine + axis.z() * cosine, axis.dot(origin)};
+  }
+  static TurnedPoint point(double u, double reference, const NetValue& n) {
+    double sine, cosine;
+    sine_cosine(u - reference, sine, cosine);
+    const double x = n.value.w * sine, z = n.value.w * cosine;
+    return {{x, n.value.y, z},
+            {z + n.by_u.w * sine, n.by_u.y, n.by_u.w * cosine - x},
+            {n.by_v.w * sine, n.by_v.y, n.by_v.w * cosine}};
+  }
 
   static bool lines_along_y(const Mat3& axes) { return wheel_lines_along_y(axes); }
   /// On the half turned towards the plane; NaN if the cut misses the wheel.
@@ -107,7 +88,18 @@ class WheelGeometry {
   }
 
  private:
-  static constexpr double kSmallAngle = 0.05;  // series good to 1e-17
+  static constexpr double kSmallAngle = 0.02;  // series good to 1e-17
+  static void sine_cosine(double x, double& sine, double& cosine) {
+    if (std::abs(x) < kSmallAngle) {
+      const double q = x * x;
+      sine = x * (1.0 - q * (1.0 / 6.0 - q * (1.0 / 120.0 - q * (1.0 / 5040.0))));
+      cosine = 1.0 - q * (0.5 - q * (1.0 / 24.0 - q * (1.0 / 720.0 - q * (1.0 / 40320.0))));
+    } else {
+      sine = std::sin(x);
+      cosine = std::cos(x);
+    }
+  }
+
   double radius_;
 };
 

@@ -7,7 +7,8 @@
 namespace treadmark::spline {
 
 SliceHulls::SliceHulls(const SliceNet& net)
-    : cells_(static_cast<std::size_t>(net.cells())), coarse_per_group_((cells_ + kCellsPerGroup - 1) / kCellsPerGroup) {
+    : cells_(static_cast<std::size_t>(net.cells())), coarse_per_group_((cells_ + kCellsPerGroup - 1) / kCellsPerGroup),
+      spans_(net.spans()) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   const auto spans = static_cast<std::size_t>(net.spans());
   for (std::size_t first = 0; first < spans; first += kSpansPerGroup) {
@@ -22,7 +23,8 @@ SliceHulls::SliceHulls(const SliceNet& net)
       Box box;
       for (std::size_t span = first; span < end; ++span) {
         Box part;
-        if (net.hull(static_cast<int>(span), static_cast<int>(cell), part.y, part.w)) box.include(part);
+        if (net.hull(static_cast<int>(span), static_cast<int>(cell), net.span_start(static_cast<int>(span)),
+                     net.span_end(static_cast<int>(span)), part.y, part.w)) box.include(part);
       }
       fine_.push_back(box);
       coarse_[group + cell / kCellsPerGroup].include(box);

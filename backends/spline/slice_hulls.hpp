@@ -26,18 +26,27 @@ class SliceHulls {
   const Box& all() const { return all_; }
   std::size_t memory_bytes() const { return (fine_.size() + coarse_.size()) * sizeof(Box) + u_.size() * sizeof(Interval); }
 
-  /// Calls visit(box) for the boxes of all parts whose u overlaps one for which wanted_u(interval) holds; visit returns true
-  /// for a group of cells to be asked again for each cell.
+  /// Spans of a group: first_span(group) .. first_span(group + 1) - 1.
+  int first_span(std::size_t group) const {
+    return group < u_.size() ? static_cast<int>(group * kSpansPerGroup) : spans_;
+  }
+  /// u of a span; the outer ones of a rail go on for ever.
+  Interval span_range(const SliceNet& net, int span) const {
+    return {span == 0 ? u_.front().low : net.span_start(span), span + 1 == spans_ ? u_.back().high : net.span_end(span)};
+  }
+
+  /// For all groups of spans with wanted_u(interval): calls visit(box, group, -1) for every group of cells, and, where that
+  /// returns true, visit(box, group, cell) for each cell of it.
   template <class WantedU, class Visit>
   void visit(const WantedU& wanted_u, const Visit& visit) const {
     for (std::size_t g = 0; g < u_.size(); ++g) {
       if (!wanted_u(u_[g])) continue;
       for (std::size_t c = 0; c < coarse_per_group_; ++c) {
         const Box& coarse = coarse_[g * coarse_per_group_ + c];
-        if (coarse.empty() || !visit(coarse, false)) continue;
+        if (coarse.empty() || !visit(coarse, g, -1)) continue;
         const std::size_t end = std::min(cells_, (c + 1) * kCellsPerGroup);
         for (std::size_t k = c * kCellsPerGroup; k < end; ++k)
-          if (const Box& fine = fine_[g * cells_ + k]; !fine.empty()) visit(fine, true);
+          if (const Box& fine = fine_[g * cells_ + k]; !fine.empty()) visit(fine, g, static_cast<int>(k));
       }
     }
   }
@@ -46,6 +55,7 @@ class SliceHulls {
   static constexpr std::size_t kSpansPerGroup = 4, kCellsPerGroup = 16;
 
   std::size_t cells_, coarse_per_group_;
+  int spans_;
   std::vector<Interval> u_;  // of each group of spans
   std::vector<Box> fine_, coarse_;
   Box all_;

@@ -31,18 +31,22 @@ NetSecond SliceNet::second_at(const Place& place, int cell, double f) const {
   return sum;
 }
 
-bool SliceNet::hull(int span, int cell, Interval& y, Interval& w) const {
+bool SliceNet::hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const {
   y = w = Interval::none();
-  const double h = span_end(span) - span_start(span);
+  // The constant ends go on beyond their span.
+  u0 = std::clamp(u0, span_start(span), span_end(span));
+  const double h = std::clamp(u1, u0, span_end(span)) - u0, t = u0 - span_start(span);
   // In v the B-spline hull is loose by the sag of the control polygon, so go over to Bezier points in both directions.
   NetPair bezier_u[4][4];
   for (int k = 0; k < 4; ++k) {
     const NetPair* p = line(span, cell + k).power;
-    const NetPair c1 = h * p[1], c2 = (h * h) * p[2], c3 = (h * h * h) * p[3];
-    bezier_u[k][0] = p[0];
-    bezier_u[k][1] = p[0] + (1.0 / 3.0) * c1;
-    bezier_u[k][2] = p[0] + (1.0 / 3.0) * (2.0 * c1 + c2);
-    bezier_u[k][3] = p[0] + c1 + c2 + c3;
+    const NetPair c0 = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
+    const NetPair c1 = h * (p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]));
+    const NetPair c2 = (h * h) * (p[2] + (3.0 * t) * p[3]), c3 = (h * h * h) * p[3];
+    bezier_u[k][0] = c0;
+    bezier_u[k][1] = c0 + (1.0 / 3.0) * c1;
+    bezier_u[k][2] = c0 + (1.0 / 3.0) * (2.0 * c1 + c2);
+    bezier_u[k][3] = c0 + c1 + c2 + c3;
   }
   for (int i = 0; i < 4; ++i) {
     const NetPair c[4] = {bezier_u[0][i], bezier_u[1][i], bezier_u[2][i], bezier_u[3][i]};

@@ -71,8 +71,8 @@ class SliceNet {
   NetValue at(const Place& place, int cell, double f) const;
   NetSecond second_at(const Place& place, int cell, double f) const;
 
-  /// Ranges of y and w over a cell on one span, from control points; false if there is no surface.
-  bool hull(int span, int cell, Interval& y, Interval& w) const;
+  /// Ranges of y and w over a cell for u0 <= u <= u1 within one span, from control points; false if there is no surface.
+  bool hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const;
 
  private:
   std::size_t index(int span, int line) const {
@@ -85,6 +85,18 @@ class SliceNet {
   int positions_;
   std::vector<LineCubic> cubics_;
 };
+
+// Both fields at once in one register (GCC and clang).
+namespace detail {
+typedef double Pair __attribute__((vector_size(16)));
+
+inline Pair both(double x) { return Pair{x, x}; }
+inline Pair load(const NetPair& p) { return Pair{p.y, p.w}; }
+inline NetPair store(const Pair& p) { return {p[0], p[1]}; }
+inline Pair cubic(const SliceNet::LineCubic& l, const Pair& t) {
+  return load(l.power[0]) + t * (load(l.power[1]) + t * (load(l.power[2]) + t * load(l.power[3])));
+}
+}  // namespace detail
 
 inline SliceNet::Place SliceNet::find(double u, int hint) const {
   constexpr double kTurn = 2.0 * std::numbers::pi;
@@ -104,30 +116,37 @@ inline SliceNet::Place SliceNet::find(double u, int hint) const {
 }
 
 inline NetValue SliceNet::at_break(const Place& place, int k) const {
+  using detail::Pair;
   const LineCubic* c = &line(place.span, k);
-  const double t = place.t;
-  const auto value = [t](const LineCubic& l) { return l.power[0] + t * (l.power[1] + t * (l.power[2] + t * l.power[3])); };
-  const auto slope = [t](const LineCubic& l) { return l.power[1] + t * (2.0 * l.power[2] + (3.0 * t) * l.power[3]); };
-  const NetPair left = value(c[0]), right = value(c[2]);
-  return {(1.0 / 6.0) * (left + 4.0 * value(c[1]) + right), (1.0 / 6.0) * (slope(c[0]) + 4.0 * slope(c[1]) + slope(c[2])),
-          0.5 * (right - left)};
+  const Pair t = detail::both(place.t);
+  // Powers of t at the break first, then one polynomial instead of three.
+  Pair power[4];
+  for (int m = 0; m < 4; ++m)
+    power[m] = detail::both(1.0 / 6.0) * (detail::load(c[0].power[m]) + detail::load(c[2].power[m])) +
+               detail::both(2.0 / 3.0) * detail::load(c[1].power[m]);
+  const Pair left = detail::cubic(c[0], t), right = detail::cubic(c[2], t);
+  return {detail::store(power[0] + t * (power[1] + t * (power[2] + t * power[3]))),
+          detail::store(power[1] + t * (detail::both(2.0) * power[2] + t * (detail::both(3.0) * power[3]))),
+          detail::store(detail::both(0.5) * (right - left))};
 }
 
 inline NetValue SliceNet::at(const Place& place, int cell, double f) const {
+  using detail::Pair;
   const LineCubic* c = &line(place.span, cell);
-  const double t = place.t, g = 1.0 - f;
-  const double basis[4] = {g * g * g / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
-                           f * f * f / 6.0};
+  const double g = 1.0 - f;
+  const double basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
+                           f * f * f * (1.0 / 6.0)};
   const double basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
-  NetValue sum;
+  const Pair t = detail::both(place.t), two = detail::both(2.0), t3 = detail::both(3.0 * place.t);
+  Pair value{}, by_u{}, by_v{};
   for (int k = 0; k < 4; ++k) {
-    const NetPair* p = c[k].power;
-    const NetPair value = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
-    sum.value = sum.value + basis[k] * value;
-    sum.by_v = sum.by_v + basis_v[k] * value;
-    sum.by_u = sum.by_u + basis[k] * (p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]));
+    const Pair p1 = detail::load(c[k].power[1]), p2 = detail::load(c[k].power[2]), p3 = detail::load(c[k].power[3]);
+    const Pair at_t = detail::load(c[k].power[0]) + t * (p1 + t * (p2 + t * p3));
+    value += detail::both(basis[k]) * at_t;
+    by_v += detail::both(basis_v[k]) * at_t;
+    by_u += detail::both(basis[k]) * (p1 + t * (two * p2 + t3 * p3));
   }
-  return sum;
+  return {detail::store(value), detail::store(by_u), detail::store(by_v)};
 }
 
 }  // namespace treadmark::spline

@@ -13,7 +13,8 @@
 namespace treadmark::spline {
 
 /// A slice surface cut at one value c of the across coordinate, for SectionRaster. The cut has u = u(v): every evaluation
-/// corrects u by one Newton step. Lines are visited one after the other; the cut of the last one starts the next.
+/// corrects u by one Newton step. Cuts follow one another, with the same lines each time;
+/// one starts from the last.
 template <class Geometry>
 class SliceSection {
  public:
@@ -24,24 +25,32 @@ class SliceSection {
   SliceSection(const SliceNet& net, const Geometry& geometry, const Vec3& across, const Vec3& along, const Vec3& normal,
                const Vec3& origin)
       : net_(net), geometry_(geometry), across_direction_(across), normal_direction_(normal), origin_(origin),
-        across_(across, origin), along_(along, origin), normal_(normal, origin),
-        breaks_(static_cast<std::size_t>(net.positions())), u_by_c_(breaks_.size()) {}
+        along_direction_(along), breaks_(static_cast<std::size_t>(net.positions()), SectionPoint{}), u_by_c_(breaks_.size()),
+        u_by_cc_(breaks_.size()) {}
 
-  /// Cuts all lines v = 1, 2, ...; afterwards break_at(k) is v = k + 1.
-  void cut(double c) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    const double shift = c - c_;
+  /// Moves to the across coordinate c.
+  void start_cut(double c) {
+    shift_ = started_ ? c - c_ : 0.0;
+    started_ = true;
     c_ = c;
-    const double guess = geometry_.guess_u(across_direction_, normal_direction_, origin_, c);
-    set_reference(guess);
-    double before = guess, slope = 0.0;
-    for (std::size_t k = 0; k < breaks_.size(); ++k) {
+    before_ = geometry_.guess_u(across_direction_, normal_direction_, origin_, c);
+    slope_ = 0.0;
+    set_reference(before_);
+  }
+
+  /// Cuts the lines v = first + 1 .. last + 1; afterwards break_at(k) is v = k + 1.
+  void cut(int first, int last) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    for (int line = first; line <= last; ++line) {
+      const auto k = static_cast<std::size_t>(line);
       SectionPoint& p = breaks_[k];
       // From the last cut, else from the neighbour.
-      double u = cut_before_ && !std::isnan(p.s) ? p.u + shift * u_by_c_[k] : before + slope;
+      const bool known = shift_ != 0.0 && !std::isnan(p.s);
+      double u = known ? p.u + shift_ * (u_by_c_[k] + 0.5 * shift_ * u_by_cc_[k]) : before_ + slope_;
+      double u_by_c = 0.0;
       int left = kMaxCutSteps;
       do {
-        p = at_break(static_cast<int>(k), u, u_by_c_[k]);
+        p = at_break(line, u, u_by_c);
         p.u_step = std::clamp(p.u_step, -Geometry::kLargestStepU, Geometry::kLargestStepU);
         u += p.u_step;
       } while (std::abs(p.u_step) > kStepU && --left > 0);
@@ -49,12 +58,12 @@ class SliceSection {
         p.s = kNaN;
         continue;
       }
+      u_by_cc_[k] = known ? (u_by_c - u_by_c_[k]) / shift_ : 0.0;
+      u_by_c_[k] = u_by_c;
       p.u = u;
-      before = u, slope = p.du;
+      before_ = u, slope_ = p.du;
     }
-    cut_before_ = true;
   }
-
   const SectionPoint& break_at(int k) const { return breaks_[static_cast<std::size_t>(k)]; }
 
   SectionPoint point(int cell, double v, double u) const {
@@ -71,12 +80,11 @@ class SliceSection {
   Slopes slopes(int cell, double v, double u) const {
     const SliceNet::Place place = net_.find(u, span_);
     const NetValue value = net_.at(place, cell, v - (cell + 1));
-    double sine, cosine;
-    Geometry::sine_cosine(u - reference_, sine, cosine);
-    const PlaneCoordinate a = across_.of(u, sine, cosine, value), s = along_.of(u, sine, cosine, value);
-    const PlaneCoordinate n = normal_.of(u, sine, cosine, value);
-    const double area = a.by_u * s.by_v - s.by_u * a.by_v;
-    return {(a.by_u * n.by_v - n.by_u * a.by_v) / area, (n.by_u * s.by_v - s.by_u * n.by_v) / area};
+    const TurnedPoint at = Geometry::point(u, reference_, value);
+    const double a_u = across_.of(at.by_u), a_v = across_.of(at.by_v), s_u = along_.of(at.by_u), s_v = along_.of(at.by_v);
+    const double n_u = normal_.of(at.by_u), n_v = normal_.of(at.by_v);
+    const double area = a_u * s_v - s_u * a_v;
+    return {(a_u * n_v - n_u * a_v) / area, (n_u * s_v - s_u * n_v) / area};
   }
 
  private:
@@ -84,9 +92,9 @@ class SliceSection {
 
   void set_reference(double u) {
     reference_ = u;
-    across_.set_reference(u);
-    along_.set_reference(u);
-    normal_.set_reference(u);
+    across_ = Geometry::turned(across_direction_, origin_, u);
+    along_ = Geometry::turned(along_direction_, origin_, u);
+    normal_ = Geometry::turned(normal_direction_, origin_, u);
   }
 
   SectionPoint at_break(int k, double u, double& u_by_c) const {
@@ -96,23 +104,27 @@ class SliceSection {
   }
 
   SectionPoint combine(double u, const NetValue& value, double& u_by_c) const {
-    double sine, cosine;
-    Geometry::sine_cosine(u - reference_, sine, cosine);
-    const PlaneCoordinate a = across_.of(u, sine, cosine, value), s = along_.of(u, sine, cosine, value);
-    const PlaneCoordinate n = normal_.of(u, sine, cosine, value);
-    u_by_c = 1.0 / a.by_u;
-    const double step = (c_ - a.value) * u_by_c, du = -a.by_v * u_by_c;
-    return {s.value + s.by_u * step, n.value + n.by_u * step, s.by_v + s.by_u * du, n.by_v + n.by_u * du, u + step, du, step};
+    const TurnedPoint at = Geometry::point(u, reference_, value);
+    u_by_c = 1.0 / across_.of(at.by_u);
+    const double step = (c_ + across_.origin - across_.of(at.p)) * u_by_c, du = -across_.of(at.by_v) * u_by_c;
+    double p[3], d[3];
+    for (int i = 0; i < 3; ++i) {
+      p[i] = at.p[i] + step * at.by_u[i];
+      d[i] = at.by_v[i] + du * at.by_u[i];
+    }
+    return {along_.of(p) - along_.origin, normal_.of(p) - normal_.origin, along_.of(d), normal_.of(d), u + step, du, step};
   }
 
   const SliceNet& net_;
   const Geometry& geometry_;
-  Vec3 across_direction_, normal_direction_, origin_;
-  typename Geometry::Axis across_, along_, normal_;
+  Vec3 across_direction_, normal_direction_, origin_, along_direction_;
+  TurnedAxis across_, along_, normal_;
   std::vector<SectionPoint> breaks_;
-  std::vector<double> u_by_c_;
+  std::vector<double> u_by_c_, u_by_cc_;
   double c_ = 0.0, reference_ = 0.0;
-  bool cut_before_ = false;
+  double shift_ = 0.0;               // from the cut before
+  double before_ = 0.0, slope_ = 0.0;  // u of the line cut last, and its change from line to line
+  bool started_ = false;
   mutable int span_ = 0;  // of the last evaluation; neighbours are near
 };
 

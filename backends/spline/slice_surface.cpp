@@ -30,12 +30,42 @@ SliceNet with_radius(SliceNet net, double nominal_radius) {
   return net;
 }
 
+// Runs of cells [first, last) that may lie over a window.
+struct CellRun {
+  int first, last;
+};
+
 template <class Geometry>
-void raster(const SliceNet& net, const SliceSection<Geometry>& section, const Samples& samples, ColumnHits& hits) {
+std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls) {
+  std::vector<char> marks(static_cast<std::size_t>(net.cells()) + 1, 0);
+  mark_cells_over(WindowOn<Geometry>(window), hulls, marks);
+  std::vector<CellRun> runs;
+  for (int k = 0; k < net.cells(); ++k) {
+    if (!marks[static_cast<std::size_t>(k)]) continue;
+    if (runs.empty() || runs.back().last != k) runs.push_back({k, k});
+    runs.back().last = k + 1;
+  }
+  return runs;
+}
+
+template <class Geometry>
+void raster(SliceSection<Geometry>& section, double across, const std::vector<CellRun>& runs, const Samples& samples,
+            ColumnHits& hits) {
   hits.clear();
-  SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits);
-  for (int k = 0; k < net.cells(); ++k)
-    raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+  section.start_cut(across);
+  SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
+  for (const CellRun& run : runs) {
+    section.cut(run.first, run.last);
+    for (int k = run.first; k < run.last; ++k)
+      raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+  }
+  raster.finish();
+}
+
+// Bounds are meant for real numbers; this covers the rounding of their own evaluation and the slack at edges.
+Interval widened(double low, double high) {
+  constexpr double kSlack = 1e-9;
+  return {low - kSlack, high + kSlack};
 }
 
 }  // namespace
@@ -83,9 +113,12 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
     ColumnHits hits(g.samples.count, facing());
     SliceSection<Geometry> section(net_, geometry_, g.across, g.along, g.normal, g.origin);
     const int first = static_cast<int>(task * kLinesPerTask);
-    for (int line = first; line < std::min(g.lines, first + static_cast<int>(kLinesPerTask)); ++line) {
-      section.cut(g.across_at(line));
-      raster(net_, section, g.samples, hits);
+    const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
+    const auto runs = runs_over<Geometry>({g.across, g.along, g.normal, g.origin,
+                                           widened(g.across_at(first), g.across_at(last)),
+                                           widened(g.samples.first, g.samples.last())}, net_, hulls_);
+    for (int line = first; line <= last; ++line) {
+      raster(section, g.across_at(line), runs, g.samples, hits);
       const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
       if (!out.z.empty())
         for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
@@ -106,10 +139,11 @@ void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> p
   ColumnHits hits(1, facing());
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     out[i] = {};
-    SliceSection<Geometry> section(net_, geometry_, X_SP.rotation.col(1 - along), X_SP.rotation.col(along),
-                                   X_SP.rotation.col(2), X_SP.origin);
-    section.cut(points_P[i][1 - along]);
-    raster(net_, section, {points_P[i][along], 1.0, 1}, hits);
+    const double a = points_P[i][1 - along], s = points_P[i][along];
+    const PlaneWindow window{X_SP.rotation.col(1 - along), X_SP.rotation.col(along), X_SP.rotation.col(2), X_SP.origin,
+                             widened(a, a), widened(s, s)};
+    SliceSection<Geometry> section(net_, geometry_, window.across_axis, window.along_axis, window.normal, window.origin);
+    raster(section, a, runs_over<Geometry>(window, net_, hulls_), {s, 1.0, 1}, hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
     out[i].u = kIsWheel<Geometry> ? wrap_angle(hits.u[0]) : hits.u[0];
@@ -124,8 +158,10 @@ void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> p
 template <class Geometry>
 HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const {
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
-  const Interval x{rectangle_P.x_min - 1e-9, rectangle_P.x_max + 1e-9}, y{rectangle_P.y_min - 1e-9, rectangle_P.y_max + 1e-9};
-  const Interval n = slice_height_bounds(geometry_, hulls_, X_SP, along_y, along_y ? x : y, along_y ? y : x);
+  const Interval x = widened(rectangle_P.x_min, rectangle_P.x_max), y = widened(rectangle_P.y_min, rectangle_P.y_max);
+  const WindowOn<Geometry> window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0),
+                                   X_SP.rotation.col(2), X_SP.origin, along_y ? x : y, along_y ? y : x});
+  const Interval n = heights_over(window, net_, hulls_);
   if (n.empty()) return {0.0, 0.0, true};
   return {n.low - 1e-12, n.high + 1e-12, false};
 }
