@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// The measured wheel flat of the reference data (M. Maglio and J. Nielsen, Chalmers University of Technology).
+#include <gtest/gtest.h>
+
+#include <cmath>
+
+#include "treadmark/backends/spline/fit_slices.hpp"
+#include "treadmark/backends/spline/make.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/tests/support/shared_data.hpp"
+
+namespace treadmark::spline {
+namespace {
+
+constexpr double kRadius = 0.49;
+
+struct Deepest {
+  double depth = 0.0, y = 0.0, theta = 0.0;
+};
+
+// Deepest point relative to the undamaged profile, which the slices show at theta = 2.
+Deepest deepest(const Surface& wheel) {
+  Deepest worst;
+  for (double theta = 0.55; theta < 0.75; theta += 1e-3) {
+    const Pose at{Vec3::Zero(), rotation_y(theta)}, sound{Vec3::Zero(), rotation_y(2.0)};
+    for (double y = -0.022; y < 0.032; y += 1e-3) {
+      const double depth = height_at(wheel, at, {0.0, y}) - height_at(wheel, sound, {0.0, y});
+      if (depth < worst.depth) worst = {depth, y, theta};
+    }
+  }
+  return worst;
+}
+
+SliceSet read_flat(const std::filesystem::path& shared, double lambda_mm3) {
+  io::ProfileOptions options;
+  options.smoothing.strength = lambda_mm3 * 1e-9;
+  return io::read_slices(shared / "data/contact_examples/S1002_flat.slcw", Body::wheel, options);
+}
+
+TEST(ReferenceFlat, HasItsPublishedSize) {
+  TREADMARK_REQUIRE_SHARED();
+  SliceSet slices = read_flat(*shared, 0.0);
+  ASSERT_EQ(slices.u.size(), 258u);
+  slices.approximate_u = false;
+  EXPECT_EQ(fit_slices(slices).positions(), 300);
+  const Deepest sharp = deepest(*make_slice_surface(slices, kRadius));
+  // Deepest measured point: dr = -1.421 mm at y = 6 mm, theta = 0.647; where S1002 itself is -0.12 +- 0.1 mm at y = 5 .. 7 mm
+  // and the sound band lies up to 0.11 mm below S1002.
+  EXPECT_NEAR(sharp.depth, -1.38e-3, 0.06e-3);
+  EXPECT_NEAR(sharp.y, 6e-3, 3e-3);
+  EXPECT_NEAR(sharp.theta, 0.647, 0.004);
+  // Approximation and smoothing make it a little shallower.
+  SliceSet soft = read_flat(*shared, 5.0);
+  EXPECT_TRUE(soft.approximate_u);
+  const Deepest shallow = deepest(*make_slice_surface(soft, kRadius));
+  EXPECT_GT(shallow.depth, sharp.depth);
+  EXPECT_LT(shallow.depth, sharp.depth + 0.03e-3);
+}
+
+TEST(ReferenceFlat, InterpolationPassesThroughTheMeasuredPoint) {
+  TREADMARK_REQUIRE_SHARED();
+  SliceSet slices = read_flat(*shared, 0.0);
+  slices.approximate_u = false;
+  const SliceNet net = fit_slices(slices);
+  // The nearest slice to theta = 0.647, at its point nearest to y = 6 mm.
+  std::size_t slice = 0;
+  for (std::size_t i = 0; i < slices.u.size(); ++i)
+    if (std::abs(slices.u[i] - 0.647) < std::abs(slices.u[slice] - 0.647)) slice = i;
+  const Profile& profile = slices.profiles[slice];
+  std::size_t point = 0;
+  for (std::size_t i = 0; i < profile.y.size(); ++i)
+    if (std::abs(profile.y[i] - 6e-3) < std::abs(profile.y[point] - 6e-3)) point = i;
+  const auto place = net.find(slices.u[slice]);
+  double nearest = 1.0;
+  for (int cell = 0; cell < net.cells(); ++cell)
+    for (double f = 0.0; f < 1.0; f += 0.01) {
+      const NetPair p = net.at(place, cell, f).value;
+      nearest = std::min(nearest, std::hypot(p.y - profile.y[point], p.w - profile.z[point]));
+    }
+  EXPECT_LT(nearest, 4e-6);  // half a sampling step of 0.005 mm, and points resampled between 1 mm points
+}
+
+}  // namespace
+}  // namespace treadmark::spline
