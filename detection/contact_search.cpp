@@ -83,11 +83,7 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     throw Error(ErrorKind::configuration,
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
-  field_ = gap_field(bodies, g, true);
-  if (settings.facets) {
-    field_.wheel_z = facet_heights(*bodies.wheel, bodies.X_TW, *settings.facets, g);
-    for (std::size_t i = 0; i < field_.gap.size(); ++i) field_.gap[i] = field_.rail_z[i] - field_.wheel_z[i];
-  }
+  field_ = gap_field(bodies, g, true, settings.facets);
 }
 
 BodyPair ContactSearch::bodies_at(double wheel_dz) const {

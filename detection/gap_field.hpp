@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "treadmark/detection/body_pair.hpp"
+#include "treadmark/detection/wheel_facets.hpp"
 
 namespace treadmark::detection {
 
@@ -16,7 +18,8 @@ struct GapField {
   std::vector<double> inclination;           ///< of the rail, atan(dz/dy) in T [rad]; empty unless asked for
 };
 
-/// Exact evaluation of both surfaces on the grid.
-GapField gap_field(const BodyPair& bodies, const Grid2& grid_T, bool with_inclination);
+/// Evaluation of both surfaces on the grid: exact, or the wheel by its facets if these are given.
+GapField gap_field(const BodyPair& bodies, const Grid2& grid_T, bool with_inclination,
+                   const std::optional<WheelFacets>& facets = std::nullopt);
 
 }  // namespace treadmark::detection

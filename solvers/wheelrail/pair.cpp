@@ -4,6 +4,7 @@
 
 #include <chrono>
 #include <cmath>
+#include <string>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
@@ -282,6 +283,9 @@ PairSolution Pair::solve_right_hand(const Problem& given) {
   }
   for (PatchSolution& patch : solution.patches) {
     const kalker::ContactSolution& c = patch.contact;
+    if (solution.message.empty() && patch.grid.cell_area() > 1.5 * p.discretisation.dx * p.discretisation.ds)
+      solution.message = "elements were enlarged to keep the potential contact area below " +
+                         std::to_string(p.discretisation.max_elements) + " elements";
     const Pose& X_TC = patch.frame.X_TC;
     patch.force_T = X_TC.rotation * Vec3(c.force_x, c.force_y, c.force_n);
     const Vec3 moment_T = X_TC.rotation * Vec3(c.moment_x, c.moment_y, c.moment_n);

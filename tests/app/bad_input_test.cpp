@@ -37,7 +37,7 @@ TEST_F(BadInput, TheSampleItselfIsFine) {
 
 TEST_F(BadInput, MissingCaseFile) {
   const ProgramResult r = run_program({"run", (input.folder() / "nothing.inp").string()});
-  EXPECT_EQ(r.status, 3);
+  EXPECT_EQ(r.status, 2);
   EXPECT_THAT(r.err, HasSubstr("nothing.inp"));
 }
 
@@ -54,7 +54,7 @@ TEST_F(BadInput, MissingSliceFile) {
 
 TEST_F(BadInput, SlicesOutOfOrder) {
   input.use_slices();
-  input.edit("wheel.slcw", "0.200000 ", "0.050000 ");
+  input.edit("wheel.slcw", "\n0.200000 ", "\n0.050000 ");
   expect_refused(3, {"wheel.slcw:11"});
 }
 
@@ -79,7 +79,15 @@ TEST_F(BadInput, UnsupportedDigit) {
   expect_refused(2, {"case.inp:3"});
 }
 
-TEST_F(BadInput, ElementsTooSmallForMemory) {
+TEST_F(BadInput, ElementsTooSmallForMemoryAreEnlargedAndSaidToBe) {
+  input.edit("case.inp", "  0.500   0.500   1.000", "  1e-9   1e-9   1.000");
+  const ProgramResult r = run_program({"run", input.inp().string()});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("enlarged"));
+}
+
+TEST_F(BadInput, SearchTooFineForMemory) {
+  input.use_slices();  // an out-of-round wheel is searched on a grid that follows dx, ds
   input.edit("case.inp", "  0.500   0.500   1.000", "  1e-9   1e-9   1.000");
   expect_refused(2, {"dx"});
 }

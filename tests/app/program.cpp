@@ -15,9 +15,15 @@ namespace treadmark::testing {
 namespace {
 
 std::string quoted(const std::string& text) {
-  std::string result = "'";
-  for (const char c : text) result += c == '\'' ? std::string("'\\''") : std::string(1, c);
-  return result + "'";
+  std::string result("'");
+  for (const char c : text) {
+    if (c == '\'')
+      result.append("'\\''");
+    else
+      result.push_back(c);
+  }
+  result.push_back('\'');
+  return result;
 }
 
 std::string slurp(const std::filesystem::path& file) {
@@ -34,8 +40,8 @@ ProgramResult run_program(const std::vector<std::string>& arguments) {
                     ("treadmark_run_" + std::to_string(getpid()) + "_" + std::to_string(count.fetch_add(1)));
   const std::string out = base.string() + ".out", err = base.string() + ".err";
   std::string command = quoted(TREADMARK_PROGRAM);
-  for (const auto& argument : arguments) command += " " + quoted(argument);
-  command += " >" + quoted(out) + " 2>" + quoted(err) + " </dev/null";
+  for (const auto& argument : arguments) command.append(" ").append(quoted(argument));
+  command.append(" >").append(quoted(out)).append(" 2>").append(quoted(err)).append(" </dev/null");
   const int raw = std::system(command.c_str());
   ProgramResult result{WIFEXITED(raw) ? WEXITSTATUS(raw) : -1, slurp(out), slurp(err)};
   std::filesystem::remove(out);
