@@ -41,8 +41,8 @@ CaseKey& shared_choice(KeyList& list, const std::string& path, std::vector<std::
   CaseKey& key = list.keys.back();
   key.info.scope = KeyScope::any;
   key.set = [place, choices](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    for (const auto& [word, value] : choices)
-      if (word == v.text()) std::visit([&](auto& content) { place(content) = value; }, c.content);
+    for (const auto& one : choices)
+      if (one.first == v.text()) std::visit([&](auto& content) { place(content) = one.second; }, c.content);
   };
   return key;
 }
