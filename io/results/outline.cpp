@@ -42,7 +42,8 @@ class BoundaryEdges {
   std::vector<unsigned char> out_;
 };
 
-/// A loop from its lowest, leftmost corner, removing its edges. A left turn comes first where two loops touch at a corner.
+/// A loop from its lowest, leftmost corner, removing its edges. A left turn comes first where two loops touch at a
+/// corner.
 Loop take_loop(BoundaryEdges& edges, int x, int y) {
   Loop loop{{x, y}};
   int direction = 0;

@@ -95,7 +95,8 @@ std::string draw_patch(const PatchPicture& picture, double top_pressure, const P
   const double y0 = (panel.window.y_high - picture.y_low) * panel.scale_y;
   const double step_x = picture.dx * panel.scale_x, step_y = -picture.dy * panel.scale_y;
 
-  std::string out = fmt::format("<g transform=\"translate({:.6g} {:.6g}) scale({:.6g} {:.6g})\">\n", x0, y0, step_x, step_y);
+  std::string out =
+      fmt::format("<g transform=\"translate({:.6g} {:.6g}) scale({:.6g} {:.6g})\">\n", x0, y0, step_x, step_y);
   for (int step = 0; step < kPressureSteps; ++step) {
     const auto loops = outline(picture.above(step == 0 ? 0.0 : top_pressure * step / kPressureSteps));
     if (loops.empty()) break;
@@ -104,7 +105,8 @@ std::string draw_patch(const PatchPicture& picture, double top_pressure, const P
   out += "</g>\n";
   const auto line = [&](const std::vector<char>& cells, const char* name) {
     const auto loops = outline({picture.nx, picture.ny, cells});
-    if (!loops.empty()) out += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", name, path_at(loops, x0, y0, step_x, step_y));
+    if (!loops.empty())
+      out += fmt::format("<path class=\"{}\" d=\"{}\"/>\n", name, path_at(loops, x0, y0, step_x, step_y));
   };
   line(picture.adhesion, "adhesion");
   line(picture.contact, "contact");

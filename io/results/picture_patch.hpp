@@ -21,10 +21,10 @@ struct Window {
 
 /// What the picture shows of a patch: the part of its grid that is in contact, coarsened when it is very fine.
 struct PatchPicture {
-  int nx = 0, ny = 0;              ///< 0 = nothing in contact
-  double dx = 0.0, dy = 0.0;       ///< size of a cell [mm]
-  double x_low = 0.0, y_low = 0.0; ///< corner of the first cell [mm]
-  std::vector<double> pressure;    ///< [Pa], 0 outside the contact
+  int nx = 0, ny = 0;               ///< 0 = nothing in contact
+  double dx = 0.0, dy = 0.0;        ///< size of a cell [mm]
+  double x_low = 0.0, y_low = 0.0;  ///< corner of the first cell [mm]
+  std::vector<double> pressure;     ///< [Pa], 0 outside the contact
   std::vector<char> contact, adhesion;
 
   Window extent() const { return {x_low, x_low + nx * dx, y_low, y_low + ny * dy}; }
@@ -33,14 +33,15 @@ struct PatchPicture {
 
 PatchPicture make_patch_picture(const PatchFields& fields);
 
-/// Where the picture's plane lies on a panel: x_px = (x_mm - window.x_low) scale_x, y_px = (window.y_high - y_mm) scale_y.
+/// Where the picture's plane lies on a panel: x_px = (x_mm - window.x_low) scale_x, y_px = (window.y_high - y_mm)
+/// scale_y.
 struct PanelScale {
   Window window;
   double scale_x = 1.0, scale_y = 1.0;  ///< [px/mm]
 };
 
-/// SVG elements of a patch on its panel: filled steps of pressure up to top_pressure [Pa], the edge of contact (dark) and
-/// of the adhesion area (white).
+/// SVG elements of a patch on its panel: filled steps of pressure up to top_pressure [Pa], the edge of contact (dark)
+/// and of the adhesion area (white).
 std::string draw_patch(const PatchPicture& picture, double top_pressure, const PanelScale& panel);
 
 /// Steps of pressure in the picture; step k of 0 .. kPressureSteps-1 has the colour of its middle.

@@ -17,11 +17,11 @@ namespace treadmark::io {
 namespace {
 
 // Sizes in pixels.
-constexpr double kPanel = 170.0;                                                   // longest side of a panel
+constexpr double kPanel = 170.0;  // longest side of a panel
 constexpr double kGapX = 44.0, kGapY = 64.0, kLeft = 58.0, kTop = 44.0, kBottom = 44.0, kLegend = 156.0;
-constexpr double kMargin = 0.06;    // of the window, around the contact
-constexpr double kEqualScale = 4.0; // windows longer than this get their own scale in each direction
-constexpr double kShape = 1.7;      // wished width over height of the picture
+constexpr double kMargin = 0.06;     // of the window, around the contact
+constexpr double kEqualScale = 4.0;  // windows longer than this get their own scale in each direction
+constexpr double kShape = 1.7;       // wished width over height of the picture
 
 struct CasePicture {
   const CaseResult* result = nullptr;
@@ -49,7 +49,7 @@ CasePicture make_case_picture(const CaseResult& result) {
 
 /// The windows of all cases have one size; one place too if that does not make them much larger.
 struct Layout {
-  double width = 10.0, height = 10.0;   ///< of a window [mm]
+  double width = 10.0, height = 10.0;     ///< of a window [mm]
   double scale_x = 17.0, scale_y = 17.0;  ///< [px/mm]
   bool common = false;
   Window all;
@@ -115,10 +115,14 @@ Layout make_layout(const std::vector<CasePicture>& cases) {
 std::string text(double x, double y, const std::string& words, const char* anchor = "middle", const char* more = "") {
   std::string safe;
   for (const char c : words) {
-    if (c == '&') safe += "&amp;";
-    else if (c == '<') safe += "&lt;";
-    else if (c == '>') safe += "&gt;";
-    else safe += c;
+    if (c == '&')
+      safe += "&amp;";
+    else if (c == '<')
+      safe += "&lt;";
+    else if (c == '>')
+      safe += "&gt;";
+    else
+      safe += c;
   }
   return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, safe);
 }
@@ -156,17 +160,17 @@ std::string draw_axes(const Layout& layout, const Window& window) {
   return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
 }
 
-std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index, int case_count) {
+std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index,
+                       int case_count) {
   const CaseResult& result = *picture.result;
   const Window window = layout.window(picture);
   const double width = layout.panel_width(), height = layout.panel_height();
   const int column = index % layout.columns, row = index / layout.columns;
-  std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n", kLeft + column * (width + kGapX),
-                                kTop + row * (height + kGapY));
+  std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n",
+                                kLeft + column * (width + kGapX), kTop + row * (height + kGapY));
 
-  const std::string title = result.has_wheelset
-                                ? fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi)
-                                : fmt::format("case {}", result.number);
+  const std::string title = result.has_wheelset ? fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi)
+                                                : fmt::format("case {}", result.number);
   out += text(0.5 * width, -20.0, title, "middle", " class=\"title\"");
   if (picture.contact) {
     double force = 0.0, pressure = 0.0;
@@ -184,7 +188,8 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, double 
   }
   out += draw_axes(layout, window);
   if (column == 0)
-    out += text(-40.0, 0.5 * height, "y [mm]", "middle", fmt::format(" transform=\"rotate(-90 -40 {:.1f})\"", 0.5 * height).c_str());
+    out += text(-40.0, 0.5 * height, "y [mm]", "middle",
+                fmt::format(" transform=\"rotate(-90 -40 {:.1f})\"", 0.5 * height).c_str());
   if (index + layout.columns >= case_count) out += text(0.5 * width, height + 28.0, "x [mm]");
   return out + "</g>\n";
 }
@@ -192,7 +197,8 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, double 
 std::string draw_legend(const Layout& layout, double top_pressure) {
   constexpr double kBarWidth = 14.0;
   const double height = std::min(layout.picture_height() - kTop - kBottom - 56.0, 240.0);
-  std::string out = fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", layout.picture_width() - kLegend + 32.0, kTop);
+  std::string out =
+      fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", layout.picture_width() - kLegend + 32.0, kTop);
   out += text(0.0, -7.0, "pressure [MPa]", "start");
   const double step_height = height / kPressureSteps;
   for (int step = 0; step < kPressureSteps; ++step)
@@ -209,7 +215,8 @@ std::string draw_legend(const Layout& layout, double top_pressure) {
   }
   out += fmt::format("<path class=\"contact\" d=\"M0 {:.1f}h14\"/>\n", height + 20.0);
   out += text(20.0, height + 23.5, "edge of contact", "start");
-  out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"14\" height=\"10\" fill=\"{}\"/>\n", height + 33.0, step_colour(kPressureSteps / 2));
+  out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"14\" height=\"10\" fill=\"{}\"/>\n", height + 33.0,
+                     step_colour(kPressureSteps / 2));
   out += fmt::format("<path class=\"adhesion\" d=\"M0 {:.1f}h14\"/>\n", height + 38.0);
   out += text(20.0, height + 41.5, "edge of adhesion", "start");
   return out + "</g>\n";
@@ -231,7 +238,8 @@ std::string pressure_svg(const RunResult& run) {
       "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
       "font-family=\"sans-serif\" font-size=\"10\" fill=\"#222222\">\n"
       "<style>.title{{font-size:12px;font-weight:bold}}.tick{{fill:none;stroke:#666666;stroke-width:.7}}"
-      ".contact{{fill:none;stroke:#1a1a2e;stroke-width:1.2}}.adhesion{{fill:none;stroke:#ffffff;stroke-width:1.2}}</style>\n"
+      ".contact{{fill:none;stroke:#1a1a2e;stroke-width:1.2}}.adhesion{{fill:none;stroke:#ffffff;stroke-width:1.2}}</"
+      "style>\n"
       "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
       layout.picture_width(), layout.picture_height());
   int index = 0;

@@ -22,7 +22,8 @@ class Table {
   void line(const std::string& text) { text_ += text + "\n"; }
 
   template <class Value>
-  void row(const char* label, const char* unit, const char* format, const std::vector<PatchResult>& patches, Value value) {
+  void row(const char* label, const char* unit, const char* format, const std::vector<PatchResult>& patches,
+           Value value) {
     text_ += fmt::format("  {:<{}}{:<9}", label, kLabel, unit);
     for (const PatchResult& patch : patches)
       text_ += fmt::format("{:>{}}", fmt::format(fmt::runtime(format), value(patch)), kColumn);
@@ -35,6 +36,12 @@ class Table {
   std::string text_;
 };
 
+/// Four decimals; a rounded zero has no sign.
+std::string four_decimals(double value) {
+  std::string text = fmt::format("{:.4f}", value);
+  return text == "-0.0000" ? text.substr(1) : text;
+}
+
 /// Five significant digits, without an exponent where the number is of ordinary size.
 std::string five_digits(double value) {
   const double size = std::abs(value);
@@ -44,7 +51,7 @@ std::string five_digits(double value) {
 
 std::string three(double a, double b, double c) {
   std::string text;
-  for (const double value : {a, b, c}) text += fmt::format("{:>{}.4f}", value, kColumn);
+  for (const double value : {a, b, c}) text += fmt::format("{:>{}}", four_decimals(value), kColumn);
   return text;
 }
 
@@ -59,8 +66,7 @@ void add_wheelset(Table& table, const CaseResult& result) {
                          three(result.s * 1e3, result.y * 1e3, result.z * 1e3)));
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset roll, yaw, pitch", kLabel, "[deg]",
                          three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees)));
-  table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]",
-                         three_forces(result.force_tr)));
+  table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]", three_forces(result.force_tr)));
 }
 
 void add_patches(Table& table, const std::vector<PatchResult>& patches) {
@@ -69,10 +75,11 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
   table.line(heading);
 
   if (patches.front().has_reference) {
-    table.row("position x_tr", "[mm]", "{:.4f}", patches, [](const PatchResult& p) { return p.x_tr * 1e3; });
-    table.row("position y_tr", "[mm]", "{:.4f}", patches, [](const PatchResult& p) { return p.y_tr * 1e3; });
-    table.row("position z_tr", "[mm]", "{:.4f}", patches, [](const PatchResult& p) { return p.z_tr * 1e3; });
-    table.row("contact angle", "[deg]", "{:.4f}", patches, [](const PatchResult& p) { return p.angle * kDegrees; });
+    table.row("position x_tr", "[mm]", "{}", patches, [](const PatchResult& p) { return four_decimals(p.x_tr * 1e3); });
+    table.row("position y_tr", "[mm]", "{}", patches, [](const PatchResult& p) { return four_decimals(p.y_tr * 1e3); });
+    table.row("position z_tr", "[mm]", "{}", patches, [](const PatchResult& p) { return four_decimals(p.z_tr * 1e3); });
+    table.row("contact angle", "[deg]", "{}", patches,
+              [](const PatchResult& p) { return four_decimals(p.angle * kDegrees); });
   }
   const bool shift = patches.front().shift;
   table.row("normal force Fn", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fn); });
@@ -80,7 +87,8 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
   table.row("lateral force Fs", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fs); });
   table.row("spin moment Mn", "[N mm]", "{}", patches, [](const PatchResult& p) { return five_digits(p.mn * 1e3); });
   table.row("approach", "[mm]", "{}", patches, [](const PatchResult& p) { return five_digits(p.approach * 1e3); });
-  table.row("largest pressure", "[MPa]", "{}", patches, [](const PatchResult& p) { return five_digits(p.pmax * 1e-6); });
+  table.row("largest pressure", "[MPa]", "{}", patches,
+            [](const PatchResult& p) { return five_digits(p.pmax * 1e-6); });
   if (shift) {
     table.row("shift x", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.xi * 1e3; });
     table.row("shift s", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.eta * 1e3; });

@@ -174,13 +174,22 @@ void write_patch(hid_t group, const PatchResult& patch) {
   add(group, "nx", grid.nx);
   add(group, "ny", grid.ny);
   add(group, "shift", patch.shift ? 1 : 0);
-  const std::pair<const char*, double> numbers[] = {
-      {"x0", grid.x0},          {"s0", grid.y0},           {"dx", grid.dx},
-      {"ds", grid.dy},          {"fn", patch.fn},          {"fx", patch.fx},
-      {"fs", patch.fs},         {"mn", patch.mn},          {"xi", patch.xi},
-      {"eta", patch.eta},       {"phi", patch.phi},        {"approach", patch.approach},
-      {"pmax", patch.pmax},     {"elastic_energy", patch.elastic_energy},
-      {"frictional_power", patch.frictional_power},        {"shear_modulus", patch.shear_modulus}};
+  const std::pair<const char*, double> numbers[] = {{"x0", grid.x0},
+                                                    {"s0", grid.y0},
+                                                    {"dx", grid.dx},
+                                                    {"ds", grid.dy},
+                                                    {"fn", patch.fn},
+                                                    {"fx", patch.fx},
+                                                    {"fs", patch.fs},
+                                                    {"mn", patch.mn},
+                                                    {"xi", patch.xi},
+                                                    {"eta", patch.eta},
+                                                    {"phi", patch.phi},
+                                                    {"approach", patch.approach},
+                                                    {"pmax", patch.pmax},
+                                                    {"elastic_energy", patch.elastic_energy},
+                                                    {"frictional_power", patch.frictional_power},
+                                                    {"shear_modulus", patch.shear_modulus}};
   for (const auto& [name, value] : numbers) add(group, name, value);
   if (patch.has_rolling) {
     add(group, "chi", patch.chi);

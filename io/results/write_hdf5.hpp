@@ -10,9 +10,10 @@ namespace treadmark::io {
 
 /// Writes everything a run produced, fields included, to one HDF5 file in SI units:
 /// /case_0001/patch_1/{gap, pressure, traction_x, ..., state}, each a dataset [ny, nx] (rows along s) with its unit as
-/// attribute; the layout is in docs/results.md. Fields that are empty are left out. Compressed where deflate is available.
-/// The file appears only when complete. Errors: Error(configuration) for fields that do not match their grid and for
-/// files that cannot be written. Not to be called from two threads at once: the HDF5 library may not be thread-safe.
+/// attribute; the layout is in docs/results.md. Fields that are empty are left out. Compressed where deflate is
+/// available. The file appears only when complete. Errors: Error(configuration) for fields that do not match their grid
+/// and for files that cannot be written. Not to be called from two threads at once: the HDF5 library may not be
+/// thread-safe.
 void write_hdf5(const std::filesystem::path& path, const RunResult& run);
 
 }  // namespace treadmark::io

@@ -14,8 +14,8 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMilli = 1e3;   // m -> mm, N m -> N mm
-constexpr double kMega = 1e-6;   // Pa -> MPa
+constexpr double kMilli = 1e3;  // m -> mm, N m -> N mm
+constexpr double kMega = 1e-6;  // Pa -> MPa
 
 /// Rounded to 12 digits, so that changes of unit leave no tail of nines; not finite = null.
 Json number(double value) {
@@ -50,13 +50,12 @@ Json kinematics(const PatchResult& patch) {
 Json patch_json(const PatchResult& patch) {
   Json out = Json::object();
   if (patch.has_reference)
-    out["reference"] = {
-        {"x_tr_mm", number(patch.x_tr * kMilli)},       {"y_tr_mm", number(patch.y_tr * kMilli)},
-        {"z_tr_mm", number(patch.z_tr * kMilli)},       {"angle_rad", number(patch.angle)},
-        {"x_rail_mm", number(patch.x_rail * kMilli)},   {"y_rail_mm", number(patch.y_rail * kMilli)},
-        {"z_rail_mm", number(patch.z_rail * kMilli)},   {"s_rail_mm", number(patch.s_rail * kMilli)},
-        {"x_wheel_mm", number(patch.x_wheel * kMilli)}, {"y_wheel_mm", number(patch.y_wheel * kMilli)},
-        {"z_wheel_mm", number(patch.z_wheel * kMilli)}};
+    out["reference"] = {{"x_tr_mm", number(patch.x_tr * kMilli)},       {"y_tr_mm", number(patch.y_tr * kMilli)},
+                        {"z_tr_mm", number(patch.z_tr * kMilli)},       {"angle_rad", number(patch.angle)},
+                        {"x_rail_mm", number(patch.x_rail * kMilli)},   {"y_rail_mm", number(patch.y_rail * kMilli)},
+                        {"z_rail_mm", number(patch.z_rail * kMilli)},   {"s_rail_mm", number(patch.s_rail * kMilli)},
+                        {"x_wheel_mm", number(patch.x_wheel * kMilli)}, {"y_wheel_mm", number(patch.y_wheel * kMilli)},
+                        {"z_wheel_mm", number(patch.z_wheel * kMilli)}};
   out["kinematics"] = kinematics(patch);
   out["xi"] = out["kinematics"]["xi"];
   out["eta"] = out["kinematics"]["eta"];
@@ -89,12 +88,11 @@ void add_wheelset(Json& out, const CaseResult& result) {
   out["wheelset"] = {{"s_mm", number(result.s * kMilli)}, {"y_mm", number(result.y * kMilli)},
                      {"z_mm", number(result.z * kMilli)}, {"roll_rad", number(result.roll)},
                      {"yaw_rad", number(result.yaw)},     {"pitch_rad", number(result.pitch)}};
-  out["wheelset_velocity"] = {
-      {"vx_mm_s", number(result.vs * kMilli)}, {"vy_mm_s", number(result.vy * kMilli)},
-      {"vz_mm_s", number(result.vz * kMilli)}, {"vroll_rad_s", number(result.vroll)},
-      {"vyaw_rad_s", number(result.vyaw)},     {"vpitch_rad_s", number(result.vpitch)}};
+  out["wheelset_velocity"] = {{"vx_mm_s", number(result.vs * kMilli)}, {"vy_mm_s", number(result.vy * kMilli)},
+                              {"vz_mm_s", number(result.vz * kMilli)}, {"vroll_rad_s", number(result.vroll)},
+                              {"vyaw_rad_s", number(result.vyaw)},     {"vpitch_rad_s", number(result.vpitch)}};
   Json forces = Json::object();
-  const auto add = [&](const char* const (&names)[3], const Vec3& values, double factor) {
+  const auto add = [&](const char* const(&names)[3], const Vec3& values, double factor) {
     for (int i = 0; i < 3; ++i) forces[names[i]] = number(values[i] * factor);
   };
   add({"fx_tr_N", "fy_tr_N", "fz_tr_N"}, result.force_tr, 1.0);

@@ -28,9 +28,10 @@ constexpr const char* type_name() {
 template <class T>
 std::string data_array(const std::string& name, const std::vector<T>& values, int components) {
   const std::uint64_t size = values.size() * sizeof(T);
-  return fmt::format("        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}{}</DataArray>\n",
-                     type_name<T>(), name, components, to_base64(std::as_bytes(std::span(&size, 1))),
-                     to_base64(std::as_bytes(std::span(values))));
+  return fmt::format(
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}{}</DataArray>\n",
+      type_name<T>(), name, components, to_base64(std::as_bytes(std::span(&size, 1))),
+      to_base64(std::as_bytes(std::span(values))));
 }
 
 /// Corners of the elements in track axes, (nx + 1) (ny + 1) points.

@@ -23,8 +23,10 @@ bool has_type(const nlohmann::json& value, const std::string& type) {
 
 std::string first_violation(const nlohmann::json& value, const nlohmann::json& schema, const nlohmann::json& root,
                             const std::string& place) {
-  static const std::set<std::string> kKnown{"$ref", "type", "enum", "properties", "required", "additionalProperties",
-                                            "items", "minItems", "maxItems", "description", "title", "$schema", "$id", "$defs"};
+  static const std::set<std::string> kKnown{
+      "$ref",  "type",     "enum",     "properties",  "required", "additionalProperties",
+      "items", "minItems", "maxItems", "description", "title",    "$schema",
+      "$id",   "$defs"};
   for (const auto& [word, rule] : schema.items())
     if (!kKnown.contains(word)) throw std::runtime_error("the checker does not know the word " + word);
 

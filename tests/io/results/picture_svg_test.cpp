@@ -70,7 +70,9 @@ TEST(ColourMap, LightnessGrowsEvenly) {
   const auto lightness = [](double value) {  // CIE L* of an sRGB colour
     unsigned red = 0, green = 0, blue = 0;
     EXPECT_EQ(std::sscanf(io::colour(value).c_str(), "#%2x%2x%2x", &red, &green, &blue), 3);
-    const auto linear = [](unsigned c) { return c <= 10 ? c / 255.0 / 12.92 : std::pow((c / 255.0 + 0.055) / 1.055, 2.4); };
+    const auto linear = [](unsigned c) {
+      return c <= 10 ? c / 255.0 / 12.92 : std::pow((c / 255.0 + 0.055) / 1.055, 2.4);
+    };
     return 116.0 * std::cbrt(0.2126 * linear(red) + 0.7152 * linear(green) + 0.0722 * linear(blue)) - 16.0;
   };
   const int steps = 24;

@@ -34,6 +34,13 @@ TEST(Summary, ShiftCasesSpeakOfLengthsAndWork) {
   EXPECT_THAT(text, Not(HasSubstr("wheelset")));
 }
 
+TEST(Summary, ARoundedZeroHasNoSign) {
+  io::RunResult run = testing::sample_run();
+  run.cases[0].patches[0].x_tr = -1e-12;
+  run.cases[0].y = -0.0;
+  EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("-0.0000 ")));
+}
+
 TEST(Summary, ColumnsAreAligned) {
   std::istringstream lines(io::summary(testing::sample_run().cases[0]));
   std::string line;

@@ -69,18 +69,24 @@ class WriteHdf5 : public ::testing::Test {
 
 TEST_F(WriteHdf5, KeepsEveryFieldExactlyWithItsUnit) {
   const io::PatchFields& fields = run_.cases[0].patches[1].fields;
-  const std::pair<const char*, const std::vector<double>*> columns[] = {
-      {"gap", &fields.gap}, {"pressure", &fields.pressure}, {"traction_x", &fields.traction_x},
-      {"traction_s", &fields.traction_s}, {"displacement_n", &fields.displacement_n},
-      {"displacement_x", &fields.displacement_x}, {"displacement_s", &fields.displacement_s},
-      {"slip_x", &fields.slip_x}, {"slip_s", &fields.slip_s}, {"friction", &fields.friction}};
+  const std::pair<const char*, const std::vector<double>*> columns[] = {{"gap", &fields.gap},
+                                                                        {"pressure", &fields.pressure},
+                                                                        {"traction_x", &fields.traction_x},
+                                                                        {"traction_s", &fields.traction_s},
+                                                                        {"displacement_n", &fields.displacement_n},
+                                                                        {"displacement_x", &fields.displacement_x},
+                                                                        {"displacement_s", &fields.displacement_s},
+                                                                        {"slip_x", &fields.slip_x},
+                                                                        {"slip_s", &fields.slip_s},
+                                                                        {"friction", &fields.friction}};
   for (const auto& [name, values] : columns) {
     const std::string place = std::string("/case_0001/patch_2/") + name;
     const Dataset read = read_dataset(file_, place.c_str());
     EXPECT_EQ(read.shape, (std::vector<hsize_t>{20, 24})) << name;  // rows along s
     ASSERT_EQ(read.values.size(), values->size());
     for (std::size_t i = 0; i < values->size(); ++i)
-      EXPECT_TRUE(read.values[i] == (*values)[i] || (std::isnan(read.values[i]) && std::isnan((*values)[i]))) << name << i;
+      EXPECT_TRUE(read.values[i] == (*values)[i] || (std::isnan(read.values[i]) && std::isnan((*values)[i])))
+          << name << i;
   }
   EXPECT_EQ(text_attribute(file_, "/case_0001/patch_2/pressure", "unit"), "Pa");
   EXPECT_EQ(text_attribute(file_, "/case_0001/patch_2/slip_x", "unit"), "1");

@@ -204,7 +204,8 @@ io::CaseResult case_from_reference(const json& in) {
     result.vyaw = si(rates, "vyaw_rad_s", 1);
     result.vpitch = si(rates, "vpitch_rad_s", 1);
   }
-  for (const json& step : in["force_iterations"]) result.force_iterations.emplace_back(step[0].get<double>() * 1e-3, step[1]);
+  for (const json& step : in["force_iterations"])
+    result.force_iterations.emplace_back(step[0].get<double>() * 1e-3, step[1]);
   for (const json& patch : in["patches"]) result.patches.push_back(patch_from_reference(patch));
   return result;
 }

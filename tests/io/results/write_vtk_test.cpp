@@ -27,8 +27,12 @@ std::string decode_base64(const std::string& text) {
   int bits = 0;
   for (const char c : text) {
     if (c == '=') break;
-    const int digit = c >= 'A' && c <= 'Z' ? c - 'A' : c >= 'a' && c <= 'z' ? c - 'a' + 26 : c >= '0' && c <= '9' ? c - '0' + 52
-                      : c == '+' ? 62 : c == '/' ? 63 : -1;
+    const int digit = c >= 'A' && c <= 'Z'   ? c - 'A'
+                      : c >= 'a' && c <= 'z' ? c - 'a' + 26
+                      : c >= '0' && c <= '9' ? c - '0' + 52
+                      : c == '+'             ? 62
+                      : c == '/'             ? 63
+                                             : -1;
     if (digit < 0) throw std::runtime_error("not base64");
     group = group << 6 | static_cast<std::uint32_t>(digit);
     if ((bits += 6) >= 8) bytes += static_cast<char>(group >> (bits -= 8) & 255u);
@@ -50,8 +54,13 @@ std::vector<T> values(const testing::XmlElement& array) {
 
 TEST(Base64, AgreesWithTheExamplesOfTheStandard) {
   // RFC 4648, section 10.
-  const std::pair<std::string, std::string> examples[] = {{"", ""}, {"f", "Zg=="}, {"fo", "Zm8="}, {"foo", "Zm9v"},
-                                                          {"foob", "Zm9vYg=="}, {"fooba", "Zm9vYmE="}, {"foobar", "Zm9vYmFy"}};
+  const std::pair<std::string, std::string> examples[] = {{"", ""},
+                                                          {"f", "Zg=="},
+                                                          {"fo", "Zm8="},
+                                                          {"foo", "Zm9v"},
+                                                          {"foob", "Zm9vYg=="},
+                                                          {"fooba", "Zm9vYmE="},
+                                                          {"foobar", "Zm9vYmFy"}};
   for (const auto& [plain, coded] : examples) EXPECT_EQ(io::to_base64(std::as_bytes(std::span(plain))), coded);
 }
 

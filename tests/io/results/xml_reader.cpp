@@ -85,8 +85,8 @@ class Reader {
   std::size_t at_ = 0;
 };
 
-void collect(const XmlElement& element, const std::string& wanted, const std::string& attribute, const std::string& value,
-             std::vector<const XmlElement*>& found) {
+void collect(const XmlElement& element, const std::string& wanted, const std::string& attribute,
+             const std::string& value, std::vector<const XmlElement*>& found) {
   for (const XmlElement& child : element.children) {
     const auto it = child.attributes.find(attribute);
     if (child.name == wanted && (attribute.empty() || (it != child.attributes.end() && it->second == value)))
