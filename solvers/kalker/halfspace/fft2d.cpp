@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cstdint>
 #include <map>
 #include <mutex>
@@ -71,7 +72,8 @@ void RealFft2d::inverse(std::span<std::complex<double>> spectrum, std::span<doub
 int good_fft_size(int n) {
   int size = n < 2 ? 2 : n + n % 2;
   while (!has_only_small_factors(size)) size += 2;
-  return size;
+  const int power = static_cast<int>(std::bit_ceil(static_cast<unsigned>(size)));
+  return 5 * power <= 6 * size ? power : size;
 }
 
 }  // namespace treadmark::kalker

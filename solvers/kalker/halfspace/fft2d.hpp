@@ -38,7 +38,8 @@ class RealFft2d {
   std::shared_ptr<const FftPlan> plan_;
 };
 
-/// The smallest even number >= n without prime factors above 7, for which transforms are fast.
+/// A size >= n for which transforms are fast: the smallest even number without prime factors above 7, or a power of two
+/// if that is at most a fifth larger.
 int good_fft_size(int n);
 
 /// "FFTW" or "KISS FFT": the library that was compiled in.

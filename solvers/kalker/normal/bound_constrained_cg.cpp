@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
 
 namespace treadmark::kalker {
 
@@ -13,11 +12,26 @@ namespace {
 /// Without a threshold rounding could move an element into the contact and out again for ever.
 constexpr double kReleaseShare = 0.01;
 
-double dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
-  return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
+/// Sum of term(i) in eight interleaved parts: fast, because the additions do not wait for each other, and repeatable.
+template <class Term>
+double sum_of(std::size_t count, const Term& term) {
+  constexpr std::size_t kLanes = 8;
+  double lane[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= count; i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k) lane[k] += term(i + k);
+  for (; i < count; ++i) lane[0] += term(i);
+  return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
 }
 
-double sum(std::span<const double> field) { return std::accumulate(field.begin(), field.end(), 0.0); }
+double dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
+  const double *x = a.data(), *y = b.data();
+  return sum_of(a.size(), [=](std::size_t i) { return x[i] * y[i]; });
+}
+
+double sum(std::span<const double> field) {
+  return sum_of(field.size(), [x = field.data()](std::size_t i) { return x[i]; });
+}
 
 }  // namespace
 
@@ -62,9 +76,9 @@ void BoundConstrainedCg::start(const BoxProblem& problem) {
 
 void BoundConstrainedCg::update_residual(const BoxProblem& problem) {
   if (problem.sum_prescribed) {
-    double total = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) total += inside_[i] * (problem.gap[i] + u[i]);
-    approach = total / count_;
+    approach = sum_of(p.size(), [in = inside_.data(), h = problem.gap.data(), w = u.data()](std::size_t i) {
+                 return in[i] * (h[i] + w[i]);
+               }) / count_;
   }
   for (std::size_t i = 0; i < p.size(); ++i) e_[i] = problem.gap[i] - approach + u[i];
 }
@@ -128,11 +142,7 @@ BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem)
     if (iteration >= problem.max_iterations) return Outcome::iteration_limit;
 
     // Polak-Ribiere direction, restricted to the elements in contact now.
-    double zr = 0.0, zr_old = 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      zr += z_[i] * r_[i];
-      zr_old += z_[i] * r_previous_[i];
-    }
+    const double zr = dot(z_, r_), zr_old = have_direction ? dot(z_, r_previous_) : 0.0;
     const double beta = have_direction && zr_previous > 0.0 ? std::max(0.0, (zr - zr_old) / zr_previous) : 0.0;
     for (std::size_t i = 0; i < p.size(); ++i) v_[i] = inside_[i] * (z_[i] + beta * v_[i]);
     if (problem.sum_prescribed) remove_mean(v_);

@@ -203,9 +203,10 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
     outcome = cg.solve(part);
     paste(grid, pressure, box, cg.p);
     if (outcome == BoundConstrainedCg::Outcome::box_too_small) {
-      ElementBox larger = box;
-      larger.include(std::max(0, box.x0 - 1), std::max(0, box.y0 - 1));
-      larger.include(std::min(grid.nx, box.x1 + 1) - 1, std::min(grid.ny, box.y1 + 1) - 1);
+      // By a share of its size, so that a bad first estimate costs few boxes.
+      const int more_x = 1 + box.nx() / 8, more_y = 1 + box.ny() / 8;
+      const ElementBox larger{std::max(0, box.x0 - more_x), std::max(0, box.y0 - more_y),
+                              std::min(grid.nx, box.x1 + more_x), std::min(grid.ny, box.y1 + more_y)};
       box = rounded(larger, grid);
       continue;
     }

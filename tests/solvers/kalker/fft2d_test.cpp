@@ -93,13 +93,14 @@ TEST(Fft2d, ThreadsGetBitwiseTheSameResult) {
   for (const auto& spectrum : spectra) EXPECT_EQ(spectrum, spectra.front());
 }
 
-TEST(Fft2d, GoodSizesAreTheNextEvenSevenSmoothNumbers) {
+TEST(Fft2d, GoodSizesAreSevenSmoothOrNearbyPowersOfTwo) {
   EXPECT_EQ(good_fft_size(1), 2);
   EXPECT_EQ(good_fft_size(7), 8);
   EXPECT_EQ(good_fft_size(11), 12);
-  EXPECT_EQ(good_fft_size(121), 126);
-  EXPECT_EQ(good_fft_size(126), 126);
-  EXPECT_EQ(good_fft_size(211), 216);
+  EXPECT_EQ(good_fft_size(83), 84);
+  EXPECT_EQ(good_fft_size(105), 128) << "108 is smooth, but 128 is faster";
+  EXPECT_EQ(good_fft_size(129), 140);
+  EXPECT_EQ(good_fft_size(163), 168);
 }
 
 TEST(Fft2d, RejectsOddSizesAndWrongArrays) {
