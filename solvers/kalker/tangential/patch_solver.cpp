@@ -76,7 +76,7 @@ std::vector<double> PatchSolver::new_slip_speed() const {
   return speed;
 }
 
-bool PatchSolver::solve(const Creepage& creepage) {
+bool PatchSolver::solve(const Creepage& creepage, double eps) {
   const bool coulomb = input_.friction.kind == FrictionLaw::Kind::coulomb;
   if (!coulomb) {
     friction_ = friction_of_slip(patch_, input_.friction, slip_speed_, time_step());
@@ -98,7 +98,6 @@ bool PatchSolver::solve(const Creepage& creepage) {
   creepage_ = creepage;
   predicted_ = {};
   friction_unsettled_ = false;
-  const double eps = input_.settings.eps;
   if (coulomb) return solve_at_fixed_friction(eps);
 
   // Slip speeds and coefficients of friction by relaxed substitution.

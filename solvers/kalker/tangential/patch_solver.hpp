@@ -19,8 +19,9 @@ class PatchSolver {
   /// Start values: tractions [Pa] and slip speeds [m/s], the latter for friction that depends on them.
   void start_from(Field2 traction, std::vector<double> slip_speed);
 
-  /// Tractions for given creepages, with friction that fits the slip. False if the accuracy was not reached.
-  bool solve(const Creepage& creepage);
+  /// Tractions for given creepages to a relative accuracy eps, with friction that fits the slip. False if the accuracy was
+  /// not reached.
+  bool solve(const Creepage& creepage, double eps);
 
   /// Sum of tractions relative to the static bound: x, y.
   std::array<double, 2> relative_force() const;

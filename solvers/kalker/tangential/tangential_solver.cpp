@@ -83,6 +83,10 @@ std::optional<std::array<int, 2>> offset_between(const Grid2& from, const Grid2&
   return std::array<int, 2>{static_cast<int>(std::lround(ox)), static_cast<int>(std::lround(oy))};
 }
 
+/// Accuracy of tractions on the way to a prescribed force: at first, in relation to the deviation that is left, and by
+/// how much it is tightened.
+constexpr double kRoughest = 1e-3, kRoughness = 30.0, kRefinement = 0.01;
+
 }  // namespace
 
 struct TangentialSolver::Workspace {
@@ -159,7 +163,7 @@ Outcome solve_for_force(const ContactProblem& problem, PatchSolver& solver, cons
     return outcome;
   }
   if (!(total > 0.0)) {
-    outcome.status = solver.solve(outcome.creepage) ? Status::ok : Status::not_converged;
+    outcome.status = solver.solve(outcome.creepage, problem.settings.eps) ? Status::ok : Status::not_converged;
     return outcome;
   }
 
@@ -183,15 +187,25 @@ Outcome solve_for_force(const ContactProblem& problem, PatchSolver& solver, cons
     settings.start[k] = component(start, unknown[k]);
   }
   bool solved = true;
+  double eps = std::max(kRoughest, settings.tolerance);
   const auto evaluate = [&](std::array<double, 2> values) {
     for (std::size_t k = 0; k < unknown.size(); ++k) component(outcome.creepage, unknown[k]) = values[k];
-    solved = solver.solve(outcome.creepage);
     ForceSample sample;
-    const std::array<double, 2> force = solver.relative_force();
     double worst = 0.0;
-    for (std::size_t k = 0; k < unknown.size(); ++k) {
-      sample.force[k] = force[static_cast<std::size_t>(unknown[k])];
-      worst = std::max(worst, std::abs(sample.force[k] - settings.target[k]));
+    const auto measure = [&] {
+      solved = solver.solve(outcome.creepage, eps);
+      const std::array<double, 2> force = solver.relative_force();
+      worst = 0.0;
+      for (std::size_t k = 0; k < unknown.size(); ++k) {
+        sample.force[k] = force[static_cast<std::size_t>(unknown[k])];
+        worst = std::max(worst, std::abs(sample.force[k] - settings.target[k]));
+      }
+    };
+    measure();
+    // Far from the target rough tractions will do.
+    while (eps > problem.settings.eps && worst < kRoughness * eps) {
+      eps = std::max(problem.settings.eps, kRefinement * eps);
+      measure();
     }
     sample.sliding = solver.sliding();
     if (worst > settings.tolerance)
@@ -262,7 +276,7 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     outcome = solve_for_force(problem, solver, estimate);
   } else {
     outcome.creepage = problem.creepage;
-    if (!solver.solve(problem.creepage)) outcome.status = Status::not_converged;
+    if (!solver.solve(problem.creepage, problem.settings.eps)) outcome.status = Status::not_converged;
   }
   if (outcome.status != Status::ok && outcome.message.empty())
     outcome.message =

@@ -1,8 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <array>
 #include <fstream>
-#include <regex>
 #include <sstream>
 #include <string>
 
@@ -21,17 +19,31 @@ struct ReferencePoint {
   int adhesion = 0;
 };
 
-/// The values of the traction curve in the reference results, one case a line of JSON.
+/// Number after the next `"key":` in a text; the position moves behind it. Past the end: NaN.
+double next_number(const std::string& text, const std::string& key, std::size_t& position) {
+  const std::string pattern = '"' + key + "\":";
+  position = text.find(pattern, position);
+  if (position == std::string::npos) return std::nan("");
+  position += pattern.size();
+  return std::stod(text.substr(position, 30));
+}
+
+/// The values of the traction curve in the reference results, in the order of the cases.
 std::vector<ReferencePoint> reference_points(const std::filesystem::path& shared) {
   std::ifstream file(shared / "reference" / "tractcurv.json");
-  std::stringstream text;
-  text << file.rdbuf();
-  const std::string all = text.str();
-  const std::regex pattern(
-      R"json("xi":\s*([-+.eE0-9]+)[^]*?"frictional_power_W":\s*([-+.eE0-9]+)[^]*?"fx_rel":\s*([-+.eE0-9]+)[^]*?"nadh":\s*([0-9]+))json");
+  std::stringstream buffer;
+  buffer << file.rdbuf();
+  const std::string text = buffer.str();
   std::vector<ReferencePoint> points;
-  for (auto it = std::sregex_iterator(all.begin(), all.end(), pattern); it != std::sregex_iterator(); ++it)
-    points.push_back({std::stod((*it)[1]), std::stod((*it)[3]), std::stod((*it)[2]), std::stoi((*it)[4])});
+  for (std::size_t at = 0; at != std::string::npos;) {
+    ReferencePoint p;
+    p.xi = next_number(text, "xi", at);
+    if (at == std::string::npos) break;
+    p.power = next_number(text, "frictional_power_W", at);
+    p.force = next_number(text, "fx_rel", at);
+    p.adhesion = static_cast<int>(next_number(text, "nadh", at));
+    points.push_back(p);
+  }
   return points;
 }
 
