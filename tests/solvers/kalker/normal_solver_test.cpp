@@ -136,7 +136,7 @@ TEST(NormalSolver, SatisfiesContactConditionsOnTheWholeGrid) {
 
 /// Two equal balls pressed against a plane, far apart; the second one is held back by `lag`.
 OwnedProblem two_balls(double lag) {
-  const Grid2 grid{-20e-3, -5e-3, 0.25e-3, 0.25e-3, 161, 41};
+  const Grid2 grid{-20e-3, -5.2e-3, 0.4e-3, 0.4e-3, 101, 27};
   std::vector<double> gap;
   for (int iy = 0; iy < grid.ny; ++iy)
     for (int ix = 0; ix < grid.nx; ++ix) {
