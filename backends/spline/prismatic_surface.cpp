@@ -58,6 +58,9 @@ class ViewedProfile {
             c.y[1] + t * (2.0 * c.y[2] + 3.0 * t * c.y[3]), c.z[1] + t * (2.0 * c.z[2] + 3.0 * t * c.z[3])};
   }
 
+  // By construction.
+  static bool near_cubic(int, const SectionPoint&, const SectionPoint&) { return true; }
+
   void raster(const Samples& samples, ColumnHits& hits) const {
     SectionRaster<ViewedProfile, ColumnHits> raster(*this, samples, hits, hits.queue);
     for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {

@@ -51,9 +51,13 @@ class RevolutionSection {
     return {a, std::sqrt(r * r - a * a)};
   }
 
-  void raster(const Samples& samples, ColumnHits& hits) const {
+  // Breaks may be far apart, and evaluation is cheap.
+  static bool near_cubic(int, const SectionPoint&, const SectionPoint&) { return false; }
+
+  /// cells: those to look at, increasing.
+  void raster(const std::vector<int>& cells, const Samples& samples, ColumnHits& hits) const {
     SectionRaster<RevolutionSection, ColumnHits> raster(*this, samples, hits, hits.queue);
-    for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {
+    for (const int k : cells) {
       const double a = breaks_[static_cast<std::size_t>(k)], b = breaks_[static_cast<std::size_t>(k) + 1];
       raster.cell(k, a, point(k, a, 0.0), b, point(k, b, 0.0));
     }
@@ -73,6 +77,16 @@ ProfileSpline add_radius(const ProfileSpline& profile, double nominal_radius) {
                        {profile.kinks().begin(), profile.kinks().end()});
 }
 
+// Segments that may lie over a rectangle.
+std::vector<int> cells_over(std::span<const ProfileBox> boxes, const WheelView& view, Interval across, Interval along) {
+  constexpr double kSlack = 1e-9;  // [m], rounding and the slack at edges
+  const WheelBoxBounds bounds{view, {across.low - kSlack, across.high + kSlack}, {along.low - kSlack, along.high + kSlack}};
+  std::vector<int> cells;
+  for (std::size_t k = 0; k < boxes.size(); ++k)
+    if (!bounds.of(boxes[k].y, boxes[k].r).n.empty()) cells.push_back(static_cast<int>(k));
+  return cells;
+}
+
 BezierCubic hull(const ProfileSpline& profile, std::size_t k) {
   return BezierCubic(profile.segments()[k], profile.breaks()[k + 1] - profile.breaks()[k]);
 }
@@ -89,10 +103,13 @@ SurfaceDerivatives derivatives(const ProfileSpline& profile, double u, double v)
 
 RevolutionSurface::RevolutionSurface(ProfileSpline profile, double nominal_radius)
     : profile_(add_radius(profile, nominal_radius)), nominal_radius_(nominal_radius) {
-  for (std::size_t k = 0; k < profile_.segments().size(); ++k)
-    if (!(hull(profile_, k).range({0.0, 1.0}).low > 0.0))
+  for (std::size_t k = 0; k < profile_.segments().size(); ++k) {
+    const BezierCubic points = hull(profile_, k);
+    boxes_.push_back({points.range({1.0, 0.0}), points.range({0.0, 1.0})});
+    if (!(boxes_.back().r.low > 0.0))
       throw Error(ErrorKind::configuration, "a wheel's radius must be positive over its whole profile", {},
                   "check the nominal radius and the unit of the profile");
+  }
 }
 
 Vec3 RevolutionSurface::point(double u, double v) const {
@@ -102,15 +119,16 @@ Vec3 RevolutionSurface::point(double u, double v) const {
 
 Box3 RevolutionSurface::bounds() const {
   Interval y = Interval::none(), r = Interval::none();
-  for (std::size_t k = 0; k < profile_.segments().size(); ++k) {
-    y.include(hull(profile_, k).range({1.0, 0.0}));
-    r.include(hull(profile_, k).range({0.0, 1.0}));
+  for (const ProfileBox& box : boxes_) {
+    y.include(box.y);
+    r.include(box.r);
   }
   return {{-r.high, y.low, -r.high}, {r.high, y.high, r.high}};
 }
 
 std::size_t RevolutionSurface::memory_bytes() const {
-  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes();
+  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() +
+         boxes_.size() * sizeof(ProfileBox);
 }
 
 void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
@@ -122,10 +140,13 @@ void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut
   parallel_for(tasks, [&](std::size_t task) {
     ColumnHits hits(g.samples.count, Facing::down);
     const int first = static_cast<int>(task * kLinesPerTask);
-    for (int line = first; line < std::min(g.lines, first + static_cast<int>(kLinesPerTask)); ++line) {
+    const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
+    const std::vector<int> cells = cells_over(boxes_, view, {g.across_at(first), g.across_at(last)},
+                                              {g.samples.first, g.samples.last()});
+    for (int line = first; line <= last; ++line) {
       hits.clear();
       const RevolutionSection section(profile_, view, g.across_at(line));
-      section.raster(g.samples, hits);
+      section.raster(cells, g.samples, hits);
       const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
       if (!out.z.empty())
         for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
@@ -156,8 +177,9 @@ void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     out[i] = {};
     hits.clear();
-    const RevolutionSection section(profile_, view, points_P[i][along_y ? 0 : 1]);
-    section.raster({points_P[i][along_y ? 1 : 0], 1.0, 1}, hits);
+    const double a = points_P[i][along_y ? 0 : 1], s = points_P[i][along_y ? 1 : 0];
+    const RevolutionSection section(profile_, view, a);
+    section.raster(cells_over(boxes_, view, {a, a}, {s, s}), {s, 1.0, 1}, hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
     const double v = hits.v[0];

@@ -44,6 +44,8 @@ inline constexpr double kEdgeSlack = 1e-9;
 
 /// Section: point(cell, v, u) const, kStep and kStepU: corrections of v and u below which a hit is converged (its error is
 /// their square times curvature), kFine: the same next to a fold.
+/// near_cubic(cell, a, b): whether s(v), n(v) and u(v) are cubic on the cell to well below the accuracy wanted; then the
+/// cubics through the ends (Hermite) are solved instead of the surface.
 /// hit(i, n, cell, v, u): called for every grid point i that a piece covers; ends of pieces may be reported twice.
 /// Use: cell(...) for all cells, then finish(). Guesses are collected first, so that the evaluations run without branches.
 template <class Section, class Hit>
@@ -92,6 +94,15 @@ class SectionRaster {
   }
 
  private:
+  // A cubic on [0, 1] by its first value, its rise and its end slopes.
+  struct Hermite {
+    Hermite(double first, double rise, double slope_0, double slope_1)
+        : c0(first), c1(slope_0), c2(3.0 * rise - 2.0 * slope_0 - slope_1), c3(slope_0 + slope_1 - 2.0 * rise) {}
+    double value(double f) const { return c0 + f * (c1 + f * (c2 + f * c3)); }
+    double slope(double f) const { return c1 + f * (2.0 * c2 + 3.0 * f * c3); }
+    double c0, c1, c2, c3;
+  };
+
   SectionPoint on_section(int cell, double v, double u) const {
     SectionPoint p = section_.point(cell, v, u);
     for (int i = 0; i < 20 && std::abs(p.u_step) > section_.kStepU; ++i) p = section_.point(cell, v, p.u);
@@ -137,6 +148,27 @@ class SectionRaster {
     const double slope_a = std::min(secant / std::abs(a.ds), 3.0), slope_b = std::min(secant / std::abs(b.ds), 3.0);
     const double c2 = 3.0 - 2.0 * slope_a - slope_b, c3 = slope_a + slope_b - 2.0;
     const double secant_u = (b.u - a.u), end_u = a.du * h, bend_u = b.du * h;
+    if (section_.near_cubic(cell, a, b)) {
+      const Hermite s{a.s, rise, a.ds * h, b.ds * h}, n{a.n, b.n - a.n, a.dn * h, b.dn * h}, u{a.u, secant_u, end_u, bend_u};
+      for (int i = first; i <= last; ++i) {
+        const double target = samples_.first + i * samples_.step;
+        const double x = std::clamp((target - a.s) * inverse_rise, 0.0, 1.0);
+        double f = std::clamp(x * (slope_a + x * (c2 + x * c3)), 0.0, 1.0);
+        double step = (target - s.value(f)) / s.slope(f);
+        if (std::abs(step) * h > step_limit) {
+          for (int k = 0; k < 8 && std::abs(step) * h > step_limit; ++k) {
+            f = std::clamp(f + step, 0.0, 1.0);
+            step = (target - s.value(f)) / s.slope(f);
+          }
+          if (!(std::abs(step) * h <= step_limit)) {  // flat end of a piece
+            queue_.push_back({target, va + f * h, u.value(f), va, vb, step_limit, i, cell, rise > 0.0});
+            continue;
+          }
+        }
+        hit_(i, n.value(f) + step * n.slope(f), cell, va + std::clamp(f + step, 0.0, 1.0) * h, u.value(f));
+      }
+      return;
+    }
     for (int i = first; i <= last; ++i) {
       const double target = samples_.first + i * samples_.step;
       const double x = std::clamp((target - a.s) * inverse_rise, 0.0, 1.0);

@@ -2,6 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <numbers>
+#include <type_traits>
+#include <vector>
+
 #include "treadmark/backends/spline/slice_geometry.hpp"
 #include "treadmark/backends/spline/slice_hulls.hpp"
 #include "treadmark/core/pose.hpp"

@@ -9,7 +9,7 @@
 namespace treadmark::spline {
 
 /// Boxes of (y, w) around parts of a slice net, from control points, in two levels: groups of u-spans by single v-cells,
-/// and by groups of cells. Empty intervals where there is no surface.
+/// and by groups of cells. Empty intervals where there is no surface. Also bounds of derivatives.
 class SliceHulls {
  public:
   struct Box {
@@ -21,10 +21,20 @@ class SliceHulls {
     }
   };
 
+  /// Bounds of mixed derivatives (u in its unit, v in cells), greatest of both fields.
+  struct Twist {
+    float uvvv = 0.0F, uvv = 0.0F, uuvv = 0.0F, vvv = 0.0F, vv = 0.0F;
+  };
+
   explicit SliceHulls(const SliceNet& net);
 
+  /// Over a cell and the group of spans that holds the span.
+  const Twist& twist(int span, int cell) const {
+    return twist_[static_cast<std::size_t>(span) / kSpansPerGroup * cells_ + static_cast<std::size_t>(cell)];
+  }
+
   const Box& all() const { return all_; }
-  std::size_t memory_bytes() const { return (fine_.size() + coarse_.size()) * sizeof(Box) + u_.size() * sizeof(Interval); }
+  std::size_t memory_bytes() const { return (fine_.size() + coarse_.size()) * sizeof(Box) + twist_.size() * sizeof(Twist) + u_.size() * sizeof(Interval); }
 
   /// Spans of a group: first_span(group) .. first_span(group + 1) - 1.
   int first_span(std::size_t group) const {
@@ -58,6 +68,7 @@ class SliceHulls {
   int spans_;
   std::vector<Interval> u_;  // of each group of spans
   std::vector<Box> fine_, coarse_;
+  std::vector<Twist> twist_;
   Box all_;
 };
 

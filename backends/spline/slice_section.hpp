@@ -8,6 +8,7 @@
 
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/slice_geometry.hpp"
+#include "treadmark/backends/spline/slice_hulls.hpp"
 #include "treadmark/backends/spline/slice_net.hpp"
 
 namespace treadmark::spline {
@@ -22,11 +23,11 @@ class SliceSection {
   static constexpr double kFine = 1e-12;
   static constexpr double kStepU = Geometry::kStepU;
 
-  SliceSection(const SliceNet& net, const Geometry& geometry, const Vec3& across, const Vec3& along, const Vec3& normal,
+  SliceSection(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Vec3& across, const Vec3& along, const Vec3& normal,
                const Vec3& origin)
-      : net_(net), geometry_(geometry), across_direction_(across), normal_direction_(normal), origin_(origin),
+      : net_(net), hulls_(hulls), geometry_(geometry), across_direction_(across), normal_direction_(normal), origin_(origin),
         along_direction_(along), breaks_(static_cast<std::size_t>(net.positions()), SectionPoint{}), u_by_c_(breaks_.size()),
-        u_by_cc_(breaks_.size()) {}
+        change_(breaks_.size()), predicted_u_by_c_(breaks_.size()) {}
 
   /// Moves to the across coordinate c.
   void start_cut(double c) {
@@ -46,20 +47,24 @@ class SliceSection {
       SectionPoint& p = breaks_[k];
       // From the last cut, else from the neighbour.
       const bool known = shift_ != 0.0 && !std::isnan(p.s);
-      double u = known ? p.u + shift_ * (u_by_c_[k] + 0.5 * shift_ * u_by_cc_[k]) : before_ + slope_;
+      double u = known ? p.u + shift_ * predicted_u_by_c_[k] : before_ + slope_;
       double u_by_c = 0.0;
       int left = kMaxCutSteps;
       do {
         p = at_break(line, u, u_by_c);
         p.u_step = std::clamp(p.u_step, -Geometry::kLargestStepU, Geometry::kLargestStepU);
         u += p.u_step;
-      } while (std::abs(p.u_step) > kStepU && --left > 0);
+      } while (std::abs(p.u_step) > kCutStepU && --left > 0);
       if (left == 0 || std::isnan(p.u_step)) {
         p.s = kNaN;
         continue;
       }
-      u_by_cc_[k] = known ? (u_by_c - u_by_c_[k]) / shift_ : 0.0;
+      // Adams and Bashforth's step of order 3 to the next cut, at the same distance.
+      const double change = known ? u_by_c - u_by_c_[k] : 0.0;
+      const double change_of_change = known && change_[k] != 0.0 ? change - change_[k] : 0.0;
+      predicted_u_by_c_[k] = u_by_c + 0.5 * change + (5.0 / 12.0) * change_of_change;
       u_by_c_[k] = u_by_c;
+      change_[k] = change;
       p.u = u;
       before_ = u, slope_ = p.du;
     }
@@ -71,6 +76,23 @@ class SliceSection {
     span_ = place.span;
     double unused;
     return combine(u, net_.at(place, cell, v - (cell + 1)), unused);
+  }
+
+  /// For one u a cell is a cubic in v, so only the change of u along the cell spoils that: the interpolation error of the
+  /// Hermite cubic is its fourth derivative / 384, bounded here by the terms of the chain rule that count.
+  bool near_cubic(int cell, const SectionPoint& a, const SectionPoint& b) const {
+    constexpr double kGreatestError = 1e-11;  // [m]
+    constexpr double kGreatestTurn = 2e-4;    // of u along a cell, [m] or [rad]; beyond, neglected terms grow
+    const double turn = std::max(std::abs(a.du), std::abs(b.du)), bend = std::abs(b.du - a.du);
+    if (!(turn < kGreatestTurn)) return false;
+    span_ = net_.find(a.u, span_).span;
+    const int span_b = net_.find(b.u, span_).span;
+    const auto error = [&](const SliceHulls::Twist& t) {
+      const double vvv = t.uvvv + Geometry::kTurnsNormal * t.vvv, vv = t.uvv + Geometry::kTurnsNormal * t.vv;
+      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * turn * t.uuvv) * (1.0 / 384.0);
+    };
+    return error(hulls_.twist(span_, cell)) <= kGreatestError &&
+           (span_b == span_ || error(hulls_.twist(span_b, cell)) <= kGreatestError);
   }
 
   /// Slopes of the surface along and across at a hit.
@@ -89,6 +111,8 @@ class SliceSection {
 
  private:
   static constexpr int kMaxCutSteps = 30;
+  // Derivatives at the breaks serve for Hermite cubics, so that they count to first order.
+  static constexpr double kCutStepU = 0.05 * kStepU;
 
   void set_reference(double u) {
     reference_ = u;
@@ -116,11 +140,12 @@ class SliceSection {
   }
 
   const SliceNet& net_;
+  const SliceHulls& hulls_;
   const Geometry& geometry_;
   Vec3 across_direction_, normal_direction_, origin_, along_direction_;
   TurnedAxis across_, along_, normal_;
   std::vector<SectionPoint> breaks_;
-  std::vector<double> u_by_c_, u_by_cc_;
+  std::vector<double> u_by_c_, change_, predicted_u_by_c_;
   double c_ = 0.0, reference_ = 0.0;
   double shift_ = 0.0;               // from the cut before
   double before_ = 0.0, slope_ = 0.0;  // u of the line cut last, and its change from line to line

@@ -111,7 +111,7 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
   const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
   parallel_for(tasks, [&](std::size_t task) {
     ColumnHits hits(g.samples.count, facing());
-    SliceSection<Geometry> section(net_, geometry_, g.across, g.along, g.normal, g.origin);
+    SliceSection<Geometry> section(net_, hulls_, geometry_, g.across, g.along, g.normal, g.origin);
     const int first = static_cast<int>(task * kLinesPerTask);
     const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
     const auto runs = runs_over<Geometry>({g.across, g.along, g.normal, g.origin,
@@ -142,7 +142,7 @@ void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> p
     const double a = points_P[i][1 - along], s = points_P[i][along];
     const PlaneWindow window{X_SP.rotation.col(1 - along), X_SP.rotation.col(along), X_SP.rotation.col(2), X_SP.origin,
                              widened(a, a), widened(s, s)};
-    SliceSection<Geometry> section(net_, geometry_, window.across_axis, window.along_axis, window.normal, window.origin);
+    SliceSection<Geometry> section(net_, hulls_, geometry_, window.across_axis, window.along_axis, window.normal, window.origin);
     raster(section, a, runs_over<Geometry>(window, net_, hulls_), {s, 1.0, 1}, hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;

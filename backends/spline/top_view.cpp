@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/error.hpp"
+
 namespace treadmark::spline {
 namespace {
 
@@ -84,6 +86,8 @@ TopView::TopView(const ProfileSpline& profile, Body body) : profile_(&profile) {
     borders.push_back(a);
     borders.push_back(b);
   }
+  if (branches.empty())
+    throw Error(ErrorKind::numerical, "a profile that is upright all over has no top view");
   std::sort(borders.begin(), borders.end());
   borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
   // A valid curve does not cross itself, so between two borders the order of the branches stays the same.

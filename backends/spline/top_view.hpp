@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <memory>
 #include <vector>
 
 #include "treadmark/backends/spline/profile_spline.hpp"
@@ -21,6 +20,7 @@ class TopView {
     bool increasing;
   };
 
+  /// Errors: Error(numerical) for a profile that is upright all over.
   TopView(const ProfileSpline& profile, Body body);
 
   /// Sections with increasing y; neighbours may leave a gap only where there is no curve.

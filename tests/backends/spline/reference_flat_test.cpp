@@ -81,5 +81,49 @@ TEST(ReferenceFlat, InterpolationPassesThroughTheMeasuredPoint) {
   EXPECT_LT(nearest, 4e-6);  // half a sampling step of 0.005 mm, and points resampled between 1 mm points
 }
 
+// Least |r - r(theta, v)| over all v with y(theta, v) = y.
+double radial_miss(const SliceNet& net, const Vec3& p) {
+  const auto place = net.find(std::atan2(p.x(), p.z()));
+  const double r = std::hypot(p.x(), p.z());
+  double least = 1.0;
+  for (int cell = 0; cell < net.cells(); ++cell) {
+    double low = 0.0, high = 1.0;
+    const bool rising = net.at(place, cell, 1.0).value.y > net.at(place, cell, 0.0).value.y;
+    if ((net.at(place, cell, 0.0).value.y - p.y()) * (net.at(place, cell, 1.0).value.y - p.y()) > 0.0) continue;
+    for (int i = 0; i < 55; ++i) {
+      const double middle = 0.5 * (low + high);
+      ((net.at(place, cell, middle).value.y > p.y()) == rising ? high : low) = middle;
+    }
+    least = std::min(least, std::abs(net.at(place, cell, low).value.w + kRadius - r));
+  }
+  return least;
+}
+
+TEST(ReferenceFlat, HeightsOverItLieOnTheSurface) {
+  TREADMARK_REQUIRE_SHARED();
+  constexpr double kHeightTolerance = 1e-10;
+  for (const bool approximate : {false, true}) {
+    SliceSet slices = read_flat(*shared, approximate ? 5.0 : 0.0);
+    slices.approximate_u = approximate;
+    const SliceNet net = fit_slices(slices);
+    const auto wheel = make_slice_surface(slices, kRadius);
+    for (const double yaw : {0.0, 0.03}) {
+      const Mat3 turn = rotation_y(0.6);
+      const PlaneGrid plane{{turn * Vec3(0, 0, kRadius), turn * rotation({-0.3, yaw, 0.0})}, {-0.06, -0.05, 2.9e-3, 2.3e-3, 40, 40}};
+      std::vector<double> z(plane.grid.size());
+      wheel->heights(plane, {z, {}, {}});
+      int hits = 0;
+      for (int iy = 0; iy < plane.grid.ny; ++iy)
+        for (int ix = 0; ix < plane.grid.nx; ++ix) {
+          const double n = z[plane.grid.index(ix, iy)];
+          if (std::isnan(n)) continue;
+          ++hits;
+          ASSERT_LT(radial_miss(net, plane.X_SP.apply({plane.grid.x(ix), plane.grid.y(iy), n})), kHeightTolerance);
+        }
+      EXPECT_GT(hits, 1000);
+    }
+  }
+}
+
 }  // namespace
 }  // namespace treadmark::spline
