@@ -3,6 +3,7 @@
 #include <array>
 
 #include "tangential_cases.hpp"
+#include "treadmark/tests/support/documented_errors.hpp"
 
 namespace treadmark::kalker::testing {
 namespace {
@@ -75,8 +76,8 @@ TEST(Carter, ConvergesToTheExactTractions) {
     force_error[k] = std::abs(relative(c, totals(c).x) - force);
     length_error[k] = std::abs(totals(c).adhesion * dx - 2.0 * d) / dx;
   }
-  RecordProperty("rms_error", std::to_string(error[0]) + " " + std::to_string(error[1]) + " " + std::to_string(error[2]));
-  RecordProperty("force_error", std::to_string(force_error[0]) + " " + std::to_string(force_error[1]) + " " + std::to_string(force_error[2]));
+  for (std::size_t k = 0; k < sizes.size(); ++k)
+    treadmark::testing::expect_documented("Carter", sizes[k], {error[k], force_error[k]});
   EXPECT_LT(error[2], 5e-3);
   EXPECT_LT(force_error[2], 4e-3);
   EXPECT_GT(std::log2(error[0] / error[2]) / 2.0, 0.8);              // first order
