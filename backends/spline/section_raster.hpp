@@ -165,7 +165,7 @@ class SectionRaster {
             continue;
           }
         }
-        hit_(i, n.value(f) + step * n.slope(f), cell, va + std::clamp(f + step, 0.0, 1.0) * h, u.value(f));
+        hit_(i, n.value(f) + step * n.slope(f), cell, va + std::clamp(f + step, 0.0, 1.0) * h, u.value(f) + step * u.slope(f));
       }
       return;
     }

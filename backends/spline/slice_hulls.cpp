@@ -42,8 +42,11 @@ void widen(SliceHulls::Twist& twist, const SliceNet& net, int span, int cell) {
     twist.uvvv = greater(twist.uvvv, third(first, i));
     for (const int k : {0, 1}) twist.uvv = greater(twist.uvv, bend(first, i, k));
   }
-  for (int i = 0; i < 2; ++i)
+  for (int i = 0; i < 2; ++i) {
     for (const int k : {0, 1}) twist.uuvv = greater(twist.uuvv, bend(second, i, k));
+    for (const int k : {0, 1, 2}) twist.uuv = greater(twist.uuv, second[k + 1][i] - second[k][i]);
+  }
+  for (int k = 0; k < 4; ++k) twist.uuu = greater(twist.uuu, 6.0 * net.line(span, cell + k).power[3]);
 }
 
 }  // namespace

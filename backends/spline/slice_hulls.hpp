@@ -21,9 +21,9 @@ class SliceHulls {
     }
   };
 
-  /// Bounds of mixed derivatives (u in its unit, v in cells), greatest of both fields.
+  /// Bounds of derivatives (u in its unit, v in cells), greatest of both fields.
   struct Twist {
-    float uvvv = 0.0F, uvv = 0.0F, uuvv = 0.0F, vvv = 0.0F, vv = 0.0F;
+    float uuu = 0.0F, uuv = 0.0F, uuvv = 0.0F, uvv = 0.0F, uvvv = 0.0F, vv = 0.0F, vvv = 0.0F;
   };
 
   explicit SliceHulls(const SliceNet& net);

@@ -89,7 +89,10 @@ class SliceSection {
     const int span_b = net_.find(b.u, span_).span;
     const auto error = [&](const SliceHulls::Twist& t) {
       const double vvv = t.uvvv + Geometry::kTurnsNormal * t.vvv, vv = t.uvv + Geometry::kTurnsNormal * t.vv;
-      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * turn * t.uuvv) * (1.0 / 384.0);
+      // uuu jumps where the cell leaves a span.
+      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * (turn * t.uuvv + bend * (2.0 * t.uuv + turn * t.uuu))) *
+                 (1.0 / 384.0) +
+             turn * turn * turn * t.uuu * (1.0 / 24.0);
     };
     return error(hulls_.twist(span_, cell)) <= kGreatestError &&
            (span_b == span_ || error(hulls_.twist(span_b, cell)) <= kGreatestError);

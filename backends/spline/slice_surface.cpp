@@ -19,6 +19,9 @@ namespace {
 // Lines of a task share their cuts; fixed, so that results do not depend on the number of threads.
 constexpr std::size_t kLinesPerTask = 16;
 
+// A last correction of v is a small part of a cell, except at folds, where it means nothing.
+constexpr double kPolish = 1e-4;
+
 template <class Geometry>
 constexpr bool kIsWheel = std::is_same_v<Geometry, WheelGeometry>;
 
@@ -146,11 +149,16 @@ void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> p
     raster(section, a, runs_over<Geometry>(window, net_, hulls_), {s, 1.0, 1}, hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
-    out[i].u = kIsWheel<Geometry> ? wrap_angle(hits.u[0]) : hits.u[0];
-    out[i].v = hits.v[0];
-    const SliceNet::Place place = net_.find(hits.u[0]);
-    const double f = hits.v[0] - (hits.cell[0] + 1);
-    set_geometry(geometry_.derivatives(hits.u[0], net_.at(place, hits.cell[0], f), net_.second_at(place, hits.cell[0], f)),
+    // One more step, since u and v themselves are wanted here.
+    const int cell = hits.cell[0];
+    const SectionPoint p = section.point(cell, hits.v[0], hits.u[0]);
+    const double step = std::abs(s - p.s) < kPolish * std::abs(p.ds) ? (s - p.s) / p.ds : 0.0;
+    const double v = std::clamp(hits.v[0] + step, cell + 1.0, cell + 2.0), u = p.u + step * p.du;
+    out[i].u = kIsWheel<Geometry> ? wrap_angle(u) : u;
+    out[i].v = v;
+    const SliceNet::Place place = net_.find(u);
+    const double f = v - (cell + 1);
+    set_geometry(geometry_.derivatives(u, net_.at(place, cell, f), net_.second_at(place, cell, f)),
                  out[i]);
   }
 }
