@@ -48,7 +48,7 @@ double height_over(const Mesh& mesh, double x, double y, double& a, double& b) {
     const double rx = x - p.x(), ry = y - p.y(), determinant = du.x() * dv.y() - du.y() * dv.x();
     const double da = (rx * dv.y() - ry * dv.x()) / determinant, db = (ry * du.x() - rx * du.y()) / determinant;
     if (!std::isfinite(da) || !std::isfinite(db)) return kNaN;
-    constexpr double kTolerance = 1e-9;
+    constexpr double kTolerance = 1e-7;  // of a facet: less than a nanometre
     const bool inside = u > -kTolerance && u < 1 + kTolerance && v > -kTolerance && v < 1 + kTolerance;
     if (std::abs(da) < kTolerance && std::abs(db) < kTolerance) return inside ? p.z() : kNaN;
     a = std::clamp(a + da, -0.5, mesh.sections - 0.5);
@@ -87,9 +87,9 @@ std::vector<double> facet_heights(const Surface& wheel, const Pose& X_TW, const 
   }
   std::vector<double> heights(g.size());
   for (int iy = 0; iy < g.ny; ++iy) {
-    double a = 0.5 * mesh.sections, b = kMargin + iy;
+    double a = 0.0, b = kMargin + iy, step_a = 0.0, step_b = 0.0;
     for (int ix = 0; ix < g.nx; ++ix) {
-      double a_try = a, b_try = b;
+      double a_try = a + step_a, b_try = b + step_b;
       double z = height_over(mesh, g.x(ix), g.y(iy), a_try, b_try);
       if (std::isnan(z)) {
         // The neighbour led astray: start once more from where a regular mesh would have this point.
@@ -97,7 +97,9 @@ std::vector<double> facet_heights(const Surface& wheel, const Pose& X_TW, const 
         z = height_over(mesh, g.x(ix), g.y(iy), a_try, b_try);
       }
       heights[g.index(ix, iy)] = z;
-      if (!std::isnan(z)) a = a_try, b = b_try;
+      if (std::isnan(z)) continue;
+      step_a = ix > 0 ? a_try - a : 0.0, step_b = ix > 0 ? b_try - b : 0.0;
+      a = a_try, b = b_try;
     }
   }
   return heights;

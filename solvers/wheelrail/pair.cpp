@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <string>
@@ -35,13 +36,14 @@ double stiffness_guess(const Material& material) {
 
 double profile_arc_length(const Surface& rail, const Vec3& point_R) {
   constexpr int kSteps = 400;
-  const double step = point_R.y() / kSteps;
-  double length = 0.0, last = height_at(rail, Pose{}, {point_R.x(), 0.0});
-  for (int i = 1; i <= kSteps; ++i) {
-    const double z = height_at(rail, Pose{}, {point_R.x(), i * step});
-    const double dz = z - last;
-    length += std::isnan(dz) ? std::abs(step) : std::hypot(step, dz);
-    last = z;
+  const double step = std::abs(point_R.y()) / kSteps;
+  if (step == 0.0) return 0.0;
+  std::vector<double> z(kSteps + 1);
+  rail.heights({Pose{}, {point_R.x(), std::min(0.0, point_R.y()), 1.0, step, 1, kSteps + 1}}, {z, {}, {}});
+  double length = 0.0;
+  for (std::size_t i = 1; i < z.size(); ++i) {
+    const double dz = z[i] - z[i - 1];
+    length += std::isnan(dz) ? step : std::hypot(step, dz);
   }
   return std::copysign(length, point_R.y());
 }

@@ -43,12 +43,28 @@ Section lateral_section(const Surface& surface, const Pose& X_ST, double x_T, co
   return section;
 }
 
-// Boundary of a condition between a point where it holds and one where it does not.
+constexpr int kSections = 32;  // a row of points costs a surface hardly more than one point
+constexpr double kFinest = 1e-13;
+
+// Boundary of a condition on the height between a point where it holds and one where it does not.
 template <class Condition>
-double bisect(double holds, double fails, Condition&& condition) {
-  for (int i = 0; i < 60 && std::abs(holds - fails) > 1e-13; ++i) {
-    const double middle = 0.5 * (holds + fails);
-    (condition(middle) ? holds : fails) = middle;
+double boundary(const Surface& surface, const Pose& X_ST, double x_T, double holds, double fails, Condition&& condition) {
+  while (std::abs(holds - fails) > kFinest) {
+    const Section section =
+        lateral_section(surface, X_ST, x_T, {std::min(holds, fails), std::max(holds, fails)}, std::abs(holds - fails) / kSections);
+    const int n = static_cast<int>(section.y.size());
+    const bool upwards = fails > holds;
+    const double before = std::abs(holds - fails);
+    for (int k = 1; k < n; ++k) {
+      const auto i = static_cast<std::size_t>(upwards ? k : n - 1 - k);
+      if (k < n - 1 && condition(section.z[i])) {
+        holds = section.y[i];
+        continue;
+      }
+      fails = section.y[i];
+      break;
+    }
+    if (!(std::abs(holds - fails) < 0.5 * before)) break;  // the last bits of y
   }
   return holds;
 }
@@ -60,7 +76,6 @@ constexpr double kScanStep = 2e-4;
 LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T) {
   const LateralRange box = box_range(surface, X_ST);
   const Section section = lateral_section(surface, X_ST, x_T, box, kScanStep);
-  const auto visible = [&](double y) { return !std::isnan(height_at(surface, X_ST, {x_T, y})); };
   const auto is_hit = [](double z) { return !std::isnan(z); };
   const auto first = std::find_if(section.z.begin(), section.z.end(), is_hit);
   if (first == section.z.end()) throw Error(ErrorKind::configuration, "the rail has no surface seen from above at this position");
@@ -68,8 +83,8 @@ LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T)
   const auto i = static_cast<std::size_t>(first - section.z.begin());
   const auto j = section.z.size() - 1 - static_cast<std::size_t>(last - section.z.rbegin());
   LateralRange range{section.y[i], section.y[j]};
-  if (i > 0) range.y_min = bisect(section.y[i], section.y[i - 1], visible);
-  if (j + 1 < section.y.size()) range.y_max = bisect(section.y[j], section.y[j + 1], visible);
+  if (i > 0) range.y_min = boundary(surface, X_ST, x_T, section.y[i], section.y[i - 1], is_hit);
+  if (j + 1 < section.y.size()) range.y_max = boundary(surface, X_ST, x_T, section.y[j], section.y[j + 1], is_hit);
   return range;
 }
 
@@ -77,34 +92,32 @@ GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height) {
   // Frame with the rail's origin and the track's orientation; the rail is rolled by -cant in it.
   const Pose X_RT{Vec3::Zero(), rotation_x(cant)};
   const Section section = lateral_section(rail, X_RT, 0.0, box_range(rail, X_RT), kScanStep);
-  const auto height = [&](double y) { return height_at(rail, X_RT, {0.0, y}); };
 
   std::size_t top = section.z.size();
   for (std::size_t i = 0; i < section.z.size(); ++i)
     if (!std::isnan(section.z[i]) && (top == section.z.size() || section.z[i] < section.z[top])) top = i;
   if (top == section.z.size()) throw Error(ErrorKind::configuration, "the rail has no surface seen from above");
 
-  // Top of the rail by golden sections around the lowest z of the scan.
-  double low = section.y[top > 0 ? top - 1 : top], high = section.y[std::min(top + 1, section.y.size() - 1)];
-  constexpr double kGolden = 0.6180339887498949;
-  double a = high - kGolden * (high - low), b = low + kGolden * (high - low);
-  double z_a = height(a), z_b = height(b);
-  while (high - low > 1e-12) {
-    if (z_a <= z_b || std::isnan(z_b)) {
-      high = b, b = a, z_b = z_a, a = high - kGolden * (high - low), z_a = height(a);
-    } else {
-      low = a, a = b, z_a = z_b, b = low + kGolden * (high - low), z_b = height(b);
-    }
-    if (high - low < 1e-9 && std::abs(z_a - z_b) < 1e-16) break;
-  }
+  // Top of the rail: ever finer sections around the least height.
   GaugePoint point;
-  point.z_top = std::min({section.z[top], std::isnan(z_a) ? section.z[top] : z_a, std::isnan(z_b) ? section.z[top] : z_b});
+  point.z_top = section.z[top];
+  LateralRange around{section.y[top > 0 ? top - 1 : top], section.y[std::min(top + 1, section.y.size() - 1)]};
+  constexpr double kFlat = 1e-9;  // the height changes with the square of this [m]
+  while (around.y_max - around.y_min > kFlat) {
+    const Section fine = lateral_section(rail, X_RT, 0.0, around, (around.y_max - around.y_min) / kSections);
+    std::size_t least = 0;
+    for (std::size_t i = 1; i < fine.z.size(); ++i)
+      if (!(fine.z[least] <= fine.z[i]) && !std::isnan(fine.z[i])) least = i;
+    if (std::isnan(fine.z[least])) break;
+    point.z_top = std::min(point.z_top, fine.z[least]);
+    around = {fine.y[least > 0 ? least - 1 : 0], fine.y[std::min(least + 1, fine.y.size() - 1)]};
+  }
 
   // Innermost point not lower than the gauge height: still going inward there, or the inner side itself.
-  const auto high_enough = [&](double y) { return height(y) - point.z_top <= gauge_height; };
+  const auto high_enough = [&](double z) { return z - point.z_top <= gauge_height; };
   for (std::size_t i = 0; i <= top; ++i) {
     if (!(section.z[i] - point.z_top <= gauge_height)) continue;
-    point.y = i > 0 ? bisect(section.y[i], section.y[i - 1], high_enough) : section.y[i];
+    point.y = i > 0 ? boundary(rail, X_RT, 0.0, section.y[i], section.y[i - 1], high_enough) : section.y[i];
     return point;
   }
   throw Error(ErrorKind::configuration, "no gauge point found on the rail profile", {},
