@@ -74,26 +74,29 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 }
 
 std::vector<double> facet_heights(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& g) {
-  // Sections are sampled as densely as the grid rows, a little wider than the grid for rolled and yawed wheels.
-  constexpr int kMargin = 40;
+  // Points of the sections lie at whole steps from the outer edge of the wheel; those far from the grid are left out.
+  constexpr int kMargin = 20;
+  const double step = facets.lateral_step, outer = wheel.bounds().max.y();
+  const double grid_low = g.y0 - X_TW.origin.y(), grid_high = g.y(g.ny - 1) - X_TW.origin.y();
+  const double first = outer - step * (std::ceil((outer - grid_low) / step) + kMargin);
   Mesh mesh;
   mesh.sections = facets.sections;
-  mesh.across = g.ny + 2 * kMargin;
-  const double first = g.y0 - kMargin * g.dy - X_TW.origin.y();
+  mesh.across = static_cast<int>(std::ceil((grid_high - first) / step)) + kMargin;
   for (int k = 0; k < facets.sections; ++k) {
     const double angle = lowest_angle(X_TW) + facets.half_angle * (2.0 * k / (facets.sections - 1) - 1.0);
-    const auto points = section(wheel, X_TW, angle, first, g.dy, mesh.across);
+    const auto points = section(wheel, X_TW, angle, first, step, mesh.across);
     mesh.points.insert(mesh.points.end(), points.begin(), points.end());
   }
   std::vector<double> heights(g.size());
   for (int iy = 0; iy < g.ny; ++iy) {
-    double a = 0.0, b = kMargin + iy, step_a = 0.0, step_b = 0.0;
+    double a = 0.0, b = (g.y(iy) - X_TW.origin.y() - first) / step, step_a = 0.0, step_b = 0.0;
     for (int ix = 0; ix < g.nx; ++ix) {
       double a_try = a + step_a, b_try = b + step_b;
       double z = height_over(mesh, g.x(ix), g.y(iy), a_try, b_try);
       if (std::isnan(z)) {
         // The neighbour led astray: start once more from where a regular mesh would have this point.
-        a_try = static_cast<double>(ix) / (g.nx - 1) * (mesh.sections - 1), b_try = kMargin + iy;
+        a_try = static_cast<double>(ix) / (g.nx - 1) * (mesh.sections - 1);
+        b_try = (g.y(iy) - X_TW.origin.y() - first) / step;
         z = height_over(mesh, g.x(ix), g.y(iy), a_try, b_try);
       }
       heights[g.index(ix, iy)] = z;
