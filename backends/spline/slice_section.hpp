@@ -26,8 +26,8 @@ class SliceSection {
   SliceSection(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Vec3& across, const Vec3& along, const Vec3& normal,
                const Vec3& origin)
       : net_(net), hulls_(hulls), geometry_(geometry), across_direction_(across), normal_direction_(normal), origin_(origin),
-        along_direction_(along), breaks_(static_cast<std::size_t>(net.positions()), SectionPoint{}), u_by_c_(breaks_.size()),
-        change_(breaks_.size()), predicted_u_by_c_(breaks_.size()) {}
+        along_direction_(along), breaks_(static_cast<std::size_t>(net.positions()), SectionPoint{}), spans_(breaks_.size()),
+        u_by_c_(breaks_.size()), change_(breaks_.size()), predicted_u_by_c_(breaks_.size()) {}
 
   /// Moves to the across coordinate c.
   void start_cut(double c) {
@@ -66,6 +66,7 @@ class SliceSection {
       u_by_c_[k] = u_by_c;
       change_[k] = change;
       p.u = u;
+      spans_[k] = span_;
       before_ = u, slope_ = p.du;
     }
   }
@@ -85,8 +86,9 @@ class SliceSection {
     constexpr double kGreatestTurn = 2e-4;    // of u along a cell, [m] or [rad]; beyond, neglected terms grow
     const double turn = std::max(std::abs(a.du), std::abs(b.du)), bend = std::abs(b.du - a.du);
     if (!(turn < kGreatestTurn)) return false;
-    span_ = net_.find(a.u, span_).span;
-    const int span_b = net_.find(b.u, span_).span;
+    // Pieces of a cell lie between its breaks, and those at most one span apart.
+    const int span_a = spans_[static_cast<std::size_t>(cell)], span_b = spans_[static_cast<std::size_t>(cell) + 1];
+    if (std::abs(span_b - span_a) > 1) return false;
     const auto error = [&](const SliceHulls::Twist& t) {
       const double vvv = t.uvvv + Geometry::kTurnsNormal * t.vvv, vv = t.uvv + Geometry::kTurnsNormal * t.vv;
       // uuu jumps where the cell leaves a span.
@@ -94,8 +96,8 @@ class SliceSection {
                  (1.0 / 384.0) +
              turn * turn * turn * t.uuu * (1.0 / 24.0);
     };
-    return error(hulls_.twist(span_, cell)) <= kGreatestError &&
-           (span_b == span_ || error(hulls_.twist(span_b, cell)) <= kGreatestError);
+    return error(hulls_.twist(span_a, cell)) <= kGreatestError &&
+           (span_b == span_a || error(hulls_.twist(span_b, cell)) <= kGreatestError);
   }
 
   /// Slopes of the surface along and across at a hit.
@@ -148,6 +150,7 @@ class SliceSection {
   Vec3 across_direction_, normal_direction_, origin_, along_direction_;
   TurnedAxis across_, along_, normal_;
   std::vector<SectionPoint> breaks_;
+  std::vector<int> spans_;
   std::vector<double> u_by_c_, change_, predicted_u_by_c_;
   double c_ = 0.0, reference_ = 0.0;
   double shift_ = 0.0;               // from the cut before
