@@ -39,7 +39,7 @@ Scene make_scene(std::string_view backend) {
   s.solution = pair.solve(p);
   if (s.solution.status != Status::ok || s.solution.patches.empty())
     throw std::runtime_error("the benchmark scene could not be solved: " + s.solution.message);
-  s.bodies = {s.geometry.rail.get(), s.geometry.wheel.get(), s.solution.placement.X_TR, s.solution.placement.X_TA};
+  s.bodies = {s.geometry.rail.get(), s.geometry.wheel.get(), s.solution.placement.X_TS, s.solution.placement.X_TA};
   s.search = wheelrail::search_settings(s.geometry, p, s.solution.placement);
   return s;
 }

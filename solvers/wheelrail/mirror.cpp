@@ -92,7 +92,7 @@ Problem mirrored(Problem p) {
 }
 
 PairSolution mirrored(PairSolution s) {
-  for (Pose* pose : {&s.placement.X_TR, &s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA}) flip(*pose);
+  for (Pose* pose : {&s.placement.X_TR, &s.placement.X_TS, &s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA}) flip(*pose);
   for (PatchSolution& patch : s.patches) flip(patch);
   s.force_T.y() = -s.force_T.y();
   s.force_Ws.y() = -s.force_Ws.y();

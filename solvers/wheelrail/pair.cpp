@@ -182,7 +182,7 @@ PairSolution Pair::solve_right_hand(const Problem& given) {
   solution.placement = place(geometry_, p);
   PhaseTimes& times = solution.times;
 
-  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), solution.placement.X_TR, solution.placement.X_TA};
+  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), solution.placement.X_TS, solution.placement.X_TA};
   std::optional<detection::ContactSearch> search;
   const auto search_at = [&](double dz) {
     const Stopwatch watch(times.search_s);
@@ -297,7 +297,7 @@ PairSolution Pair::solve_right_hand(const Problem& given) {
         placed.X_TWs.rotation.transpose() * ((X_TC.origin - placed.X_TW.origin).cross(patch.force_T) + moment_T);
     patch.reference_rail = placed.X_TR.apply_inverse(X_TC.origin);
     patch.reference_wheel = placed.X_TW.apply_inverse(X_TC.origin);
-    patch.reference_s = profile_arc_length(*geometry_.rail, patch.reference_rail);
+    patch.reference_s = profile_arc_length(*geometry_.rail, placed.X_TS.apply_inverse(X_TC.origin));
     for (const Report* report : {&c.normal, &c.tangential})
       if (report->status != Status::ok && solution.status == Status::ok) {
         solution.status = report->status;

@@ -136,6 +136,8 @@ Placement place(const Geometry& geometry, const Problem& p) {
   }
 
   const SixMotion& q = p.state.position;
+  placed.X_TS = placed.X_TR;
+  placed.X_TS.origin.x() -= q.x;
   const SixMotion& d = p.state.wheel_offset;
   const double radius = p.wheelset.nominal_radius;
   placed.X_TWs = {{0.0, q.y, q.z - radius}, rotation_x(q.roll) * rotation_z(q.yaw)};

@@ -6,10 +6,11 @@
 
 namespace treadmark::wheelrail {
 
-/// Frames of a right-hand pair (left-hand problems are mirrored first): track T, rail R, wheelset Ws, wheel profile W,
-/// wheel surface A (origin on the axle, pitched).
+/// Frames of a right-hand pair (left-hand problems are mirrored first): track T, rail R, rail surface S (R moved back by the
+/// wheelset's position along the track, so that a variable rail passes below it), wheelset Ws, wheel profile W, wheel
+/// surface A (origin on the axle, pitched).
 struct Placement {
-  Pose X_TR, X_TWs, X_TW, X_TA;
+  Pose X_TR, X_TS, X_TWs, X_TW, X_TA;
 };
 
 /// Places rail and wheelset by gauge, cant, flange-back distance and state.

@@ -71,7 +71,7 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   const Discretisation& d = p.discretisation;
   if (!(d.dx > 0.0) || !(d.ds > 0.0)) throw Error(ErrorKind::configuration, "element sizes dx, ds must be positive");
   if (!(p.wheelset.nominal_radius > 0.0)) throw Error(ErrorKind::configuration, "the nominal wheel radius must be positive");
-  const LateralRange rail = visible_range(*geometry.rail, placed.X_TR.inverse(), placed.X_TA.origin.x());
+  const LateralRange rail = visible_range(*geometry.rail, placed.X_TS.inverse(), placed.X_TA.origin.x());
 
   detection::SearchSettings s;
   s.refine = d.search == Discretisation::SearchGrid::refined;
