@@ -74,9 +74,10 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 }
 
 std::vector<double> facet_heights(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& g) {
-  // Points of the sections lie at whole steps from the outer edge of the wheel; those far from the grid are left out.
+  // Points of the sections divide the whole width; those far from the grid are left out.
   constexpr int kMargin = 20;
-  const double step = facets.lateral_step, outer = wheel.bounds().max.y();
+  const double outer = wheel.bounds().max.y(), width = outer - wheel.bounds().min.y();
+  const double step = width / (1.0 + std::floor(width / facets.lateral_step));
   const double grid_low = g.y0 - X_TW.origin.y(), grid_high = g.y(g.ny - 1) - X_TW.origin.y();
   const double first = outer - step * (std::ceil((outer - grid_low) / step) + kMargin);
   Mesh mesh;

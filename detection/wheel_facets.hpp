@@ -13,7 +13,7 @@ namespace treadmark::detection {
 struct WheelFacets {
   double half_angle = 0.2;  ///< sections from -half_angle to +half_angle about the lowest point [rad]
   int sections = 0;         ///< >= 2
-  double lateral_step = 0.5e-3;  ///< points along a section, counted from the outer edge of the wheel [m]
+  double lateral_step = 0.5e-3;  ///< the width of the wheel is divided into equal steps not longer than this [m]
 };
 
 /// Least and greatest x in T of the sections' points [m], over the whole width of the wheel.
