@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/output_files.hpp"
 
-#include <fstream>
-
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/picture_svg.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -21,9 +19,7 @@ void write_result_folder(const std::filesystem::path& folder, const io::RunResul
   std::filesystem::remove(folder / "result.json", failure);
   io::write_hdf5(folder / "fields.h5", result);
   io::write_vtk(folder / "vtk", result);
-  std::ofstream picture(folder / "pressure.svg");
-  picture << io::pressure_svg(result);
-  if (!picture) throw Error(ErrorKind::configuration, "cannot write the file", {(folder / "pressure.svg").string()});
+  io::write_pressure_svg(folder / "pressure.svg", result);
   io::write_json(folder / "result.json", result);
 }
 

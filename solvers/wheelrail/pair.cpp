@@ -12,6 +12,7 @@
 #include "treadmark/solvers/wheelrail/force_balance.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
+#include "treadmark/solvers/wheelrail/sub_patches.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -73,48 +74,11 @@ kalker::ContactSolver& Pair::solver(std::size_t patch) {
   return solvers_[patch];
 }
 
-namespace {
-
-// Elements of each part of a patch, a little enlarged, and how much the parts feel of each other.
-kalker::SubPatches sub_patches(const Problem& p, const PatchSolution& patch) {
-  kalker::SubPatches sub;
-  const auto& parts = patch.region.parts;
-  if (parts.size() < 2) return sub;
-  detection::PatchRules rules;
-  rules.separation = p.discretisation.separation;
-  rules.combination = p.discretisation.combination;
-  constexpr double kEnlargement = 0.4;
-  const double margin = kEnlargement * rules.combination;
-  const Vec3& reference = patch.frame.X_TC.origin;
-  const double stretch = 1.0 / std::cos(patch.frame.angle);
-  const std::size_t n = parts.size();
-  sub.count = static_cast<int>(n);
-  sub.part.assign(patch.grid.size(), 0);
-  sub.coupling.assign(n * n, 1.0);
-  for (std::size_t k = 0; k < n; ++k) {
-    const Rectangle& box = parts[k].box;
-    for (int iy = 0; iy < patch.grid.ny; ++iy)
-      for (int ix = 0; ix < patch.grid.nx; ++ix) {
-        const double x = patch.grid.x(ix), s = patch.grid.y(iy);
-        const std::size_t i = patch.grid.index(ix, iy);
-        if (sub.part[i] == 0 && x >= box.x_min - reference.x() - margin && x <= box.x_max - reference.x() + margin &&
-            s >= (box.y_min - reference.y()) * stretch - margin && s <= (box.y_max - reference.y()) * stretch + margin)
-          sub.part[i] = static_cast<std::uint8_t>(k + 1);
-      }
-    for (std::size_t j = 0; j < k; ++j)
-      sub.coupling[k * n + j] = sub.coupling[j * n + k] =
-          detection::sub_patch_coupling(detection::patch_distance(parts[k], parts[j]), rules);
-  }
-  return sub;
-}
-
-}  // namespace
-
 kalker::ContactProblem Pair::contact_problem(const Problem& p, const PatchSolution& patch) const {
   kalker::ContactProblem c;
   c.grid = patch.grid;
   c.gap = patch.distance;
-  c.sub_patches = sub_patches(p, patch);
+  c.sub_patches = sub_patches(p.discretisation, patch.region, patch.frame, patch.grid);
   c.material = p.material;
   c.friction = p.friction;
   c.force_prescribed = false;
