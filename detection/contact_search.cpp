@@ -61,17 +61,11 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-// Deepest point of the first grid; refined regions may still lower it.
-void note_least_gap(const GapField& field, SearchResult& result) {
-  const Grid2& g = field.grid;
-  for (std::size_t i = 0; i < field.gap.size(); ++i)
-    if (!std::isnan(field.gap[i]) && !(field.gap[i] >= result.least_gap)) {
-      result.least_gap = field.gap[i];
-      const int ix = static_cast<int>(i % static_cast<std::size_t>(g.nx));
-      const int iy = static_cast<int>(i / static_cast<std::size_t>(g.nx));
-      result.least_gap_T = {g.x(ix), g.y(iy), field.rail_z[i]};
-      result.least_gap_inclination = field.inclination[i];
-    }
+// NaN where the bodies nowhere face each other.
+double least_gap(const GapField& field) {
+  double least = std::numeric_limits<double>::quiet_NaN();
+  for (const double gap : field.gap) least = std::fmin(least, gap);
+  return least;
 }
 
 }  // namespace
@@ -99,8 +93,7 @@ SearchResult ContactSearch::at(double wheel_dz) const {
   for (double& gap : field.gap) gap -= wheel_dz;
 
   SearchResult result;
-  result.least_gap = std::numeric_limits<double>::quiet_NaN();
-  note_least_gap(field, result);
+  result.least_gap = least_gap(field);
   if (std::isnan(result.least_gap)) return result;
 
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
@@ -113,11 +106,7 @@ SearchResult ContactSearch::at(double wheel_dz) const {
     const GapField fine = gap_field(bodies, refined_grid(s.grid_T, region, s), true);
     for (const Region& part : find_regions(fine, s.weight, s.rules.near_miss)) {
       const ContactPatch patch = to_patch(fine, part, !part.near_miss(), s.reference_at_deepest);
-      if (patch.least_gap < result.least_gap) {
-        result.least_gap = patch.least_gap;
-        result.least_gap_T = patch.deepest_T;
-        result.least_gap_inclination = patch.inclination;
-      }
+      result.least_gap = std::min(result.least_gap, patch.least_gap);
       // Margins of neighbouring fine grids overlap: a region seen twice counts once.
       auto& list = part.near_miss() ? near_misses : patches;
       const bool known = std::any_of(list.begin(), list.end(), [&](const ContactPatch& other) {

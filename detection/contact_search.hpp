@@ -30,8 +30,6 @@ struct SearchResult {
   std::vector<ContactPatch> patches;      ///< field side first
   /// Least gap over the search grid [m]: negative with contact, NaN where the bodies nowhere face each other.
   double least_gap = 0.0;
-  Vec3 least_gap_T = Vec3::Zero();        ///< where
-  double least_gap_inclination = 0.0;     ///< rail inclination there [rad]
 };
 
 /// The grid-based contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid,
