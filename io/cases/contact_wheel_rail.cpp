@@ -70,6 +70,9 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
     options.error_handling = static_cast<int>(std::clamp(text.integer("ERRHND"), -100L, 100L));
     options.max_omit = text.real("MAXOMIT");
     if (options.max_omit < 0.0 || options.max_omit > 1.0) text.fail("MAXOMIT must lie in 0 ... 1");
+    if (options.error_handling != 0)
+      r.note(fmt::format("ERRHND = {} at {}: read, but errors in a profile always stop the run", options.error_handling,
+                         text.where().to_string()));
   }
   // lambda is a volume in the unweighted method and a wavelength in the others.
   const bool wavelength = smoothing.method != SmoothingOptions::Method::spline;
