@@ -29,7 +29,7 @@ std::string key_of(const io::SurfaceSource& source, Body body, double nominal_ra
     key += fmt::format(" arcs {:.17g} {:.17g} {:.17g}", arcs->start_y, arcs->start_z, arcs->start_angle);
     for (const auto& segment : arcs->segments) key += fmt::format(" {:.17g} {:.17g}", segment.length, segment.curvature);
   }
-  for (const WheelFlat& f : source.flats)
+  for (const WheelFlat& f : source.defects.flats)
     key += fmt::format(" flat {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", static_cast<int>(f.shape), f.length, f.depth,
                        f.theta_center, f.y_center, f.width);
   return key;
@@ -49,9 +49,9 @@ const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body bod
   SurfaceSpec spec;
   spec.body = body;
   spec.nominal_radius = nominal_radius;
-  spec.flats = source.flats;
+  spec.defects.flats = source.defects.flats;
   StoredSurface stored;
-  stored.constant_profile = source.flats.empty();
+  stored.constant_profile = source.defects.flats.empty();
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     if (io::is_slices_file(file->file)) {
       spec.shape = io::read_slices(file->file, body, file->options, source.where);

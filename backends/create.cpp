@@ -28,9 +28,9 @@ void require_same_body(Body shape, Body wanted, std::string_view what) {
 
 std::shared_ptr<const Surface> make_analytic(const SurfaceSpec& spec) {
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
-    return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, spec.flats);
+    return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, spec.defects.flats);
   if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
-    return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, spec.flats)
+    return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, spec.defects.flats)
                                     : analytic::make_prismatic_surface(*chain);
   throw Error(ErrorKind::configuration, "the backend 'analytic' needs a formula, not measured points or slices", {},
               "use the backend 'spline', or a standard profile or arc chain");
@@ -43,21 +43,21 @@ std::shared_ptr<const Surface> make_spline(const SurfaceSpec& spec) {
   const auto* chain = std::get_if<ArcChain>(&spec.shape);
   const Profile sampled = chain != nullptr ? analytic::sample_profile(*chain, spec.body, kResampleStep)
                                            : analytic::sample_profile(std::get<StandardProfile>(spec.shape), kResampleStep);
-  if (spec.flats.empty()) return spline::make_profile_surface(sampled, spec.nominal_radius);
-  return spline::make_slice_surface(analytic::sample_wheel(sampled, spec.nominal_radius, spec.flats, kResampleStep),
+  if (spec.defects.flats.empty()) return spline::make_profile_surface(sampled, spec.nominal_radius);
+  return spline::make_slice_surface(analytic::sample_wheel(sampled, spec.nominal_radius, spec.defects.flats, kResampleStep),
                                     spec.nominal_radius);
 }
 
 void check(const SurfaceSpec& spec) {
   if (spec.body == Body::wheel && !(spec.nominal_radius > 0.0))
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
-  if (spec.body == Body::rail && !spec.flats.empty())
+  if (spec.body == Body::rail && !spec.defects.flats.empty())
     throw Error(ErrorKind::configuration, "flats belong to wheels, not to rails");
   const auto* points = std::get_if<Profile>(&spec.shape);
   const auto* slices = std::get_if<SliceSet>(&spec.shape);
   if (points != nullptr) require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));
   if (slices != nullptr) require_same_body(slices->body, spec.body, fmt::format("the slices '{}'", slices->name));
-  if (!spec.flats.empty() && (points != nullptr || slices != nullptr))
+  if (!spec.defects.flats.empty() && (points != nullptr || slices != nullptr))
     throw Error(ErrorKind::configuration, "flats can be added to standard profiles and arc chains only, not to points or slices",
                 {}, "give the worn wheel as slices");
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))

@@ -17,6 +17,15 @@ treadmark_require(tomlplusplus libtomlplusplus-dev 3.3)
 treadmark_require(CLI11 libcli11-dev 2.1)
 treadmark_require(HDF5 libhdf5-dev COMPONENTS C)
 
+treadmark_require(embree libembree-dev 3)
+
+# OpenVDB ships a find module only, and its messages are about Python bindings nobody asked for.
+list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/OpenVDB")
+set(saved_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+set(CMAKE_MESSAGE_LOG_LEVEL ERROR)
+treadmark_require(OpenVDB "libopenvdb-dev and libboost-iostreams-dev")
+set(CMAKE_MESSAGE_LOG_LEVEL "${saved_log_level}")
+
 set(TREADMARK_HAVE_FFTW OFF)
 if(TREADMARK_WITH_FFTW)
   find_path(FFTW3_INCLUDE_DIR fftw3.h)

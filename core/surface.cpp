@@ -8,15 +8,35 @@
 
 namespace treadmark {
 
+namespace {
+
+void require_sizes(const HeightsOut& out, std::size_t wanted, const char* caller) {
+  for (const auto array : {out.z, out.dzdx, out.dzdy})
+    if (!array.empty() && array.size() != wanted)
+      throw Error(ErrorKind::configuration, std::string("an output array of ") + caller + " has " + std::to_string(array.size()) +
+                                                " entries, wanted are " + std::to_string(wanted));
+}
+
+std::span<double> one(std::span<double> array, std::size_t i) { return array.empty() ? array : array.subspan(i, 1); }
+
+}  // namespace
+
 void Surface::heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const Grid2& g = plane_grid.grid;
   if (g.nx <= 0 || g.ny <= 0 || !(g.dx > 0.0) || !(g.dy > 0.0))
     throw Error(ErrorKind::configuration, "a plane grid needs at least one point and positive steps");
-  for (const auto array : {out.z, out.dzdx, out.dzdy})
-    if (!array.empty() && array.size() != g.size())
-      throw Error(ErrorKind::configuration, "an output array of heights() has " + std::to_string(array.size()) +
-                                                " entries, the grid has " + std::to_string(g.size()));
+  require_sizes(out, g.size(), "heights()");
   do_heights(plane_grid, out);
+}
+
+void Surface::heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  require_sizes(out, points_P.size(), "heights_at()");
+  do_heights_at(X_SP, points_P, out);
+}
+
+void Surface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  for (std::size_t i = 0; i < points_P.size(); ++i)
+    do_heights({X_SP, {points_P[i].x(), points_P[i].y(), 1.0, 1.0, 1, 1}}, {one(out.z, i), one(out.dzdx, i), one(out.dzdy, i)});
 }
 
 void Surface::locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {

@@ -71,6 +71,10 @@ class Surface {
   /// Errors: Error(configuration) if an output array has another size than the grid, or the grid is not positive.
   void heights(const PlaneGrid& plane_grid, const HeightsOut& out) const;
 
+  /// The same at points (x, y) that need not form a grid; neighbours in the list should be neighbours in the plane.
+  /// out's arrays have points_P.size() entries or none.
+  void heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;
+
   /// Inverse evaluation for points (x, y) of the plane frame P with pose X_SP. out.size() == points_P.size().
   void locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const;
 
@@ -79,6 +83,8 @@ class Surface {
 
  private:
   virtual void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const = 0;
+  /// Falls back to one-point grids; a backend that can do better overrides it.
+  virtual void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;
   virtual void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const = 0;
   virtual HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const = 0;
 };

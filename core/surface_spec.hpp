@@ -6,8 +6,10 @@
 #include <variant>
 #include <vector>
 
+#include "treadmark/core/defects.hpp"
 #include "treadmark/core/profile.hpp"
 #include "treadmark/core/slices.hpp"
+#include "treadmark/core/triangle_mesh.hpp"
 
 namespace treadmark {
 
@@ -29,26 +31,12 @@ struct ArcChain {
   std::vector<Segment> segments;
 };
 
-/// A flat worn into a wheel; radial, negative dr (material removed).
-struct WheelFlat {
-  enum class Shape {
-    fresh,    ///< chord: dr(theta) of a straight cut; depth follows from the length
-    rounded,  ///< depth/2 (1 + cos(2 pi x / length)) along the circumference
-  };
-  Shape shape = Shape::rounded;
-  double length = 0.0;        ///< along the circumference at the nominal radius [m]
-  double depth = 0.0;         ///< greatest radial depth [m]; rounded only (fresh: length^2/(8 R) exactly by the chord)
-  double theta_center = 0.0;  ///< material angle of the middle [rad]
-  double y_center = 0.0;      ///< lateral middle, wheel profile coordinates [m]
-  double width = 0.0;         ///< full lateral width over which the depth fades to 0 by 1/2 (1 + cos); 0 = whole width [m]
-};
-
 /// Everything a backend needs to build one wheel or rail surface.
 struct SurfaceSpec {
   Body body = Body::rail;
   double nominal_radius = 0.0;  ///< wheel: radius at profile z = 0 [m]; rail: unused
-  std::variant<Profile, SliceSet, StandardProfile, ArcChain> shape;
-  std::vector<WheelFlat> flats;  ///< wheel only
+  std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh> shape;
+  Defects defects;
 };
 
 }  // namespace treadmark

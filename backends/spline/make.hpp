@@ -4,9 +4,11 @@
 
 #include <memory>
 
+#include "treadmark/backends/sampling/point_grid.hpp"
 #include "treadmark/core/profile.hpp"
 #include "treadmark/core/slices.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/core/surface_spec.hpp"
 
 namespace treadmark::spline {
 
@@ -16,5 +18,15 @@ std::shared_ptr<const Surface> make_profile_surface(const Profile& profile, doub
 
 /// A rail or wheel from slices; nominal_radius [m] as above. Errors: those of fit_slices, and a radius that is not positive.
 std::shared_ptr<const Surface> make_slice_surface(const SliceSet& slices, double nominal_radius);
+
+/// A full-parametric tensor-product B-spline surface through the points of a grid: cubic in both directions, periodic round
+/// a closed wheel. Heights by safeguarded Newton iteration in (u, v). Without gaps: every point must be present.
+/// Errors: Error(input_data) for a grid with fewer than 4 x 4 points or with gaps.
+std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& points);
+
+/// The same for a chain of arcs, exactly: rational quadratic arcs, swept along x over [x_min, x_max] (rail) or revolved about
+/// the axle by exact circles (wheel). Errors: Error(configuration) for a bad chain, radius or range.
+std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius, double x_min = -1.0,
+                                                  double x_max = 1.0);
 
 }  // namespace treadmark::spline

@@ -22,7 +22,7 @@ Scene make_scene(std::string_view backend) {
   flat.depth = 1.4e-3;
   flat.y_center = 6e-3;
   flat.width = 60e-3;
-  wheel.flats = {flat};
+  wheel.defects.flats = {flat};
   SurfaceSpec rail;
   rail.shape = StandardProfile{"60E1"};
 

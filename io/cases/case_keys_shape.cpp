@@ -87,7 +87,7 @@ void add_flats(KeyList& list) {
        length,
        element_number<WheelFlat>("depth_mm", kPositive, "greatest radial depth; required for rounded flats only", &WheelFlat::depth),
        theta_deg, theta_rad, y_center, width},
-      [](W& c, bool) { return &c.wheel.flats; });
+      [](W& c, bool) { return &c.wheel.defects.flats; });
 }
 
 /// Keys of wheel.shape or rail.shape.

@@ -38,7 +38,7 @@ struct GeometryFile {
 struct SurfaceSource {
   /// A file to be read, or a shape given in the case file itself.
   std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
-  std::vector<WheelFlat> flats;   ///< wheel only
+  Defects defects;
   std::string backend;            ///< "", "analytic", "spline"
   SourcePosition where;
 };

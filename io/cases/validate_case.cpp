@@ -30,7 +30,7 @@ class Checker {
               body + ".shape: kink_low_deg must not exceed kink_high_deg");
     }
     if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
-    for (const WheelFlat& flat : s.flats)
+    for (const WheelFlat& flat : s.defects.flats)
       require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
   }
 

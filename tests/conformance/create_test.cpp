@@ -60,8 +60,8 @@ TEST(CreateSurface, SaysWhatItRefusesAndWhy) {
   WheelFlat flat;
   flat.length = 0.05;
   flat.depth = 1e-3;
-  expect_refused({Body::wheel, 0.46, points, {flat}}, "", "flats can be added to standard profiles and arc chains only");
-  expect_refused({Body::rail, 0.0, StandardProfile{"60E1"}, {flat}}, "", "flats belong to wheels");
+  expect_refused({Body::wheel, 0.46, points, {.flats = {flat}}}, "", "flats can be added to standard profiles and arc chains only");
+  expect_refused({Body::rail, 0.0, StandardProfile{"60E1"}, {.flats = {flat}}}, "", "flats belong to wheels");
 }
 
 }  // namespace

@@ -152,13 +152,13 @@ std::vector<Shape> shapes() {
     flat.y_center = 0.004;
     flat.width = 0.05;
     // the angle is x/R with R = 0.46 m
-    all.push_back(wheel_shape("rounded_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {flat}}, s1002,
+    all.push_back(wheel_shape("rounded_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {flat}}}, s1002,
                               [](double theta, double y) { return flat_test_depth(theta, y, 0.46); }, -0.07, 0.06));
     WheelFlat cut;
     cut.shape = WheelFlat::Shape::fresh;
     cut.length = 0.04;
     cut.theta_center = -0.005;
-    all.push_back(wheel_shape("fresh_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {cut}}, s1002,
+    all.push_back(wheel_shape("fresh_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {cut}}}, s1002,
                               [](double theta, double) { return chord_test_depth(theta, 0.46); }, -0.07, 0.06));
   }
   return all;

@@ -39,7 +39,7 @@ struct Contestant {
 struct Subject {
   Shape shape;
   Contestant contestant;
-  const Tolerance& tolerance() const { return shape.spec.flats.empty() ? contestant.constant : contestant.flats; }
+  const Tolerance& tolerance() const { return shape.spec.defects.flats.empty() ? contestant.constant : contestant.flats; }
   std::shared_ptr<const Surface> make() const;
 };
 

@@ -47,8 +47,8 @@ TEST(TomlCase, ShippedWheelFlatExample) {
     EXPECT_EQ(f.cases[i].number, static_cast<int>(i) + 1);
   }
   const WheelRailCase& c = rail_case(f, 6);
-  ASSERT_EQ(c.wheel.flats.size(), 1u);
-  const WheelFlat& flat = c.wheel.flats[0];
+  ASSERT_EQ(c.wheel.defects.flats.size(), 1u);
+  const WheelFlat& flat = c.wheel.defects.flats[0];
   EXPECT_EQ(flat.shape, WheelFlat::Shape::rounded);
   EXPECT_DOUBLE_EQ(flat.length, 0.16);
   EXPECT_DOUBLE_EQ(flat.depth, 1.4e-3);
@@ -338,8 +338,8 @@ TEST(TomlOverride, ValuesWordsAndListElements) {
     EXPECT_EQ(c.wheel.backend, "spline");
     EXPECT_EQ(std::get<StandardProfile>(c.rail.geometry).name, "60E1");
     EXPECT_DOUBLE_EQ(c.track.cant, std::atan(0.05));
-    EXPECT_DOUBLE_EQ(c.wheel.flats.at(0).depth, 0.5e-3);
-    EXPECT_DOUBLE_EQ(c.wheel.flats.at(0).length, 0.1);
+    EXPECT_DOUBLE_EQ(c.wheel.defects.flats.at(0).depth, 0.5e-3);
+    EXPECT_DOUBLE_EQ(c.wheel.defects.flats.at(0).length, 0.1);
     EXPECT_EQ(c.side, Side::left);
     EXPECT_TRUE(c.discretisation.reference_search_mesh);
   }

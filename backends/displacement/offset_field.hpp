@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <span>
+
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::displacement {
+
+/// An offset and its derivatives by u and y.
+struct OffsetJet {
+  double value = 0.0;
+  double d_u = 0.0, d_y = 0.0;
+  double d_uu = 0.0, d_uy = 0.0, d_yy = 0.0;
+};
+
+/// Range of an offset, and Lipschitz constants of it, over some (u, y) rectangle. Conservative.
+struct OffsetRange {
+  double low = 0.0, high = 0.0;
+  double max_d_u = 0.0, max_d_y = 0.0;
+  bool zero() const { return low == 0.0 && high == 0.0; }
+};
+
+/// Offsets over a base surface: dz(x, y) added to a rail's z (u = x [m]), or dr(theta, y) added to a wheel's radius
+/// (u = theta [rad], any branch: the field takes care of the period). Defined everywhere; 0 outside its support.
+/// Immutable, thread-safe, deterministic.
+class OffsetField {
+ public:
+  virtual ~OffsetField() = default;
+
+  virtual OffsetJet jet(double u, double y) const = 0;
+
+  /// Values and first derivatives at many points (neighbours in the list are usually neighbours on the surface).
+  /// d_u and d_y may be empty. All spans otherwise of one size.
+  virtual void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
+                        std::span<double> d_y) const;
+
+  /// Conservative range over a rectangle (x = u, y = y of the rectangle).
+  virtual OffsetRange range(const Rectangle& uy) const = 0;
+
+  virtual std::size_t memory_bytes() const = 0;
+};
+
+}  // namespace treadmark::displacement

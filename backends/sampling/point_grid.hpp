@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include "treadmark/core/pose.hpp"
+#include "treadmark/core/profile.hpp"
+
+namespace treadmark::sampling {
+
+/// Points of a surface on stations u (x [m] or theta [rad]) times lateral nodes y: where a longitudinal station crosses a
+/// lateral node, the height z (rail) or the radius r (wheel). NaN = no surface there.
+struct PointGrid {
+  Body body = Body::rail;
+  std::vector<double> u;      ///< strictly increasing; a closed wheel ends one step before u.front() + 2 pi
+  std::vector<double> y;      ///< strictly increasing [m]; dense where the section is steep
+  std::vector<double> h;      ///< z or r [m]; index = iu * y.size() + iy
+  bool closed = false;        ///< wheel only: the last station neighbours the first
+
+  std::size_t index(std::size_t iu, std::size_t iy) const { return iu * y.size() + iy; }
+  bool present(std::size_t iu, std::size_t iy) const { return !std::isnan(h[index(iu, iy)]); }
+  /// In the surface frame.
+  Vec3 point(std::size_t iu, std::size_t iy) const {
+    const double value = h[index(iu, iy)];
+    return body == Body::rail ? Vec3(u[iu], y[iy], value) : Vec3(value * std::sin(u[iu]), y[iy], value * std::cos(u[iu]));
+  }
+};
+
+}  // namespace treadmark::sampling
