@@ -4,88 +4,357 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
+#include <cmath>
 #include <variant>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
+#include "treadmark/backends/analytic/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/backends/mesh/make.hpp"
+#include "treadmark/backends/offset/make.hpp"
+#include "treadmark/backends/sampling/convert_points.hpp"
+#include "treadmark/backends/sampling/difference.hpp"
+#include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark {
-
 namespace {
 
+using Clock = std::chrono::steady_clock;
+
 std::string_view word(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
+
+bool is_formula(const SurfaceSpec& spec) {
+  return std::holds_alternative<StandardProfile>(spec.shape) || std::holds_alternative<ArcChain>(spec.shape);
+}
 
 void require_same_body(Body shape, Body wanted, std::string_view what) {
   if (shape != wanted)
     throw Error(ErrorKind::configuration, fmt::format("{} belongs to a {}, not to a {}", what, word(shape), word(wanted)));
 }
 
-std::shared_ptr<const Surface> make_analytic(const SurfaceSpec& spec) {
-  if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
-    return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, spec.defects.flats);
-  if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
-    return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, spec.defects.flats)
-                                    : analytic::make_prismatic_surface(*chain);
-  throw Error(ErrorKind::configuration, "the backend 'analytic' needs a formula, not measured points or slices", {},
-              "use the backend 'spline', or a standard profile or arc chain");
-}
-
-std::shared_ptr<const Surface> make_spline(const SurfaceSpec& spec) {
-  if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return spline::make_slice_surface(*slices, spec.nominal_radius);
-  if (const auto* points = std::get_if<Profile>(&spec.shape)) return spline::make_profile_surface(*points, spec.nominal_radius);
-
-  const auto* chain = std::get_if<ArcChain>(&spec.shape);
-  const Profile sampled = chain != nullptr ? analytic::sample_profile(*chain, spec.body, kResampleStep)
-                                           : analytic::sample_profile(std::get<StandardProfile>(spec.shape), kResampleStep);
-  if (spec.defects.flats.empty()) return spline::make_profile_surface(sampled, spec.nominal_radius);
-  return spline::make_slice_surface(analytic::sample_wheel(sampled, spec.nominal_radius, spec.defects.flats, kResampleStep),
-                                    spec.nominal_radius);
-}
-
 void check(const SurfaceSpec& spec) {
   if (spec.body == Body::wheel && !(spec.nominal_radius > 0.0))
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
-  if (spec.body == Body::rail && !spec.defects.flats.empty())
-    throw Error(ErrorKind::configuration, "flats belong to wheels, not to rails");
-  const auto* points = std::get_if<Profile>(&spec.shape);
-  const auto* slices = std::get_if<SliceSet>(&spec.shape);
-  if (points != nullptr) require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));
-  if (slices != nullptr) require_same_body(slices->body, spec.body, fmt::format("the slices '{}'", slices->name));
-  if (!spec.defects.flats.empty() && (points != nullptr || slices != nullptr))
-    throw Error(ErrorKind::configuration, "flats can be added to standard profiles and arc chains only, not to points or slices",
-                {}, "give the worn wheel as slices");
+  if (spec.body == Body::rail && spec.defects.on_wheel())
+    throw Error(ErrorKind::configuration, "flats and polygonizations belong to wheels, not to rails");
+  if (spec.body == Body::wheel && spec.defects.on_rail())
+    throw Error(ErrorKind::configuration, "squats, corrugations and other rail defects belong to rails, not to wheels");
+  if (const auto* points = std::get_if<Profile>(&spec.shape))
+    require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));
+  if (const auto* slices = std::get_if<SliceSet>(&spec.shape))
+    require_same_body(slices->body, spec.body, fmt::format("the slices '{}'", slices->name));
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
     require_same_body(analytic::standard_profile_body(standard->name), spec.body,
                       fmt::format("the standard profile {}", standard->name));
 }
 
+/// Flats on a wheel given by a formula have a faster surface of their own.
+bool flats_only(const SurfaceSpec& spec) {
+  return spec.body == Body::wheel && is_formula(spec) && spec.defects.polygonizations.empty();
+}
+
+std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats) {
+  if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
+    return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, flats);
+  if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
+    return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, flats)
+                                    : analytic::make_prismatic_surface(*chain);
+  if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return spline::make_slice_surface(*slices, spec.nominal_radius);
+  if (const auto* points = std::get_if<Profile>(&spec.shape)) return spline::make_profile_surface(*points, spec.nominal_radius);
+  return mesh::make_mesh_surface(std::get<TriangleMesh>(spec.shape), spec.body);
+}
+
+std::shared_ptr<const Surface> make_natural(const SurfaceSpec& spec) {
+  if (flats_only(spec)) return undamaged(spec, spec.defects.flats);
+  return analytic::add_defects(undamaged(spec, {}), spec.defects, spec.body, spec.nominal_radius);
+}
+
+/// One re-representation: the natural surface, what is wanted of it, and the samplings that the backends share.
+class Resampling {
+ public:
+  Resampling(const NaturalSurface& natural, const Representation& wanted)
+      : natural_(natural), spec_(natural.spec), region_(wanted.region),
+        resolution_(wanted.resolution > 0.0 ? wanted.resolution : kDefaultResolution), asked_(wanted.resolution > 0.0) {
+    if (!(wanted.resolution >= 0.0) || !std::isfinite(wanted.resolution))
+      throw Error(ErrorKind::configuration, "the resolution of a surface must be positive");
+  }
+
+  double resolution() const { return resolution_; }
+  const Region& region() const { return region_; }
+  const std::string& note() const { return note_; }
+
+  std::shared_ptr<const Surface> as_spline() {
+    if (spec_.defects.empty() || flats_only(spec_)) {
+      // formulas are sampled at their own joints
+      const double step = asked_ ? resolution_ : kResampleStep;
+      const auto* chain = std::get_if<ArcChain>(&spec_.shape);
+      const auto* standard = std::get_if<StandardProfile>(&spec_.shape);
+      if (chain != nullptr || standard != nullptr) {
+        const Profile profile =
+            chain != nullptr ? analytic::sample_profile(*chain, spec_.body, step) : analytic::sample_profile(*standard, step);
+        resolution_ = step;
+        if (spec_.defects.empty()) return spline::make_profile_surface(profile, spec_.nominal_radius);
+        return spline::make_slice_surface(analytic::sample_wheel(profile, spec_.nominal_radius, spec_.defects.flats, step),
+                                          spec_.nominal_radius);
+      }
+    }
+    if (natural_.constant_profile) return spline::make_profile_surface(section(), spec_.nominal_radius);
+    return spline::make_slice_surface(slices(), spec_.nominal_radius);
+  }
+
+  std::shared_ptr<const Surface> as_nurbs() {
+    const auto* chain = std::get_if<ArcChain>(&spec_.shape);
+    const auto* standard = std::get_if<StandardProfile>(&spec_.shape);
+    if (spec_.defects.empty() && !asked_ && (chain != nullptr || (standard != nullptr && standard->name == "60E1"))) {
+      resolution_ = 0.0;
+      limit_rail();
+      return spline::make_nurbs_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), spec_.body, spec_.nominal_radius,
+                                        region_.u_min, region_.u_max);
+    }
+    return spline::make_nurbs_surface(points(true));
+  }
+
+  std::shared_ptr<const Surface> as_mesh(mesh::Refinement refinement, std::string backend) {
+    mesh::MeshOptions options;
+    options.refinement = refinement;
+    options.backend = std::move(backend);
+    mesh::MeshRepair repair;
+    auto surface = mesh::make_mesh_surface(triangles(), spec_.body, options, &repair);
+    if (repair.degenerate + repair.duplicates + repair.flipped > 0)
+      note_ += fmt::format("repaired the mesh: {} degenerate, {} duplicate, {} flipped triangles. ", repair.degenerate,
+                           repair.duplicates, repair.flipped);
+    return surface;
+  }
+
+  TriangleMesh triangles() {
+    const auto* given = std::get_if<TriangleMesh>(&spec_.shape);
+    if (given != nullptr && !asked_ && spec_.defects.empty()) {
+      resolution_ = 0.0;
+      return *given;
+    }
+    return sampling::to_mesh(points(false), "samples of the " + std::string(word(spec_.body)));
+  }
+
+  SliceSet slices() {
+    return sampling::to_slices(points(false), spec_.nominal_radius, "samples of the " + std::string(word(spec_.body)));
+  }
+
+  /// Offsets and the undamaged surface below them; base_spec is that surface's description.
+  offset::OffsetSample offsets(std::shared_ptr<const Surface>& base, SurfaceSpec& base_spec) {
+    const bool known = is_formula(spec_) || std::holds_alternative<Profile>(spec_.shape);
+    base_spec.body = spec_.body;
+    base_spec.nominal_radius = spec_.nominal_radius;
+    if (known) {
+      base_spec.shape = spec_.shape;
+    } else {
+      limit_rail();
+      sampling::SampleSettings s{resolution_, 0.0, region_, false};
+      constexpr double kStations = 200.0;
+      const double length = region_.u_max - region_.u_min;
+      const double whole = spec_.body == Body::wheel ? 2.0 * 3.141592653589793 * spec_.nominal_radius : length;
+      const double along = spec_.body == Body::wheel && length < 7.0 ? length * spec_.nominal_radius : std::min(whole, length);
+      s.spacing_u = std::max(resolution_, (std::isfinite(along) ? along : whole) / kStations);
+      base_spec.shape = sampling::median_section(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s),
+                                                 spec_.nominal_radius, "median section");
+    }
+    base = undamaged(base_spec, {});
+    offset::OffsetSettings settings;
+    settings.du = settings.dy = resolution_;
+    limit_rail();
+    settings.region_uy = {region_.u_min, region_.u_max, region_.y_min, region_.y_max};
+    if (known) narrow(settings.region_uy);
+    auto sample = offset::sample_offsets(*natural_.surface, *base, spec_.body, spec_.nominal_radius, settings);
+    constexpr double kMostContinued = 0.02;
+    if (static_cast<double>(sample.continued) > kMostContinued * static_cast<double>(sample.nodes))
+      throw Error(ErrorKind::input_data,
+                  fmt::format("offsets cannot represent this {}: {} of {} nodes over the base have no surface",
+                              word(spec_.body), sample.continued, sample.nodes),
+                  {}, "use the backend 'mesh' or 'spline' for surfaces with gaps");
+    if (sample.continued > 0) note_ += fmt::format("{} nodes at the ends of the profile continue their neighbours. ", sample.continued);
+    return sample;
+  }
+
+  std::shared_ptr<const Surface> as_offset(offset::Interpolation interpolation, std::string backend) {
+    std::shared_ptr<const Surface> base;
+    SurfaceSpec base_spec;
+    const offset::OffsetSample sample = offsets(base, base_spec);
+    note_ += fmt::format("{} of {} voxels active, {:.3g} MB. ", sample.active, sample.nodes,
+                         1e-6 * static_cast<double>(offset::memory_bytes(*sample.offsets)));
+    return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
+  }
+
+ private:
+  void limit_rail() {
+    if (spec_.body != Body::rail) return;
+    const Box3 box = natural_.surface->bounds();
+    const auto limit = [&](double& end, double box_end, double fallback) {
+      if (std::isfinite(end)) return;
+      end = std::isfinite(box_end) ? box_end : fallback;
+    };
+    const bool open = !std::isfinite(region_.u_min) || !std::isfinite(region_.u_max);
+    limit(region_.u_min, box.min.x(), -kDefaultHalfLength);
+    limit(region_.u_max, box.max.x(), kDefaultHalfLength);
+    if (open && !std::isfinite(box.max.x()))
+      note_ += fmt::format("the rail was sampled from x = {:g} m to {:g} m. ", region_.u_min, region_.u_max);
+  }
+
+  /// Without damage there is nothing to sample: keep to the damaged part and some voxels round it.
+  void narrow(Rectangle& r) const {
+    constexpr double kMargin = 4.0;
+    const auto damaged = analytic::defect_region(spec_.defects, spec_.nominal_radius);
+    const double along = kMargin * resolution_ / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
+    const double across = kMargin * resolution_;
+    if (!damaged) {
+      if (!std::isfinite(r.x_min) || !std::isfinite(r.x_max)) r.x_min = 0.0, r.x_max = along;
+      r.x_max = std::min(r.x_max, r.x_min + along);
+      return;
+    }
+    // a wheel's angles may be given on any turn: only the whole turn is safe to narrow
+    if (spec_.body == Body::rail || !(r.x_max - r.x_min < 6.2)) {
+      r.x_min = std::max(r.x_min, damaged->x_min - along);
+      r.x_max = std::min(r.x_max, damaged->x_max + along);
+    }
+    r.y_min = std::max(r.y_min, damaged->y_min - across);
+    r.y_max = std::min(r.y_max, damaged->y_max + across);
+    r.x_max = std::max(r.x_max, r.x_min + along);
+    r.y_max = std::max(r.y_max, r.y_min + across);
+  }
+
+  sampling::PointGrid points(bool common) {
+    limit_rail();
+    sampling::SampleSettings s{resolution_, 0.0, region_, common};
+    // along a prismatic rail nothing changes: longer steps lose nothing
+    constexpr double kLongStep = 4.0;
+    if (natural_.constant_profile && spec_.body == Body::rail) s.spacing_u = kLongStep * resolution_;
+    return sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s);
+  }
+
+  Profile section() {
+    sampling::SampleSettings s{resolution_, 1e-3, region_, false};
+    s.region.u_min = 0.0;
+    s.region.u_max = spec_.body == Body::wheel ? 1e-2 : 3e-3;
+    if (spec_.body == Body::rail) {
+      const Box3 box = natural_.surface->bounds();
+      if (std::isfinite(box.min.x())) s.region.u_min = box.min.x(), s.region.u_max = box.max.x();
+    }
+    return sampling::median_section(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s),
+                                    spec_.nominal_radius, "samples of the " + std::string(word(spec_.body)));
+  }
+
+  const NaturalSurface& natural_;
+  const SurfaceSpec& spec_;
+  Region region_;
+  double resolution_;
+  bool asked_;
+  std::string note_;
+};
+
+[[noreturn]] void refuse(std::string_view backend) {
+  throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", backend), {},
+              fmt::format("available: {}", fmt::join(backend_names(), ", ")));
+}
+
+/// Formulas need no samples where they are asked for as formulas, splines none where points are given.
+bool is_natural(const NaturalSurface& natural, const Representation& wanted) {
+  if (wanted.backend.empty()) return true;
+  if (natural.surface->backend() != wanted.backend) return false;
+  return wanted.backend == "analytic" || !(wanted.resolution > 0.0);
+}
+
 }  // namespace
 
 std::span<const std::string_view> backend_names() {
-  static constexpr std::array<std::string_view, 2> kNames{"analytic", "spline"};
+  static constexpr std::array<std::string_view, 8> kNames{"analytic", "spline",           "nurbs",           "mesh",
+                                                          "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"};
   return kNames;
 }
 
 std::span<const std::string_view> standard_profile_names() { return analytic::standard_profile_names(); }
 
-std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::string_view backend) {
+NaturalSurface create_natural(SurfaceSpec spec) {
   check(spec);
-  if (backend.empty())
-    backend = std::holds_alternative<StandardProfile>(spec.shape) || std::holds_alternative<ArcChain>(spec.shape) ? "analytic"
-                                                                                                                   : "spline";
-  if (backend == "analytic") return make_analytic(spec);
-  if (backend == "spline") return make_spline(spec);
-  const bool elsewhere = backend == "mesh" || backend == "offset";
-  throw Error(ErrorKind::configuration,
-              elsewhere ? fmt::format("the backend '{}' is not part of this build", backend)
-                        : fmt::format("unknown backend '{}'", backend),
-              {}, fmt::format("available: {}", fmt::join(backend_names(), ", ")));
+  NaturalSurface natural;
+  natural.surface = make_natural(spec);
+  natural.constant_profile =
+      spec.defects.empty() && (is_formula(spec) || std::holds_alternative<Profile>(spec.shape));
+  natural.spec = std::move(spec);
+  return natural;
+}
+
+NaturalSurface read_offset_surface(const std::filesystem::path& file) {
+  offset::OffsetFile content = offset::read_vdb(file);
+  check(content.base);
+  NaturalSurface natural;
+  natural.surface =
+      offset::make_offset_surface(undamaged(content.base, {}), content.offsets, offset::Interpolation::bicubic, "offset");
+  // what lies below is known, but not what was added: it is resampled from the surface
+  natural.spec.body = content.base.body;
+  natural.spec.nominal_radius = content.base.nominal_radius;
+  natural.spec.shape = SliceSet{};
+  return natural;
+}
+
+RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted) {
+  using offset::Interpolation;
+  const auto start = Clock::now();
+  RepresentedSurface out;
+  out.region = wanted.region;
+  if (!wanted.backend.empty() && std::ranges::find(backend_names(), wanted.backend) == backend_names().end()) refuse(wanted.backend);
+  if (is_natural(natural, wanted)) {
+    out.surface = natural.surface;
+    return out;
+  }
+  Resampling sampling(natural, wanted);
+  if (wanted.backend == "analytic")
+    throw Error(ErrorKind::configuration, "the backend 'analytic' needs a formula, not measured points, slices, triangles or offsets", {},
+                "use the backend 'spline', or a standard profile or arc chain");
+  if (wanted.backend == "spline") out.surface = sampling.as_spline();
+  if (wanted.backend == "nurbs") out.surface = sampling.as_nurbs();
+  if (wanted.backend == "mesh") out.surface = sampling.as_mesh(mesh::Refinement::smooth, "mesh");
+  if (wanted.backend == "mesh-flat") out.surface = sampling.as_mesh(mesh::Refinement::facets, "mesh-flat");
+  if (wanted.backend == "offset") out.surface = sampling.as_offset(Interpolation::bicubic, "offset");
+  if (wanted.backend == "offset-quadratic") out.surface = sampling.as_offset(Interpolation::quadratic, "offset-quadratic");
+  if (wanted.backend == "offset-bilinear") out.surface = sampling.as_offset(Interpolation::bilinear, "offset-bilinear");
+  out.resampled = true;
+  out.resolution = sampling.resolution();
+  out.region = sampling.region();
+  out.note = sampling.note();
+  out.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return out;
+}
+
+SurfaceDifference fit_error(const NaturalSurface& natural, const RepresentedSurface& represented) {
+  sampling::DifferenceSettings settings;
+  settings.region = represented.region;
+  if (natural.spec.body == Body::rail && !std::isfinite(natural.surface->bounds().max.x())) {
+    if (!std::isfinite(settings.region.u_min)) settings.region.u_min = -kDefaultHalfLength;
+    if (!std::isfinite(settings.region.u_max)) settings.region.u_max = kDefaultHalfLength;
+  }
+  return sampling::difference(*natural.surface, *represented.surface, natural.spec.body, natural.spec.nominal_radius, settings);
+}
+
+std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::string_view backend) {
+  return represent(create_natural(spec), {std::string(backend), 0.0, {}}).surface;
+}
+
+TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted) {
+  return Resampling(natural, wanted).triangles();
+}
+
+SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted) { return Resampling(natural, wanted).slices(); }
+
+void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted) {
+  std::shared_ptr<const Surface> base;
+  offset::OffsetFile content;
+  content.offsets = Resampling(natural, wanted).offsets(base, content.base).offsets;
+  offset::write_vdb(file, content);
 }
 
 }  // namespace treadmark

@@ -2,30 +2,79 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
+#include <filesystem>
 #include <memory>
 #include <span>
+#include <string>
 #include <string_view>
 
+#include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/core/surface_difference.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
 namespace treadmark {
 
-/// The backends of this build: "analytic", "spline".
+using sampling::Region;
+
+/// The representations of this build: "analytic", "spline", "nurbs", "mesh" (smooth over the triangles), "mesh-flat" (the
+/// triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear".
 std::span<const std::string_view> backend_names();
 
 /// Standard profiles that StandardProfile::name may name: "60E1", "S1002".
 std::span<const std::string_view> standard_profile_names();
 
-/// The surface of one wheel or rail.
-/// backend = "": points and slices become splines; standard profiles and arc chains stay analytic.
-/// "spline" for a standard profile or arc chain samples it at kResampleStep and fits the samples.
-/// Errors: Error(configuration) for a backend that is unknown, not part of this build, or that cannot represent the
-/// shape; for a wheel without a positive nominal radius; for flats on a rail, or on a wheel given by points or slices;
-/// for a shape that belongs to the other body. Error(input_data) when points or slices cannot be fitted.
+/// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles a mesh.
+struct NaturalSurface {
+  SurfaceSpec spec;                        ///< empty shape data is fine after construction, see create.cpp
+  std::shared_ptr<const Surface> surface;
+  bool constant_profile = false;           ///< prismatic rail or round wheel
+};
+
+/// Errors: Error(configuration) for a wheel without a positive nominal radius, a shape or defect that belongs to the other
+/// body, defects that make no sense; Error(input_data) when points, slices or triangles cannot be used.
+NaturalSurface create_natural(SurfaceSpec spec);
+
+/// Offsets over their base from a .vdb file. Errors: Error(input_data) for a file that is not one of ours.
+NaturalSurface read_offset_surface(const std::filesystem::path& file);
+
+/// Which representation, at what resolution, where.
+struct Representation {
+  std::string backend;       ///< of backend_names(); "" = the natural one
+  double resolution = 0.0;   ///< spacing of the samples [m]; 0 = none where the data serve directly, else kDefaultResolution
+  Region region;             ///< sampled part; a rail without ends is limited to +-kDefaultHalfLength if this does not limit it
+};
+inline constexpr double kDefaultResolution = 0.5e-3;  ///< [m]
+inline constexpr double kDefaultHalfLength = 0.5;     ///< [m]
+
+/// Arc-length step at which formulas are sampled for splines when no resolution is asked for [m].
+inline constexpr double kResampleStep = 0.25e-3;
+
+struct RepresentedSurface {
+  std::shared_ptr<const Surface> surface;
+  bool resampled = false;      ///< false: the natural surface itself
+  double resolution = 0.0;     ///< [m] 0 = as given
+  Region region;               ///< where the surface stands for the natural one
+  double build_seconds = 0.0;
+  std::string note;            ///< repairs and limits worth knowing; may be empty
+};
+
+/// Turns a surface into a representation. Errors: Error(configuration) for an unknown backend or one that cannot represent
+/// the shape; those of sampling and of the backends.
+RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted);
+
+/// How far the representation lies from what it was sampled from, over its region.
+SurfaceDifference fit_error(const NaturalSurface& natural, const RepresentedSurface& represented);
+
+/// The surface of one wheel or rail in a representation at the default resolution; errors as above.
 std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::string_view backend = "");
 
-/// Arc-length step at which formulas are sampled for other backends [m].
-inline constexpr double kResampleStep = 0.25e-3;
+/// Writes the surface for other programs and for later, by the extension of the file: .ply .stl .obj .off (triangles),
+/// .vdb (offsets over their base). Slices and profiles are written by io. Returns what was written, resampled as wanted.
+/// Errors: those of represent; Error(configuration) for a file that cannot be written.
+TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted);
+SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted);
+void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted);
 
 }  // namespace treadmark

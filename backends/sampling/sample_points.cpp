@@ -1,0 +1,78 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/sampling/sample_points.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "treadmark/backends/sampling/lateral_nodes.hpp"
+#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::sampling {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr std::size_t kReferenceStations = 17;  // in which the lateral nodes are laid out
+
+std::vector<double> spread(const std::vector<double>& all) {
+  if (all.size() <= kReferenceStations) return all;
+  std::vector<double> some;
+  for (std::size_t i = 0; i < kReferenceStations; ++i) some.push_back(all[i * (all.size() - 1) / (kReferenceStations - 1)]);
+  return some;
+}
+
+std::vector<double> even(double from, double to, std::size_t n, bool with_last) {
+  std::vector<double> u(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const double share = static_cast<double>(i) / static_cast<double>(with_last ? n - 1 : n);
+    u[i] = with_last && i + 1 == n ? to : from + (to - from) * share;
+  }
+  return u;
+}
+
+}  // namespace
+
+std::vector<double> stations(const Surface& surface, Body body, double nominal_radius, const Region& region, double spacing_u,
+                             bool& closed) {
+  if (!(spacing_u > 0.0)) throw Error(ErrorKind::configuration, "the spacing of samples must be positive");
+  double from = region.u_min, to = region.u_max, step = spacing_u;
+  closed = false;
+  if (body == Body::wheel) {
+    if (!(nominal_radius > 0.0)) throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
+    step = spacing_u / nominal_radius;
+    closed = !(to - from < 2.0 * kPi - step);
+    if (closed) from = -kPi, to = kPi;
+  } else {
+    const Box3 box = surface.bounds();
+    from = std::max(from, box.min.x());
+    to = std::min(to, box.max.x());
+    if (!std::isfinite(from) || !std::isfinite(to))
+      throw Error(ErrorKind::configuration, "a rail without ends needs a range along the track to be sampled in");
+  }
+  if (!(to > from)) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  const double count = std::max(closed ? 8.0 : 3.0, std::ceil((to - from) / step - 1e-9));
+  if (!(count < kMostPoints)) throw Error(ErrorKind::configuration, "the spacing of samples is too small for the range");
+  return even(from, to, static_cast<std::size_t>(count) + (closed ? 0 : 1), !closed);
+}
+
+PointGrid sample_points(const Surface& surface, Body body, double nominal_radius, const SampleSettings& settings) {
+  const double spacing_u = settings.spacing_u > 0.0 ? settings.spacing_u : settings.spacing;
+  PointGrid grid;
+  grid.body = body;
+  grid.u = stations(surface, body, nominal_radius, settings.region, spacing_u, grid.closed);
+  const std::vector<double> reference = spread(grid.u);
+  grid.y = lateral_nodes(surface, body, reference, settings.spacing, settings.region.y_min, settings.region.y_max, settings.common);
+  if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints)
+    throw Error(ErrorKind::configuration, "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
+                "use a coarser resolution or a smaller region");
+  grid.h.resize(grid.u.size() * grid.y.size());
+  parallel_for(grid.u.size(), [&](std::size_t i) {
+    section_heights(surface, body, grid.u[i], grid.y, {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
+  });
+  return grid;
+}
+
+}  // namespace treadmark::sampling
