@@ -45,6 +45,12 @@ class PlaneSurface final : public Surface {
     std::fill(out.dzdx.begin(), out.dzdx.end(), h.a);
     std::fill(out.dzdy.begin(), out.dzdy.end(), h.b);
   }
+  void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override {
+    const Height h(X_SP);
+    for (std::size_t i = 0; i < out.z.size(); ++i) out.z[i] = h.c + h.a * points_P[i].x() + h.b * points_P[i].y();
+    std::fill(out.dzdx.begin(), out.dzdx.end(), h.a);
+    std::fill(out.dzdy.begin(), out.dzdy.end(), h.b);
+  }
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override {
     const Height h(X_SP);
     std::fill(out.begin(), out.end(), SurfacePoint{});

@@ -40,15 +40,61 @@ struct Projection {
   bool degenerate() const { return m < 1e-9; }
 };
 
+/// Writes the heights of single points.
+class PointWriter {
+ public:
+  PointWriter(const Projection& projection, const ChainView& view, const HeightsOut& out)
+      : p_(projection), view_(view), out_(out), slopes_(!out.dzdx.empty() || !out.dzdy.empty()) {}
+
+ protected:
+  /// Entry i for a point at x in the row with w_row and a_row; interval: a guess, and where the point was found.
+  void write_point(std::size_t i, double x, double w_row, double a_row, int& interval) const {
+    const double w = w_row + p_.wx * x;
+    const int found = view_.find(w, interval);
+    if (found >= 0) interval = found;
+    double h = 0.0, dh = 0.0;
+    evaluate(w, found, h, dh);
+    if (!out_.z.empty()) out_.z[i] = (h - (a_row + p_.ax * x)) / p_.m;
+    if (!out_.dzdx.empty()) out_.dzdx[i] = (dh * p_.wx - p_.ax) / p_.m;
+    if (!out_.dzdy.empty()) out_.dzdy[i] = (dh * p_.wy - p_.ay) / p_.m;
+  }
+  void evaluate(double w, int interval, double& h, double& dh) const {
+    if (interval < 0)
+      h = dh = kNaN;
+    else if (slopes_)
+      h = view_.height_and_slope(w, interval, dh);
+    else
+      h = view_.height(w, interval);
+  }
+
+  const Projection& p_;
+  const ChainView& view_;
+  const HeightsOut& out_;
+  bool slopes_;
+};
+
+/// A list of points, in parts that may run in parallel.
+class ListWriter : PointWriter {
+ public:
+  using PointWriter::PointWriter;
+
+  void write(std::span<const Vec2> points, std::size_t begin, std::size_t end) const {
+    int interval = 0;
+    for (std::size_t i = begin; i < end; ++i) {
+      const double y = points[i].y();
+      write_point(i, points[i].x(), p_.w0 + p_.wy * y, p_.a0 + p_.ay * y, interval);
+    }
+  }
+};
+
 /// One row of the grid; rows of a plane that is not turned about its normal have one w, hence one height, for all x.
-class RowWriter {
+class RowWriter : PointWriter {
  public:
   RowWriter(const Projection& projection, const ChainView& view, const Grid2& grid, const HeightsOut& out)
-      : p_(projection), view_(view), g_(grid), out_(out) {
+      : PointWriter(projection, view, out), g_(grid) {
     constexpr double kSameW = 1e-15;  // [m]
     const double spread = std::fabs(p_.wx) * std::max(std::fabs(g_.x(0)), std::fabs(g_.x(g_.nx - 1)));
     one_w_ = spread <= kSameW;
-    slopes_ = !out_.dzdx.empty() || !out_.dzdy.empty();
   }
 
   void write(int iy) const {
@@ -69,36 +115,13 @@ class RowWriter {
       if (!out_.dzdy.empty()) std::fill_n(out_.dzdy.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wy - p_.ay) / p_.m);
       return;
     }
-    for (int ix = 0; ix < g_.nx; ++ix) {
-      const double x = g_.x(ix), w = w_row + p_.wx * x;
-      const int found = view_.find(w, interval);
-      if (found >= 0) interval = found;
-      double h = 0.0, dh = 0.0;
-      evaluate(w, found, h, dh);
-      put(begin + static_cast<std::size_t>(ix), x, h, dh, a_row);
-    }
+    for (int ix = 0; ix < g_.nx; ++ix)
+      write_point(begin + static_cast<std::size_t>(ix), g_.x(ix), w_row, a_row, interval);
   }
 
  private:
-  void evaluate(double w, int interval, double& h, double& dh) const {
-    if (interval < 0)
-      h = dh = kNaN;
-    else if (slopes_)
-      h = view_.height_and_slope(w, interval, dh);
-    else
-      h = view_.height(w, interval);
-  }
-  void put(std::size_t i, double x, double h, double dh, double a_row) const {
-    if (!out_.z.empty()) out_.z[i] = (h - (a_row + p_.ax * x)) / p_.m;
-    if (!out_.dzdx.empty()) out_.dzdx[i] = (dh * p_.wx - p_.ax) / p_.m;
-    if (!out_.dzdy.empty()) out_.dzdy[i] = (dh * p_.wy - p_.ay) / p_.m;
-  }
-
-  const Projection& p_;
-  const ChainView& view_;
   const Grid2& g_;
-  const HeightsOut& out_;
-  bool one_w_ = false, slopes_ = false;
+  bool one_w_ = false;
 };
 
 }  // namespace
@@ -138,6 +161,20 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
     for (int iy = 0; iy < g.ny; ++iy) rows.write(iy);
   else
     parallel_for(static_cast<std::size_t>(g.ny), [&](std::size_t iy) { rows.write(static_cast<int>(iy)); });
+}
+
+void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  const Projection projection(X_SP);
+  if (projection.degenerate()) {
+    for (const auto array : {out.z, out.dzdx, out.dzdy}) std::fill(array.begin(), array.end(), kNaN);
+    return;
+  }
+  const ChainView view(chain_, projection.d_y, projection.d_z);
+  const ListWriter list(projection, view, out);
+  constexpr std::size_t kPointsPerTask = 20'000;
+  parallel_for((points_P.size() + kPointsPerTask - 1) / kPointsPerTask, [&](std::size_t task) {
+    list.write(points_P, task * kPointsPerTask, std::min(points_P.size(), (task + 1) * kPointsPerTask));
+  });
 }
 
 void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {

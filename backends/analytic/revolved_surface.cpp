@@ -50,6 +50,34 @@ void march_row(const WheelBody& body, const PlaneGrid& plane_grid, const Heights
   }
 }
 
+/// Points [begin, end) of a list, every line started from the tangent plane at the hit before, bent as that hit lay off its
+/// own start.
+void follow_list(const WheelBody& body, const Pose& X, std::span<const Vec2> points, const HeightsOut& out, std::size_t begin,
+                 std::size_t end) {
+  WheelRay ray(body, X.rotation.col(2));
+  WheelHit hit;
+  const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
+  double z = kNaN, dzdx = kNaN, dzdy = kNaN, bend = 0.0;
+  Vec2 before = Vec2::Zero();
+  for (std::size_t i = begin; i < end; ++i) {
+    const Vec2& p = points[i];
+    const double dx = p.x() - before.x(), dy = p.y() - before.y(), distance_2 = dx * dx + dy * dy;
+    const double tangent = z + dzdx * dx + dzdy * dy;
+    const bool found = ray.cast(X.apply({p.x(), p.y(), 0.0}), tangent + bend * distance_2, hit, slopes);
+    if (found) {
+      const Vec3 f = X.rotation.transpose() * gradient(hit);
+      z = hit.t;
+      dzdx = -f.x() / f.z();
+      dzdy = -f.y() / f.z();
+      bend = distance_2 > 0.0 && !std::isnan(tangent) ? (z - tangent) / distance_2 : 0.0;
+      before = p;
+    }
+    if (!out.z.empty()) out.z[i] = found ? z : kNaN;
+    if (!out.dzdx.empty()) out.dzdx[i] = found ? dzdx : kNaN;
+    if (!out.dzdy.empty()) out.dzdy[i] = found ? dzdy : kNaN;
+  }
+}
+
 /// Normal and principal curvatures from the Hessian of F in the axes e_r, e_theta, e_y.
 void fill_shape(const WheelBody& body, const WheelHit& hit, SurfacePoint& point) {
   const double theta = std::atan2(hit.x, hit.z), r = hit.r;
@@ -84,6 +112,13 @@ void RevolvedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& 
   else
     parallel_for(static_cast<std::size_t>(plane_grid.grid.ny),
                  [&](std::size_t iy) { march_row(body_, plane_grid, out, static_cast<int>(iy)); });
+}
+
+void RevolvedSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  constexpr std::size_t kPointsPerTask = 1024;
+  parallel_for((points_P.size() + kPointsPerTask - 1) / kPointsPerTask, [&](std::size_t task) {
+    follow_list(body_, X_SP, points_P, out, task * kPointsPerTask, std::min(points_P.size(), (task + 1) * kPointsPerTask));
+  });
 }
 
 void RevolvedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {

@@ -8,6 +8,7 @@
 
 #include "treadmark/backends/spline/column_hits.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_hull.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -73,6 +74,70 @@ class ViewedProfile {
  private:
   std::span<const double> breaks_;
   std::vector<CubicSegment> cells_;
+};
+
+// The same for points in any order: the cells that may lie over each of equal parts of the width are listed once.
+class SortedProfile {
+ public:
+  explicit SortedProfile(const ProfileSpline& profile, const View& view) : viewed_(profile, view) {
+    const auto breaks = profile.breaks();
+    const std::size_t cells = breaks.size() - 1;
+    std::vector<Interval> reach(cells);
+    Interval all = Interval::none();
+    for (std::size_t k = 0; k < cells; ++k) {
+      const SectionPoint a = viewed_.point(static_cast<int>(k), breaks[k], 0.0), b = viewed_.point(static_cast<int>(k), breaks[k + 1], 0.0);
+      ends_.push_back({breaks[k], breaks[k + 1], a, b});
+      // A cubic stays within this of its ends.
+      const double slack = kSlack + (breaks[k + 1] - breaks[k]) * std::max(std::abs(a.ds), std::abs(b.ds));
+      reach[k] = {std::min(a.s, b.s) - slack, std::max(a.s, b.s) + slack};
+      all.include(reach[k]);
+    }
+    parts_ = std::max<std::size_t>(1, 2 * cells);
+    first_ = all.low;
+    inverse_width_ = static_cast<double>(parts_) / all.width();
+    std::vector<std::size_t> count(parts_ + 1, 0);
+    const auto each_part = [&](std::size_t k, const auto& use) {
+      const std::size_t last = part(reach[k].high);
+      for (std::size_t i = part(reach[k].low); i <= last; ++i) use(i);
+    };
+    for (std::size_t k = 0; k < cells; ++k) each_part(k, [&](std::size_t i) { ++count[i + 1]; });
+    for (std::size_t i = 0; i < parts_; ++i) count[i + 1] += count[i];
+    begin_ = count;
+    cells_.resize(count[parts_]);
+    for (std::size_t k = 0; k < cells; ++k) each_part(k, [&](std::size_t i) { cells_[count[i]++] = static_cast<int>(k); });
+  }
+
+  SectionPoint point(int cell, double v) const { return viewed_.point(cell, v, 0.0); }
+
+  void hit(double s, ColumnHits& hits) const {
+    hits.clear();
+    if (!((s - first_) * inverse_width_ > -1.0 && (s - first_) * inverse_width_ < static_cast<double>(parts_) + 1.0)) return;
+    const Samples samples = one_sample(s);
+    SectionRaster<ViewedProfile, ColumnHits> raster(viewed_, samples, hits, hits.queue);
+    const std::size_t i = part(s);
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
+      const Ends& e = ends_[static_cast<std::size_t>(cells_[k])];
+      raster.cell(cells_[k], e.va, e.a, e.vb, e.b);
+    }
+    raster.finish();
+  }
+
+ private:
+  static constexpr double kSlack = 1e-9;  // [m]
+  struct Ends {
+    double va, vb;
+    SectionPoint a, b;
+  };
+  std::size_t part(double s) const {
+    return static_cast<std::size_t>(std::clamp((s - first_) * inverse_width_, 0.0, static_cast<double>(parts_) - 1.0));
+  }
+
+  ViewedProfile viewed_;
+  std::vector<Ends> ends_;
+  std::size_t parts_ = 1;
+  double first_ = 0.0, inverse_width_ = 0.0;
+  std::vector<std::size_t> begin_;  // of each part in cells_
+  std::vector<int> cells_;
 };
 
 void fill(std::span<double> values, double value) { std::fill(values.begin(), values.end(), value); }
@@ -179,19 +244,51 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   });
 }
 
+void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+  View view(X_SP.rotation.col(2));
+  if (!view.visible()) {
+    for (const auto values : {out.z, out.dzdx, out.dzdy}) fill(values, kNaN);
+    return;
+  }
+  const auto on_axes = [&](const Vec2& direction) {
+    return Vec3(direction.dot(lateral(X_SP.rotation.col(0))), direction.dot(lateral(X_SP.rotation.col(1))), direction.dot(lateral(X_SP.origin)));
+  };
+  const Vec3 width = on_axes(view.width), depth = on_axes(view.depth);
+  const double scale = 1.0 / view.normal_part;
+  const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
+  const SortedProfile sorted(profile_, view);
+  for_listed_points(points_P, true, [&](std::span<const ListedPoint> points) {
+    ColumnHits hits(1, Facing::up);
+    for (const ListedPoint& p : points) {
+      const double x = p.across, y = p.along;
+      sorted.hit(width.z() + width.x() * x + width.y() * y, hits);
+      const double n = hits.n[0];
+      if (!out.z.empty()) out.z[p.index] = scale * (n - (depth.z() + depth.x() * x + depth.y() * y));
+      if (!slopes) continue;
+      double slope = n;  // NaN stays
+      if (!std::isnan(n)) {
+        const SectionPoint at = sorted.point(hits.cell[0], hits.v[0]);
+        slope = at.dn / at.ds;
+      }
+      if (!out.dzdx.empty()) out.dzdx[p.index] = scale * (slope * width.x() - depth.x());
+      if (!out.dzdy.empty()) out.dzdy[p.index] = scale * (slope * width.y() - depth.y());
+    }
+  });
+}
+
 void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const View view(X_SP.rotation.col(2));
   if (!view.visible()) {
     std::fill(out.begin(), out.end(), SurfacePoint{});
     return;
   }
-  const ViewedProfile viewed(profile_, view);
+  const SortedProfile sorted(profile_, view);
   ColumnHits hits(1, Facing::up);
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     const Vec3 foot = X_SP.apply({points_P[i].x(), points_P[i].y(), 0.0});
     out[i] = {};
-    hits.clear();
-    viewed.raster({view.width.dot(lateral(foot)), 1.0, 1}, hits);
+    sorted.hit(view.width.dot(lateral(foot)), hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
     const double n = (hits.n[0] - view.depth.dot(lateral(foot))) / view.normal_part;

@@ -23,6 +23,7 @@ class PrismaticSurface final : public Surface {
 
  private:
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
+  void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 

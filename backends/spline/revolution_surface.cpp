@@ -8,6 +8,7 @@
 
 #include "treadmark/backends/spline/column_hits.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_hull.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/backends/spline/wheel_view.hpp"
@@ -45,6 +46,17 @@ class RevolutionSection {
     return {s0_ + sy_ * y + sb_ * b, n0_ + ny_ * y + nb_ * b, sy_ * dy + sb_ * db, ny_ * dy + nb_ * db};
   }
 
+  /// The ends of a cell, to be used for many points.
+  struct Ends {
+    int cell;
+    double va, vb;
+    SectionPoint a, b;
+  };
+  Ends ends(int cell) const {
+    const double a = breaks_[static_cast<std::size_t>(cell)], b = breaks_[static_cast<std::size_t>(cell) + 1];
+    return {cell, a, b, point(cell, a, 0.0), point(cell, b, 0.0)};
+  }
+
   /// Position across and towards the plane, for the angle about the axle.
   Vec2 a_b(double y, double r) const {
     const double a = a0_ + ay_ * y;
@@ -57,14 +69,18 @@ class RevolutionSection {
   /// cells: those to look at, increasing.
   void raster(const std::vector<int>& cells, const Samples& samples, ColumnHits& hits) const {
     SectionRaster<RevolutionSection, ColumnHits> raster(*this, samples, hits, hits.queue);
-    for (const int k : cells) {
-      const double a = breaks_[static_cast<std::size_t>(k)], b = breaks_[static_cast<std::size_t>(k) + 1];
-      raster.cell(k, a, point(k, a, 0.0), b, point(k, b, 0.0));
-    }
+    for (const int k : cells) add(ends(k), raster);
+    raster.finish();
+  }
+  void raster(const std::vector<Ends>& cells, const Samples& samples, ColumnHits& hits) const {
+    SectionRaster<RevolutionSection, ColumnHits> raster(*this, samples, hits, hits.queue);
+    for (const Ends& cell : cells) add(cell, raster);
     raster.finish();
   }
 
  private:
+  static void add(const Ends& e, SectionRaster<RevolutionSection, ColumnHits>& raster) { raster.cell(e.cell, e.va, e.a, e.vb, e.b); }
+
   std::span<const double> breaks_;
   std::span<const CubicSegment> cells_;
   double a0_, ay_, s0_, sy_, sb_, n0_, ny_, nb_;
@@ -89,6 +105,18 @@ std::vector<int> cells_over(std::span<const ProfileBox> boxes, const WheelView& 
 
 BezierCubic hull(const ProfileSpline& profile, std::size_t k) {
   return BezierCubic(profile.segments()[k], profile.breaks()[k + 1] - profile.breaks()[k]);
+}
+
+// Slopes along and across the grid lines at a hit.
+Vec2 slopes_at(const ProfileSpline& profile, const RevolutionSection& section, const WheelView& view, double v, const Vec3& along,
+               const Vec3& across, const Vec3& plane_normal) {
+  const Vec2 p = profile.position(v), d = profile.derivative(v);
+  // Normal of the surface: forward x tangent, with the angle expressed by (a, b).
+  const Vec2 ab = section.a_b(p.x(), p.y());
+  const Vec3 outward = (ab.x() * view.e + ab.y() * view.f) / p.y();
+  const Vec3 normal = d.x() * outward - d.y() * Vec3(0.0, 1.0, 0.0);
+  const double upright = normal.dot(plane_normal);
+  return {-normal.dot(along) / upright, -normal.dot(across) / upright};
 }
 
 SurfaceDerivatives derivatives(const ProfileSpline& profile, double u, double v) {
@@ -152,21 +180,45 @@ void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut
         for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
       if (!slopes) continue;
       for (std::size_t i = 0; i < hits.n.size(); ++i) {
-        double along = hits.n[i], across = hits.n[i];  // NaN stays
-        if (!std::isnan(hits.n[i])) {
-          const Vec2 p = profile_.position(hits.v[i]), d = profile_.derivative(hits.v[i]);
-          // Normal of the surface: forward x tangent, with the angle expressed by (a, b).
-          const Vec2 ab = section.a_b(p.x(), p.y());
-          const Vec3 outward = (ab.x() * view.e + ab.y() * view.f) / p.y();
-          const Vec3 normal = d.x() * outward - d.y() * Vec3(0.0, 1.0, 0.0);
-          const double upright = normal.dot(g.normal);
-          along = -normal.dot(g.along) / upright;
-          across = -normal.dot(g.across) / upright;
-        }
-        if (!dz_along.empty()) dz_along[start + i * g.along_stride] = along;
-        if (!dz_across.empty()) dz_across[start + i * g.along_stride] = across;
+        Vec2 slope(hits.n[i], hits.n[i]);  // NaN stays
+        if (!std::isnan(hits.n[i])) slope = slopes_at(profile_, section, view, hits.v[i], g.along, g.across, g.normal);
+        if (!dz_along.empty()) dz_along[start + i * g.along_stride] = slope.x();
+        if (!dz_across.empty()) dz_across[start + i * g.along_stride] = slope.y();
       }
     }
+  });
+}
+
+void RevolutionSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  const bool along_y = wheel_lines_along_y(X_SP.rotation);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
+  const WheelView view(across, along, normal, X_SP.origin);
+  const auto dz_along = along_y ? out.dzdy : out.dzdx, dz_across = along_y ? out.dzdx : out.dzdy;
+  const bool slopes = !dz_along.empty() || !dz_across.empty();
+  const auto over = [&](const Interval& a, const Interval& s) { return cells_over(boxes_, view, a, s); };
+  const auto count = [](const std::vector<int>& cells) { return cells.size(); };
+  for_listed_points(points_P, along_y, [&](std::span<const ListedPoint> points) {
+    ColumnHits hits(1, Facing::down);
+    std::vector<RevolutionSection::Ends> ends;
+    const auto do_batch = [&](std::span<const ListedPoint> batch, const std::vector<int>& cells) {
+      for_lines(batch, [&](ListedLine line) {
+        const RevolutionSection section(profile_, view, line.front().across);
+        ends.clear();
+        for (const int k : cells) ends.push_back(section.ends(k));
+        for (const ListedPoint& p : line) {
+          hits.clear();
+          section.raster(ends, one_sample(p.along), hits);
+          if (!out.z.empty()) out.z[p.index] = hits.n[0];
+          if (!slopes) continue;
+          Vec2 slope(hits.n[0], hits.n[0]);  // NaN stays
+          if (!std::isnan(hits.n[0])) slope = slopes_at(profile_, section, view, hits.v[0], along, across, normal);
+          if (!dz_along.empty()) dz_along[p.index] = slope.x();
+          if (!dz_across.empty()) dz_across[p.index] = slope.y();
+        }
+      });
+    };
+    for (std::size_t first = 0; first < points.size(); first += kPointsPerBatch)
+      split_batch(points.subspan(first, std::min(kPointsPerBatch, points.size() - first)), over, count, do_batch);
   });
 }
 

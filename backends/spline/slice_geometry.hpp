@@ -28,6 +28,7 @@ class RailGeometry {
  public:
   static constexpr double kStepU = 1e-7;  // [m]
   static constexpr double kLargestStepU = 1.0;
+  static constexpr double kLargestPrediction = 0.1;  // from one cut to the next
   static constexpr double kTurnsNormal = 0.0;
 
   explicit RailGeometry(double) {}
@@ -53,6 +54,7 @@ class WheelGeometry {
  public:
   static constexpr double kStepU = 2e-7;  // [rad]
   static constexpr double kLargestStepU = 0.2;
+  static constexpr double kLargestPrediction = 0.1;
   static constexpr double kTurnsNormal = 1.0;  // the radius turns with u
 
   explicit WheelGeometry(double nominal_radius) : radius_(nominal_radius) {}

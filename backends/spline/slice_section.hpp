@@ -29,6 +29,9 @@ class SliceSection {
         along_direction_(along), breaks_(static_cast<std::size_t>(net.positions()), SectionPoint{}), spans_(breaks_.size()),
         u_by_c_(breaks_.size()), change_(breaks_.size()), predicted_u_by_c_(breaks_.size()) {}
 
+  /// Forgets the cuts so far: the next ones may have other lines.
+  void restart() { started_ = false; }
+
   /// Moves to the across coordinate c.
   void start_cut(double c) {
     shift_ = started_ ? c - c_ : 0.0;
@@ -46,7 +49,7 @@ class SliceSection {
       const auto k = static_cast<std::size_t>(line);
       SectionPoint& p = breaks_[k];
       // From the last cut, else from the neighbour.
-      const bool known = shift_ != 0.0 && !std::isnan(p.s);
+      const bool known = shift_ != 0.0 && std::abs(shift_ * predicted_u_by_c_[k]) < Geometry::kLargestPrediction && !std::isnan(p.s);
       double u = known ? p.u + shift_ * predicted_u_by_c_[k] : before_ + slope_;
       double u_by_c = 0.0;
       int left = kMaxCutSteps;

@@ -8,6 +8,7 @@
 
 #include "treadmark/backends/spline/column_hits.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/slice_bounds.hpp"
 #include "treadmark/backends/spline/slice_section.hpp"
 #include "treadmark/core/error.hpp"
@@ -51,17 +52,13 @@ std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, c
   return runs;
 }
 
+// The section must be cut already.
 template <class Geometry>
-void raster(SliceSection<Geometry>& section, double across, const std::vector<CellRun>& runs, const Samples& samples,
-            ColumnHits& hits) {
-  hits.clear();
-  section.start_cut(across);
+void raster_cells(const SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples, ColumnHits& hits) {
   SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
-  for (const CellRun& run : runs) {
-    section.cut(run.first, run.last);
+  for (const CellRun& run : runs)
     for (int k = run.first; k < run.last; ++k)
       raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
-  }
   raster.finish();
 }
 
@@ -69,6 +66,40 @@ void raster(SliceSection<Geometry>& section, double across, const std::vector<Ce
 Interval widened(double low, double high) {
   constexpr double kSlack = 1e-9;
   return {low - kSlack, high + kSlack};
+}
+
+// Calls use(point, section, hits) for every point of a list, in parallel; hits.n[0] is NaN where there is no surface.
+template <class Geometry, class Use>
+void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Pose& X_SP,
+              std::span<const Vec2> points_P, const Use& use) {
+  const bool along_y = Geometry::lines_along_y(X_SP.rotation);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
+  const auto over = [&](const Interval& a, const Interval& s) {
+    return runs_over<Geometry>({across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)}, net, hulls);
+  };
+  const auto count = [](const std::vector<CellRun>& runs) {
+    std::size_t cells = 0;
+    for (const CellRun& run : runs) cells += static_cast<std::size_t>(run.last - run.first);
+    return cells;
+  };
+  for_listed_points(points_P, along_y, [&](std::span<const ListedPoint> points) {
+    ColumnHits hits(1, kIsWheel<Geometry> ? Facing::down : Facing::up);
+    SliceSection<Geometry> section(net, hulls, geometry, across, along, normal, X_SP.origin);
+    const auto do_batch = [&](std::span<const ListedPoint> batch, const std::vector<CellRun>& runs) {
+      section.restart();
+      for_lines(batch, [&](ListedLine line) {
+        section.start_cut(line.front().across);
+        for (const CellRun& run : runs) section.cut(run.first, run.last);
+        for (const ListedPoint& p : line) {
+          hits.clear();
+          raster_cells(section, runs, one_sample(p.along), hits);
+          use(p, section, hits);
+        }
+      });
+    };
+    for (std::size_t first = 0; first < points.size(); first += kPointsPerBatch)
+      split_batch(points.subspan(first, std::min(kPointsPerBatch, points.size() - first)), over, count, do_batch);
+  });
 }
 
 }  // namespace
@@ -121,7 +152,10 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
                                            widened(g.across_at(first), g.across_at(last)),
                                            widened(g.samples.first, g.samples.last())}, net_, hulls_);
     for (int line = first; line <= last; ++line) {
-      raster(section, g.across_at(line), runs, g.samples, hits);
+      hits.clear();
+      section.start_cut(g.across_at(line));
+      for (const CellRun& run : runs) section.cut(run.first, run.last);
+      raster_cells(section, runs, g.samples, hits);
       const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
       if (!out.z.empty())
         for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
@@ -137,30 +171,40 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
 }
 
 template <class Geometry>
+void SliceSurface<Geometry>::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  const bool along_y = Geometry::lines_along_y(X_SP.rotation);
+  const auto dz_along = along_y ? out.dzdy : out.dzdx, dz_across = along_y ? out.dzdx : out.dzdy;
+  const bool slopes = !dz_along.empty() || !dz_across.empty();
+  for_hits(net_, hulls_, geometry_, X_SP, points_P,
+           [&](const ListedPoint& p, const SliceSection<Geometry>& section, const ColumnHits& hits) {
+             if (!out.z.empty()) out.z[p.index] = hits.n[0];
+             if (!slopes) return;
+             typename SliceSection<Geometry>::Slopes slope{hits.n[0], hits.n[0]};  // NaN stays
+             if (!std::isnan(hits.n[0])) slope = section.slopes(hits.cell[0], hits.v[0], hits.u[0]);
+             if (!dz_along.empty()) dz_along[p.index] = slope.along;
+             if (!dz_across.empty()) dz_across[p.index] = slope.across;
+           });
+}
+
+template <class Geometry>
 void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
-  const int along = Geometry::lines_along_y(X_SP.rotation) ? 1 : 0;
-  ColumnHits hits(1, facing());
-  for (std::size_t i = 0; i < points_P.size(); ++i) {
-    out[i] = {};
-    const double a = points_P[i][1 - along], s = points_P[i][along];
-    const PlaneWindow window{X_SP.rotation.col(1 - along), X_SP.rotation.col(along), X_SP.rotation.col(2), X_SP.origin,
-                             widened(a, a), widened(s, s)};
-    SliceSection<Geometry> section(net_, hulls_, geometry_, window.across_axis, window.along_axis, window.normal, window.origin);
-    raster(section, a, runs_over<Geometry>(window, net_, hulls_), {s, 1.0, 1}, hits);
-    if (std::isnan(hits.n[0])) continue;
-    out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
-    // One more step, since u and v themselves are wanted here.
-    const int cell = hits.cell[0];
-    const SectionPoint p = section.point(cell, hits.v[0], hits.u[0]);
-    const double step = std::abs(s - p.s) < kPolish * std::abs(p.ds) ? (s - p.s) / p.ds : 0.0;
-    const double v = std::clamp(hits.v[0] + step, cell + 1.0, cell + 2.0), u = p.u + step * p.du;
-    out[i].u = kIsWheel<Geometry> ? wrap_angle(u) : u;
-    out[i].v = v;
-    const SliceNet::Place place = net_.find(u);
-    const double f = v - (cell + 1);
-    set_geometry(geometry_.derivatives(u, net_.at(place, cell, f), net_.second_at(place, cell, f)),
-                 out[i]);
-  }
+  for_hits(net_, hulls_, geometry_, X_SP, points_P,
+           [&](const ListedPoint& at, const SliceSection<Geometry>& section, const ColumnHits& hits) {
+             SurfacePoint& found = out[at.index];
+             found = {};
+             if (std::isnan(hits.n[0])) return;
+             found.status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
+             // One more step, since u and v themselves are wanted here.
+             const int cell = hits.cell[0];
+             const SectionPoint p = section.point(cell, hits.v[0], hits.u[0]);
+             const double step = std::abs(at.along - p.s) < kPolish * std::abs(p.ds) ? (at.along - p.s) / p.ds : 0.0;
+             const double v = std::clamp(hits.v[0] + step, cell + 1.0, cell + 2.0), u = p.u + step * p.du;
+             found.u = kIsWheel<Geometry> ? wrap_angle(u) : u;
+             found.v = v;
+             const SliceNet::Place place = net_.find(u);
+             const double f = v - (cell + 1);
+             set_geometry(geometry_.derivatives(u, net_.at(place, cell, f), net_.second_at(place, cell, f)), found);
+           });
 }
 
 template <class Geometry>
