@@ -1,0 +1,200 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/displacement/displaced_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+#include <utility>
+#include <vector>
+
+#include "treadmark/backends/displacement/displaced_points.hpp"
+#include "treadmark/backends/displacement/natural_point.hpp"
+#include "treadmark/backends/displacement/reach.hpp"
+#include "treadmark/backends/displacement/shape.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::displacement {
+
+namespace {
+
+/// Ends of the whole surface; fields are not asked about infinities.
+constexpr double kFar = 1e30;
+
+class DisplacedSurface final : public Surface {
+ public:
+  DisplacedSurface(std::shared_ptr<const Surface> base, std::shared_ptr<const OffsetField> field, Body body, std::string backend)
+      : base_(std::move(base)), field_(std::move(field)), body_(body), backend_(std::move(backend)) {
+    const Box3 b = base_->bounds();
+    const double pi = std::numbers::pi;
+    const Rectangle everywhere{body == Body::wheel ? -pi : std::max(b.min.x(), -kFar), body == Body::wheel ? pi : std::min(b.max.x(), kFar),
+                               std::max(b.min.y(), -kFar), std::min(b.max.y(), kFar)};
+    range_ = field_->range(everywhere);
+    if (!std::isfinite(range_.low) || !std::isfinite(range_.high))
+      throw Error(ErrorKind::configuration, "offsets of a surface must be bounded");
+    max_offset_ = greatest(range_);
+  }
+
+  std::string_view backend() const override { return backend_; }
+  Facing facing() const override { return base_->facing(); }
+  std::size_t memory_bytes() const override { return sizeof(*this) + base_->memory_bytes() + field_->memory_bytes(); }
+  Box3 bounds() const override {
+    Box3 b = base_->bounds();
+    if (body_ == Body::rail) {
+      b.min.z() += range_.low, b.max.z() += range_.high;
+    } else {
+      const double grown = std::max(0.0, range_.high);
+      b.min.x() -= grown, b.max.x() += grown, b.min.z() -= grown, b.max.z() += grown;
+    }
+    return b;
+  }
+
+ private:
+  void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
+  void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+
+  View view(const Pose& X_SP) const { return {*base_, *field_, body_, X_SP}; }
+  /// Whether no offset reaches any height over the rectangle.
+  bool undisturbed(const View& view, const Rectangle& r) const {
+    const HeightBounds near = base_->height_bounds(view.X_SP, enlarged(r, max_offset_));
+    return near.empty ||
+           field_->range(view.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_})).zero();
+  }
+
+  std::shared_ptr<const Surface> base_;
+  std::shared_ptr<const OffsetField> field_;
+  Body body_;
+  std::string backend_;
+  OffsetRange range_;
+  double max_offset_ = 0.0;
+};
+
+/// Arrays for everything: the caller's where there are some.
+struct Arrays {
+  std::vector<double> own[3];
+  std::span<double> z, dzdx, dzdy;
+  Arrays(const HeightsOut& out, std::size_t n) {
+    const auto take = [&](std::span<double> given, std::vector<double>& spare) {
+      if (given.size() == n) return given;
+      spare.resize(n);
+      return std::span<double>(spare);
+    };
+    z = take(out.z, own[0]);
+    dzdx = take(out.dzdx, own[1]);
+    dzdy = take(out.dzdy, own[2]);
+  }
+  void put(const PlanePoint& p) { z[p.index] = p.z, dzdx[p.index] = p.dzdx, dzdy[p.index] = p.dzdy; }
+};
+
+void DisplacedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const Grid2& g = plane_grid.grid;
+  const View seen = view(plane_grid.X_SP);
+  if (undisturbed(seen, {g.x(0), g.x(g.nx - 1), g.y(0), g.y(g.ny - 1)})) return base_->heights(plane_grid, out);
+  Arrays all(out, g.size());
+  base_->heights(plane_grid, {all.z, all.dzdx, all.dzdy});
+
+  // Bands of rows, each band in square blocks: what lies together is judged together.
+  constexpr int kBlock = 8;
+  const auto band = [&](std::size_t which) {
+    const int first = static_cast<int>(which) * kBlock, last = std::min(first + kBlock, g.ny);
+    std::vector<PlanePoint> points;
+    points.reserve(static_cast<std::size_t>(g.nx) * kBlock);
+    for (int bx = 0; bx < g.nx; bx += kBlock)
+      for (int iy = first; iy < last; ++iy)
+        for (int ix = bx; ix < std::min(bx + kBlock, g.nx); ++ix) {
+          const std::size_t i = g.index(ix, iy);
+          points.push_back({i, g.x(ix), g.y(iy), all.z[i], all.dzdx[i], all.dzdy[i]});
+        }
+    DisplacedPoints(seen, max_offset_).solve(points);
+    for (const PlanePoint& p : points) all.put(p);
+  };
+  const std::size_t bands = static_cast<std::size_t>((g.ny + kBlock - 1) / kBlock);
+  constexpr std::size_t kWorthThreads = 1000;
+  if (g.size() < kWorthThreads)
+    for (std::size_t b = 0; b < bands; ++b) band(b);
+  else
+    parallel_for(bands, band);
+}
+
+void DisplacedSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  const std::size_t n = points_P.size();
+  if (n == 0) return;
+  const View seen = view(X_SP);
+  Arrays all(out, n);
+  base_->heights_at(X_SP, points_P, {all.z, all.dzdx, all.dzdy});
+  std::vector<PlanePoint> points;
+  points.reserve(n);
+  for (std::size_t i = 0; i < n; ++i)
+    points.push_back({i, points_P[i].x(), points_P[i].y(), all.z[i], all.dzdx[i], all.dzdy[i]});
+  DisplacedPoints(seen, max_offset_).solve(points);
+  for (const PlanePoint& p : points) all.put(p);
+}
+
+void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  std::fill(out.begin(), out.end(), SurfacePoint{});
+  const std::size_t n = points_P.size();
+  std::vector<double> z(n), dzdx(n), dzdy(n);
+  heights_at(X_SP, points_P, {z, dzdx, dzdy});
+  std::vector<std::size_t> hit;
+  std::vector<Vec2> moved;
+  std::vector<Vec3> position;
+  std::vector<OffsetJet> offset;
+  for (std::size_t i = 0; i < n; ++i) {
+    if (std::isnan(z[i])) continue;
+    const Vec3 q = X_SP.apply({points_P[i].x(), points_P[i].y(), z[i]});
+    const NaturalPoint at(body_, q);
+    const OffsetJet d = field_->jet(at.u, at.y);
+    const Vec3 e = X_SP.rotation.transpose() * at.e;
+    hit.push_back(i);
+    moved.push_back({points_P[i].x() - d.value * e.x(), points_P[i].y() - d.value * e.y()});
+    position.push_back(q);
+    offset.push_back(d);
+  }
+  std::vector<SurfacePoint> below(hit.size());
+  base_->locate(X_SP, moved, below);
+  for (std::size_t k = 0; k < hit.size(); ++k) {
+    const NaturalPoint at(body_, position[k]);
+    SurfacePoint& p = out[hit[k]];
+    if (below[k].status == LocateStatus::outside) {  // on the rim, where rounding decides
+      const double side = body_ == Body::wheel ? 1.0 : -1.0;
+      p.position_S = position[k];
+      p.normal_S = side * (X_SP.rotation * Vec3(-dzdx[hit[k]], -dzdy[hit[k]], 1.0)).normalized();
+      p.u = at.u;
+      p.status = LocateStatus::converged;
+      continue;
+    }
+    fill_shape(*base_, body_, position[k], position[k] - offset[k].value * at.e, below[k].normal_S, offset[k], p);
+    p.v = below[k].v;
+    p.status = below[k].status == LocateStatus::ambiguous ? LocateStatus::ambiguous : LocateStatus::converged;
+  }
+}
+
+HeightBounds DisplacedSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
+  const View seen = view(X_SP);
+  const HeightBounds near = base_->height_bounds(X_SP, enlarged(r, max_offset_));
+  if (near.empty) return near;
+  const Rectangle uy = seen.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_});
+  const OffsetRange offsets = field_->range(uy);
+  if (offsets.zero()) return base_->height_bounds(X_SP, r);
+  const View::Directions e = seen.directions(uy);
+  const HeightBounds source = base_->height_bounds(X_SP, View::moved_back(r, offsets, e));
+  if (source.empty) return source;
+  const Interval shift = View::along_normal(offsets, e);
+  return {source.z_min + shift.low, source.z_max + shift.high, false};
+}
+
+}  // namespace
+
+std::shared_ptr<const Surface> make_displaced_surface(std::shared_ptr<const Surface> base, std::shared_ptr<const OffsetField> field,
+                                                      Body body, std::string backend) {
+  if (!base || !field) throw Error(ErrorKind::configuration, "a displaced surface needs a base and offsets");
+  if ((base->facing() == Facing::down) != (body == Body::wheel))
+    throw Error(ErrorKind::configuration, body == Body::wheel ? "offsets of a wheel need a base that faces down, as wheels do"
+                                                              : "offsets of a rail need a base that faces up, as rails do");
+  return std::make_shared<DisplacedSurface>(std::move(base), std::move(field), body, std::move(backend));
+}
+
+}  // namespace treadmark::displacement

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/backends/displacement/offset_field.hpp"
+#include "treadmark/core/profile.hpp"
+
+namespace treadmark::displacement {
+
+struct Interval {
+  double low = 0.0, high = 0.0;
+};
+
+/// A base, its offsets and the plane they are seen from, with conservative answers about boxes (x, y, t) of the plane frame P.
+struct View {
+  const Surface& base;
+  const OffsetField& field;
+  Body body;
+  Pose X_SP;
+
+  double side() const { return body == Body::wheel ? 1.0 : -1.0; }  ///< sign of t towards the other body
+
+  /// All (u, y) of a rectangle of P times the heights [t_low, t_high].
+  Rectangle natural_box(const Rectangle& r, const Interval& t) const;
+
+  /// Direction of the offset, in P, over a range of u.
+  struct Directions {
+    Interval e[3];
+  };
+  Directions directions(const Rectangle& uy) const;
+
+  /// Where points go that lie over r and are moved back by the offsets of range.
+  static Rectangle moved_back(const Rectangle& r, const OffsetRange& range, const Directions& e);
+  static Interval along_normal(const OffsetRange& range, const Directions& e);
+};
+
+Interval operator*(const Interval& a, const Interval& b);
+Rectangle enlarged(const Rectangle& r, double by);
+double greatest(const OffsetRange& range);
+
+}  // namespace treadmark::displacement

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/backends/displacement/offset_field.hpp"
+#include "treadmark/core/profile.hpp"
+
+namespace treadmark::displacement {
+
+/// Normal and principal curvatures of the displaced surface at q [surface frame]; c = q moved back lies on the base, whose
+/// outward unit normal there is normal. Second derivatives of the base are central differences of its slopes in its own
+/// tangent plane over +-1e-5 m, those of the offsets are exact.
+void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, const Vec3& normal, const OffsetJet& offset,
+                SurfacePoint& point);
+
+}  // namespace treadmark::displacement
