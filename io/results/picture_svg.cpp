@@ -12,6 +12,8 @@
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/picture_patch.hpp"
+#include "treadmark/io/results/svg_panel.hpp"
+#include "treadmark/io/results/svg_text.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -112,58 +114,10 @@ Layout make_layout(const std::vector<CasePicture>& cases) {
   return layout;
 }
 
-std::string text(double x, double y, const std::string& words, const char* anchor = "middle", const char* more = "") {
-  std::string safe;
-  for (const char c : words) {
-    if (c == '&')
-      safe += "&amp;";
-    else if (c == '<')
-      safe += "&lt;";
-    else if (c == '>')
-      safe += "&gt;";
-    else
-      safe += c;
-  }
-  return fmt::format("<text x=\"{:.1f}\" y=\"{:.1f}\" text-anchor=\"{}\"{}>{}</text>\n", x, y, anchor, more, safe);
-}
-
-/// Three significant digits or all before the point.
-std::string three_digits(double value) {
-  return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
-}
-
-/// Round step of an axis with at most six intervals.
-double tick_step(double length) {
-  const double rough = length / 6.0, power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10.0 * power;
-}
-
-std::string draw_axes(const Layout& layout, const Window& window) {
-  const double width = layout.panel_width(), height = layout.panel_height();
-  std::string out;
-  const auto ticks = [](double low, double high, auto&& mark) {
-    const double step = tick_step(high - low);
-    for (double i = std::ceil(low / step); i * step <= high; ++i) mark(i * step + 0.0);
-  };
-  ticks(window.x_low, window.x_high, [&](double value) {
-    const double x = (value - window.x_low) * layout.scale_x;
-    out += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v4\"/>\n", x, height);
-    out += text(x, height + 14.0, fmt::format("{:.6g}", value));
-  });
-  ticks(window.y_low, window.y_high, [&](double value) {
-    const double y = (window.y_high - value) * layout.scale_y;
-    out += fmt::format("<path class=\"tick\" d=\"M0 {:.1f}h-4\"/>\n", y);
-    out += text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
-  });
-  return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
-}
-
 std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index,
                        int case_count) {
   const CaseResult& result = *picture.result;
-  const Window window = layout.window(picture);
+  const PanelScale panel{layout.window(picture), layout.scale_x, layout.scale_y};
   const double width = layout.panel_width(), height = layout.panel_height();
   const int column = index % layout.columns, row = index / layout.columns;
   std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n",
@@ -171,54 +125,40 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, double 
 
   const std::string title = result.has_wheelset ? fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi)
                                                 : fmt::format("case {}", result.number);
-  out += text(0.5 * width, -20.0, title, "middle", " class=\"title\"");
+  out += svg_text(0.5 * width, -20.0, title, "middle", " class=\"title\"");
   if (picture.contact) {
     double force = 0.0, pressure = 0.0;
     for (const PatchResult& patch : result.patches) {
       force += patch.fn;
       pressure = std::max(pressure, patch.pmax);
     }
-    out += text(0.5 * width, -7.0, three_digits(force * 1e-3) + " kN, " + three_digits(pressure * 1e-6) + " MPa");
-    for (const PatchPicture& patch : picture.patches)
-      out += draw_patch(patch, top_pressure, {window, layout.scale_x, layout.scale_y});
+    out += svg_text(0.5 * width, -7.0, three_digits(force * 1e-3) + " kN, " + three_digits(pressure * 1e-6) + " MPa");
+    for (const PatchPicture& patch : picture.patches) out += draw_patch(patch, top_pressure, panel);
   } else {
     std::string words(to_string(result.status));
     std::replace(words.begin(), words.end(), '_', ' ');
-    out += text(0.5 * width, 0.5 * height, result.status == Status::ok ? "no fields" : words);
+    out += svg_text(0.5 * width, 0.5 * height, result.status == Status::ok ? "no fields" : words);
   }
-  out += draw_axes(layout, window);
+  out += draw_panel_axes(panel);
   if (column == 0)
-    out += text(-40.0, 0.5 * height, "y [mm]", "middle",
-                fmt::format(" transform=\"rotate(-90 -40 {:.1f})\"", 0.5 * height).c_str());
-  if (index + layout.columns >= case_count) out += text(0.5 * width, height + 28.0, "x [mm]");
+    out += svg_text(-40.0, 0.5 * height, "y [mm]", "middle",
+                    fmt::format(" transform=\"rotate(-90 -40 {:.1f})\"", 0.5 * height).c_str());
+  if (index + layout.columns >= case_count) out += svg_text(0.5 * width, height + 28.0, "x [mm]");
   return out + "</g>\n";
 }
 
 std::string draw_legend(const Layout& layout, double top_pressure) {
-  constexpr double kBarWidth = 14.0;
   const double height = std::min(layout.picture_height() - kTop - kBottom - 56.0, 240.0);
   std::string out =
       fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", layout.picture_width() - kLegend + 32.0, kTop);
-  out += text(0.0, -7.0, "pressure [MPa]", "start");
-  const double step_height = height / kPressureSteps;
-  for (int step = 0; step < kPressureSteps; ++step)
-    out += fmt::format("<rect x=\"0\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-                       height - (step + 1) * step_height, kBarWidth, step_height + 0.2, step_colour(step));
-  const double top_mpa = top_pressure * 1e-6;
-  if (top_mpa > 0.0) {
-    const double step = tick_step(top_mpa);
-    for (double i = 0.0; i * step <= top_mpa; ++i) {
-      const double y = height * (1.0 - i * step / top_mpa);
-      out += fmt::format("<path class=\"tick\" d=\"M{} {:.1f}h4\"/>\n", kBarWidth, y);
-      out += text(kBarWidth + 7.0, y + 3.5, fmt::format("{:.4g}", i * step), "start");
-    }
-  }
+  out += svg_text(0.0, -7.0, "pressure [MPa]", "start");
+  out += draw_pressure_bar(top_pressure, height);
   out += fmt::format("<path class=\"contact\" d=\"M0 {:.1f}h14\"/>\n", height + 20.0);
-  out += text(20.0, height + 23.5, "edge of contact", "start");
+  out += svg_text(20.0, height + 23.5, "edge of contact", "start");
   out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"14\" height=\"10\" fill=\"{}\"/>\n", height + 33.0,
                      step_colour(kPressureSteps / 2));
   out += fmt::format("<path class=\"adhesion\" d=\"M0 {:.1f}h14\"/>\n", height + 38.0);
-  out += text(20.0, height + 41.5, "edge of adhesion", "start");
+  out += svg_text(20.0, height + 41.5, "edge of adhesion", "start");
   return out + "</g>\n";
 }
 
@@ -234,14 +174,7 @@ std::string pressure_svg(const RunResult& run) {
   }
   const Layout layout = make_layout(cases);
 
-  std::string out = fmt::format(
-      "<svg xmlns=\"http://www.w3.org/2000/svg\" width=\"{0:.0f}\" height=\"{1:.0f}\" viewBox=\"0 0 {0:.0f} {1:.0f}\" "
-      "font-family=\"sans-serif\" font-size=\"10\" fill=\"#222222\">\n"
-      "<style>.title{{font-size:12px;font-weight:bold}}.tick{{fill:none;stroke:#666666;stroke-width:.7}}"
-      ".contact{{fill:none;stroke:#1a1a2e;stroke-width:1.2}}.adhesion{{fill:none;stroke:#ffffff;stroke-width:1.2}}</"
-      "style>\n"
-      "<rect width=\"100%\" height=\"100%\" fill=\"#ffffff\"/>\n",
-      layout.picture_width(), layout.picture_height());
+  std::string out = svg_head(layout.picture_width(), layout.picture_height(), 10, kPanelStyle);
   int index = 0;
   for (const CasePicture& picture : cases)
     out += draw_panel(picture, layout, top_pressure, index++, static_cast<int>(cases.size()));

@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/chart_draw.hpp"
+
+#include <fmt/format.h>
+
+#include "treadmark/io/results/chart_marker.hpp"
+#include "treadmark/io/results/svg_text.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr double kLabelFont = 11.0;  // as in kChartStyle
+
+/// Axes of a chart and where values lie in the picture [px].
+class Frame {
+ public:
+  Frame(const Chart& chart, const ChartBox& box)
+      : box_(box),
+        x_(chart.x_scale, values(chart, true), chart.x_floor),
+        y_(chart.y_scale, values(chart, false), chart.y_floor) {}
+
+  std::optional<double> x(double value) const {
+    const auto at = x_.place(value);
+    return at ? std::optional(x_at(*at)) : std::nullopt;
+  }
+  std::optional<double> y(double value) const {
+    const auto at = y_.place(value);
+    return at ? std::optional(y_at(*at)) : std::nullopt;
+  }
+  bool at_floor(const ChartPoint& point) const { return x_.at_floor(point.x) || y_.at_floor(point.y); }
+  const ChartBox& box() const { return box_; }
+
+  std::string grid() const {
+    std::string lines, numbers;
+    for (const AxisTick& tick : x_.ticks()) {
+      lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid",
+                           x_at(tick.at), box_.y, box_.height);
+      if (!tick.label.empty()) numbers += svg_text(x_at(tick.at), box_.y + box_.height + 16.0, tick.label);
+    }
+    for (const AxisTick& tick : y_.ticks()) {
+      lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid",
+                           box_.x, y_at(tick.at), box_.width);
+      if (!tick.label.empty()) numbers += svg_text(box_.x - 6.0, y_at(tick.at) + 4.0, tick.label, "end");
+    }
+    return lines + numbers;
+  }
+
+ private:
+  static std::vector<double> values(const Chart& chart, bool of_x) {
+    std::vector<double> out;
+    for (const ChartSeries& series : chart.series) {
+      for (const ChartPoint& point : series.points) out.push_back(of_x ? point.x : point.y);
+      if (!of_x) out.insert(out.end(), series.levels.begin(), series.levels.end());
+    }
+    return out;
+  }
+  double x_at(double part) const { return box_.x + part * box_.width; }
+  double y_at(double part) const { return box_.y + (1.0 - part) * box_.height; }
+
+  ChartBox box_;
+  ChartAxis x_, y_;
+};
+
+std::string marker(int style, double x, double y, double radius, bool hollow, const std::string& details = {}) {
+  const std::string_view colour = chart_colour(style);
+  std::string out = fmt::format("<path class=\"mark\" stroke=\"{}\" fill=\"{}\" fill-opacity=\"{}\" d=\"{}\"", colour,
+                                hollow ? std::string_view("#ffffff") : colour, hollow ? 1 : 0.85,
+                                chart_marker_path(style, x, y, radius));
+  return out + (details.empty() ? "/>\n" : "><title>" + xml_text(details) + "</title></path>\n");
+}
+
+std::string draw_lines(const ChartSeries& series, const Frame& frame) {
+  std::string out;
+  for (const double level : series.levels)
+    if (const auto y = frame.y(level))
+      out += fmt::format("<path class=\"level\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n",
+                         chart_colour(series.style), frame.box().x, *y, frame.box().width);
+  if (!series.joined) return out;
+  std::string path;
+  bool open = false;
+  for (const ChartPoint& point : series.points) {
+    const auto x = frame.x(point.x), y = frame.y(point.y);
+    if (x && y) path += fmt::format("{}{:.1f} {:.1f}", open ? 'L' : 'M', *x, *y);
+    open = x && y;
+  }
+  if (!path.empty())
+    out += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"{}\"/>\n", chart_colour(series.style), path);
+  return out;
+}
+
+std::string draw_points(const Chart& chart, const Frame& frame) {
+  std::string out;
+  std::vector<LabelPoint> labels;
+  for (const ChartSeries& series : chart.series)
+    for (const ChartPoint& point : series.points) {
+      const auto x = frame.x(point.x), y = frame.y(point.y);
+      if (!x || !y) continue;
+      out += marker(series.style, *x, *y, point.radius, frame.at_floor(point), point.details);
+      labels.push_back({*x, *y, point.radius, point.label});
+    }
+  const std::vector<LabelPlace> places = place_labels(labels, frame.box(), kLabelFont);
+  for (std::size_t i = 0; i < labels.size(); ++i)
+    if (!labels[i].text.empty()) out += svg_text(places[i].x, places[i].y, labels[i].text, "start", " class=\"label\"");
+  return out;
+}
+
+}  // namespace
+
+std::string draw_chart(const Chart& chart, const ChartBox& box) {
+  const Frame frame(chart, box);
+  std::string out = "<g class=\"chart\">\n" + frame.grid();
+  for (const ChartSeries& series : chart.series) out += draw_lines(series, frame);
+  out += fmt::format("<rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", box.x,
+                     box.y, box.width, box.height);
+  out += draw_points(chart, frame);
+  const double middle = box.x + 0.5 * box.width, left = box.x - 46.0, centre = box.y + 0.5 * box.height;
+  out += svg_text(middle, box.y - 8.0, chart.title, "middle", " class=\"title\"");
+  out += svg_text(middle, box.y + box.height + 36.0, chart.x_label);
+  out += svg_text(left, centre, chart.y_label, "middle",
+                  fmt::format(" transform=\"rotate(-90 {:.1f} {:.1f})\"", left, centre).c_str());
+  return out + "</g>\n";
+}
+
+std::string draw_chart_legend(const std::vector<ChartSeries>& series, double x, double y) {
+  std::string out = "<g class=\"legend\">\n";
+  for (const ChartSeries& item : series) {
+    const bool line = item.joined && !item.points.empty(), dashed = item.points.empty() && !item.levels.empty();
+    if (line || dashed)
+      out += fmt::format("<path class=\"{}\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h28\"/>\n", line ? "line" : "level",
+                         chart_colour(item.style), x, y);
+    if (!item.points.empty()) out += marker(item.style, x + 14.0, y, 4.5, false);
+    out += svg_text(x + 36.0, y + 4.0, item.name, "start");
+    y += kLegendLine;
+  }
+  return out + "</g>\n";
+}
+
+}  // namespace treadmark::io

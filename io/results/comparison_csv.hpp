@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "treadmark/io/results/comparison_model.hpp"
+
+namespace treadmark::io {
+
+/// The rows of a comparison as comma-separated values (RFC 4180, lines ended by a line feed): a head with the names of
+/// the rows in the JSON file, then one line a row. What is null or absent there is empty here. Thread-safe.
+std::string to_csv(const Comparison& comparison);
+
+/// Writes the text to a file that appears only when complete. Errors: Error(configuration).
+void write_csv(const std::filesystem::path& path, const Comparison& comparison);
+
+}  // namespace treadmark::io

@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "treadmark/io/results/comparison_model.hpp"
+
+namespace treadmark::io {
+
+/// Pictures of a comparison as SVG text without scripts. All functions are thread-safe; an empty comparison gives an
+/// empty picture.
+
+/// Pressure of the patch that carries most of the load, a column a candidate and a row for each of up to three cases:
+/// the first one, and those in which the errors of the largest pressure differ most between the candidates (the earlier
+/// case where they are equal), in the order of the cases. A row has one window and one scale of colours.
+/// Errors: Error(configuration) for fields that do not match their grid.
+std::string pressures_svg(const Comparison& comparison);
+
+/// Largest error of the largest pressure [%] and largest deviation of the surfaces [um] over the resolution [mm], both
+/// axes logarithmic, a line a backend. Candidates without a resolution are dashed levels; the truth is not shown.
+/// Values below 0.001 are drawn there as hollow markers.
+std::string error_svg(const Comparison& comparison);
+
+/// Accuracy against cost: largest error of the largest pressure [%] over the mean time of search and distance per case
+/// [ms], both axes logarithmic; the area of a marker grows with the memory. Errors below 0.001 % are drawn there as
+/// hollow markers. Candidates that cannot be drawn are named below the chart.
+std::string cost_svg(const Comparison& comparison);
+
+/// Write the pictures to files that appear only when complete. Errors: as above, and Error(configuration).
+void write_pressures_svg(const std::filesystem::path& path, const Comparison& comparison);
+void write_error_svg(const std::filesystem::path& path, const Comparison& comparison);
+void write_cost_svg(const std::filesystem::path& path, const Comparison& comparison);
+
+}  // namespace treadmark::io

@@ -1,0 +1,120 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/comparison_table.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include "treadmark/io/results/comparison_digest.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr std::size_t kColumns = 14;
+using Line = std::array<std::string, kColumns>;
+
+const std::array<Line, 3> kHead{{
+    {"backend", "resolution", "height", "height", "slope", "pmax", "force", "position", "area", "search", "distance",
+     "build", "memory", "cases"},
+    {"", "", "max", "rms", "max", "error", "error", "error", "error", "", "", "", "", "ok"},
+    {"", "[mm]", "[um]", "[um]", "[mrad]", "[%]", "[%]", "[mm]", "[%]", "[ms]", "[ms]", "[s]", "[MB]", ""},
+}};
+
+/// Three significant digits, without an exponent where the number is of ordinary size.
+std::string digits(double value) {
+  if (!std::isfinite(value)) return "-";
+  const double size = std::abs(value);
+  return size >= 99.95 && size < 1e9 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
+}
+
+/// On one line.
+std::string flat(std::string text) {
+  std::replace_if(
+      text.begin(), text.end(), [](char c) { return c == '\n' || c == '\r' || c == '\t'; }, ' ');
+  return text;
+}
+
+/// Characters, not bytes: UTF-8 continues a character with 10xxxxxx.
+std::size_t width(const std::string& text) {
+  return static_cast<std::size_t>(
+      std::count_if(text.begin(), text.end(), [](char c) { return (static_cast<unsigned char>(c) & 0xC0) != 0x80; }));
+}
+
+Line candidate_line(const ComparisonCandidate& candidate, bool truth) {
+  const CandidateDigest all = digest(candidate);
+  Line line;
+  line[0] = flat(candidate.name) + (truth ? " (truth)" : "");
+  line[1] = candidate.resolution == 0.0 ? "-" : digits(candidate.resolution * 1e3);
+  if (!candidate.failure.empty()) {
+    std::fill(line.begin() + 2, line.end(), std::string(1, '-'));
+    line.back() = "failed";
+    return line;
+  }
+  const double values[] = {all.height_max * 1e6,
+                           all.height_rms * 1e6,
+                           all.slope_max * 1e3,
+                           all.pmax_error * 1e2,
+                           all.force_error * 1e2,
+                           all.position_error * 1e3,
+                           all.area_error * 1e2,
+                           all.search_s * 1e3,
+                           all.distance_s * 1e3,
+                           all.build_s,
+                           static_cast<double>(all.memory_bytes) * 1e-6};
+  std::transform(std::begin(values), std::end(values), line.begin() + 2, digits);
+  line.back() = fmt::format("{}/{}", all.ok, all.total);
+  return line;
+}
+
+/// What the numbers above do not say: "mesh 0.5 mm, case 3: failed (why)".
+std::string remarks(const ComparisonCandidate& candidate) {
+  const std::string label = flat(candidate_label(candidate));
+  std::string out;
+  if (!candidate.failure.empty()) out += fmt::format("{}: failed: {}\n", label, flat(candidate.failure));
+  for (const ComparisonRow& row : candidate.rows) {
+    if (row.status == Status::ok) continue;
+    out += fmt::format("{}, case {}: {}", label, row.case_number, to_string(row.status));
+    out += row.message.empty() ? "\n" : fmt::format(" ({})\n", flat(row.message));
+  }
+  const auto note = [&](const char* name, const RepresentedBody& body) {
+    if (!body.note.empty()) out += fmt::format("{}, {}: {}\n", label, name, flat(body.note));
+    if (body.difference.missing > 0)
+      out += fmt::format("{}, {}: no surface at {} points where the truth has one\n", label, name,
+                         body.difference.missing);
+  };
+  note("wheel", candidate.wheel);
+  note("rail", candidate.rail);
+  return out;
+}
+
+}  // namespace
+
+std::string comparison_table(const Comparison& comparison) {
+  std::vector<Line> lines(kHead.begin(), kHead.end());
+  for (const ComparisonCandidate& candidate : comparison.candidates)
+    lines.push_back(candidate_line(candidate, &candidate == comparison.candidates.data()));
+
+  std::array<std::size_t, kColumns> widths{};
+  for (const Line& line : lines)
+    for (std::size_t i = 0; i < kColumns; ++i) widths[i] = std::max(widths[i], width(line[i]));
+
+  std::string out;
+  for (const Line& line : lines) {
+    out += line[0];
+    out.append(widths[0] - width(line[0]), ' ');
+    for (std::size_t i = 1; i < kColumns; ++i) {
+      out.append(2 + widths[i] - width(line[i]), ' ');
+      out += line[i];
+    }
+    out += '\n';
+  }
+  for (const ComparisonCandidate& candidate : comparison.candidates) out += remarks(candidate);
+  if (!comparison.complete) out += "interrupted: some candidates or cases are missing\n";
+  return out;
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,51 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/svg_panel.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "treadmark/io/results/svg_text.hpp"
+
+namespace treadmark::io {
+
+std::string draw_panel_axes(const PanelScale& panel) {
+  const Window& window = panel.window;
+  const double width = window.width() * panel.scale_x, height = window.height() * panel.scale_y;
+  std::string out;
+  const auto ticks = [](double low, double high, auto&& mark) {
+    const double step = tick_step(high - low);
+    for (double i = std::ceil(low / step); i * step <= high; ++i) mark(i * step + 0.0);
+  };
+  ticks(window.x_low, window.x_high, [&](double value) {
+    const double x = (value - window.x_low) * panel.scale_x;
+    out += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v4\"/>\n", x, height);
+    out += svg_text(x, height + 14.0, fmt::format("{:.6g}", value));
+  });
+  ticks(window.y_low, window.y_high, [&](double value) {
+    const double y = (window.y_high - value) * panel.scale_y;
+    out += fmt::format("<path class=\"tick\" d=\"M0 {:.1f}h-4\"/>\n", y);
+    out += svg_text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
+  });
+  return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
+}
+
+std::string draw_pressure_bar(double top_pressure, double height) {
+  std::string out;
+  const double step_height = height / kPressureSteps;
+  for (int step = 0; step < kPressureSteps; ++step)
+    out += fmt::format("<rect x=\"0\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+                       height - (step + 1) * step_height, kPressureBarWidth, step_height + 0.2, step_colour(step));
+  const double top_mpa = top_pressure * 1e-6;
+  if (!(top_mpa > 0.0)) return out;
+  const double step = tick_step(top_mpa);
+  for (double i = 0.0; i * step <= top_mpa; ++i) {
+    const double y = height * (1.0 - i * step / top_mpa);
+    out += fmt::format("<path class=\"tick\" d=\"M{} {:.1f}h4\"/>\n", kPressureBarWidth, y);
+    out += svg_text(kPressureBarWidth + 7.0, y + 3.5, fmt::format("{:.4g}", i * step), "start");
+  }
+  return out;
+}
+
+}  // namespace treadmark::io

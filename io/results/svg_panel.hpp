@@ -1,0 +1,19 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <string>
+
+#include "treadmark/io/results/picture_patch.hpp"
+
+namespace treadmark::io {
+
+/// Frame, ticks and their numbers [mm] of a panel whose upper left corner is the origin. Thread-safe.
+std::string draw_panel_axes(const PanelScale& panel);
+
+/// The colours of pressure from 0 to top_pressure [Pa] as an upright bar with its upper left corner at the origin,
+/// numbers in MPa to the right. Thread-safe.
+std::string draw_pressure_bar(double top_pressure, double height);
+inline constexpr double kPressureBarWidth = 14.0;  // [px]
+
+}  // namespace treadmark::io
