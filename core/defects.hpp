@@ -109,13 +109,13 @@ struct MillingPath {
 
 /// Everything that is wrong with one surface. Depths of several shapes add up; milling comes last.
 struct Defects {
-  std::vector<WheelFlat> flats;                ///< wheel only
-  std::vector<Polygonization> polygonizations; ///< wheel only
-  std::vector<Squat> squats;                   ///< the rest: rail only
-  std::vector<Corrugation> corrugations;
-  std::vector<GaugeCornerCollapse> gauge_corner_collapses;
-  std::vector<FlattenedHead> flattened_heads;
-  std::vector<MillingPath> milling_paths;
+  std::vector<WheelFlat> flats{};                ///< wheel only
+  std::vector<Polygonization> polygonizations{}; ///< wheel only
+  std::vector<Squat> squats{};                   ///< the rest: rail only
+  std::vector<Corrugation> corrugations{};
+  std::vector<GaugeCornerCollapse> gauge_corner_collapses{};
+  std::vector<FlattenedHead> flattened_heads{};
+  std::vector<MillingPath> milling_paths{};
 
   bool on_wheel() const { return !flats.empty() || !polygonizations.empty(); }
   bool on_rail() const {

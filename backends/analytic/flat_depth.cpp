@@ -6,7 +6,6 @@
 #include <cmath>
 #include <numbers>
 
-#include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::analytic {
@@ -16,15 +15,9 @@ constexpr double kPi = std::numbers::pi;
 }
 
 FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
+  check_defects({.flats = flats}, Body::wheel, R);
   for (const WheelFlat& given : flats) {
     const bool fresh = given.shape == WheelFlat::Shape::fresh;
-    if (!(given.length > 0.0) || !(given.length < (fresh ? 2.0 : 2.0 * kPi) * R))
-      throw Error(ErrorKind::configuration, "the length of a wheel flat must be positive and fit on the wheel");
-    if (!fresh && (!(given.depth > 0.0) || !(given.depth < 0.5 * R)))
-      throw Error(ErrorKind::configuration, "the depth of a rounded wheel flat must be positive and less than half the radius");
-    if (!(given.width >= 0.0) || !std::isfinite(given.width) || !std::isfinite(given.y_center) ||
-        !std::isfinite(given.theta_center))
-      throw Error(ErrorKind::configuration, "a wheel flat needs a finite place and a width that is not negative");
     Flat f{};
     f.shape = given.shape;
     f.center = wrap_angle(given.theta_center);
@@ -42,6 +35,7 @@ FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
     const double steepest = fresh ? f.chord_radius * std::sin(f.half_angle) / (f.cos_half_angle * f.cos_half_angle)
                                   : 0.5 * f.depth * f.wave_number;
     max_depth_ += f.depth;
+    f.steepest = steepest;
     max_d_theta_ += steepest;
     max_d_y_ += 0.5 * f.depth * f.y_wave_number;
     flats_.push_back(f);
@@ -119,6 +113,38 @@ bool FlatDepth::touches(double theta, double half_range) const {
   for (const Flat& f : flats_)
     if (std::fabs(wrap_angle(theta - f.center)) <= f.half_angle + half_range) return true;
   return false;
+}
+
+FunctionRange FlatDepth::Flat::along_range(double near, double far) const {
+  // both shapes are even and fall from the middle to their ends; the derivative of the fresh one grows outwards
+  if (near >= half_angle) return {};
+  const bool ends = far >= half_angle;
+  far = std::min(far, half_angle);
+  double low, high, d1, d2, outermost;
+  along(near, high, d1, d2);
+  along(far, low, outermost, d2);
+  if (ends) low = 0.0;
+  if (shape == WheelFlat::Shape::fresh) return {low, high, std::fabs(outermost)};
+  return {low, high, steepest * cosine_range(wave_number * near, wave_number * far).max_d};
+}
+
+FlatDepth::Range FlatDepth::range(double theta, double half_range, double y_min, double y_max) const {
+  Range sum;
+  for (const Flat& f : flats_) {
+    // distances from the middle that occur, on the circle
+    const double middle = std::fabs(wrap_angle(theta - f.center));
+    double near = std::max(0.0, middle - half_range), far = middle + half_range;
+    if (far > kPi) {
+      near = std::max(0.0, std::min(near, 2.0 * kPi - far));
+      far = kPi;
+    }
+    const FunctionRange a = f.along_range(near, far), b = CosineBump{f.y_center, f.half_width}.range(y_min, y_max);
+    sum.low += a.low * b.low;
+    sum.high += a.high * b.high;
+    sum.max_d_theta += a.max_d * b.high;
+    sum.max_d_y += a.high * b.max_d;
+  }
+  return sum;
 }
 
 }  // namespace treadmark::analytic

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "treadmark/backends/analytic/offset_functions.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
 namespace treadmark::analytic {
@@ -21,7 +22,7 @@ struct DepthJet {
 class FlatDepth {
  public:
   FlatDepth() = default;
-  /// Errors: Error(configuration) for lengths, depths or widths that make no sense on this radius.
+  /// Errors: Error(configuration) as check_defects.
   FlatDepth(const std::vector<WheelFlat>& flats, double nominal_radius);
 
   bool empty() const { return flats_.empty(); }
@@ -34,16 +35,22 @@ class FlatDepth {
   double max_d_y() const { return max_d_y_; }
   /// Angle ranges of the flats: whether any of them comes within half_range of theta.
   bool touches(double theta, double half_range) const;
+  /// Range of D and Lipschitz constants over angles within half_range of theta and y in [y_min, y_max]. Conservative.
+  struct Range {
+    double low = 0.0, high = 0.0, max_d_theta = 0.0, max_d_y = 0.0;
+  };
+  Range range(double theta, double half_range, double y_min, double y_max) const;
   std::size_t memory_bytes() const { return flats_.capacity() * sizeof(Flat); }
 
  private:
   struct Flat {
     WheelFlat::Shape shape;
     double sin_center, cos_center, center, half_angle, cos_half_angle;
-    double radius, depth, chord_radius, wave_number;
+    double radius, depth, chord_radius, wave_number, steepest;
     double y_center, half_width, y_wave_number;
     void along(double phi, double& d, double& d1, double& d2) const;
     void across(double y, double& w, double& w1, double& w2) const;
+    FunctionRange along_range(double near, double far) const;
   };
   std::vector<Flat> flats_;
   double max_depth_ = 0.0, max_d_theta_ = 0.0, max_d_y_ = 0.0;

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/analytic/cut_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include "treadmark/backends/analytic/cut_bounds.hpp"
+#include "treadmark/backends/analytic/cutter_ray.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::analytic {
+
+namespace {
+
+/// Replaces the height z of the base, and its slopes, where the point at it is removed.
+void cut_point(CutterRay& ray, const Pose& X, const Vec3& origin, double z, const HeightsOut& out, std::size_t i) {
+  CutterRay::Hit hit;
+  if (std::isnan(z) || !ray.leave(origin, z, hit)) return;
+  if (!out.z.empty()) out.z[i] = hit.t;
+  if (out.dzdx.empty() && out.dzdy.empty()) return;
+  const Vec3 f = X.rotation.transpose() * hit.gradient;
+  if (!out.dzdx.empty()) out.dzdx[i] = -f.x() / f.z();
+  if (!out.dzdy.empty()) out.dzdy[i] = -f.y() / f.z();
+}
+
+/// Heights of the base in out.z, or beside it if they are not wanted.
+template <class Evaluate>
+std::span<const double> base_heights(const HeightsOut& out, std::size_t count, std::vector<double>& spare, Evaluate evaluate) {
+  HeightsOut base = out;
+  if (out.z.empty()) {
+    spare.resize(count);
+    base.z = spare;
+  }
+  evaluate(base);
+  return base.z;
+}
+
+/// Normal and principal curvatures of the surface bound = 0, which is solid where it is negative.
+void fill_shape(const Vec3& gradient, const Mat3& hessian, SurfacePoint& point) {
+  const double length = gradient.norm();
+  const Vec3 n = gradient / length;
+  const Vec3 t1 = n.unitOrthogonal(), t2 = n.cross(t1);
+  const double a = t1.dot(hessian * t1) / length, b = t1.dot(hessian * t2) / length, c = t2.dot(hessian * t2) / length;
+  const double mean = 0.5 * (a + c), spread = std::hypot(0.5 * (a - c), b);
+  point.normal_S = n;
+  point.curvature_1 = mean + spread;
+  point.curvature_2 = mean - spread;
+}
+
+}  // namespace
+
+Box3 CutSurface::bounds() const {
+  Box3 box = base_->bounds();
+  box.max.z() = std::max(box.max.z(), cutter_.z_max());
+  return box;
+}
+
+void CutSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const Grid2& g = plane_grid.grid;
+  const Pose& X = plane_grid.X_SP;
+  std::vector<double> spare;
+  const auto z = base_heights(out, g.size(), spare, [&](const HeightsOut& base) { base_->heights(plane_grid, base); });
+  const auto row = [&](std::size_t iy) {
+    CutterRay ray(cutter_, X.rotation.col(2));
+    const Vec3 start = X.origin + X.rotation.col(1) * g.y(static_cast<int>(iy));
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const std::size_t i = g.index(ix, static_cast<int>(iy));
+      cut_point(ray, X, start + X.rotation.col(0) * g.x(ix), z[i], out, i);
+    }
+  };
+  constexpr std::size_t kWorthThreads = 10'000;
+  if (g.size() < kWorthThreads)
+    for (std::size_t iy = 0; iy < static_cast<std::size_t>(g.ny); ++iy) row(iy);
+  else
+    parallel_for(static_cast<std::size_t>(g.ny), row);
+}
+
+void CutSurface::do_heights_at(const Pose& X, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  std::vector<double> spare;
+  const auto z = base_heights(out, points_P.size(), spare, [&](const HeightsOut& base) { base_->heights_at(X, points_P, base); });
+  CutterRay ray(cutter_, X.rotation.col(2));
+  for (std::size_t i = 0; i < points_P.size(); ++i)
+    cut_point(ray, X, X.apply({points_P[i].x(), points_P[i].y(), 0.0}), z[i], out, i);
+}
+
+void CutSurface::do_locate(const Pose& X, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  base_->locate(X, points_P, out);
+  const Vec3 n = X.rotation.col(2);
+  CutterRay ray(cutter_, n);
+  Cutter::Hint hint;
+  for (std::size_t i = 0; i < points_P.size(); ++i) {
+    SurfacePoint& point = out[i];
+    if (point.status == LocateStatus::outside) continue;
+    const Vec3 origin = X.apply({points_P[i].x(), points_P[i].y(), 0.0});
+    CutterRay::Hit hit;
+    if (!ray.leave(origin, n.dot(point.position_S - origin), hit)) continue;
+    point.position_S = origin + hit.t * n;
+    point.u = point.position_S.x();
+    point.v = point.position_S.y();
+    fill_shape(hit.gradient, cutter_.hessian(hit.bound, point.position_S, hint), point);
+  }
+}
+
+HeightBounds CutSurface::do_height_bounds(const Pose& X, const Rectangle& rectangle_P) const {
+  return CutBounds(cutter_, X, rectangle_P).heights(base_->height_bounds(X, rectangle_P));
+}
+
+}  // namespace treadmark::analytic

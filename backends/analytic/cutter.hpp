@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <string>
+
+#include "treadmark/backends/analytic/cutter_path.hpp"
+#include "treadmark/backends/analytic/graph_curve.hpp"
+#include "treadmark/core/pose.hpp"
+
+namespace treadmark::analytic {
+
+/// A cutter section q = h(s) swept along a path through a rail: what lies above it, between the ends of the section and
+/// those of the path, is removed. At x the section's origin is at (Y, Z) and it is rolled by r:
+///   s = cos r (y - Y) + sin r (z - Z),   q = -sin r (y - Y) + cos r (z - Z).
+/// Removed is where all bounds are positive: h(s) - q, s - s_min, s_max - s, x - x_min, x_max - x.
+class Cutter {
+ public:
+  /// Errors: Error(configuration), begun with name, if the path is steeper than 45 degrees somewhere or rolls so fast that the
+  /// ends of the section do, or if the rolled section is inclined by more than 80 degrees.
+  Cutter(CutterPath path, GraphCurve section, const std::string& name);
+
+  enum Bound { kSection, kStart, kEnd, kFirst, kLast };  ///< in the order above
+
+  /// A point in cutter coordinates. x beyond the path belongs to its ends, s beyond the section has the h of its ends.
+  struct Place {
+    double s = 0.0, q = 0.0, h = 0.0, dh = 0.0;
+    double s_x = 0.0, q_x = 0.0;
+    double cos = 1.0, sin = 0.0;
+    double gap() const { return h - q; }
+  };
+  /// Pieces found last, so that neighbours need no search. One for each thread.
+  struct Hint {
+    std::size_t path = 0;
+    int section = 0;
+  };
+  Place place(const Vec3& p, Hint& hint) const;
+  bool in_domain(const Place& at, double x) const { return x > x_min_ && x < x_max_ && at.s > s_min_ && at.s < s_max_; }
+  double value(Bound bound, const Place& at, double x) const;
+  Vec3 gradient(Bound bound, const Place& at) const;
+  Mat3 hessian(Bound bound, const Vec3& p, Hint& hint) const;
+
+  double x_min() const { return x_min_; }
+  double x_max() const { return x_max_; }
+  double s_min() const { return s_min_; }
+  double s_max() const { return s_max_; }
+  double steepest() const { return steepest_; }  ///< of |h'|
+  double roll_middle() const { return 0.5 * (roll_.low + roll_.high); }
+  double roll_half() const { return 0.5 * (roll_.high - roll_.low); }
+  double roll_rate() const { return roll_.steepest; }
+  double path_slope() const { return path_slope_; }
+  const CutterPath& path() const { return path_; }
+  const GraphCurve& section() const { return section_; }
+  /// Greatest z and widest y that the cutter reaches.
+  double z_max() const { return z_max_; }
+  double y_min() const { return y_min_; }
+  double y_max() const { return y_max_; }
+  std::size_t memory_bytes() const { return sizeof(*this) + path_.memory_bytes(); }
+
+ private:
+  CutterPath path_;
+  GraphCurve section_;
+  double x_min_, x_max_, s_min_, s_max_;
+  double steepest_ = 0.0, path_slope_ = 0.0;
+  double z_max_ = 0.0, y_min_ = 0.0, y_max_ = 0.0;
+  CutterPath::Range roll_;
+};
+
+}  // namespace treadmark::analytic
