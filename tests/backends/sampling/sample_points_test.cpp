@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/sampling/sample_points.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/backends/sampling/lateral_nodes.hpp"
+#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::sampling {
+namespace {
+
+constexpr double kPi = std::numbers::pi;
+constexpr double kRadius = 0.46;
+
+std::shared_ptr<const Surface> cylinder_rail() { return analytic::make_prismatic_surface(analytic::cylinder_chain(0.1, 1.2)); }
+std::shared_ptr<const Surface> s1002() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius); }
+
+TEST(LateralNodes, AreSpacedAlongTheArcOfACircle) {
+  const std::vector<double> station{0.0};
+  constexpr double kSpacing = 1e-3;
+  const auto y = lateral_nodes(*cylinder_rail(), Body::rail, station, kSpacing, -1e30, 1e30);
+  EXPECT_NEAR(y.front(), -0.1 * std::sin(1.2), 1e-9);
+  EXPECT_NEAR(y.back(), 0.1 * std::sin(1.2), 1e-9);
+  // equal angles, to the error of arc lengths measured as chords of a quarter step
+  const double steps = static_cast<double>(y.size() - 1), angle = 2.4 / steps;
+  EXPECT_LE(0.1 * angle, kSpacing * (1.0 + 1e-9));
+  EXPECT_GT(0.1 * angle, 0.95 * kSpacing);
+  for (std::size_t i = 1; i < y.size(); ++i)
+    EXPECT_NEAR(std::asin(std::min(1.0, y[i] / 0.1)) - std::asin(std::max(-1.0, y[i - 1] / 0.1)), angle, 1e-3 * angle) << i;
+}
+
+TEST(LateralNodes, FollowAVerticalEndOfAProfile) {
+  // the back of the flange of S1002 ends vertically: equal steps of y would leave the last one 4 mm long
+  const std::vector<double> station{0.3};
+  const auto y = lateral_nodes(*s1002(), Body::wheel, station, 1e-3, -1e30, 1e30);
+  std::vector<double> r(y.size());
+  section_heights(*s1002(), Body::wheel, 0.3, y, {r, {}, {}});
+  for (std::size_t i = 1; i < y.size(); ++i) {
+    ASSERT_FALSE(std::isnan(r[i]));
+    EXPECT_LE(std::hypot(y[i] - y[i - 1], r[i] - r[i - 1]), 1.001e-3) << y[i];
+  }
+}
+
+TEST(LateralNodes, KeepToTheGivenRange) {
+  const std::vector<double> station{0.0};
+  const auto y = lateral_nodes(*s1002(), Body::wheel, station, 1e-3, -0.01, 0.02);
+  EXPECT_DOUBLE_EQ(y.front(), -0.01);
+  EXPECT_DOUBLE_EQ(y.back(), 0.02);
+}
+
+TEST(LateralNodes, RefuseWhatCannotBeSampled) {
+  const std::vector<double> station{0.0};
+  const auto plane = analytic::make_plane_surface(Facing::up);
+  EXPECT_THROW(lateral_nodes(*plane, Body::rail, station, 1e-3, -1e30, 1e30), Error);
+  EXPECT_THROW(lateral_nodes(*s1002(), Body::wheel, station, 0.0, -1e30, 1e30), Error);
+  EXPECT_THROW(lateral_nodes(*s1002(), Body::wheel, station, 1e-9, -1e30, 1e30), Error);
+  EXPECT_THROW(lateral_nodes(*s1002(), Body::wheel, station, 1e-3, 0.2, 0.3), Error);
+  EXPECT_EQ(lateral_nodes(*plane, Body::rail, station, 1e-3, 0.0, 0.01).size(), 11u);
+}
+
+TEST(SamplePoints, LieOnTheSurface) {
+  const PointGrid grid = sample_points(*s1002(), Body::wheel, kRadius, {5e-3, 0.0, {0.1, 0.3, -1e30, 1e30}, false});
+  EXPECT_FALSE(grid.closed);
+  EXPECT_DOUBLE_EQ(grid.u.front(), 0.1);
+  EXPECT_DOUBLE_EQ(grid.u.back(), 0.3);
+  EXPECT_LE((grid.u[1] - grid.u[0]) * kRadius, 5e-3);
+  for (std::size_t iu = 0; iu < grid.u.size(); iu += 7)
+    for (std::size_t iy = 1; iy + 1 < grid.y.size(); ++iy) {
+      // seen in another plane
+      const Vec3 p = grid.point(iu, iy);
+      const Pose X{{0.0, 0.0, 0.0}, rotation_y(0.2)};
+      const Vec3 q = X.apply_inverse(p);
+      EXPECT_NEAR(height_at(*s1002(), X, {q.x(), q.y()}), q.z(), 1e-10);
+    }
+}
+
+TEST(SamplePoints, CloseAWholeWheel) {
+  const PointGrid grid = sample_points(*s1002(), Body::wheel, kRadius, {20e-3, 0.0, {}, false});
+  ASSERT_TRUE(grid.closed);
+  const double step = 2.0 * kPi / static_cast<double>(grid.u.size());
+  EXPECT_NEAR(grid.u.back() + step, grid.u.front() + 2.0 * kPi, 1e-12);
+}
+
+TEST(SamplePoints, AreTheSameForAnyNumberOfThreads) {
+  const SampleSettings settings{4e-3, 0.0, {-0.1, 0.1, -1e30, 1e30}, false};
+  std::vector<double> one, many;
+  {
+    ThreadLimit limit(1);
+    one = sample_points(*s1002(), Body::wheel, kRadius, settings).h;
+  }
+  {
+    ThreadLimit limit(4);
+    many = sample_points(*s1002(), Body::wheel, kRadius, settings).h;
+  }
+  EXPECT_EQ(one, many);
+}
+
+TEST(SamplePoints, NeedEndsOfARail) {
+  EXPECT_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-3, 0.0, {}, false}), Error);
+  EXPECT_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-3, 1e-9, {0.0, 1.0, -1e30, 1e30}, false}), Error);
+  EXPECT_NO_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-2, 0.0, {0.0, 1.0, -1e30, 1e30}, false}));
+}
+
+}  // namespace
+}  // namespace treadmark::sampling
