@@ -81,11 +81,14 @@ std::optional<double> ChartAxis::shown(double value) const {
 
 std::optional<double> ChartAxis::place(double value) const {
   const auto at = shown(value);
-  if (!at) return {};
-  const double part = scale_ == AxisScale::log ? (std::log(*at) - std::log(low_)) / (std::log(high_) - std::log(low_))
-                                               : (*at - low_) / (high_ - low_);
-  if (!(part >= -kRounding && part <= 1.0 + kRounding)) return {};
-  return std::clamp(part, 0.0, 1.0);
+  return at ? part(*at) : std::nullopt;
+}
+
+std::optional<double> ChartAxis::part(double value) const {
+  const double at = scale_ == AxisScale::log ? (std::log(value) - std::log(low_)) / (std::log(high_) - std::log(low_))
+                                             : (value - low_) / (high_ - low_);
+  if (!(at >= -kRounding && at <= 1.0 + kRounding)) return {};
+  return std::clamp(at, 0.0, 1.0);
 }
 
 std::vector<AxisTick> ChartAxis::ticks() const { return scale_ == AxisScale::log ? log_ticks() : linear_ticks(); }
@@ -95,7 +98,7 @@ std::vector<AxisTick> ChartAxis::linear_ticks() const {
   const double step = tick_step(high_ - low_);
   const double first = std::ceil(low_ / step - kRounding), last = std::floor(high_ / step + kRounding);
   for (double i = first; i <= last && out.size() < 20; ++i)
-    if (const auto at = place(i * step)) out.push_back({*at, fmt::format("{:.6g}", i * step + 0.0)});
+    if (const auto at = part(i * step)) out.push_back({*at, fmt::format("{:.6g}", i * step + 0.0)});
   return out;
 }
 
@@ -111,7 +114,7 @@ std::vector<AxisTick> ChartAxis::log_ticks() const {
   for (int exponent = first; exponent <= last; ++exponent) {
     if (every > 1 && exponent % every != 0) continue;
     for (int mantissa = 1; mantissa <= (every > 1 ? 1 : 9); ++mantissa)
-      if (const auto at = place(scaled(mantissa, exponent)))
+      if (const auto at = part(scaled(mantissa, exponent)))
         out.push_back({*at, labelled(mantissa) ? power_label(mantissa, exponent) : ""});
   }
   return out;

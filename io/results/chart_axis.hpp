@@ -37,6 +37,7 @@ class ChartAxis {
 
  private:
   std::optional<double> shown(double value) const;
+  std::optional<double> part(double value) const;
   std::vector<AxisTick> linear_ticks() const;
   std::vector<AxisTick> log_ticks() const;
 

@@ -30,6 +30,15 @@ class Frame {
   }
   bool at_floor(const ChartPoint& point) const { return x_.at_floor(point.x) || y_.at_floor(point.y); }
   const ChartBox& box() const { return box_; }
+  bool empty(const Chart& chart) const {
+    for (const ChartSeries& series : chart.series) {
+      for (const ChartPoint& point : series.points)
+        if (x(point.x) && y(point.y)) return false;
+      for (const double level : series.levels)
+        if (y(level)) return false;
+    }
+    return true;
+  }
 
   std::string grid() const {
     std::string lines, numbers;
@@ -115,6 +124,7 @@ std::string draw_chart(const Chart& chart, const ChartBox& box) {
                      box.y, box.width, box.height);
   out += draw_points(chart, frame);
   const double middle = box.x + 0.5 * box.width, left = box.x - 46.0, centre = box.y + 0.5 * box.height;
+  if (frame.empty(chart)) out += svg_text(middle, centre, "no values");
   out += svg_text(middle, box.y - 8.0, chart.title, "middle", " class=\"title\"");
   out += svg_text(middle, box.y + box.height + 36.0, chart.x_label);
   out += svg_text(left, centre, chart.y_label, "middle",

@@ -16,6 +16,8 @@ double overlap(const ChartBox& a, const ChartBox& b) {
 
 double outside(const ChartBox& a, const ChartBox& frame) { return a.width * a.height - overlap(a, frame); }
 
+constexpr double kNothing = 1e-6;  // [px^2], the rounding of areas
+
 /// Places to try, the best first: where the text's middle lies from the point's, in half widths and half heights.
 constexpr std::array<std::array<double, 2>, 16> kSides{{{1, 0},
                                                         {-1, 0},
@@ -58,10 +60,10 @@ std::vector<LabelPlace> place_labels(std::span<const LabelPoint> points, const C
       const ChartBox trial{x - 0.5 * width, y - 0.5 * font_size, width, font_size};
       double cost = 3.0 * outside(trial, box);
       for (const ChartBox& other : taken) cost += overlap(trial, other);
-      if (least >= 0.0 && cost >= least) continue;
+      if (least >= 0.0 && cost >= least - kNothing) continue;
       least = cost;
       best = trial;
-      if (cost == 0.0) break;
+      if (cost <= kNothing) break;
     }
     places.push_back({best.x, best.y + 0.83 * font_size});
     if (!point.text.empty()) taken.push_back(best);

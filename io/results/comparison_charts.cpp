@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFloor = 1e-3;      // of errors [%] and heights [um]: less is rounding
 constexpr double kTimeFloor = 1e-3;  // [ms]
-constexpr double kLegendWidth = 210.0;
+constexpr double kLegendWidth = 216.0;
 constexpr double kLeft = 70.0, kTop = 40.0, kBottom = 56.0;
 
 /// A style for each backend's name, in the order of first appearance.
@@ -143,8 +143,8 @@ std::string error_svg(const Comparison& comparison) {
   double y = kTop + 8.0;
   out += draw_chart_legend(legend, x, y);
   y += kLegendLine * static_cast<double>(legend.size()) + 8.0;
-  for (const std::string& words : {truth_words(comparison), std::string("dashed: no resolution, data as given"),
-                                   fmt::format("hollow: {} or less", kFloor)}) {
+  for (const std::string& words :
+       {truth_words(comparison), std::string("dashed: data as given"), fmt::format("hollow: {} or less", kFloor)}) {
     if (words.empty()) continue;
     out += remark(x, y, words);
     y += 16.0;

@@ -42,7 +42,13 @@ struct Row {
   double top_pressure = 0.0;
 };
 
-Panel make_panel(const ComparisonCandidate& candidate, int case_number) {
+/// With a sign and two decimals, one where it is large.
+std::string percent(double value) {
+  const std::string text = fmt::format("{:+.{}f}", value, std::abs(value) < 9.995 ? 2 : 1);
+  return (text == "+0.00" || text == "-0.00" ? "0.00" : text) + " %";
+}
+
+Panel make_panel(const ComparisonCandidate& candidate, int case_number, bool truth) {
   Panel panel;
   if (!candidate.failure.empty()) {
     panel.words = "failed";
@@ -50,8 +56,8 @@ Panel make_panel(const ComparisonCandidate& candidate, int case_number) {
   }
   if (const ComparisonRow* row = find_row(candidate, case_number); row != nullptr && row->patches > 0) {
     if (std::isfinite(row->pmax)) panel.below = three_digits(row->pmax * 1e-6) + " MPa";
-    if (row->comparable && std::isfinite(row->pmax_error))
-      panel.below += fmt::format(", {:+.3g} %", row->pmax_error * 1e2);
+    if (!truth && row->comparable && std::isfinite(row->pmax_error))
+      panel.below += ", " + percent(row->pmax_error * 1e2);
   }
   const CaseResult* result = find_result(candidate, case_number);
   if (result == nullptr) {
@@ -72,7 +78,7 @@ Row make_row(const Comparison& comparison, int case_number) {
   row.title = fmt::format("case {}", case_number);
   bool any = false, posed = false;
   for (const ComparisonCandidate& candidate : comparison.candidates) {
-    row.panels.push_back(make_panel(candidate, case_number));
+    row.panels.push_back(make_panel(candidate, case_number, &candidate == comparison.candidates.data()));
     const CaseResult* result = find_result(candidate, case_number);
     if (result != nullptr && result->has_wheelset && !posed) {
       row.title += fmt::format(", pitch {:.2f}°", result->pitch * 180.0 / std::numbers::pi);
