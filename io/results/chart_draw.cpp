@@ -11,6 +11,7 @@ namespace treadmark::io {
 namespace {
 
 constexpr double kLabelFont = 11.0;  // as in kChartStyle
+constexpr double kReach = 1.3;       // of a marker's corners, over the radius of its area
 
 /// Axes of a chart and where values lie in the picture [px].
 class Frame {
@@ -106,7 +107,7 @@ std::string draw_points(const Chart& chart, const Frame& frame) {
       const auto x = frame.x(point.x), y = frame.y(point.y);
       if (!x || !y) continue;
       out += marker(series.style, *x, *y, point.radius, frame.at_floor(point), point.details);
-      labels.push_back({*x, *y, point.radius, point.label});
+      labels.push_back({*x, *y, kReach * point.radius, point.label});
     }
   const std::vector<LabelPlace> places = place_labels(labels, frame.box(), kLabelFont);
   for (std::size_t i = 0; i < labels.size(); ++i)

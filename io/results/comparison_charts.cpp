@@ -18,7 +18,8 @@ namespace {
 constexpr double kFloor = 1e-3;      // of errors [%] and heights [um]: less is rounding
 constexpr double kTimeFloor = 1e-3;  // [ms]
 constexpr double kLegendWidth = 216.0;
-constexpr double kLeft = 70.0, kTop = 40.0, kBottom = 56.0;
+constexpr double kLeft = 70.0, kTop = 40.0, kBottom = 66.0;
+constexpr double kRemark = 10.0, kRemarkLine = 14.0;  // of the lowest remark, from the end of the picture
 
 /// A style for each backend's name, in the order of first appearance.
 class Styles {
@@ -84,7 +85,7 @@ std::vector<ChartSeries> joined(const std::vector<Chart>& charts) {
 }
 
 std::string truth_words(const Comparison& comparison) {
-  return comparison.truth.empty() ? "" : "truth: " + comparison.truth;
+  return "truth: " + (comparison.truth.empty() ? "none" : comparison.truth);
 }
 
 /// Why a candidate has no marker: nothing to compare, or the reason it failed.
@@ -143,12 +144,9 @@ std::string error_svg(const Comparison& comparison) {
   double y = kTop + 8.0;
   out += draw_chart_legend(legend, x, y);
   y += kLegendLine * static_cast<double>(legend.size()) + 8.0;
-  for (const std::string& words :
-       {truth_words(comparison), std::string("dashed: data as given"), fmt::format("hollow: {} or less", kFloor)}) {
-    if (words.empty()) continue;
-    out += remark(x, y, words);
-    y += 16.0;
-  }
+  out += remark(x, y, "dashed: data as given");
+  out += remark(x, y + 16.0, fmt::format("hollow: {} or less", kFloor));
+  out += remark(kLeft, height - kRemark, truth_words(comparison));
   return out + "</svg>\n";
 }
 
@@ -201,19 +199,19 @@ std::string cost_svg(const Comparison& comparison) {
 
   const double legend_x = kLeft + kWidth + 28.0;
   const double legend_height = kLegendLine * static_cast<double>(chart.series.size()) + 8.0;
-  const double below = 14.0 * static_cast<double>(missing.size());
+  const double below = kRemarkLine * static_cast<double>(missing.size());
   const double height = std::max(kTop + kHeight + kBottom + below, kTop + legend_height + 200.0);
   std::string out = svg_head(kLeft + kWidth + kLegendWidth, height, kChartFont, kChartStyle);
   out += draw_chart(chart, {kLeft, kTop, kWidth, kHeight});
   out += draw_chart_legend(chart.series, legend_x, kTop + 8.0);
   double y = kTop + 8.0 + legend_height;
-  if (!comparison.truth.empty()) out += remark(legend_x, y, truth_words(comparison));
-  out += remark(legend_x, y + 16.0, fmt::format("hollow: {} % or less", kFloor));
-  out += memory_legend(largest_memory, kLargestRadius, legend_x, y + 46.0);
-  y = kTop + kHeight + kBottom;
+  out += remark(legend_x, y, fmt::format("hollow: {} % or less", kFloor));
+  out += memory_legend(largest_memory, kLargestRadius, legend_x, y + 30.0);
+  y = kTop + kHeight + kBottom - kRemark;
+  out += remark(kLeft, y, truth_words(comparison));
   for (const std::string& words : missing) {
+    y += kRemarkLine;
     out += remark(kLeft, y, "not drawn: " + words);
-    y += 14.0;
   }
   return out + "</svg>\n";
 }
