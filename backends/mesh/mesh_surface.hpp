@@ -1,0 +1,47 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <string>
+
+#include "treadmark/backends/mesh/bvh.hpp"
+#include "treadmark/backends/mesh/make.hpp"
+#include "treadmark/backends/mesh/ray_scene.hpp"
+#include "treadmark/backends/mesh/smooth_patches.hpp"
+
+namespace treadmark::mesh {
+
+/// A wheel or rail of triangles. Single precision finds a triangle, double precision walks from there to the one that holds
+/// the line; misses, insides and walks that end at a rim are decided by the hierarchy in double precision. The first triangle
+/// on a line from outside counts; if it shows its inside, the line misses. Without a RayScene the hierarchy does it all.
+/// A line that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a fold that
+/// hides another part may get either of the two heights; with the hierarchy alone the fold is sharp to rounding.
+/// u = x [m] or theta [rad], v = y [m].
+class MeshSurface final : public Surface {
+ public:
+  MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool single_precision);
+
+  std::string_view backend() const override { return backend_; }
+  Facing facing() const override { return facing_; }
+  Box3 bounds() const override;
+  std::size_t memory_bytes() const override;
+
+ private:
+  class Lines;
+
+  void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
+  void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+
+  std::string backend_;
+  Facing facing_;
+  PreparedMesh mesh_;
+  Bvh bvh_;
+  std::unique_ptr<RayScene> scene_;
+  std::optional<SmoothPatches> smooth_;
+};
+
+}  // namespace treadmark::mesh

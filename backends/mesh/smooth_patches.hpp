@@ -1,0 +1,54 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/backends/mesh/plane_view.hpp"
+#include "treadmark/backends/mesh/vertex_fit.hpp"
+
+namespace treadmark::mesh {
+
+/// Heights and derivatives along the plane normal at a hit.
+struct Evaluated {
+  double z = 0.0, dzdx = 0.0, dzdy = 0.0;
+  double dzdxx = 0.0, dzdxy = 0.0, dzdyy = 0.0;
+};
+
+/// The smooth surface through the vertices. Where a line meets a facet at barycentric coordinates b, its height solves
+///   G = sum_i w_i(b) f_i = 0,   f_i(point) = n_i . (point - vertex_i) - P_i(u, v),
+/// with the cubics P_i of the three corners and the weights of blend_weights. Heights are of order 4 in the size of the
+/// triangles where the surface is smooth, slopes of order 3, curvatures of order 2; vertices are met exactly; across edges
+/// the surface is continuous, and its slopes are up to order 4. b belongs to the facet, so that heights along other
+/// directions give a surface that differs by order 5. At creases both sides run through the vertices, and their curves
+/// between them differ by order 4 where the fits are cubic.
+/// Where the solution is farther from the facet than reach() allows, or the line grazes, the facet counts.
+class SmoothPatches {
+ public:
+  SmoothPatches(const PreparedMesh& mesh, double crease_angle);
+
+  /// derivatives: how many orders are wanted, 0 to 2. False: the facet counts.
+  bool evaluate(const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit, double x, double y,
+                int derivatives, Evaluated& out) const;
+
+  /// Greatest distance along the plane normal between the facet and the surface over it [m].
+  double reach(const PlaneView& view, std::uint32_t triangle) const;
+  double largest_reach() const { return kSteepest * static_cast<double>(largest_bulge_); }
+  double largest_bulge() const { return static_cast<double>(largest_bulge_); }
+
+  std::size_t memory_bytes() const { return fits_.memory_bytes() + bulge_.capacity() * sizeof(float); }
+
+ private:
+  static constexpr double kSteepest = 30.0;  ///< longest way along a line, in bulges
+
+  Vec3 mean_normal(std::uint32_t triangle) const;
+  bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start, const Vec3& direction,
+             double side, double& t) const;
+  double sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const;
+
+  VertexFits fits_;
+  std::vector<float> bulge_;  ///< along the mean normal of the corners [m]
+  float largest_bulge_ = 0.0f;
+};
+
+}  // namespace treadmark::mesh

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/mesh/vertex_fit.hpp"
+
+#include <Eigen/Dense>
+
+#include <algorithm>
+#include <cmath>
+#include <span>
+
+#include "treadmark/backends/mesh/sectors.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::mesh {
+
+namespace {
+
+constexpr std::size_t kMargin = 2;          ///< points wanted beyond the number of coefficients
+constexpr double kIllConditioned = 2e-3;    ///< least over greatest diagonal of R, columns of unit length
+constexpr double kTurnedAway = 0.5;         ///< cosine: points whose surface turned farther are no height over the tangent plane
+constexpr std::size_t kMostPoints = 128;    ///< nearest rings only, at vertices of very many triangles
+
+/// Terms of the polynomials, best first; the long axis of the neighbourhood is u.
+constexpr int kCubic[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}, kQuadratic[] = {0, 1, 2, 3, 4}, kAcross[] = {0, 1, 3, 4, 8},
+              kParabola[] = {0, 1, 4}, kPlane[] = {0, 1};
+
+void powers(double u, double v, double (&p)[9]) {
+  const double all[9] = {u, v, u * u, u * v, v * v, u * u * u, u * u * v, u * v * v, v * v * v};
+  std::copy(all, all + 9, p);
+}
+
+/// Sectors reached over one more ring of triangles; the first entry is the centre.
+class Rings {
+ public:
+  Rings(const Sectors& sectors, std::uint32_t centre) : sectors_(sectors), members_{centre} {}
+  void grow() {
+    const std::size_t end = members_.size();
+    for (std::size_t i = grown_; i < end && members_.size() < kMostPoints; ++i)
+      for (const std::uint32_t t : sectors_.around(members_[i]))
+        for (const std::uint32_t s : sectors_.of_corner[t])
+          if (std::find(members_.begin(), members_.end(), s) == members_.end()) members_.push_back(s);
+    grown_ = end;
+  }
+  std::span<const std::uint32_t> others() const { return {members_.data() + 1, members_.size() - 1}; }
+
+ private:
+  const Sectors& sectors_;
+  std::vector<std::uint32_t> members_;
+  std::size_t grown_ = 0;
+};
+
+/// Points in the tangent frame, divided by their spread along u and v.
+struct Cloud {
+  std::vector<Vec3> points;
+  double scale_u = 1.0, scale_v = 1.0;
+};
+
+Cloud gather(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
+             std::span<const std::uint32_t> others, VertexFit& fit) {
+  // axes along the longest and shortest spread, so that both can be scaled
+  Cloud cloud;
+  double suu = 0.0, suv = 0.0, svv = 0.0;
+  for (const std::uint32_t s : others) {
+    if (normals[s].dot(fit.normal) < kTurnedAway) continue;
+    const Vec3 d = mesh.vertices[sectors.vertex[s]] - fit.origin;
+    const Vec3 p(fit.axis_u.dot(d), fit.axis_v.dot(d), fit.normal.dot(d));
+    cloud.points.push_back(p);
+    suu += p.x() * p.x(), suv += p.x() * p.y(), svv += p.y() * p.y();
+  }
+  if (cloud.points.empty()) return cloud;
+  const double angle = 0.5 * std::atan2(2.0 * suv, suu - svv), cos = std::cos(angle), sin = std::sin(angle);
+  const Vec3 u = cos * fit.axis_u + sin * fit.axis_v;
+  fit.axis_v = fit.normal.cross(u);
+  fit.axis_u = u;
+  suu = svv = 0.0;
+  for (Vec3& p : cloud.points) {
+    p = Vec3(cos * p.x() + sin * p.y(), cos * p.y() - sin * p.x(), p.z());
+    suu += p.x() * p.x(), svv += p.y() * p.y();
+  }
+  const auto count = static_cast<double>(cloud.points.size());
+  const double least = 1e-12 * std::sqrt(std::max(suu, svv) / count);
+  cloud.scale_u = std::max(least, std::sqrt(suu / count));
+  cloud.scale_v = std::max(least, std::sqrt(svv / count));
+  for (Vec3& p : cloud.points) p = Vec3(p.x() / cloud.scale_u, p.y() / cloud.scale_v, p.z());
+  return cloud;
+}
+
+/// False if the points do not determine the terms well.
+bool solve(const Cloud& cloud, std::span<const int> terms, VertexFit& fit) {
+  const auto n = static_cast<Eigen::Index>(cloud.points.size()), m = static_cast<Eigen::Index>(terms.size());
+  const std::size_t margin = terms.size() > 2 ? kMargin : 0;
+  if (cloud.points.size() < terms.size() + margin) return false;
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPoints * 8, 9> A(std::min<Eigen::Index>(n, kMostPoints * 8), m);
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPoints * 8, 1> z(A.rows());
+  for (Eigen::Index i = 0; i < A.rows(); ++i) {
+    const Vec3& p = cloud.points[static_cast<std::size_t>(i)];
+    double all[9];
+    powers(p.x(), p.y(), all);
+    const double weight = 1.0 / (0.25 + p.x() * p.x() + p.y() * p.y());
+    for (Eigen::Index k = 0; k < m; ++k) A(i, k) = weight * all[terms[static_cast<std::size_t>(k)]];
+    z[i] = weight * p.z();
+  }
+  Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> lengths(m);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    lengths[k] = A.col(k).norm();
+    if (!(lengths[k] > 0.0)) return false;
+    A.col(k) /= lengths[k];
+  }
+  const Eigen::ColPivHouseholderQR<decltype(A)> qr(A);
+  if (!(std::fabs(qr.matrixR()(m - 1, m - 1)) > kIllConditioned * std::fabs(qr.matrixR()(0, 0)))) return false;
+  const Eigen::Matrix<double, Eigen::Dynamic, 1, 0, 9, 1> c = qr.solve(z);
+  if (!c.allFinite()) return false;
+  double unit[9];
+  powers(1.0 / cloud.scale_u, 1.0 / cloud.scale_v, unit);
+  fit.c.fill(0.0);
+  for (Eigen::Index k = 0; k < m; ++k) {
+    const auto term = static_cast<std::size_t>(terms[static_cast<std::size_t>(k)]);
+    fit.c[term] = c[k] / lengths[k] * unit[term];
+  }
+  return true;
+}
+
+VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals, std::uint32_t sector) {
+  VertexFit fit;
+  fit.origin = mesh.vertices[sectors.vertex[sector]];
+  fit.normal = normals[sector];
+  fit.axis_u = fit.normal.unitOrthogonal();
+  fit.axis_v = fit.normal.cross(fit.axis_u);
+  Rings rings(sectors, sector);
+  rings.grow();
+  rings.grow();
+  const Cloud two = gather(mesh, sectors, normals, rings.others(), fit);
+  if (solve(two, kCubic, fit)) return fit;
+  const VertexFit frame_of_two = fit;
+  rings.grow();
+  const Cloud three = gather(mesh, sectors, normals, rings.others(), fit);
+  if (solve(three, kCubic, fit)) return fit;
+  if (solve(three, kQuadratic, fit) || solve(three, kAcross, fit)) return fit;
+  fit = frame_of_two;
+  if (solve(two, kQuadratic, fit) || solve(two, kAcross, fit) || solve(two, kParabola, fit) || solve(two, kPlane, fit)) return fit;
+  fit.c.fill(0.0);
+  return fit;
+}
+
+}  // namespace
+
+VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
+  Sectors sectors = find_sectors(mesh, crease_angle);
+  const std::size_t n = sectors.size();
+  constexpr std::size_t kChunk = 256;
+  const std::size_t chunks = (n + kChunk - 1) / kChunk;
+  std::vector<Vec3> normals(n);
+  parallel_for(chunks, [&](std::size_t chunk) {
+    for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s) {
+      Vec3 sum = Vec3::Zero();
+      for (const std::uint32_t t : sectors.around(static_cast<std::uint32_t>(s))) sum += doubled_area(mesh, t);
+      if (!(sum.norm() > 0.0)) sum = doubled_area(mesh, sectors.around(static_cast<std::uint32_t>(s)).front());
+      normals[s] = sum.normalized();
+    }
+  });
+  VertexFits result;
+  result.fits.resize(n);
+  parallel_for(chunks, [&](std::size_t chunk) {
+    for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s)
+      result.fits[s] = fit_one(mesh, sectors, normals, static_cast<std::uint32_t>(s));
+  });
+  result.of_corner = std::move(sectors.of_corner);
+  return result;
+}
+
+}  // namespace treadmark::mesh
