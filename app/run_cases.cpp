@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/app/basic_case.hpp"
+#include "treadmark/app/sampled_region.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/app/wheelrail_case.hpp"
@@ -24,10 +25,10 @@ using Clock = std::chrono::steady_clock;
 
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
-wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store) {
-  const StoredSurface& rail = store.get(input.rail, Body::rail, input.wheelset.nominal_radius);
-  const StoredSurface& wheel = store.get(input.wheel, Body::wheel, input.wheelset.nominal_radius);
-  return {rail.surface, wheel.surface, rail.constant_profile && wheel.constant_profile};
+wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store, const SampledRegions& regions) {
+  const StoredSurface& rail = store.get(input.rail, Body::rail, input.wheelset.nominal_radius, regions.rail);
+  const StoredSurface& wheel = store.get(input.wheel, Body::wheel, input.wheelset.nominal_radius, regions.wheel);
+  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && wheel.constant_profile()};
 }
 
 // Solvers keep influence coefficients: hand finished ones to the next case with the same bodies.
@@ -60,13 +61,19 @@ class SolverPool {
 }  // namespace
 
 io::RunResult run_cases(const io::CaseFile& file, const Progress& progress) {
-  const auto start = Clock::now();
-  // Geometry first: a broken file is found before hours of work.
   SurfaceStore store;
+  return run_cases(file, store, progress);
+}
+
+io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Progress& progress) {
+  const auto start = Clock::now();
+  store.begin_run();
+  const SampledRegions regions = sampled_regions(file);
+  // Geometry first: a broken file is found before hours of work.
   std::vector<std::optional<wheelrail::Geometry>> geometries(file.cases.size());
   for (std::size_t i = 0; i < file.cases.size(); ++i)
     if (const auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content))
-      geometries[i] = geometry_of(*input, store);
+      geometries[i] = geometry_of(*input, store, regions);
 
   std::vector<std::optional<io::CaseResult>> results(file.cases.size());
   std::vector<std::exception_ptr> errors(file.cases.size());
@@ -113,6 +120,7 @@ io::RunResult run_cases(const io::CaseFile& file, const Progress& progress) {
   run.input_file = file.path.string();
   run.input_sha256 = file.sha256;
   run.geometry_sha256 = store.hashes();
+  run.surfaces = store.uses();
   run.cases_total = static_cast<int>(file.cases.size());
   for (auto& result : results)
     if (result) run.cases.push_back(std::move(*result));
@@ -123,8 +131,9 @@ io::RunResult run_cases(const io::CaseFile& file, const Progress& progress) {
 
 void check_geometry(const io::CaseFile& file) {
   SurfaceStore store;
+  const SampledRegions regions = sampled_regions(file);
   for (const io::Case& c : file.cases)
-    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) geometry_of(*input, store);
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) geometry_of(*input, store, regions);
 }
 
 }  // namespace treadmark::app

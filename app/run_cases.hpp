@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include "treadmark/app/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
@@ -13,6 +14,9 @@ namespace treadmark::app {
 /// After a stop request the result holds the finished cases, in order, and complete = false.
 /// Errors: Error for input that cannot be solved at all (configuration, input data).
 io::RunResult run_cases(const io::CaseFile& file, const Progress& progress = {});
+
+/// The same with surfaces that were read and built before; the store learns the new ones.
+io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Progress& progress = {});
 
 /// Reads all geometry of a file and builds its surfaces, without solving. Errors as run_cases.
 void check_geometry(const io::CaseFile& file);

@@ -2,21 +2,20 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/surface_store.hpp"
 
-#include <fmt/format.h>
-
 #include <algorithm>
 
-#include "treadmark/backends/create.hpp"
+#include <fmt/format.h>
+
+#include "treadmark/app/read_surface.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/read_profile.hpp"
-#include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/sha256.hpp"
 
 namespace treadmark::app {
 namespace {
 
+/// Everything that tells one geometry from another but its defects.
 std::string key_of(const io::SurfaceSource& source, Body body, double nominal_radius) {
-  std::string key = fmt::format("{} {:.17g} {}", body == Body::rail ? "rail" : "wheel", nominal_radius, source.backend);
+  std::string key = fmt::format("{} {:.17g}", body == Body::rail ? "rail" : "wheel", nominal_radius);
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     const io::ProfileOptions& o = file->options;
     const SmoothingOptions& s = o.smoothing;
@@ -29,10 +28,26 @@ std::string key_of(const io::SurfaceSource& source, Body body, double nominal_ra
     key += fmt::format(" arcs {:.17g} {:.17g} {:.17g}", arcs->start_y, arcs->start_z, arcs->start_angle);
     for (const auto& segment : arcs->segments) key += fmt::format(" {:.17g} {:.17g}", segment.length, segment.curvature);
   }
-  for (const WheelFlat& f : source.defects.flats)
-    key += fmt::format(" flat {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", static_cast<int>(f.shape), f.length, f.depth,
-                       f.theta_center, f.y_center, f.width);
   return key;
+}
+
+bool same(const Region& a, const Region& b) {
+  return a.u_min == b.u_min && a.u_max == b.u_max && a.y_min == b.y_min && a.y_max == b.y_max;
+}
+
+bool same(const Representation& a, const Representation& b) {
+  return a.backend == b.backend && a.resolution == b.resolution && same(a.region, b.region);
+}
+
+/// Runs build() with the place in the case file added to errors that have none.
+template <class Build>
+auto located(const SourcePosition& where, Build build) {
+  try {
+    return build();
+  } catch (const Error& e) {
+    if (!e.where().file.empty()) throw;
+    throw Error(e.kind(), e.message(), where, e.advice());
+  }
 }
 
 }  // namespace
@@ -42,36 +57,50 @@ void SurfaceStore::note_hash(const std::string& file) {
   if (!known) hashes_.emplace_back(file, io::sha256_file(file));
 }
 
-const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double nominal_radius) {
-  const std::string key = key_of(source, body, nominal_radius);
-  if (const auto found = surfaces_.find(key); found != surfaces_.end()) return found->second;
+std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSource& source, Body body, double nominal_radius) {
+  std::string key = key_of(source, body, nominal_radius);
+  for (const Natural& known : naturals_)
+    if (known.key == key && known.defects == source.defects) return known.surface;
+  auto surface = located(source.where, [&] {
+    return std::make_shared<const NaturalSurface>(read_surface(source, body, nominal_radius));
+  });
+  if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) note_hash(file->file.string());
+  naturals_.push_back({std::move(key), source.defects, surface});
+  return surface;
+}
 
-  SurfaceSpec spec;
-  spec.body = body;
-  spec.nominal_radius = nominal_radius;
-  spec.defects.flats = source.defects.flats;
-  StoredSurface stored;
-  stored.constant_profile = source.defects.flats.empty();
-  if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
-    if (io::is_slices_file(file->file)) {
-      spec.shape = io::read_slices(file->file, body, file->options, source.where);
-      stored.constant_profile = false;
-    } else {
-      spec.shape = io::read_profile(file->file, body, file->options, source.where);
+const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double nominal_radius, const Region& region) {
+  const auto given = natural(source, body, nominal_radius);
+  const Representation wanted{source.backend, source.resolution, region};
+  auto found = std::find_if(stored_.begin(), stored_.end(), [&](const auto& s) {
+    return s->natural == given.get() && same(s->representation, wanted);
+  });
+  if (found == stored_.end()) {
+    auto entry = std::make_unique<Stored>();
+    entry->natural = given.get();
+    entry->representation = wanted;
+    entry->surface = std::make_unique<StoredSurface>(StoredSurface{given, located(source.where, [&] { return represent(*given, wanted); })});
+    stored_.push_back(std::move(entry));
+    found = stored_.end() - 1;
+  }
+  Stored* entry = found->get();
+  if (std::find(used_.begin(), used_.end(), entry) == used_.end()) used_.push_back(entry);
+  return *entry->surface;
+}
+
+std::vector<io::SurfaceUse> SurfaceStore::uses() {
+  std::vector<io::SurfaceUse> uses;
+  for (Stored* entry : used_) {
+    const StoredSurface& s = *entry->surface;
+    if (s.represented.resampled && !entry->fit_known) {
+      entry->fit = fit_error(*s.natural, s.represented);
+      entry->fit_known = true;
     }
-    note_hash(file->file.string());
-  } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
-    spec.shape = *standard;
-  } else {
-    spec.shape = std::get<ArcChain>(source.geometry);
+    uses.push_back({s.body() == Body::wheel ? "wheel" : "rail", std::string(s.represented.surface->backend()),
+                    s.represented.resolution, s.represented.build_seconds, s.represented.surface->memory_bytes(), entry->fit,
+                    s.represented.note});
   }
-  try {
-    stored.surface = create_surface(spec, source.backend);
-  } catch (const Error& e) {
-    if (!e.where().file.empty()) throw;
-    throw Error(e.kind(), e.message(), source.where, e.advice());
-  }
-  return surfaces_.emplace(key, std::move(stored)).first->second;
+  return uses;
 }
 
 }  // namespace treadmark::app

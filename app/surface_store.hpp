@@ -2,35 +2,60 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <map>
 #include <memory>
 #include <string>
 #include <utility>
 #include <vector>
 
+#include "treadmark/backends/create.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::app {
 
 /// A surface ready for contact analysis.
 struct StoredSurface {
-  std::shared_ptr<const Surface> surface;
-  bool constant_profile = true;  ///< prismatic rail or round wheel
+  std::shared_ptr<const NaturalSurface> natural;   ///< as given
+  RepresentedSurface represented;                  ///< as asked for; used in the analysis
+  bool constant_profile() const { return natural->constant_profile; }
+  Body body() const { return natural->spec.body; }
 };
 
-/// Reads every distinct geometry of a run once and builds its surface. Not thread-safe.
+/// Reads every distinct geometry once, and builds every distinct representation of it once. Not thread-safe.
 class SurfaceStore {
  public:
+  /// region: what has to be sampled if the representation needs samples.
   /// Errors of the readers and backends pass through, with the place in the case file that asked for the geometry.
-  const StoredSurface& get(const io::SurfaceSource& source, Body body, double nominal_radius);
+  const StoredSurface& get(const io::SurfaceSource& source, Body body, double nominal_radius, const Region& region);
 
-  /// (file, SHA-256) of every geometry file asked for so far.
+  /// What get() has handed out since begin_run(), in the order of the first requests, with fit errors of sampled surfaces.
+  std::vector<io::SurfaceUse> uses();
+  void begin_run() { used_.clear(); }
+
+  /// (file, SHA-256) of every geometry file read so far.
   const std::vector<std::pair<std::string, std::string>>& hashes() const { return hashes_; }
 
  private:
+  struct Natural {
+    std::string key;
+    Defects defects;
+    std::shared_ptr<const NaturalSurface> surface;
+  };
+  struct Stored {
+    const NaturalSurface* natural;
+    Representation representation;
+    std::unique_ptr<StoredSurface> surface;
+    SurfaceDifference fit;
+    bool fit_known = false;
+  };
+
+  std::shared_ptr<const NaturalSurface> natural(const io::SurfaceSource& source, Body body, double nominal_radius);
   void note_hash(const std::string& file);
-  std::map<std::string, StoredSurface> surfaces_;
+
+  std::vector<Natural> naturals_;
+  std::vector<std::unique_ptr<Stored>> stored_;
+  std::vector<Stored*> used_;
   std::vector<std::pair<std::string, std::string>> hashes_;
 };
 

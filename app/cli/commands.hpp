@@ -20,11 +20,33 @@ struct RunOptions {
   std::string output_folder;   ///< empty = no files
   std::string json_file;       ///< "-" = stdout, empty = none
   std::string backend, wheel_backend, rail_backend;
+  double resolution_mm = 0.0;          ///< of re-represented surfaces, 0 = their default
   std::vector<std::string> overrides;  ///< key=value
+};
+
+struct CompareOptions {
+  std::string case_file;
+  std::string output_folder, json_file;
+  std::vector<std::string> backends, wheel_backends, rail_backends;
+  std::vector<double> resolutions_mm;
+  std::string bodies = "auto";
+  std::vector<std::string> overrides;
+};
+
+struct ConvertOptions {
+  std::string input, output;      ///< geometry or case file; surface file
+  std::string body;               ///< "wheel", "rail" or empty
+  double resolution_mm = 0.0;
+  double nominal_radius_mm = 0.0;
+  double scale_to_mm = 1.0;
+  std::vector<double> range_mm, range_deg;  ///< along the track, round the wheel: two numbers or none
+  std::vector<std::string> overrides;
 };
 
 // Each command returns an exit status or throws treadmark::Error.
 int run_command(const RunOptions& options, const CommonOptions& common);
+int compare_command(const CompareOptions& options, const CommonOptions& common);
+int convert_command(const ConvertOptions& options, const CommonOptions& common);
 int check_command(const RunOptions& options);
 int list_command(const std::string& what);
 int schema_command();

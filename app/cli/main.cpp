@@ -24,12 +24,16 @@ int exit_status(const Error& error) {
   return cli::kFailed;
 }
 
-void add_case_options(CLI::App& verb, cli::RunOptions& options) {
-  verb.add_option("CASE", options.cases, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
-  verb.add_option("--set", options.overrides, "Override a key of every case, for example --set wheelset.y_mm=3")
+void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
+  verb.add_option("--set", overrides, "Override a key of every case, for example --set wheelset.y_mm=3")
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+void add_case_options(CLI::App& verb, cli::RunOptions& options) {
+  verb.add_option("CASE", options.cases, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
+  add_overrides(verb, options.overrides);
 }
 
 }  // namespace
@@ -57,6 +61,41 @@ int main(int argc, char** argv) {
   run->add_option("--backend", options.backend, "Surface backend for wheel and rail (see: treadmark list backends)");
   run->add_option("--wheel-backend", options.wheel_backend, "Surface backend for the wheel");
   run->add_option("--rail-backend", options.rail_backend, "Surface backend for the rail");
+  run->add_option("--resolution", options.resolution_mm, "Spacing of the data that surfaces in other backends are sampled at [mm]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+
+  cli::CompareOptions comparison;
+  CLI::App* compare = program.add_subcommand("compare", "Solve the same cases through several surface representations");
+  compare->add_option("CASE", comparison.case_file, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
+  const auto list_option = [](CLI::App* verb, const char* name, auto& value, const char* text, const char* type) {
+    verb->add_option(name, value, text)->delimiter(',')->allow_extra_args(false)->type_name(type);
+  };
+  list_option(compare, "--backends", comparison.backends, "Representations, default all that the shapes allow", "A,B,...");
+  list_option(compare, "--resolutions", comparison.resolutions_mm, "Spacings of the data [mm], default 1,0.5,0.25", "MM,...");
+  list_option(compare, "--wheel-backends", comparison.wheel_backends, "With --rail-backends: every wheel on every rail", "A,B,...");
+  list_option(compare, "--rail-backends", comparison.rail_backends, "See --wheel-backends", "A,B,...");
+  compare->add_option("--bodies", comparison.bodies, "Compared bodies: wheel, rail, both; auto = those that change along their length")
+      ->check(CLI::IsMember({"auto", "wheel", "rail", "both"}));
+  compare->add_option("-o,--output", comparison.output_folder, "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
+      ->type_name("FOLDER");
+  compare->add_option("--json", comparison.json_file, "Write the rows here; - for standard output instead of the table")->type_name("FILE");
+  add_overrides(*compare, comparison.overrides);
+
+  cli::ConvertOptions conversion;
+  CLI::App* convert = program.add_subcommand("convert", "Write a wheel or rail as triangles, slices or offsets");
+  convert->add_option("IN", conversion.input, "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")->required();
+  convert->add_option("OUT", conversion.output, ".ply .stl .obj .off, .slcs .slcw, or .vdb")->required();
+  convert->add_option("--body", conversion.body, "wheel or rail, where the input does not tell")->check(CLI::IsMember({"wheel", "rail"}));
+  convert->add_option("--resolution", conversion.resolution_mm, "Spacing of the samples [mm]")->check(CLI::PositiveNumber)->type_name("MM");
+  convert->add_option("--nominal-radius", conversion.nominal_radius_mm, "Wheel radius at profile z = 0 [mm]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  convert->add_option("--scale", conversion.scale_to_mm, "Factor from units of the file to mm (1000 for a file in m)")
+      ->check(CLI::PositiveNumber);
+  convert->add_option("--range-mm", conversion.range_mm, "Part of a rail: from, to along the track")->delimiter(',')->expected(2);
+  convert->add_option("--range-deg", conversion.range_deg, "Part of a wheel: from, to round it")->delimiter(',')->expected(2);
+  add_overrides(*convert, conversion.overrides);
 
   CLI::App* check = program.add_subcommand("check", "Read and validate case files and their geometry without solving");
   add_case_options(*check, options);
@@ -74,6 +113,8 @@ int main(int argc, char** argv) {
 
   try {
     if (run->parsed()) return cli::run_command(options, common);
+    if (compare->parsed()) return cli::compare_command(comparison, common);
+    if (convert->parsed()) return cli::convert_command(conversion, common);
     if (check->parsed()) return cli::check_command(options);
     if (list->parsed()) return cli::list_command(what);
     if (schema->parsed()) return cli::schema_command();

@@ -3,6 +3,11 @@
 #include "treadmark/app/cli/output_files.hpp"
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/comparison_csv.hpp"
+#include "treadmark/io/results/comparison_json.hpp"
+#include "treadmark/io/results/comparison_pictures.hpp"
+#include "treadmark/io/results/comparison_table.hpp"
 #include "treadmark/io/results/picture_svg.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
@@ -10,17 +15,35 @@
 
 namespace treadmark::cli {
 
-void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
+namespace {
+
+/// Makes the folder. The last file of an earlier run goes first: it must not pass for this one if writing fails half way.
+void prepare(const std::filesystem::path& folder, const char* last_file) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
-  // A result of an earlier run must not pass for this one if writing fails half way.
-  std::filesystem::remove(folder / "result.json", failure);
+  std::filesystem::remove(folder / last_file, failure);
+}
+
+}  // namespace
+
+void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
+  prepare(folder, "result.json");
   io::write_hdf5(folder / "fields.h5", result);
   io::write_vtk(folder / "vtk", result);
   io::write_pressure_svg(folder / "pressure.svg", result);
   io::write_json(folder / "result.json", result);
+}
+
+void write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison) {
+  prepare(folder, "compare.json");
+  io::write_pressures_svg(folder / "pressures.svg", comparison);
+  io::write_error_svg(folder / "errors.svg", comparison);
+  io::write_cost_svg(folder / "costs.svg", comparison);
+  io::write_text_file(folder / "table.txt", io::comparison_table(comparison));
+  io::write_csv(folder / "compare.csv", comparison);
+  io::write_json(folder / "compare.json", comparison);
 }
 
 }  // namespace treadmark::cli

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::cli {
@@ -11,5 +12,8 @@ namespace treadmark::cli {
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
 /// The JSON file comes last: where it stands the folder is complete.
 void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);
+
+/// Writes everything a comparison has: pressures.svg, errors.svg, costs.svg, table.txt, compare.csv and, last, compare.json.
+void write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison);
 
 }  // namespace treadmark::cli

@@ -4,6 +4,8 @@
 #include <filesystem>
 #include <iostream>
 
+#include <fmt/format.h>
+
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/cli/terminal.hpp"
@@ -18,12 +20,14 @@ namespace treadmark::cli {
 namespace {
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
+  constexpr double kMetres = 1e-3;
   const std::string& wheel = options.wheel_backend.empty() ? options.backend : options.wheel_backend;
   const std::string& rail = options.rail_backend.empty() ? options.backend : options.rail_backend;
   for (io::Case& c : file.cases)
     if (auto* input = std::get_if<io::WheelRailCase>(&c.content)) {
       if (!wheel.empty()) input->wheel.backend = wheel;
       if (!rail.empty()) input->rail.backend = rail;
+      if (options.resolution_mm > 0.0) input->wheel.resolution = input->rail.resolution = kMetres * options.resolution_mm;
     }
 }
 
@@ -32,6 +36,7 @@ std::vector<std::string> settings_of(const RunOptions& options) {
   if (!options.backend.empty()) settings.push_back("backend=" + options.backend);
   if (!options.wheel_backend.empty()) settings.push_back("wheel.backend=" + options.wheel_backend);
   if (!options.rail_backend.empty()) settings.push_back("rail.backend=" + options.rail_backend);
+  if (options.resolution_mm > 0.0) settings.push_back(fmt::format("resolution_mm={}", options.resolution_mm));
   return settings;
 }
 
@@ -70,6 +75,9 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
 
     if (!common.quiet)
       for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+    if (!common.quiet)
+      for (const io::SurfaceUse& use : result.surfaces)
+        if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
     if (!options.output_folder.empty()) {
       std::filesystem::path folder = options.output_folder;
       if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();

@@ -39,7 +39,8 @@ struct SurfaceSource {
   /// A file to be read, or a shape given in the case file itself.
   std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
   Defects defects;
-  std::string backend;            ///< "", "analytic", "spline"
+  std::string backend;            ///< "" = the natural one; see `treadmark list backends`
+  double resolution = 0.0;        ///< [m]; 0 = the backend's default
   SourcePosition where;
 };
 

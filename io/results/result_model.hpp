@@ -9,6 +9,7 @@
 
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/report.hpp"
+#include "treadmark/core/surface_difference.hpp"
 
 namespace treadmark::io {
 
@@ -61,12 +62,24 @@ struct CaseResult {
   std::vector<PatchResult> patches;
 };
 
+/// A surface that took part in a run.
+struct SurfaceUse {
+  std::string body;              ///< "wheel" or "rail"
+  std::string backend;
+  double resolution = 0.0;       ///< spacing of the samples it was built from [m]; 0 = built from the data as given
+  double build_seconds = 0.0;
+  std::size_t memory_bytes = 0;
+  SurfaceDifference fit;         ///< from what it was sampled from; points = 0: not sampled
+  std::string note;
+};
+
 struct RunResult {
   std::string version, git;
   int threads = 1;
   double seconds = 0.0;
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
+  std::vector<SurfaceUse> surfaces;    ///< in the order in which the cases ask for them
   std::vector<std::string> settings;   ///< echo of overrides (--set key=value, --backend)
   bool complete = true;                ///< false when interrupted: then fewer cases than asked
   int cases_total = 0;

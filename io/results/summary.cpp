@@ -119,4 +119,14 @@ std::string summary(const CaseResult& result) {
   return table.take();
 }
 
+std::string summary(const SurfaceUse& use) {
+  std::string text = fmt::format("{} as {} at {:g} mm", use.body, use.backend, 1e3 * use.resolution);
+  if (use.fit.points > 0)
+    text += fmt::format(": at most {:.3g} um and {:.3g} mrad from the surface it was sampled from (rms {:.3g} um)",
+                        1e6 * use.fit.height_max, 1e3 * use.fit.slope_max, 1e6 * use.fit.height_rms);
+  if (use.fit.missing > 0) text += fmt::format(", missing at {} of {} points", use.fit.missing, use.fit.missing + use.fit.points);
+  text += fmt::format("; {:.3g} MB, built in {:.2g} s", 1e-6 * static_cast<double>(use.memory_bytes), use.build_seconds);
+  return use.note.empty() ? text : text + "; " + use.note;
+}
+
 }  // namespace treadmark::io

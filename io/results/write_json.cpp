@@ -16,6 +16,7 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;  // m -> mm, N m -> N mm
 constexpr double kMega = 1e-6;  // Pa -> MPa
+constexpr double kMicro = 1e6;  // m -> um
 
 /// Rounded to 12 digits, so that changes of unit leave no tail of nines; not finite = null.
 Json number(double value) {
@@ -127,6 +128,23 @@ Json case_json(const CaseResult& result) {
   return out;
 }
 
+Json surface_json(const SurfaceUse& use) {
+  Json out = {{"body", use.body},
+              {"backend", use.backend},
+              {"resolution_mm", use.resolution > 0.0 ? Json(number(use.resolution * kMilli)) : Json()},
+              {"build_s", number(use.build_seconds)},
+              {"memory_bytes", use.memory_bytes}};
+  if (use.fit.points > 0)
+    out["fit"] = {{"points", use.fit.points},
+                  {"missing", use.fit.missing},
+                  {"height_max_um", number(use.fit.height_max * kMicro)},
+                  {"height_rms_um", number(use.fit.height_rms * kMicro)},
+                  {"slope_max_mrad", number(use.fit.slope_max * kMilli)},
+                  {"curvature_max_per_m", number(use.fit.curvature_max)}};
+  if (!use.note.empty()) out["note"] = use.note;
+  return out;
+}
+
 }  // namespace
 
 std::string to_json(const RunResult& run) {
@@ -134,6 +152,8 @@ std::string to_json(const RunResult& run) {
   out["treadmark"] = {
       {"version", run.version}, {"git", run.git}, {"threads", run.threads}, {"seconds", number(run.seconds)}};
   out["input"] = {{"file", run.input_file}, {"sha256", run.input_sha256}, {"geometry", hashes(run.geometry_sha256)}};
+  out["surfaces"] = Json::array();
+  for (const SurfaceUse& use : run.surfaces) out["surfaces"].push_back(surface_json(use));
   out["settings"] = run.settings;
   out["complete"] = run.complete;
   out["cases_total"] = run.cases_total;

@@ -1,0 +1,18 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/backends/create.hpp"
+#include "treadmark/io/cases/case_model.hpp"
+
+namespace treadmark::app {
+
+/// Reads the geometry of a wheel or rail, whatever its kind (profile, slices, triangles, offsets, a shape given in the case),
+/// and builds the surface in its natural representation, with its defects.
+/// Errors of the readers and backends; Error(configuration) for defects on a file of offsets.
+NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius);
+
+/// Whether the name ends like a file of offsets: .vdb.
+bool is_offset_file(const std::filesystem::path& file);
+
+}  // namespace treadmark::app

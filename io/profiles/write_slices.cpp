@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/profiles/write_slices.hpp"
+
+#include <cctype>
+#include <cstddef>
+#include <iterator>
+#include <string>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/results/atomic_file.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr double kMilli = 1e3;  // m -> mm, rad -> mrad
+constexpr std::size_t kFewestSlices = 4;
+constexpr double kLeastStep = 1e-6;
+
+void check(const std::filesystem::path& file, const SliceSet& slices) {
+  std::string extension = file.extension().string();
+  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const char* expected = slices.body == Body::rail ? ".slcs" : ".slcw";
+  if (extension != expected)
+    throw Error(ErrorKind::configuration, fmt::format("slices of a {} are written to a file *{}", slices.body == Body::rail ? "rail" : "wheel", expected),
+                {file.string()});
+  if (slices.u.size() < kFewestSlices)
+    throw Error(ErrorKind::configuration, "a slices file needs at least four slices", {file.string()}, "use a finer resolution or a longer range");
+  if (!slices.features.empty()) throw Error(ErrorKind::configuration, "slices with features cannot be written", {file.string()});
+  for (std::size_t i = 1; i < slices.u.size(); ++i)
+    if (!(slices.u[i] - slices.u[i - 1] > kLeastStep))
+      throw Error(ErrorKind::configuration, "slices this near to each other cannot be written", {file.string()}, "use a coarser resolution");
+}
+
+}  // namespace
+
+void write_slices(const std::filesystem::path& file, const SliceSet& slices) {
+  check(file, slices);
+  const std::filesystem::path folder = file.parent_path() / file.stem();
+  const bool rail = slices.body == Body::rail;
+  std::string index = fmt::format("% {}\n\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, NACCEL\n       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
+                                  slices.name, rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH",
+                                  slices.u.size(), slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
+  std::string text;
+  for (std::size_t i = 0; i < slices.u.size(); ++i) {
+    const std::string name = fmt::format("slice_{:05}.txt", i + 1);
+    const Profile& profile = slices.profiles[i];
+    text.clear();
+    for (std::size_t k = 0; k < profile.y.size(); ++k)
+      fmt::format_to(std::back_inserter(text), "{:.10f} {:.10f}\n", kMilli * profile.y[k], kMilli * profile.z[k]);
+    write_text_file(folder / name, text);
+    fmt::format_to(std::back_inserter(index), "   {:.9f}   '{}/{}'\n", kMilli * slices.u[i], file.stem().string(), name);
+  }
+  write_text_file(file, index);
+}
+
+}  // namespace treadmark::io
