@@ -8,8 +8,8 @@
 
 namespace treadmark::analytic {
 
-CutBounds::CutBounds(const Cutter& cutter, const Pose& X_SP, const Rectangle& r)
-    : cutter_(cutter),
+CutBounds::CutBounds(std::span<const Cutter> cutters, const Pose& X_SP, const Rectangle& r)
+    : cutters_(cutters),
       X_(X_SP),
       x_(0.5 * (r.x_min + r.x_max)),
       y_(0.5 * (r.y_min + r.y_max)),
@@ -17,12 +17,22 @@ CutBounds::CutBounds(const Cutter& cutter, const Pose& X_SP, const Rectangle& r)
       half_y_(0.5 * (r.y_max - r.y_min)),
       tolerance_(1e-7 + 0.01 * (half_x_ + half_y_)) {}
 
-/// First moved across the rail within the section at the middle, then along it.
 CutBounds::Box CutBounds::box(double a, double b) const {
+  Box all{false, true};
+  for (const Cutter& cutter : cutters_) {
+    const Box one = box(cutter, a, b);
+    all.all_removed |= one.all_removed;
+    all.none_removed &= one.none_removed;
+  }
+  return all;
+}
+
+/// First moved across the rail within the section at the middle, then along it.
+CutBounds::Box CutBounds::box(const Cutter& cutter, double a, double b) const {
   const Vec3 p = X_.apply({x_, y_, 0.5 * (a + b)});
   const double half[3] = {half_x_, half_y_, 0.5 * (b - a)};
   Cutter::Hint hint;
-  const Cutter::Place at = cutter_.place(p, hint);
+  const Cutter::Place at = cutter.place(p, hint);
   double x_half = 0.0, s_half = 0.0, yz_half = 0.0;
   for (int k = 0; k < 3; ++k) {
     const double e_y = X_.rotation(1, k), e_z = X_.rotation(2, k);
@@ -30,7 +40,7 @@ CutBounds::Box CutBounds::box(double a, double b) const {
     s_half += std::fabs(at.cos * e_y + at.sin * e_z) * half[k];
     yz_half += std::hypot(e_y, e_z) * half[k];
   }
-  const CutterPath& path = cutter_.path();
+  const CutterPath& path = cutter.path();
   const double x_low = p.x() - x_half, x_high = p.x() + x_half;
   const CutterPath::Range y = path.range(CutterPath::kY, x_low, x_high), z = path.range(CutterPath::kZ, x_low, x_high);
   const double reach = std::hypot(at.s, at.q) + yz_half + (std::hypot(y.steepest, z.steepest)) * x_half;
@@ -39,13 +49,13 @@ CutBounds::Box CutBounds::box(double a, double b) const {
 
   constexpr double kRounding = 1e-13;
   const double s_low = at.s - s_half - kRounding, s_high = at.s + s_half + kRounding;
-  const bool within = x_low >= cutter_.x_min() && x_high <= cutter_.x_max() && s_low >= cutter_.s_min() && s_high <= cutter_.s_max();
+  const bool within = x_low >= cutter.x_min() && x_high <= cutter.x_max() && s_low >= cutter.s_min() && s_high <= cutter.s_max();
   Box result;
-  if (x_high < cutter_.x_min() || x_low > cutter_.x_max() || s_high < cutter_.s_min() || s_low > cutter_.s_max()) {
+  if (x_high < cutter.x_min() || x_low > cutter.x_max() || s_high < cutter.s_min() || s_low > cutter.s_max()) {
     result.none_removed = true;
     return result;
   }
-  CurveRange h = cutter_.section().range(s_low, s_high);
+  CurveRange h = cutter.section().range(s_low, s_high);
   if (!within) {  // beyond its ends the section goes on level
     h.dh_min = std::min(h.dh_min, 0.0);
     h.dh_max = std::max(h.dh_max, 0.0);

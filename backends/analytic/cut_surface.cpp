@@ -14,10 +14,41 @@ namespace treadmark::analytic {
 
 namespace {
 
+/// Lines of one direction through all cutters; one object serves one thread.
+class Rays {
+ public:
+  Rays(const std::vector<Cutter>& cutters, const Vec3& direction) {
+    rays_.reserve(cutters.size());
+    for (const Cutter& cutter : cutters) rays_.emplace_back(cutter, direction);
+  }
+
+  /// If the point at t is removed by some cutter: the first point beyond it that none removes, and the last cutter left.
+  bool leave(const Vec3& origin, double t, CutterRay::Hit& hit, std::size_t& last) {
+    bool removed = false;
+    for (std::size_t i = 0, kept_by = 0; kept_by < rays_.size(); i = (i + 1) % rays_.size()) {
+      CutterRay::Hit next;
+      if (!(removed && i == last) && rays_[i].leave(origin, t, next)) {
+        removed = true;
+        last = i;
+        hit = next;
+        t = next.t;
+        kept_by = 1;
+      } else {
+        ++kept_by;
+      }
+    }
+    return removed;
+  }
+
+ private:
+  std::vector<CutterRay> rays_;
+};
+
 /// Replaces the height z of the base, and its slopes, where the point at it is removed.
-void cut_point(CutterRay& ray, const Pose& X, const Vec3& origin, double z, const HeightsOut& out, std::size_t i) {
+void cut_point(Rays& rays, const Pose& X, const Vec3& origin, double z, const HeightsOut& out, std::size_t i) {
   CutterRay::Hit hit;
-  if (std::isnan(z) || !ray.leave(origin, z, hit)) return;
+  std::size_t last = 0;
+  if (std::isnan(z) || !rays.leave(origin, z, hit, last)) return;
   if (!out.z.empty()) out.z[i] = hit.t;
   if (out.dzdx.empty() && out.dzdy.empty()) return;
   const Vec3 f = X.rotation.transpose() * hit.gradient;
@@ -53,8 +84,14 @@ void fill_shape(const Vec3& gradient, const Mat3& hessian, SurfacePoint& point) 
 
 Box3 CutSurface::bounds() const {
   Box3 box = base_->bounds();
-  box.max.z() = std::max(box.max.z(), cutter_.z_max());
+  for (const Cutter& cutter : cutters_) box.max.z() = std::max(box.max.z(), cutter.z_max());
   return box;
+}
+
+std::size_t CutSurface::memory_bytes() const {
+  std::size_t sum = sizeof(*this) + base_->memory_bytes();
+  for (const Cutter& cutter : cutters_) sum += cutter.memory_bytes();
+  return sum;
 }
 
 void CutSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
@@ -63,11 +100,11 @@ void CutSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) 
   std::vector<double> spare;
   const auto z = base_heights(out, g.size(), spare, [&](const HeightsOut& base) { base_->heights(plane_grid, base); });
   const auto row = [&](std::size_t iy) {
-    CutterRay ray(cutter_, X.rotation.col(2));
+    Rays rays(cutters_, X.rotation.col(2));
     const Vec3 start = X.origin + X.rotation.col(1) * g.y(static_cast<int>(iy));
     for (int ix = 0; ix < g.nx; ++ix) {
       const std::size_t i = g.index(ix, static_cast<int>(iy));
-      cut_point(ray, X, start + X.rotation.col(0) * g.x(ix), z[i], out, i);
+      cut_point(rays, X, start + X.rotation.col(0) * g.x(ix), z[i], out, i);
     }
   };
   constexpr std::size_t kWorthThreads = 10'000;
@@ -80,31 +117,32 @@ void CutSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) 
 void CutSurface::do_heights_at(const Pose& X, std::span<const Vec2> points_P, const HeightsOut& out) const {
   std::vector<double> spare;
   const auto z = base_heights(out, points_P.size(), spare, [&](const HeightsOut& base) { base_->heights_at(X, points_P, base); });
-  CutterRay ray(cutter_, X.rotation.col(2));
+  Rays rays(cutters_, X.rotation.col(2));
   for (std::size_t i = 0; i < points_P.size(); ++i)
-    cut_point(ray, X, X.apply({points_P[i].x(), points_P[i].y(), 0.0}), z[i], out, i);
+    cut_point(rays, X, X.apply({points_P[i].x(), points_P[i].y(), 0.0}), z[i], out, i);
 }
 
 void CutSurface::do_locate(const Pose& X, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   base_->locate(X, points_P, out);
   const Vec3 n = X.rotation.col(2);
-  CutterRay ray(cutter_, n);
-  Cutter::Hint hint;
+  Rays rays(cutters_, n);
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     SurfacePoint& point = out[i];
     if (point.status == LocateStatus::outside) continue;
     const Vec3 origin = X.apply({points_P[i].x(), points_P[i].y(), 0.0});
     CutterRay::Hit hit;
-    if (!ray.leave(origin, n.dot(point.position_S - origin), hit)) continue;
+    Cutter::Hint hint;
+    std::size_t last = 0;
+    if (!rays.leave(origin, n.dot(point.position_S - origin), hit, last)) continue;
     point.position_S = origin + hit.t * n;
     point.u = point.position_S.x();
     point.v = point.position_S.y();
-    fill_shape(hit.gradient, cutter_.hessian(hit.bound, point.position_S, hint), point);
+    fill_shape(hit.gradient, cutters_[last].hessian(hit.bound, point.position_S, hint), point);
   }
 }
 
 HeightBounds CutSurface::do_height_bounds(const Pose& X, const Rectangle& rectangle_P) const {
-  return CutBounds(cutter_, X, rectangle_P).heights(base_->height_bounds(X, rectangle_P));
+  return CutBounds(cutters_, X, rectangle_P).heights(base_->height_bounds(X, rectangle_P));
 }
 
 }  // namespace treadmark::analytic

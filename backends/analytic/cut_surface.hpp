@@ -3,23 +3,25 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "treadmark/backends/analytic/cutter.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::analytic {
 
-/// A rail of any backend less the volume that a cutter removes. A line keeps the base's hit where that lies outside of the
-/// volume, and otherwise ends where it leaves the volume: on the swept section or on a wall at one of its ends. u = x [m];
+/// A rail of any backend less the volumes that cutters remove. A line keeps the base's hit where that lies outside of the
+/// volumes, and otherwise ends where it leaves them: on a swept section or on a wall at one of its ends. u = x [m];
 /// v = y [m] of the surface frame where material was removed, else as the base.
 class CutSurface final : public Surface {
  public:
-  CutSurface(std::shared_ptr<const Surface> base, Cutter cutter) : base_(std::move(base)), cutter_(std::move(cutter)) {}
+  CutSurface(std::shared_ptr<const Surface> base, std::vector<Cutter> cutters)
+      : base_(std::move(base)), cutters_(std::move(cutters)) {}
 
   std::string_view backend() const override { return base_->backend(); }
   Facing facing() const override { return Facing::up; }
   Box3 bounds() const override;
-  std::size_t memory_bytes() const override { return base_->memory_bytes() + cutter_.memory_bytes(); }
+  std::size_t memory_bytes() const override;
 
  private:
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
@@ -28,7 +30,7 @@ class CutSurface final : public Surface {
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
   std::shared_ptr<const Surface> base_;
-  Cutter cutter_;
+  std::vector<Cutter> cutters_;
 };
 
 }  // namespace treadmark::analytic

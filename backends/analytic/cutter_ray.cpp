@@ -8,7 +8,7 @@
 
 namespace treadmark::analytic {
 
-CutterRay::CutterRay(const Cutter& cutter, const Vec3& direction) : cutter_(cutter), n_(direction) {
+CutterRay::CutterRay(const Cutter& cutter, const Vec3& direction) : cutter_(&cutter), n_(direction) {
   const double c = std::cos(cutter.roll_middle()), s = std::sin(cutter.roll_middle());
   const double swing = 2.0 * std::sin(0.5 * cutter.roll_half()) * std::hypot(n_.y(), n_.z());
   least_q_ = c * n_.z() - s * n_.y() - swing;
@@ -19,7 +19,7 @@ CutterRay::CutterRay(const Cutter& cutter, const Vec3& direction) : cutter_(cutt
 double CutterRay::rate_of_x_terms(const Cutter::Place& at) const {
   if (n_.x() == 0.0) return 0.0;
   const double reach = 2.0 * std::hypot(at.s, at.q) + 0.01;
-  return std::fabs(n_.x()) * (cutter_.roll_rate() * reach + cutter_.path_slope());
+  return std::fabs(n_.x()) * (cutter_->roll_rate() * reach + cutter_->path_slope());
 }
 
 /// The root of a gap that falls at least with a known rate: Newton, held between the bounds known so far.
@@ -30,7 +30,7 @@ double CutterRay::descend(double t, const Cutter::Place& from, double least_rate
     const double gap = at.gap();
     if (gap == 0.0) return t;
     (gap > 0.0 ? low : high) = t;
-    const double rate = cutter_.gradient(Cutter::kSection, at).dot(n_);
+    const double rate = cutter_->gradient(Cutter::kSection, at).dot(n_);
     double next = t - gap / std::min(rate, -least_rate);
     if (!(next >= low && next <= high)) next = 0.5 * (low + high);
     constexpr double kRounding = 1e-16;
@@ -39,7 +39,7 @@ double CutterRay::descend(double t, const Cutter::Place& from, double least_rate
     at = place(t);
     constexpr double kNear = 1e-10;  // [m] the step after a Newton step this small is below rounding
     if (std::fabs(at.gap()) < kNear * least_rate && i > 0) {
-      const double last = cutter_.gradient(Cutter::kSection, at).dot(n_);
+      const double last = cutter_->gradient(Cutter::kSection, at).dot(n_);
       return std::clamp(t - at.gap() / std::min(last, -least_rate), low, high);
     }
   }
@@ -74,9 +74,9 @@ double CutterRay::march(double t, Cutter::Bound& bound) {
     double step = std::numeric_limits<double>::infinity();
     const double path = rate_of_x_terms(at), s_rate = most_s_ + path, q_rate = 1.0 + path;
     for (const Cutter::Bound b : kBounds) {
-      const double rate = b == Cutter::kSection ? cutter_.steepest() * s_rate + q_rate
+      const double rate = b == Cutter::kSection ? cutter_->steepest() * s_rate + q_rate
                           : b == Cutter::kFirst || b == Cutter::kLast ? std::fabs(n_.x()) : s_rate;
-      if (rate > 0.0) step = std::min(step, cutter_.value(b, at, x(t)) / rate);
+      if (rate > 0.0) step = std::min(step, cutter_->value(b, at, x(t)) / rate);
     }
     step = std::min(step, 0.5 * std::hypot(at.s, at.q) + 0.005);  // the rates hold so far
     if (step > kLeastStep) {
@@ -88,7 +88,7 @@ double CutterRay::march(double t, Cutter::Bound& bound) {
     const auto outside = [&](double at_t, Cutter::Bound* which) {
       const Cutter::Place p = place(at_t);
       for (const Cutter::Bound k : kBounds)
-        if (!(cutter_.value(k, p, x(at_t)) > 0.0)) {
+        if (!(cutter_->value(k, p, x(at_t)) > 0.0)) {
           if (which != nullptr) *which = k;
           return true;
         }
@@ -110,31 +110,31 @@ double CutterRay::march(double t, Cutter::Bound& bound) {
 bool CutterRay::leave(const Vec3& origin, double t, Hit& hit) {
   o_ = origin;
   const double x0 = x(t);
-  if (!(x0 > cutter_.x_min() && x0 < cutter_.x_max())) return false;
+  if (!(x0 > cutter_->x_min() && x0 < cutter_->x_max())) return false;
   const Cutter::Place from = place(t);
-  if (!(from.gap() > 0.0 && cutter_.in_domain(from, x0))) return false;
+  if (!(from.gap() > 0.0 && cutter_->in_domain(from, x0))) return false;
 
   const double path = rate_of_x_terms(from);
-  const double least_rate = least_q_ - path - cutter_.steepest() * (most_s_ + path);
+  const double least_rate = least_q_ - path - cutter_->steepest() * (most_s_ + path);
   const double t_last = t + from.gap() / least_rate;
   constexpr double kLeastRate = 0.02;
   hit.bound = Cutter::kSection;
   if (least_rate > kLeastRate && t_last - t < std::hypot(from.s, from.q) + 0.01) {
     hit.t = descend(t, from, least_rate, t_last);
     const double s = place(hit.t).s;
-    if (s < cutter_.s_min() || s > cutter_.s_max()) {
-      hit.bound = s < cutter_.s_min() ? Cutter::kStart : Cutter::kEnd;
-      hit.t = cross_end(s < cutter_.s_min() ? cutter_.s_min() : cutter_.s_max(), t, hit.t);
+    if (s < cutter_->s_min() || s > cutter_->s_max()) {
+      hit.bound = s < cutter_->s_min() ? Cutter::kStart : Cutter::kEnd;
+      hit.t = cross_end(s < cutter_->s_min() ? cutter_->s_min() : cutter_->s_max(), t, hit.t);
     }
     const double x_hit = x(hit.t);
-    if (x_hit < cutter_.x_min() || x_hit > cutter_.x_max()) {
-      hit.bound = x_hit < cutter_.x_min() ? Cutter::kFirst : Cutter::kLast;
-      hit.t = ((x_hit < cutter_.x_min() ? cutter_.x_min() : cutter_.x_max()) - o_.x()) / n_.x();
+    if (x_hit < cutter_->x_min() || x_hit > cutter_->x_max()) {
+      hit.bound = x_hit < cutter_->x_min() ? Cutter::kFirst : Cutter::kLast;
+      hit.t = ((x_hit < cutter_->x_min() ? cutter_->x_min() : cutter_->x_max()) - o_.x()) / n_.x();
     }
   } else {
     hit.t = march(t, hit.bound);
   }
-  hit.gradient = cutter_.gradient(hit.bound, place(hit.t));
+  hit.gradient = cutter_->gradient(hit.bound, place(hit.t));
   return true;
 }
 

@@ -24,10 +24,10 @@ class CutterRay {
   double descend(double t, const Cutter::Place& at, double least_rate, double t_last);
   double cross_end(double s_end, double a, double b);
   double march(double t, Cutter::Bound& bound);
-  Cutter::Place place(double t) { return cutter_.place(o_ + t * n_, hint_); }
+  Cutter::Place place(double t) { return cutter_->place(o_ + t * n_, hint_); }
   double x(double t) const { return o_.x() + t * n_.x(); }
 
-  const Cutter& cutter_;
+  const Cutter* cutter_;
   Vec3 n_, o_ = Vec3::Zero();
   double least_q_ = 0.0, most_s_ = 0.0;  ///< of dq/dt and |ds/dt| for any roll of the path, without the terms in n_x
   Cutter::Hint hint_;

@@ -96,15 +96,18 @@ std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, 
   if (defects.empty()) return base;
   require_base(base);
   std::shared_ptr<const Surface> surface = base;
+  std::vector<Cutter> cutters;
   for (std::size_t i = 0; i < defects.flattened_heads.size(); ++i)
-    surface = std::make_shared<CutSurface>(surface, head_cutter(defects.flattened_heads[i], *base, i));
+    cutters.push_back(head_cutter(defects.flattened_heads[i], *base, i));
+  if (!cutters.empty()) surface = std::make_shared<CutSurface>(surface, std::move(cutters));
   std::vector<ShapePtr> shapes = make_shapes(defects, nominal_radius);
   if (!shapes.empty()) {
     std::string name(surface->backend());
     surface = displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(shapes)), body, std::move(name));
   }
-  for (std::size_t i = 0; i < defects.milling_paths.size(); ++i)
-    surface = std::make_shared<CutSurface>(surface, milling_cutter(defects.milling_paths[i], i));
+  cutters.clear();
+  for (std::size_t i = 0; i < defects.milling_paths.size(); ++i) cutters.push_back(milling_cutter(defects.milling_paths[i], i));
+  if (!cutters.empty()) surface = std::make_shared<CutSurface>(surface, std::move(cutters));
   return surface;
 }
 

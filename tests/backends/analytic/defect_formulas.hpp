@@ -1,0 +1,95 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <numbers>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/defects.hpp"
+
+namespace treadmark::testing {
+
+/// Defects with formulas of their own, written from docs/defects.md: dz(x, y) of a rail, dr(theta, y) of a wheel.
+struct NamedDefects {
+  std::string name;
+  Body body;
+  Defects defects;
+  std::function<double(double, double)> offset;
+  double u_min, u_max, y_min, y_max;  ///< where it is worth looking
+  double kink = 1e300;                ///< size of second derivatives that tells a kink from the rest
+};
+
+inline constexpr double kTestRadius = 0.46;
+
+inline double fade(double e, double width) {
+  if (width == 0.0) return 1.0;
+  return std::fabs(e) < 0.5 * width ? std::pow(std::cos(std::numbers::pi * e / width), 2) : 0.0;
+}
+inline double turn(double theta) { return std::remainder(theta, 2.0 * std::numbers::pi); }
+
+/// All shapes that are offsets, one of each kind and some that meet.
+inline std::vector<NamedDefects> offset_defects() {
+  constexpr double kPi = std::numbers::pi, R = kTestRadius;
+  std::vector<NamedDefects> all;
+
+  const WheelFlat rounded{WheelFlat::Shape::rounded, 0.06, 0.8e-3, 3.13, 0.004, 0.05};
+  const auto rounded_offset = [=](double t, double y) {
+    return -0.8e-3 * fade(R * turn(t - 3.13), 0.06) * fade(y - 0.004, 0.05);
+  };
+  all.push_back({"rounded_flat", Body::wheel, {.flats = {rounded}}, rounded_offset, 3.0, 3.3, -0.03, 0.04});
+
+  const WheelFlat fresh{WheelFlat::Shape::fresh, 0.04, 0.0, -0.005, 0.0, 0.0};
+  const auto fresh_offset = [=](double t, double) {
+    const double x = std::fabs(turn(t + 0.005));
+    return x < std::asin(0.02 / R) ? -(R - std::sqrt(R * R - 0.02 * 0.02) / std::cos(x)) : 0.0;
+  };
+  all.push_back({"fresh_flat", Body::wheel, {.flats = {fresh}}, fresh_offset, -0.08, 0.06, -0.03, 0.04});
+
+  Polygonization polygon{{{7, 0.1e-3, 0.3}, {20, -0.02e-3, -1.0}}, 0.002, 0.06};
+  const auto polygon_offset = [=](double t, double y) {
+    return (0.1e-3 * std::cos(7 * t - 0.3) - 0.02e-3 * std::cos(20 * t + 1.0)) * fade(y - 0.002, 0.06);
+  };
+  all.push_back({"polygon", Body::wheel, {.polygonizations = {polygon}}, polygon_offset, -4.0, 4.0, -0.04, 0.04});
+  all.push_back({"polygon_and_flats", Body::wheel, {.flats = {rounded, fresh}, .polygonizations = {polygon}},
+                 [=](double t, double y) { return polygon_offset(t, y) + rounded_offset(t, y) + fresh_offset(t, y); }, -3.3, 3.3,
+                 -0.03, 0.04});
+
+  Squat squat{.length = 0.04, .width = 0.025, .depth = 0.3e-3, .x_center = 0.01, .y_center = -0.005};
+  squat.second_depth = 0.5e-3;
+  squat.second_width = 0.03;
+  squat.second_distance = 0.03;
+  squat.second_y_offset = 0.002;
+  const auto squat_offset = [=](double x, double y) {
+    return 0.3e-3 * fade(x - 0.01, 0.04) * fade(y + 0.005, 0.025) + 0.5e-3 * fade(x + 0.02, 0.04) * fade(y + 0.003, 0.03);
+  };
+  all.push_back({"squat", Body::rail, {.squats = {squat}}, squat_offset, -0.05, 0.04, -0.025, 0.02});
+
+  Corrugation waves{{{0.05, 0.04e-3, 0.5}, {0.03, -0.02e-3, 0.0}}, -0.12, 0.15, 0.06, 0.003, 0.06};
+  const auto waves_offset = [=](double x, double y) {
+    if (x <= -0.12 || x >= 0.15) return 0.0;
+    const double in = std::clamp((x + 0.12) / 0.06, 0.0, 1.0), out = std::clamp((0.15 - x) / 0.06, 0.0, 1.0);
+    const double run = std::pow(std::sin(0.5 * kPi * in), 2) * std::pow(std::sin(0.5 * kPi * out), 2);
+    return run * fade(y - 0.003, 0.06) *
+           (0.04e-3 * std::cos(2 * kPi * (x + 0.12) / 0.05 - 0.5) - 0.02e-3 * std::cos(2 * kPi * (x + 0.12) / 0.03));
+  };
+  all.push_back({"corrugation", Body::rail, {.corrugations = {waves}}, waves_offset, -0.15, 0.18, -0.03, 0.04});
+
+  for (const int side : {-1, 1}) {
+    GaugeCornerCollapse collapse{0.3, 2e-3, 0.015, 0.02, side * 0.012, side};
+    const auto offset = [=](double x, double y) {
+      const double t = std::clamp((side * y - 0.012) / 0.015, 0.0, 1.0);
+      return 2e-3 * fade(x - 0.02, 0.3) * std::pow(std::sin(0.5 * kPi * t), 2);
+    };
+    all.push_back({side < 0 ? "collapse_left" : "collapse_right", Body::rail, {.gauge_corner_collapses = {collapse}}, offset, -0.15,
+                   0.2, -0.035, 0.035});
+  }
+  all.push_back({"squat_on_corrugation", Body::rail, {.squats = {squat}, .corrugations = {waves}},
+                 [=](double x, double y) { return squat_offset(x, y) + waves_offset(x, y); }, -0.15, 0.18, -0.03, 0.04});
+  return all;
+}
+
+}  // namespace treadmark::testing
