@@ -4,6 +4,8 @@
 
 #include "treadmark/backends/spline/fit_profile.hpp"
 #include "treadmark/backends/spline/fit_slices.hpp"
+#include "treadmark/backends/spline/nurbs_fit.hpp"
+#include "treadmark/backends/spline/nurbs_surface.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
 #include "treadmark/backends/spline/slice_surface.hpp"
@@ -18,6 +20,15 @@ std::shared_ptr<const Surface> make_profile_surface(const Profile& profile, doub
 std::shared_ptr<const Surface> make_slice_surface(const SliceSet& slices, double nominal_radius) {
   if (slices.body == Body::rail) return std::make_shared<SliceRail>(fit_slices(slices), 0.0);
   return std::make_shared<SliceWheel>(fit_slices(slices), nominal_radius);
+}
+
+std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& points) {
+  return std::make_shared<NurbsSurface>(fit_point_grid(points), points.body);
+}
+
+std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius, double x_min, double x_max) {
+  return std::make_shared<NurbsSurface>(
+      body == Body::rail ? sweep_chain(chain, x_min, x_max) : revolve_chain(chain, nominal_radius), body);
 }
 
 }  // namespace treadmark::spline

@@ -1,0 +1,75 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "treadmark/backends/spline/bezier_patch.hpp"
+#include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::spline {
+
+/// A tensor-product NURBS surface as its rational bicubic Bezier patches: a grid of control points of which neighbouring
+/// patches share those on their border. Boxes of control points form a pyramid above the patches. Immutable, so safe to use
+/// from any number of threads.
+class NurbsNet {
+ public:
+  /// u_breaks, v_breaks: parameters of the patch borders, increasing. points: surface frame, homogeneous, index =
+  /// iv + ((3 patches in v) + 1) iu.
+  NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Quad> points);
+
+  int patches_u() const { return static_cast<int>(u_.size()) - 1; }
+  int patches_v() const { return static_cast<int>(v_.size()) - 1; }
+  double u_break(int i) const { return u_[static_cast<std::size_t>(i)]; }
+  double v_break(int i) const { return v_[static_cast<std::size_t>(i)]; }
+  std::size_t memory_bytes() const;
+
+  /// Surface frame.
+  BezierPatch patch(int iu, int iv) const;
+  /// Frame P: homogeneous coordinates there.
+  BezierPatch patch(int iu, int iv, const Pose& X_SP) const;
+  Box3 bounds() const;
+
+  /// Patch and local parameters for (u, v), clamped to the surface.
+  struct Place {
+    int iu, iv;
+    double s, t;  ///< -1/2 .. 1/2
+  };
+  Place find(double u, double v) const;
+
+  /// Calls use(iu, iv, centre, half) for every patch whose box passes wanted(centre, half); so must all boxes above it.
+  template <class Wanted, class Use>
+  void visit(const Wanted& wanted, const Use& use) const {
+    descend(levels_.size() - 1, 0, 0, wanted, use);
+  }
+
+ private:
+  struct Box {
+    Vec3 centre, half;
+  };
+  struct Level {
+    int nu, nv;
+    std::vector<Box> boxes;
+    const Box& at(int iu, int iv) const { return boxes[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)]; }
+  };
+  static constexpr int kFanOut = 4;  // in each direction
+
+  template <class Wanted, class Use>
+  void descend(std::size_t level, int iu, int iv, const Wanted& wanted, const Use& use) const {
+    const Box& box = levels_[level].at(iu, iv);
+    if (!wanted(box.centre, box.half)) return;
+    if (level == 0) return use(iu, iv, box.centre, box.half);
+    const Level& below = levels_[level - 1];
+    for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
+      for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv) descend(level - 1, ku, kv, wanted, use);
+  }
+
+  std::vector<double> u_, v_;
+  std::size_t stride_;
+  std::vector<Quad> points_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace treadmark::spline
