@@ -17,7 +17,7 @@ namespace {
 
 constexpr double kFloor = 1e-3;      // of errors [%] and heights [um]: less is rounding
 constexpr double kTimeFloor = 1e-3;  // [ms]
-constexpr double kLegendWidth = 216.0;
+constexpr double kLegendIndent = 28.0, kLegendLeast = 216.0;
 constexpr double kLeft = 70.0, kTop = 40.0, kBottom = 66.0;
 constexpr double kRemark = 10.0, kRemarkLine = 14.0;  // of the lowest remark, from the end of the picture
 
@@ -84,6 +84,12 @@ std::vector<ChartSeries> joined(const std::vector<Chart>& charts) {
   return out;
 }
 
+double legend_width(const std::vector<ChartSeries>& series) {
+  double widest = 0.0;
+  for (const ChartSeries& item : series) widest = std::max(widest, text_width(item.name, kChartFont));
+  return std::max(kLegendLeast, kLegendIndent + 46.0 + widest);
+}
+
 std::string truth_words(const Comparison& comparison) {
   return "truth: " + (comparison.truth.empty() ? "none" : comparison.truth);
 }
@@ -129,7 +135,7 @@ std::string error_svg(const Comparison& comparison) {
   constexpr double kSize = 330.0, kGap = 90.0;
   const std::vector<ChartSeries> legend = joined(charts);
   const double legend_height = kTop + kLegendLine * static_cast<double>(legend.size() + 3);
-  const double width = kLeft + 2.0 * kSize + kGap + kLegendWidth;
+  const double width = kLeft + 2.0 * kSize + kGap + legend_width(legend);
   const double height = std::max(kTop + kSize + kBottom, legend_height);
   std::string out = svg_head(width, height, kChartFont, kChartStyle);
   double x = kLeft;
@@ -140,7 +146,7 @@ std::string error_svg(const Comparison& comparison) {
     out += draw_chart(chart, {x, kTop, kSize, kSize});
     x += kSize + kGap;
   }
-  x += 28.0 - kGap;
+  x += kLegendIndent - kGap;
   double y = kTop + 8.0;
   out += draw_chart_legend(legend, x, y);
   y += kLegendLine * static_cast<double>(legend.size()) + 8.0;
@@ -197,11 +203,11 @@ std::string cost_svg(const Comparison& comparison) {
     std::stable_sort(series.points.begin(), series.points.end(),
                      [](const ChartPoint& a, const ChartPoint& b) { return a.radius > b.radius; });
 
-  const double legend_x = kLeft + kWidth + 28.0;
+  const double legend_x = kLeft + kWidth + kLegendIndent;
   const double legend_height = kLegendLine * static_cast<double>(chart.series.size()) + 8.0;
   const double below = kRemarkLine * static_cast<double>(missing.size());
   const double height = std::max(kTop + kHeight + kBottom + below, kTop + legend_height + 200.0);
-  std::string out = svg_head(kLeft + kWidth + kLegendWidth, height, kChartFont, kChartStyle);
+  std::string out = svg_head(kLeft + kWidth + legend_width(chart.series), height, kChartFont, kChartStyle);
   out += draw_chart(chart, {kLeft, kTop, kWidth, kHeight});
   out += draw_chart_legend(chart.series, legend_x, kTop + 8.0);
   double y = kTop + 8.0 + legend_height;

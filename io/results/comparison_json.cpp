@@ -5,6 +5,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <cstring>
 
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/comparison_fields.hpp"
@@ -12,6 +13,8 @@
 
 namespace treadmark::io {
 namespace {
+
+constexpr const char* kShort = "\b\f\n\r\t";  // written with a letter
 
 std::string json_string(std::string_view text) {
   std::string out = "\"";
@@ -22,7 +25,9 @@ std::string json_string(std::string_view text) {
       out += "\xEF\xBF\xBD";  // U+FFFD, the replacement character
     else if (c == '"' || c == '\\')
       out += {'\\', text.front()};
-    else if (c < 0x20 || c == 0x7F)
+    else if (const char* short_form = std::strchr(kShort, c); c > 0 && short_form != nullptr)
+      out += {'\\', "bfnrt"[short_form - kShort]};
+    else if (c < 0x20)
       out += fmt::format("\\u{:04x}", c);
     else
       out += text.substr(0, length);

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/chart_labels.hpp"
 #include "treadmark/io/results/comparison_cases.hpp"
 #include "treadmark/io/results/comparison_digest.hpp"
 #include "treadmark/io/results/comparison_pictures.hpp"
@@ -23,8 +24,9 @@ constexpr std::size_t kMostCases = 3;
 // Sizes in pixels.
 constexpr double kPanel = 160.0;  // width of a panel
 constexpr double kGapX = 34.0, kGapY = 76.0, kLeft = 64.0, kTop = 62.0, kRight = 110.0;
-constexpr double kMargin = 0.06;                   // of the window, around the contact
-constexpr double kEqualScale = 4.0;                // windows longer than this get their own scale in each direction
+constexpr double kMargin = 0.06;     // of the window, around the contact
+constexpr double kEqualScale = 4.0;  // windows longer than this get their own scale in each direction
+constexpr const char* kTitle = " class=\"title\"";
 constexpr double kLowest = 0.45, kHighest = 1.25;  // height over width of a panel
 
 /// What a panel shows: a map, or words why there is none.
@@ -125,9 +127,18 @@ std::string draw_panel(const Panel& panel, const PanelScale& scale, double top_p
   return out + svg_text(0.5 * kPanel, height + 42.0, panel.below, "middle", " class=\"below\"");
 }
 
+/// The name over a column, in two lines where it is long.
+std::string draw_heading(const std::string& label, double x) {
+  std::size_t cut = std::string::npos;
+  if (text_width(label, 13.0) > kPanel + kGapX) cut = label.rfind(' ', label.size() / 2 + 4);
+  if (cut == std::string::npos) return svg_text(x, 30.0, label, "middle", kTitle);
+  return svg_text(x, 16.0, label.substr(0, cut), "middle", kTitle) +
+         svg_text(x, 30.0, label.substr(cut + 1), "middle", kTitle);
+}
+
 std::string draw_row(const Row& row, double height) {
   const PanelScale scale = panel_scale(row.window, height);
-  std::string out = svg_text(0.0, -8.0, row.title, "start", " class=\"title\"");
+  std::string out = svg_text(0.0, -8.0, row.title, "start", kTitle);
   double x = 0.0;
   for (const Panel& panel : row.panels) {
     out += fmt::format("<g class=\"panel\" transform=\"translate({:.1f} 0)\">\n", x) +
@@ -153,7 +164,7 @@ std::string pressures_svg(const Comparison& comparison) {
                              std::string(kPanelStyle) + ".below{font-size:11px}");
   double x = kLeft + 0.5 * kPanel;
   for (std::size_t i = 0; i < comparison.candidates.size(); ++i, x += kPanel + kGapX)
-    out += svg_text(x, 24.0, candidate_label(comparison, i), "middle", " class=\"title\"");
+    out += draw_heading(candidate_label(comparison, i), x);
   double y = kTop;
   for (const Row& row : rows) {
     out +=
