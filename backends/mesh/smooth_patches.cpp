@@ -14,7 +14,7 @@ namespace treadmark::mesh {
 namespace {
 
 constexpr double kGrazing = 0.01;     ///< cosine between line and surface normal below which the facet counts
-constexpr double kSafety = 2.0;       ///< on the sampled distance between facet and surface
+constexpr double kSafety = 1.5;       ///< on the sampled distance between facet and surface
 constexpr double kWild = 0.25;        ///< of the longest side: a surface farther off is not believed
 
 /// Barycentric coordinates as jets by x and y of the plane.

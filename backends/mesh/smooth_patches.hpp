@@ -39,7 +39,7 @@ class SmoothPatches {
   std::size_t memory_bytes() const { return fits_.memory_bytes() + bulge_.capacity() * sizeof(float); }
 
  private:
-  static constexpr double kSteepest = 30.0;  ///< longest way along a line, in bulges
+  static constexpr double kSteepest = 10.0;  ///< longest way along a line, in bulges
 
   Vec3 mean_normal(std::uint32_t triangle) const;
   bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start, const Vec3& direction,

@@ -18,6 +18,7 @@ namespace {
 constexpr std::size_t kMargin = 2;          ///< points wanted beyond the number of coefficients
 constexpr double kIllConditioned = 2e-3;    ///< least over greatest diagonal of R, columns of unit length
 constexpr double kTurnedAway = 0.5;         ///< cosine: points whose surface turned farther are no height over the tangent plane
+constexpr std::size_t kEnough = 14;         ///< neighbours to have after three rings
 constexpr std::size_t kMostPoints = 128;    ///< nearest rings only, at vertices of very many triangles
 
 /// Terms of the polynomials, best first; the long axis of the neighbourhood is u.
@@ -133,6 +134,8 @@ VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::v
   if (solve(two, kCubic, fit)) return fit;
   const VertexFit frame_of_two = fit;
   rings.grow();
+  // strips of triangles and their corners have few neighbours a ring
+  for (int more = 0; more < 3 && rings.others().size() < kEnough; ++more) rings.grow();
   const Cloud three = gather(mesh, sectors, normals, rings.others(), fit);
   if (solve(three, kCubic, fit)) return fit;
   if (solve(three, kQuadratic, fit) || solve(three, kAcross, fit)) return fit;

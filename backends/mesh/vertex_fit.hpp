@@ -38,7 +38,7 @@ struct VertexFits {
   std::size_t memory_bytes() const { return fits.capacity() * sizeof(VertexFit) + of_corner.capacity() * sizeof(Corners); }
 };
 
-/// Weighted least squares over the two rings of triangles round a vertex, or three where two do not determine a cubic (rims,
+/// Weighted least squares over the two rings of triangles round a vertex, or three and more where two do not determine a cubic (rims,
 /// corners). Where three do not either the polynomial has fewer terms: quadratic, cubic across and linear along (long thin
 /// triangles), plane. Neighbours are reached over edges that turn by at most crease_angle [rad]. Runs in parallel.
 VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle);

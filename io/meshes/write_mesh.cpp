@@ -1,0 +1,112 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <bit>
+#include <cstring>
+#include <fstream>
+#include <iterator>
+#include <system_error>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+constexpr double kMillimetres = 1e3;
+
+/// Appends little-endian bytes.
+template <class T>
+void put(std::string& out, T value) {
+  char raw[sizeof(T)];
+  std::memcpy(raw, &value, sizeof(T));
+  if constexpr (std::endian::native == std::endian::big) std::reverse(raw, raw + sizeof(T));
+  out.append(raw, sizeof(T));
+}
+
+std::string ply(const TriangleMesh& mesh) {
+  std::string out = fmt::format(
+      "ply\nformat binary_little_endian 1.0\ncomment millimetres\nelement vertex {}\nproperty double x\nproperty double y\n"
+      "property double z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
+      mesh.vertices.size(), mesh.triangles.size());
+  out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
+  for (const Vec3& v : mesh.vertices)
+    for (int k = 0; k < 3; ++k) put(out, kMillimetres * v[k]);
+  for (const auto& c : mesh.triangles) {
+    put(out, std::uint8_t{3});
+    for (const std::uint32_t v : c) put(out, v);
+  }
+  return out;
+}
+
+std::string stl(const TriangleMesh& mesh) {
+  std::string out = "binary STL, millimetres";  // must not begin with the word solid
+  out.resize(80, ' ');
+  out.reserve(84 + 50 * mesh.triangles.size());
+  put(out, static_cast<std::uint32_t>(mesh.triangles.size()));
+  for (const auto& c : mesh.triangles) {
+    const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
+    Vec3 n = (b - a).cross(d - a);
+    if (n.norm() > 0.0) n.normalize();
+    for (int k = 0; k < 3; ++k) put(out, static_cast<float>(n[k]));
+    for (const Vec3* v : {&a, &b, &d})
+      for (int k = 0; k < 3; ++k) put(out, static_cast<float>(kMillimetres * (*v)[k]));
+    put(out, std::uint16_t{0});
+  }
+  return out;
+}
+
+/// Text with all digits. OBJ counts vertices from 1 and has letters at the start of lines.
+std::string text(const TriangleMesh& mesh, bool obj) {
+  std::string out = obj ? "# millimetres\n" : fmt::format("OFF\n# millimetres\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
+  const auto to = std::back_inserter(out);
+  for (const Vec3& v : mesh.vertices)
+    fmt::format_to(to, "{}{} {} {}\n", obj ? "v " : "", kMillimetres * v.x(), kMillimetres * v.y(), kMillimetres * v.z());
+  for (const auto& c : mesh.triangles) {
+    const std::uint32_t first = obj ? 1 : 0;
+    fmt::format_to(to, "{} {} {} {}\n", obj ? "f" : "3", c[0] + first, c[1] + first, c[2] + first);
+  }
+  return out;
+}
+
+}  // namespace
+
+void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh) {
+  const auto refuse = [&](const std::string& why, const std::string& advice) {
+    throw Error(ErrorKind::configuration, fmt::format("the mesh cannot be written to '{}': {}", file.string(), why), {}, advice);
+  };
+  for (const auto& c : mesh.triangles)
+    for (const std::uint32_t v : c)
+      if (v >= mesh.vertices.size()) refuse("it names vertices that it lacks", "");
+  const std::string extension = profiles::lower(file.extension().string());
+  std::string content;
+  if (extension == ".ply") content = ply(mesh);
+  else if (extension == ".stl") content = stl(mesh);
+  else if (extension == ".obj") content = text(mesh, true);
+  else if (extension == ".off") content = text(mesh, false);
+  else refuse("unknown extension", "known are .ply, .stl, .obj and .off");
+
+  // complete under another name before it appears under its own
+  std::filesystem::path partial = file;
+  partial += ".part";
+  std::error_code code;
+  {
+    std::ofstream stream(partial, std::ios::binary | std::ios::trunc);
+    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
+    stream.close();
+    if (!stream) {
+      std::filesystem::remove(partial, code);
+      refuse("the file cannot be created or the disk is full", "check the folder, its permissions and the disk");
+    }
+  }
+  std::filesystem::rename(partial, file, code);
+  if (!code) return;
+  const std::string why = code.message();
+  std::filesystem::remove(partial, code);
+  refuse(why, "check the folder and its permissions");
+}
+
+}  // namespace treadmark::io
