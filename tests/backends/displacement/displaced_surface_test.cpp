@@ -37,9 +37,10 @@ std::shared_ptr<BumpField> flat_field(const WheelFlat& f) {
 
 std::shared_ptr<const Surface> round_wheel() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kR); }
 
-/// Both surfaces in all planes. slopes enter with a power: errors along a steep line, and of its steepness.
+/// Both surfaces in all planes. Slopes enter with a power: errors along a steep line, and of its steepness. The analytic
+/// wheel takes its slopes from a point within 3e-8 m of the hit, where 1/12 mm is the greatest curvature.
 void expect_equal(const Surface& expected, const Surface& found, const std::vector<Pose>& planes, int allowed_odd = 0) {
-  constexpr double kHeight = 2e-12, kSlope = 2e-9;
+  constexpr double kHeight = 2e-12, kSlope = 2.5e-6;
   int compared = 0, odd = 0;
   for (const Pose& X : planes) {
     const Fields a = evaluate(expected, X, kGrid), b = evaluate(found, X, kGrid);
@@ -71,7 +72,9 @@ TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlat) {
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAcrossTheFlange) {
   const WheelFlat f = flat(0.2, -0.004, -0.03);
   const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
-  expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"), wheel_planes(kR));
+  expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"), wheel_planes(kR),
+               // a sheet of the base that only the edge of another one hides is not seen through the contract
+               3);
 }
 
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAtTheSeam) {

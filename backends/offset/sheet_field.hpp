@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+
+#include "treadmark/backends/displacement/offset_field.hpp"
+#include "treadmark/backends/offset/sparse_offsets.hpp"
+
+namespace treadmark::offset {
+
+/// The tensor B-spline that interpolates sparse offsets: degree 1 (bilinear), 2 or 3; 0 away from them.
+/// Errors of smooth offsets fall with the power degree + 1 of the voxel; degree d has d - 1 continuous derivatives.
+std::shared_ptr<const displacement::OffsetField> make_sheet_field(std::shared_ptr<const SparseOffsets> offsets,
+                                                                  Interpolation interpolation);
+
+}  // namespace treadmark::offset
