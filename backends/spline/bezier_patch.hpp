@@ -36,8 +36,12 @@ struct Quad {
 /// the patch lies in the convex hull of its projected points (Farin 2002).
 struct BezierPatch {
   Quad b[4][4];
+  bool rational = true;  ///< false: all weights are 1
 
-  Vec3 point(int i, int j) const { return Vec3(b[i][j].x(), b[i][j].y(), b[i][j].z()) / b[i][j].w(); }
+  Vec3 point(int i, int j) const {
+    const Vec3 p(b[i][j].x(), b[i][j].y(), b[i][j].z());
+    return rational ? Vec3(p / b[i][j].w()) : p;
+  }
 
   /// The part u0..u1 x v0..v1 of the unit square, in exact arithmetic the same surface.
   BezierPatch part(double u0, double u1, double v0, double v1) const;
@@ -91,6 +95,7 @@ inline std::array<Quad, 4> cubic_part(const Quad& b0, const Quad& b1, const Quad
 
 inline BezierPatch BezierPatch::part(double u0, double u1, double v0, double v1) const {
   BezierPatch out;
+  out.rational = rational;
   for (int j = 0; j < 4; ++j) {
     const auto line = detail::cubic_part(b[0][j], b[1][j], b[2][j], b[3][j], u0, u1);
     for (std::size_t i = 0; i < 4; ++i) out.b[i][j] = line[i];

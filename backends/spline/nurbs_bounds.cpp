@@ -16,20 +16,11 @@ class HeightRange {
       : half_(X_SP, facing), x_{r.x_min - kSlack, r.x_max + kSlack}, y_{r.y_min - kSlack, r.y_max + kSlack} {}
 
   void add(const BezierPatch& part, int halvings) {
-    Interval x = Interval::none(), y = Interval::none(), z = Interval::none();
-    bool away = !half_.all;
-    double along_u = 0.0, along_v = 0.0;  // lengths in the plane
-    for (int i = 0; i < 4; ++i)
-      for (int j = 0; j < 4; ++j) {
-        const Vec3 p = part.point(i, j);
-        x.include({p.x(), p.x()});
-        y.include({p.y(), p.y()});
-        z.include({p.z(), p.z()});
-        if (away) away = p.z() < half_.lowest(p.x(), p.y()) - kSlack;
-      }
-    if (away || !x.overlaps(x_) || !y.overlaps(y_)) return;
-    if (z.low >= range_.low && z.high <= range_.high) return;
-    if (halvings < kMaxHalvings && (x.width() > 2.0 * x_.width() + 1e-5 || y.width() > 2.0 * y_.width() + 1e-5)) {
+    const ControlBox box(part);
+    if (half_.away(box) || !box.x.overlaps(x_) || !box.y.overlaps(y_)) return;
+    if (box.z.low >= range_.low && box.z.high <= range_.high) return;
+    double along_u = 0.0, along_v = 0.0;  // lengths of the part
+    if (halvings < kMaxHalvings && (box.x.width() > 2.0 * x_.width() + 1e-5 || box.y.width() > 2.0 * y_.width() + 1e-5)) {
       for (int k = 0; k < 4; ++k) {
         along_u = std::max(along_u, (part.point(3, k) - part.point(0, k)).norm());
         along_v = std::max(along_v, (part.point(k, 3) - part.point(k, 0)).norm());
@@ -39,7 +30,7 @@ class HeightRange {
       add(part.part(in_u ? 0.5 : 0.0, 1.0, in_u ? 0.0 : 0.5, 1.0), halvings + 1);
       return;
     }
-    range_.include(z);
+    range_.include(box.z);
   }
   const Interval& range() const { return range_; }
 

@@ -102,48 +102,33 @@ void check(const sampling::PointGrid& grid) {
 
 NurbsNet fit_point_grid(const sampling::PointGrid& grid) {
   check(grid);
-  const std::size_t nu = grid.u.size(), nv = grid.y.size(), ring = grid.closed ? nu + 1 : nu;
-  std::vector<Vec3> p(nu * nv), pu(p), pv(p), puv(p);
+  const std::size_t nu = grid.u.size(), nv = grid.y.size();
+  std::vector<NurbsNet::Corner> corners(nu * nv);
   for (std::size_t i = 0; i < nu; ++i)
-    for (std::size_t j = 0; j < nv; ++j) p[grid.index(i, j)] = grid.point(i, j);
+    for (std::size_t j = 0; j < nv; ++j) corners[grid.index(i, j)].p = grid.point(i, j);
   std::vector<double> u = grid.u, v(nv, 0.0);
   for (std::size_t j = 0; j + 1 < nv; ++j) {
     double chords = 0.0;
-    for (std::size_t i = 0; i < nu; ++i) chords += (p[grid.index(i, j + 1)] - p[grid.index(i, j)]).norm();
+    for (std::size_t i = 0; i < nu; ++i) chords += (corners[grid.index(i, j + 1)].p - corners[grid.index(i, j)].p).norm();
     v[j + 1] = v[j] + chords / static_cast<double>(nu);
   }
 
   SplineSlopes along_u(u, grid.closed ? 2.0 * std::numbers::pi : 0.0), along_v(v, 0.0);
-  const auto by_u = [&](const std::vector<Vec3>& from, std::vector<Vec3>& to) {
+  using Corner = NurbsNet::Corner;
+  const auto by_u = [&](Vec3 Corner::*from, Vec3 Corner::*to) {
     for (std::size_t j = 0; j < nv; ++j)
       for (int k = 0; k < 3; ++k)
-        along_u.solve([&](int i) { return from[grid.index(static_cast<std::size_t>(i), j)][k]; },
-                      [&](int i, double slope) { to[grid.index(static_cast<std::size_t>(i), j)][k] = slope; });
+        along_u.solve([&](int i) { return (corners[grid.index(static_cast<std::size_t>(i), j)].*from)[k]; },
+                      [&](int i, double slope) { (corners[grid.index(static_cast<std::size_t>(i), j)].*to)[k] = slope; });
   };
   for (std::size_t i = 0; i < nu; ++i)
     for (int k = 0; k < 3; ++k)
-      along_v.solve([&](int j) { return p[grid.index(i, static_cast<std::size_t>(j))][k]; },
-                    [&](int j, double slope) { pv[grid.index(i, static_cast<std::size_t>(j))][k] = slope; });
-  by_u(p, pu);
-  by_u(pv, puv);
-
-  // Bezier points from positions and slopes at the corners of patches.
+      along_v.solve([&](int j) { return corners[grid.index(i, static_cast<std::size_t>(j))].p[k]; },
+                    [&](int j, double slope) { corners[grid.index(i, static_cast<std::size_t>(j))].p_v[k] = slope; });
+  by_u(&Corner::p, &Corner::p_u);
+  by_u(&Corner::p_v, &Corner::p_uv);
   if (grid.closed) u.push_back(u.front() + 2.0 * std::numbers::pi);
-  const std::size_t stride = 3 * (nv - 1) + 1;
-  std::vector<Quad> points((3 * (ring - 1) + 1) * stride);
-  const auto step = [](const std::vector<double>& x, std::size_t i, int side) { return side > 0 ? x[i + 1] - x[i] : x[i - 1] - x[i]; };
-  for (std::size_t i = 0; i < ring; ++i)
-    for (std::size_t j = 0; j < nv; ++j) {
-      const std::size_t at = grid.index(i % nu, j);
-      for (int a = i == 0 ? 0 : -1; a <= (i + 1 == ring ? 0 : 1); ++a)
-        for (int b = j == 0 ? 0 : -1; b <= (j + 1 == nv ? 0 : 1); ++b) {
-          const double hu = a == 0 ? 0.0 : step(u, i, a) / 3.0, hv = b == 0 ? 0.0 : step(v, j, b) / 3.0;
-          const Vec3 q = p[at] + hu * pu[at] + hv * pv[at] + (hu * hv) * puv[at];
-          const std::size_t row = 3 * i + static_cast<std::size_t>(a + 3) - 3, column = 3 * j + static_cast<std::size_t>(b + 3) - 3;
-          points[row * stride + column] = {q.x(), q.y(), q.z(), 1.0};
-        }
-    }
-  return NurbsNet(std::move(u), std::move(v), std::move(points));
+  return NurbsNet(std::move(u), std::move(v), std::move(corners));
 }
 
 }  // namespace treadmark::spline

@@ -11,16 +11,19 @@ constexpr double kContraction = 0.5;  // greatest |E| of a regular leaf
 
 }  // namespace
 
-NurbsLeaf::NurbsLeaf(const BezierPatch& part) : power_(part) {
-  x_ = y_ = z_ = weight_ = Interval::none();
-  for (const auto& row : part.b)
-    for (const Quad& q : row) {
-      const double w = 1.0 / q.w();
-      x_.include({q.x() * w, q.x() * w});
-      y_.include({q.y() * w, q.y() * w});
-      z_.include({q.z() * w, q.z() * w});
-      weight_.include({q.w(), q.w()});
+ControlBox::ControlBox(const BezierPatch& part) {
+  if (!part.rational) weight = {1.0, 1.0};
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const Vec3 p = part.point(i, j);
+      x.include({p.x(), p.x()});
+      y.include({p.y(), p.y()});
+      z.include({p.z(), p.z()});
+      if (part.rational) weight.include({part.b[i][j].w(), part.b[i][j].w()});
     }
+}
+
+NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(part), box_(box) {
   const Quad &c = power_.c[0][0], &cs = power_.c[1][0], &ct = power_.c[0][1];
   const double inverse_w = 1.0 / c.w();
   middle_x_ = c.x() * inverse_w, middle_y_ = c.y() * inverse_w;
@@ -53,16 +56,16 @@ NurbsLeaf::NurbsLeaf(const BezierPatch& part) : power_(part) {
       if (i < 3) {
         widen(e[0], 3.0 * (gs[i + 1][j] - gs[i][j]) - 1.0);
         widen(e[2], 3.0 * (gt[i + 1][j] - gt[i][j]));
-        widen(change_w, 3.0 * (part.b[i + 1][j].w() - part.b[i][j].w()));
+        if (part.rational) widen(change_w, 3.0 * (part.b[i + 1][j].w() - part.b[i][j].w()));
       }
       if (j < 3) {
         widen(e[1], 3.0 * (gs[i][j + 1] - gs[i][j]));
         widen(e[3], 3.0 * (gt[i][j + 1] - gt[i][j]) - 1.0);
-        widen(change_w, 3.0 * (part.b[i][j + 1].w() - part.b[i][j].w()));
+        if (part.rational) widen(change_w, 3.0 * (part.b[i][j + 1].w() - part.b[i][j].w()));
       }
     }
-  const double reach_s = std::abs(a_[0]) * x_.width() + std::abs(a_[1]) * y_.width();
-  const double reach_t = std::abs(a_[2]) * x_.width() + std::abs(a_[3]) * y_.width();
+  const double reach_s = std::abs(a_[0]) * box.x.width() + std::abs(a_[1]) * box.y.width();
+  const double reach_t = std::abs(a_[2]) * box.x.width() + std::abs(a_[3]) * box.y.width();
   e[0] += change_w * reach_s, e[1] += change_w * reach_s, e[2] += change_w * reach_t, e[3] += change_w * reach_t;
   regular_ = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] < kContraction * kContraction;
 }

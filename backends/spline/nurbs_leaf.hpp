@@ -16,18 +16,22 @@ struct LeafRoot {
   double s_x = 0.0, s_y = 0.0, t_x = 0.0, t_y = 0.0;  ///< derivatives of (s, t) by the point of the plane
 };
 
+/// Box of the control points of a part in the plane frame, and the range of weights.
+struct ControlBox {
+  Interval x = Interval::none(), y = Interval::none(), z = Interval::none(), weight = Interval::none();
+  explicit ControlBox(const BezierPatch& part);
+};
+
 /// A part of a patch in the plane frame, with what is needed to find S(s, t) = (x, y, .) safely. With the inverse Jacobian A of
 /// the middle, the equations are A G(s, t) = 0, G = N_xy - (x, y) W, and A dG = 1 + E. Control points bound E over the whole part:
 /// where |E| < 1 the equations have at most one solution, and (s, t) - A G contracts towards it.
 class NurbsLeaf {
  public:
-  explicit NurbsLeaf(const BezierPatch& part);
+  NurbsLeaf(const BezierPatch& part, const ControlBox& box);
 
   /// At most one solution, found from anywhere.
   bool regular() const { return regular_; }
-  const Interval& x() const { return x_; }
-  const Interval& y() const { return y_; }
-  const Interval& z() const { return z_; }
+  const ControlBox& box() const { return box_; }
 
   /// False: the line through (x, y) does not meet the leaf. Otherwise s and t are set to the solution of the linear equations.
   bool may_meet(double x, double y, double& s, double& t) const {
@@ -47,7 +51,7 @@ class NurbsLeaf {
 
   // 0 in the range of A G: over the patch it is range - q W at the point with A (p - middle) = q.
   bool meets(double q, const Interval& range) const {
-    const double a = q * weight_.low, b = q * weight_.high;
+    const double a = q * box_.weight.low, b = q * box_.weight.high;
     return std::min(a, b) <= range.high && std::max(a, b) >= range.low;
   }
   bool contract(double x, double y, LeafRoot& root) const;
@@ -56,7 +60,8 @@ class NurbsLeaf {
   PowerPatch power_;
   double a_[4];  // inverse Jacobian at the middle
   double middle_x_, middle_y_;
-  Interval s_, t_, weight_, x_, y_, z_;
+  ControlBox box_;
+  Interval s_, t_;
   bool regular_ = false;
 };
 

@@ -11,14 +11,21 @@
 
 namespace treadmark::spline {
 
-/// A tensor-product NURBS surface as its rational bicubic Bezier patches: a grid of control points of which neighbouring
-/// patches share those on their border. Boxes of control points form a pyramid above the patches. Immutable, so safe to use
-/// from any number of threads.
+/// A tensor-product NURBS surface as its bicubic Bezier patches. A rational one is a grid of control points, of which
+/// neighbouring patches share those on their border; a polynomial one is kept by positions and derivatives at the corners of
+/// patches. Boxes of control points form a pyramid above the patches. Immutable, so safe to use from any number of threads.
 class NurbsNet {
  public:
+  /// Derivatives by the parameters.
+  struct Corner {
+    Vec3 p, p_u, p_v, p_uv;
+  };
+
   /// u_breaks, v_breaks: parameters of the patch borders, increasing. points: surface frame, homogeneous, index =
   /// iv + ((3 patches in v) + 1) iu.
   NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Quad> points);
+  /// corners: index = iv + (patches in v + 1) iu; for u_breaks that go once round, the last row may be left out.
+  NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Corner> corners);
 
   int patches_u() const { return static_cast<int>(u_.size()) - 1; }
   int patches_v() const { return static_cast<int>(v_.size()) - 1; }
@@ -46,8 +53,11 @@ class NurbsNet {
   }
 
  private:
+  // In single precision, rounded outwards.
   struct Box {
-    Vec3 centre, half;
+    Eigen::Vector3f middle, reach;
+    Vec3 centre() const { return middle.cast<double>(); }
+    Vec3 half() const { return reach.cast<double>(); }
   };
   struct Level {
     int nu, nv;
@@ -59,16 +69,19 @@ class NurbsNet {
   template <class Wanted, class Use>
   void descend(std::size_t level, int iu, int iv, const Wanted& wanted, const Use& use) const {
     const Box& box = levels_[level].at(iu, iv);
-    if (!wanted(box.centre, box.half)) return;
-    if (level == 0) return use(iu, iv, box.centre, box.half);
+    const Vec3 centre = box.centre(), half = box.half();
+    if (!wanted(centre, half)) return;
+    if (level == 0) return use(iu, iv, centre, half);
     const Level& below = levels_[level - 1];
     for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
       for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv) descend(level - 1, ku, kv, wanted, use);
   }
 
+  void build_boxes();
+
   std::vector<double> u_, v_;
-  std::size_t stride_;
-  std::vector<Quad> points_;
+  std::vector<Quad> points_;     // one of the two is empty
+  std::vector<Corner> corners_;
   std::vector<Level> levels_;
 };
 

@@ -90,17 +90,8 @@ void NurbsView::sort_into_bins() {
 }
 
 /// All of it turned away, or beside the rectangle.
-bool NurbsView::hidden(const BezierPatch& part) const {
-  Interval x = Interval::none(), y = Interval::none();
-  bool away = !half_.all;
-  for (int i = 0; i < 4; ++i)
-    for (int j = 0; j < 4; ++j) {
-      const Vec3 p = part.point(i, j);
-      x.include({p.x(), p.x()});
-      y.include({p.y(), p.y()});
-      if (away) away = p.z() < half_.lowest(p.x(), p.y()) - kSlack;
-    }
-  return away || !x.overlaps({rectangle_.x_min, rectangle_.x_max}) || !y.overlaps({rectangle_.y_min, rectangle_.y_max});
+bool NurbsView::hidden(const ControlBox& box) const {
+  return half_.away(box) || !box.x.overlaps({rectangle_.x_min, rectangle_.x_max}) || !box.y.overlaps({rectangle_.y_min, rectangle_.y_max});
 }
 
 void NurbsView::prepare(Candidate& c) {
@@ -111,16 +102,17 @@ void NurbsView::prepare(Candidate& c) {
   // The box of the control points is tighter than that of the box.
   Interval x = Interval::none(), y = Interval::none();
   for (int k = c.first_leaf; k < c.last_leaf; ++k) {
-    x.include(leaves_[static_cast<std::size_t>(k)].leaf.x());
-    y.include(leaves_[static_cast<std::size_t>(k)].leaf.y());
+    x.include(leaves_[static_cast<std::size_t>(k)].leaf.box().x);
+    y.include(leaves_[static_cast<std::size_t>(k)].leaf.box().y);
   }
   c.x = {x.low - kSlack, x.high + kSlack};
   c.y = {y.low - kSlack, y.high + kSlack};
 }
 
 void NurbsView::divide(const BezierPatch& part, double s, double t, double size, int depth) {
-  if (hidden(part)) return;
-  const NurbsLeaf leaf(part);
+  const ControlBox box(part);
+  if (hidden(box)) return;
+  const NurbsLeaf leaf(part, box);
   if (!leaf.regular()) {
     if (depth == 0 && edge_on(part)) return;
     if (depth < kLeafDepth) {
@@ -131,7 +123,7 @@ void NurbsView::divide(const BezierPatch& part, double s, double t, double size,
     }
     rough_.push_back(part);
   }
-  const double outer = (side_ > 0.0 ? leaf.z().high : -leaf.z().low) + kSlack;
+  const double outer = (side_ > 0.0 ? box.z.high : -box.z.low) + kSlack;
   leaves_.push_back({leaf, outer, s, t, size, leaf.regular() ? -1 : static_cast<int>(rough_.size()) - 1});
 }
 
@@ -177,13 +169,14 @@ void NurbsView::look_into(int index, const Candidate& c, Search& search) {
 
 /// Halves a part that is not regular, which holds a fold, until the pieces over the line are.
 void NurbsView::look_closer(const BezierPatch& part, double s, double t, double size, int depth, const Candidate& c, Search& search) {
-  const NurbsLeaf leaf(part);
-  const double outer = (side_ > 0.0 ? leaf.z().high : -leaf.z().low) + kSlack;
+  const ControlBox box(part);
+  const double outer = (side_ > 0.0 ? box.z.high : -box.z.low) + kSlack;
   if (!search.all && search.found && outer <= search.best) return;
   constexpr double kRounding = 1e-14;
-  if (search.x < leaf.x().low - kRounding || search.x > leaf.x().high + kRounding || search.y < leaf.y().low - kRounding ||
-      search.y > leaf.y().high + kRounding)
+  if (search.x < box.x.low - kRounding || search.x > box.x.high + kRounding || search.y < box.y.low - kRounding ||
+      search.y > box.y.high + kRounding)
     return;
+  const NurbsLeaf leaf(part, box);
   double first_s, first_t;
   LeafRoot root;
   if (leaf.regular()) {
@@ -194,8 +187,8 @@ void NurbsView::look_closer(const BezierPatch& part, double s, double t, double 
   if (depth == kGreatestDepth) {  // on the fold itself, to rounding
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
     if (leaf.solve(search.x, search.y, 0.0, 0.0, search.exact, root)) return take(root, s, t, size, c, search);
-    root = {0.0, 0.0, 0.5 * (leaf.z().low + leaf.z().high), kNaN, kNaN};
-    if (leaf.z().width() < kSameHit) take(root, s, t, size, c, search);
+    root = {0.0, 0.0, 0.5 * (box.z.low + box.z.high), kNaN, kNaN};
+    if (box.z.width() < kSameHit) take(root, s, t, size, c, search);
     return;
   }
   const auto quarters = part.quarters();

@@ -25,6 +25,10 @@ struct FacingHalf {
 
   FacingHalf(const Pose& X_SP, Facing facing);
   double lowest(double at_x, double at_y) const { return c + x * at_x + y * at_y; }
+  /// All of a box is turned away.
+  bool away(const ControlBox& box) const {
+    return !all && box.z.high < c + (x * box.x + y * box.y).low - 1e-9;
+  }
 };
 
 /// The surface seen from a plane over a rectangle. Candidates are patches whose boxes lie over it, sorted into bins; a patch
@@ -70,7 +74,7 @@ class NurbsView {
   void sort_into_bins();
   void prepare(Candidate& candidate);
   void divide(const BezierPatch& part, double s, double t, double size, int depth);
-  bool hidden(const BezierPatch& part) const;
+  bool hidden(const ControlBox& box) const;
   void look_into(int leaf, const Candidate& candidate, Search& search);
   void look_closer(const BezierPatch& part, double s, double t, double size, int depth, const Candidate& candidate, Search& search);
   void take(const LeafRoot& root, double s, double t, double size, const Candidate& candidate, Search& search) const;
