@@ -56,11 +56,15 @@ struct Cloud {
   double scale_u = 1.0, scale_v = 1.0;
 };
 
+/// Turns the tangent axes to the longest and shortest spread of the points, or axis_u to `along`, so that both can be scaled.
 Cloud gather(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
-             std::span<const std::uint32_t> others, VertexFit& fit) {
-  // axes along the longest and shortest spread, so that both can be scaled
+             std::span<const std::uint32_t> others, VertexFit& fit, const Vec3* along = nullptr) {
   Cloud cloud;
   double suu = 0.0, suv = 0.0, svv = 0.0;
+  if (along) {
+    fit.axis_u = (*along - along->dot(fit.normal) * fit.normal).normalized();
+    fit.axis_v = fit.normal.cross(fit.axis_u);
+  }
   for (const std::uint32_t s : others) {
     if (normals[s].dot(fit.normal) < kTurnedAway) continue;
     const Vec3 d = mesh.vertices[sectors.vertex[s]] - fit.origin;
@@ -69,14 +73,16 @@ Cloud gather(const PreparedMesh& mesh, const Sectors& sectors, const std::vector
     suu += p.x() * p.x(), suv += p.x() * p.y(), svv += p.y() * p.y();
   }
   if (cloud.points.empty()) return cloud;
-  const double angle = 0.5 * std::atan2(2.0 * suv, suu - svv), cos = std::cos(angle), sin = std::sin(angle);
-  const Vec3 u = cos * fit.axis_u + sin * fit.axis_v;
-  fit.axis_v = fit.normal.cross(u);
-  fit.axis_u = u;
-  suu = svv = 0.0;
-  for (Vec3& p : cloud.points) {
-    p = Vec3(cos * p.x() + sin * p.y(), cos * p.y() - sin * p.x(), p.z());
-    suu += p.x() * p.x(), svv += p.y() * p.y();
+  if (!along) {
+    const double angle = 0.5 * std::atan2(2.0 * suv, suu - svv), cos = std::cos(angle), sin = std::sin(angle);
+    const Vec3 u = cos * fit.axis_u + sin * fit.axis_v;
+    fit.axis_v = fit.normal.cross(u);
+    fit.axis_u = u;
+    suu = svv = 0.0;
+    for (Vec3& p : cloud.points) {
+      p = Vec3(cos * p.x() + sin * p.y(), cos * p.y() - sin * p.x(), p.z());
+      suu += p.x() * p.x(), svv += p.y() * p.y();
+    }
   }
   const auto count = static_cast<double>(cloud.points.size());
   const double least = 1e-12 * std::sqrt(std::max(suu, svv) / count);
@@ -84,6 +90,26 @@ Cloud gather(const PreparedMesh& mesh, const Sectors& sectors, const std::vector
   cloud.scale_v = std::max(least, std::sqrt(svv / count));
   for (Vec3& p : cloud.points) p = Vec3(p.x() / cloud.scale_u, p.y() / cloud.scale_v, p.z());
   return cloud;
+}
+
+/// Direction of strips of long triangles: the shortest of the long edges round a vertex, because the others are diagonals.
+Vec3 along_strips(const PreparedMesh& mesh, const Sectors& sectors, std::uint32_t sector) {
+  constexpr double kLong = 0.9;
+  const Vec3& from = mesh.vertices[sectors.vertex[sector]];
+  double longest = 0.0;
+  for (const std::uint32_t t : sectors.around(sector))
+    for (const std::uint32_t v : mesh.triangles[t]) longest = std::max(longest, (mesh.vertices[v] - from).norm());
+  Vec3 best = Vec3::UnitX();
+  double shortest = 2.0 * longest;
+  for (const std::uint32_t t : sectors.around(sector))
+    for (const std::uint32_t v : mesh.triangles[t]) {
+      const Vec3 edge = mesh.vertices[v] - from;
+      const double length = edge.norm();
+      if (length < kLong * longest || length >= shortest) continue;
+      shortest = length;
+      best = edge;
+    }
+  return best;
 }
 
 /// False if the points do not determine the terms well.
@@ -138,9 +164,13 @@ VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::v
   for (int more = 0; more < 3 && rings.others().size() < kEnough; ++more) rings.grow();
   const Cloud three = gather(mesh, sectors, normals, rings.others(), fit);
   if (solve(three, kCubic, fit)) return fit;
-  if (solve(three, kQuadratic, fit) || solve(three, kAcross, fit)) return fit;
+  if (solve(three, kQuadratic, fit)) return fit;
+  // a polynomial that is linear along must not be skew to the strips
+  const Vec3 along = along_strips(mesh, sectors, sector);
+  VertexFit strip = fit;
+  if (solve(gather(mesh, sectors, normals, rings.others(), strip, &along), kAcross, strip)) return strip;
   fit = frame_of_two;
-  if (solve(two, kQuadratic, fit) || solve(two, kAcross, fit) || solve(two, kParabola, fit) || solve(two, kPlane, fit)) return fit;
+  if (solve(two, kQuadratic, fit) || solve(two, kParabola, fit) || solve(two, kPlane, fit)) return fit;
   fit.c.fill(0.0);
   return fit;
 }
