@@ -28,7 +28,7 @@ struct UnitEnding {
 // Longer endings first.
 constexpr UnitEnding kUnits[] = {
     {"_mm_per_MPa", 1e-9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
-    {"_mm3", 1e-9},        {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
+    {"_mm3", 1e-9},        {"_um", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
     {"_N", 1.0},
 };
 
@@ -168,12 +168,43 @@ void check_scope(const Case& c, const KeyInfo& key, const SourcePosition& where)
     fail(fmt::format("{} belongs to a [patch] case, but this is a wheel-rail case", key.path), where);
 }
 
+void check_exclusive_sections(std::span<const Assignment> assignments) {
+  for (const ExclusiveSections& sections : kExclusiveSections) {
+    const Assignment* first[2] = {nullptr, nullptr};
+    for (const Assignment& a : assignments)
+      for (const int k : {0, 1})
+        if (first[k] == nullptr && a.key->info.path.starts_with(fmt::format("{}.{}.", sections.parent, k == 0 ? sections.one : sections.other)))
+          first[k] = &a;
+    if (first[0] == nullptr || first[1] == nullptr) continue;
+    const Assignment* second = first[0] > first[1] ? first[0] : first[1];
+    fail(fmt::format("[{0}.{1}] and [{0}.{2}] exclude each other", sections.parent, sections.one, sections.other), second->where,
+         "give one of them");
+  }
+}
+
 /// Where text is expected, a word that happens to be a TOML number (60E1) is that word.
 CaseValue meant_value(const KeyInfo& key, const CaseOverride& assignment) {
   const bool textual = key.type == KeyType::text || key.type == KeyType::path || key.type == KeyType::choice;
   const CaseValue& value = assignment.value;
   if (!textual || value.is_list() || value.is_table() || std::holds_alternative<std::string>(value.data)) return value;
   return {value.where, assignment.raw};
+}
+
+/// The value of an override that changes the key `name` of a list's table, checked; name may lead on into a nested list.
+CaseValue element_value(const KeyInfo& list, const std::string& name, const CaseOverride& assignment) {
+  const SourcePosition& where = assignment.value.where;
+  for (const KeyInfo& element : list.elements) {
+    if (element.path == name) {
+      CaseValue value = meant_value(element, assignment);
+      check_elements(list, {{name, where, value}}, where, false);
+      return value;
+    }
+    if (element.type == KeyType::table_list && name.starts_with(element.path + '.'))
+      return element_value(element, split_element_path(element, std::string_view(name).substr(element.path.size() + 1), where).key,
+                           assignment);
+  }
+  check_elements(list, {{name, where, assignment.value}}, where, false);  // says what is wrong with the name
+  return assignment.value;
 }
 
 }  // namespace
@@ -184,6 +215,7 @@ std::span<const CaseKey> case_keys() {
     add_general_keys(list);
     add_wheel_rail_keys(list);
     add_shape_keys(list);
+    add_defect_keys(list);
     add_patch_keys(list);
     return std::move(list.keys);
   }();
@@ -275,8 +307,19 @@ void apply_table(Case& target, const CaseTable& table, const std::filesystem::pa
     check_value(a.key->info, *a.value);
     check_exclusive(a.key->info, a.where, groups);
   }
+  check_exclusive_sections(assignments);
   std::stable_sort(assignments.begin(), assignments.end(), [](const Assignment& a, const Assignment& b) { return a.key < b.key; });
   for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);
+}
+
+ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where) {
+  const std::size_t dot = rest.find('.');
+  ElementPath place;
+  const auto [end, error] = std::from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), place.index);
+  if (dot == std::string_view::npos || error != std::errc{} || end != rest.data() + dot)
+    fail(fmt::format("{} is a list", list.path), where, fmt::format("write {}.0.{}=value", list.path, list.elements.front().path));
+  place.key = rest.substr(dot + 1);
+  return place;
 }
 
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder) {
@@ -293,18 +336,9 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
   // list.index.key, for example wheel.flats.0.depth_mm
   for (const CaseKey& key : case_keys()) {
     if (key.info.type != KeyType::table_list || !path.starts_with(key.info.path + '.')) continue;
-    const std::string_view rest = std::string_view(path).substr(key.info.path.size() + 1);
-    const std::size_t dot = rest.find('.');
-    std::size_t index = 0;
-    const auto [end, error] = std::from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), index);
-    if (dot == std::string_view::npos || error != std::errc{} || end != rest.data() + dot)
-      fail(fmt::format("{} is a list", key.info.path), where, fmt::format("write {}.0.{}=value", key.info.path, key.info.elements.front().path));
+    const ElementPath place = split_element_path(key.info, std::string_view(path).substr(key.info.path.size() + 1), where);
     check_scope(target, key.info, where);
-    const std::string name(rest.substr(dot + 1));
-    const auto element = std::find_if(key.info.elements.begin(), key.info.elements.end(), [&](const KeyInfo& k) { return k.path == name; });
-    const CaseTable entries{{name, where, element == key.info.elements.end() ? assignment.value : meant_value(*element, assignment)}};
-    check_elements(key.info, entries, where, false);
-    key.set_element(target, index, entries, where);
+    key.set_element(target, place.index, {{place.key, where, element_value(key.info, place.key, assignment)}}, where);
     return;
   }
   unknown_key(path, all_paths(), where);

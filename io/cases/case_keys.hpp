@@ -43,12 +43,27 @@ struct CaseKey {
   std::function<void(Case&, const CaseValue& value, const std::filesystem::path& folder)> set;
   /// Numbers that are stored as they are: the value in the unit of the key. Empty for all other keys.
   std::function<double(const Case&)> get;
-  /// table_list only: changes some keys of the element with this index (which exists, or Error).
+  /// table_list only: changes some keys of the element with this index (which exists, or Error). A key of a nested list has
+  /// the rest of its path as name: "waves.1.phase_deg".
   std::function<void(Case&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element;
 };
 
 /// All keys, in the order in which they are applied. Immutable; safe to use from several threads.
 std::span<const CaseKey> case_keys();
+
+/// Sections of one parent that exclude each other within a layer of a case file.
+struct ExclusiveSections {
+  std::string_view parent, one, other;
+};
+inline constexpr ExclusiveSections kExclusiveSections[] = {{"patch", "hertz", "gap"}};
+
+/// Number and key of "3.depth_mm", which follows the path of a list in an override.
+struct ElementPath {
+  std::size_t index = 0;
+  std::string key;
+};
+/// Errors: Error(configuration) if rest does not start with a number and a dot.
+ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where);
 
 /// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _GPa, _MPa, _m_s, _per_m ...).
 double unit_of_key(std::string_view path);
@@ -60,7 +75,8 @@ void check_value(const KeyInfo& key, const CaseValue& value);
 /// exclusions first, so that a Case is changed only when everything is right.
 void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder);
 
-/// Applies one override; its path may also name a key of a list element ("wheel.flats.0.depth_mm").
+/// Applies one override; its path may also name a key of a list element ("wheel.flats.0.depth_mm",
+/// "rail.corrugations.0.waves.1.phase_deg").
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder);
 
 /// The known key that an unknown one was probably meant to be; empty when nothing is near.

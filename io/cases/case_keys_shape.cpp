@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "treadmark/io/cases/key_builder.hpp"
+#include "treadmark/io/cases/element_keys.hpp"
 
 namespace treadmark::io {
 
@@ -17,79 +17,6 @@ bool is_backend_name(std::string_view text) {
          text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
 }
 
-/// Key of the tables in a list such as wheel.flats.
-template <class Element>
-struct ElementKey {
-  KeyInfo info;
-  std::function<void(Element&, const CaseValue&)> set;
-};
-
-template <class Element>
-ElementKey<Element> element_number(std::string name, KeyLimits limits, std::string doc, double Element::*member) {
-  KeyInfo info = key_info(name, KeyType::number, std::move(doc));
-  info.above = limits.above;
-  info.at_least = limits.at_least;
-  info.at_most = limits.at_most;
-  const double unit = unit_of_key(name);
-  return {std::move(info), [member, unit](Element& e, const CaseValue& v) { e.*member = v.number() * unit; }};
-}
-
-/// Adds a key for a list of tables; elements(c) is the vector in the case, made(c) prepares the case for a new list.
-template <class Element, class Elements>
-void add_list(KeyList& list, KeyInfo info, std::vector<ElementKey<Element>> keys, Elements elements) {
-  for (const auto& key : keys) info.elements.push_back(key.info);
-  const auto fill = [keys](Element& e, const CaseTable& entries) {
-    for (const auto& key : keys)
-      for (const CaseEntry& entry : entries)
-        if (entry.key == key.info.path) key.set(e, entry.value);
-  };
-  const std::string path = info.path;
-  CaseKey& added = list.add(std::move(info));
-  added.set = [fill, elements](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    std::vector<Element> fresh;
-    for (const CaseValue& one : v.list()) fill(fresh.emplace_back(), one.table());
-    *elements(content_of<W>(c), true) = std::move(fresh);
-  };
-  added.set_element = [fill, elements, path](Case& c, std::size_t index, const CaseTable& entries, const SourcePosition& where) {
-    std::vector<Element>* existing = elements(content_of<W>(c), false);
-    const std::size_t count = existing == nullptr ? 0 : existing->size();
-    if (index >= count)
-      throw Error(ErrorKind::configuration, fmt::format("{} has {} entries, number {} (counted from 0) does not exist", path,
-                                                        count, index), where);
-    fill((*existing)[index], entries);
-  };
-}
-
-void add_flats(KeyList& list) {
-  using Shape = WheelFlat::Shape;
-  KeyInfo shape = key_info("shape", KeyType::choice, "rounded: cosine dent; fresh: straight chord whose depth follows from the length");
-  shape.choices = {"rounded", "fresh"};
-  shape.default_text = "\"rounded\"";
-  auto length = element_number<WheelFlat>("length_mm", kPositive, "length along the circumference", &WheelFlat::length);
-  length.info.required = true;
-  auto theta_deg = element_number<WheelFlat>("theta_center_deg", kAnyNumber, "angle of the middle on the wheel", &WheelFlat::theta_center);
-  auto theta_rad = element_number<WheelFlat>("theta_center_rad", kAnyNumber, "angle of the middle on the wheel", &WheelFlat::theta_center);
-  for (auto* key : {&theta_deg, &theta_rad}) {
-    key->info.group = "theta_center";
-    key->info.alternative = key->info.path;
-    key->info.default_text = "0";
-  }
-  auto y_center = element_number<WheelFlat>("y_center_mm", kAnyNumber, "lateral middle in wheel profile coordinates", &WheelFlat::y_center);
-  auto width = element_number<WheelFlat>("width_mm", kNotNegative, "lateral width over which the depth fades to 0; 0 = whole width",
-                                         &WheelFlat::width);
-  y_center.info.default_text = width.info.default_text = "0";
-
-  KeyInfo flats = key_info("wheel.flats", KeyType::table_list, "flats worn into the wheel");
-  flats.scope = KeyScope::wheel_rail;
-  add_list<WheelFlat>(
-      list, flats,
-      {{shape, [](WheelFlat& f, const CaseValue& v) { f.shape = v.text() == "fresh" ? Shape::fresh : Shape::rounded; }},
-       length,
-       element_number<WheelFlat>("depth_mm", kPositive, "greatest radial depth; required for rounded flats only", &WheelFlat::depth),
-       theta_deg, theta_rad, y_center, width},
-      [](W& c, bool) { return &c.wheel.defects.flats; });
-}
-
 /// Keys of wheel.shape or rail.shape.
 class ShapeKeys {
  public:
@@ -99,13 +26,18 @@ class ShapeKeys {
   void add() {
     add_geometry();
     add_file_options();
-    KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation; without it the one that fits the shape");
+    KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic or offset-bilinear; "
+                                "without it the one that fits the shape");
     backend.pattern = "^[a-z][a-z0-9_-]*$";
     backend.matches = is_backend_name;
     backend.scope = KeyScope::wheel_rail;
     list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       (content_of<W>(c).*surface).backend = v.text();
     };
+    list_.number<W>(fmt::format("{}.resolution_mm", body_), kPositive,
+                    "spacing of the data a re-represented surface is sampled at; without it 1 mm",
+                    [surface = surface_](W& c) -> double& { return (c.*surface).resolution; })
+        .default_text.clear();
   }
 
  private:
@@ -139,24 +71,10 @@ class ShapeKeys {
     };
 
     using Segment = ArcChain::Segment;
-    auto length = element_number<Segment>("length_mm", kPositive, "arc length", &Segment::length);
-    length.info.required = true;
-    auto curvature = element_number<Segment>("curvature_per_m", kAnyNumber, "curvature, positive bends towards +z (down); 0 = straight",
-                                             &Segment::curvature);
-    curvature.info.default_text = "0";
-    KeyInfo radius = key_info("radius_mm", KeyType::number, "radius instead of the curvature, with its sign");
-    radius.group = curvature.info.group = "curvature";
-    radius.alternative = "radius";
-    curvature.info.alternative = "curvature";
-    const auto set_radius = [](Segment& s, const CaseValue& v) {
-      if (v.number() == 0.0)
-        throw Error(ErrorKind::configuration, "radius_mm must not be 0", v.where, "use curvature_per_m = 0 for a straight line");
-      s.curvature = 1.0 / (v.number() * unit_of_key("radius_mm"));
-    };
     KeyInfo arcs = info("arcs", KeyType::table_list, "chain of arcs and straight lines with increasing y");
     arcs.group = prefix_;
     arcs.alternative = "arcs";
-    add_list<Segment>(list_, arcs, {length, curvature, {radius, set_radius}},
+    add_list<Segment>(list_, arcs, arc_keys<Segment>(),
                       [surface = surface_](W& c, bool create) -> std::vector<Segment>* {
                         SurfaceSource& s = c.*surface;
                         if (create && !std::holds_alternative<ArcChain>(s.geometry)) s.geometry = ArcChain{};
@@ -165,7 +83,7 @@ class ShapeKeys {
                       });
     const auto start = [&](const std::string& name, const std::string& doc, double ArcChain::*member) -> KeyInfo& {
       KeyInfo key = info(name, KeyType::number, doc);
-      key.default_text = "0";
+      key.default_text = std::string("0");  // a plain literal sets off a false alarm of GCC 12
       CaseKey& added = list_.add(key);
       added.set = [surface = surface_, member, name, unit = unit_of_key(name)](Case& c, const CaseValue& v,
                                                                                 const std::filesystem::path&) {
@@ -178,8 +96,8 @@ class ShapeKeys {
     start("start_y_mm", "y where the chain of arcs starts", &ArcChain::start_y);
     start("start_z_mm", "z where the chain of arcs starts", &ArcChain::start_z);
     for (const std::string unit : {"deg", "rad"}) {
-      KeyInfo& angle = start("start_angle_" + unit, "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
-      angle.group = prefix_ + "start_angle";
+      KeyInfo& angle = start(fmt::format("start_angle_{}", unit), "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
+      angle.group = fmt::format("{}start_angle", prefix_);
       angle.alternative = unit;
     }
   }
@@ -214,7 +132,7 @@ class ShapeKeys {
     KeyInfo wavelength = info("smoothing_wavelength_mm", KeyType::number, "cut-off wavelength of a weighted smoothing spline");
     for (KeyInfo* key : {&lambda, &wavelength}) {
       key->at_least = 0.0;
-      key->group = prefix_ + "smoothing";
+      key->group = fmt::format("{}smoothing", prefix_);
       key->alternative = key->path;
     }
     lambda.default_text = "0";
@@ -274,7 +192,6 @@ class ShapeKeys {
 void add_shape_keys(KeyList& list) {
   ShapeKeys(list, "rail", &W::rail, "60E1").add();
   ShapeKeys(list, "wheel", &W::wheel, "S1002").add();
-  add_flats(list);
 }
 
 }  // namespace treadmark::io

@@ -114,6 +114,8 @@ Json sections(bool sweep) {
       object = &(*object)["properties"][std::string(rest.substr(0, dot))];
     add_exclusions(*object, keys);
   }
+  for (const ExclusiveSections& e : kExclusiveSections)
+    root["properties"][std::string(e.parent)]["allOf"].push_back({{"not", {{"required", {std::string(e.one), std::string(e.other)}}}}});
   return root;
 }
 
@@ -145,6 +147,16 @@ std::string row(const KeyInfo& key, std::string_view name) {
                      key.doc, key.required ? " (required)" : "");
 }
 
+/// Tables of a list's own keys and of the lists in it.
+std::string list_tables(const KeyInfo& list, const std::string& path) {
+  std::string text = fmt::format("### `[[{}]]`\n\n{}", path, kTableHead);
+  for (const KeyInfo& element : list.elements) text += row(element, element.path);
+  text += '\n';
+  for (const KeyInfo& element : list.elements)
+    if (element.type == KeyType::table_list) text += list_tables(element, path + '.' + element.path);
+  return text;
+}
+
 }  // namespace
 
 std::string case_file_schema() {
@@ -169,10 +181,7 @@ std::string case_key_table() {
     const std::string section = key.info.path.substr(0, dot);
     if (!tables.contains(section)) order.push_back(section);
     tables[section] += row(key.info, std::string_view(key.info.path).substr(dot + 1));
-    if (key.info.type != KeyType::table_list) continue;
-    lists += fmt::format("### `[[{}]]`\n\n{}", key.info.path, kTableHead);
-    for (const KeyInfo& element : key.info.elements) lists += row(element, element.path);
-    lists += '\n';
+    if (key.info.type == KeyType::table_list) lists += list_tables(key.info, key.info.path);
   }
   std::string text;
   for (const std::string& section : order) text += fmt::format("### `[{}]`\n\n{}{}\n", section, kTableHead, tables[section]);

@@ -123,6 +123,7 @@ class KeyList {
 /// Keys by subject; see the .cpp of the same name.
 void add_general_keys(KeyList& list);
 void add_shape_keys(KeyList& list);
+void add_defect_keys(KeyList& list);
 void add_wheel_rail_keys(KeyList& list);
 void add_patch_keys(KeyList& list);
 

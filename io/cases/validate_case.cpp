@@ -22,7 +22,8 @@ class Checker {
     if (!good) throw Error(ErrorKind::configuration, fmt::format("case {}: {}", number_, message), where_, std::move(advice));
   }
 
-  void surface(const SurfaceSource& s, const std::string& body) const {
+  void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
+    const std::string body = which == Body::rail ? "rail" : "wheel";
     if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
       require(!file->file.empty(), body + ".shape is missing",
               fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
@@ -32,6 +33,11 @@ class Checker {
     if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
     for (const WheelFlat& flat : s.defects.flats)
       require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
+    try {
+      check_defects(s.defects, which, nominal_radius);
+    } catch (const Error& e) {
+      throw Error(e.kind(), fmt::format("case {}: {}", number_, e.message()), where_, e.advice());
+    }
   }
 
   void material(const Material& m, RegimeInput regime) const {
@@ -52,8 +58,8 @@ class Checker {
   }
 
   void wheel_rail(const WheelRailCase& c) const {
-    surface(c.rail, "rail");
-    surface(c.wheel, "wheel");
+    surface(c.rail, Body::rail, 0.0);
+    surface(c.wheel, Body::wheel, c.wheelset.nominal_radius);
     require(c.regime != RegimeInput::shift, "case.regime = \"shift\" is not supported for a wheel on a rail",
             "\"none\" and \"steady\" are");
     require(!c.vertical_force_prescribed || c.vertical_force > 0.0, "the vertical load is missing",

@@ -143,6 +143,15 @@ TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
   EXPECT_FALSE(rail_case(unused, 0).wheelset.tape_line);
 }
 
+TEST(ContactInputModule1, ErrorHandlingOfAProfileIsNoted) {
+  const auto notes = [](const std::string& options) {
+    return parse(ContactWriter(1).line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n " + options).str() + "0\n").notes;
+  };
+  EXPECT_THAT(notes("0 0.25"), ::testing::IsEmpty());
+  EXPECT_THAT(notes("2 0.25"), ::testing::ElementsAre(::testing::AllOf(::testing::StartsWith("ERRHND = 2 at "),
+                                                                       ::testing::HasSubstr("errors in a profile always stop the run"))));
+}
+
 TEST(ContactInputModule1, ReadsProfileOptions) {
   const CaseFile f = parse(ContactWriter(1)
                                .line("rail", "'a.prr' 1 1000. 5.0 1 1\n 1 20d 30d 0.1 3.0")
