@@ -85,7 +85,8 @@ bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& tri
   std::array<double, 3> w = blend_weights<double>(hit.b, feet);
   double t = 0.0;
   if (!solve(fits, w, start, direction, view.side, t)) return false;
-  if (!(std::fabs(t) <= reach(view, triangle.index))) return false;
+  // reach() is never less than the bulge
+  if (!(std::fabs(t) <= static_cast<double>(bulge_[triangle.index]) || std::fabs(t) <= reach(view, triangle.index))) return false;
   out.z = hit.z + t;
   if (derivatives == 0) return true;
 
