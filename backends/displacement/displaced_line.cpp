@@ -25,12 +25,14 @@ DisplacedLine::Sample DisplacedLine::at(double t) const {
   return {t - d.value * e.z() - h, g.z(), -g.x() / g.z(), -g.y() / g.z(), M.norm()};
 }
 
-bool DisplacedLine::may_vanish(const Interval& t) const {
+bool DisplacedLine::may_vanish(const Interval& t, double& aside) const {
   const Rectangle here{x_, x_, y_, y_};
   const Rectangle uy = view_.natural_box(here, t);
   const OffsetRange range = view_.field.range(uy);
   const View::Directions e = view_.directions(uy);
-  const HeightBounds h = view_.base.height_bounds(view_.X_SP, View::moved_back(here, range, e));
+  const Rectangle moved = View::moved_back(here, range, e);
+  aside = std::max(moved.x_max - moved.x_min, moved.y_max - moved.y_min);
+  const HeightBounds h = view_.base.height_bounds(view_.X_SP, moved);
   if (h.empty) return false;
   const Interval shift = View::along_normal(range, e);
   constexpr double kRounding = 1e-12;
@@ -49,13 +51,14 @@ double DisplacedLine::search(double max_offset) const {
     low = std::max(low, -(o.x() * n.x() + o.z() * n.z()) / a);
   }
   if (!(low <= high)) return kNaN;
-  Search search{std::max(kFinest, 1e-5 * (high - low)), 20'000};
+  Search search{std::max(kFinest, 1e-4 * (high - low)), 4000};
   return view_.body == Body::wheel ? search_interval(high, low, search) : search_interval(low, high, search);
 }
 
 double DisplacedLine::search_interval(double outer, double inner, Search& search) const {
-  if (--search.budget < 0 || !may_vanish({std::min(outer, inner), std::max(outer, inner)})) return kNaN;
-  if (std::fabs(outer - inner) <= search.finest) return polish(outer, inner);
+  double aside = 0.0;
+  if (--search.budget < 0 || !may_vanish({std::min(outer, inner), std::max(outer, inner)}, aside)) return kNaN;
+  if (std::fabs(outer - inner) <= search.finest || aside <= 2.0 * kFinest) return polish(outer, inner);
   const double middle = 0.5 * (outer + inner);
   const double first = search_interval(outer, middle, search);
   return std::isnan(first) ? search_interval(middle, inner, search) : first;

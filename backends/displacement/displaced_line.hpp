@@ -21,7 +21,8 @@ class DisplacedLine {
   /// F is NaN where the point moved back is not over the base.
   Sample at(double t) const;
 
-  /// Outermost zero, found by bisection with rigorous bounds of F over intervals down to kFinest; NaN if there is none.
+  /// Outermost zero, found by bisection with rigorous bounds of F over intervals down to kFinest, or until the points
+  /// moved back stay within 2 kFinest; NaN if there is none.
   /// It needs no guess and no smoothness, and costs 10 to 1000 calls of the base.
   double search(double max_offset) const;
   static constexpr double kFinest = 1e-6;  ///< [m]
@@ -31,7 +32,8 @@ class DisplacedLine {
     double finest;
     int budget;
   };
-  bool may_vanish(const Interval& t) const;
+  /// Whether F can be 0 there; aside: size of the rectangle in which the points moved back lie.
+  bool may_vanish(const Interval& t, double& aside) const;
   double search_interval(double outer, double inner, Search& search) const;
   double polish(double outer, double inner) const;
 

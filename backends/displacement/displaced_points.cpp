@@ -55,7 +55,7 @@ void DisplacedPoints::solve(std::vector<PlanePoint>& points) {
     for (std::size_t i = all.begin; i < all.end; ++i) {
       const Unknown& w = unknowns_[i];
       PlanePoint& p = points[w.point];
-      const Leaf alone{{w.point, w.point + 1}, {p.x, p.x, p.y, p.y}, leaves_[k].outermost};
+      const Leaf alone{{w.point, w.point + 1}, {p.x, p.x, p.y, p.y}, leaves_[k].outermost, 0.0};
       if (w.state == Unknown::State::solved && (proven || outermost_everywhere(alone, {i, i + 1}))) {
         p.z = w.t;
         p.dzdx = slopes_[i].x();
@@ -70,7 +70,7 @@ void DisplacedPoints::solve(std::vector<PlanePoint>& points) {
 
 /// Leaves alone what no offset can reach, and divides the rest until it is small enough to be judged as a whole.
 void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range, double max_offset) {
-  constexpr std::size_t kLeaf = 64;
+  constexpr std::size_t kLeaf = 256;
   constexpr double kLeafSize = 3e-3;   // [m]
   constexpr double kSteep = 6.0;       // slope up to which one judgement serves many points
   const std::size_t n = range.end - range.begin;
@@ -115,7 +115,8 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
   }
   const Interval shift = View::along_normal(offsets, e);
   const double beyond = side > 0.0 ? std::max(0.0, shift.high) : std::max(0.0, -shift.low);
-  collect(points, {range, r, side * (std::max(outermost_base, seen.outer) + beyond)});
+  const double rate = rate_of(offsets, uy, view_.X_SP.apply({r.x_min, r.y_min, bottom}));
+  collect(points, {range, r, side * (std::max(outermost_base, seen.outer) + beyond), rate});
   if (reach > kNoReach)
     for (std::size_t i = range.begin; i < range.end; ++i)
       if (std::isnan(points[i].z)) searched_.push_back(i);
@@ -126,7 +127,7 @@ void DisplacedPoints::collect(std::vector<PlanePoint>& points, const Leaf& leaf)
   for (std::size_t i = leaf.range.begin; i < leaf.range.end; ++i) {
     const PlanePoint& p = points[i];
     if (std::isnan(p.z)) continue;
-    unknowns_.push_back({i, p.z, p.x, p.y, p.z, p.dzdx, p.dzdy, 0.0, 1.0, 0.0, Unknown::State::moving});
+    unknowns_.push_back({i, p.z, p.x, p.y, p.z, p.dzdx, p.dzdy, 0.0, leaf.rate, 1.0, 0.0, Unknown::State::moving});
   }
   leaves_.push_back(leaf);
   leaf_unknowns_.push_back({first, unknowns_.size()});
@@ -186,7 +187,7 @@ void DisplacedPoints::ask_base() {
 }
 
 void DisplacedPoints::advance(const PlanePoint& p, Unknown& w, std::size_t k, int iteration) {
-  constexpr double kRounding = 2e-14;  // [m]
+  constexpr double kRounding = 2e-14, kLinear = 1e-10;  // [m]
   constexpr int kPatience = 4;         // steps after which the base's own noise is accepted
   const Mat3& R = view_.X_SP.rotation;
   const NaturalPoint q(view_.body, view_.X_SP.apply({p.x, p.y, w.t}));
@@ -218,7 +219,8 @@ void DisplacedPoints::advance(const PlanePoint& p, Unknown& w, std::size_t k, in
     w.t += step;
     const double noise = kRounding * w.steepness * w.steepness;
     const bool known = (iteration > 0 || (aside_x == 0.0 && aside_y == 0.0));
-    if (known && size <= noise) w.state = Unknown::State::solved;
+    // What is left is the bend of base and offsets over the way the points still go.
+    if (known && (size <= noise || size * w.rate * w.steepness <= kLinear)) w.state = Unknown::State::solved;
     if (iteration > kPatience && size <= 20.0 * noise) w.state = Unknown::State::solved;
     if (iteration > kPatience && size > 0.5 * before) w.state = Unknown::State::failed;
   }
@@ -237,15 +239,20 @@ bool DisplacedPoints::outermost_everywhere(const Leaf& leaf, const Range& unknow
   if (inner >= side * leaf.outermost) return true;
   const Rectangle uy = view_.natural_box(leaf.rectangle, ordered(side * inner, leaf.outermost));
   const OffsetRange offsets = view_.field.range(uy);
-  const Vec3 n = view_.X_SP.rotation.col(2);
   const double x = 0.5 * (leaf.rectangle.x_min + leaf.rectangle.x_max), y = 0.5 * (leaf.rectangle.y_min + leaf.rectangle.y_max);
-  const NaturalPoint q(view_.body, view_.X_SP.apply({x, y, side * inner}));
+  // Slopes of the base may grow on the way by as much again.
+  constexpr double kGrowth = 2.0, kSafe = 0.5;
+  return kGrowth * steepness * rate_of(offsets, uy, view_.X_SP.apply({x, y, side * inner})) <= kSafe;
+}
+
+/// Bound of |d(offset * e)/dt| in a box of (u, y) that holds q.
+double DisplacedPoints::rate_of(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const {
+  const Vec3 n = view_.X_SP.rotation.col(2);
+  const NaturalPoint q(view_.body, q_S);
   const double turn = view_.body == Body::wheel ? uy.x_max - uy.x_min : 0.0;
   const double along = (std::fabs(n.dot(q.along)) + turn) * q.du_along;
   const double turning = view_.body == Body::wheel ? greatest(offsets) * along : 0.0;
-  // Slopes of the base may grow on the way by as much again.
-  constexpr double kGrowth = 2.0, kSafe = 0.5;
-  return kGrowth * steepness * (offsets.max_d_u * along + offsets.max_d_y * std::fabs(n.y()) + turning) <= kSafe;
+  return offsets.max_d_u * along + offsets.max_d_y * std::fabs(n.y()) + turning;
 }
 
 void DisplacedPoints::search(PlanePoint& p) const {

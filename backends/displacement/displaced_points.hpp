@@ -35,11 +35,12 @@ class DisplacedPoints {
     Range range;
     Rectangle rectangle;
     double outermost;  ///< no displaced height lies beyond it
+    double rate;       ///< how far points moved back may go aside per change of height
   };
   struct Unknown {
     std::size_t point;
     double t, cx, cy, h, hx, hy;  ///< present height; where the base was asked and what it said
-    double last_step;
+    double last_step, rate;
     double steepness, offset;     ///< when solved
     enum class State { moving, solved, failed } state;
   };
@@ -49,6 +50,7 @@ class DisplacedPoints {
   void iterate(const std::vector<PlanePoint>& points);
   void advance(const PlanePoint& p, Unknown& w, std::size_t k, int iteration);
   void ask_base();
+  double rate_of(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const;
   bool outermost_everywhere(const Leaf& leaf, const Range& unknowns) const;
   void search(PlanePoint& p) const;
 

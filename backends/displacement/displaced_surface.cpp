@@ -97,7 +97,7 @@ void DisplacedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   base_->heights(plane_grid, {all.z, all.dzdx, all.dzdy});
 
   // Bands of rows, each band in square blocks: what lies together is judged together.
-  constexpr int kBlock = 8;
+  constexpr int kBlock = 16;
   const auto band = [&](std::size_t which) {
     const int first = static_cast<int>(which) * kBlock, last = std::min(first + kBlock, g.ny);
     std::vector<PlanePoint> points;
