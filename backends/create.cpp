@@ -139,7 +139,7 @@ class Resampling {
       resolution_ = 0.0;
       return *given;
     }
-    return sampling::to_mesh(points(false), "samples of the " + std::string(word(spec_.body)));
+    return sampling::to_mesh(points(false, true), "samples of the " + std::string(word(spec_.body)));
   }
 
   SliceSet slices() {
@@ -155,7 +155,7 @@ class Resampling {
       base_spec.shape = spec_.shape;
     } else {
       limit_rail();
-      sampling::SampleSettings s{resolution_, 0.0, region_, false};
+      sampling::SampleSettings s{resolution_, 0.0, region_};
       constexpr double kStations = 200.0;
       const double length = region_.u_max - region_.u_min;
       const double whole = spec_.body == Body::wheel ? 2.0 * 3.141592653589793 * spec_.nominal_radius : length;
@@ -227,9 +227,9 @@ class Resampling {
     r.y_max = std::max(r.y_max, r.y_min + across);
   }
 
-  sampling::PointGrid points(bool common) {
+  sampling::PointGrid points(bool common, bool staggered = false) {
     limit_rail();
-    sampling::SampleSettings s{resolution_, 0.0, region_, common};
+    sampling::SampleSettings s{resolution_, 0.0, region_, common, staggered};
     // along a prismatic rail nothing changes: longer steps lose nothing
     constexpr double kLongStep = 4.0;
     if (natural_.constant_profile && spec_.body == Body::rail) s.spacing_u = kLongStep * resolution_;
@@ -237,7 +237,7 @@ class Resampling {
   }
 
   Profile section() {
-    sampling::SampleSettings s{resolution_, 1e-3, region_, false};
+    sampling::SampleSettings s{resolution_, 1e-3, region_};
     s.region.u_min = 0.0;
     s.region.u_max = spec_.body == Body::wheel ? 1e-2 : 3e-3;
     if (spec_.body == Body::rail) {

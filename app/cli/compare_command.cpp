@@ -80,7 +80,7 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
     for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
   if (!options.output_folder.empty()) write_comparison_folder(options.output_folder, result);
   if (options.json_file == "-")
-    std::cout << io::to_json(result) << '\n';
+    std::cout << io::to_json(result);
   else
     std::cout << io::comparison_table(result);
   if (!options.json_file.empty() && options.json_file != "-") io::write_json(options.json_file, result);

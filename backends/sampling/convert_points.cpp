@@ -56,14 +56,9 @@ TriangleMesh to_mesh(const PointGrid& points, std::string name) {
       const std::size_t next = (iu + 1) % nu;
       const std::uint32_t p00 = vertex[points.index(iu, iy)], p10 = vertex[points.index(next, iy)];
       const std::uint32_t p01 = vertex[points.index(iu, iy + 1)], p11 = vertex[points.index(next, iy + 1)];
-      bool rising = (iu + iy) % 2 == 0;  // equal diagonals alternate, so that the mesh prefers no direction
-      if (p00 != kNone && p10 != kNone && p01 != kNone && p11 != kNone) {
-        const double up = (mesh.vertices[p11] - mesh.vertices[p00]).norm(), down = (mesh.vertices[p01] - mesh.vertices[p10]).norm();
-        constexpr double kSame = 1e-3;
-        if (std::fabs(up - down) > kSame * up) rising = up < down;
-      } else {
-        rising = p10 == kNone || p01 == kNone;
-      }
+      // the diagonal of equilateral triangles, or by turns, so that the mesh prefers no direction
+      bool rising = points.stagger > 0.0 ? iy % 2 == 1 : (iu + iy) % 2 == 0;
+      if (p00 == kNone || p10 == kNone || p01 == kNone || p11 == kNone) rising = p10 == kNone || p01 == kNone;
       if (rising) {
         add(p00, p10, p11);
         add(p00, p11, p01);

@@ -59,18 +59,34 @@ std::vector<double> stations(const Surface& surface, Body body, double nominal_r
 }
 
 PointGrid sample_points(const Surface& surface, Body body, double nominal_radius, const SampleSettings& settings) {
-  const double spacing_u = settings.spacing_u > 0.0 ? settings.spacing_u : settings.spacing;
+  // side and height of an equilateral triangle whose circumscribed circle has the spacing as its diameter
+  constexpr double kSide = 0.8660254037844386, kTriangleHeight = 0.75;
+  const double spacing_u = (settings.staggered ? kSide : 1.0) * (settings.spacing_u > 0.0 ? settings.spacing_u : settings.spacing);
   PointGrid grid;
   grid.body = body;
   grid.u = stations(surface, body, nominal_radius, settings.region, spacing_u, grid.closed);
   const std::vector<double> reference = spread(grid.u);
-  grid.y = lateral_nodes(surface, body, reference, settings.spacing, settings.region.y_min, settings.region.y_max, settings.common);
+  const double spacing_y = (settings.staggered ? kTriangleHeight : 1.0) * settings.spacing;
+  grid.y = lateral_nodes(surface, body, reference, spacing_y, settings.region.y_min, settings.region.y_max, settings.common);
   if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints)
     throw Error(ErrorKind::configuration, "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
                 "use a coarser resolution or a smaller region");
   grid.h.resize(grid.u.size() * grid.y.size());
+  if (!settings.staggered) {
+    parallel_for(grid.u.size(), [&](std::size_t i) {
+      section_heights(surface, body, grid.u[i], grid.y, {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
+    });
+    return grid;
+  }
+  grid.stagger = 0.5 * (grid.u[1] - grid.u[0]);
+  std::vector<double> nodes[2];
+  for (std::size_t k = 0; k < grid.y.size(); ++k) nodes[k % 2].push_back(grid.y[k]);
   parallel_for(grid.u.size(), [&](std::size_t i) {
-    section_heights(surface, body, grid.u[i], grid.y, {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
+    for (std::size_t odd = 0; odd < 2; ++odd) {
+      std::vector<double> h(nodes[odd].size());
+      section_heights(surface, body, grid.u[i] + (odd == 1 ? grid.stagger : 0.0), nodes[odd], {h, {}, {}});
+      for (std::size_t k = 0; k < h.size(); ++k) grid.h[grid.index(i, 2 * k + odd)] = h[k];
+    }
   });
   return grid;
 }

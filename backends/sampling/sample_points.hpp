@@ -13,6 +13,7 @@ struct SampleSettings {
   double spacing_u = 0.0;     ///< along the track or circumference [m]; 0 = spacing
   Region region;
   bool common = false;        ///< only the lateral range that all sections have
+  bool staggered = false;     ///< for triangles: equilateral ones, no point of them farther than spacing/2 from a corner
 };
 
 /// Samples a surface in its natural view. The points lie exactly on it. nominal_radius [m] turns the spacing of a wheel into

@@ -45,7 +45,7 @@ TEST(ToMesh, TrianglesFaceOutOfARail) {
 
 TEST(ToMesh, AWholeWheelHasOnlyItsTwoRims) {
   const auto wheel = analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46);
-  const PointGrid grid = sample_points(*wheel, Body::wheel, 0.46, {10e-3, 0.0, {}, false});
+  const PointGrid grid = sample_points(*wheel, Body::wheel, 0.46, {10e-3, 0.0, {}});
   const TriangleMesh mesh = to_mesh(grid, "wheel");
   std::size_t open = 0;
   const auto all = edges(mesh);
@@ -72,7 +72,7 @@ TEST(ToMesh, LeavesHolesWherePointsAreMissing) {
 
 TEST(ToSlices, KeepsThePointsAndClosesAWheel) {
   const auto wheel = analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46);
-  const PointGrid grid = sample_points(*wheel, Body::wheel, 0.46, {20e-3, 0.0, {}, false});
+  const PointGrid grid = sample_points(*wheel, Body::wheel, 0.46, {20e-3, 0.0, {}});
   const SliceSet slices = to_slices(grid, 0.46, "wheel");
   ASSERT_EQ(slices.u.size(), grid.u.size() + 1);
   EXPECT_NEAR(slices.u.back() - slices.u.front(), 2.0 * std::acos(-1.0), 1e-12);
@@ -97,7 +97,7 @@ TEST(MedianSection, IsTheUndamagedShape) {
   flat.depth = 1e-3;
   const auto round = analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46);
   const auto flatted = analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46, {flat});
-  const SampleSettings settings{5e-3, 0.0, {}, false};
+  const SampleSettings settings{5e-3, 0.0, {}};
   const Profile section = median_section(sample_points(*flatted, Body::wheel, 0.46, settings), 0.46, "wheel");
   for (std::size_t i = 1; i + 1 < section.y.size(); ++i) {
     const double r = height_at(*round, Pose{}, {0.0, section.y[i]});

@@ -66,7 +66,7 @@ TEST(LateralNodes, RefuseWhatCannotBeSampled) {
 }
 
 TEST(SamplePoints, LieOnTheSurface) {
-  const PointGrid grid = sample_points(*s1002(), Body::wheel, kRadius, {5e-3, 0.0, {0.1, 0.3, -1e30, 1e30}, false});
+  const PointGrid grid = sample_points(*s1002(), Body::wheel, kRadius, {5e-3, 0.0, {0.1, 0.3, -1e30, 1e30}});
   EXPECT_FALSE(grid.closed);
   EXPECT_DOUBLE_EQ(grid.u.front(), 0.1);
   EXPECT_DOUBLE_EQ(grid.u.back(), 0.3);
@@ -82,14 +82,14 @@ TEST(SamplePoints, LieOnTheSurface) {
 }
 
 TEST(SamplePoints, CloseAWholeWheel) {
-  const PointGrid grid = sample_points(*s1002(), Body::wheel, kRadius, {20e-3, 0.0, {}, false});
+  const PointGrid grid = sample_points(*s1002(), Body::wheel, kRadius, {20e-3, 0.0, {}});
   ASSERT_TRUE(grid.closed);
   const double step = 2.0 * kPi / static_cast<double>(grid.u.size());
   EXPECT_NEAR(grid.u.back() + step, grid.u.front() + 2.0 * kPi, 1e-12);
 }
 
 TEST(SamplePoints, AreTheSameForAnyNumberOfThreads) {
-  const SampleSettings settings{4e-3, 0.0, {-0.1, 0.1, -1e30, 1e30}, false};
+  const SampleSettings settings{4e-3, 0.0, {-0.1, 0.1, -1e30, 1e30}};
   std::vector<double> one, many;
   {
     ThreadLimit limit(1);
@@ -103,9 +103,9 @@ TEST(SamplePoints, AreTheSameForAnyNumberOfThreads) {
 }
 
 TEST(SamplePoints, NeedEndsOfARail) {
-  EXPECT_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-3, 0.0, {}, false}), Error);
-  EXPECT_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-3, 1e-9, {0.0, 1.0, -1e30, 1e30}, false}), Error);
-  EXPECT_NO_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-2, 0.0, {0.0, 1.0, -1e30, 1e30}, false}));
+  EXPECT_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-3, 0.0, {}}), Error);
+  EXPECT_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-3, 1e-9, {0.0, 1.0, -1e30, 1e30}}), Error);
+  EXPECT_NO_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-2, 0.0, {0.0, 1.0, -1e30, 1e30}}));
 }
 
 }  // namespace
