@@ -97,12 +97,27 @@ class MeshSurface::Lines {
     for (int step = 0; step < kSteps && t != kNone; ++step) {
       triangle_.load(s_.mesh_, view_, t);
       const auto e = triangle_.edges(x, y, view_.side);
-      if (ProjectedTriangle::cover(e) == Cover::front) return triangle_.hit(e, Cover::front);
+      if (ProjectedTriangle::cover(e) == Cover::front) {
+        if (e[0] > 0.0 && e[1] > 0.0 && e[2] > 0.0) return triangle_.hit(e, Cover::front);
+        return on_edge(x, y, e);
+      }
       if (!(e[0] + e[1] + e[2] > 0.0)) break;
       const auto across = static_cast<std::size_t>(std::min_element(e.begin(), e.end()) - e.begin());
       t = s_.mesh_.neighbours[t][across];
     }
     return s_.bvh_.outermost(view_, x, y);
+  }
+
+  /// On an edge the triangle of the lower number counts, whichever of them was found; a vertex is left to the hierarchy.
+  LineHit on_edge(double x, double y, const std::array<double, 3>& e) {
+    if (std::count(e.begin(), e.end(), 0.0) > 1) return s_.bvh_.outermost(view_, x, y);
+    const auto across = static_cast<std::size_t>(std::find(e.begin(), e.end(), 0.0) - e.begin());
+    const std::uint32_t other = s_.mesh_.neighbours[triangle_.index][across];
+    const LineHit here = triangle_.hit(e, Cover::front);
+    if (other > triangle_.index) return here;  // kNone, too
+    triangle_.load(s_.mesh_, view_, other);
+    const auto f = triangle_.edges(x, y, view_.side);
+    return ProjectedTriangle::cover(f) == Cover::front ? triangle_.hit(f, Cover::front) : here;
   }
 
   const MeshSurface& s_;

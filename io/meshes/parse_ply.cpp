@@ -25,7 +25,6 @@ class TextSource {
   void next_element() {
     do {
       if (!scanner_.next_line()) scanner_.fail("the file ends before all elements are read", 0, "is it truncated?");
-      line_start_ = scanner_.offset();
       word_ = scanner_.next_word();
     } while (!word_);
   }
@@ -49,7 +48,6 @@ class TextSource {
  private:
   LineScanner scanner_;
   std::optional<Word> word_;
-  std::size_t line_start_ = 0;
   int last_ = 0;
 };
 
