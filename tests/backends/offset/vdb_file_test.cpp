@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <unistd.h>
+
+#include <fstream>
+#include <limits>
+#include <random>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/tests/backends/offset/wheel_with_flat.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using offset::Interpolation;
+using offset::OffsetFile;
+namespace fs = std::filesystem;
+
+constexpr double kR = 0.46;
+
+class VdbFile : public ::testing::Test {
+ protected:
+  VdbFile() : path_(fs::path(::testing::TempDir()) / ("treadmark_" + std::to_string(getpid()) + ".vdb")) {}
+  ~VdbFile() override { fs::remove(path_); }
+
+  static OffsetFile wheel() {
+    const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
+    const auto target = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
+    const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, {2e-3, 2e-3, 1e-9, region(kPi, 0.05, kR)});
+    return {sample.offsets, {Body::wheel, kR, StandardProfile{"S1002"}, {}}};
+  }
+  std::string bytes() const {
+    std::ifstream in(path_, std::ios::binary);
+    return {std::istreambuf_iterator<char>(in), {}};
+  }
+  void put(const std::string& data) const { std::ofstream(path_, std::ios::binary) << data; }
+  /// The kind of error that reading gives; -1: none.
+  int kind() const {
+    try {
+      offset::read_vdb(path_);
+    } catch (const Error& e) {
+      EXPECT_FALSE(e.message().empty());
+      EXPECT_EQ(e.where().file, path_.string());
+      return static_cast<int>(e.kind());
+    }
+    return -1;
+  }
+  static constexpr int kInputData = static_cast<int>(ErrorKind::input_data);
+  fs::path path_;
+};
+
+TEST_F(VdbFile, RoundTripKeepsEveryBit) {
+  const OffsetFile written = wheel();
+  offset::write_vdb(path_, written);
+  const OffsetFile read = offset::read_vdb(path_);
+  EXPECT_EQ(read.base.body, Body::wheel);
+  EXPECT_EQ(read.base.nominal_radius, kR);
+  EXPECT_EQ(std::get<StandardProfile>(read.base.shape).name, "S1002");
+  EXPECT_EQ(offset::active_count(*read.offsets), offset::active_count(*written.offsets));
+  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
+  const Grid2 g{-0.04, -0.03, 0.0011, 0.0009, 70, 70};
+  for (const Interpolation interpolation : {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
+    const auto a = offset::make_offset_surface(base, written.offsets, interpolation, "offset");
+    const auto b = offset::make_offset_surface(base, read.offsets, interpolation, "offset");
+    EXPECT_EQ(greatest_difference(heights(*a, level(kPi, 0.0, kR), g), heights(*b, level(kPi, 0.0, kR), g)), 0.0);
+    EXPECT_EQ(a->memory_bytes(), b->memory_bytes());
+  }
+}
+
+TEST_F(VdbFile, KeepsBasesOfArcsAndPoints) {
+  const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.002, 21, 21}, std::vector<float>(441, 1e-4f)};
+  const auto offsets = offset::offsets_from_map(map, Body::rail, 1e-9).offsets;
+  const ArcChain chain{-0.0301, 1.0 / 3.0, -0.1, {{0.03, 3.3}, {0.02, 0.0}, {0.01, 1.0 / 0.07}}};
+  offset::write_vdb(path_, {offsets, {Body::rail, 0.0, chain, {}}});
+  const auto arcs = std::get<ArcChain>(offset::read_vdb(path_).base.shape);
+  EXPECT_EQ(arcs.start_z, chain.start_z);
+  ASSERT_EQ(arcs.segments.size(), 3u);
+  EXPECT_EQ(arcs.segments[2].curvature, 1.0 / 0.07);
+
+  Profile points{Body::rail, {-0.01, 1e-3 / 3.0, 0.02}, {1e-4, 0.0, 1.0 / 7000.0}, "points of a test", {}};
+  points.smoothing.strength = 1e-7 / 3.0;
+  offset::write_vdb(path_, {offsets, {Body::rail, 0.0, points, {}}});
+  const auto back = std::get<Profile>(offset::read_vdb(path_).base.shape);
+  EXPECT_EQ(back.y, points.y);
+  EXPECT_EQ(back.z, points.z);
+  EXPECT_EQ(back.name, points.name);
+  EXPECT_EQ(back.smoothing.strength, points.smoothing.strength);
+}
+
+TEST_F(VdbFile, RefusesOtherBasesAndPlaces) {
+  OffsetFile file = wheel();
+  EXPECT_THROW(offset::write_vdb("/nonexistent/folder/x.vdb", file), Error);
+  file.base.body = Body::rail;
+  EXPECT_THROW(offset::write_vdb(path_, file), Error);
+  file = wheel();
+  file.base.shape = SliceSet{};
+  EXPECT_THROW(offset::write_vdb(path_, file), Error);
+  EXPECT_THROW(offset::write_vdb(path_, {nullptr, file.base}), Error);
+}
+
+TEST_F(VdbFile, RefusesMissingEmptyForeignAndCutFiles) {
+  EXPECT_EQ(kind(), kInputData);  // missing
+  put("");
+  EXPECT_EQ(kind(), kInputData);
+  put("solid cube\nendsolid");
+  EXPECT_EQ(kind(), kInputData);
+  put(std::string(" BDV\0\0\0\0", 8));
+  EXPECT_EQ(kind(), kInputData);
+  offset::write_vdb(path_, wheel());
+  const std::string good = bytes();
+  EXPECT_EQ(kind(), -1);
+  for (std::size_t n = 0; n < good.size(); n += 1 + good.size() / 97) {
+    put(good.substr(0, n));
+    EXPECT_EQ(kind(), kInputData) << n << " bytes";
+  }
+  put(good + "x");
+  EXPECT_EQ(kind(), kInputData);
+  EXPECT_THROW(offset::read_vdb(fs::path(::testing::TempDir())), Error);
+}
+
+TEST_F(VdbFile, NoSingleDamageGoesUnnoticed) {
+  offset::write_vdb(path_, wheel());
+  const std::string good = bytes();
+  std::mt19937 random(5);
+  for (int trial = 0; trial < 300; ++trial) {
+    std::string bad = good;
+    const std::size_t at = trial < 60 ? static_cast<std::size_t>(trial) : random() % bad.size();
+    const int many = trial % 3 == 0 ? 1 : 1 + static_cast<int>(random() % 16);
+    for (int k = 0; k < many && at + static_cast<std::size_t>(k) < bad.size(); ++k)
+      bad[at + static_cast<std::size_t>(k)] = static_cast<char>(bad[at + static_cast<std::size_t>(k)] ^ static_cast<char>(1 + random() % 255));
+    put(bad);
+    ASSERT_EQ(kind(), kInputData) << "trial " << trial;
+  }
+}
+
+/// The same file with another text of the same length in it, and a check sum that fits.
+std::string edited(std::string data, const std::string& from, const std::string& to) {
+  const std::size_t at = data.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  EXPECT_EQ(from.size(), to.size());
+  data.replace(at, from.size(), to);
+  std::uint64_t sum = 14695981039346656037ull;
+  for (std::size_t i = 0; i + 24 < data.size(); ++i) sum = (sum ^ static_cast<unsigned char>(data[i])) * 1099511628211ull;
+  for (int k = 0; k < 8; ++k) data[data.size() - 8 + static_cast<std::size_t>(k)] = static_cast<char>(sum >> (8 * k));
+  return data;
+}
+
+TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
+  offset::write_vdb(path_, wheel());
+  const std::string good = bytes();
+  put(edited(good, "S1002", "S1003"));  // not this reader's business
+  EXPECT_EQ(kind(), -1);
+  using Pair = std::pair<std::string, std::string>;
+  const std::string one_metre("\x01\0\0\0m", 5), one_mile("\x01\0\0\0i", 5);
+  for (const auto& [from, to] : {Pair{"wheel", "whale"}, Pair{"wheel", "rail\n"}, Pair{"0.46000000000000002", "-.46000000000000002"},
+                                 Pair{"0.46000000000000002", "nan0000000000000000"}, Pair{"standard", "standart"},
+                                 Pair{"treadmark offsets 1", "treadmark offsets 2"}, Pair{"treadmark_offsets", "treadmark_offzets"},
+                                 Pair{"tolerance", "tolerante"}, Pair{one_metre, one_mile}}) {
+    put(edited(good, from, to));
+    EXPECT_EQ(kind(), kInputData) << from << " to " << to;
+  }
+}
+
+TEST_F(VdbFile, RefusesNumbersThatAreNone) {
+  const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.002, 21, 21}, std::vector<float>(441, 1.2345e-4f)};
+  const auto offsets = offset::offsets_from_map(map, Body::rail, 1e-9).offsets;
+  offset::write_vdb(path_, {offsets, {Body::rail, 0.0, StandardProfile{"60E1"}, {}}});
+  const std::string good = bytes();
+  const auto raw = [](float v) { return std::string(reinterpret_cast<const char*>(&v), sizeof(v)); };
+  const std::string from = raw(1.2345e-4f);
+  for (const float bad : {std::numeric_limits<float>::quiet_NaN(), std::numeric_limits<float>::infinity(), 1e9f}) {
+    put(edited(good, from, raw(bad)));
+    EXPECT_EQ(kind(), kInputData) << bad;
+  }
+}
+
+}  // namespace
+}  // namespace treadmark::testing
