@@ -28,7 +28,7 @@ DisplacedLine::Sample DisplacedLine::at(double t) const {
 bool DisplacedLine::may_vanish(const Interval& t, double& aside) const {
   const Rectangle here{x_, x_, y_, y_};
   const Rectangle uy = view_.natural_box(here, t);
-  const OffsetRange range = view_.field.range(uy);
+  const OffsetRange range = view_.offsets(uy);
   const View::Directions e = view_.directions(uy);
   const Rectangle moved = View::moved_back(here, range, e);
   aside = std::max(moved.x_max - moved.x_min, moved.y_max - moved.y_min);

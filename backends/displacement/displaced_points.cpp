@@ -85,7 +85,7 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
   const double top = side > 0.0 ? near.z_max + max_offset : near.z_min - max_offset;
   const double bottom = whole ? side * seen.inner : side > 0.0 ? near.z_min - max_offset : near.z_max + max_offset;
   const Rectangle uy = view_.natural_box(r, ordered(bottom, top));
-  const OffsetRange offsets = view_.field.range(uy);
+  const OffsetRange offsets = view_.offsets(uy);
   if (offsets.zero()) return;
 
   const double size = std::max(r.x_max - r.x_min, r.y_max - r.y_min);
@@ -238,7 +238,7 @@ bool DisplacedPoints::outermost_everywhere(const Leaf& leaf, const Range& unknow
   }
   if (inner >= side * leaf.outermost) return true;
   const Rectangle uy = view_.natural_box(leaf.rectangle, ordered(side * inner, leaf.outermost));
-  const OffsetRange offsets = view_.field.range(uy);
+  const OffsetRange offsets = view_.offsets(uy);
   const double x = 0.5 * (leaf.rectangle.x_min + leaf.rectangle.x_max), y = 0.5 * (leaf.rectangle.y_min + leaf.rectangle.y_max);
   // Slopes of the base may grow on the way by as much again.
   constexpr double kGrowth = 2.0, kSafe = 0.5;

@@ -177,7 +177,7 @@ HeightBounds DisplacedSurface::do_height_bounds(const Pose& X_SP, const Rectangl
   const HeightBounds near = base_->height_bounds(X_SP, enlarged(r, max_offset_));
   if (near.empty) return near;
   const Rectangle uy = seen.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_});
-  const OffsetRange offsets = field_->range(uy);
+  const OffsetRange offsets = seen.offsets(uy);
   if (offsets.zero()) return base_->height_bounds(X_SP, r);
   const View::Directions e = seen.directions(uy);
   const HeightBounds source = base_->height_bounds(X_SP, View::moved_back(r, offsets, e));

@@ -49,6 +49,18 @@ Rectangle View::natural_box(const Rectangle& r, const Interval& t) const {
   return box;
 }
 
+OffsetRange View::offsets(const Rectangle& uy) const {
+  OffsetRange r = field.range(uy);
+  if (r.zero()) return r;
+  const double u = 0.5 * (uy.x_min + uy.x_max), y = 0.5 * (uy.y_min + uy.y_max);
+  const double change = r.max_d_u * 0.5 * (uy.x_max - uy.x_min) + r.max_d_y * 0.5 * (uy.y_max - uy.y_min);
+  if (!(change < r.high - r.low)) return r;
+  const double middle = field.jet(u, y).value, slack = 1e-15 + 1e-12 * std::fabs(middle);
+  r.low = std::max(r.low, middle - change - slack);
+  r.high = std::min(r.high, middle + change + slack);
+  return r;
+}
+
 View::Directions View::directions(const Rectangle& uy) const {
   const Mat3& R = X_SP.rotation;
   Directions d;

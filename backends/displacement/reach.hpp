@@ -23,6 +23,9 @@ struct View {
   /// All (u, y) of a rectangle of P times the heights [t_low, t_high].
   Rectangle natural_box(const Rectangle& r, const Interval& t) const;
 
+  /// The field's range, narrowed by its value in the middle and its Lipschitz constants.
+  OffsetRange offsets(const Rectangle& uy) const;
+
   /// Direction of the offset, in P, over a range of u.
   struct Directions {
     Interval e[3];
