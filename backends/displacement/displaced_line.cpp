@@ -15,7 +15,7 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 DisplacedLine::Sample DisplacedLine::at(double t) const {
   const Mat3& R = view_.X_SP.rotation;
   const NaturalPoint q(view_.body, view_.X_SP.apply({x_, y_, t}));
-  const OffsetJet d = view_.field.jet(q.u, q.y);
+  const OffsetJet d = view_.field.jet(q.u(), q.y);
   const Vec3 e = R.transpose() * q.e;
   const Vec2 moved(x_ - d.value * e.x(), y_ - d.value * e.y());
   double h = kNaN, hx = kNaN, hy = kNaN;

@@ -261,7 +261,7 @@ void DisplacedPoints::search(PlanePoint& p) const {
   const double found = line.search(max_offset_);
   if (std::fabs(found - p.z) <= kSame * (1.0 + p.dzdx * p.dzdx + p.dzdy * p.dzdy)) {
     const NaturalPoint q(view_.body, view_.X_SP.apply({p.x, p.y, p.z}));
-    const OffsetJet d = view_.field.jet(q.u, q.y);
+    const OffsetJet d = view_.field.jet(q.u(), q.y);
     if (d.value == 0.0 && d.d_u == 0.0 && d.d_y == 0.0) return;  // the base, bit for bit
   }
   p.z = found;

@@ -146,7 +146,7 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     if (std::isnan(z[i])) continue;
     const Vec3 q = X_SP.apply({points_P[i].x(), points_P[i].y(), z[i]});
     const NaturalPoint at(body_, q);
-    const OffsetJet d = field_->jet(at.u, at.y);
+    const OffsetJet d = field_->jet(at.u(), at.y);
     const Vec3 e = X_SP.rotation.transpose() * at.e;
     hit.push_back(i);
     moved.push_back({points_P[i].x() - d.value * e.x(), points_P[i].y() - d.value * e.y()});
@@ -162,7 +162,7 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
       const double side = body_ == Body::wheel ? 1.0 : -1.0;
       p.position_S = position[k];
       p.normal_S = side * (X_SP.rotation * Vec3(-dzdx[hit[k]], -dzdy[hit[k]], 1.0)).normalized();
-      p.u = at.u;
+      p.u = at.u();
       p.status = LocateStatus::converged;
       continue;
     }

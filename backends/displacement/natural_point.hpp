@@ -12,7 +12,7 @@ namespace treadmark::displacement {
 /// Natural coordinates of a point of the surface frame and the direction e in which offsets act: e_z at x, y of a rail,
 /// e_r at theta, y of a wheel. Moving a point along e changes neither u nor y.
 struct NaturalPoint {
-  double u = 0.0, y = 0.0;
+  double y = 0.0;
   double r = 1.0;                   ///< wheel: distance from the axle [m]
   Vec3 e = Vec3::UnitZ();           ///< direction of the offset
   Vec3 along = Vec3::UnitX();       ///< unit direction of growing u
@@ -20,18 +20,16 @@ struct NaturalPoint {
   double de_along = 0.0;            ///< de/dq = de_along * along * along^T: 0, or 1/r
 
   NaturalPoint() = default;
-  NaturalPoint(Body body, const Vec3& q_S) : y(q_S.y()) {
-    if (body == Body::rail) {
-      u = q_S.x();
-      return;
-    }
-    r = std::hypot(q_S.x(), q_S.z());
-    u = std::atan2(q_S.x(), q_S.z());
+  NaturalPoint(Body body, const Vec3& q_S) : y(q_S.y()), x_(q_S.x()) {
+    if (body == Body::rail) return;
+    r = std::sqrt(q_S.x() * q_S.x() + q_S.z() * q_S.z());
     const double sin = q_S.x() / r, cos = q_S.z() / r;
     e = {sin, 0.0, cos};
     along = {cos, 0.0, -sin};
     du_along = de_along = 1.0 / r;
   }
+
+  double u() const { return de_along == 0.0 ? x_ : std::atan2(e.x(), e.z()); }
 
   /// Gradient at q of B(q - d e), from the gradient M of B and the offset d with its derivatives.
   Vec3 pull_back(const Vec3& M, double d, double d_u, double d_y) const {
@@ -40,6 +38,9 @@ struct NaturalPoint {
     g.y() -= d_y * Me;
     return g;
   }
+
+ private:
+  double x_ = 0.0;
 };
 
 }  // namespace treadmark::displacement

@@ -71,7 +71,7 @@ void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, co
   point.normal_S = n;
   point.curvature_1 = mean + spread;
   point.curvature_2 = mean - spread;
-  point.u = at.u;
+  point.u = at.u();
 }
 
 }  // namespace treadmark::displacement
