@@ -37,16 +37,27 @@ Cutter::Cutter(CutterPath path, GraphCurve section, const std::string& name)
   y_max_ = y.high + reach;
 }
 
-Cutter::Place Cutter::place(const Vec3& p, Hint& hint) const {
-  const double x = std::clamp(p.x(), x_min_, x_max_);
+/// The path at x, unless the hint is there already.
+void Cutter::move_to(double x, Hint& hint) const {
+  x = std::clamp(x, x_min_, x_max_);
+  if (x == hint.x) return;
+  hint.x = x;
   hint.path = path_.find(x, hint.path);
-  const Jet y = path_.at(CutterPath::kY, x, hint.path), z = path_.at(CutterPath::kZ, x, hint.path);
-  const Jet roll = path_.at(CutterPath::kRoll, x, hint.path);
+  hint.y = path_.at(CutterPath::kY, x, hint.path);
+  hint.z = path_.at(CutterPath::kZ, x, hint.path);
+  const double roll = hint.roll.h;
+  hint.roll = path_.at(CutterPath::kRoll, x, hint.path);
+  if (hint.roll.h == roll) return;
+  hint.cos = std::cos(hint.roll.h);
+  hint.sin = std::sin(hint.roll.h);
+}
+
+Cutter::Place Cutter::place(const Vec3& p, Hint& hint) const {
+  move_to(p.x(), hint);
+  const Jet &y = hint.y, &z = hint.z, &roll = hint.roll;
   Place at;
-  if (roll.h != 0.0) {
-    at.cos = std::cos(roll.h);
-    at.sin = std::sin(roll.h);
-  }
+  at.cos = hint.cos;
+  at.sin = hint.sin;
   const double e_y = p.y() - y.h, e_z = p.z() - z.h;
   at.s = at.cos * e_y + at.sin * e_z;
   at.q = at.cos * e_z - at.sin * e_y;
@@ -85,9 +96,7 @@ Vec3 Cutter::gradient(Bound bound, const Place& at) const {
 Mat3 Cutter::hessian(Bound bound, const Vec3& p, Hint& hint) const {
   if (bound == kFirst || bound == kLast) return Mat3::Zero();
   const Place at = place(p, hint);
-  const double x = std::clamp(p.x(), x_min_, x_max_);
-  const Jet y = path_.at(CutterPath::kY, x, hint.path), z = path_.at(CutterPath::kZ, x, hint.path);
-  const Jet roll = path_.at(CutterPath::kRoll, x, hint.path);
+  const Jet &y = hint.y, &z = hint.z, &roll = hint.roll;
   Mat3 s_xx = Mat3::Zero(), q_xx = Mat3::Zero();
   s_xx(0, 0) = roll.ddh * at.q + roll.dh * (at.q_x + at.sin * y.dh - at.cos * z.dh) - at.cos * y.ddh - at.sin * z.ddh;
   q_xx(0, 0) = -roll.ddh * at.s - roll.dh * (at.s_x - at.cos * y.dh - at.sin * z.dh) + at.sin * y.ddh - at.cos * z.ddh;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <limits>
 #include <string>
 
 #include "treadmark/backends/analytic/cutter_path.hpp"
@@ -29,10 +30,13 @@ class Cutter {
     double cos = 1.0, sin = 0.0;
     double gap() const { return h - q; }
   };
-  /// Pieces found last, so that neighbours need no search. One for each thread.
+  /// What was found last, so that neighbours need no search and points of one x share the path. One for each thread.
   struct Hint {
     std::size_t path = 0;
     int section = 0;
+    double x = std::numeric_limits<double>::quiet_NaN();
+    Jet y, z, roll;
+    double cos = 1.0, sin = 0.0;
   };
   Place place(const Vec3& p, Hint& hint) const;
   bool in_domain(const Place& at, double x) const { return x > x_min_ && x < x_max_ && at.s > s_min_ && at.s < s_max_; }
@@ -58,6 +62,8 @@ class Cutter {
   std::size_t memory_bytes() const { return sizeof(*this) + path_.memory_bytes(); }
 
  private:
+  void move_to(double x, Hint& hint) const;
+
   CutterPath path_;
   GraphCurve section_;
   double x_min_, x_max_, s_min_, s_max_;

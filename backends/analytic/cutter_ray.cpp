@@ -22,26 +22,25 @@ double CutterRay::rate_of_x_terms(const Cutter::Place& at) const {
   return std::fabs(n_.x()) * (cutter_->roll_rate() * reach + cutter_->path_slope());
 }
 
-/// The root of a gap that falls at least with a known rate: Newton, held between the bounds known so far.
-double CutterRay::descend(double t, const Cutter::Place& from, double least_rate, double t_last) {
+/// The root of a gap that falls at least with a known rate: Newton from the depth of the neighbour, held between the bounds
+/// known so far. at: the place of the result.
+double CutterRay::descend(double t, const Cutter::Place& from, double least_rate, double t_last, Cutter::Place& at) {
   double low = t, high = t_last;
-  Cutter::Place at = from;
+  at = from;
+  if (depth_ > 0.0 && t + depth_ < t_last) at = place(t += depth_);
+  constexpr double kRounding = 1e-16, kNear = 1e-9;  // [m] the error after a Newton step below kNear is below rounding
   for (int i = 0; i < 100; ++i) {
     const double gap = at.gap();
     if (gap == 0.0) return t;
     (gap > 0.0 ? low : high) = t;
     const double rate = cutter_->gradient(Cutter::kSection, at).dot(n_);
     double next = t - gap / std::min(rate, -least_rate);
-    if (!(next >= low && next <= high)) next = 0.5 * (low + high);
-    constexpr double kRounding = 1e-16;
-    if (std::fabs(next - t) <= kRounding || high - low <= kRounding) return next;
+    const bool held = next >= low && next <= high;
+    if (!held) next = 0.5 * (low + high);
+    const bool done = std::fabs(next - t) <= (held ? kNear * least_rate : kRounding) || high - low <= kRounding;
     t = next;
     at = place(t);
-    constexpr double kNear = 1e-10;  // [m] the step after a Newton step this small is below rounding
-    if (std::fabs(at.gap()) < kNear * least_rate && i > 0) {
-      const double last = cutter_->gradient(Cutter::kSection, at).dot(n_);
-      return std::clamp(t - at.gap() / std::min(last, -least_rate), low, high);
-    }
+    if (done) break;
   }
   return t;
 }
@@ -120,8 +119,10 @@ bool CutterRay::leave(const Vec3& origin, double t, Hit& hit) {
   constexpr double kLeastRate = 0.02;
   hit.bound = Cutter::kSection;
   if (least_rate > kLeastRate && t_last - t < std::hypot(from.s, from.q) + 0.01) {
-    hit.t = descend(t, from, least_rate, t_last);
-    const double s = place(hit.t).s;
+    Cutter::Place at;
+    hit.t = descend(t, from, least_rate, t_last, at);
+    depth_ = hit.t - t;
+    const double s = at.s;
     if (s < cutter_->s_min() || s > cutter_->s_max()) {
       hit.bound = s < cutter_->s_min() ? Cutter::kStart : Cutter::kEnd;
       hit.t = cross_end(s < cutter_->s_min() ? cutter_->s_min() : cutter_->s_max(), t, hit.t);
@@ -130,6 +131,10 @@ bool CutterRay::leave(const Vec3& origin, double t, Hit& hit) {
     if (x_hit < cutter_->x_min() || x_hit > cutter_->x_max()) {
       hit.bound = x_hit < cutter_->x_min() ? Cutter::kFirst : Cutter::kLast;
       hit.t = ((x_hit < cutter_->x_min() ? cutter_->x_min() : cutter_->x_max()) - o_.x()) / n_.x();
+    }
+    if (hit.bound == Cutter::kSection) {
+      hit.gradient = cutter_->gradient(hit.bound, at);
+      return true;
     }
   } else {
     hit.t = march(t, hit.bound);

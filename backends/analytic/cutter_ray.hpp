@@ -21,7 +21,7 @@ class CutterRay {
 
  private:
   double rate_of_x_terms(const Cutter::Place& at) const;
-  double descend(double t, const Cutter::Place& at, double least_rate, double t_last);
+  double descend(double t, const Cutter::Place& from, double least_rate, double t_last, Cutter::Place& at);
   double cross_end(double s_end, double a, double b);
   double march(double t, Cutter::Bound& bound);
   Cutter::Place place(double t) { return cutter_->place(o_ + t * n_, hint_); }
@@ -30,6 +30,7 @@ class CutterRay {
   const Cutter* cutter_;
   Vec3 n_, o_ = Vec3::Zero();
   double least_q_ = 0.0, most_s_ = 0.0;  ///< of dq/dt and |ds/dt| for any roll of the path, without the terms in n_x
+  double depth_ = 0.0;  ///< from the base to the section at the line before
   Cutter::Hint hint_;
 };
 
