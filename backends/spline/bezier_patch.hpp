@@ -45,8 +45,11 @@ struct BezierPatch {
 
   /// The part u0..u1 x v0..v1 of the unit square, in exact arithmetic the same surface.
   BezierPatch part(double u0, double u1, double v0, double v1) const;
-  /// The quarters, [2 * upper half of u + upper half of v].
-  std::array<BezierPatch, 4> quarters() const;
+  /// Halves of u or of v, the lower one first.
+  std::array<BezierPatch, 2> halves(bool of_u) const {
+    if (of_u) return {part(0.0, 0.5, 0.0, 1.0), part(0.5, 1.0, 0.0, 1.0)};
+    return {part(0.0, 1.0, 0.0, 0.5), part(0.0, 1.0, 0.5, 1.0)};
+  }
 };
 
 /// Coefficients of s^i t^j, s = u - 1/2, t = v - 1/2: evaluated faster, and as well conditioned for so low a degree.
@@ -105,10 +108,6 @@ inline BezierPatch BezierPatch::part(double u0, double u1, double v0, double v1)
     std::copy(line.begin(), line.end(), row);
   }
   return out;
-}
-
-inline std::array<BezierPatch, 4> BezierPatch::quarters() const {
-  return {part(0.0, 0.5, 0.0, 0.5), part(0.0, 0.5, 0.5, 1.0), part(0.5, 1.0, 0.0, 0.5), part(0.5, 1.0, 0.5, 1.0)};
 }
 
 inline PowerPatch::PowerPatch(const BezierPatch& p) {

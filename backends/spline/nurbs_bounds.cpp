@@ -25,9 +25,7 @@ class HeightRange {
         along_u = std::max(along_u, (part.point(3, k) - part.point(0, k)).norm());
         along_v = std::max(along_v, (part.point(k, 3) - part.point(k, 0)).norm());
       }
-      const bool in_u = along_u > along_v;
-      add(part.part(0.0, in_u ? 0.5 : 1.0, 0.0, in_u ? 1.0 : 0.5), halvings + 1);
-      add(part.part(in_u ? 0.5 : 0.0, 1.0, in_u ? 0.0 : 0.5, 1.0), halvings + 1);
+      for (const BezierPatch& half : part.halves(along_u > along_v)) add(half, halvings + 1);
       return;
     }
     range_.include(box.z);
@@ -44,6 +42,7 @@ class HeightRange {
 Interval nurbs_heights_over(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing) {
   const Mat3 turn = X_SP.rotation.transpose(), spread = turn.cwiseAbs();
   const Vec3 shift = turn * X_SP.origin;
+  if (FacingHalf(X_SP, facing).none) return Interval::none();
   HeightRange heights(X_SP, r, facing);
   net.visit(
       [&](const Vec3& centre, const Vec3& half) {

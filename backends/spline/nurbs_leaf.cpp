@@ -64,10 +64,20 @@ NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(pa
         if (part.rational) widen(change_w, 3.0 * (part.b[i][j + 1].w() - part.b[i][j].w()));
       }
     }
-  const double reach_s = std::abs(a_[0]) * box.x.width() + std::abs(a_[1]) * box.y.width();
-  const double reach_t = std::abs(a_[2]) * box.x.width() + std::abs(a_[3]) * box.y.width();
+  // Only lines that meet the part count, and for those q = A (p - middle) lies in the range of A G / W.
+  const double reach_s = s_.width() / box.weight.low, reach_t = t_.width() / box.weight.low;
   e[0] += change_w * reach_s, e[1] += change_w * reach_s, e[2] += change_w * reach_t, e[3] += change_w * reach_t;
-  regular_ = e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] < kContraction * kContraction;
+  upright_ = !std::isfinite(s_.width()) || !std::isfinite(t_.width());
+  regular_ = !upright_ && e[0] * e[0] + e[1] * e[1] + e[2] * e[2] + e[3] * e[3] < kContraction * kContraction;
+  if (regular_) return;
+  double bend_u = 0.0, bend_v = 0.0;
+  for (const auto* g : {&gs, &gt})
+    for (int i = 0; i < 4; ++i)
+      for (int j = 0; j < 2; ++j) {
+        widen(bend_u, (*g)[j][i] - 2.0 * (*g)[j + 1][i] + (*g)[j + 2][i]);
+        widen(bend_v, (*g)[i][j] - 2.0 * (*g)[i][j + 1] + (*g)[i][j + 2]);
+      }
+  bends_along_u_ = bend_u > bend_v;
 }
 
 /// Evaluates at root.s, root.t; returns the residual [m] and the step that removes it.

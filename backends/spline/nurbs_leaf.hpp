@@ -31,14 +31,17 @@ class NurbsLeaf {
 
   /// At most one solution, found from anywhere.
   bool regular() const { return regular_; }
+  /// Of a part that is not: which direction to halve, the one in which it bends more.
+  bool bends_along_u() const { return bends_along_u_; }
   const ControlBox& box() const { return box_; }
 
-  /// False: the line through (x, y) does not meet the leaf. Otherwise s and t are set to the solution of the linear equations.
+  /// False: the line through (x, y) does not meet the leaf, regular or not: the control points of A G lie on one side of 0. This is
+  /// a box in axes that suit the leaf. Otherwise s and t are set to the solution of the linear equations.
   bool may_meet(double x, double y, double& s, double& t) const {
     const double dx = x - middle_x_, dy = y - middle_y_;
     s = a_[0] * dx + a_[1] * dy;
     t = a_[2] * dx + a_[3] * dy;
-    return meets(s, s_) && meets(t, t_);
+    return upright_ || (meets(s, s_) && meets(t, t_));
   }
 
   /// The solution in a regular leaf from a first guess, or false if there is none. Damped Newton steps, then the contraction.
@@ -62,7 +65,8 @@ class NurbsLeaf {
   double middle_x_, middle_y_;
   ControlBox box_;
   Interval s_, t_;
-  bool regular_ = false;
+  bool regular_ = false, bends_along_u_ = false;
+  bool upright_ = false;  // no inverse at the middle
 };
 
 }  // namespace treadmark::spline

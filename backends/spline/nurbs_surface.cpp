@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/nurbs_surface.hpp"
 
+#include <cmath>
 #include <limits>
 
 #include "treadmark/backends/spline/nurbs_bounds.hpp"
@@ -14,7 +15,7 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Points of a tile share a view; fixed, so that results do not depend on the number of threads.
-constexpr int kTileX = 128, kTileY = 32;
+constexpr int kTileX = 64, kTileY = 32;
 
 void write(const HeightsOut& out, std::size_t i, bool found, const NurbsHit& hit) {
   if (!out.z.empty()) out.z[i] = found ? hit.z : kNaN;
@@ -28,6 +29,7 @@ void for_hits(const NurbsNet& net, const Pose& X_SP, Facing facing, std::span<co
   for_listed_points(points_P, true, [&](std::span<const ListedPoint> points) {
     Interval x = Interval::none(), y = Interval::none();
     for (const ListedPoint& p : points) {
+      if (!std::isfinite(p.across) || !std::isfinite(p.along)) continue;
       x.include({p.across, p.across});
       y.include({p.along, p.along});
     }

@@ -2,19 +2,23 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/nurbs_view.hpp"
 
+#include <cmath>
 #include <limits>
 
 namespace treadmark::spline {
 namespace {
 
 constexpr double kSlack = 1e-9;       // [m] rounding of boxes
-constexpr int kLeafDepth = 4;         // halvings of a patch into leaves, before lines look closer
-constexpr int kGreatestDepth = 26;    // halvings altogether
+constexpr int kLeafHalvings = 8;      // of a patch into leaves, before lines look closer
+constexpr int kMostHalvings = 48;     // altogether
 constexpr double kSameHit = 1e-9;     // [m] hits nearer than this are the same one, found in two leaves
-constexpr double kEdgeOn = 1e-9;      // cosine between normals of a patch that the plane sees edge-on
+constexpr double kEdgeOn = 1e-9;      // cosine between normals of plane and patch: seen edge-on
+constexpr double kGrazing = 0.02;     // the same: not worth dividing before lines come near
 
-bool edge_on(const BezierPatch& part) {
-  const PowerPatch power(part);
+// Greatest cosine between the normals of plane and patch, from samples.
+double greatest_facing(const BezierPatch& bezier) {
+  const PowerPatch power(bezier);
+  double most = 0.0;
   for (const double s : {-0.5, 0.0, 0.5})
     for (const double t : {-0.5, 0.0, 0.5}) {
       const PowerPatch::Jet at = power.jet(s, t);
@@ -23,25 +27,48 @@ bool edge_on(const BezierPatch& part) {
         return Vec3(d.x() - at.value.x() * w * d.w(), d.y() - at.value.y() * w * d.w(), d.z() - at.value.z() * w * d.w());
       };
       const Vec3 normal = tangent(at.by_s).cross(tangent(at.by_t));
-      if (std::abs(normal.z()) > kEdgeOn * normal.norm()) return false;
+      most = std::max(most, std::abs(normal.z()) / normal.norm());
     }
-  return true;
+  return most;
 }
+
+// Of a point, also one that is not over the view.
+int bin_of(double at, int bins) { return std::clamp(static_cast<int>(std::clamp(at, -1.0, 2000.0)), 0, bins - 1); }
 
 }  // namespace
 
 FacingHalf::FacingHalf(const Pose& X, Facing facing) : all(facing == Facing::up) {
   if (all) return;
   outwards = Vec3(X.rotation(0, 2), 0.0, X.rotation(2, 2));
-  const double scale = -1.0 / std::max(outwards.squaredNorm(), 1e-18);
+  none = outwards.squaredNorm() < 1e-18;
+  if (none) return;
+  const double scale = -1.0 / outwards.squaredNorm();
   c = scale * outwards.dot(X.origin);
   x = scale * outwards.dot(X.rotation.col(0));
   y = scale * outwards.dot(X.rotation.col(1));
 }
 
+NurbsView::Room& NurbsView::spare_room() {
+  thread_local Room room;
+  return room;
+}
+
+NurbsView::~NurbsView() {
+  constexpr std::size_t kMostLeaves = 10'000;  // worth keeping, about 8 MB
+  if (leaves_.capacity() <= kMostLeaves) std::swap(room_, spare_room());
+}
+
 NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing)
     : net_(net), X_SP_(X_SP), rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
       half_(X_SP, facing), side_(facing == Facing::up ? -1.0 : 1.0) {
+  std::swap(room_, spare_room());
+  candidates_.clear();
+  leaves_.clear();
+  rough_.clear();
+  if (half_.none || !(r.x_max >= r.x_min && r.y_max >= r.y_min)) {
+    bin_begin_.assign(2, 0);
+    return;
+  }
   const Mat3 turn = X_SP.rotation.transpose(), spread = turn.cwiseAbs();
   const Vec3 shift = turn * X_SP.origin;
   const auto over = [&](const Vec3& centre, const Vec3& half_size, Vec3& c, Vec3& h) {
@@ -69,24 +96,23 @@ void NurbsView::sort_into_bins() {
   const double width = rectangle_.x_max - rectangle_.x_min, height = rectangle_.y_max - rectangle_.y_min;
   // About four bins for every candidate, as square as can be.
   const double number = 4.0 * static_cast<double>(candidates_.size()) + 1.0;
-  bins_x_ = std::clamp(static_cast<int>(std::sqrt(number * width / height)), 1, 1000);
-  bins_y_ = std::clamp(static_cast<int>(number / bins_x_), 1, 1000);
+  bins_x_ = static_cast<int>(std::clamp(std::sqrt(number * width / height), 1.0, 1000.0));
+  bins_y_ = static_cast<int>(std::clamp(number / bins_x_, 1.0, 1000.0));
   per_x_ = bins_x_ / width;
   per_y_ = bins_y_ / height;
-  std::vector<int> count(static_cast<std::size_t>(bins_x_ * bins_y_) + 1, 0);
+  bin_begin_.assign(static_cast<std::size_t>(bins_x_ * bins_y_) + 1, 0);
   const auto each_bin = [&](const Candidate& c, const auto& use) {
-    const auto bin = [](double x, int bins) { return std::clamp(static_cast<int>(std::clamp(x, -1.0, 2000.0)), 0, bins - 1); };
-    const int x0 = bin((c.x.low - rectangle_.x_min) * per_x_, bins_x_), x1 = bin((c.x.high - rectangle_.x_min) * per_x_, bins_x_);
-    const int y0 = bin((c.y.low - rectangle_.y_min) * per_y_, bins_y_), y1 = bin((c.y.high - rectangle_.y_min) * per_y_, bins_y_);
+    const int x0 = bin_of((c.x.low - rectangle_.x_min) * per_x_, bins_x_), x1 = bin_of((c.x.high - rectangle_.x_min) * per_x_, bins_x_);
+    const int y0 = bin_of((c.y.low - rectangle_.y_min) * per_y_, bins_y_), y1 = bin_of((c.y.high - rectangle_.y_min) * per_y_, bins_y_);
     for (int j = y0; j <= y1; ++j)
       for (int i = x0; i <= x1; ++i) use(static_cast<std::size_t>(i + bins_x_ * j));
   };
-  for (const Candidate& c : candidates_) each_bin(c, [&](std::size_t bin) { ++count[bin + 1]; });
-  for (std::size_t i = 0; i + 1 < count.size(); ++i) count[i + 1] += count[i];
-  bin_begin_ = count;
-  binned_.resize(static_cast<std::size_t>(count.back()));
+  for (const Candidate& c : candidates_) each_bin(c, [&](std::size_t bin) { ++bin_begin_[bin + 1]; });
+  for (std::size_t i = 0; i + 1 < bin_begin_.size(); ++i) bin_begin_[i + 1] += bin_begin_[i];
+  bin_fill_ = bin_begin_;
+  binned_.resize(static_cast<std::size_t>(bin_begin_.back()));
   for (std::size_t k = 0; k < candidates_.size(); ++k)
-    each_bin(candidates_[k], [&](std::size_t bin) { binned_[static_cast<std::size_t>(count[bin]++)] = static_cast<int>(k); });
+    each_bin(candidates_[k], [&](std::size_t bin) { binned_[static_cast<std::size_t>(bin_fill_[bin]++)] = static_cast<int>(k); });
 }
 
 /// All of it turned away, or beside the rectangle.
@@ -97,7 +123,7 @@ bool NurbsView::hidden(const ControlBox& box) const {
 void NurbsView::prepare(Candidate& c) {
   c.first_leaf = static_cast<int>(leaves_.size());
   const BezierPatch patch = net_.patch(c.iu, c.iv, X_SP_);
-  divide(patch, 0.0, 0.0, 1.0, 0);
+  divide(patch, {});
   c.last_leaf = static_cast<int>(leaves_.size());
   // The box of the control points is tighter than that of the box.
   Interval x = Interval::none(), y = Interval::none();
@@ -109,27 +135,39 @@ void NurbsView::prepare(Candidate& c) {
   c.y = {y.low - kSlack, y.high + kSlack};
 }
 
-void NurbsView::divide(const BezierPatch& part, double s, double t, double size, int depth) {
-  const ControlBox box(part);
+NurbsView::PatchPart NurbsView::PatchPart::half(bool of_u, bool upper) const {
+  PatchPart part = *this;
+  ++part.halvings;
+  double& size = of_u ? part.size_s : part.size_t;
+  size *= 0.5;
+  (of_u ? part.s : part.t) += (upper ? 0.5 : -0.5) * size;
+  return part;
+}
+
+void NurbsView::divide(const BezierPatch& bezier, const PatchPart& part) {
+  const ControlBox box(bezier);
   if (hidden(box)) return;
-  const NurbsLeaf leaf(part, box);
+  const NurbsLeaf leaf(bezier, box);
   if (!leaf.regular()) {
-    if (depth == 0 && edge_on(part)) return;
-    if (depth < kLeafDepth) {
-      const auto quarters = part.quarters();
-      for (std::size_t k = 0; k < 4; ++k)
-        divide(quarters[k], s + (k / 2 ? 0.25 : -0.25) * size, t + (k % 2 ? 0.25 : -0.25) * size, 0.5 * size, depth + 1);
+    const double facing = part.halvings == 0 ? greatest_facing(bezier) : 1.0;
+    if (facing < kEdgeOn) return;
+    if (facing > kGrazing && part.halvings < kLeafHalvings) {
+      const bool of_u = leaf.bends_along_u();
+      const auto halves = bezier.halves(of_u);
+      divide(halves[0], part.half(of_u, false));
+      divide(halves[1], part.half(of_u, true));
       return;
     }
-    rough_.push_back(part);
+    rough_.push_back(bezier);
   }
   const double outer = (side_ > 0.0 ? box.z.high : -box.z.low) + kSlack;
-  leaves_.push_back({leaf, outer, s, t, size, leaf.regular() ? -1 : static_cast<int>(rough_.size()) - 1});
+  leaves_.push_back({leaf, outer, part, leaf.regular() ? -1 : static_cast<int>(rough_.size()) - 1});
 }
 
 bool NurbsView::hit(double x, double y, bool exact, bool all, NurbsHit& out) {
-  const auto bin = [](double at, int bins) { return std::clamp(static_cast<int>(std::clamp(at, -1.0, 2000.0)), 0, bins - 1); };
-  const auto k = static_cast<std::size_t>(bin((x - rectangle_.x_min) * per_x_, bins_x_) + bins_x_ * bin((y - rectangle_.y_min) * per_y_, bins_y_));
+  if (!std::isfinite(x) || !std::isfinite(y)) return false;
+  const int bin_x = bin_of((x - rectangle_.x_min) * per_x_, bins_x_), bin_y = bin_of((y - rectangle_.y_min) * per_y_, bins_y_);
+  const auto k = static_cast<std::size_t>(bin_x + bins_x_ * bin_y);
   Search search{x, y, exact, all, out};
   out.hides_others = false;
   for (int i = bin_begin_[k]; i < bin_begin_[k + 1]; ++i) {
@@ -146,10 +184,10 @@ bool NurbsView::hit(double x, double y, bool exact, bool all, NurbsHit& out) {
 void NurbsView::look_into(int index, const Candidate& c, Search& search) {
   const Leaf& l = leaves_[static_cast<std::size_t>(index)];
   if (!search.all && search.found && l.outer <= search.best) return;
-  if (l.rough >= 0) return look_closer(rough_[static_cast<std::size_t>(l.rough)], l.s, l.t, l.size, kLeafDepth, c, search);
   LeafRoot root;
   double s, t;
   if (!l.leaf.may_meet(search.x, search.y, s, t)) return;
+  if (l.rough >= 0) return look_closer(rough_[static_cast<std::size_t>(l.rough)], l.part, c, search);
   if (track_.leaf == index) {
     const double dx = search.x - track_.x, dy = search.y - track_.y, distance_2 = dx * dx + dy * dy;
     search.guessed.s = track_.root.s + track_.root.s_x * dx + track_.root.s_y * dy;
@@ -160,7 +198,7 @@ void NurbsView::look_into(int index, const Candidate& c, Search& search) {
   if (!l.leaf.solve(search.x, search.y, s, t, search.exact, root)) return;
   const bool found = search.found;
   const double best = search.best;
-  take(root, l.s, l.t, l.size, c, search);
+  take(root, l.part, c, search);
   if (search.found != found || search.best != best) {
     search.leaf = index;
     search.root = root;
@@ -168,43 +206,45 @@ void NurbsView::look_into(int index, const Candidate& c, Search& search) {
 }
 
 /// Halves a part that is not regular, which holds a fold, until the pieces over the line are.
-void NurbsView::look_closer(const BezierPatch& part, double s, double t, double size, int depth, const Candidate& c, Search& search) {
-  const ControlBox box(part);
+void NurbsView::look_closer(const BezierPatch& bezier, const PatchPart& part, const Candidate& c, Search& search) {
+  if (--search.parts_left < 0) return;
+  const ControlBox box(bezier);
   const double outer = (side_ > 0.0 ? box.z.high : -box.z.low) + kSlack;
   if (!search.all && search.found && outer <= search.best) return;
   constexpr double kRounding = 1e-14;
   if (search.x < box.x.low - kRounding || search.x > box.x.high + kRounding || search.y < box.y.low - kRounding ||
       search.y > box.y.high + kRounding)
     return;
-  const NurbsLeaf leaf(part, box);
+  const NurbsLeaf leaf(bezier, box);
   double first_s, first_t;
   LeafRoot root;
+  if (!leaf.may_meet(search.x, search.y, first_s, first_t)) return;
   if (leaf.regular()) {
-    if (leaf.may_meet(search.x, search.y, first_s, first_t) && leaf.solve(search.x, search.y, first_s, first_t, search.exact, root))
-      take(root, s, t, size, c, search);
+    if (leaf.solve(search.x, search.y, first_s, first_t, search.exact, root)) take(root, part, c, search);
     return;
   }
-  if (depth == kGreatestDepth) {  // on the fold itself, to rounding
+  if (part.halvings == kMostHalvings) {  // on the fold itself, to rounding
     constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    if (leaf.solve(search.x, search.y, 0.0, 0.0, search.exact, root)) return take(root, s, t, size, c, search);
+    if (leaf.solve(search.x, search.y, 0.0, 0.0, search.exact, root)) return take(root, part, c, search);
     root = {0.0, 0.0, 0.5 * (box.z.low + box.z.high), kNaN, kNaN};
-    if (box.z.width() < kSameHit) take(root, s, t, size, c, search);
+    if (box.z.width() < kSameHit) take(root, part, c, search);
     return;
   }
-  const auto quarters = part.quarters();
-  for (std::size_t k = 0; k < 4; ++k)
-    look_closer(quarters[k], s + (k / 2 ? 0.25 : -0.25) * size, t + (k % 2 ? 0.25 : -0.25) * size, 0.5 * size, depth + 1, c, search);
+  const bool of_u = leaf.bends_along_u();
+  const auto halves = bezier.halves(of_u);
+  look_closer(halves[0], part.half(of_u, false), c, search);
+  look_closer(halves[1], part.half(of_u, true), c, search);
 }
 
-void NurbsView::take(const LeafRoot& root, double s, double t, double size, const Candidate& c, Search& search) const {
+void NurbsView::take(const LeafRoot& root, const PatchPart& part, const Candidate& c, Search& search) const {
   if (!half_.all && root.z < half_.lowest(search.x, search.y)) return;
   if (search.found && std::abs(root.z - search.out.z) > kSameHit) search.out.hides_others = true;
   if (search.found && side_ * root.z <= search.best) return;
   search.found = true;
   search.best = side_ * root.z;
   search.out.iu = c.iu, search.out.iv = c.iv;
-  search.out.s = std::clamp(s + size * root.s, -0.5, 0.5);
-  search.out.t = std::clamp(t + size * root.t, -0.5, 0.5);
+  search.out.s = std::clamp(part.s + part.size_s * root.s, -0.5, 0.5);
+  search.out.t = std::clamp(part.t + part.size_t * root.t, -0.5, 0.5);
   search.out.z = root.z, search.out.dzdx = root.dzdx, search.out.dzdy = root.dzdy;
 }
 

@@ -20,6 +20,7 @@ struct NurbsHit {
 /// The half of a wheel that faces a plane: heights of at least the nearest to the axle, which are linear in x and y. All of a rail.
 struct FacingHalf {
   bool all = true;
+  bool none = false;  ///< the plane looks along the axle
   double c = 0.0, x = 0.0, y = 0.0;
   Vec3 outwards = Vec3::Zero();  ///< part of the normal square to the axle, surface frame
 
@@ -37,6 +38,9 @@ struct FacingHalf {
 class NurbsView {
  public:
   NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& rectangle, Facing facing);
+  ~NurbsView();
+  NurbsView(const NurbsView&) = delete;
+  NurbsView& operator=(const NurbsView&) = delete;
 
   /// Outermost hit of the line through (x, y). exact: slopes and parameters to rounding. all: look for hidden ones, too.
   bool hit(double x, double y, bool exact, bool all, NurbsHit& out);
@@ -48,12 +52,26 @@ class NurbsView {
     int iu, iv;
     int first_leaf = -1, last_leaf = -1;
   };
+  // Middle and size of a part of a patch.
+  struct PatchPart {
+    double s = 0.0, t = 0.0, size_s = 1.0, size_t = 1.0;
+    int halvings = 0;
+    PatchPart half(bool of_u, bool upper) const;
+  };
   struct Leaf {
     NurbsLeaf leaf;
     double outer;
-    double s, t, size;  // middle and size in the patch
-    int rough = -1;     // not regular: its Bezier points
+    PatchPart part;
+    int rough = -1;  // not regular: its Bezier points
   };
+  // Memory that the next view of the same thread takes over.
+  struct Room {
+    std::vector<Candidate> candidates;  // outermost first
+    std::vector<Leaf> leaves;
+    std::vector<BezierPatch> rough;
+    std::vector<int> bin_begin, bin_fill, binned;
+  };
+  static Room& spare_room();
   // The last hit, from which the next one is guessed.
   struct Track {
     int leaf = -1;
@@ -66,18 +84,19 @@ class NurbsView {
     bool exact, all;
     NurbsHit& out;
     bool found = false;
-    double best = 0.0, first_z = 0.0;
+    double best = 0.0;
     int leaf = -1;
+    int parts_left = 20'000;  // bounds the time of a line that runs along a fold
     LeafRoot root{}, guessed{};
   };
 
   void sort_into_bins();
   void prepare(Candidate& candidate);
-  void divide(const BezierPatch& part, double s, double t, double size, int depth);
+  void divide(const BezierPatch& bezier, const PatchPart& part);
   bool hidden(const ControlBox& box) const;
   void look_into(int leaf, const Candidate& candidate, Search& search);
-  void look_closer(const BezierPatch& part, double s, double t, double size, int depth, const Candidate& candidate, Search& search);
-  void take(const LeafRoot& root, double s, double t, double size, const Candidate& candidate, Search& search) const;
+  void look_closer(const BezierPatch& bezier, const PatchPart& part, const Candidate& candidate, Search& search);
+  void take(const LeafRoot& root, const PatchPart& part, const Candidate& candidate, Search& search) const;
   void follow(const Search& search);
 
   const NurbsNet& net_;
@@ -85,12 +104,13 @@ class NurbsView {
   Rectangle rectangle_;
   FacingHalf half_;
   double side_;
-  std::vector<Candidate> candidates_;  // outermost first
-  std::vector<Leaf> leaves_;
-  std::vector<BezierPatch> rough_;
+  Room room_;
+  std::vector<Candidate>& candidates_ = room_.candidates;
+  std::vector<Leaf>& leaves_ = room_.leaves;
+  std::vector<BezierPatch>& rough_ = room_.rough;
+  std::vector<int>&bin_begin_ = room_.bin_begin, &bin_fill_ = room_.bin_fill, &binned_ = room_.binned;
   int bins_x_ = 1, bins_y_ = 1;
   double per_x_ = 0.0, per_y_ = 0.0;
-  std::vector<int> bin_begin_, binned_;
   Track track_;
 };
 

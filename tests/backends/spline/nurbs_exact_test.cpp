@@ -218,6 +218,41 @@ TEST(NurbsExact, PlaneSeenEdgeOnMeetsNothing) {
   const Pose along{{0.0, 0.0, 0.0}, rotation_y(std::acos(-1.0) / 2)};
   EXPECT_TRUE(std::isnan(height_at(*rail, along, {0.0, 0.0})));
   EXPECT_TRUE(std::isnan(height_at(*rail, along, {0.01, 0.02})));
+  const auto wheel = make_nurbs_surface(flange_chain(), Body::wheel, kRadius);
+  const Pose axle{{0.0, 0.0, kRadius}, rotation_x(std::acos(-1.0) / 2)};
+  EXPECT_TRUE(std::isnan(height_at(*wheel, axle, {0.0, -0.01})));
+  EXPECT_TRUE(wheel->height_bounds(axle, {0.0, 0.001, -0.01, 0.0}).empty);
+}
+
+TEST(NurbsExact, AlmostEdgeOnIsStillExact) {
+  // lines that run along the rail, and meet it after up to a metre: the closed form tells where
+  const auto rail = make_nurbs_surface(rail_head_chain(), Body::rail, 0.0);
+  const auto oracle = analytic::make_prismatic_surface(rail_head_chain());
+  int hits = 0;
+  for (const double angle : {1e-2, 1e-4, 1e-6}) {
+    const Pose X{{-0.5, 0.0, -1e-7}, rotation_y(std::acos(-1.0) / 2 - angle)};
+    for (const double y : {-0.02, -1e-3, 0.0, 0.013})
+      for (const double x : {0.0, -1e-7, -1e-3}) {
+        const double expected = height_at(*oracle, X, {x, y}), found = height_at(*rail, X, {x, y});
+        const Vec3 p = X.apply({x, y, expected});
+        if (std::abs(p.x()) > 0.999) continue;  // beyond the end, or close to it
+        ++hits;
+        EXPECT_NEAR(found, expected, 1e-14 / angle) << angle << ' ' << x << ' ' << y;
+      }
+  }
+  EXPECT_GT(hits, 4);
+}
+
+TEST(NurbsExact, PointsThatAreNoNumbersAreMisses) {
+  const auto wheel = make_nurbs_surface(flange_chain(), Body::wheel, kRadius);
+  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN(), kInfinity = std::numeric_limits<double>::infinity();
+  const std::vector<Vec2> points{{kNaN, 0.0}, {0.0, 0.0}, {0.0, kInfinity}, {kNaN, kNaN}};
+  Fields f(points.size());
+  wheel->heights_at({}, points, f.out());
+  EXPECT_FALSE(std::isnan(f.z[1]));
+  for (const std::size_t i : {0u, 2u, 3u}) EXPECT_TRUE(std::isnan(f.z[i]));
+  wheel->heights_at({}, std::span(points).last(1), {std::span(f.z).first(1), {}, {}});
+  EXPECT_TRUE(std::isnan(f.z[0]));
 }
 
 TEST(NurbsExact, BadChainsAreRefused) {
