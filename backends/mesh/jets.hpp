@@ -45,13 +45,13 @@ struct Jet2 {
   }
   friend Jet2 operator/(const Jet2& a, const Jet2& b) {
     // from a = q b, differentiated once and twice
-    const double q = a.v / b.v, x = (a.x - q * b.x) / b.v, y = (a.y - q * b.y) / b.v;
+    const double q = a.v / b.v, qx = (a.x - q * b.x) / b.v, qy = (a.y - q * b.y) / b.v;
     return {q,
-            x,
-            y,
-            (a.xx - 2.0 * x * b.x - q * b.xx) / b.v,
-            (a.xy - x * b.y - y * b.x - q * b.xy) / b.v,
-            (a.yy - 2.0 * y * b.y - q * b.yy) / b.v};
+            qx,
+            qy,
+            (a.xx - 2.0 * qx * b.x - q * b.xx) / b.v,
+            (a.xy - qx * b.y - qy * b.x - q * b.xy) / b.v,
+            (a.yy - 2.0 * qy * b.y - q * b.yy) / b.v};
   }
 };
 
