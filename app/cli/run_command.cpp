@@ -84,7 +84,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
       write_result_folder(folder, result);
     }
     if (options.json_file == "-")
-      std::cout << io::to_json(result) << '\n';
+      std::cout << io::to_json(result);
     else
       for (const io::CaseResult& c : result.cases) std::cout << io::summary(c) << '\n';
     if (!options.json_file.empty() && options.json_file != "-") io::write_json(options.json_file, result);

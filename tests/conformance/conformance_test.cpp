@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <random>
@@ -41,7 +42,11 @@ class Conformance : public ::testing::TestWithParam<Subject> {
 };
 
 INSTANTIATE_TEST_SUITE_P(Backends, Conformance, ::testing::ValuesIn(subjects()),
-                         [](const auto& which) { return which.param.contestant.backend + "_" + which.param.shape.name; });
+                         [](const auto& which) {
+                           std::string name = which.param.shape.name + "__" + which.param.contestant.backend;
+                           std::replace(name.begin(), name.end(), '-', '_');
+                           return name;
+                         });
 
 TEST_P(Conformance, NamesItsBackendAndFacesTheOtherBody) {
   EXPECT_EQ(surface_->backend(), subject().contestant.backend);
@@ -129,7 +134,7 @@ TEST_P(Conformance, SlopesMatchDifferencesOfHeights) {
     }
   }
   EXPECT_GT(compared, 1000);
-  EXPECT_LE(wrong, compared / 200);
+  EXPECT_LE(wrong, compared / (subject().contestant.creases() ? 40 : 200));  // 2 um differences across edges 0.5 mm apart
 }
 
 TEST_P(Conformance, TilesGiveTheWholeGrid) {
@@ -299,6 +304,12 @@ TEST_P(Conformance, CurvaturesMatchSecondDifferencesInTheTangentPlane) {
     surface_->locate(X, points, located);
     for (const SurfacePoint& p : located) {
       if (p.status == LocateStatus::outside) continue;
+      if (subject().contestant.facets()) {  // differences reach across edges wherever they are taken
+        ASSERT_EQ(p.curvature_1, 0.0);
+        ASSERT_EQ(p.curvature_2, 0.0);
+        ++compared;
+        continue;
+      }
       Pose T;
       T.origin = p.position_S;
       const Vec3 n = side * p.normal_S, e = Vec3::UnitX().cross(n).norm() > 0.1 ? Vec3::UnitX() : Vec3::UnitY();

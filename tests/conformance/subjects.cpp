@@ -11,14 +11,16 @@
 
 namespace treadmark::testing {
 
-/// A new backend joins here with one line.
+// Where the promises come from. analytic: closed form, rounding only; the published joints of S1002 are steps of up to
+// 0.12 um. spline: a cubic spline rounds off the jumps of curvature between the arcs: up to 77/m over a spacing h = 0.25 mm,
+// that is about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm. nurbs, mesh: the same at 0.5 mm.
+// mesh-flat: h^2/(8 r) and h/r on the arc of r = 12 mm. offset: exact where nothing is damaged. The ends of the fresh flat
+// turn by k = 44 mrad: facets and bilinear offsets cut up to k h/4 = 5.4 um off there, splines up to about k h/8 = 2.7 um.
 std::vector<Contestant> contestants() {
   return {
-      // closed form: rounding only; the published joints of S1002 are steps of up to 0.12 um
-      {"analytic", {2e-12, 1e-6, 1e-3}, {2e-12, 1e-6, 1e-3}},
-      // a cubic spline rounds off the jumps of curvature between the arcs: up to 77/m over a spacing h = 0.25 mm, that is
-      // about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm
-      {"spline", {4e-7, 4e-3, 3e-2}, {1.6e-6, 8e-3, 3e-2}},
+#define TREADMARK_CONTESTANT(backend, resolution, constant, damaged) {backend, resolution, constant, damaged},
+#include "treadmark/tests/conformance/contestants.def"
+#undef TREADMARK_CONTESTANT
   };
 }
 
@@ -38,6 +40,8 @@ Shape rail_shape(std::string name, SurfaceSpec spec, std::function<double(double
   s.y_max = y_max;
   s.r_low = -0.03;
   s.r_high = 0.05;
+  s.u_min = -0.15;
+  s.u_max = 0.45;
   s.planes = {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0), pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
               pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02), pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1),
               pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),
@@ -59,6 +63,8 @@ Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(doubl
   s.y_max = y_max;
   s.r_low = -0.05;
   s.r_high = 0.06;
+  s.u_min = -0.25;
+  s.u_max = 0.5;
   const auto at = [R](double theta, double y, double out, double roll, double yaw, double pitch) {
     const double r = R + out;
     return pose({r * std::sin(theta), y, r * std::cos(theta)}, roll, yaw, pitch);
@@ -161,6 +167,37 @@ std::vector<Shape> shapes() {
     all.push_back(wheel_shape("fresh_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {cut}}}, s1002,
                               [](double theta, double) { return chord_test_depth(theta, 0.46); }, -0.07, 0.06));
   }
+  {
+    Defects defects;
+    Polygonization polygon;
+    polygon.harmonics = {{1, 0.1e-3, 0.3}, {20, 20e-6, -0.7}};
+    defects.polygonizations = {polygon};
+    all.push_back(wheel_shape("polygonal_wheel", {Body::wheel, 0.46, StandardProfile{"S1002"}, defects}, s1002,
+                              [](double theta, double) {
+                                return -0.1e-3 * std::cos(theta - 0.3) - 20e-6 * std::cos(20.0 * theta + 0.7);
+                              }, -0.07, 0.06));
+  }
+  {
+    Squat squat;
+    squat.length = 0.03;
+    squat.width = 0.024;
+    squat.depth = 0.4e-3;
+    squat.x_center = 0.31;
+    squat.y_center = 0.004;
+    Defects defects;
+    defects.squats = {squat};
+    Shape shape = rail_shape("squat_rail", {Body::rail, 0.0, StandardProfile{"60E1"}, defects},
+                             [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3);
+    shape.outside = [](const Vec3& p) {
+      if (std::fabs(p.y()) > 37.05e-3) return kNaN;
+      const double x = p.x() - 0.31, y = p.y() - 0.004;
+      double dip = 0.0;
+      if (std::fabs(x) < 0.015 && std::fabs(y) < 0.012)
+        dip = 0.1e-3 * (1.0 + std::cos(2.0 * kPi * x / 0.03)) * (1.0 + std::cos(2.0 * kPi * y / 0.024));
+      return 1e-3 * rail_60e1_mm(1e3 * p.y()) + dip - p.z();
+    };
+    all.push_back(shape);
+  }
   return all;
 }
 
@@ -170,7 +207,10 @@ std::shared_ptr<const Surface> Subject::make() const {
   const std::string key = contestant.backend + shape.name;
   for (const auto& [name, surface] : built)
     if (name == key) return surface;
-  built.emplace_back(key, create_surface(shape.spec, contestant.backend));
+  Representation wanted{contestant.backend, contestant.resolution, {}};
+  wanted.region.u_min = shape.u_min;
+  wanted.region.u_max = shape.u_max;
+  built.emplace_back(key, represent(create_natural(shape.spec), wanted).surface);
   return built.back().second;
 }
 

@@ -21,6 +21,7 @@ struct Shape {
   std::function<double(const Vec3&)> outside;
   double y_min, y_max;         ///< ends of the profile, surface frame [m]
   double r_low, r_high;        ///< wheel: radii, rail: heights between which brute force looks [m]
+  double u_min, u_max;         ///< part that is sampled: x [m] or theta [rad]
   std::vector<Pose> planes;    ///< planes near the surface, in its frame
 };
 
@@ -32,14 +33,17 @@ struct Tolerance {
 };
 struct Contestant {
   std::string backend;
+  double resolution;   ///< of its samples [m], 0 = its own
   Tolerance constant;  ///< for shapes of one cross-section
-  Tolerance flats;     ///< for wheels with flats
+  Tolerance damaged;   ///< for shapes with defects
+  bool facets() const { return backend == "mesh-flat"; }          ///< slopes jump everywhere
+  bool creases() const { return facets() || backend == "offset-bilinear"; }
 };
 
 struct Subject {
   Shape shape;
   Contestant contestant;
-  const Tolerance& tolerance() const { return shape.spec.defects.flats.empty() ? contestant.constant : contestant.flats; }
+  const Tolerance& tolerance() const { return shape.spec.defects.empty() ? contestant.constant : contestant.damaged; }
   std::shared_ptr<const Surface> make() const;
 };
 
