@@ -161,7 +161,7 @@ class Resampling {
       const double whole = spec_.body == Body::wheel ? 2.0 * 3.141592653589793 * spec_.nominal_radius : length;
       const double along = spec_.body == Body::wheel && length < 7.0 ? length * spec_.nominal_radius : std::min(whole, length);
       s.spacing_u = std::max(resolution_, (std::isfinite(along) ? along : whole) / kStations);
-      base_spec.shape = sampling::median_section(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s),
+      base_spec.shape = sampling::median_section(kept(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s)),
                                                  spec_.nominal_radius, "median section");
     }
     base = undamaged(base_spec, {});
@@ -170,6 +170,11 @@ class Resampling {
     limit_rail();
     settings.region_uy = {region_.u_min, region_.u_max, region_.y_min, region_.y_max};
     if (known) narrow(settings.region_uy);
+    // an offset that ends makes splines ring for some voxels: let it end outside
+    constexpr double kBeyond = 8.0;
+    const double beyond = kBeyond * resolution_ / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
+    settings.region_uy.x_min -= beyond;
+    settings.region_uy.x_max += beyond;
     auto sample = offset::sample_offsets(*natural_.surface, *base, spec_.body, spec_.nominal_radius, settings);
     constexpr double kMostContinued = 0.02;
     if (static_cast<double>(sample.continued) > kMostContinued * static_cast<double>(sample.nodes))
@@ -185,7 +190,7 @@ class Resampling {
     std::shared_ptr<const Surface> base;
     SurfaceSpec base_spec;
     const offset::OffsetSample sample = offsets(base, base_spec);
-    note_ += fmt::format("{} of {} voxels active, {:.3g} MB. ", sample.active, sample.nodes,
+    note_ += fmt::format("{} active voxels, {:.3g} MB. ", sample.active,
                          1e-6 * static_cast<double>(offset::memory_bytes(*sample.offsets)));
     return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
   }
@@ -233,7 +238,22 @@ class Resampling {
     // along a prismatic rail nothing changes: longer steps lose nothing
     constexpr double kLongStep = 4.0;
     if (natural_.constant_profile && spec_.body == Body::rail) s.spacing_u = kLongStep * resolution_;
-    return sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s);
+    // the rows of triangles begin half a step apart: begin earlier, so that the region itself is covered
+    if (staggered) {
+      const double step = (s.spacing_u > 0.0 ? s.spacing_u : resolution_) / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
+      s.region.u_min -= step;
+      s.region.u_max += step;
+    }
+    return kept(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s));
+  }
+
+  /// What was sampled of a part of a wheel is all that the result stands for.
+  sampling::PointGrid kept(sampling::PointGrid grid) {
+    if (spec_.body == Body::wheel && !grid.closed) {
+      region_.u_min = std::max(region_.u_min, grid.u.front());
+      region_.u_max = std::min(region_.u_max, grid.u.back());
+    }
+    return grid;
   }
 
   Profile section() {

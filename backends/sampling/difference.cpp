@@ -14,7 +14,7 @@
 namespace treadmark::sampling {
 namespace {
 
-constexpr std::size_t kReferenceStations = 9;
+constexpr std::size_t kReferenceStations = 33;
 constexpr std::size_t kCurvatureStride = 7;  // curvatures cost more: every so many points
 
 struct Sums {

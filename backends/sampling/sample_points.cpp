@@ -15,7 +15,7 @@ namespace treadmark::sampling {
 namespace {
 
 constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kReferenceStations = 17;  // in which the lateral nodes are laid out
+constexpr std::size_t kReferenceStations = 33;  // in which the lateral nodes are laid out
 
 std::vector<double> spread(const std::vector<double>& all) {
   if (all.size() <= kReferenceStations) return all;
@@ -31,6 +31,55 @@ std::vector<double> even(double from, double to, std::size_t n, bool with_last) 
     u[i] = with_last && i + 1 == n ? to : from + (to - from) * share;
   }
   return u;
+}
+
+bool is_empty(const PointGrid& grid, std::size_t iu) {
+  for (std::size_t iy = 0; iy < grid.y.size(); ++iy)
+    if (grid.present(iu, iy)) return false;
+  return true;
+}
+
+/// Missing points between present ones.
+bool has_gap(const PointGrid& grid, std::size_t iu) {
+  bool ended = false, begun = false;
+  for (std::size_t iy = 0; iy < grid.y.size(); ++iy) {
+    if (grid.present(iu, iy)) {
+      if (ended) return true;
+      begun = true;
+    } else {
+      ended = begun;
+    }
+  }
+  return false;
+}
+
+/// Keeps the longest run of stations that have a surface: a part of a wheel, or of a rail with ends of its own. The ends of
+/// triangulated parts are ragged: up to kRagged stations with gaps go too.
+void trim(PointGrid& grid) {
+  constexpr std::size_t kRagged = 3;
+  const std::size_t n = grid.u.size(), ny = grid.y.size();
+  std::vector<bool> empty(n);
+  for (std::size_t i = 0; i < n; ++i) empty[i] = is_empty(grid, i);
+  if (std::find(empty.begin(), empty.end(), true) == empty.end()) return;
+  std::size_t best = 0, first = 0;
+  for (std::size_t start = 0; start < n; ++start) {
+    std::size_t length = 0;
+    while (length < n && (grid.closed || start + length < n) && !empty[(start + length) % n]) ++length;
+    if (length > best) best = length, first = start;
+    if (!grid.closed) start += length;
+  }
+  for (std::size_t k = 0; k < kRagged && best > 0 && has_gap(grid, first % n); ++k) ++first, --best;
+  for (std::size_t k = 0; k < kRagged && best > 0 && has_gap(grid, (first + best - 1) % n); ++k) --best;
+  PointGrid kept = grid;
+  kept.closed = false;
+  kept.u.clear();
+  kept.h.clear();
+  for (std::size_t i = first; i < first + best; ++i) {
+    kept.u.push_back(grid.u[i % n] + (i >= n ? 2.0 * kPi : 0.0));
+    const auto row = grid.h.begin() + static_cast<std::ptrdiff_t>((i % n) * ny);
+    kept.h.insert(kept.h.end(), row, row + static_cast<std::ptrdiff_t>(ny));
+  }
+  grid = std::move(kept);
 }
 
 }  // namespace
@@ -76,6 +125,7 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
     parallel_for(grid.u.size(), [&](std::size_t i) {
       section_heights(surface, body, grid.u[i], grid.y, {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
     });
+    trim(grid);
     return grid;
   }
   grid.stagger = 0.5 * (grid.u[1] - grid.u[0]);
@@ -88,6 +138,7 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
       for (std::size_t k = 0; k < h.size(); ++k) grid.h[grid.index(i, 2 * k + odd)] = h[k];
     }
   });
+  trim(grid);
   return grid;
 }
 

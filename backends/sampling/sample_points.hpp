@@ -16,7 +16,8 @@ struct SampleSettings {
   bool staggered = false;     ///< for triangles: equilateral ones, no point of them farther than spacing/2 from a corner
 };
 
-/// Samples a surface in its natural view. The points lie exactly on it. nominal_radius [m] turns the spacing of a wheel into
+/// Samples a surface in its natural view. The points lie exactly on it. Where whole stations have no surface, as on a part of a
+/// wheel, the longest run of stations that have one is kept, and it is not closed. nominal_radius [m] turns the spacing of a wheel into
 /// angles. Parallel; the result does not depend on the number of threads.
 /// Errors: Error(configuration) for settings that make no sense, a rail without a range along the track, or more than
 /// kMostPoints points; those of lateral_nodes.

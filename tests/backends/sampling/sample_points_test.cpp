@@ -108,5 +108,32 @@ TEST(SamplePoints, NeedEndsOfARail) {
   EXPECT_NO_THROW(sample_points(*cylinder_rail(), Body::rail, 0.0, {1e-2, 0.0, {0.0, 1.0, -1e30, 1e30}}));
 }
 
+/// A sector of a wheel: nothing outside of some angles, here across theta = pi.
+class Sector final : public Surface {
+ public:
+  std::string_view backend() const override { return "sector"; }
+  Facing facing() const override { return Facing::down; }
+  Box3 bounds() const override { return {{-0.5, -0.02, -0.5}, {0.5, 0.02, 0.5}}; }
+  std::size_t memory_bytes() const override { return sizeof(*this); }
+
+ private:
+  void do_heights(const PlaneGrid& p, const HeightsOut& out) const override {
+    const Vec3 n = p.X_SP.rotation.col(2);
+    const double theta = std::atan2(n.x(), n.z()), from_back = kPi - std::fabs(theta);
+    for (double& z : out.z) z = from_back < 0.5 ? 0.46 : std::nan("");
+  }
+  void do_locate(const Pose&, std::span<const Vec2>, std::span<SurfacePoint>) const override {}
+  HeightBounds do_height_bounds(const Pose&, const Rectangle&) const override { return {0.46, 0.46, false}; }
+};
+
+TEST(SamplePoints, KeepThePartOfAWheelThatIsThere) {
+  const PointGrid grid = sample_points(Sector(), Body::wheel, 0.46, {5e-3, 0.0, {}});
+  EXPECT_FALSE(grid.closed);
+  EXPECT_NEAR(grid.u.front(), kPi - 0.5, 5e-3 / 0.46);
+  EXPECT_NEAR(grid.u.back(), kPi + 0.5, 5e-3 / 0.46);
+  for (std::size_t i = 1; i < grid.u.size(); ++i) EXPECT_NEAR(grid.u[i] - grid.u[i - 1], grid.u[1] - grid.u[0], 1e-12);
+  for (const double h : grid.h) EXPECT_EQ(h, 0.46);
+}
+
 }  // namespace
 }  // namespace treadmark::sampling
