@@ -80,12 +80,20 @@ std::string marker(int style, double x, double y, double radius, bool hollow, co
   return out + (details.empty() ? "/>\n" : "><title>" + xml_text(details) + "</title></path>\n");
 }
 
+/// Of a line or level, from its class to its path.
+std::string stroke(const ChartSeries& series, bool level) {
+  std::string out = fmt::format("class=\"{}\" stroke=\"{}\" stroke-width=\"{:.3g}\"", level ? "level" : "line",
+                                chart_colour(series.style), series.width);
+  if (!level && !series.dashes.empty()) out += fmt::format(" stroke-dasharray=\"{}\"", series.dashes);
+  return out;
+}
+
 std::string draw_lines(const ChartSeries& series, const Frame& frame) {
   std::string out;
   for (const double level : series.levels)
     if (const auto y = frame.y(level))
-      out += fmt::format("<path class=\"level\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n",
-                         chart_colour(series.style), frame.box().x, *y, frame.box().width);
+      out += fmt::format("<path {} d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", stroke(series, true), frame.box().x, *y,
+                         frame.box().width);
   if (!series.joined) return out;
   std::string path;
   bool open = false;
@@ -94,8 +102,7 @@ std::string draw_lines(const ChartSeries& series, const Frame& frame) {
     if (x && y) path += fmt::format("{}{:.1f} {:.1f}", open ? 'L' : 'M', *x, *y);
     open = x && y;
   }
-  if (!path.empty())
-    out += fmt::format("<path class=\"line\" stroke=\"{}\" d=\"{}\"/>\n", chart_colour(series.style), path);
+  if (!path.empty()) out += fmt::format("<path {} d=\"{}\"/>\n", stroke(series, false), path);
   return out;
 }
 
@@ -136,11 +143,10 @@ std::string draw_chart(const Chart& chart, const ChartBox& box) {
 std::string draw_chart_legend(const std::vector<ChartSeries>& series, double x, double y) {
   std::string out = "<g class=\"legend\">\n";
   for (const ChartSeries& item : series) {
-    const bool line = item.joined && !item.points.empty(), dashed = item.points.empty() && !item.levels.empty();
-    if (line || dashed)
-      out += fmt::format("<path class=\"{}\" stroke=\"{}\" d=\"M{:.1f} {:.1f}h28\"/>\n", line ? "line" : "level",
-                         chart_colour(item.style), x, y);
-    if (!item.points.empty()) out += marker(item.style, x + 14.0, y, 4.5, false);
+    const bool line = item.joined && !item.points.empty(), level = item.points.empty() && !item.levels.empty();
+    if (line || level) out += fmt::format("<path {} d=\"M{:.1f} {:.1f}h28\"/>\n", stroke(item, level), x, y);
+    if (!item.points.empty())
+      out += marker(item.style, x + 14.0, y, item.joined ? item.points.front().radius : ChartPoint{}.radius, false);
     out += svg_text(x + 36.0, y + 4.0, item.name, "start");
     y += kLegendLine;
   }

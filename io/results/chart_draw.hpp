@@ -25,8 +25,10 @@ struct ChartSeries {
   std::string name;
   int style = 0;       ///< colour and marker, see chart_marker.hpp
   bool joined = true;  ///< by straight lines, in the order given
+  double width = 1.6;  ///< of the line and of the levels [px]
+  std::string dashes;  ///< of the line: lengths of strokes and gaps [px]; empty = a full line
   std::vector<ChartPoint> points;
-  std::vector<double> levels;  ///< values of y, drawn as dashed lines across the chart
+  std::vector<double> levels;  ///< values of y, drawn as dotted lines across the chart
 };
 
 struct Chart {
@@ -40,7 +42,8 @@ struct Chart {
 /// above. Values that cannot be shown are left out, and a line is broken there.
 std::string draw_chart(const Chart& chart, const ChartBox& box);
 
-/// A line for each series, downwards from (x, y), kLegendLine apart.
+/// A line for each series, downwards from (x, y), kLegendLine apart. Markers of joined points have the size of the
+/// first.
 std::string draw_chart_legend(const std::vector<ChartSeries>& series, double x, double y);
 inline constexpr double kLegendLine = 20.0;  // [px]
 
@@ -48,8 +51,8 @@ inline constexpr double kLegendLine = 20.0;  // [px]
 inline constexpr int kChartFont = 12;  // [px]
 inline constexpr std::string_view kChartStyle =
     ".title{font-size:13px;font-weight:bold}.frame{fill:none;stroke:#444444}.grid{fill:none;stroke:#cccccc;"
-    "stroke-width:.8}.minor{fill:none;stroke:#ececec;stroke-width:.7}.line{fill:none;stroke-width:1.6}"
-    ".level{fill:none;stroke-width:1.4;stroke-dasharray:6 4}.mark{stroke-width:1.3}.label{font-size:11px}"
+    "stroke-width:.8}.minor{fill:none;stroke:#ececec;stroke-width:.7}.line{fill:none}"
+    ".level{fill:none;stroke-dasharray:2 4}.mark{stroke-width:1.3}.label{font-size:11px}"
     ".remark{font-size:11px;fill:#555555}";
 
 }  // namespace treadmark::io

@@ -30,7 +30,19 @@ class Styles {
   }
   int of(const std::string& name) const { return styles_.at(name); }
 
+  /// Wide lines and large markers below narrow and small ones, so that equal series show.
+  void nest(ChartSeries& series) const {
+    const double part =
+        static_cast<double>(series.style) / std::max<double>(1.0, static_cast<double>(styles_.size()) - 1.0);
+    series.width = std::lerp(kWidest, kNarrowest, part);
+    if (series.style % 2 != 0) series.dashes = kDashes;
+    for (ChartPoint& point : series.points) point.radius = std::lerp(kLargest, kSmallest, part);
+  }
+
  private:
+  static constexpr double kWidest = 4.0, kNarrowest = 1.2;  // [px]
+  static constexpr double kLargest = 7.0, kSmallest = 3.2;  // [px]
+  static constexpr const char* kDashes = "9 5";
   std::map<std::string, int> styles_;
 };
 
@@ -64,9 +76,11 @@ std::vector<ChartSeries> over_resolution(const Comparison& comparison, const Sty
       series->levels.push_back(error);
     }
   }
-  for (ChartSeries& series : out)
+  for (ChartSeries& series : out) {
     std::stable_sort(series.points.begin(), series.points.end(),
                      [](const ChartPoint& a, const ChartPoint& b) { return a.x < b.x; });
+    styles.nest(series);
+  }
   return out;
 }
 
@@ -150,7 +164,7 @@ std::string error_svg(const Comparison& comparison) {
   double y = kTop + 8.0;
   out += draw_chart_legend(legend, x, y);
   y += kLegendLine * static_cast<double>(legend.size()) + 8.0;
-  out += remark(x, y, "dashed: data as given");
+  out += remark(x, y, "dotted: data as given");
   out += remark(x, y + 16.0, fmt::format("hollow: {} or less", kFloor));
   out += remark(kLeft, height - kRemark, truth_words(comparison));
   return out + "</svg>\n";

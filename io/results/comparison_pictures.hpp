@@ -12,15 +12,18 @@ namespace treadmark::io {
 /// Pictures of a comparison as SVG text without scripts. All functions are thread-safe; an empty comparison gives an
 /// empty picture.
 
-/// Pressure of the patch that carries most of the load, a column a candidate and a row for each of up to three cases:
-/// the first one, and those in which the errors of the largest pressure differ most between the candidates (the earlier
-/// case where they are equal), in the order of the cases. A row has one window and one scale of colours.
-/// Errors: Error(configuration) for fields that do not match their grid.
+/// Pressure of the patch that carries most of the load, for up to three cases: the first one, and those in which the
+/// errors of the largest pressure differ most between the candidates (the earlier case where they are equal), in the
+/// order of the cases. Each case is a block with one window and one scale of colours: the truth, then a column a
+/// backend in the order of first appearance, and a row a resolution, from coarse to fine; more than eight columns are
+/// spread over several bands (see comparison_grid.hpp). Below a panel: the largest pressure and its error. Errors:
+/// Error(configuration) for fields that do not match their grid.
 std::string pressures_svg(const Comparison& comparison);
 
 /// Largest error of the largest pressure [%] and largest deviation of the surfaces [um] over the resolution [mm], both
-/// axes logarithmic, a line a backend. Candidates without a resolution are dashed levels; the truth is not shown.
-/// Values below 0.001 are drawn there as hollow markers.
+/// axes logarithmic, a line a backend. Candidates without a resolution are dotted levels; the truth is not shown.
+/// Values below 0.001 are drawn there as hollow markers. Lines and markers become smaller from backend to backend, and
+/// every second line is dashed, so that those on the same values are all seen.
 std::string error_svg(const Comparison& comparison);
 
 /// Accuracy against cost: largest error of the largest pressure [%] over the mean time of search and distance per case

@@ -10,7 +10,7 @@
 
 namespace treadmark::io {
 
-std::string draw_panel_axes(const PanelScale& panel) {
+std::string draw_panel_axes(const PanelScale& panel, bool numbers_of_y) {
   const Window& window = panel.window;
   const double width = window.width() * panel.scale_x, height = window.height() * panel.scale_y;
   std::string out;
@@ -26,7 +26,7 @@ std::string draw_panel_axes(const PanelScale& panel) {
   ticks(window.y_low, window.y_high, [&](double value) {
     const double y = (window.y_high - value) * panel.scale_y;
     out += fmt::format("<path class=\"tick\" d=\"M0 {:.1f}h-4\"/>\n", y);
-    out += svg_text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
+    if (numbers_of_y) out += svg_text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
   });
   return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
 }

@@ -8,8 +8,9 @@
 
 namespace treadmark::io {
 
-/// Frame, ticks and their numbers [mm] of a panel whose upper left corner is the origin. Thread-safe.
-std::string draw_panel_axes(const PanelScale& panel);
+/// Frame, ticks and their numbers [mm] of a panel whose upper left corner is the origin; the numbers of y may be left
+/// out where the panel beside it has the same. Thread-safe.
+std::string draw_panel_axes(const PanelScale& panel, bool numbers_of_y = true);
 
 /// The colours of pressure from 0 to top_pressure [Pa] as an upright bar with its upper left corner at the origin,
 /// numbers in MPa to the right. Thread-safe.

@@ -4,6 +4,7 @@
 
 #include <gtest/gtest.h>
 
+#include <cstdio>
 #include <limits>
 #include <set>
 
@@ -69,7 +70,169 @@ TEST(PressuresSvg, APanelACandidateAndCase) {
   EXPECT_TRUE(says(root, "case 2, pitch -11.46°"));
 }
 
-TEST(PressuresSvg, ColoursAndWindowAreTheSameAlongARow) {
+struct Point {
+  double x = 0.0, y = 0.0;
+};
+
+Point moved(const testing::XmlElement& group) {
+  Point out;
+  const std::string& words = group.attributes.at("transform");
+  EXPECT_EQ(std::sscanf(words.c_str(), "translate(%lf %lf)", &out.x, &out.y), 2) << words;
+  return out;
+}
+
+/// A panel as it stands in the picture.
+struct SeenPanel {
+  std::string name;  ///< lines joined by a blank
+  Point corner;
+  double width = 0.0, height = 0.0;
+};
+
+std::vector<SeenPanel> seen_panels(const testing::XmlElement& block) {
+  const Point origin = moved(block);
+  std::vector<SeenPanel> out;
+  for (const auto* panel : block.find("g", "class", "panel")) {
+    SeenPanel seen;
+    for (const auto* line : panel->find("text", "class", "title"))
+      seen.name += (seen.name.empty() || seen.name.back() == '+' ? "" : " ") + line->text;
+    const Point corner = moved(*panel);
+    seen.corner = {origin.x + corner.x, origin.y + corner.y};
+    const auto* frame = panel->find("rect", "class", "tick").at(0);
+    seen.width = std::stod(frame->attributes.at("width"));
+    seen.height = std::stod(frame->attributes.at("height"));
+    out.push_back(seen);
+  }
+  return out;
+}
+
+/// The sample's first candidate and then all backends at all resolutions [m].
+io::Comparison sample_of(const std::vector<std::string>& backends, const std::vector<double>& resolutions) {
+  io::Comparison out = testing::sample_comparison();
+  const io::ComparisonCandidate pattern = out.candidates[1];
+  out.candidates.resize(1);
+  for (const std::string& backend : backends)
+    for (const double resolution : resolutions) {
+      out.candidates.push_back(pattern);
+      out.candidates.back().name = backend;
+      out.candidates.back().resolution = resolution;
+    }
+  return out;
+}
+
+const std::vector<std::string> kAllBackends{"spline",           "nurbs",          "mesh", "mesh-flat", "offset",
+                                            "offset-quadratic", "offset-bilinear"};
+
+/// Which panel is at a column and row, by the order of the corners' coordinates; "" where there is none.
+std::vector<std::vector<std::string>> table_of(const std::vector<SeenPanel>& panels) {
+  std::set<double> across, down;
+  for (const SeenPanel& panel : panels) {
+    across.insert(panel.corner.x);
+    down.insert(panel.corner.y);
+  }
+  std::vector<std::vector<std::string>> table(down.size(), std::vector<std::string>(across.size()));
+  for (const SeenPanel& panel : panels) {
+    const auto row = static_cast<std::size_t>(std::distance(down.begin(), down.find(panel.corner.y)));
+    const auto column = static_cast<std::size_t>(std::distance(across.begin(), across.find(panel.corner.x)));
+    EXPECT_EQ(table[row][column], "");
+    table[row][column] = panel.name;
+  }
+  return table;
+}
+
+using Table = std::vector<std::vector<std::string>>;
+
+TEST(PressuresSvg, AColumnABackendAndARowAResolutionFromCoarseToFine) {
+  const testing::XmlElement root =
+      testing::read_xml(io::pressures_svg(sample_of({"mesh", "spline"}, {0.5e-3, 1e-3, 0.25e-3})));
+  const auto blocks = root.find("g", "class", "block");
+  ASSERT_EQ(blocks.size(), 3u);
+  for (const auto* block : blocks)
+    EXPECT_EQ(table_of(seen_panels(*block)), (Table{{"analytic (truth)", "mesh 1 mm", "spline 1 mm"},
+                                                    {"", "mesh 0.5 mm", "spline 0.5 mm"},
+                                                    {"", "mesh 0.25 mm", "spline 0.25 mm"}}));
+}
+
+TEST(PressuresSvg, DataAsGivenStandInTheFirstRow) {
+  // The sample: the truth, mesh at two resolutions, spline as given, vdb at one of them; and spline sampled too.
+  io::Comparison comparison = testing::sample_comparison();
+  comparison.candidates.push_back(comparison.candidates[1]);
+  comparison.candidates.back().name = "spline";
+  const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+  EXPECT_EQ(
+      table_of(seen_panels(*root.find("g", "class", "block").at(0))),
+      (Table{{"analytic (truth)", "mesh 1 mm", "spline", "vdb 1 mm", "spline 1 mm"}, {"", "mesh 0.5 mm", "", "", ""}}));
+}
+
+TEST(PressuresSvg, NamesOfTheTruthAndRepetitionsTakeNoOthersPlace) {
+  // The truth is itself of a backend that is compared; one candidate appears twice.
+  io::Comparison comparison = sample_of({"analytic", "mesh"}, {1e-3, 1e-3});
+  const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+  EXPECT_EQ(table_of(seen_panels(*root.find("g", "class", "block").at(0))),
+            (Table{{"analytic (truth)", "analytic 1 mm", "analytic 1 mm", "mesh 1 mm", "mesh 1 mm"}}));
+}
+
+TEST(PressuresSvg, AllBackendsFitBesideEachOtherAndMoreAreSpreadEvenly) {
+  const testing::XmlElement all =
+      testing::read_xml(io::pressures_svg(sample_of(kAllBackends, {1e-3, 0.5e-3, 0.25e-3})));
+  for (const auto* block : all.find("g", "class", "block")) {
+    const Table table = table_of(seen_panels(*block));
+    ASSERT_EQ(table.size(), 3u);
+    EXPECT_EQ(table[0].size(), 8u);
+    EXPECT_EQ(table[2][4], "mesh-flat 0.25 mm");
+  }
+  // Wheel and rail in every combination of three, at one resolution: ten panels.
+  std::vector<std::string> pairs;
+  for (const char* wheel : {"mesh", "spline", "offset-quadratic"})
+    for (const char* rail : {"mesh", "spline", "offset-quadratic"}) pairs.push_back(std::string(wheel) + "+" + rail);
+  const testing::XmlElement mixed = testing::read_xml(io::pressures_svg(sample_of(pairs, {0.5e-3})));
+  const Table table = table_of(seen_panels(*mixed.find("g", "class", "block").at(0)));
+  EXPECT_EQ(table, (Table{{"analytic (truth)", "mesh+mesh 0.5 mm", "mesh+spline 0.5 mm", "mesh+offset-quadratic 0.5 mm",
+                           "spline+mesh 0.5 mm"},
+                          {"spline+spline 0.5 mm", "spline+offset-quadratic 0.5 mm", "offset-quadratic+mesh 0.5 mm",
+                           "offset-quadratic+spline 0.5 mm", "offset-quadratic+offset-quadratic 0.5 mm"}}));
+}
+
+TEST(PressuresSvg, PanelsKeepApartAndInsideThePicture) {
+  for (const std::size_t count : {1u, 2u, 7u})
+    for (const std::vector<double>& resolutions :
+         std::vector<std::vector<double>>{{1e-3}, {1e-3, 0.5e-3, 0.25e-3, 0.125e-3}}) {
+      const io::Comparison comparison =
+          sample_of({kAllBackends.begin(), kAllBackends.begin() + static_cast<std::ptrdiff_t>(count)}, resolutions);
+      const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+      const double width = std::stod(root.attributes.at("width")), height = std::stod(root.attributes.at("height"));
+      std::vector<SeenPanel> panels;
+      for (const auto* block : root.find("g", "class", "block"))
+        for (const SeenPanel& panel : seen_panels(*block)) panels.push_back(panel);
+      ASSERT_EQ(panels.size(), 3 * comparison.candidates.size());
+      constexpr double kTitles = 14.0, kNumbers = 33.0;  // [px] above and below a panel
+      for (std::size_t i = 0; i < panels.size(); ++i) {
+        const SeenPanel& a = panels[i];
+        EXPECT_NEAR(a.width, 170.0, 0.1);
+        EXPECT_GE(a.corner.x, 50.0);  // numbers of y
+        EXPECT_LE(a.corner.x + a.width, width);
+        EXPECT_GE(a.corner.y, kTitles);
+        EXPECT_LE(a.corner.y + a.height + kNumbers, height);
+        for (std::size_t k = 0; k < i; ++k) {
+          const SeenPanel& b = panels[k];
+          const bool beside = std::abs(a.corner.x - b.corner.x) >= a.width + 10.0;
+          const double between =
+              a.corner.y > b.corner.y ? a.corner.y - b.corner.y - b.height : b.corner.y - a.corner.y - a.height;
+          EXPECT_TRUE(beside || between >= kTitles + kNumbers) << a.name << " and " << b.name;
+        }
+      }
+    }
+}
+
+TEST(PressuresSvg, NumbersOfYStandWhereNoPanelIsOnTheLeft) {
+  const testing::XmlElement root = testing::read_xml(io::pressures_svg(sample_of({"mesh", "spline"}, {1e-3, 0.5e-3})));
+  const auto panels = root.find("g", "class", "block").at(0)->find("g", "class", "panel");
+  ASSERT_EQ(panels.size(), 5u);
+  std::vector<bool> numbered;
+  for (const auto* panel : panels) numbered.push_back(!panel->find("text", "text-anchor", "end").empty());
+  EXPECT_EQ(numbered, (std::vector<bool>{true, false, true, false, false}));  // truth, mesh 1, mesh 0.5, spline ...
+}
+
+TEST(PressuresSvg, ColoursAndWindowAreTheSameInACase) {
   io::Comparison comparison = testing::sample_comparison();
   comparison.candidates.resize(2);
   for (auto& candidate : comparison.candidates) {
@@ -90,11 +253,17 @@ TEST(PressuresSvg, ColoursAndWindowAreTheSameAlongARow) {
   EXPECT_EQ(steps(*panels[0]), io::kPressureSteps);
   EXPECT_LE(steps(*panels[1]), io::kPressureSteps / 2 + 1);
   EXPECT_GE(steps(*panels[1]), io::kPressureSteps / 2 - 1);
-  std::vector<std::string> numbers[2];
-  for (int i = 0; i < 2; ++i)
-    for (const std::string& text : texts(*panels[i]))
-      if (text.find_first_not_of("-.0123456789") == std::string::npos) numbers[i].push_back(text);
-  EXPECT_GE(numbers[0].size(), 6u);
+  // The same ticks at the same places, and the same numbers of x.
+  std::vector<std::string> ticks[2], numbers[2];
+  for (int i = 0; i < 2; ++i) {
+    for (const auto* tick : panels[i]->find("path", "class", "tick")) ticks[i].push_back(tick->attributes.at("d"));
+    for (const auto* text : panels[i]->find("text", "text-anchor", "middle"))
+      if (text->text.find_first_not_of("-.0123456789") == std::string::npos)
+        numbers[i].push_back(text->text + " at " + text->attributes.at("x"));
+  }
+  EXPECT_GE(ticks[0].size(), 6u);
+  EXPECT_EQ(ticks[0], ticks[1]);
+  EXPECT_GE(numbers[0].size(), 3u);
   EXPECT_EQ(numbers[0], numbers[1]);
 }
 
@@ -139,6 +308,50 @@ TEST(ErrorSvg, APointForEachResolutionAndALevelWithoutOne) {
   EXPECT_EQ(titles[1]->text, "mesh 1 mm: 20 %");
   EXPECT_TRUE(says(root, "truth: analytic &lt;profiles&gt; &amp; flats"));
   EXPECT_TRUE(says(root, "resolution [mm]"));
+}
+
+/// Smallest and largest x of the corners of a path.
+double path_width(const std::string& path) {
+  double low = kInfinity, high = -kInfinity;
+  for (std::size_t at = path.find_first_of("ML"); at != std::string::npos; at = path.find_first_of("ML", at + 1)) {
+    const double x = std::stod(path.substr(at + 1));
+    low = std::min(low, x);
+    high = std::max(high, x);
+  }
+  return high - low;
+}
+
+TEST(ErrorSvg, EqualSeriesShowBelowEachOther) {
+  const testing::XmlElement root = testing::read_xml(
+      io::error_svg(sample_of({"spline", "nurbs", "mesh"}, {1e-3, 0.5e-3})));  // all with equal errors
+  const testing::XmlElement& chart = *root.find("g", "class", "chart").at(0);
+  const auto lines = chart.find("path", "class", "line");
+  ASSERT_EQ(lines.size(), 3u);
+  for (std::size_t i = 1; i < 3; ++i) {
+    EXPECT_EQ(lines[i]->attributes.at("d"), lines[0]->attributes.at("d"));
+    EXPECT_LE(std::stod(lines[i]->attributes.at("stroke-width")),
+              std::stod(lines[i - 1]->attributes.at("stroke-width")) - 0.3);
+    EXPECT_NE(lines[i]->attributes.contains("stroke-dasharray"), lines[i - 1]->attributes.contains("stroke-dasharray"));
+  }
+  const auto marks = chart.find("path", "class", "mark");  // spline 1 to 3 in two places each
+  ASSERT_EQ(marks.size(), 6u);
+  const auto area_width = [&](std::size_t i) {
+    const auto corners = io::chart_marker_corners(static_cast<int>(i / 2) + 1, 1.0);
+    double low = 0.0, high = 0.0;
+    for (const auto& corner : corners) {
+      low = std::min(low, corner[0]);
+      high = std::max(high, corner[0]);
+    }
+    return path_width(marks[i]->attributes.at("d")) / (high - low);  // the marker's radius
+  };
+  EXPECT_NEAR(area_width(0), area_width(1), 0.02);  // coordinates have two decimals
+  EXPECT_LE(area_width(2), area_width(0) - 0.5);
+  EXPECT_LE(area_width(4), area_width(2) - 0.5);
+  // The legend shows them as they are.
+  const auto samples = root.find("g", "class", "legend").at(0)->find("path", "class", "line");
+  ASSERT_EQ(samples.size(), 3u);
+  for (std::size_t i = 0; i < 3; ++i)
+    EXPECT_EQ(samples[i]->attributes.at("stroke-width"), lines[i]->attributes.at("stroke-width"));
 }
 
 TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
