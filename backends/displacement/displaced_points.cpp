@@ -12,8 +12,6 @@ namespace treadmark::displacement {
 
 namespace {
 
-constexpr double kNoReach = 1e-12;  ///< sideways, below which points and their moved-back places are the same [m]
-
 Rectangle around(const std::vector<PlanePoint>& points, std::size_t begin, std::size_t end) {
   Rectangle r{points[begin].x, points[begin].x, points[begin].y, points[begin].y};
   for (std::size_t i = begin + 1; i < end; ++i) {
@@ -99,7 +97,8 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
 
   const View::Directions e = view_.directions(uy);
   const Rectangle moved = View::moved_back(r, offsets, e);
-  const double reach = std::max({r.x_min - moved.x_min, moved.x_max - r.x_max, r.y_min - moved.y_min, moved.y_max - r.y_max});
+  const Reach farthest = displacement::reach(r, moved);
+  const double reach = std::max(farthest.x, farthest.y);
   if (seen.present == 0 && reach <= kNoReach) return;
   const Rectangle sources{std::min(r.x_min, moved.x_min), std::max(r.x_max, moved.x_max), std::min(r.y_min, moved.y_min),
                           std::max(r.y_max, moved.y_max)};
@@ -115,7 +114,7 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
   }
   const Interval shift = View::along_normal(offsets, e);
   const double beyond = side > 0.0 ? std::max(0.0, shift.high) : std::max(0.0, -shift.low);
-  const double rate = rate_of(offsets, uy, view_.X_SP.apply({r.x_min, r.y_min, bottom}));
+  const double rate = view_.rate(offsets, uy, view_.X_SP.apply({r.x_min, r.y_min, bottom}));
   collect(points, {range, r, side * (std::max(outermost_base, seen.outer) + beyond), rate});
   if (reach > kNoReach)
     for (std::size_t i = range.begin; i < range.end; ++i)
@@ -242,17 +241,7 @@ bool DisplacedPoints::outermost_everywhere(const Leaf& leaf, const Range& unknow
   const double x = 0.5 * (leaf.rectangle.x_min + leaf.rectangle.x_max), y = 0.5 * (leaf.rectangle.y_min + leaf.rectangle.y_max);
   // Slopes of the base may grow on the way by as much again.
   constexpr double kGrowth = 2.0, kSafe = 0.5;
-  return kGrowth * steepness * rate_of(offsets, uy, view_.X_SP.apply({x, y, side * inner})) <= kSafe;
-}
-
-/// Bound of |d(offset * e)/dt| in a box of (u, y) that holds q.
-double DisplacedPoints::rate_of(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const {
-  const Vec3 n = view_.X_SP.rotation.col(2);
-  const NaturalPoint q(view_.body, q_S);
-  const double turn = view_.body == Body::wheel ? uy.x_max - uy.x_min : 0.0;
-  const double along = (std::fabs(n.dot(q.along)) + turn) * q.du_along;
-  const double turning = view_.body == Body::wheel ? greatest(offsets) * along : 0.0;
-  return offsets.max_d_u * along + offsets.max_d_y * std::fabs(n.y()) + turning;
+  return kGrowth * steepness * view_.rate(offsets, uy, view_.X_SP.apply({x, y, side * inner})) <= kSafe;
 }
 
 void DisplacedPoints::search(PlanePoint& p) const {

@@ -50,7 +50,6 @@ class DisplacedPoints {
   void iterate(const std::vector<PlanePoint>& points);
   void advance(const PlanePoint& p, Unknown& w, std::size_t k, int iteration);
   void ask_base();
-  double rate_of(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const;
   bool outermost_everywhere(const Leaf& leaf, const Range& unknowns) const;
   void search(PlanePoint& p) const;
 

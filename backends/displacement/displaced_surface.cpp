@@ -8,6 +8,8 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/backends/displacement/base_heights.hpp"
+#include "treadmark/backends/displacement/displaced_band.hpp"
 #include "treadmark/backends/displacement/displaced_points.hpp"
 #include "treadmark/backends/displacement/natural_point.hpp"
 #include "treadmark/backends/displacement/reach.hpp"
@@ -21,6 +23,9 @@ namespace {
 
 /// Ends of the whole surface; fields are not asked about infinities.
 constexpr double kFar = 1e30;
+/// Grids coarser than this [m], or with fewer points, say too little about the base between their points.
+constexpr double kCoarsest = 2.5e-3;
+constexpr std::size_t kFewest = 16;
 
 class DisplacedSurface final : public Surface {
  public:
@@ -93,25 +98,21 @@ void DisplacedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   const Grid2& g = plane_grid.grid;
   const View seen = view(plane_grid.X_SP);
   if (undisturbed(seen, {g.x(0), g.x(g.nx - 1), g.y(0), g.y(g.ny - 1)})) return base_->heights(plane_grid, out);
-  Arrays all(out, g.size());
-  base_->heights(plane_grid, {all.z, all.dzdx, all.dzdy});
-
-  // Bands of rows, each band in square blocks: what lies together is judged together.
-  constexpr int kBlock = 16;
+  if (std::max(g.dx, g.dy) > kCoarsest || g.size() < kFewest) {
+    std::vector<Vec2> points;
+    points.reserve(g.size());
+    for (int iy = 0; iy < g.ny; ++iy)
+      for (int ix = 0; ix < g.nx; ++ix) points.push_back({g.x(ix), g.y(iy)});
+    return do_heights_at(plane_grid.X_SP, points, out);
+  }
+  const BaseHeights base(*base_, plane_grid, out.dzdx, out.dzdy);
+  std::vector<double> spare(out.z.empty() ? g.size() : 0);
+  const HeightsOut all{out.z.empty() ? std::span<double>(spare) : out.z, out.dzdx, out.dzdy};
   const auto band = [&](std::size_t which) {
-    const int first = static_cast<int>(which) * kBlock, last = std::min(first + kBlock, g.ny);
-    std::vector<PlanePoint> points;
-    points.reserve(static_cast<std::size_t>(g.nx) * kBlock);
-    for (int bx = 0; bx < g.nx; bx += kBlock)
-      for (int iy = first; iy < last; ++iy)
-        for (int ix = bx; ix < std::min(bx + kBlock, g.nx); ++ix) {
-          const std::size_t i = g.index(ix, iy);
-          points.push_back({i, g.x(ix), g.y(iy), all.z[i], all.dzdx[i], all.dzdy[i]});
-        }
-    DisplacedPoints(seen, max_offset_).solve(points);
-    for (const PlanePoint& p : points) all.put(p);
+    const int first = static_cast<int>(which) * DisplacedBand::kRows;
+    DisplacedBand(seen, max_offset_, g, base, all).solve(first, std::min(first + DisplacedBand::kRows, g.ny));
   };
-  const std::size_t bands = static_cast<std::size_t>((g.ny + kBlock - 1) / kBlock);
+  const std::size_t bands = static_cast<std::size_t>((g.ny + DisplacedBand::kRows - 1) / DisplacedBand::kRows);
   constexpr std::size_t kWorthThreads = 1000;
   if (g.size() < kWorthThreads)
     for (std::size_t b = 0; b < bands; ++b) band(b);

@@ -7,6 +7,8 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/backends/displacement/natural_point.hpp"
+
 namespace treadmark::displacement {
 
 Interval operator*(const Interval& a, const Interval& b) {
@@ -90,6 +92,15 @@ Rectangle View::moved_back(const Rectangle& r, const OffsetRange& range, const D
 
 Interval View::along_normal(const OffsetRange& range, const Directions& d) {
   return Interval{range.low, range.high} * d.e[2];
+}
+
+double View::rate(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const {
+  const Vec3 n = X_SP.rotation.col(2);
+  const NaturalPoint q(body, q_S);
+  const double turn = body == Body::wheel ? uy.x_max - uy.x_min : 0.0;
+  const double along = (std::fabs(n.dot(q.along)) + turn) * q.du_along;
+  const double turning = body == Body::wheel ? greatest(offsets) * along : 0.0;
+  return offsets.max_d_u * along + offsets.max_d_y * std::fabs(n.y()) + turning;
 }
 
 }  // namespace treadmark::displacement

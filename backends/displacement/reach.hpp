@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <algorithm>
+
 #include "treadmark/backends/displacement/offset_field.hpp"
 #include "treadmark/core/profile.hpp"
 
@@ -35,10 +37,22 @@ struct View {
   /// Where points go that lie over r and are moved back by the offsets of range.
   static Rectangle moved_back(const Rectangle& r, const OffsetRange& range, const Directions& e);
   static Interval along_normal(const OffsetRange& range, const Directions& e);
+
+  /// Bound of |d(offset * e)/dt| along the normal of P in a box of (u, y) that holds the point q.
+  double rate(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const;
 };
 
 Interval operator*(const Interval& a, const Interval& b);
 Rectangle enlarged(const Rectangle& r, double by);
 double greatest(const OffsetRange& range);
+/// How far points at most go aside that are moved back from r to moved.
+struct Reach {
+  double x, y;
+};
+inline Reach reach(const Rectangle& r, const Rectangle& moved) {
+  return {std::max(r.x_min - moved.x_min, moved.x_max - r.x_max), std::max(r.y_min - moved.y_min, moved.y_max - r.y_max)};
+}
+/// [m] Sideways, below which points and their moved-back places are the same.
+inline constexpr double kNoReach = 1e-12;
 
 }  // namespace treadmark::displacement
