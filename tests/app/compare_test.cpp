@@ -1,0 +1,205 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+
+#include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/run_cases.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using ::testing::HasSubstr;
+
+const char* kFlat = R"(
+[wheel]
+shape.standard = "S1002"
+[[wheel.flats]]
+length_mm = 60
+depth_mm = 0.3
+[rail]
+shape.standard = "60E1"
+[track]
+cant = "1:40"
+[wheelset]
+vertical_force_N = 80e3
+velocity_m_s = 2
+vpitch_rad_s = -4.3478
+[discretisation]
+dx_mm = 1.0
+ds_mm = 1.0
+[[cases]]
+wheelset.pitch_deg = [0, 2]
+)";
+
+const io::ComparisonCandidate& find(const io::Comparison& comparison, const std::string& name, double resolution) {
+  for (const io::ComparisonCandidate& c : comparison.candidates)
+    if (c.name == name && c.resolution == resolution) return c;
+  throw std::runtime_error("no candidate " + name);
+}
+
+TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
+  const treadmark::testing::SampleInput input;
+  input.write("flat.toml", kFlat);
+  const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
+  CompareSettings settings;
+  settings.backends = {"analytic", "spline", "mesh"};
+  settings.resolutions = {2e-3};
+  const io::Comparison comparison = compare_cases(file, settings);
+  EXPECT_EQ(comparison.truth, "analytic");
+  ASSERT_EQ(comparison.candidates.size(), 3u);  // analytic is the truth and stands there once
+  EXPECT_TRUE(comparison.complete);
+
+  io::CaseFile as_mesh = file;
+  for (io::Case& c : as_mesh.cases) {
+    auto& source = std::get<io::WheelRailCase>(c.content).wheel;
+    source.backend = "mesh";
+    source.resolution = 2e-3;
+  }
+  const io::RunResult truth = run_cases(file), mesh = run_cases(as_mesh);
+  const io::ComparisonCandidate& row_of = find(comparison, "mesh", 2e-3);
+  ASSERT_EQ(row_of.rows.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) {
+    const io::ComparisonRow& row = row_of.rows[i];
+    const io::PatchResult &p = mesh.cases[i].patches[0], &t = truth.cases[i].patches[0];
+    EXPECT_EQ(row.pmax, p.pmax);
+    EXPECT_EQ(row.fx, p.fx);
+    EXPECT_EQ(row.ncon, p.ncon);
+    EXPECT_TRUE(row.comparable);
+    EXPECT_NEAR(row.pmax_error, p.pmax / t.pmax - 1.0, 1e-12);
+    EXPECT_NEAR(row.position_error, std::hypot(p.x_tr - t.x_tr, p.y_tr - t.y_tr), 1e-15);
+    EXPECT_NEAR(row.area_error, static_cast<double>(p.ncon) / t.ncon - 1.0, 1e-12);
+    EXPECT_NE(row.pmax_error, 0.0);
+  }
+  EXPECT_EQ(row_of.wheel.backend, "mesh");
+  EXPECT_EQ(row_of.rail.backend, "analytic");  // the round rail has no defect: it stays as it is
+  EXPECT_GT(row_of.wheel.difference.points, 1000u);
+  EXPECT_GT(row_of.wheel.difference.height_max, 1e-9);
+  for (const io::ComparisonRow& row : comparison.candidates[0].rows) EXPECT_EQ(row.pmax_error, 0.0);
+}
+
+TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
+  const treadmark::testing::SampleInput input;
+  input.write("flat.toml", kFlat);
+  const std::vector<std::string> one_case{"wheelset.pitch_deg=0"};
+  const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), one_case);
+  CompareSettings settings;
+  settings.resolutions = {2e-3};
+  settings.backends = {"spline"};
+  settings.bodies = CompareSettings::Bodies::both;
+  const io::Comparison both = compare_cases(file, settings);
+  EXPECT_EQ(find(both, "spline", 2e-3).rail.backend, "spline");
+  settings.bodies = CompareSettings::Bodies::rail;
+  const io::Comparison rail = compare_cases(file, settings);
+  EXPECT_EQ(find(rail, "spline", 2e-3).rail.backend, "spline");
+  EXPECT_EQ(find(rail, "spline", 2e-3).wheel.backend, "analytic");
+  settings.wheel_backends = {"spline", "offset"};
+  settings.rail_backends = {"spline", "mesh"};
+  const io::Comparison nine = compare_cases(file, settings);
+  EXPECT_EQ(nine.candidates.size(), 5u);
+  const io::ComparisonCandidate& mixed = find(nine, "offset+mesh", 2e-3);
+  EXPECT_EQ(mixed.wheel.backend, "offset");
+  EXPECT_EQ(mixed.rail.backend, "mesh");
+}
+
+TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
+  const treadmark::testing::SampleInput input;
+  const io::CaseFile file = io::read_any_case(input.inp(), {});
+  CompareSettings settings;
+  settings.backends = {"analytic", "spline", "offset"};
+  settings.resolutions = {1e-3};
+  const io::Comparison comparison = compare_cases(file, settings);
+  EXPECT_EQ(comparison.truth, "spline");
+  const io::ComparisonCandidate& analytic = find(comparison, "analytic", 0.0);
+  EXPECT_THAT(analytic.failure, HasSubstr("needs a formula"));
+  EXPECT_TRUE(analytic.rows.empty());
+  // nothing changes along round wheels and prismatic rails: both bodies, and offsets over them are nothing
+  const io::ComparisonCandidate& offset = find(comparison, "offset", 1e-3);
+  EXPECT_EQ(offset.rail.backend, "offset");
+  for (const io::ComparisonRow& row : offset.rows) EXPECT_LT(std::fabs(row.pmax_error), 1e-9);
+}
+
+TEST(CompareCases, ThreadsChangeNothingButTimes) {
+  const treadmark::testing::SampleInput input;
+  input.write("flat.toml", kFlat);
+  const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
+  CompareSettings settings;
+  settings.backends = {"mesh", "offset", "nurbs"};
+  settings.resolutions = {2e-3};
+  const auto run_with = [&](int threads) {
+    const ThreadLimit limit(threads);
+    return compare_cases(file, settings);
+  };
+  const io::Comparison one = run_with(1), four = run_with(4);
+  ASSERT_EQ(one.candidates.size(), four.candidates.size());
+  for (std::size_t c = 0; c < one.candidates.size(); ++c) {
+    EXPECT_EQ(one.candidates[c].wheel.difference.height_max, four.candidates[c].wheel.difference.height_max);
+    ASSERT_EQ(one.candidates[c].rows.size(), four.candidates[c].rows.size());
+    for (std::size_t i = 0; i < one.candidates[c].rows.size(); ++i) {
+      EXPECT_EQ(one.candidates[c].rows[i].pmax, four.candidates[c].rows[i].pmax) << one.candidates[c].name;
+      EXPECT_EQ(one.candidates[c].rows[i].fx, four.candidates[c].rows[i].fx);
+      EXPECT_EQ(one.candidates[c].rows[i].x_tr, four.candidates[c].rows[i].x_tr);
+    }
+  }
+}
+
+TEST(CompareCases, StopKeepsFinishedCandidates) {
+  const treadmark::testing::SampleInput input;
+  const io::CaseFile file = io::read_any_case(input.inp(), {});
+  CompareSettings settings;
+  settings.backends = {"spline", "nurbs"};
+  settings.resolutions = {2e-3, 1e-3};
+  std::atomic<bool> stop{false};
+  Progress progress;
+  progress.stop = &stop;
+  progress.report = [&](std::size_t finished, std::size_t total, const std::string&) {
+    EXPECT_EQ(total, 2u * 5u);
+    if (finished == 4) stop = true;
+  };
+  const io::Comparison comparison = compare_cases(file, settings, progress);
+  EXPECT_FALSE(comparison.complete);
+  EXPECT_EQ(comparison.candidates.size(), 2u);
+}
+
+TEST(CompareCases, RefusesWhatMakesNoSense) {
+  const treadmark::testing::SampleInput input;
+  const io::CaseFile file = io::read_any_case(input.inp(), {});
+  CompareSettings unknown;
+  unknown.backends = {"clay"};
+  EXPECT_THROW(compare_cases(file, unknown), Error);
+  CompareSettings coarse;
+  coarse.resolutions = {0.0};
+  EXPECT_THROW(compare_cases(file, coarse), Error);
+  io::CaseFile none = file;
+  none.cases.clear();
+  EXPECT_THROW(compare_cases(none, {}), Error);
+}
+
+TEST(CompareCommand, WritesTableFilesAndPictures) {
+  const treadmark::testing::SampleInput input;
+  input.write("flat.toml", kFlat);
+  const auto folder = input.folder() / "out";
+  const auto r = treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "spline,mesh-flat",
+                                                  "--resolutions", "2,1", "-o", folder.string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("analytic (truth)"));
+  EXPECT_THAT(r.out, HasSubstr("mesh-flat"));
+  for (const char* file : {"compare.json", "compare.csv", "table.txt", "pressures.svg", "errors.svg", "costs.svg"})
+    EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;
+  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "clay"}).status, 2);
+  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--resolutions", "-1"}).status, 2);
+  EXPECT_EQ(treadmark::testing::run_program({"compare", "missing.toml"}).status, 2);
+}
+
+}  // namespace
+}  // namespace treadmark::app
