@@ -19,10 +19,10 @@ class FlatsShape final : public OffsetShape {
   void add(std::span<const double> theta, std::span<const double> y, std::span<double> value, std::span<double> d_u,
            std::span<double> d_y) const override {
     for (std::size_t i = 0; i < theta.size(); ++i) {
-      double by_theta = 0.0, by_y = 0.0;
-      value[i] -= depth_.depth(std::sin(theta[i]), y[i], std::cos(theta[i]), 1.0, by_theta, by_y);
-      if (!d_u.empty()) d_u[i] -= by_theta;
-      if (!d_y.empty()) d_y[i] -= by_y;
+      const DepthJet d = depth_.jet(theta[i], y[i]);
+      value[i] -= d.d;
+      if (!d_u.empty()) d_u[i] -= d.d_theta;
+      if (!d_y.empty()) d_y[i] -= d.d_y;
     }
   }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/backends/analytic/fast_trig.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::analytic {
@@ -45,12 +46,15 @@ FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
 void FlatDepth::Flat::along(double phi, double& d, double& d1, double& d2) const {
   if (shape == WheelFlat::Shape::fresh) {
     // R - rho/cos(phi), written as depth - rho (1/cos(phi) - 1) so that nothing cancels
-    const double c = std::cos(phi), s = std::sin(phi), half = std::sin(0.5 * phi);
+    double half, c_half;
+    fast_sin_cos(0.5 * phi, half, c_half);
+    const double c = 1.0 - 2.0 * half * half, s = 2.0 * half * c_half;
     d = std::max(0.0, depth - chord_radius * 2.0 * half * half / c);
     d1 = -chord_radius * s / (c * c);
     d2 = -chord_radius * (1.0 + s * s) / (c * c * c);
   } else {
-    const double c = std::cos(wave_number * phi), s = std::sin(wave_number * phi);
+    double s, c;
+    fast_sin_cos(wave_number * phi, s, c);
     d = 0.5 * depth * (1.0 + c);
     d1 = -0.5 * depth * wave_number * s;
     d2 = -0.5 * depth * wave_number * wave_number * c;
@@ -66,9 +70,10 @@ void FlatDepth::Flat::across(double y, double& w, double& w1, double& w2) const 
     w = 0.0;
     return;
   }
-  const double c = std::cos(y_wave_number * e);
+  double s, c;
+  fast_sin_cos(y_wave_number * e, s, c);
   w = 0.5 * (1.0 + c);
-  w1 = -0.5 * y_wave_number * std::sin(y_wave_number * e);
+  w1 = -0.5 * y_wave_number * s;
   w2 = -0.5 * y_wave_number * y_wave_number * c;
 }
 

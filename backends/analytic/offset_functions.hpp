@@ -3,11 +3,14 @@
 #pragma once
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
 #include <numbers>
 #include <vector>
 
 #include "treadmark/backends/analytic/arc_graph.hpp"
+#include "treadmark/backends/analytic/fast_trig.hpp"
 
 namespace treadmark::analytic {
 
@@ -16,6 +19,10 @@ struct FunctionRange {
   double low = 0.0, high = 0.0;
   double max_d = 0.0;
 };
+
+/// Values and slopes are also computed many at a time, up to kMany: `many` of each function.
+inline constexpr std::size_t kMany = 64;
+using Many = std::array<double, kMany>;
 
 /// Least and greatest cosine over phases from a to b >= a.
 inline FunctionRange cosine_range(double a, double b) {
@@ -43,6 +50,22 @@ struct CosineBump {
     const double k = std::numbers::pi / half, c = std::cos(k * e);
     return {0.5 * (1.0 + c), -0.5 * k * std::sin(k * e), -0.5 * k * k * c};
   }
+  void many(const double* x, std::size_t n, Many& h, Many& dh) const {
+    if (half == 0.0) {
+      std::fill_n(h.begin(), n, 1.0);
+      std::fill_n(dh.begin(), n, 0.0);
+      return;
+    }
+    Many phase, s, c;
+    const double k = std::numbers::pi / half;
+    for (std::size_t i = 0; i < n; ++i) phase[i] = k * (x[i] - center);
+    sin_cos_many(phase.data(), n, s.data(), c.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool inside = !(std::fabs(x[i] - center) >= half);
+      h[i] = inside ? 0.5 * (1.0 + c[i]) : 0.0;
+      dh[i] = inside ? -0.5 * k * s[i] : 0.0;
+    }
+  }
   FunctionRange range(double a, double b) const {
     if (half == 0.0) return {1.0, 1.0, 0.0};
     const double k = std::numbers::pi / half;
@@ -65,6 +88,17 @@ struct CosineStep {
     const double k = std::numbers::pi / length, c = std::cos(k * (x - start));
     return {0.5 * (1.0 - c), 0.5 * k * std::sin(k * (x - start)), 0.5 * k * k * c};
   }
+  void many(const double* x, std::size_t n, Many& h, Many& dh) const {
+    Many phase, s, c;
+    const double per_length = 1.0 / length, k = std::numbers::pi * per_length;
+    for (std::size_t i = 0; i < n; ++i) phase[i] = std::numbers::pi * std::clamp((x[i] - start) * per_length, 0.0, 1.0);
+    sin_cos_many(phase.data(), n, s.data(), c.data());
+    for (std::size_t i = 0; i < n; ++i) {
+      const bool inside = phase[i] > 0.0 && phase[i] < std::numbers::pi;
+      h[i] = 0.5 * (1.0 - c[i]);
+      dh[i] = inside ? 0.5 * k * s[i] : 0.0;
+    }
+  }
   FunctionRange range(double a, double b) const {
     const double p = std::clamp((a - start) / length, 0.0, 1.0), q = std::clamp((b - start) / length, 0.0, 1.0);
     const double low = std::min(p, q), high = std::max(p, q);
@@ -79,6 +113,16 @@ struct CosineWindow {
 
   Jet jet(double x) const {
     return x < 0.5 * (start + end) ? CosineStep{start, ramp}.jet(x) : CosineStep{end, -ramp}.jet(x);
+  }
+  void many(const double* x, std::size_t n, Many& h, Many& dh) const {
+    Many from_end, sign;
+    const double middle = 0.5 * (start + end);
+    for (std::size_t i = 0; i < n; ++i) {
+      sign[i] = x[i] < middle ? 1.0 : -1.0;
+      from_end[i] = x[i] < middle ? x[i] - start : end - x[i];
+    }
+    CosineStep{0.0, ramp}.many(from_end.data(), n, h, dh);
+    for (std::size_t i = 0; i < n; ++i) dh[i] *= sign[i];
   }
   FunctionRange range(double a, double b) const {
     const FunctionRange in = CosineStep{start, ramp}.range(a, b), out = CosineStep{end, -ramp}.range(a, b);
@@ -104,6 +148,17 @@ struct WaveSum {
     }
     return sum;
   }
+  void many(const double* x, std::size_t n, Many& h, Many& dh) const {
+    Many phase, s, c;
+    std::fill_n(h.begin(), n, 0.0);
+    std::fill_n(dh.begin(), n, 0.0);
+    for (const Wave& w : waves) {
+      for (std::size_t i = 0; i < n; ++i) phase[i] = w.wave_number * (x[i] - origin) - w.phase;
+      sin_cos_many(phase.data(), n, s.data(), c.data());
+      const double slope = w.wave_number * w.amplitude;
+      for (std::size_t i = 0; i < n; ++i) h[i] += w.amplitude * c[i], dh[i] -= slope * s[i];
+    }
+  }
   FunctionRange range(double a, double b) const {
     FunctionRange sum;
     for (const Wave& w : waves) {
@@ -127,6 +182,15 @@ struct FunctionProduct {
     if (b.h == 0.0 && b.dh == 0.0 && b.ddh == 0.0) return {};
     const Jet a = first.jet(x);
     return {a.h * b.h, a.dh * b.h + a.h * b.dh, a.ddh * b.h + 2.0 * a.dh * b.dh + a.h * b.ddh};
+  }
+  void many(const double* x, std::size_t n, Many& h, Many& dh) const {
+    Many b, db;
+    first.many(x, n, h, dh);
+    second.many(x, n, b, db);
+    for (std::size_t i = 0; i < n; ++i) {
+      dh[i] = dh[i] * b[i] + h[i] * db[i];
+      h[i] *= b[i];
+    }
   }
   FunctionRange range(double x_min, double x_max) const {
     const FunctionRange a = first.range(x_min, x_max), b = second.range(x_min, x_max);

@@ -44,16 +44,22 @@ class ProductShape final : public OffsetShape {
 
   void add(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
            std::span<double> d_y) const override {
-    // neighbours often share a coordinate: a row along the rail has one y
-    double last_u = std::numeric_limits<double>::quiet_NaN(), last_y = last_u;
-    Jet a, b;
-    for (std::size_t i = 0; i < u.size(); ++i) {
-      if (outside(u[i], y[i])) continue;
-      if (u[i] != last_u) a = along_.jet(last_u = u[i]);
-      if (y[i] != last_y) b = across_.jet(last_y = y[i]);
-      value[i] += scale_ * a.h * b.h;
-      if (!d_u.empty()) d_u[i] += scale_ * a.dh * b.h;
-      if (!d_y.empty()) d_y[i] += scale_ * a.h * b.dh;
+    Many a, da, b, db;
+    for (std::size_t begin = 0; begin < u.size(); begin += kMany) {
+      const std::size_t n = std::min(kMany, u.size() - begin);
+      const double *u_n = u.data() + begin, *y_n = y.data() + begin;
+      bool any = false;
+      for (std::size_t i = 0; i < n; ++i) any |= !outside(u_n[i], y_n[i]);
+      if (!any) continue;
+      evaluate(along_, u_n, n, a, da);
+      evaluate(across_, y_n, n, b, db);
+      for (std::size_t i = 0; i < n; ++i) {
+        // selected, not multiplied: what lies outside may be NaN
+        const bool in = !outside(u_n[i], y_n[i]);
+        value[begin + i] += in ? scale_ * a[i] * b[i] : 0.0;
+        if (!d_u.empty()) d_u[begin + i] += in ? scale_ * da[i] * b[i] : 0.0;
+        if (!d_y.empty()) d_y[begin + i] += in ? scale_ * a[i] * db[i] : 0.0;
+      }
     }
   }
 
@@ -73,6 +79,18 @@ class ProductShape final : public OffsetShape {
   /// Negated, so that NaN counts as outside.
   bool outside(double u, double y) const {
     return !(u > support_.x_min && u < support_.x_max && y > support_.y_min && y < support_.y_max);
+  }
+
+  template <class Function>
+  static void evaluate(const Function& f, const double* x, std::size_t n, Many& h, Many& dh) {
+    // neighbours often share a coordinate: a row along the rail has one y
+    if (std::all_of(x, x + n, [first = x[0]](double one) { return one == first; })) {
+      const Jet all = f.jet(x[0]);
+      std::fill_n(h.begin(), n, all.h);
+      std::fill_n(dh.begin(), n, all.dh);
+    } else {
+      f.many(x, n, h, dh);
+    }
   }
 
   double scale_;

@@ -240,6 +240,11 @@ void DisplacedBand::finish() {
         if (!out_.dzdx.empty()) p.hx = out_.dzdx[i];
         if (!out_.dzdy.empty()) p.hy = out_.dzdy[i];
       }
+      if (block.moves && !std::isnan(p.h) && (std::isnan(p.hx) || std::isnan(p.hy))) {  // a rim seen edge-on
+        for (const auto array : {out_.z, out_.dzdx, out_.dzdy})
+          if (!array.empty()) array[i] = kNaN;
+        continue;
+      }
       const Equation q = equation(p, g_.x(ix), g_.y(iy));
       const double step = -q.F / q.g.z(), aside = block.rate * q.steepness;
       bool good = q.g.z() > kLeastSlope && std::fabs(step) * aside <= kLinear;

@@ -66,15 +66,17 @@ double DisplacedLine::search_interval(double outer, double inner, Search& search
 
 /// A zero in a tiny interval: a change of sign, or what Newton finds from the middle. Jumps of h at folds are none.
 double DisplacedLine::polish(double outer, double inner) const {
-  constexpr int kBisections = 60, kSteps = 30;
+  constexpr int kBisections = 100, kSteps = 30;
+  constexpr double kRounding = 2e-16;  // [m]
   const auto is_zero = [](const Sample& s) { return std::fabs(s.F) <= 1e-12 * s.steepness * s.steepness; };
   double a = outer, b = inner;
   Sample at_a = at(a);
   const Sample at_b = at(b);
   if (at_a.F == 0.0) return a;
   if (at_a.F * at_b.F <= 0.0) {
+    // Newton's method, held in the bracket; halved every other time, so that a jump is found out too
+    double m = 0.5 * (a + b);
     for (int k = 0; k < kBisections; ++k) {
-      const double m = 0.5 * (a + b);
       const Sample s = at(m);
       if (std::isnan(s.F)) break;
       if ((s.F > 0.0) == (at_a.F > 0.0)) {
@@ -83,6 +85,10 @@ double DisplacedLine::polish(double outer, double inner) const {
       } else {
         b = m;
       }
+      const double next = m - s.F / s.dF;
+      const bool inside = next >= std::min(a, b) && next <= std::max(a, b);
+      if (inside && std::fabs(next - m) <= kRounding && is_zero(s)) return next;
+      m = inside && k % 2 == 0 ? next : 0.5 * (a + b);
     }
     const Sample s = at(b);
     return is_zero(s) ? b : kNaN;

@@ -13,6 +13,12 @@ namespace treadmark::offset {
 
 namespace {
 
+/// Integers up to 2^30, rounded down, without a call.
+inline int round_down(double x) {
+  const int i = static_cast<int>(x);
+  return i - (x < i);
+}
+
 /// Weights of a B-spline of one degree, with derivatives by voxel.
 template <int kDegree>
 struct Weights {
@@ -21,18 +27,20 @@ struct Weights {
 
   explicit Weights(double s) {
     if constexpr (kDegree == 1) {
-      const double down = std::floor(s), f = s - down;
-      first = static_cast<int>(down);
+      first = round_down(s);
+      const double f = s - first;
       w[0] = 1.0 - f, w[1] = f;
       w1[0] = -1.0, w1[1] = 1.0;
     } else if constexpr (kDegree == 2) {
-      const double near = std::floor(s + 0.5), f = s - near, a = 0.5 - f, b = 0.5 + f;
-      first = static_cast<int>(near) - 1;
+      const int near = round_down(s + 0.5);
+      const double f = s - near, a = 0.5 - f, b = 0.5 + f;
+      first = near - 1;
       w[0] = 0.5 * a * a, w[1] = 0.75 - f * f, w[2] = 0.5 * b * b;
       w1[0] = -a, w1[1] = -2.0 * f, w1[2] = b;
     } else {
-      const double down = std::floor(s), f = s - down, g = 1.0 - f;
-      first = static_cast<int>(down) - 1;
+      const int down = round_down(s);
+      const double f = s - down, g = 1.0 - f;
+      first = down - 1;
       w[0] = g * g * g / 6.0, w[3] = f * f * f / 6.0;
       w[1] = (4.0 + 3.0 * f * f * (f - 2.0)) / 6.0, w[2] = (4.0 + 3.0 * g * g * (g - 2.0)) / 6.0;
       w1[0] = -0.5 * g * g, w1[1] = f * (1.5 * f - 2.0), w1[2] = g * (2.0 - 1.5 * g), w1[3] = 0.5 * f * f;
@@ -86,9 +94,12 @@ class SheetField final : public displacement::OffsetField {
                 std::span<double> d_y) const override {
     BlockCache cache(grid());
     const double per_u = 1.0 / frame_.du, per_y = 1.0 / frame_.dy;
+    const double low = frame_.branch_begin(), high = low + frame_.period();
     for (std::size_t n = 0; n < u.size(); ++n) {
       double v = 0.0, v_u = 0.0, v_y = 0.0;
-      point(frame_.along(u[n]), frame_.across(y[n]), cache, v, v_u, v_y);
+      double s = (u[n] - frame_.u0) * per_u;
+      if (frame_.body == Body::wheel && !(s >= low && s < high)) s = frame_.along(u[n]);  // another branch
+      point(s, (y[n] - frame_.y0) * per_y, cache, v, v_u, v_y);
       value[n] = v;
       if (!d_u.empty()) d_u[n] = v_u * per_u;
       if (!d_y.empty()) d_y[n] = v_y * per_y;
@@ -114,39 +125,41 @@ class SheetField final : public displacement::OffsetField {
     if (!within(s, t)) return;
     const Weights<kDegree> a(s), b(t);
     const int i = a.first, j = b.first;
-    const bool one_block = (i & 7) + kDegree < kBlockI && (j & 63) + kDegree < kBlockJ &&
-                           (frame_.turn == 0 || (i >= 0 && i + kDegree < frame_.turn));
+    const float* rows[kDegree + 1];
     float gathered[(kDegree + 1) * (kDegree + 1)];
-    const float* c = gathered;
-    int stride = kDegree + 1;
-    if (one_block) {
-      const float* block = cache.get(i >> 3, j >> 6);
-      if (block == nullptr) return;
-      c = block + (((i & 7) << 6) | (j & 63));
-      stride = kBlockJ;
-    } else if (!gather(i, j, cache, gathered)) {
-      return;
-    }
-    for (int k = 0; k <= kDegree; ++k, c += stride) {
+    if (!find_rows(i, j, cache, rows, gathered)) return;
+    for (int k = 0; k <= kDegree; ++k) {
       double row = 0.0, row1 = 0.0;
-      for (int l = 0; l <= kDegree; ++l) row += b.w[l] * static_cast<double>(c[l]), row1 += b.w1[l] * static_cast<double>(c[l]);
+      for (int l = 0; l <= kDegree; ++l) {
+        const auto c = static_cast<double>(rows[k][l]);
+        row += b.w[l] * c, row1 += b.w1[l] * c;
+      }
       value += a.w[k] * row;
       d_s += a.w1[k] * row;
       d_t += a.w[k] * row1;
     }
   }
 
-  /// Coefficients that lie in several blocks, or round the seam. False: all of them are 0.
-  bool gather(int i, int j, BlockCache& cache, float* to) const {
+  /// Where the coefficients (i + k, j ...) lie; those of two blocks side by side are gathered. False: all of them are 0.
+  bool find_rows(int i, int j, BlockCache& cache, const float** rows, float* gathered) const {
+    static constexpr float kZeros[kDegree + 1] = {};
+    const int bj = j >> 6, from = j & 63;
+    const bool beside = from + kDegree >= kBlockJ, inside = frame_.turn == 0 || (i >= 0 && i + kDegree < frame_.turn);
     bool any = false;
     for (int k = 0; k <= kDegree; ++k) {
-      const int row = frame_.wrapped(i + k);
-      const float* left = cache.get(row >> 3, j >> 6);
-      const float* right = cache.get(row >> 3, (j + kDegree) >> 6);
-      any = any || left != nullptr || right != nullptr;
+      const int row = inside ? i + k : frame_.wrapped(i + k), offset = (row & 7) << 6;
+      const float* left = cache.get(row >> 3, bj);
+      any = any || left != nullptr;
+      if (!beside) {
+        rows[k] = left == nullptr ? kZeros : left + (offset | from);
+        continue;
+      }
+      const float* right = cache.get(row >> 3, bj + 1);
+      any = any || right != nullptr;
+      rows[k] = gathered;
       for (int l = 0; l <= kDegree; ++l) {
-        const float* from = (j + l) >> 6 == j >> 6 ? left : right;
-        *to++ = from == nullptr ? 0.0f : from[((row & 7) << 6) | ((j + l) & 63)];
+        const float* block = from + l < kBlockJ ? left : right;
+        *gathered++ = block == nullptr ? 0.0f : block[offset | ((from + l) & 63)];
       }
     }
     return any;
