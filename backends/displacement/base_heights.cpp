@@ -33,7 +33,7 @@ void BaseHeights::ask_rim(const Surface& base, const Pose& X_SP) {
 
 void BaseHeights::judge() {
   constexpr double kRounding = 1e-8;  // [m]
-  const double per_2dx = 0.5 / g_.dx, per_2dy = 0.5 / g_.dy;
+  const double per_dx = 1.0 / g_.dx, per_dy = 1.0 / g_.dy;
   const double most_x = kBend * g_.dx * g_.dx, most_y = kBend * g_.dy * g_.dy;
   // Beyond the grid there is nothing to compare with.
   std::vector<std::uint8_t> bends(z_.size(), kAlongX | kAlongY);
@@ -48,8 +48,10 @@ void BaseHeights::judge() {
     const double *before = row(iy - 1), *behind = row(iy + 1);
     for (const int ix : {-1, g_.nx}) b[ix] = z[ix] == z[ix] ? kAlongX | kAlongY : 0;
     for (int ix = 0; ix < g_.nx; ++ix) {
-      const double sx = (z[ix + 1] - z[ix - 1]) * per_2dx, sy = (behind[ix] - before[ix]) * per_2dy;
-      const double xx = std::fabs(z[ix + 1] - 2.0 * z[ix] + z[ix - 1]), yy = std::fabs(behind[ix] - 2.0 * z[ix] + before[ix]);
+      const double x1 = z[ix] - z[ix - 1], x2 = z[ix + 1] - z[ix], y1 = z[ix] - before[ix], y2 = behind[ix] - z[ix];
+      const double xx = std::fabs(x2 - x1), yy = std::fabs(y2 - y1);
+      // the slope without the jump, if there is one
+      const double sx = std::min(std::fabs(x1), std::fabs(x2)) * per_dx, sy = std::min(std::fabs(y1), std::fabs(y2)) * per_dy;
       // A second derivative is the curvature times (1 + slope^2)^1.5; a slope that is not known is none.
       const double square = (sx == sx ? sx * sx : 0.0) + (sy == sy ? sy * sy : 0.0), steep = (1.0 + square) * std::sqrt(1.0 + square);
       b[ix] = static_cast<std::uint8_t>((xx <= most_x * steep + kRounding ? kAlongX : 0) | (yy <= most_y * steep + kRounding ? kAlongY : 0));
