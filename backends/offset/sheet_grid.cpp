@@ -78,9 +78,16 @@ void write_sheet(const std::filesystem::path& file, const SheetGrid& grid, const
   sheet->setName(kGridName);
   sheet->setGridClass(openvdb::GRID_UNKNOWN);
   openvdb::math::Mat4d to_world = openvdb::math::Mat4d::identity();
-  to_world.preScale(openvdb::Vec3d(frame.du, frame.dy, frame.dy));
+  // The sheet's thickness means nothing; OpenVDB refuses transforms whose determinant is below 3e-15.
+  constexpr double kThinnest = 1e-3;
+  to_world.preScale(openvdb::Vec3d(frame.du, frame.dy, std::max(frame.dy, kThinnest)));
   to_world.postTranslate(openvdb::Vec3d(frame.u0, frame.y0, 0.0));
-  sheet->setTransform(openvdb::math::Transform::createLinearTransform(to_world));
+  try {
+    sheet->setTransform(openvdb::math::Transform::createLinearTransform(to_world));
+  } catch (const std::exception& e) {
+    throw Error(ErrorKind::configuration, std::string("the steps of the offsets are too small for a VDB file: ") + e.what(),
+                {file.string()});
+  }
   for (const auto& [name, text] : frame.metadata) sheet->insertMeta(name, openvdb::StringMetadata(text));
   auto to = sheet->getAccessor();
   for (const SheetGrid::Entry& b : grid.blocks())
