@@ -60,7 +60,20 @@ bool flats_only(const SurfaceSpec& spec) {
   return spec.body == Body::wheel && is_formula(spec) && spec.defects.polygonizations.empty();
 }
 
-std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats) {
+std::string words(const mesh::MeshRepair& repair) {
+  std::string text;
+  const auto add = [&](std::size_t n, std::string_view what) {
+    if (n > 0) text += fmt::format("{}{} {}", text.empty() ? "repaired the mesh: " : ", ", n, what);
+  };
+  add(repair.merged_vertices, "coincident vertices merged");
+  add(repair.degenerate, "triangles without area removed");
+  add(repair.duplicates, "duplicate triangles removed");
+  add(repair.flipped, "flipped triangles turned");
+  if (repair.turned_inside_out) text += text.empty() ? "repaired the mesh: turned inside out" : ", turned inside out";
+  return text.empty() ? text : text + ". ";
+}
+
+std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats, std::string* note = nullptr) {
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
     return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, flats);
   if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
@@ -68,12 +81,15 @@ std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vec
                                     : analytic::make_prismatic_surface(*chain);
   if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return spline::make_slice_surface(*slices, spec.nominal_radius);
   if (const auto* points = std::get_if<Profile>(&spec.shape)) return spline::make_profile_surface(*points, spec.nominal_radius);
-  return mesh::make_mesh_surface(std::get<TriangleMesh>(spec.shape), spec.body);
+  mesh::MeshRepair repair;
+  auto surface = mesh::make_mesh_surface(std::get<TriangleMesh>(spec.shape), spec.body, {}, &repair);
+  if (note != nullptr) *note = words(repair);
+  return surface;
 }
 
-std::shared_ptr<const Surface> make_natural(const SurfaceSpec& spec) {
+std::shared_ptr<const Surface> make_natural(const SurfaceSpec& spec, std::string& note) {
   if (flats_only(spec)) return undamaged(spec, spec.defects.flats);
-  return analytic::add_defects(undamaged(spec, {}), spec.defects, spec.body, spec.nominal_radius);
+  return analytic::add_defects(undamaged(spec, {}, &note), spec.defects, spec.body, spec.nominal_radius);
 }
 
 /// One re-representation: the natural surface, what is wanted of it, and the samplings that the backends share.
@@ -127,9 +143,7 @@ class Resampling {
     options.backend = std::move(backend);
     mesh::MeshRepair repair;
     auto surface = mesh::make_mesh_surface(triangles(), spec_.body, options, &repair);
-    if (repair.degenerate + repair.duplicates + repair.flipped > 0)
-      note_ += fmt::format("repaired the mesh: {} degenerate, {} duplicate, {} flipped triangles. ", repair.degenerate,
-                           repair.duplicates, repair.flipped);
+    note_ += words(repair);
     return surface;
   }
 
@@ -177,6 +191,11 @@ class Resampling {
     settings.region_uy.x_max += beyond;
     auto sample = offset::sample_offsets(*natural_.surface, *base, spec_.body, spec_.nominal_radius, settings);
     constexpr double kMostContinued = 0.02;
+    if (sample.gaps > 0)
+      throw Error(ErrorKind::input_data,
+                  fmt::format("offsets cannot represent this {}: it has no surface at {} sections between others", word(spec_.body),
+                              sample.gaps),
+                  {}, "use the backend 'mesh' for surfaces with gaps");
     if (static_cast<double>(sample.continued) > kMostContinued * static_cast<double>(sample.nodes))
       throw Error(ErrorKind::input_data,
                   fmt::format("offsets cannot represent this {}: {} of {} nodes over the base have no surface",
@@ -301,7 +320,7 @@ std::span<const std::string_view> standard_profile_names() { return analytic::st
 NaturalSurface create_natural(SurfaceSpec spec) {
   check(spec);
   NaturalSurface natural;
-  natural.surface = make_natural(spec);
+  natural.surface = make_natural(spec, natural.note);
   natural.constant_profile =
       spec.defects.empty() && (is_formula(spec) || std::holds_alternative<Profile>(spec.shape));
   natural.spec = std::move(spec);
@@ -329,6 +348,7 @@ RepresentedSurface represent(const NaturalSurface& natural, const Representation
   if (!wanted.backend.empty() && std::ranges::find(backend_names(), wanted.backend) == backend_names().end()) refuse(wanted.backend);
   if (is_natural(natural, wanted)) {
     out.surface = natural.surface;
+    out.note = natural.note;
     return out;
   }
   Resampling sampling(natural, wanted);

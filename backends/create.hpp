@@ -30,6 +30,7 @@ struct NaturalSurface {
   SurfaceSpec spec;                        ///< empty shape data is fine after construction, see create.cpp
   std::shared_ptr<const Surface> surface;
   bool constant_profile = false;           ///< prismatic rail or round wheel
+  std::string note;                        ///< repairs worth knowing; may be empty
 };
 
 /// Errors: Error(configuration) for a wheel without a positive nominal radius, a shape or defect that belongs to the other

@@ -14,6 +14,8 @@ constexpr int kColumns = 16;       ///< of a block
 constexpr int kTogether = 4 * kColumns;  ///< columns solved together: what they need stays in the cache
 /// [m] What is left of the way aside: heights then miss half its square times the curvature, normals its curvature.
 constexpr double kLinear = 2e-10;
+/// [m] Way along the surface for which the slopes of an offset are the same.
+constexpr double kSamePlace = 1e-8;
 }  // namespace
 
 DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& grid, const BaseHeights& base, const HeightsOut& out)
@@ -26,6 +28,11 @@ DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& g
       along_rail_(view.X_SP.rotation.row(0).transpose()),
       up_rail_(view.X_SP.rotation.row(2).transpose()),
       natural_(view.body, view.X_SP) {}
+
+inline bool DisplacedBand::is_last(double step, const Block& block, double steepness) {
+  const double size = std::fabs(step);
+  return size * block.rate * steepness <= kLinear && size * block.tilt <= kSamePlace;
+}
 
 inline DisplacedBand::Equation DisplacedBand::equation(const Point& p, double x, double y) const {
   const bool wheel = view_.body == Body::wheel;
@@ -109,7 +116,9 @@ DisplacedBand::Kind DisplacedBand::judge(int begin, int end, Block& block) {
   if (offsets.zero()) return Kind::untouched;
   const Reach aside = reach(r, View::moved_back(r, offsets, view_.directions(uy)));
   const double farthest = std::max(aside.x, aside.y);
-  block = {begin, end, view_.rate(offsets, uy, view_.X_SP.apply({r.x_min, r.y_min, t.low})),
+  const Vec3 corner = view_.X_SP.apply({r.x_min, r.y_min, t.low});
+  block = {begin, end, view_.rate(offsets, uy, corner),
+           std::max(view_.tilt_along(uy, corner), std::fabs(view_.X_SP.rotation(1, 2))),
            aside.x > kNoReach ? (aside.y > kNoReach ? BaseHeights::kAround : BaseHeights::kAlongX) : BaseHeights::kAlongY,
            farthest > kNoReach};
   if (present == 0) {
@@ -199,7 +208,7 @@ void DisplacedBand::approach(int iy, const std::vector<std::size_t>& active, std
     p.cx = x_[j], p.cy = y, p.h = z[ix];
     const Equation q = equation(p, x_[j], y);
     p.step = -q.F / q.g.z();
-    if (!(std::fabs(p.step) * blocks_[columns_[k].block].rate * q.steepness <= kLinear)) next.push_back(k);
+    if (!is_last(p.step, blocks_[columns_[k].block], q.steepness)) next.push_back(k);
   }
 }
 
@@ -247,7 +256,7 @@ void DisplacedBand::finish() {
       }
       const Equation q = equation(p, g_.x(ix), g_.y(iy));
       const double step = -q.F / q.g.z(), aside = block.rate * q.steepness;
-      bool good = q.g.z() > kLeastSlope && std::fabs(step) * aside <= kLinear;
+      bool good = q.g.z() > kLeastSlope && is_last(step, block, q.steepness);
       if (block.moves && good) {
         const double jx = (p.cx - g_.x0) * per_dx + 0.5, jy = (p.cy - g_.y0) * per_dy + 0.5;  // the nearest point is below
         good = kGrowth * aside <= kSafe && jx >= -1.0 && jx < g_.nx + 1 && jy >= -1.0 && jy < g_.ny + 1 &&

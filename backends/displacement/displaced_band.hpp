@@ -27,6 +27,7 @@ class DisplacedBand {
   struct Block {
     int first, last;      ///< columns
     double rate;          ///< how far points moved back may go aside per change of height
+    double tilt;          ///< how far points go along the surface per change of height
     std::uint8_t needed;  ///< smoothness of the base
     bool moves;           ///< whether points are moved aside at all
   };
@@ -55,6 +56,8 @@ class DisplacedBand {
     double F, steepness;
     Vec3 g;  ///< gradient, in P
   };
+  /// Whether a step leaves offset, base and their slopes as they are but for rounding and straight changes.
+  static bool is_last(double step, const Block& block, double steepness);
   Equation equation(const Point& p, double x, double y) const;
   Point& at(int iy, std::size_t column) { return points_[static_cast<std::size_t>(iy - first_) * columns_.size() + column]; }
 

@@ -219,7 +219,10 @@ void DisplacedPoints::advance(const PlanePoint& p, Unknown& w, std::size_t k, in
     const double noise = kRounding * w.steepness * w.steepness;
     const bool known = (iteration > 0 || (aside_x == 0.0 && aside_y == 0.0));
     // What is left is the bend of base and offsets over the way the points still go.
-    if (known && (size <= noise || size * w.rate * w.steepness <= kLinear)) w.state = Unknown::State::solved;
+    // Slopes belong to the place before the step: it must be as good as the same place.
+    constexpr double kSamePlace = 1e-9;  // [m]
+    if (known && (size <= noise || (size * w.rate * w.steepness <= kLinear && size <= kSamePlace)))
+      w.state = Unknown::State::solved;
     if (iteration > kPatience && size <= 20.0 * noise) w.state = Unknown::State::solved;
     if (iteration > kPatience && size > 0.5 * before) w.state = Unknown::State::failed;
   }

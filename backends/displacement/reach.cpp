@@ -94,13 +94,15 @@ Interval View::along_normal(const OffsetRange& range, const Directions& d) {
   return Interval{range.low, range.high} * d.e[2];
 }
 
-double View::rate(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const {
-  const Vec3 n = X_SP.rotation.col(2);
-  const NaturalPoint q(body, q_S);
+double View::tilt_along(const Rectangle& uy, const Vec3& q_S) const {
   const double turn = body == Body::wheel ? uy.x_max - uy.x_min : 0.0;
-  const double along = (std::fabs(n.dot(q.along)) + turn) * q.du_along;
+  return std::fabs(X_SP.rotation.col(2).dot(NaturalPoint(body, q_S).along)) + turn;
+}
+
+double View::rate(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const {
+  const double along = tilt_along(uy, q_S) * NaturalPoint(body, q_S).du_along;
   const double turning = body == Body::wheel ? greatest(offsets) * along : 0.0;
-  return offsets.max_d_u * along + offsets.max_d_y * std::fabs(n.y()) + turning;
+  return offsets.max_d_u * along + offsets.max_d_y * std::fabs(X_SP.rotation(1, 2)) + turning;
 }
 
 }  // namespace treadmark::displacement

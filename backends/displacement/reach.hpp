@@ -38,6 +38,8 @@ struct View {
   static Rectangle moved_back(const Rectangle& r, const OffsetRange& range, const Directions& e);
   static Interval along_normal(const OffsetRange& range, const Directions& e);
 
+  /// How far a point at most goes along u [m] per height along the normal of P, in a box of (u, y) that holds the point q.
+  double tilt_along(const Rectangle& uy, const Vec3& q_S) const;
   /// Bound of |d(offset * e)/dt| along the normal of P in a box of (u, y) that holds the point q.
   double rate(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const;
 };

@@ -16,6 +16,7 @@ namespace treadmark::mesh {
 namespace {
 
 constexpr double kMergeShare = 1e-9;       ///< of the size of the mesh: closer vertices are one
+constexpr double kMergeDistance = 1e-7;    ///< [m] likewise: far below what scanners resolve, and slivers spoil local fits
 constexpr double kFlat = 1e-12;            ///< height over longest side of a triangle that counts as without area
 constexpr double kLargestRadius = 5.0, kSmallestRadius = 0.02;  ///< [m] of wheels
 constexpr double kWidestRail = 2.0, kSmallestRail = 1e-3;       ///< [m] section, whole patch
@@ -43,8 +44,8 @@ void check_input(const TriangleMesh& mesh) {
 /// Coordinates in mm or in inches taken for metres show in the size of wheels and rail sections.
 void check_units(const TriangleMesh& mesh, Body body, const Vec3& extent) {
   const auto advise = [](bool large) {
-    return std::string(large ? "are the coordinates in mm? they must be metres here"
-                             : "were the coordinates converted from mm to metres twice?");
+    return std::string(large ? "is the factor from the units of the file to mm right? (scale_to_mm, --scale)"
+                             : "is the file in metres? then the factor to mm is 1000 (scale_to_mm, --scale)");
   };
   if (body == Body::wheel) {
     double radius = 0.0;
@@ -104,7 +105,7 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
   check_units(mesh, body, high - low);
   result.centre = 0.5 * (low + high);
 
-  const std::vector<std::uint32_t> same = merge_close(mesh.vertices, kMergeShare * (high - low).norm());
+  const std::vector<std::uint32_t> same = merge_close(mesh.vertices, std::max(kMergeDistance, kMergeShare * (high - low).norm()));
   for (std::size_t v = 0; v < same.size(); ++v) repair.merged_vertices += same[v] != v;
 
   result.triangles.reserve(mesh.triangles.size());

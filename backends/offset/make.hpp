@@ -34,6 +34,7 @@ struct OffsetSample {
   std::size_t nodes = 0;       ///< looked at
   std::size_t active = 0;      ///< beyond the tolerance
   std::size_t continued = 0;   ///< base present, target missing: offset of the nearest node of the section
+  std::size_t gaps = 0;        ///< sections where only the base has a surface, between others that have both
   double max_offset = 0.0;     ///< [m]
 };
 

@@ -155,6 +155,7 @@ struct Rows {
   std::int32_t bi = 0;
   std::vector<int> i;
   std::vector<std::pair<BlockKey, Block>> blocks;
+  std::vector<bool> bare;  ///< sections without offsets, in the order of i
   std::size_t continued = 0, sections = 0;
   double max_offset = 0.0;
 };
@@ -167,6 +168,7 @@ void sample_rows(const Plan& plan, const Surface& target, const Surface& base, f
     section.look(target, base, plan.frame.u0 + i * plan.frame.du);
     const long continued = section.subtract();
     if (continued >= 0) ++rows.sections;
+    rows.bare.push_back(continued < 0);
     rows.continued += static_cast<std::size_t>(std::max(continued, 0L));
     section.write(values.data() + static_cast<std::size_t>(plan.frame.wrapped(i) & 7) * width);
   }
@@ -185,6 +187,38 @@ void sample_rows(const Plan& plan, const Surface& target, const Surface& base, f
   }
 }
 
+/// Bare sections between others: more than one run of bare ones round a whole wheel, or any that both sides are not.
+std::size_t gaps(const std::vector<Rows>& all, const Plan& plan) {
+  std::vector<bool> bare;
+  for (const Rows& rows : all) bare.insert(bare.end(), rows.bare.begin(), rows.bare.end());
+  const bool whole = plan.frame.turn > 0 && plan.i_end - plan.i_begin == plan.frame.turn;
+  const std::size_t n = bare.size();
+  std::vector<std::size_t> runs;  // lengths of bare runs
+  for (std::size_t i = 0; i < n; ++i) {
+    if (!bare[i]) continue;
+    if (i == 0 || !bare[i - 1]) runs.push_back(0);
+    ++runs.back();
+  }
+  if (runs.empty()) return 0;
+  if (whole) {  // the part that is not there at all is the longest run, across the seam too
+    if (bare.front() && bare.back() && runs.size() > 1) {
+      runs.front() += runs.back();
+      runs.pop_back();
+    }
+    const std::size_t longest = *std::max_element(runs.begin(), runs.end());
+    std::size_t sum = 0;
+    for (const std::size_t run : runs) sum += run;
+    return sum - longest;
+  }
+  std::size_t between = 0;
+  for (std::size_t k = 0, i = 0; k < runs.size(); ++k) {
+    while (!bare[i]) ++i;
+    if (i > 0 && i + runs[k] < n) between += runs[k];
+    i += runs[k];
+  }
+  return between;
+}
+
 }  // namespace
 
 OffsetSample sample_offsets(const Surface& target, const Surface& base, Body body, double nominal_radius,
@@ -195,7 +229,7 @@ OffsetSample sample_offsets(const Surface& target, const Surface& base, Body bod
   std::vector<Rows> all;
   for (int i = plan.i_begin; i < plan.i_end; ++i) {
     const std::int32_t bi = plan.frame.wrapped(i) >> 3;
-    if (all.empty() || all.back().bi != bi) all.push_back({bi, {}, {}, 0, 0, 0.0});
+    if (all.empty() || all.back().bi != bi) all.push_back({bi, {}, {}, {}, 0, 0, 0.0});
     all.back().i.push_back(i);
   }
   const auto tolerance = static_cast<float>(settings.tolerance);
@@ -213,6 +247,7 @@ OffsetSample sample_offsets(const Surface& target, const Surface& base, Body bod
     result.max_offset = std::max(result.max_offset, rows.max_offset);
     sections += rows.sections;
   }
+  result.gaps = gaps(all, plan);
   if (sections == 0) throw Error(ErrorKind::input_data, "the base nowhere underlies the surface to be sampled");
   result.nodes = static_cast<std::size_t>(plan.i_end - plan.i_begin) * static_cast<std::size_t>(plan.j_end - plan.j_begin);
   result.offsets = offsets;

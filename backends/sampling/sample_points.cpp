@@ -114,12 +114,18 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
   PointGrid grid;
   grid.body = body;
   grid.u = stations(surface, body, nominal_radius, settings.region, spacing_u, grid.closed);
+  const auto refuse = [] {
+    throw Error(ErrorKind::configuration, "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
+                "use a coarser resolution or a smaller region");
+  };
+  const Box3 box = surface.bounds();
+  const double width = std::min(settings.region.y_max, box.max.y()) - std::max(settings.region.y_min, box.min.y());
+  // the sections are at least as long as they are wide: no need to look at them to know that they are too many
+  if (std::isfinite(width) && static_cast<double>(grid.u.size()) * width / settings.spacing > kMostPoints) refuse();
   const std::vector<double> reference = spread(grid.u);
   const double spacing_y = (settings.staggered ? kTriangleHeight : 1.0) * settings.spacing;
   grid.y = lateral_nodes(surface, body, reference, spacing_y, settings.region.y_min, settings.region.y_max, settings.common);
-  if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints)
-    throw Error(ErrorKind::configuration, "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
-                "use a coarser resolution or a smaller region");
+  if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints) refuse();
   grid.h.resize(grid.u.size() * grid.y.size());
   if (!settings.staggered) {
     parallel_for(grid.u.size(), [&](std::size_t i) {

@@ -11,6 +11,7 @@
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/force_balance.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
+#include "treadmark/solvers/wheelrail/missing_surface.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/sub_patches.hpp"
 
@@ -95,6 +96,25 @@ kalker::ContactProblem Pair::contact_problem(const Problem& p, const PatchSoluti
   if (!(patch.kinematics.velocity > 0.0)) c.regime = kalker::Regime::frictionless;
   return c;
 }
+
+namespace {
+
+/// A hole within contact makes wrong pressures round it: the case fails. An edge is worth a remark.
+void note_missing_surface(const PatchSolution& patch, PairSolution& solution) {
+  const MissingSurface missing = missing_beside_contact(patch.grid, patch.distance, patch.contact.pressure);
+  if (missing.hole > 0) {
+    solution.status = Status::failed;
+    solution.message = "the wheel or the rail has a hole of " + std::to_string(missing.hole) + " elements (" +
+                       std::to_string(1e6 * missing.hole * patch.grid.cell_area()) + " mm2) within contact, at y = " +
+                       std::to_string(1e3 * patch.frame.X_TC.origin.y()) +
+                       " mm of the track: pressures round it are not to be trusted; fill the hole in the data";
+  } else if (missing.edge > 0 && solution.message.empty()) {
+    solution.message = "contact reaches an edge of the wheel's or rail's surface (" + std::to_string(missing.edge) +
+                       " elements beside contact have no surface): pressures there depend on where the data end";
+  }
+}
+
+}  // namespace
 
 Pair::Level Pair::evaluate(const Problem& p, const Placement& placed, const detection::SearchResult& found,
                            const detection::BodyPair& bodies, PhaseTimes& times) {
@@ -252,6 +272,7 @@ PairSolution Pair::solve_right_hand(const Problem& given) {
     if (solution.message.empty() && patch.grid.cell_area() > 1.5 * p.discretisation.dx * p.discretisation.ds)
       solution.message = "elements were enlarged to keep the potential contact area below " +
                          std::to_string(p.discretisation.max_elements) + " elements";
+    note_missing_surface(patch, solution);
     const Pose& X_TC = patch.frame.X_TC;
     patch.force_T = X_TC.rotation * Vec3(c.force_x, c.force_y, c.force_n);
     const Vec3 moment_T = X_TC.rotation * Vec3(c.moment_x, c.moment_y, c.moment_n);

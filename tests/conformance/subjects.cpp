@@ -63,8 +63,8 @@ Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(doubl
   s.y_max = y_max;
   s.r_low = -0.05;
   s.r_high = 0.06;
-  s.u_min = -0.25;
-  s.u_max = 0.5;
+  s.u_min = -0.15;
+  s.u_max = 0.42;
   const auto at = [R](double theta, double y, double out, double roll, double yaw, double pitch) {
     const double r = R + out;
     return pose({r * std::sin(theta), y, r * std::cos(theta)}, roll, yaw, pitch);

@@ -200,5 +200,25 @@ TEST(DisplacedQueries, HeightBoundsHoldEveryHeight) {
   EXPECT_LE(loose, small / 10);
 }
 
+TEST(DisplacedQueries, SlopesOfOnePointOnALineThroughTheAxle) {
+  // nothing moves sideways there: the height is found at once, and the slopes must still belong to it
+  const auto exact = wheel(true), displaced = wheel(false);
+  constexpr double kTolerance = 1e-8;  // the analytic wheel's own: it stops within 3e-8 m of the point
+  for (const double theta : {-0.03, 0.0, 0.02, 0.05}) {
+    Pose X;
+    X.rotation.col(0) = Vec3(std::cos(theta), 0.0, -std::sin(theta));
+    X.rotation.col(2) = Vec3(std::sin(theta), 0.0, std::cos(theta));
+    for (const double y : {-0.012, 0.003, 0.018}) {
+      const Vec2 p(0.0, y);
+      double a[3], b[3];
+      exact->heights_at(X, {&p, 1}, {{&a[0], 1}, {&a[1], 1}, {&a[2], 1}});
+      displaced->heights_at(X, {&p, 1}, {{&b[0], 1}, {&b[1], 1}, {&b[2], 1}});
+      EXPECT_NEAR(a[0], b[0], 1e-12);
+      EXPECT_NEAR(a[1], b[1], kTolerance) << theta << ' ' << y;
+      EXPECT_NEAR(a[2], b[2], kTolerance) << theta << ' ' << y;
+    }
+  }
+}
+
 }  // namespace
 }  // namespace treadmark::testing
