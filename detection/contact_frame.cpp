@@ -39,7 +39,7 @@ ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch) {
   if (std::abs(std::abs(frame.angle) - kSteepest) < kMargin)
     frame.angle = std::copysign(kSteepest - kMargin, frame.angle);
   const double z = height_at(*bodies.rail, bodies.X_TR.inverse(), {patch.x, patch.y});
-  if (std::isnan(z)) throw Error(ErrorKind::numerical, "the rail has no surface at the contact reference point");
+  if (std::isnan(z)) throw Error(ErrorKind::numerical, "the rail has no surface at the contact reference point: there is a hole in its data, or contact lies beyond its edge");
   frame.X_TC = {{patch.x, patch.y, z}, rotation_x(frame.angle)};
   return frame;
 }

@@ -192,7 +192,19 @@ TEST_F(BadSurface, AHoleUnderTheContact) {
   });
   const ProgramResult r = run_mesh(mesh);
   EXPECT_EQ(r.status, 1);
-  EXPECT_THAT(r.out, HasSubstr("failed (the rail has no surface at the contact reference point)"));
+  EXPECT_THAT(r.out, HasSubstr("failed (the rail has no surface at the contact reference point: there is a hole"));
+}
+
+TEST_F(BadSurface, ASmallHoleWithinTheContact) {
+  TriangleMesh mesh = sound();
+  std::erase_if(mesh.triangles, [&](const auto& t) {
+    const Vec3 p = middle(mesh, t);
+    return std::hypot(p.x() - 3e-3, p.y()) < 1.6e-3;
+  });
+  const ProgramResult r = run_mesh(mesh);
+  EXPECT_EQ(r.status, 1);
+  EXPECT_THAT(r.out, HasSubstr("has a hole of"));
+  EXPECT_THAT(r.out, HasSubstr("within contact"));
 }
 
 TEST_F(BadSurface, NumbersThatAreNone) {

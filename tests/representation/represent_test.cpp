@@ -179,8 +179,10 @@ TEST(Represent, RepairedTrianglesAreNoted) {
   std::swap(mesh.triangles[10][0], mesh.triangles[10][1]);
   mesh.triangles.push_back(mesh.triangles[50]);
   mesh.triangles.push_back({3, 3, 7});
-  EXPECT_THAT(represent(create_natural(spec), {"mesh-flat", 0.0, {}}).note,
-              HasSubstr("repaired the mesh: 1 degenerate, 1 duplicate, 1 flipped triangles."));
+  const NaturalSurface natural = create_natural(spec);
+  EXPECT_THAT(represent(natural, {}).note, HasSubstr("1 flipped triangles turned"));
+  EXPECT_THAT(represent(natural, {"mesh-flat", 0.0, {}}).note,
+              HasSubstr("repaired the mesh: 1 triangles without area removed, 1 duplicate triangles removed, 1 flipped triangles turned."));
 }
 
 }  // namespace

@@ -171,14 +171,14 @@ TEST(PrepareMesh, RefusesMoebiusBands) {
 TEST(PrepareMesh, GuessesWrongUnits) {
   TriangleMesh wheel = small_wheel(), rail = small_rail();
   for (Vec3& v : wheel.vertices) v *= 1e3;
-  expect_refused(wheel, Body::wheel, "in mm");
+  expect_refused(wheel, Body::wheel, "is the factor from the units of the file");
   for (Vec3& v : wheel.vertices) v *= 1e-6;
-  expect_refused(wheel, Body::wheel, "twice");
+  expect_refused(wheel, Body::wheel, "is the file in metres?");
   TriangleMesh tiny = rail;
   for (Vec3& v : rail.vertices) v *= 1e3;
-  expect_refused(rail, Body::rail, "in mm");
+  expect_refused(rail, Body::rail, "is the factor from the units of the file");
   for (Vec3& v : tiny.vertices) v *= 1e-3;
-  expect_refused(tiny, Body::rail, "twice");
+  expect_refused(tiny, Body::rail, "is the file in metres?");
   // positions say nothing
   rail = small_rail();
   shift(rail, {1000.0, 50.0, -20.0});
