@@ -8,11 +8,11 @@
 #include <optional>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 
 #include "treadmark/app/run_cases.hpp"
 #include "treadmark/app/sampled_region.hpp"
 #include "treadmark/app/surface_store.hpp"
+#include "treadmark/app/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::app {
@@ -28,17 +28,8 @@ struct Choice {
   std::optional<std::string> wheel, rail;
 };
 
-const io::WheelRailCase* first_case(const io::CaseFile& file) {
-  for (const io::Case& c : file.cases)
-    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) return input;
-  return nullptr;
-}
-
 void require_known(const std::vector<std::string>& backends) {
-  for (const std::string& name : backends)
-    if (std::ranges::find(backend_names(), name) == backend_names().end())
-      throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", name), {},
-                  fmt::format("available: {}", fmt::join(backend_names(), ", ")));
+  for (const std::string& name : backends) require_backend(name);
 }
 
 /// Which bodies of the file are compared.
@@ -168,7 +159,7 @@ io::ComparisonCandidate candidate_of(const Choice& choice, const io::RunResult& 
 
 io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& settings, const Progress& progress) {
   const auto start = Clock::now();
-  const io::WheelRailCase* first = first_case(file);
+  const io::WheelRailCase* first = first_wheelrail_case(file);
   if (first == nullptr)
     throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail to be compared", {file.path.string()});
   require_known(settings.backends);

@@ -2,25 +2,25 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/convert_surface.hpp"
 
-#include <cctype>
+#include <chrono>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/read_surface.hpp"
+#include "treadmark/app/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
 
 namespace treadmark::app {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension;
-}
+using Clock = std::chrono::steady_clock;
+
+std::string lower_extension(const std::filesystem::path& file) { return io::profiles::lower(file.extension().string()); }
 
 Body body_of(const std::filesystem::path& input, const std::optional<Body>& asked) {
   if (asked) return *asked;
@@ -36,11 +36,14 @@ NaturalSurface source_of(const std::filesystem::path& input, const ConvertSettin
   const std::string extension = lower_extension(input);
   io::SurfaceSource source;
   double radius = settings.nominal_radius;
-  if (extension == ".toml" || extension == ".inp") {
+  const bool is_case = extension == ".toml" || extension == ".inp";
+  const auto refuse = [&](const char* what) { throw Error(ErrorKind::configuration, what, {input.string()}, "leave it out"); };
+  if (!is_case && !settings.overrides.empty()) refuse("--set changes keys of case files, this is none");
+  if ((is_case || is_offset_file(input)) && settings.scale_to_mm != 1.0) refuse("--scale belongs to profiles, slices and triangles");
+  if (is_offset_file(input) && radius > 0.0) refuse("offsets have their own nominal radius, --nominal-radius cannot change it");
+  if (is_case) {
     const io::CaseFile file = io::read_any_case(input.string(), settings.overrides);
-    const io::WheelRailCase* first = nullptr;
-    for (const io::Case& c : file.cases)
-      if (first == nullptr) first = std::get_if<io::WheelRailCase>(&c.content);
+    const io::WheelRailCase* first = first_wheelrail_case(file);
     if (first == nullptr) throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {input.string()});
     const Body body = body_of(input, settings.body);
     source = body == Body::wheel ? first->wheel : first->rail;
@@ -90,23 +93,25 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   Representation wanted{triangles ? "mesh" : slices ? "spline" : "offset", settings.resolution, region_of(out.body, settings)};
   // the same data again need a resolution to be sampled anew
   if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
+  Sampled sampled;
+  const auto start = Clock::now();
   if (triangles) {
     out.kind = "triangles";
-    io::write_mesh(output, to_triangles(out.source, wanted));
+    io::write_mesh(output, to_triangles(out.source, wanted, &sampled));
   } else if (slices) {
     out.kind = "slices";
-    io::write_slices(output, to_slices(out.source, wanted));
+    io::write_slices(output, to_slices(out.source, wanted, &sampled));
   } else {
     out.kind = "offsets";
-    write_offsets(output, out.source, wanted);
+    write_offsets(output, out.source, wanted, &sampled);
   }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   // measured on the surface that a reader of the file gets
   io::SurfaceSource again;
   again.geometry = io::GeometryFile{output, {}};
   again.where = {output.string(), 0, 0};
   const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
-  out.written = represent(out.source, wanted);
-  out.written.surface = back.surface;
+  out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
   out.fit = fit_error(out.source, out.written);
   return out;
 }

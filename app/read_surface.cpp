@@ -8,6 +8,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 
@@ -34,9 +35,7 @@ NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSourc
 }  // namespace
 
 bool is_offset_file(const std::filesystem::path& file) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return extension == ".vdb";
+  return io::profiles::lower(file.extension().string()) == ".vdb";
 }
 
 NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius) {

@@ -56,6 +56,12 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   return p;
 }
 
+const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file) {
+  for (const io::Case& c : file.cases)
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) return input;
+  return nullptr;
+}
+
 io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSolution& s) {
   io::CaseResult result;
   result.status = s.status;

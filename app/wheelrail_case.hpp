@@ -11,6 +11,9 @@ namespace treadmark::app {
 /// The solver's view of a wheel-rail case. constant_profiles: prismatic rail and round wheel.
 wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_profiles);
 
+/// The first case of a wheel on a rail in a file; null if there is none.
+const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file);
+
 /// The result file's view of its solution.
 io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSolution& solution);
 

@@ -102,9 +102,7 @@ class Resampling {
       throw Error(ErrorKind::configuration, "the resolution of a surface must be positive");
   }
 
-  double resolution() const { return resolution_; }
-  const Region& region() const { return region_; }
-  const std::string& note() const { return note_; }
+  Sampled sampled() const { return {resolution_, region_, note_}; }
 
   std::shared_ptr<const Surface> as_spline() {
     if (spec_.defects.empty() || flats_only(spec_)) {
@@ -202,6 +200,8 @@ class Resampling {
                               word(spec_.body), sample.continued, sample.nodes),
                   {}, "use the backend 'mesh' or 'spline' for surfaces with gaps");
     if (sample.continued > 0) note_ += fmt::format("{} nodes at the ends of the profile continue their neighbours. ", sample.continued);
+    note_ += fmt::format("{} active voxels, {:.3g} MB. ", sample.active,
+                         1e-6 * static_cast<double>(offset::memory_bytes(*sample.offsets)));
     return sample;
   }
 
@@ -209,8 +209,6 @@ class Resampling {
     std::shared_ptr<const Surface> base;
     SurfaceSpec base_spec;
     const offset::OffsetSample sample = offsets(base, base_spec);
-    note_ += fmt::format("{} active voxels, {:.3g} MB. ", sample.active,
-                         1e-6 * static_cast<double>(offset::memory_bytes(*sample.offsets)));
     return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
   }
 
@@ -295,11 +293,6 @@ class Resampling {
   std::string note_;
 };
 
-[[noreturn]] void refuse(std::string_view backend) {
-  throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", backend), {},
-              fmt::format("available: {}", fmt::join(backend_names(), ", ")));
-}
-
 /// Formulas need no samples where they are asked for as formulas, splines none where points are given.
 bool is_natural(const NaturalSurface& natural, const Representation& wanted) {
   if (wanted.backend.empty()) return true;
@@ -313,6 +306,12 @@ std::span<const std::string_view> backend_names() {
   static constexpr std::array<std::string_view, 8> kNames{"analytic", "spline",           "nurbs",           "mesh",
                                                           "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"};
   return kNames;
+}
+
+void require_backend(std::string_view name) {
+  if (std::ranges::find(backend_names(), name) == backend_names().end())
+    throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", name), {},
+                fmt::format("available: {}", fmt::join(backend_names(), ", ")));
 }
 
 std::span<const std::string_view> standard_profile_names() { return analytic::standard_profile_names(); }
@@ -345,7 +344,7 @@ RepresentedSurface represent(const NaturalSurface& natural, const Representation
   const auto start = Clock::now();
   RepresentedSurface out;
   out.region = wanted.region;
-  if (!wanted.backend.empty() && std::ranges::find(backend_names(), wanted.backend) == backend_names().end()) refuse(wanted.backend);
+  if (!wanted.backend.empty()) require_backend(wanted.backend);
   if (is_natural(natural, wanted)) {
     out.surface = natural.surface;
     out.note = natural.note;
@@ -363,9 +362,10 @@ RepresentedSurface represent(const NaturalSurface& natural, const Representation
   if (wanted.backend == "offset-quadratic") out.surface = sampling.as_offset(Interpolation::quadratic, "offset-quadratic");
   if (wanted.backend == "offset-bilinear") out.surface = sampling.as_offset(Interpolation::bilinear, "offset-bilinear");
   out.resampled = true;
-  out.resolution = sampling.resolution();
-  out.region = sampling.region();
-  out.note = sampling.note();
+  const Sampled sampled = sampling.sampled();
+  out.resolution = sampled.resolution;
+  out.region = sampled.region;
+  out.note = sampled.note;
   out.build_seconds = std::chrono::duration<double>(Clock::now() - start).count();
   return out;
 }
@@ -384,16 +384,27 @@ std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::stri
   return represent(create_natural(spec), {std::string(backend), 0.0, {}}).surface;
 }
 
-TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted) {
-  return Resampling(natural, wanted).triangles();
+TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
+  Resampling sampling(natural, wanted);
+  TriangleMesh mesh = sampling.triangles();
+  if (sampled != nullptr) *sampled = sampling.sampled();
+  return mesh;
 }
 
-SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted) { return Resampling(natural, wanted).slices(); }
+SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
+  Resampling sampling(natural, wanted);
+  SliceSet slices = sampling.slices();
+  if (sampled != nullptr) *sampled = sampling.sampled();
+  return slices;
+}
 
-void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted) {
+void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
+                   Sampled* sampled) {
+  Resampling sampling(natural, wanted);
   std::shared_ptr<const Surface> base;
   offset::OffsetFile content;
-  content.offsets = Resampling(natural, wanted).offsets(base, content.base).offsets;
+  content.offsets = sampling.offsets(base, content.base).offsets;
+  if (sampled != nullptr) *sampled = sampling.sampled();
   offset::write_vdb(file, content);
 }
 

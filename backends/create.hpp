@@ -22,12 +22,15 @@ using sampling::Region;
 /// triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear".
 std::span<const std::string_view> backend_names();
 
+/// Errors: Error(configuration) that lists the representations if this is none of them.
+void require_backend(std::string_view name);
+
 /// Standard profiles that StandardProfile::name may name: "60E1", "S1002".
 std::span<const std::string_view> standard_profile_names();
 
 /// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles a mesh.
 struct NaturalSurface {
-  SurfaceSpec spec;                        ///< empty shape data is fine after construction, see create.cpp
+  SurfaceSpec spec;                        ///< what it was made from; of a file of offsets body and radius only
   std::shared_ptr<const Surface> surface;
   bool constant_profile = false;           ///< prismatic rail or round wheel
   std::string note;                        ///< repairs worth knowing; may be empty
@@ -71,11 +74,19 @@ SurfaceDifference fit_error(const NaturalSurface& natural, const RepresentedSurf
 /// The surface of one wheel or rail in a representation at the default resolution; errors as above.
 std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::string_view backend = "");
 
-/// Writes the surface for other programs and for later, by the extension of the file: .ply .stl .obj .off (triangles),
-/// .vdb (offsets over their base). Slices and profiles are written by io. Returns what was written, resampled as wanted.
+/// What a sampling covers.
+struct Sampled {
+  double resolution = 0.0;     ///< [m] 0 = as given
+  Region region;
+  std::string note;
+};
+
+/// A surface as data for other programs and for later, sampled as wanted (backend is not looked at): triangles and slices are
+/// written by io, offsets over their base go to a .vdb file. sampled is filled in if not null.
 /// Errors: those of represent; Error(configuration) for a file that cannot be written.
-TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted);
-SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted);
-void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted);
+TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
+SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
+void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
+                   Sampled* sampled = nullptr);
 
 }  // namespace treadmark

@@ -69,14 +69,17 @@ int main(int argc, char** argv) {
   CLI::App* compare = program.add_subcommand("compare", "Solve the same cases through several surface representations");
   compare->add_option("CASE", comparison.case_file, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
   const auto list_option = [](CLI::App* verb, const char* name, auto& value, const char* text, const char* type) {
-    verb->add_option(name, value, text)->delimiter(',')->allow_extra_args(false)->type_name(type);
+    return verb->add_option(name, value, text)->delimiter(',')->allow_extra_args(false)->type_name(type);
   };
-  list_option(compare, "--backends", comparison.backends, "Representations, default all that the shapes allow", "A,B,...");
+  CLI::Option* backends = list_option(compare, "--backends", comparison.backends, "Representations, default all that the shapes allow", "A,B,...");
   list_option(compare, "--resolutions", comparison.resolutions_mm, "Spacings of the data [mm], default 1,0.5,0.25", "MM,...");
-  list_option(compare, "--wheel-backends", comparison.wheel_backends, "With --rail-backends: every wheel on every rail", "A,B,...");
-  list_option(compare, "--rail-backends", comparison.rail_backends, "See --wheel-backends", "A,B,...");
-  compare->add_option("--bodies", comparison.bodies, "Compared bodies: wheel, rail, both; auto = those that change along their length")
-      ->check(CLI::IsMember({"auto", "wheel", "rail", "both"}));
+  CLI::Option* bodies =
+      compare->add_option("--bodies", comparison.bodies, "Compared bodies: wheel, rail, both; auto = those that change along their length")
+          ->check(CLI::IsMember({"auto", "wheel", "rail", "both"}));
+  list_option(compare, "--wheel-backends", comparison.wheel_backends, "With --rail-backends: every wheel on every rail", "A,B,...")
+      ->excludes(backends)
+      ->excludes(bodies);
+  list_option(compare, "--rail-backends", comparison.rail_backends, "See --wheel-backends", "A,B,...")->excludes(backends)->excludes(bodies);
   compare->add_option("-o,--output", comparison.output_folder, "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
       ->type_name("FOLDER");
   compare->add_option("--json", comparison.json_file, "Write the rows here; - for standard output instead of the table")->type_name("FILE");

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/profiles/write_slices.hpp"
 
-#include <cctype>
 #include <cstddef>
 #include <iterator>
 #include <string>
@@ -10,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 
 namespace treadmark::io {
@@ -20,8 +20,7 @@ constexpr std::size_t kFewestSlices = 4;
 constexpr double kLeastStep = 1e-6;
 
 void check(const std::filesystem::path& file, const SliceSet& slices) {
-  std::string extension = file.extension().string();
-  for (char& c : extension) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+  const std::string extension = profiles::lower(file.extension().string());
   const char* expected = slices.body == Body::rail ? ".slcs" : ".slcw";
   if (extension != expected)
     throw Error(ErrorKind::configuration, fmt::format("slices of a {} are written to a file *{}", slices.body == Body::rail ? "rail" : "wheel", expected),

@@ -199,6 +199,8 @@ TEST(CompareCommand, WritesTableFilesAndPictures) {
   EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "clay"}).status, 2);
   EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--resolutions", "-1"}).status, 2);
   EXPECT_EQ(treadmark::testing::run_program({"compare", "missing.toml"}).status, 2);
+  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "spline",
+                                             "--wheel-backends", "mesh"}).status, 2);
 }
 
 }  // namespace

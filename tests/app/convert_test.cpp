@@ -112,6 +112,11 @@ TEST(ConvertSurface, SaysWhatIsMissing) {
   wheel.body = Body::wheel;
   rail.body = Body::rail;
   expect("flat.toml", "x.ply", {}, "--body");
+  ConvertSettings scaled = wheel, changed = wheel;
+  scaled.scale_to_mm = 25.4;
+  expect("flat.toml", "x.ply", scaled, "--scale belongs to");
+  changed.overrides = {"wheelset.y_mm=1"};
+  expect("wheel.txt", "x.ply", changed, "--set changes keys of case files");
   expect("flat.toml", "x.dat", wheel, "cannot be written");
   expect("wheel.txt", "x.ply", wheel, "--nominal-radius");
   expect("flat.toml", "x.slcs", wheel, "*.slcw");
