@@ -12,19 +12,29 @@ import subprocess
 import sys
 
 
-def main():
-    parser = argparse.ArgumentParser(description=__doc__)
+def common_parser(description):
+    parser = argparse.ArgumentParser(description=description)
     parser.add_argument("--program", required=True)
     parser.add_argument("--source", required=True, type=pathlib.Path)
     parser.add_argument("--work", required=True, type=pathlib.Path)
+    return parser
+
+
+def shared_folder(source):
+    """The folder of the reference data; ends the program as skipped, in CI as failed, where there is none."""
+    shared = pathlib.Path(os.environ.get("TREADMARK_SHARED", source.parent / "shared"))
+    if not (shared / "data").is_dir():
+        print(f"reference data not found in {shared}")
+        sys.exit(1 if os.environ.get("CI") == "true" else 77)
+    return shared
+
+
+def main():
+    parser = common_parser(__doc__)
     parser.add_argument("case")
     parser.add_argument("tolerance")
     args = parser.parse_args()
-
-    shared = pathlib.Path(os.environ.get("TREADMARK_SHARED", args.source.parent / "shared"))
-    if not (shared / "data").is_dir():
-        print(f"reference data not found in {shared}")
-        return 1 if os.environ.get("CI") == "true" else 77
+    shared = shared_folder(args.source)
 
     result = args.work / f"{args.case}.json"
     result.unlink(missing_ok=True)

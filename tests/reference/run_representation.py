@@ -7,12 +7,11 @@ The greatest pressure of every patch must lie within --pmax-rtol of the referenc
 tools/compare_results.py counts it (a force against the greatest force, positions within hundredths of a millimetre).
 Exit status: 0 agrees, 1 differs or failed, 77 reference data not present (in CI that is 1).
 """
-import argparse
 import json
-import os
-import pathlib
 import subprocess
 import sys
+
+from run_reference import common_parser, shared_folder
 
 OTHERS = ("wheelset.z_mm", "force_on_rail.fx_tr_N", "force_on_rail.fy_tr_N", "force_on_rail.fz_tr_N", "reference.x_tr_mm",
           "reference.y_tr_mm", "reference.z_tr_mm", "reference.angle_rad", "fn_N", "fx_N", "fs_N", "mn_Nmm", "approach_mm")
@@ -32,21 +31,14 @@ def worst_pressure(ours, reference):
 
 
 def main():
-    parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--program", required=True)
-    parser.add_argument("--source", required=True, type=pathlib.Path)
-    parser.add_argument("--work", required=True, type=pathlib.Path)
+    parser = common_parser(__doc__)
     parser.add_argument("--resolution", required=True, help="[mm]")
     parser.add_argument("--rtol", default="0.01")
     parser.add_argument("--pmax-rtol", type=float, default=0.03)
     parser.add_argument("case")
     parser.add_argument("backend")
     args = parser.parse_args()
-
-    shared = pathlib.Path(os.environ.get("TREADMARK_SHARED", args.source.parent / "shared"))
-    if not (shared / "data").is_dir():
-        print(f"reference data not found in {shared}")
-        return 1 if os.environ.get("CI") == "true" else 77
+    shared = shared_folder(args.source)
 
     result = args.work / f"{args.case}_{args.backend}.json"
     result.unlink(missing_ok=True)
