@@ -320,8 +320,7 @@ NaturalSurface create_natural(SurfaceSpec spec) {
   check(spec);
   NaturalSurface natural;
   natural.surface = make_natural(spec, natural.note);
-  natural.constant_profile =
-      spec.defects.empty() && (is_formula(spec) || std::holds_alternative<Profile>(spec.shape));
+  natural.constant_profile = natural.surface->constant_profile();
   natural.spec = std::move(spec);
   return natural;
 }

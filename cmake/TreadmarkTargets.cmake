@@ -11,6 +11,18 @@ target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic -Ws
 
 set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")
 
+# Kernels named *_avx2.cpp: see core/cpu.hpp.
+function(treadmark_avx2_flags)
+  if(NOT CMAKE_SYSTEM_PROCESSOR MATCHES "^(x86_64|AMD64)$")
+    return()
+  endif()
+  foreach(source IN LISTS ARGN)
+    if(source MATCHES "_avx2\\.cpp$")
+      set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+    endif()
+  endforeach()
+endfunction()
+
 # treadmark_library(<folder> [PUBLIC targets...] [PRIVATE targets...])
 # A static library treadmark::<folder with _> from the .cpp files directly in the current folder.
 function(treadmark_library folder)
@@ -18,6 +30,7 @@ function(treadmark_library folder)
   string(REPLACE "/" "_" name "${folder}")
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
+  treadmark_avx2_flags(${sources})
   add_library(treadmark_${name} STATIC ${sources})
   add_library(treadmark::${name} ALIAS treadmark_${name})
   set_target_properties(treadmark_${name} PROPERTIES EXPORT_NAME ${name})

@@ -11,7 +11,15 @@
 
 namespace treadmark::detection {
 
+enum class SearchMethod {
+  automatic,    ///< locus for constant profiles, else pruned grid
+  pruned_grid,  ///< heights only where conservative bounds do not rule contact out
+  full_grid,    ///< heights on the whole grid: the oracle of the others
+  locus,        ///< constant profiles only: where the wheel's circles come closest to the rail
+};
+
 struct SearchSettings {
+  SearchMethod method = SearchMethod::automatic;
   Grid2 grid_T;                      ///< first grid, seen along z of T; must cover everything that may touch
   PenetrationWeight weight = PenetrationWeight::squared;
   PatchRules rules;

@@ -18,6 +18,7 @@ class PrismaticSurface final : public Surface {
 
   std::string_view backend() const override { return "analytic"; }
   Facing facing() const override { return Facing::up; }
+  bool constant_profile() const override { return true; }
   Box3 bounds() const override;
   std::size_t memory_bytes() const override { return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment); }
 

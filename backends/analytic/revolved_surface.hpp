@@ -18,6 +18,7 @@ class RevolvedSurface final : public Surface {
 
   std::string_view backend() const override { return "analytic"; }
   Facing facing() const override { return Facing::down; }
+  bool constant_profile() const override { return body_.flats.empty(); }
   Box3 bounds() const override {
     return {{-body_.r_max, body_.curve.y_min(), -body_.r_max}, {body_.r_max, body_.curve.y_max(), body_.r_max}};
   }

@@ -30,6 +30,7 @@ class RevolutionSurface final : public Surface {
 
   std::string_view backend() const override { return "spline"; }
   Facing facing() const override { return Facing::down; }
+  bool constant_profile() const override { return true; }
   Box3 bounds() const override;
   std::size_t memory_bytes() const override;
 
