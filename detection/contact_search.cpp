@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <string>
 
 #include "treadmark/core/error.hpp"
@@ -40,14 +39,14 @@ Grid2 refined_grid(const Grid2& g, const Region& r, const SearchSettings& s) {
   return f;
 }
 
-ContactPatch to_patch(const GapField& field, const Region& r, bool interpolate_ends, bool at_deepest) {
-  const Grid2& g = field.grid;
+ContactPatch to_patch(const GapField& field, double wheel_dz, const Region& r, bool interpolate_ends, bool at_deepest) {
+  const Grid2& g = field.grid();
   ContactPatch p;
-  p.extent.box = interpolate_ends ? crossing_extent(field, r)
+  p.extent.box = interpolate_ends ? crossing_extent(field, wheel_dz, r)
                            : Rectangle{g.x(r.ix_min), g.x(r.ix_max), g.y(r.iy_min), g.y(r.iy_max)};
   p.extent.z_at_y_min = rail_height_near(field, r.ix_deepest, p.extent.box.y_min);
   p.extent.z_at_y_max = rail_height_near(field, r.ix_deepest, p.extent.box.y_max);
-  p.deepest_T = {g.x(r.ix_deepest), g.y(r.iy_deepest), field.rail_z[g.index(r.ix_deepest, r.iy_deepest)]};
+  p.deepest_T = {g.x(r.ix_deepest), g.y(r.iy_deepest), field.rail_z(r.ix_deepest, r.iy_deepest)};
   p.x = at_deepest ? p.deepest_T.x() : r.x;
   p.y = at_deepest ? p.deepest_T.y() : r.y;
   p.inclination = r.inclination;
@@ -61,13 +60,6 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
   return a.x_min <= b.x_max && b.x_min <= a.x_max && a.y_min <= b.y_max && b.y_min <= a.y_max;
 }
 
-// NaN where the bodies nowhere face each other.
-double least_gap(const GapField& field) {
-  double least = std::numeric_limits<double>::quiet_NaN();
-  for (const double gap : field.gap) least = std::fmin(least, gap);
-  return least;
-}
-
 }  // namespace
 
 ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& settings) : bodies_(bodies), settings_(settings) {
@@ -77,8 +69,19 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     throw Error(ErrorKind::configuration,
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
-  field_ = gap_field(bodies, g, true, settings.facets);
+  const bool one_profile = !settings.facets && ContactLocus::applies(bodies);
+  if (settings.method == SearchMethod::locus && !one_profile)
+    throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel", {},
+                "use the grid method");
+  if (settings.method == SearchMethod::locus || (settings.method == SearchMethod::automatic && one_profile && settings.refine)) {
+    locus_.emplace(bodies, g);
+  } else {
+    if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;
+    gap_.emplace(bodies, g, settings.facets, settings_.method == SearchMethod::full_grid);
+  }
 }
+
+double ContactSearch::least_gap() { return locus_ ? locus_->least() : gap_->least(); }
 
 BodyPair ContactSearch::bodies_at(double wheel_dz) const {
   BodyPair moved = bodies_;
@@ -86,26 +89,36 @@ BodyPair ContactSearch::bodies_at(double wheel_dz) const {
   return moved;
 }
 
-SearchResult ContactSearch::at(double wheel_dz) const {
+SearchResult ContactSearch::at(double wheel_dz) {
   const SearchSettings& s = settings_;
-  const BodyPair bodies = bodies_at(wheel_dz);
-  GapField field = field_;
-  for (double& gap : field.gap) gap -= wheel_dz;
-
-  SearchResult result;
-  result.least_gap = least_gap(field);
-  if (std::isnan(result.least_gap)) return result;
-
+  if (std::isnan(least_gap())) return {{}, least_gap()};
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
+  return locus_ ? on_locus(wheel_dz, look_below) : on_grid(wheel_dz, look_below);
+}
+
+SearchResult ContactSearch::on_locus(double wheel_dz, double look_below) {
+  const SearchSettings& s = settings_;
+  ContactLocus::Found found = locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest);
+  return {combine_patches(std::move(found.patches), found.near_misses, s.rules), found.least_gap};
+}
+
+SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
+  const SearchSettings& s = settings_;
+  SearchResult result;
+  result.least_gap = gap_->least() - wheel_dz;
+  gap_->reveal(look_below + wheel_dz);
+
   std::vector<ContactPatch> patches, near_misses;
-  for (const Region& region : find_regions(field, s.weight, look_below)) {
+  for (const Region& region : find_regions(gap_->field(), wheel_dz, s.weight, look_below)) {
     if (!s.refine) {
-      (region.near_miss() ? near_misses : patches).push_back(to_patch(field, region, false, s.reference_at_deepest));
+      // Guard rows give heights too.
+      gap_->reveal({region.ix_min, region.iy_min, region.ix_max - region.ix_min + 1, region.iy_max - region.iy_min + 1});
+      (region.near_miss() ? near_misses : patches).push_back(to_patch(gap_->field(), wheel_dz, region, false, s.reference_at_deepest));
       continue;
     }
-    const GapField fine = gap_field(bodies, refined_grid(s.grid_T, region, s), true);
-    for (const Region& part : find_regions(fine, s.weight, s.rules.near_miss)) {
-      const ContactPatch patch = to_patch(fine, part, !part.near_miss(), s.reference_at_deepest);
+    const GapField& fine = refined(region);
+    for (const Region& part : find_regions(fine, wheel_dz, s.weight, s.rules.near_miss)) {
+      const ContactPatch patch = to_patch(fine, wheel_dz, part, !part.near_miss(), s.reference_at_deepest);
       result.least_gap = std::min(result.least_gap, patch.least_gap);
       // Margins of neighbouring fine grids overlap: a region seen twice counts once.
       auto& list = part.near_miss() ? near_misses : patches;
@@ -117,6 +130,16 @@ SearchResult ContactSearch::at(double wheel_dz) const {
   }
   result.patches = combine_patches(std::move(patches), near_misses, s.rules);
   return result;
+}
+
+const GapField& ContactSearch::refined(const Region& region) {
+  const Grid2 grid = refined_grid(settings_.grid_T, region, settings_);
+  for (const auto& made : refined_)
+    if (made->grid == grid) return made->field;
+  constexpr std::size_t kKept = 8;
+  if (refined_.size() >= kKept) refined_.erase(refined_.begin());
+  refined_.push_back(std::make_unique<Refined>(Refined{grid, gap_field(bodies_, grid)}));
+  return refined_.back()->field;
 }
 
 SearchResult search_contact(const BodyPair& bodies, const SearchSettings& settings) {

@@ -2,17 +2,20 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <vector>
 
+#include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/interpenetration.hpp"
+#include "treadmark/detection/pruned_gap.hpp"
 #include "treadmark/detection/wheel_facets.hpp"
 
 namespace treadmark::detection {
 
 enum class SearchMethod {
-  automatic,    ///< locus for constant profiles, else pruned grid
+  automatic,    ///< locus for constant profiles where refine is on, else pruned grid
   pruned_grid,  ///< heights only where conservative bounds do not rule contact out
   full_grid,    ///< heights on the whole grid: the oracle of the others
   locus,        ///< constant profiles only: where the wheel's circles come closest to the rail
@@ -40,25 +43,46 @@ struct SearchResult {
   double least_gap = 0.0;
 };
 
-/// The grid-based contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid,
-/// interpenetration regions, weighted contact reference and angle, contact patches.
-/// The first grid is evaluated once; a wheel that moves along z of T only shifts its gap, so that a force iteration
-/// asks at() for one position after the other. The surfaces must outlive this. Deterministic; at() is const and thread-safe.
+/// The contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid, interpenetration
+/// regions, weighted contact reference and angle, contact patches. Of the grid only what may touch is evaluated (PrunedGap);
+/// constant profiles need no grid (ContactLocus).
+/// What was evaluated stays: a wheel that moves along z of T only shifts its gap, so that a force iteration asks at() for one
+/// position after the other. The surfaces must outlive this. Deterministic; results do not depend on the questions before,
+/// but for rounding. One per thread.
 class ContactSearch {
  public:
-  /// Errors: Error(configuration) if the search grid is absurdly large.
+  /// Errors: Error(configuration) if the search grid is absurdly large, or for SearchMethod::locus without constant profiles.
   ContactSearch(const BodyPair& bodies, const SearchSettings& settings);
 
+  /// The method in use; never automatic.
+  SearchMethod method() const { return locus_ ? SearchMethod::locus : settings_.method; }
+
+  /// Least gap [m] at the position given at construction, on the first grid; NaN where the bodies nowhere face each other.
+  double least_gap();
+
   /// Patches with the wheel moved by wheel_dz [m] along z of T from the position given at construction.
-  SearchResult at(double wheel_dz) const;
+  SearchResult at(double wheel_dz);
 
   /// The bodies with the wheel moved.
   BodyPair bodies_at(double wheel_dz) const;
 
+  /// Points of the first grid whose heights were asked for so far.
+  std::size_t points_evaluated() const { return gap_ ? gap_->points_known() : 0; }
+
  private:
+  SearchResult on_locus(double wheel_dz, double look_below);
+  SearchResult on_grid(double wheel_dz, double look_below);
+  const GapField& refined(const Region& region);
+
   BodyPair bodies_;
   SearchSettings settings_;
-  GapField field_;
+  std::optional<ContactLocus> locus_;
+  std::optional<PrunedGap> gap_;
+  struct Refined {
+    Grid2 grid;
+    GapField field;
+  };
+  std::vector<std::unique_ptr<Refined>> refined_;  ///< made before, latest last
 };
 
 /// One search at the given position.

@@ -2,28 +2,41 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/detection/gap_field.hpp"
 
+#include <algorithm>
 #include <cmath>
+
+#include "treadmark/detection/gap_source.hpp"
 
 namespace treadmark::detection {
 
-GapField gap_field(const BodyPair& bodies, const Grid2& grid_T, bool with_inclination,
-                   const std::optional<WheelFacets>& facets) {
-  GapField field;
-  field.grid = grid_T;
-  const std::size_t n = grid_T.size();
-  field.rail_z.resize(n);
-  field.gap.resize(n);
-  if (with_inclination) field.inclination.resize(n);
+Grid2 part_of(const Grid2& g, const IndexBox& b) { return {g.x(b.ix), g.y(b.iy), g.dx, g.dy, b.nx, b.ny}; }
 
-  bodies.rail->heights({bodies.X_TR.inverse(), grid_T}, {field.rail_z, {}, field.inclination});
-  if (facets) {
-    field.wheel_z = facet_heights(*bodies.wheel, bodies.X_TW, *facets, grid_T);
-  } else {
-    field.wheel_z.resize(n);
-    bodies.wheel->heights({bodies.X_TW.inverse(), grid_T}, {field.wheel_z, {}, {}});
-  }
-  for (std::size_t i = 0; i < n; ++i) field.gap[i] = field.rail_z[i] - field.wheel_z[i];
-  for (double& slope : field.inclination) slope = std::atan(slope);
+void GapField::Tile::close() {
+  least = std::numeric_limits<double>::infinity();
+  for (const double g : gap)
+    if (g < least) least = g;
+}
+
+GapField::GapField(const Grid2& grid, int log_x, int log_y)
+    : grid_(grid), log_x_(log_x), log_y_(log_y), tiles_x_(((grid.nx - 1) >> log_x) + 1), tiles_y_(((grid.ny - 1) >> log_y) + 1),
+      tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {}
+
+IndexBox GapField::tile_box(int tx, int ty) const {
+  const int ix = tx << log_x_, iy = ty << log_y_;
+  return {ix, iy, std::min(1 << log_x_, grid_.nx - ix), std::min(1 << log_y_, grid_.ny - iy)};
+}
+
+GapField::Tile& GapField::add_tile(int tx, int ty) {
+  auto tile = std::make_unique<Tile>();
+  tile->box = tile_box(tx, ty);
+  for (auto* array : {&tile->rail_z, &tile->gap, &tile->rail_slope}) array->resize(tile->box.size());
+  return *(tiles_[tile_index(tx, ty)] = std::move(tile));
+}
+
+GapField gap_field(const BodyPair& bodies, const Grid2& grid_T) {
+  GapField field(grid_T);
+  GapSource source(bodies, grid_T, std::nullopt);
+  source.fill(field.add_tile(0, 0));
   return field;
 }
 

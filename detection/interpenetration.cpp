@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <tuple>
 
 namespace treadmark::detection {
 namespace {
@@ -15,29 +16,36 @@ struct Minimum {
 
 // A point is a local minimum if it is strictly below its lower-index neighbours and not above the others,
 // so that one point of a plateau remains. NaN compares false: a missing neighbour never vetoes.
-std::vector<Minimum> local_minima(const GapField& field, double below) {
-  const Grid2& g = field.grid;
-  const auto at = [&](int ix, int iy) { return field.gap[g.index(ix, iy)]; };
+std::vector<Minimum> local_minima(const GapField& field, double wheel_dz, double below) {
+  const Grid2& g = field.grid();
   std::vector<Minimum> minima;
-  for (int iy = 0; iy < g.ny; ++iy)
-    for (int ix = 0; ix < g.nx; ++ix) {
-      const double v = at(ix, iy);
-      if (!(v < below)) continue;
-      if (ix > 0 && at(ix - 1, iy) <= v) continue;
-      if (iy > 0 && at(ix, iy - 1) <= v) continue;
-      if (ix + 1 < g.nx && at(ix + 1, iy) < v) continue;
-      if (iy + 1 < g.ny && at(ix, iy + 1) < v) continue;
-      minima.push_back({ix, iy, v});
-    }
-  std::stable_sort(minima.begin(), minima.end(), [](const Minimum& a, const Minimum& b) { return a.gap < b.gap; });
+  for (const auto& tile : field.tiles()) {
+    if (!tile || !(tile->least - wheel_dz < below)) continue;
+    const IndexBox& box = tile->box;
+    const auto nx = static_cast<std::size_t>(box.nx);
+    for (int iy = box.iy; iy < box.iy + box.ny; ++iy)
+      for (int ix = box.ix; ix < box.ix + box.nx; ++ix) {
+        const std::size_t i = tile->index(ix, iy);
+        const double v = tile->gap[i];
+        if (!(v - wheel_dz < below)) continue;
+        if (ix > 0 && (ix > box.ix ? tile->gap[i - 1] : field.gap(ix - 1, iy)) <= v) continue;
+        if (iy > 0 && (iy > box.iy ? tile->gap[i - nx] : field.gap(ix, iy - 1)) <= v) continue;
+        if (ix + 1 < g.nx && (ix + 1 < box.ix + box.nx ? tile->gap[i + 1] : field.gap(ix + 1, iy)) < v) continue;
+        if (iy + 1 < g.ny && (iy + 1 < box.iy + box.ny ? tile->gap[i + nx] : field.gap(ix, iy + 1)) < v) continue;
+        minima.push_back({ix, iy, v - wheel_dz});
+      }
+  }
+  std::ranges::sort(minima, [](const Minimum& a, const Minimum& b) {
+    return std::tie(a.gap, a.iy, a.ix) < std::tie(b.gap, b.iy, b.ix);
+  });
   return minima;
 }
 
 // Box around all penetration that hangs together with the minimum, diagonals included, plus a guard row all round.
-void grow_box(const GapField& field, Region& r) {
-  const Grid2& g = field.grid;
+void grow_box(const GapField& field, double wheel_dz, Region& r) {
+  const Grid2& g = field.grid();
   const auto penetrates = [&](int ix, int iy) {
-    return ix >= 0 && iy >= 0 && ix < g.nx && iy < g.ny && field.gap[g.index(ix, iy)] < 0.0;
+    return ix >= 0 && iy >= 0 && ix < g.nx && iy < g.ny && field.gap(ix, iy) - wheel_dz < 0.0;
   };
   const auto column = [&](int ix) {
     for (int iy = r.iy_min - 1; iy <= r.iy_max + 1; ++iy)
@@ -62,21 +70,28 @@ void grow_box(const GapField& field, Region& r) {
   r.iy_max = std::min(g.ny - 1, r.iy_max + 1);
 }
 
-void weigh(const GapField& field, PenetrationWeight weight, Region& r) {
-  const Grid2& g = field.grid;
+void weigh(const GapField& field, double wheel_dz, PenetrationWeight weight, Region& r) {
+  const Grid2& g = field.grid();
   double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_z = 0.0, sum_a = 0.0;
-  for (int iy = r.iy_min; iy <= r.iy_max; ++iy)
+  // A rail mostly has one slope along a row.
+  double slope = 0.0, inclination = 0.0;
+  for (int iy = r.iy_min; iy <= r.iy_max; ++iy) {
+    const double y = g.y(iy);
     for (int ix = r.ix_min; ix <= r.ix_max; ++ix) {
-      const std::size_t i = g.index(ix, iy);
-      const double gap = field.gap[i];
+      const GapField::Tile* tile = field.tile_of(ix, iy);
+      if (tile == nullptr) continue;
+      const std::size_t i = tile->index(ix, iy);
+      const double gap = tile->gap[i] - wheel_dz;
       if (!(gap < 0.0)) continue;
+      if (tile->rail_slope[i] != slope) slope = tile->rail_slope[i], inclination = std::atan(slope);
       const double w = weight == PenetrationWeight::squared ? gap * gap : -gap;
       sum += w;
       sum_x += w * g.x(ix);
-      sum_y += w * g.y(iy);
-      sum_z += w * field.rail_z[i];
-      sum_a += w * field.inclination[i];
+      sum_y += w * y;
+      sum_z += w * tile->rail_z[i];
+      sum_a += w * inclination;
     }
+  }
   r.weight = sum * g.cell_area();
   r.x = sum_x / sum;
   r.y = sum_y / sum;
@@ -86,11 +101,12 @@ void weigh(const GapField& field, PenetrationWeight weight, Region& r) {
 
 }  // namespace
 
-std::vector<Region> find_regions(const GapField& field, PenetrationWeight weight, double near_miss_gap) {
+std::vector<Region> find_regions(const GapField& field, double wheel_dz, PenetrationWeight weight, double near_miss_gap) {
+  const Grid2& g = field.grid();
   constexpr int kMaxNearMisses = 2;
   std::vector<Region> regions;
   int near_misses = 0;
-  for (const Minimum& m : local_minima(field, std::max(0.0, near_miss_gap))) {
+  for (const Minimum& m : local_minima(field, wheel_dz, std::max(0.0, near_miss_gap))) {
     const bool known = std::any_of(regions.begin(), regions.end(), [&](const Region& r) {
       return m.ix >= r.ix_min && m.ix <= r.ix_max && m.iy >= r.iy_min && m.iy <= r.iy_max;
     });
@@ -100,15 +116,14 @@ std::vector<Region> find_regions(const GapField& field, PenetrationWeight weight
     r.iy_min = r.iy_max = r.iy_deepest = m.iy;
     r.least_gap = m.gap;
     if (m.gap < 0.0) {
-      grow_box(field, r);
-      weigh(field, weight, r);
+      grow_box(field, wheel_dz, r);
+      weigh(field, wheel_dz, weight, r);
     } else {
       if (++near_misses > kMaxNearMisses) break;
-      const std::size_t i = field.grid.index(m.ix, m.iy);
-      r.x = field.grid.x(m.ix);
-      r.y = field.grid.y(m.iy);
-      r.z = field.rail_z[i];
-      r.inclination = field.inclination[i];
+      r.x = g.x(m.ix);
+      r.y = g.y(m.iy);
+      r.z = field.rail_z(m.ix, m.iy);
+      r.inclination = std::atan(field.rail_slope(m.ix, m.iy));
     }
     regions.push_back(r);
   }

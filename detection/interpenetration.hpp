@@ -23,7 +23,8 @@ struct Region {
 };
 
 /// All interpenetration regions, deepest first, followed by at most two near misses with a gap below near_miss_gap
-/// (Figure 3 a-e of Vollebregt's paper on 3D wheel and rail surfaces). The gap field must carry inclinations.
-std::vector<Region> find_regions(const GapField& field, PenetrationWeight weight, double near_miss_gap);
+/// (Figure 3 a-e of Vollebregt's paper on 3D wheel and rail surfaces). wheel_dz: the wheel has moved by this along z of T
+/// since the field was made, so that every gap is less by it [m].
+std::vector<Region> find_regions(const GapField& field, double wheel_dz, PenetrationWeight weight, double near_miss_gap);
 
 }  // namespace treadmark::detection

@@ -28,29 +28,29 @@ void crossings(int lines_begin, int lines_end, int begin, int end, Gap&& gap, Po
 
 }  // namespace
 
-Rectangle crossing_extent(const GapField& field, const Region& r) {
-  const Grid2& g = field.grid;
+Rectangle crossing_extent(const GapField& field, double wheel_dz, const Region& r) {
+  const Grid2& g = field.grid();
   Rectangle box{g.x(r.ix_deepest), g.x(r.ix_deepest), g.y(r.iy_deepest), g.y(r.iy_deepest)};
   crossings(
-      r.iy_min, r.iy_max, r.ix_min, r.ix_max, [&](int iy, int ix) { return field.gap[g.index(ix, iy)]; },
+      r.iy_min, r.iy_max, r.ix_min, r.ix_max, [&](int iy, int ix) { return field.gap(ix, iy) - wheel_dz; },
       [&](int ix) { return g.x(ix); }, box.x_min, box.x_max);
   crossings(
-      r.ix_min, r.ix_max, r.iy_min, r.iy_max, [&](int ix, int iy) { return field.gap[g.index(ix, iy)]; },
+      r.ix_min, r.ix_max, r.iy_min, r.iy_max, [&](int ix, int iy) { return field.gap(ix, iy) - wheel_dz; },
       [&](int iy) { return g.y(iy); }, box.y_min, box.y_max);
   return box;
 }
 
 double rail_height_near(const GapField& field, int ix, double y) {
-  const Grid2& g = field.grid;
+  const Grid2& g = field.grid();
   const double position = std::clamp((y - g.y0) / g.dy, 0.0, static_cast<double>(g.ny - 1));
   const int iy = std::min(static_cast<int>(position), g.ny - 2);
   const double fraction = position - iy;
-  const double low = field.rail_z[g.index(ix, iy)], high = field.rail_z[g.index(ix, iy + 1)];
+  const double low = field.rail_z(ix, iy), high = field.rail_z(ix, iy + 1);
   if (std::isnan(low) && std::isnan(high)) {
     for (int step = 1; step < g.ny; ++step)
       for (const int candidate : {iy - step, iy + step})
-        if (candidate >= 0 && candidate < g.ny && !std::isnan(field.rail_z[g.index(ix, candidate)]))
-          return field.rail_z[g.index(ix, candidate)];
+        if (candidate >= 0 && candidate < g.ny && !std::isnan(field.rail_z(ix, candidate)))
+          return field.rail_z(ix, candidate);
     return low;
   }
   if (std::isnan(low)) return high;

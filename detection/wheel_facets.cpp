@@ -28,35 +28,6 @@ std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, double angle, 
   return points;
 }
 
-/// Structured mesh of sections; indices (k, j) along sections and across.
-struct Mesh {
-  int sections = 0, across = 0;
-  std::vector<Vec3> points;
-  const Vec3& at(int k, int j) const { return points[static_cast<std::size_t>(k) * static_cast<std::size_t>(across) + static_cast<std::size_t>(j)]; }
-};
-
-// Continuous indices (a, b) of the facet point over (x, y): Newton on the bilinear map, cell by cell.
-double height_over(const Mesh& mesh, double x, double y, double& a, double& b) {
-  constexpr int kMaxSteps = 40;
-  for (int step = 0; step < kMaxSteps; ++step) {
-    const int k = std::clamp(static_cast<int>(std::floor(a)), 0, mesh.sections - 2);
-    const int j = std::clamp(static_cast<int>(std::floor(b)), 0, mesh.across - 2);
-    const double u = a - k, v = b - j;
-    const Vec3 &p00 = mesh.at(k, j), &p10 = mesh.at(k + 1, j), &p01 = mesh.at(k, j + 1), &p11 = mesh.at(k + 1, j + 1);
-    const Vec3 p = (1 - u) * (1 - v) * p00 + u * (1 - v) * p10 + (1 - u) * v * p01 + u * v * p11;
-    const Vec3 du = (1 - v) * (p10 - p00) + v * (p11 - p01), dv = (1 - u) * (p01 - p00) + u * (p11 - p10);
-    const double rx = x - p.x(), ry = y - p.y(), determinant = du.x() * dv.y() - du.y() * dv.x();
-    const double da = (rx * dv.y() - ry * dv.x()) / determinant, db = (ry * du.x() - rx * du.y()) / determinant;
-    if (!std::isfinite(da) || !std::isfinite(db)) return kNaN;
-    constexpr double kTolerance = 1e-7;  // of a facet: less than a nanometre
-    const bool inside = u > -kTolerance && u < 1 + kTolerance && v > -kTolerance && v < 1 + kTolerance;
-    if (std::abs(da) < kTolerance && std::abs(db) < kTolerance) return inside ? p.z() : kNaN;
-    a = std::clamp(a + da, -0.5, mesh.sections - 0.5);
-    b = std::clamp(b + db, -0.5, mesh.across - 0.5);
-  }
-  return kNaN;
-}
-
 }  // namespace
 
 LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets) {
@@ -73,40 +44,93 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
   return range;
 }
 
-std::vector<double> facet_heights(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& g) {
-  // Points of the sections divide the whole width; those far from the grid are left out.
+FacetWheel::FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& g)
+    : wheel_(wheel), X_TW_(X_TW), facets_(facets), lowest_(lowest_angle(X_TW)) {
+  // Corners divide the whole width; those far from the grid are left out.
   constexpr int kMargin = 20;
   const double outer = wheel.bounds().max.y(), width = outer - wheel.bounds().min.y();
-  const double step = width / (1.0 + std::floor(width / facets.lateral_step));
+  step_ = width / (1.0 + std::floor(width / facets.lateral_step));
   const double grid_low = g.y0 - X_TW.origin.y(), grid_high = g.y(g.ny - 1) - X_TW.origin.y();
-  const double first = outer - step * (std::ceil((outer - grid_low) / step) + kMargin);
-  Mesh mesh;
-  mesh.sections = facets.sections;
-  mesh.across = static_cast<int>(std::ceil((grid_high - first) / step)) + kMargin;
-  for (int k = 0; k < facets.sections; ++k) {
-    const double angle = lowest_angle(X_TW) + facets.half_angle * (2.0 * k / (facets.sections - 1) - 1.0);
-    const auto points = section(wheel, X_TW, angle, first, step, mesh.across);
-    mesh.points.insert(mesh.points.end(), points.begin(), points.end());
+  first_ = outer - step_ * (std::ceil((outer - grid_low) / step_) + kMargin);
+  across_ = static_cast<int>(std::ceil((grid_high - first_) / step_)) + kMargin;
+  sections_.resize(static_cast<std::size_t>(facets.sections));
+}
+
+Rectangle FacetWheel::reach(const Rectangle& r) const {
+  const double turn = 2.0 * facets_.half_angle / (facets_.sections - 1);
+  const double along = 1.1 * wheel_.bounds().max.z() * turn + 1.5 * step_, across = 2.0 * step_ + 0.3 * along;
+  return {r.x_min - along, r.x_max + along, r.y_min - across, r.y_max + across};
+}
+
+const Vec3& FacetWheel::make_corner(int k, int j) {
+  Section& s = sections_[static_cast<std::size_t>(k)];
+  constexpr int kSpare = 8;
+  int first = std::min(wanted_first_, j - kSpare), last = std::max(wanted_last_, j + kSpare);
+  if (!s.points.empty()) {
+    first = std::min(first, s.first);
+    last = std::max(last, s.first + static_cast<int>(s.points.size()) - 1);
   }
-  std::vector<double> heights(g.size());
+  first = std::max(first, 0), last = std::min(last, across_ - 1);
+  const double angle = lowest_ + facets_.half_angle * (2.0 * k / (facets_.sections - 1) - 1.0);
+  s.first = first;
+  s.points = section(wheel_, X_TW_, angle, first_ + first * step_, step_, last - first + 1);
+  return s.points[static_cast<std::size_t>(j - first)];
+}
+
+// Continuous indices (a, b) of the facet point over (x, y): Newton on the bilinear map, cell by cell.
+double FacetWheel::height_over(double x, double y, double& a, double& b) {
+  constexpr int kMaxSteps = 40;
+  for (int step = 0; step < kMaxSteps; ++step) {
+    const int k = std::clamp(static_cast<int>(std::floor(a)), 0, facets_.sections - 2);
+    const int j = std::clamp(static_cast<int>(std::floor(b)), 0, across_ - 2);
+    const double u = a - k, v = b - j;
+    // The last corner first: making it may move the others.
+    for (const int dk : {0, 1})
+      for (const int dj : {0, 1}) corner(k + dk, j + dj);
+    const Vec3 &p00 = corner(k, j), &p10 = corner(k + 1, j), &p01 = corner(k, j + 1), &p11 = corner(k + 1, j + 1);
+    const Vec3 low = p00 + u * (p10 - p00), high = p01 + u * (p11 - p01);
+    const Vec3 dv = high - low, p = low + v * dv, du = (p10 - p00) + v * ((p11 - p01) - (p10 - p00));
+    const double rx = x - p.x(), ry = y - p.y(), inverse = 1.0 / (du.x() * dv.y() - du.y() * dv.x());
+    const double da = (rx * dv.y() - ry * dv.x()) * inverse, db = (ry * du.x() - rx * du.y()) * inverse;
+    if (!std::isfinite(da) || !std::isfinite(db)) return kNaN;
+    constexpr double kTolerance = 1e-7;  // of a facet: the rest of a nanometre is straight
+    const bool inside = u > -kTolerance && u < 1 + kTolerance && v > -kTolerance && v < 1 + kTolerance;
+    if (std::abs(da) < kTolerance && std::abs(db) < kTolerance) return inside ? p.z() + da * du.z() + db * dv.z() : kNaN;
+    a = std::clamp(a + da, -0.5, facets_.sections - 0.5);
+    b = std::clamp(b + db, -0.5, across_ - 0.5);
+  }
+  return kNaN;
+}
+
+void FacetWheel::heights(const Grid2& g, std::span<double> z) {
+  constexpr double kNear = 6.0;  // corners beside the grid; more are made when asked for
+  const auto corner_at = [&](double y) { return (y - X_TW_.origin.y() - first_) / step_; };
+  wanted_first_ = static_cast<int>(std::clamp(corner_at(g.y(0)) - kNear, 0.0, across_ - 1.0));
+  wanted_last_ = static_cast<int>(std::clamp(corner_at(g.y(g.ny - 1)) + kNear, 0.0, across_ - 1.0));
+  // Where a wheel that is round and upright has this point.
+  const double radius = wheel_.bounds().max.z(), per_angle = 0.5 * (facets_.sections - 1) / facets_.half_angle;
+  const auto section_at = [&](double x) {
+    const double angle = std::asin(std::clamp((x - X_TW_.origin.x()) / radius, -1.0, 1.0));
+    return std::clamp((angle + facets_.half_angle) * per_angle, 0.0, facets_.sections - 1.0);
+  };
   for (int iy = 0; iy < g.ny; ++iy) {
-    double a = 0.0, b = (g.y(iy) - X_TW.origin.y() - first) / step, step_a = 0.0, step_b = 0.0;
+    const double b_start = corner_at(g.y(iy));
+    double a = section_at(g.x(0)), b = b_start, step_a = 0.0, step_b = 0.0;
+    bool started = false;
     for (int ix = 0; ix < g.nx; ++ix) {
       double a_try = a + step_a, b_try = b + step_b;
-      double z = height_over(mesh, g.x(ix), g.y(iy), a_try, b_try);
-      if (std::isnan(z)) {
-        // The neighbour led astray: start once more from where a regular mesh would have this point.
-        a_try = static_cast<double>(ix) / (g.nx - 1) * (mesh.sections - 1);
-        b_try = (g.y(iy) - X_TW.origin.y() - first) / step;
-        z = height_over(mesh, g.x(ix), g.y(iy), a_try, b_try);
+      double height = height_over(g.x(ix), g.y(iy), a_try, b_try);
+      if (std::isnan(height)) {
+        // The neighbour led astray: start once more.
+        a_try = section_at(g.x(ix)), b_try = b_start;
+        height = height_over(g.x(ix), g.y(iy), a_try, b_try);
       }
-      heights[g.index(ix, iy)] = z;
-      if (std::isnan(z)) continue;
-      step_a = ix > 0 ? a_try - a : 0.0, step_b = ix > 0 ? b_try - b : 0.0;
-      a = a_try, b = b_try;
+      z[g.index(ix, iy)] = height;
+      if (std::isnan(height)) continue;
+      step_a = started ? a_try - a : 0.0, step_b = started ? b_try - b : 0.0;
+      a = a_try, b = b_try, started = true;
     }
   }
-  return heights;
 }
 
 }  // namespace treadmark::detection

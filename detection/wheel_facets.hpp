@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
@@ -22,7 +23,40 @@ struct LongitudinalRange {
 };
 LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets);
 
-/// Heights [m] of the facets over a grid seen along z of T; NaN where there are none.
-std::vector<double> facet_heights(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& grid_T);
+/// The facets, made where they are asked for. One per thread.
+class FacetWheel {
+ public:
+  /// grid_T: what heights() will be asked for are parts of it.
+  FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& grid_T);
+
+  /// A rectangle over which every corner of the facets over r lies, so that bounds of the wheel there are bounds of the facets
+  /// over r. Facets steeper than five to one are not followed.
+  Rectangle reach(const Rectangle& r) const;
+
+  /// Heights [m] over a grid seen along z of T; NaN where there are no facets.
+  void heights(const Grid2& part_T, std::span<double> z);
+
+ private:
+  /// Corners first .. first + points.size() - 1 of a section, in T; NaN where the wheel is missing.
+  struct Section {
+    int first = 0;
+    std::vector<Vec3> points;
+  };
+  const Vec3& corner(int k, int j) {
+    const Section& s = sections_[static_cast<std::size_t>(k)];
+    const auto i = static_cast<std::size_t>(j - s.first);
+    return i < s.points.size() ? s.points[i] : make_corner(k, j);
+  }
+  const Vec3& make_corner(int k, int j);
+  double height_over(double x, double y, double& a, double& b);
+
+  const Surface& wheel_;
+  Pose X_TW_;
+  WheelFacets facets_;
+  double lowest_, first_, step_;  ///< angle of the lowest section; y of corner 0 and distance of corners
+  int across_;
+  int wanted_first_ = 0, wanted_last_ = 0;  ///< corners that the grid at hand needs
+  std::vector<Section> sections_;
+};
 
 }  // namespace treadmark::detection

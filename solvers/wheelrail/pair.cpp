@@ -168,17 +168,21 @@ PairSolution Pair::solve_right_hand(const Problem& given) {
 
   const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), solution.placement.X_TS, solution.placement.X_TA};
   std::optional<detection::ContactSearch> search;
+  double gap_at_start = 0.0;
+  {
+    const Stopwatch watch(times.search_s);
+    search.emplace(bodies, search_settings(geometry_, p, solution.placement));
+    gap_at_start = search->least_gap();
+  }
   const auto search_at = [&](double dz) {
     const Stopwatch watch(times.search_s);
     ++times.searches;
-    if (!search) search.emplace(bodies, search_settings(geometry_, p, solution.placement));
     return search->at(dz);
   };
 
   const double z_start = p.state.position.z;
-  const detection::SearchResult at_start = search_at(0.0);
   solution.z = z_start;
-  if (std::isnan(at_start.least_gap)) {
+  if (std::isnan(gap_at_start)) {
     solution.status = Status::no_contact;
     solution.message = "wheel and rail nowhere face each other: the wheel is off the rail";
     return solution;
@@ -221,12 +225,12 @@ PairSolution Pair::solve_right_hand(const Problem& given) {
 
   bool balanced = true;
   if (!p.vertical_force) {
-    evaluate_at(z_start, at_start);
+    evaluate_at(z_start, search_at(0.0));
     solve_tangential();
   } else {
     const double target = *p.vertical_force;
     ForceBalance balance(target, p.solver.eps, stiffness_guess(p.material));
-    double z = balance.first(z_start + at_start.least_gap);
+    double z = balance.first(z_start + gap_at_start);
     ForceBalance::State state = ForceBalance::State::search;
     bool tangential_done = false;
     for (int i = 0; i < p.max_force_iterations; ++i) {

@@ -102,7 +102,7 @@ TEST(ContactSearch, MovingEverythingRigidlyMovesTheResultWithIt) {
 
 TEST(ContactSearch, ShiftedWheelEqualsSearchThere) {
   const BallOnPlane low(0.1, 1e-4), high(0.1, 1e-4);
-  const ContactSearch search(low.bodies, settings());
+  ContactSearch search(low.bodies, settings());
   for (const double dz : {-5e-5, 0.0, 3e-5, -2e-4}) {
     BodyPair there = low.bodies;
     there.X_TW.origin.z() += dz;

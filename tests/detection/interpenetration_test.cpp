@@ -13,15 +13,16 @@ namespace treadmark::detection {
 namespace {
 
 GapField field_of(const Grid2& grid, const std::function<double(double, double)>& gap) {
-  GapField f;
-  f.grid = grid;
+  GapField f(grid);
+  GapField::Tile& all = f.add_tile(0, 0);
   for (int iy = 0; iy < grid.ny; ++iy)
     for (int ix = 0; ix < grid.nx; ++ix) {
-      f.gap.push_back(gap(grid.x(ix), grid.y(iy)));
-      f.rail_z.push_back(0.1 * grid.y(iy));
-      f.wheel_z.push_back(f.rail_z.back() - f.gap.back());
-      f.inclination.push_back(std::atan(0.1));
+      const std::size_t i = grid.index(ix, iy);
+      all.gap[i] = gap(grid.x(ix), grid.y(iy));
+      all.rail_z[i] = 0.1 * grid.y(iy);
+      all.rail_slope[i] = 0.1;
     }
+  all.close();
   return f;
 }
 
@@ -31,7 +32,7 @@ TEST(Interpenetration, OneParaboloidGivesItsCentreAndBox) {
   const double x0 = 1.3e-3, y0 = -2.1e-3, depth = 1e-4, a = 4.0, b = 9.0;
   const auto regions = find_regions(
       field_of(kGrid, [&](double x, double y) { return a * (x - x0) * (x - x0) + b * (y - y0) * (y - y0) - depth; }),
-      PenetrationWeight::squared, 0.0);
+      0.0, PenetrationWeight::squared, 0.0);
   ASSERT_EQ(regions.size(), 1u);
   const Region& r = regions.front();
   // The weight vanishes with its slope at the rim, so that the sums converge fast.
@@ -48,7 +49,7 @@ TEST(Interpenetration, OneParaboloidGivesItsCentreAndBox) {
 TEST(Interpenetration, LinearWeightHasItsOwnIntegral) {
   const double depth = 1e-4, a = 4.0, b = 9.0;
   const auto regions = find_regions(field_of(kGrid, [&](double x, double y) { return a * x * x + b * y * y - depth; }),
-                                    PenetrationWeight::linear, 0.0);
+                                    0.0, PenetrationWeight::linear, 0.0);
   ASSERT_EQ(regions.size(), 1u);
   EXPECT_NEAR(regions[0].weight, M_PI * depth * depth / (2.0 * std::sqrt(a * b)), 3e-3 * regions[0].weight);
 }
@@ -62,7 +63,7 @@ TEST(Interpenetration, SeparateRegionsAreFoundDeepestFirstAndNearMissesLast) {
                                                return std::min({bump(x, y, -5e-3, -4e-3, 2e-5), bump(x, y, 4e-3, 5e-3, 6e-5),
                                                                 bump(x, y, 5e-3, -6e-3, -1e-5)});
                                              }),
-                                    PenetrationWeight::squared, 2e-5);
+                                    0.0, PenetrationWeight::squared, 2e-5);
   ASSERT_EQ(regions.size(), 3u);
   EXPECT_NEAR(regions[0].x, 4e-3, 1e-5);
   EXPECT_NEAR(regions[1].x, -5e-3, 1e-5);
@@ -71,15 +72,15 @@ TEST(Interpenetration, SeparateRegionsAreFoundDeepestFirstAndNearMissesLast) {
 }
 
 TEST(Interpenetration, NothingTouchesWithoutPenetrationOrOverMissingSurface) {
-  EXPECT_TRUE(find_regions(field_of(kGrid, [](double x, double) { return 1e-6 + x * x; }), PenetrationWeight::squared, 0.0).empty());
+  EXPECT_TRUE(find_regions(field_of(kGrid, [](double x, double) { return 1e-6 + x * x; }), 0.0, PenetrationWeight::squared, 0.0).empty());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(find_regions(field_of(kGrid, [nan](double, double) { return nan; }), PenetrationWeight::squared, 0.0).empty());
+  EXPECT_TRUE(find_regions(field_of(kGrid, [nan](double, double) { return nan; }), 0.0, PenetrationWeight::squared, 0.0).empty());
 }
 
 TEST(Interpenetration, PlateauGivesOneRegion) {
   const auto regions = find_regions(
       field_of(kGrid, [](double x, double y) { return std::max(-1e-5, std::hypot(x, y) * 0.02 - 4e-5); }),
-      PenetrationWeight::squared, 0.0);
+      0.0, PenetrationWeight::squared, 0.0);
   ASSERT_EQ(regions.size(), 1u);
   EXPECT_NEAR(regions[0].x, 0.0, 1e-5);
 }
@@ -103,10 +104,10 @@ TEST(Interpenetration, RandomFieldsLoseNoPenetratingPoint) {
         gap = std::min(gap, 0.3 * std::hypot(x - cx[k], 1.4 * (y - cy[k])) - depth[k]);
       return gap;
     });
-    const auto regions = find_regions(f, PenetrationWeight::squared, 0.0);
+    const auto regions = find_regions(f, 0.0, PenetrationWeight::squared, 0.0);
     for (int iy = 0; iy < grid.ny; ++iy)
       for (int ix = 0; ix < grid.nx; ++ix) {
-        if (!(f.gap[grid.index(ix, iy)] < 0.0)) continue;
+        if (!(f.gap(ix, iy) < 0.0)) continue;
         bool covered = false;
         for (const Region& r : regions)
           covered = covered || (ix >= r.ix_min && ix <= r.ix_max && iy >= r.iy_min && iy <= r.iy_max);

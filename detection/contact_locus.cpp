@@ -1,0 +1,239 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/contact_locus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treadmark::detection {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kProfileStep = 0.25e-3;  // [m]; cubics between the points are good to a nanometre, kinks apart
+constexpr int kFineRows = 240;
+
+/// The silhouette of the wheel along x of T, at one point of its profile.
+struct SilhouettePoint {
+  double x, y, z, slope, radius, wheel_y;
+};
+
+/// Silhouettes of circles of the wheel: R (sin t, -r', cos t) has no x part.
+class Silhouette {
+ public:
+  explicit Silhouette(const Pose& X_TW) : X_(X_TW), length_(std::hypot(R(0, 0), R(0, 2))), cosine_(R(0, 0) / length_), sine_(R(0, 2) / length_) {
+    side_ = R(2, 2) * cosine_ - R(2, 0) * sine_ >= 0.0 ? 1.0 : -1.0;  // of the two, the point that faces down
+  }
+
+  SilhouettePoint at(double y, double r, double by_y, double by_yy) const {
+    const double turned_sine = R(0, 1) * by_y / length_, square = 1.0 - turned_sine * turned_sine;
+    if (!(square > 0.0)) return {kNaN, kNaN, kNaN, kNaN, kNaN, y};
+    const double turned_cosine = side_ * std::sqrt(square);
+    const double sine = turned_sine * cosine_ - turned_cosine * sine_, cosine = turned_cosine * cosine_ + turned_sine * sine_;
+    const Vec3 p = X_.apply({r * sine, y, r * cosine}), n = X_.rotation * Vec3(sine, -by_y, cosine);
+    // Second derivative of the distance to the surface along x, over the normal's z part: the curve z(x) at one y.
+    const double bend = length_ * length_ * square / r - by_yy * R(0, 1) * R(0, 1);
+    return {p.x(), p.y(), p.z(), -n.y() / n.z(), n.z() / bend, y};
+  }
+
+ private:
+  double R(int i, int j) const { return X_.rotation(i, j); }
+
+  Pose X_;
+  double length_, cosine_, sine_, side_;
+};
+
+/// Integral over x of the penetration c - x^2 / (2 radius), or of its square; half: half the width.
+double row_weight(PenetrationWeight weight, double c, double half) {
+  return weight == PenetrationWeight::squared ? 16.0 / 15.0 * c * c * half : 4.0 / 3.0 * c * half;
+}
+
+}  // namespace
+
+bool ContactLocus::applies(const BodyPair& bodies) {
+  constexpr double kStraight = 1e-12;
+  const Vec3 along = bodies.X_TR.rotation.col(0);
+  return bodies.rail->constant_profile() && bodies.wheel->constant_profile() && std::hypot(along.y(), along.z()) < kStraight;
+}
+
+ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)
+    : bodies_(bodies), x_low_(g.x(0)), x_high_(g.x(g.nx - 1)) {
+  const Box3 box = bodies.wheel->bounds();
+  const double width = box.max.y() - box.min.y();
+  const int count = std::clamp(static_cast<int>(width / kProfileStep) + 2, 16, 20000);
+  outline_ = trace({g.y0, g.dy, g.ny}, {box.min.y(), width / (count - 1), count});
+}
+
+ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s) {
+  const auto n = static_cast<std::size_t>(s.count), m = static_cast<std::size_t>(rows.count);
+  std::vector<double> r(n), by_y(n);
+  bodies_.wheel->heights({Pose{}, {0.0, s.first, 1.0, s.step, 1, s.count}}, {r, {}, by_y});
+  Outline line;
+  line.rows = rows;
+  line.rail_z.resize(m), line.rail_slope.resize(m);
+  bodies_.rail->heights({bodies_.X_TR.inverse(), {0.5 * (x_low_ + x_high_), rows.first, 1.0, rows.step, 1, rows.count}},
+                        {line.rail_z, {}, line.rail_slope});
+
+  // Of several parts of the outline over one y the lowest one (greatest z) counts.
+  std::vector<double> wheel_z(m, kNaN);
+  line.gap.assign(m, kNaN), line.x.assign(m, kNaN), line.radius.assign(m, kNaN);
+  std::vector<double> wheel_y(m, kNaN);
+  const Silhouette silhouette(bodies_.X_TW);
+  SilhouettePoint a{kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t before = i > 0 && !std::isnan(r[i - 1]) ? i - 1 : i, after = i + 1 < n && !std::isnan(r[i + 1]) ? i + 1 : i;
+    const double by_yy = after > before ? (by_y[after] - by_y[before]) / (s.step * static_cast<double>(after - before)) : 0.0;
+    const SilhouettePoint b = silhouette.at(s.first + static_cast<double>(i) * s.step, r[i], by_y[i], by_yy);
+    const double rise = b.y - a.y;
+    if (std::abs(rise) > 1e-3 * s.step) {
+      const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
+      const int first = static_cast<int>(std::ceil(std::max(0.0, (low - rows.first) / rows.step - 1e-9)));
+      const int last = static_cast<int>(std::floor(std::min(rows.count - 1.0, (high - rows.first) / rows.step + 1e-9)));
+      // Walls are straight: the cubic of their slopes would swing.
+      constexpr double kWall = 6.0;
+      const double secant = b.z - a.z;
+      const bool wall = std::abs(a.slope) > kWall || std::abs(b.slope) > kWall;
+      const double end_a = wall ? secant : a.slope * rise, end_b = wall ? secant : b.slope * rise;
+      for (int row = first; row <= last; ++row) {
+        const double f = std::clamp((rows.y(row) - a.y) / rise, 0.0, 1.0);
+        const double z = a.z + f * (end_a + f * (3.0 * secant - 2.0 * end_a - end_b + f * (end_a + end_b - 2.0 * secant)));
+        const auto k = static_cast<std::size_t>(row);
+        const double x = a.x + f * (b.x - a.x);
+        if (z <= wheel_z[k] || !(x >= x_low_ && x <= x_high_)) continue;
+        wheel_z[k] = z;
+        line.x[k] = x;
+        line.radius[k] = a.radius + f * (b.radius - a.radius);
+        wheel_y[k] = a.wheel_y + f * (b.wheel_y - a.wheel_y);
+      }
+    }
+    a = b;
+  }
+  line.least = kNaN;
+  for (std::size_t k = 0; k < m; ++k) {
+    line.gap[k] = line.rail_z[k] - wheel_z[k];
+    line.least = std::fmin(line.least, line.gap[k]);
+  }
+  if (wheel_y_.empty()) wheel_y_ = std::move(wheel_y);
+  return line;
+}
+
+const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_row) {
+  for (const Fine& fine : fine_)
+    if (fine.first_row == first_row && fine.last_row == last_row) return fine.outline;
+  const Rows& coarse = outline_.rows;
+  const double low = coarse.y(first_row), high = coarse.y(last_row);
+  // The part of the profile that these rows show, and a little more.
+  double y_min = std::numeric_limits<double>::infinity(), y_max = -y_min;
+  for (int row = first_row; row <= last_row; ++row) {
+    y_min = std::fmin(y_min, wheel_y_[static_cast<std::size_t>(row)]);
+    y_max = std::fmax(y_max, wheel_y_[static_cast<std::size_t>(row)]);
+  }
+  const double margin = coarse.step + 2.0 * kProfileStep;
+  y_min -= margin, y_max += margin;
+  constexpr std::size_t kKept = 8;
+  if (fine_.size() >= kKept) fine_.erase(fine_.begin());
+  fine_.push_back({first_row, last_row,
+                   trace({low, (high - low) / (kFineRows - 1), kFineRows}, {y_min, (y_max - y_min) / (kFineRows - 1), kFineRows})});
+  return fine_.back().outline;
+}
+
+void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
+                              Found& found) const {
+  const Rows& rows = fine.rows;
+  const auto gap = [&](int i) { return fine.gap[static_cast<std::size_t>(i)] - wheel_dz; };
+  const auto rail_z = [&](double y) {
+    const double place = std::clamp((y - rows.first) / rows.step, 0.0, rows.count - 1.0);
+    const auto i = static_cast<std::size_t>(std::min(static_cast<int>(place), rows.count - 2));
+    const double low = fine.rail_z[i], high = fine.rail_z[i + 1], f = place - static_cast<double>(i);
+    return std::isnan(low) ? high : std::isnan(high) ? low : low + f * (high - low);
+  };
+  const auto add = [](std::vector<ContactPatch>& list, ContactPatch patch) {
+    // Margins of neighbouring fine rows overlap: a region seen twice counts once.
+    for (const ContactPatch& other : list)
+      if (other.extent.box.y_min <= patch.extent.box.y_max && patch.extent.box.y_min <= other.extent.box.y_max) return;
+    patch.parts = {patch.extent};
+    list.push_back(std::move(patch));
+  };
+  for (int i = 0; i < rows.count; ++i) {
+    const double here = gap(i);
+    const auto k = static_cast<std::size_t>(i);
+    if (here >= 0.0 && here < near_miss_gap) {
+      if ((i > 0 && gap(i - 1) <= here) || (i + 1 < rows.count && gap(i + 1) < here)) continue;
+      ContactPatch p;
+      p.x = fine.x[k], p.y = rows.y(i);
+      p.extent = {{p.x, p.x, p.y, p.y}, fine.rail_z[k], fine.rail_z[k]};
+      p.deepest_T = {p.x, p.y, fine.rail_z[k]};
+      p.inclination = std::atan(fine.rail_slope[k]);
+      p.least_gap = here;
+      add(found.near_misses, std::move(p));
+    }
+    if (!(here < 0.0)) continue;
+
+    const int first = i;
+    int last = i, deepest = i;
+    ContactPatch p;
+    constexpr double kInfinity = std::numeric_limits<double>::infinity();
+    p.extent.box = {kInfinity, -kInfinity, 0.0, 0.0};
+    double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
+    for (; i < rows.count && gap(i) < 0.0; last = i++) {
+      const auto j = static_cast<std::size_t>(i);
+      const double c = -gap(i), half = std::sqrt(c * std::max(0.0, 2.0 * fine.radius[j] - c)), w = row_weight(weight, c, half);
+      sum += w;
+      sum_x += w * fine.x[j];
+      sum_y += w * rows.y(i);
+      sum_a += w * std::atan(fine.rail_slope[j]);
+      p.extent.box.x_min = std::min(p.extent.box.x_min, fine.x[j] - half);
+      p.extent.box.x_max = std::max(p.extent.box.x_max, fine.x[j] + half);
+      if (gap(i) < gap(deepest)) deepest = i;
+    }
+    const auto end = [&](int inside, int outside) {
+      if (outside < 0 || outside >= rows.count) return rows.y(inside);
+      const double out = gap(outside), in = gap(inside);
+      return std::isnan(out) ? rows.y(outside) : rows.y(inside) + (rows.y(outside) - rows.y(inside)) * in / (in - out);
+    };
+    p.extent.box.y_min = end(first, first - 1);
+    p.extent.box.y_max = end(last, last + 1);
+    p.extent.z_at_y_min = rail_z(p.extent.box.y_min);
+    p.extent.z_at_y_max = rail_z(p.extent.box.y_max);
+    const auto d = static_cast<std::size_t>(deepest);
+    p.deepest_T = {fine.x[d], rows.y(deepest), fine.rail_z[d]};
+    p.x = at_deepest ? p.deepest_T.x() : sum_x / sum;
+    p.y = at_deepest ? p.deepest_T.y() : sum_y / sum;
+    p.inclination = sum_a / sum;
+    p.weight = sum * rows.step;
+    p.least_gap = gap(deepest);
+    add(found.patches, std::move(p));
+    --i;
+  }
+}
+
+ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight,
+                                     bool reference_at_deepest) {
+  const Rows& rows = outline_.rows;
+  const auto gap = [&](int i) { return i >= 0 && i < rows.count ? outline_.gap[static_cast<std::size_t>(i)] - wheel_dz : kNaN; };
+  Found found;
+  for (int i = 0; i < rows.count; ++i) {
+    if (!(gap(i) < look_below)) continue;
+    // A run of rows below zero, or a local minimum above it.
+    const int first = i;
+    if (gap(i) < 0.0) {
+      while (gap(i + 1) < 0.0) ++i;
+    } else if (gap(i - 1) <= gap(i) || gap(i + 1) < gap(i)) {
+      continue;
+    }
+    weigh_fine(fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1)), wheel_dz, near_miss_gap, weight,
+               reference_at_deepest, found);
+  }
+  // As in the grid search: deepest first, two near misses at most.
+  const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };
+  std::ranges::stable_sort(found.patches, deeper);
+  std::ranges::stable_sort(found.near_misses, deeper);
+  constexpr std::size_t kMaxNearMisses = 2;
+  if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
+  found.least_gap = outline_.least - wheel_dz;
+  for (const auto* list : {&found.patches, &found.near_misses})
+    for (const ContactPatch& p : *list) found.least_gap = std::min(found.least_gap, p.least_gap);
+  return found;
+}
+
+}  // namespace treadmark::detection

@@ -1,0 +1,69 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/detection/body_pair.hpp"
+#include "treadmark/detection/contact_patch.hpp"
+#include "treadmark/detection/interpenetration.hpp"
+
+namespace treadmark::detection {
+
+/// Where a round wheel comes closest to a prismatic rail: on every circle of the wheel the point whose normal has no part
+/// along the rail (Li 2002; Vollebregt 2022 on 3D wheel and rail surfaces). Seen along z of T these points make the
+/// wheel's outline over the lateral position, so that the search is one-dimensional; along x the gap is that of the
+/// wheel's curvature there. One per thread.
+class ContactLocus {
+ public:
+  /// Whether both shapes are one profile and the rail runs along x of T.
+  static bool applies(const BodyPair& bodies);
+
+  /// grid_T: only its extent and lateral step count.
+  ContactLocus(const BodyPair& bodies, const Grid2& grid_T);
+
+  /// Least gap [m]; NaN where the bodies nowhere face each other.
+  double least() const { return outline_.least; }
+
+  struct Found {
+    std::vector<ContactPatch> patches, near_misses;
+    double least_gap = 0.0;  ///< of the patches and near misses
+  };
+  /// With the wheel moved by wheel_dz along z of T. Positions with a gap below look_below are looked at closely.
+  Found at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight, bool reference_at_deepest);
+
+ private:
+  /// Rows of y in T.
+  struct Rows {
+    double first = 0.0, step = 0.0;
+    int count = 0;
+    double y(int i) const { return first + i * step; }
+    friend bool operator==(const Rows&, const Rows&) = default;
+  };
+  /// The wheel's profile sampled at equal steps of its own y.
+  struct Samples {
+    double first = 0.0, step = 0.0;
+    int count = 0;
+  };
+  /// Per row: gap there, where along x, the radius of the wheel's curve along x, and the rail. NaN gap: none.
+  struct Outline {
+    Rows rows;
+    std::vector<double> gap, x, radius, rail_z, rail_slope;
+    double least = 0.0;
+  };
+  Outline trace(const Rows& rows, const Samples& samples);
+  const Outline& fine_outline(int first_row, int last_row);
+  void weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest, Found& found) const;
+
+  BodyPair bodies_;
+  double x_low_, x_high_;
+  Outline outline_;
+  std::vector<double> wheel_y_;   ///< y on the profile of the wheel that each row of the outline shows
+  struct Fine {
+    int first_row, last_row;
+    Outline outline;
+  };
+  std::vector<Fine> fine_;        ///< made before
+};
+
+}  // namespace treadmark::detection

@@ -1,0 +1,114 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/gap_source.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::detection {
+namespace {
+
+Rectangle spanned(const Grid2& g, const IndexBox& b) {
+  return {g.x(b.ix), g.x(b.ix + b.nx - 1), g.y(b.iy), g.y(b.iy + b.ny - 1)};
+}
+
+IndexBox united(const IndexBox& a, const IndexBox& b) {
+  const int ix = std::min(a.ix, b.ix), iy = std::min(a.iy, b.iy);
+  return {ix, iy, std::max(a.ix + a.nx, b.ix + b.nx) - ix, std::max(a.iy + a.ny, b.iy + b.ny) - iy};
+}
+
+}  // namespace
+
+/// A rectangle of whole tiles.
+struct GapSource::Patch {
+  IndexBox box;
+  std::vector<GapField::Tile*> tiles;
+};
+
+GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets)
+    : bodies_(bodies), X_RT_(bodies.X_TR.inverse()), X_WT_(bodies.X_TW.inverse()), grid_(grid_T) {
+  if (facets) facets_.emplace(*bodies.wheel, bodies.X_TW, *facets, grid_T);
+}
+
+GapBounds GapSource::bounds(const IndexBox& box) const {
+  Rectangle r = spanned(grid_, box);
+  const HeightBounds rail = bodies_.rail->height_bounds(X_RT_, r);
+  if (rail.empty) return {0.0, 0.0, true};
+  if (facets_) r = facets_->reach(r);
+  const HeightBounds wheel = bodies_.wheel->height_bounds(X_WT_, r);
+  if (wheel.empty) return {0.0, 0.0, true};
+  return {rail.z_min - wheel.z_max, rail.z_max - wheel.z_min, false};
+}
+
+void GapSource::fill(std::span<GapField::Tile* const> tiles) {
+  // Columns of tiles first, then columns of the same length side by side.
+  std::vector<Patch> columns, patches;
+  std::vector<GapField::Tile*> sorted(tiles.begin(), tiles.end());
+  std::ranges::sort(sorted, [](const auto* a, const auto* b) { return a->box.ix != b->box.ix ? a->box.ix < b->box.ix : a->box.iy < b->box.iy; });
+  for (GapField::Tile* tile : sorted) {
+    if (!columns.empty()) {
+      Patch& last = columns.back();
+      if (last.box.ix == tile->box.ix && last.box.iy + last.box.ny == tile->box.iy) {
+        last.box = united(last.box, tile->box);
+        last.tiles.push_back(tile);
+        continue;
+      }
+    }
+    columns.push_back({tile->box, {tile}});
+  }
+  constexpr std::size_t kLargest = 4096;  // points; enough work for one task
+  for (Patch& column : columns) {
+    const auto fits = [&](const Patch& p) {
+      return p.box.iy == column.box.iy && p.box.ny == column.box.ny && p.box.ix + p.box.nx == column.box.ix &&
+             p.box.size() + column.box.size() <= kLargest;
+    };
+    const auto beside = std::find_if(patches.rbegin(), patches.rend(), fits);
+    if (beside == patches.rend()) {
+      patches.push_back(std::move(column));
+      continue;
+    }
+    beside->box = united(beside->box, column.box);
+    beside->tiles.insert(beside->tiles.end(), column.tiles.begin(), column.tiles.end());
+  }
+  // The facets of a wheel are made as they are needed, by one thread.
+  if (facets_ || patches.size() < 2)
+    for (const Patch& p : patches) fill_patch(p);
+  else
+    parallel_for(patches.size(), [&](std::size_t i) { fill_patch(patches[i]); });
+}
+
+void GapSource::fill_patch(const Patch& patch) {
+  const IndexBox& box = patch.box;
+  const Grid2 part = part_of(grid_, box);
+  const std::size_t n = box.size();
+  const bool alone = patch.tiles.size() == 1;
+  std::vector<double> scratch(alone ? n : 3 * n);
+  const std::span<double> all(scratch);
+  const std::span<double> wheel_z = all.first(n);
+  GapField::Tile& first = *patch.tiles.front();
+  const std::span<double> rail_z = alone ? std::span<double>(first.rail_z) : all.subspan(n, n);
+  const std::span<double> slope = alone ? std::span<double>(first.rail_slope) : all.subspan(2 * n, n);
+  bodies_.rail->heights({X_RT_, part}, {rail_z, {}, slope});
+  if (facets_)
+    facets_->heights(part, wheel_z);
+  else
+    bodies_.wheel->heights({X_WT_, part}, {wheel_z, {}, {}});
+
+  for (GapField::Tile* tile : patch.tiles) {
+    for (int iy = 0; iy < tile->box.ny; ++iy) {
+      const std::size_t to = static_cast<std::size_t>(iy) * static_cast<std::size_t>(tile->box.nx);
+      const std::size_t from = static_cast<std::size_t>(tile->box.iy - box.iy + iy) * static_cast<std::size_t>(box.nx) +
+                               static_cast<std::size_t>(tile->box.ix - box.ix);
+      for (std::size_t i = 0; i < static_cast<std::size_t>(tile->box.nx); ++i) {
+        tile->rail_z[to + i] = rail_z[from + i];
+        tile->rail_slope[to + i] = slope[from + i];
+        tile->gap[to + i] = rail_z[from + i] - wheel_z[from + i];
+      }
+    }
+    tile->close();
+  }
+}
+
+}  // namespace treadmark::detection

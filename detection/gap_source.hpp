@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "treadmark/detection/gap_field.hpp"
+#include "treadmark/detection/wheel_facets.hpp"
+
+namespace treadmark::detection {
+
+/// Every gap over a rectangle lies in [low, high] where there is one [m]. empty: nowhere do both surfaces exist.
+struct GapBounds {
+  double low = 0.0, high = 0.0;
+  bool empty = false;
+};
+
+/// Where the gaps on a grid come from: the two surfaces, or the rail and the facets of a wheel.
+class GapSource {
+ public:
+  GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets);
+
+  /// Conservative bounds over the rectangle that the points of a box span.
+  GapBounds bounds(const IndexBox& box) const;
+
+  /// Fills a tile. Not thread-safe where the wheel has facets.
+  void fill(GapField::Tile& tile) { fill(std::span<GapField::Tile* const>(std::vector<GapField::Tile*>{&tile})); }
+  /// Fills tiles, with one query of each surface for every rectangle of whole tiles they make. In parallel if it pays.
+  void fill(std::span<GapField::Tile* const> tiles);
+
+ private:
+  struct Patch;
+  void fill_patch(const Patch& patch);
+
+  BodyPair bodies_;
+  Pose X_RT_, X_WT_;
+  Grid2 grid_;
+  std::optional<FacetWheel> facets_;
+};
+
+}  // namespace treadmark::detection

@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/pruned_gap.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+namespace treadmark::detection {
+namespace {
+
+// A tile costs about as much as the bounds that might spare it.
+constexpr int kLogX = 3, kLogY = 4;
+
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+
+// Bounds hold for real numbers; heights come with rounding of this size.
+constexpr double kRounding = 1e-10;
+
+}  // namespace
+
+PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets, bool everything)
+    : source_(bodies, grid_T, facets), field_(everything ? GapField(grid_T) : GapField(grid_T, kLogX, kLogY)), least_known_(kInfinity) {
+  if (everything)
+    reveal(IndexBox{0, 0, grid_T.nx, grid_T.ny});
+  else
+    push(0, 0, field_.tiles_x(), field_.tiles_y());
+}
+
+void PrunedGap::push(int tx, int ty, int nx, int ny) {
+  const IndexBox first = field_.tile_box(tx, ty), last = field_.tile_box(tx + nx - 1, ty + ny - 1);
+  const IndexBox box{first.ix, first.iy, last.ix + last.nx - first.ix, last.iy + last.ny - first.iy};
+  Node node{source_.bounds(box), tx, ty, nx, ny};
+  if (node.bounds.empty) return;
+  node.bounds.low -= kRounding;
+  frontier_.push_back(node);
+  std::ranges::push_heap(frontier_, later);
+}
+
+PrunedGap::Node PrunedGap::pop() {
+  std::ranges::pop_heap(frontier_, later);
+  const Node node = frontier_.back();
+  frontier_.pop_back();
+  return node;
+}
+
+void PrunedGap::split(const Node& node) {
+  // Bodies slope more across than along the track: tiles are wanted twice as long as wide.
+  const Grid2& g = field_.grid();
+  const double length = node.nx * std::ldexp(g.dx, field_.log_x()), width = node.ny * std::ldexp(g.dy, field_.log_y());
+  if (node.ny == 1 || (node.nx > 1 && length > 2.0 * width)) {
+    const int half = node.nx / 2;
+    push(node.tx, node.ty, half, node.ny);
+    push(node.tx + half, node.ty, node.nx - half, node.ny);
+  } else {
+    const int half = node.ny / 2;
+    push(node.tx, node.ty, node.nx, half);
+    push(node.tx, node.ty + half, node.nx, node.ny - half);
+  }
+}
+
+void PrunedGap::fill(const std::vector<Node>& nodes) {
+  std::vector<GapField::Tile*> tiles;
+  for (const Node& n : nodes)
+    for (int ty = n.ty; ty < n.ty + n.ny; ++ty)
+      for (int tx = n.tx; tx < n.tx + n.nx; ++tx)
+        if (!field_.known(tx, ty)) tiles.push_back(&field_.add_tile(tx, ty));
+  if (tiles.empty()) return;
+  source_.fill(tiles);
+  for (const GapField::Tile* tile : tiles) least_known_ = std::min(least_known_, tile->least);
+}
+
+void PrunedGap::reveal(double below) {
+  std::vector<Node> wanted;
+  while (!frontier_.empty() && frontier_.front().bounds.low < below) {
+    const Node node = pop();
+    if (node.single() || node.bounds.high < below)
+      wanted.push_back(node);
+    else
+      split(node);
+  }
+  fill(wanted);
+}
+
+void PrunedGap::reveal(const IndexBox& box) {
+  const int tx = box.ix >> field_.log_x(), ty = box.iy >> field_.log_y();
+  fill({{{}, tx, ty, ((box.ix + box.nx - 1) >> field_.log_x()) - tx + 1, ((box.iy + box.ny - 1) >> field_.log_y()) - ty + 1}});
+}
+
+double PrunedGap::least() {
+  while (!frontier_.empty() && frontier_.front().bounds.low < least_known_) {
+    const Node node = pop();
+    if (node.single())
+      fill({node});
+    else
+      split(node);
+  }
+  return std::isfinite(least_known_) ? least_known_ : std::numeric_limits<double>::quiet_NaN();
+}
+
+std::size_t PrunedGap::points_known() const {
+  std::size_t points = 0;
+  for (const auto& tile : field_.tiles())
+    if (tile) points += tile->box.size();
+  return points;
+}
+
+}  // namespace treadmark::detection
