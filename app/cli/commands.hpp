@@ -33,6 +33,17 @@ struct CompareOptions {
   std::vector<std::string> overrides;
 };
 
+struct BenchOptions {
+  std::string case_file;  ///< empty = the built-in case
+  std::string output_folder, json_file;
+  std::vector<std::string> backends;
+  std::vector<double> resolutions_mm;
+  double seconds_per_measure = 0.2;
+  bool markdown = false;
+  bool threads_given = false;  ///< else one thread
+  std::vector<std::string> overrides;
+};
+
 struct ConvertOptions {
   std::string input, output;      ///< geometry or case file; surface file
   std::string body;               ///< "wheel", "rail" or empty
@@ -46,6 +57,7 @@ struct ConvertOptions {
 // Each command returns an exit status or throws treadmark::Error.
 int run_command(const RunOptions& options, const CommonOptions& common);
 int compare_command(const CompareOptions& options, const CommonOptions& common);
+int bench_command(const BenchOptions& options, const CommonOptions& common);
 int convert_command(const ConvertOptions& options, const CommonOptions& common);
 int check_command(const RunOptions& options);
 int list_command(const std::string& what);

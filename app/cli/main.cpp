@@ -48,7 +48,8 @@ int main(int argc, char** argv) {
       "Results go to standard output, everything else to standard error.");
 
   cli::CommonOptions common;
-  program.add_option("--threads", common.threads, "Number of threads, 0 = all cores")->check(CLI::Range(0, 4096));
+  const CLI::Option* threads =
+      program.add_option("--threads", common.threads, "Number of threads, 0 = all cores")->check(CLI::Range(0, 4096));
   program.add_flag("--quiet", common.quiet, "No progress and no notes");
 
   cli::RunOptions options;
@@ -85,6 +86,19 @@ int main(int argc, char** argv) {
   compare->add_option("--json", comparison.json_file, "Write the rows here; - for standard output instead of the table")->type_name("FILE");
   add_overrides(*compare, comparison.overrides);
 
+  cli::BenchOptions measured;
+  CLI::App* bench = program.add_subcommand("bench", "Cost of heights and contact search in every backend, agreement checked first");
+  bench->add_option("CASE", measured.case_file, "Case file (.toml or .inp), default a wheel with a flat on a rail with a squat");
+  list_option(bench, "--backends", measured.backends, "Representations, default all that the shapes allow", "A,B,...");
+  list_option(bench, "--resolutions", measured.resolutions_mm, "Spacings of the data [mm], default 1,0.5", "MM,...");
+  bench->add_option("--seconds-per-measure", measured.seconds_per_measure, "Each time is the median of repeats over so long [s]")
+      ->type_name("S");
+  bench->add_option("-o,--output", measured.output_folder, "Folder for bench.json, bench.csv and a picture (SVG)")->type_name("FOLDER");
+  CLI::Option* bench_json =
+      bench->add_option("--json", measured.json_file, "Write the rows here; - for standard output instead of the table")->type_name("FILE");
+  bench->add_flag("--markdown", measured.markdown, "Print the table in Markdown")->excludes(bench_json);
+  add_overrides(*bench, measured.overrides);
+
   cli::ConvertOptions conversion;
   CLI::App* convert = program.add_subcommand("convert", "Write a wheel or rail as triangles, slices or offsets");
   convert->add_option("IN", conversion.input, "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")->required();
@@ -117,6 +131,8 @@ int main(int argc, char** argv) {
   try {
     if (run->parsed()) return cli::run_command(options, common);
     if (compare->parsed()) return cli::compare_command(comparison, common);
+    measured.threads_given = threads->count() > 0;
+    if (bench->parsed()) return cli::bench_command(measured, common);
     if (convert->parsed()) return cli::convert_command(conversion, common);
     if (check->parsed()) return cli::check_command(options);
     if (list->parsed()) return cli::list_command(what);

@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/bench/bench_surfaces.hpp"
+
+#include <chrono>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/bench/bench_pair.hpp"
+#include "treadmark/app/bench/build_info.hpp"
+#include "treadmark/app/bench/machine.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+struct Choice {
+  std::string backend;
+  double resolution = 0.0;
+  std::string name() const { return resolution > 0.0 ? fmt::format("{} {:g} mm", backend, 1e3 * resolution) : backend; }
+};
+
+void check(const BenchSettings& settings) {
+  for (const std::string& name : settings.backends) require_backend(name);
+  if (settings.resolutions.empty()) throw Error(ErrorKind::configuration, "no resolution is given");
+  for (const double r : settings.resolutions)
+    if (!(r > 0.0) || !std::isfinite(r)) throw Error(ErrorKind::configuration, "resolutions must be positive");
+  if (!(settings.seconds_per_measure > 0.0) || !(settings.seconds_per_measure <= 600.0))
+    throw Error(ErrorKind::configuration, "the time of a measure must be positive and at most 600 seconds");
+}
+
+std::vector<Choice> choices(const BenchScene& scene, const BenchSettings& settings) {
+  const std::string_view rail = scene.rail->surface->backend(), wheel = scene.wheel->surface->backend();
+  std::vector<std::string> names = settings.backends;
+  if (names.empty())
+    for (const std::string_view name : backend_names())
+      if (name != "analytic" || (rail == name && wheel == name)) names.emplace_back(name);
+  std::vector<Choice> all;
+  for (const std::string& name : names) {
+    if (name == "analytic" || (rail == name && wheel == name)) all.push_back({name, 0.0});
+    if (name == "analytic") continue;
+    for (const double r : settings.resolutions) all.push_back({name, r});
+  }
+  return all;
+}
+
+std::array<BenchRow, 2> not_built(const Choice& choice, const Error& error) {
+  std::array<BenchRow, 2> rows;
+  for (BenchRow& row : rows) {
+    row.backend = choice.backend;
+    row.resolution = choice.resolution;
+    row.reason = fmt::format("cannot be built: {}", error.what());
+  }
+  rows[1].body = Body::wheel;
+  return rows;
+}
+
+std::shared_ptr<const Surface> build(const BenchScene& scene, Body body, const Choice& choice, double& seconds) {
+  const bool rail = body == Body::rail;
+  const Region& region = rail ? scene.regions.rail : scene.regions.wheel;
+  const RepresentedSurface r = represent(scene.natural(body), {choice.backend, choice.resolution, region});
+  seconds = r.resampled ? r.build_seconds : rail ? scene.rail_build_seconds : scene.wheel_build_seconds;
+  return r.surface;
+}
+
+}  // namespace
+
+BenchReport bench_surfaces(const io::CaseFile& file, const BenchSettings& settings, const Progress& progress) {
+  const auto start = Clock::now();
+  check(settings);
+  const BenchScene scene = make_bench_scene(file, settings.grid);
+  const std::vector<Choice> wanted = choices(scene, settings);
+
+  BenchReport out;
+  out.version = version();
+  out.git = git_revision();
+  out.date = date_now();
+  out.machine = machine_name();
+  out.compiler = compiler_name();
+  out.libraries = library_versions();
+  out.threads = thread_count();
+  out.seconds_per_measure = settings.seconds_per_measure;
+  out.input_file = file.path.string();
+  out.input_sha256 = file.sha256;
+  const std::string rail(scene.rail->surface->backend()), wheel(scene.wheel->surface->backend());
+  out.truth = rail == wheel ? rail : fmt::format("wheel {}, rail {}", wheel, rail);
+
+  constexpr std::size_t kBuilds = 2, kSteps = kBuilds + kStepsOfPair;
+  for (std::size_t n = 0; n < wanted.size() && out.complete; ++n) {
+    const Choice& choice = wanted[n];
+    std::size_t done = n * kSteps;
+    const auto step = [&](const std::string& what) {
+      if (progress.report) progress.report(done, wanted.size() * kSteps, choice.name() + ", " + what);
+      ++done;
+      return !progress.stop_requested();
+    };
+    try {
+      BenchPair pair{choice.backend, choice.resolution, nullptr, nullptr, 0.0, 0.0};
+      const bool go_on = step("building the rail");
+      if (go_on) pair.rail = build(scene, Body::rail, choice, pair.rail_build_seconds);
+      if (go_on && step("building the wheel")) pair.wheel = build(scene, Body::wheel, choice, pair.wheel_build_seconds);
+      const auto rows = pair.wheel ? measure_pair(scene, pair, settings.seconds_per_measure, step) : std::nullopt;
+      if (rows)
+        out.rows.insert(out.rows.end(), rows->begin(), rows->end());
+      else
+        out.complete = false;
+    } catch (const Error& e) {
+      const auto rows = not_built(choice, e);
+      out.rows.insert(out.rows.end(), rows.begin(), rows.end());
+    }
+  }
+  out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return out;
+}
+
+}  // namespace treadmark::app

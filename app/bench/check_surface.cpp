@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/bench/check_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+
+#include <fmt/format.h>
+
+namespace treadmark::app {
+namespace {
+
+constexpr double kExact = 1e-9;   // [m] the same point of one surface, found in another way
+constexpr double kSteep = 3.0;    // slopes beyond this may hide behind others when turned
+constexpr double kStep = 1e-6;    // of differences [m]
+constexpr double kSlope = 1e-3;   // of differences, relative to 1 + slope^2 [-]
+constexpr RollYawPitch kOtherTurn{-0.03, 0.01, -0.04};
+constexpr std::size_t kSamples = 500;
+
+bool missing(double z) { return std::isnan(z); }
+
+/// Whether the surface as given ends (or begins) within so many points.
+bool near_end(const BenchView::Plane& truth, const Grid2& g, int ix, int iy, int reach) {
+  bool any = false, all = true;
+  for (int jy = std::max(0, iy - reach); jy <= std::min(g.ny - 1, iy + reach); ++jy)
+    for (int jx = std::max(0, ix - reach); jx <= std::min(g.nx - 1, ix + reach); ++jx) {
+      const bool hit = !missing(truth.z[g.index(jx, jy)]);
+      any = any || hit;
+      all = all && hit;
+    }
+  return any && !all;
+}
+
+std::string place(const Grid2& g, std::size_t i) {
+  const int nx = g.nx;
+  return fmt::format("at x = {:.2f} mm, y = {:.2f} mm of the plane", 1e3 * g.x(static_cast<int>(i) % nx), 1e3 * g.y(static_cast<int>(i) / nx));
+}
+
+/// Normal distances from the truth over the whole grid.
+std::string check_truth(const BenchView::Plane& subject, const BenchView::Plane& truth, const Grid2& g, double resolution, double limit,
+                        double& largest) {
+  const int reach = 2 + static_cast<int>(std::ceil(2.0 * resolution / g.dx));
+  std::size_t worst = 0;
+  double here = 0.0;
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const std::size_t i = g.index(ix, iy);
+      if (missing(subject.z[i]) != missing(truth.z[i])) {
+        if (near_end(truth, g, ix, iy, reach)) continue;
+        return fmt::format("{} {}", missing(truth.z[i]) ? "a height where there is no surface" : "no height where there is a surface", place(g, i));
+      }
+      if (missing(truth.z[i])) continue;
+      const double d = std::abs(subject.z[i] - truth.z[i]) / std::sqrt(1.0 + truth.dzdx[i] * truth.dzdx[i] + truth.dzdy[i] * truth.dzdy[i]);
+      if (d > here) here = d, worst = i;
+    }
+  largest = std::max(largest, here);
+  if (here <= limit) return {};
+  return fmt::format("{:.3g} um from the surface as given {}, {:.3g} um allowed", 1e6 * here, place(g, worst), 1e6 * limit);
+}
+
+/// Points of the grid that are there and not steep.
+std::vector<std::size_t> samples(const BenchView::Plane& plane, std::size_t count) {
+  std::vector<std::size_t> out;
+  const std::size_t every = std::max<std::size_t>(1, plane.z.size() / count);
+  for (std::size_t i = every / 2; i < plane.z.size(); i += every)
+    if (std::hypot(plane.dzdx[i], plane.dzdy[i]) < kSteep) out.push_back(i);  // false for NaN
+  return out;
+}
+
+/// The points found are points of the surface in another plane too, asked for one by one.
+std::string check_turned(const Surface& subject, const BenchView::Plane& plane, const Grid2& g) {
+  const Pose X_SQ{plane.X_SP.origin, plane.X_SP.rotation * rotation(kOtherTurn)};
+  for (const std::size_t i : samples(plane, kSamples)) {
+    const int nx = g.nx, k = static_cast<int>(i);
+    const Vec3 point_Q = X_SQ.apply_inverse(plane.X_SP.apply({g.x(k % nx), g.y(k / nx), plane.z[i]}));
+    const double off = std::abs(height_at(subject, X_SQ, point_Q.head<2>()) - point_Q.z());
+    if (!(off <= kExact * (1.0 + plane.dzdx[i] * plane.dzdx[i] + plane.dzdy[i] * plane.dzdy[i])))
+      return fmt::format("{:.3g} nm from its own single heights seen from elsewhere {}", 1e9 * off, place(g, i));
+  }
+  return {};
+}
+
+/// Slopes lie between the differences to both sides, which differ at the edges of facets.
+std::string check_slopes(const Surface& subject, const BenchView::Plane& plane, const Grid2& g) {
+  const std::vector<std::size_t> chosen = samples(plane, kSamples);
+  std::vector<Vec2> points;
+  for (const std::size_t i : chosen) {
+    const int nx = g.nx, k = static_cast<int>(i);
+    const Vec2 p(g.x(k % nx), g.y(k / nx));
+    for (const Vec2& d : {Vec2(-kStep, 0.0), Vec2(kStep, 0.0), Vec2(0.0, -kStep), Vec2(0.0, kStep)}) points.push_back(p + d);
+  }
+  std::vector<double> z(points.size());
+  subject.heights_at(plane.X_SP, points, {z, {}, {}});
+  for (std::size_t n = 0; n < chosen.size(); ++n) {
+    const std::size_t i = chosen[n];
+    const auto between = [&](double slope, double before, double after) {
+      const double left = (plane.z[i] - before) / kStep, right = (after - plane.z[i]) / kStep;
+      const double room = kSlope * (1.0 + plane.dzdx[i] * plane.dzdx[i] + plane.dzdy[i] * plane.dzdy[i]);
+      return slope >= std::fmin(left, right) - room && slope <= std::fmax(left, right) + room;
+    };
+    if (!between(plane.dzdx[i], z[4 * n], z[4 * n + 1]) || !between(plane.dzdy[i], z[4 * n + 2], z[4 * n + 3]))
+      return "slopes differ from differences of heights " + place(g, i);
+  }
+  return {};
+}
+
+/// The same heights with and without slopes.
+std::string check_plain(const std::vector<double>& plain, const BenchView::Plane& with_slopes, const Grid2& g) {
+  for (std::size_t i = 0; i < plain.size(); ++i)
+    if (missing(plain[i]) != missing(with_slopes.z[i]) || std::abs(plain[i] - with_slopes.z[i]) > kExact)
+      return "heights change when slopes are asked for " + place(g, i);
+  return {};
+}
+
+}  // namespace
+
+double representation_limit(double resolution, double largest_curvature) {
+  constexpr double kRoom = 2.0, kRounding = 5e-8;
+  return resolution > 0.0 ? kRoom * resolution * resolution / 8.0 * largest_curvature + kRounding : kExact;
+}
+
+SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, double resolution) {
+  const Grid2& g = truth.grid;
+  const double limit = representation_limit(resolution, truth.largest_curvature);
+  SurfaceAgreement result;
+  for (const bool level : {true, false}) {
+    const BenchView::Plane& expected = level ? truth.level : truth.tilted;
+    BenchView::Plane plane{expected.X_SP, std::vector<double>(g.size()), std::vector<double>(g.size()), std::vector<double>(g.size())};
+    std::vector<double> plain(g.size());
+    subject.heights({plane.X_SP, g}, {plain, {}, {}});
+    subject.heights({plane.X_SP, g}, {plane.z, plane.dzdx, plane.dzdy});
+    std::string reason = check_plain(plain, plane, g);
+    if (reason.empty()) reason = check_truth(plane, expected, g, resolution, limit, result.difference);
+    if (reason.empty()) reason = check_turned(subject, plane, g);
+    if (reason.empty()) reason = check_slopes(subject, plane, g);
+    if (!reason.empty()) {
+      result.reason = fmt::format("{} plane: {}", level ? "level" : "tilted", reason);
+      return result;
+    }
+  }
+  return result;
+}
+
+}  // namespace treadmark::app
