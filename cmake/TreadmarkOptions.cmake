@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 option(TREADMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
-option(TREADMARK_BUILD_BENCH "Build the benchmarks" OFF)
+option(TREADMARK_BUILD_BENCH "Build the benchmarks" ${TREADMARK_BUILD_TESTS})
 option(TREADMARK_WITH_FFTW "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)" ON)
 option(TREADMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(TREADMARK_SANITIZE "" CACHE STRING "Sanitizers for every target, for example address,undefined")

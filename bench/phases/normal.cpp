@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "treadmark/bench/phases/scene.hpp"
+#include "treadmark/bench/common/refuse.hpp"
+#include "treadmark/bench/phases/solved_case.hpp"
 
 namespace treadmark::bench {
 namespace {
@@ -22,11 +23,11 @@ bool conditions_hold(const kalker::ContactProblem& problem, const kalker::Contac
 }
 
 void normal(benchmark::State& state, bool warm) {
-  const kalker::ContactProblem problem = patch_problem(scene("spline"));
+  const kalker::ContactProblem problem = patch_problem(solved_case("spline"));
   kalker::ContactSolver solver;
   kalker::ContactSolution solution = solver.solve_normal(problem);
   if (!conditions_hold(problem, solution)) {
-    state.SkipWithError("contact conditions are violated");
+    refuse(state, "contact conditions are violated");
     return;
   }
   for (auto _ : state) {

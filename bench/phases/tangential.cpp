@@ -4,7 +4,8 @@
 
 #include <cmath>
 
-#include "treadmark/bench/phases/scene.hpp"
+#include "treadmark/bench/common/refuse.hpp"
+#include "treadmark/bench/phases/solved_case.hpp"
 
 namespace treadmark::bench {
 namespace {
@@ -23,13 +24,13 @@ bool conditions_hold(const kalker::ContactSolution& s) {
 }
 
 void tangential(benchmark::State& state, bool warm) {
-  const kalker::ContactProblem problem = patch_problem(scene("spline"));
+  const kalker::ContactProblem problem = patch_problem(solved_case("spline"));
   kalker::ContactSolver solver;
   const kalker::ContactSolution normal = solver.solve_normal(problem);
   kalker::ContactSolution solution = normal;
   solver.solve_tangential(problem, solution);
   if (solution.tangential.status != Status::ok || !conditions_hold(solution)) {
-    state.SkipWithError("friction conditions are violated");
+    refuse(state, "friction conditions are violated");
     return;
   }
   for (auto _ : state) {

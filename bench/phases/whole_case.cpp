@@ -4,16 +4,17 @@
 
 #include <cmath>
 
-#include "treadmark/bench/phases/scene.hpp"
+#include "treadmark/bench/common/refuse.hpp"
+#include "treadmark/bench/phases/solved_case.hpp"
 
 namespace treadmark::bench {
 namespace {
 
 // Agreement: the vertical force is the prescribed one.
 void whole_case(benchmark::State& state, const char* backend) {
-  const Scene& s = scene(backend);
+  const SolvedCase& s = solved_case(backend);
   if (std::abs(s.solution.force_T.z() - *s.problem.vertical_force) > 1e-4 * *s.problem.vertical_force) {
-    state.SkipWithError("the vertical force is not the prescribed one");
+    refuse(state, "the vertical force is not the prescribed one");
     return;
   }
   wheelrail::Pair pair(s.geometry);

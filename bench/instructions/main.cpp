@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Runs one path of the library a chosen number of times, for tools that count instructions.
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
+#include <string>
+#include <string_view>
+
+#include "treadmark/app/bench/build_info.hpp"
+#include "treadmark/bench/instructions/paths.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace {
+
+using namespace treadmark;
+
+constexpr const char* kUsage =
+    "usage: bench_instructions list              names of the paths\n"
+    "       bench_instructions compiler          compiler of this program\n"
+    "       bench_instructions check [PATH...]   checks the answers of these paths or of all\n"
+    "       bench_instructions run PATH N        runs a path N times; prints what one run counts\n";
+
+int check(int count, char** names) {
+  std::vector<std::string> chosen(names, names + count);
+  if (chosen.empty()) chosen = bench::path_names();
+  int status = 0;
+  for (const std::string& name : chosen) {
+    const std::string reason = bench::make_path(name).check();
+    if (reason.empty()) continue;
+    std::fprintf(stderr, "%s: %s\n", name.c_str(), reason.c_str());
+    status = 1;
+  }
+  return status;
+}
+
+int run(const char* name, long times) {
+  const bench::MeasuredPath path = bench::make_path(name);
+  for (long i = 0; i < times; ++i) path.run();
+  std::printf("%s %zu\n", path.unit.c_str(), path.units);
+  return 0;
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  const ThreadLimit one(1);
+  const std::string_view verb = argc > 1 ? argv[1] : "";
+  try {
+    if (verb == "list" && argc == 2) {
+      for (const std::string& name : bench::path_names()) std::puts(name.c_str());
+      return 0;
+    }
+    if (verb == "compiler" && argc == 2) return std::puts(app::compiler_name().c_str()) < 0;
+    if (verb == "check") return check(argc - 2, argv + 2);
+    if (verb == "run" && argc == 4) return run(argv[2], std::atol(argv[3]));
+  } catch (const std::exception& e) {
+    std::fprintf(stderr, "bench_instructions: %s\n", e.what());
+    return 1;
+  }
+  std::fputs(kUsage, stderr);
+  return 2;
+}

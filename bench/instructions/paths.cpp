@@ -1,0 +1,146 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/bench/instructions/paths.hpp"
+
+#include <algorithm>
+#include <memory>
+#include <stdexcept>
+#include <variant>
+
+#include "treadmark/app/bench/bench_case.hpp"
+#include "treadmark/app/bench/bench_scene.hpp"
+#include "treadmark/app/bench/check_detection.hpp"
+#include "treadmark/app/bench/check_surface.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/solvers/kalker/contact_solver.hpp"
+
+namespace treadmark::bench {
+namespace {
+
+// Small, because all of it is set up under a simulator.
+constexpr double kResolution = 2e-3;  // of samples [m]
+constexpr app::BenchGrid kGrid{0.5e-3, 6000};
+constexpr const char* kDetectionBackends[] = {"analytic", "spline", "mesh", "offset"};
+
+/// The scene and its bodies in one representation; shared by the functions of a path.
+struct Setting {
+  app::BenchScene scene;
+  std::shared_ptr<const Surface> rail, wheel;
+  detection::BodyPair bodies;
+};
+
+std::shared_ptr<const Setting> make_setting(const std::string& backend, bool with_rail, bool with_wheel) {
+  auto s = std::make_shared<Setting>();
+  s->scene = app::make_bench_scene(app::bench_case(), kGrid);
+  const double resolution = backend == "analytic" ? 0.0 : kResolution;
+  if (with_rail) s->rail = represent(*s->scene.rail, {backend, resolution, s->scene.regions.rail}).surface;
+  if (with_wheel) s->wheel = represent(*s->scene.wheel, {backend, resolution, s->scene.regions.wheel}).surface;
+  s->bodies = s->scene.bodies;
+  if (s->rail) s->bodies.rail = s->rail.get();
+  if (s->wheel) s->bodies.wheel = s->wheel.get();
+  return s;
+}
+
+MeasuredPath heights(const std::string& backend, Body body, bool tilted) {
+  const bool rail = body == Body::rail;
+  const auto s = make_setting(backend, rail, !rail);
+  const auto surface = rail ? s->rail : s->wheel;
+  const app::BenchView& view = s->scene.view(body);
+  const PlaneGrid plane{tilted ? view.tilted.X_SP : view.level.X_SP, view.grid};
+  const auto z = std::make_shared<std::vector<double>>(view.grid.size());
+  const double resolution = backend == "analytic" ? 0.0 : kResolution;
+  return {"point", z->size(), [surface, plane, z] { surface->heights(plane, {*z, {}, {}}); },
+          [s, surface, body, resolution] { return app::check_surface(*surface, s->scene.view(body), resolution).reason; }};
+}
+
+MeasuredPath search(const std::string& backend, bool cold) {
+  const auto s = make_setting(backend, true, true);
+  const auto check = [s] { return app::check_search(s->bodies, s->scene.search); };
+  if (cold) return {"search", 1, [s] { detection::ContactSearch(s->bodies, s->scene.search).at(0.0); }, check};
+  const auto made = std::make_shared<detection::ContactSearch>(s->bodies, s->scene.search);
+  made->at(0.0);
+  const auto further = std::make_shared<bool>(false);  // never twice the same position
+  const auto run = [s, made, further] {
+    *further = !*further;
+    made->at(*further ? app::kWarmStep : 2.0 * app::kWarmStep);
+  };
+  return {"search", 1, run, check};
+}
+
+MeasuredPath distance(const std::string& backend) {
+  const auto s = make_setting(backend, true, true);
+  const app::BenchScene& where = s->scene;
+  return {"element", where.contact_grid.size(), [s, &where] { detection::undeformed_distance(s->bodies, where.X_TC, where.contact_grid); },
+          [s, &where] { return app::check_distance(s->bodies, where.X_TC, where.contact_grid); }};
+}
+
+/// What is wrong with a solution of the normal problem.
+std::string check_normal(const kalker::ContactProblem& problem, const kalker::ContactSolution& solution) {
+  const double room = 1e-4 * problem.approach;
+  for (std::size_t i = 0; i < solution.pressure.size(); ++i) {
+    const double deformed = problem.gap[i] - problem.approach + solution.displacement_n[i];
+    if (solution.pressure[i] < 0.0 || deformed < -room || (solution.pressure[i] > 0.0 && deformed > room))
+      return "contact conditions are violated";
+  }
+  return solution.elements_contact > 0 ? "" : "no contact";
+}
+
+MeasuredPath normal() {
+  const app::BenchScene scene = app::make_bench_scene(app::bench_case(), kGrid);
+  const auto distance = std::make_shared<const detection::UndeformedDistance>(
+      detection::undeformed_distance(scene.bodies, scene.X_TC, scene.contact_grid));
+  kalker::ContactProblem problem;
+  problem.grid = scene.contact_grid;
+  problem.gap = distance->distance;
+  problem.force_prescribed = false;
+  problem.approach = distance->approach;
+  const auto solve = [distance, problem] { return kalker::ContactSolver().solve_normal(problem); };
+  return {"solve", 1, [solve] { solve(); }, [problem, solve] { return check_normal(problem, solve()); }};
+}
+
+struct Entry {
+  std::string name;
+  std::function<MeasuredPath()> make;
+};
+
+std::vector<Entry> make_entries() {
+  std::vector<Entry> all;
+  for (const Body body : {Body::wheel, Body::rail})
+    for (const std::string_view name : backend_names())
+      for (const bool tilted : {false, true}) {
+        const std::string backend(name);
+        all.push_back({std::string("heights/") + (body == Body::rail ? "rail/" : "wheel/") + backend + (tilted ? "/tilted" : "/level"),
+                       [=] { return heights(backend, body, tilted); }});
+      }
+  for (const std::string backend : kDetectionBackends) {
+    all.push_back({"search/cold/" + backend, [=] { return search(backend, true); }});
+    all.push_back({"search/warm/" + backend, [=] { return search(backend, false); }});
+    all.push_back({"distance/" + backend, [=] { return distance(backend); }});
+  }
+  all.push_back({"normal", normal});
+  return all;
+}
+
+const std::vector<Entry>& entries() {
+  static const std::vector<Entry> all = make_entries();
+  return all;
+}
+
+}  // namespace
+
+const std::vector<std::string>& path_names() {
+  static const std::vector<std::string> names = [] {
+    std::vector<std::string> out;
+    for (const Entry& e : entries()) out.push_back(e.name);
+    return out;
+  }();
+  return names;
+}
+
+MeasuredPath make_path(const std::string& name) {
+  const auto found = std::find_if(entries().begin(), entries().end(), [&](const Entry& e) { return e.name == name; });
+  if (found == entries().end()) throw std::invalid_argument("no path is named " + name);
+  return found->make();
+}
+
+}  // namespace treadmark::bench

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/bench/phases/solved_case.hpp"
+
+#include <map>
+#include <stdexcept>
+#include <string>
+#include <variant>
+
+#include "treadmark/app/bench/bench_case.hpp"
+#include "treadmark/app/read_surface.hpp"
+#include "treadmark/app/wheelrail_case.hpp"
+
+namespace treadmark::bench {
+namespace {
+
+SolvedCase solve(std::string_view backend) {
+  const io::CaseFile file = app::bench_case();
+  auto input = std::get<io::WheelRailCase>(file.cases.front().content);
+  input.rail.defects = {};
+  const double radius = input.wheelset.nominal_radius;
+  const NaturalSurface rail = app::read_surface(input.rail, Body::rail, radius), wheel = app::read_surface(input.wheel, Body::wheel, radius);
+  SolvedCase s;
+  s.geometry = {rail.surface, represent(wheel, {std::string(backend), 0.0, {}}).surface, false};
+  s.problem = app::to_problem(input, false);
+  s.solution = wheelrail::Pair(s.geometry).solve(s.problem);
+  if (s.solution.status != Status::ok || s.solution.patches.empty())
+    throw std::runtime_error("the case of the benchmark could not be solved: " + s.solution.message);
+  return s;
+}
+
+}  // namespace
+
+const SolvedCase& solved_case(std::string_view backend) {
+  static std::map<std::string, SolvedCase, std::less<>> known;
+  const auto found = known.find(backend);
+  return found != known.end() ? found->second : known.emplace(std::string(backend), solve(backend)).first->second;
+}
+
+kalker::ContactProblem patch_problem(const SolvedCase& s) {
+  const wheelrail::PatchSolution& patch = s.solution.patches.front();
+  kalker::ContactProblem c;
+  c.grid = patch.grid;
+  c.gap = patch.distance;
+  c.material = s.problem.material;
+  c.friction = s.problem.friction;
+  c.force_prescribed = false;
+  c.approach = patch.approach;
+  c.regime = kalker::Regime::steady;
+  c.creepage.xi = patch.kinematics.xi;
+  c.creepage.eta = patch.kinematics.eta;
+  c.creepage.phi = patch.kinematics.phi;
+  c.rolling.velocity = patch.kinematics.velocity;
+  c.rolling.step = patch.grid.dx;
+  return c;
+}
+
+}  // namespace treadmark::bench
