@@ -27,20 +27,20 @@ class Bvh {
   HeightBounds bounds(const PlaneView& view, const Rectangle& r, double largest_margin,
                       const std::function<double(std::uint32_t)>& margin) const;
 
+  MeshArrays arrays() const {
+    return {mesh_.vertices.data()->data(), mesh_.triangles.data()->data(), mesh_.neighbours.data()->data(), nodes_.data(), order_.data()};
+  }
+
   std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(std::uint32_t); }
 
  private:
-  struct Node {
-    Vec3 low, high;
-    std::array<float, 3> normal_low, normal_high;  ///< range of the unit normals, rounded outwards
-    std::uint32_t begin, count;                    ///< triangles in order_; the left child of an inner node follows it
-    std::uint32_t right;                           ///< right child, 0 for leaves
-  };
+  using Node = BvhNode;
   struct Extent;
 
   void build(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
              std::uint32_t stop_at);
   void close(std::uint32_t node);
+  void add_slab(Node& node) const;
 
   const PreparedMesh& mesh_;
   std::vector<Node> nodes_;

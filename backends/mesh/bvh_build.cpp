@@ -78,36 +78,63 @@ void Bvh::build(std::uint32_t node, std::uint32_t begin, std::uint32_t count, co
   if (stop_at == 0) close(node);
 }
 
-/// Box and normals of a node from its children or its triangles.
-void Bvh::close(std::uint32_t node) {
-  Node& self = nodes_[node];
-  if (self.right != 0) {
-    const Node &a = nodes_[node + 1], &b = nodes_[self.right];
-    self.low = a.low.cwiseMin(b.low);
-    self.high = a.high.cwiseMax(b.high);
-    for (std::size_t k = 0; k < 3; ++k) {
-      self.normal_low[k] = std::min(a.normal_low[k], b.normal_low[k]);
-      self.normal_high[k] = std::max(a.normal_high[k], b.normal_high[k]);
-    }
-    return;
-  }
-  constexpr float kOutwards = 1e-6f;  // more than the rounding to float
-  self.low = Vec3::Constant(std::numeric_limits<double>::infinity());
-  self.high = -self.low;
-  self.normal_low.fill(std::numeric_limits<float>::infinity());
-  self.normal_high.fill(-std::numeric_limits<float>::infinity());
-  for (std::uint32_t i = self.begin; i < self.begin + self.count; ++i) {
+/// The direction in which the triangles of a node are thinnest, about: the slab perpendicular to their mean normal.
+void Bvh::add_slab(Node& node) const {
+  constexpr std::uint32_t kLargest = 4096;  ///< triangles of a node that is worth it
+  std::fill_n(node.slab_normal, 3, 0.0f);
+  node.slab_low = node.slab_high = 0.0f;
+  if (node.count > kLargest) return;
+  Vec3 normal = Vec3::Zero();
+  for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) normal += doubled_area(mesh_, order_[i]);
+  const double length = normal.norm();
+  if (!(length > 0.0)) return;
+  for (int k = 0; k < 3; ++k) normal[k] = static_cast<double>(node.slab_normal[k] = static_cast<float>(normal[k] / length));
+  const Vec3 middle(node.middle[0], node.middle[1], node.middle[2]);
+  double low = std::numeric_limits<double>::infinity(), high = -low;
+  for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i)
     for (const std::uint32_t v : mesh_.triangles[order_[i]]) {
-      self.low = self.low.cwiseMin(mesh_.vertices[v]);
-      self.high = self.high.cwiseMax(mesh_.vertices[v]);
+      const double at = normal.dot(mesh_.vertices[v] - middle);
+      low = std::min(low, at);
+      high = std::max(high, at);
+    }
+  constexpr double kOutwards = 1e-7;  // more than the rounding to float
+  node.slab_low = static_cast<float>(low - kOutwards * std::fabs(low) - kBoxRounding);
+  node.slab_high = static_cast<float>(high + kOutwards * std::fabs(high) + kBoxRounding);
+}
+
+/// Box and normals of a node from its children or its triangles.
+void Bvh::close(std::uint32_t number) {
+  Node& node = nodes_[number];
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  std::fill_n(node.normal_low, 3, std::numeric_limits<float>::infinity());
+  std::fill_n(node.normal_high, 3, -std::numeric_limits<float>::infinity());
+  if (node.right != 0) {
+    for (const Node* child : {&nodes_[number + 1], &nodes_[node.right]})
+      for (int k = 0; k < 3; ++k) {
+        low[k] = std::min(low[k], child->middle[k] - child->half[k]);
+        high[k] = std::max(high[k], child->middle[k] + child->half[k]);
+        node.normal_low[k] = std::min(node.normal_low[k], child->normal_low[k]);
+        node.normal_high[k] = std::max(node.normal_high[k], child->normal_high[k]);
+      }
+  }
+  for (std::uint32_t i = node.begin; node.right == 0 && i < node.begin + node.count; ++i) {
+    constexpr float kOutwards = 1e-6f;  // more than the rounding to float
+    for (const std::uint32_t v : mesh_.triangles[order_[i]]) {
+      low = low.cwiseMin(mesh_.vertices[v]);
+      high = high.cwiseMax(mesh_.vertices[v]);
     }
     const Vec3 n = doubled_area(mesh_, order_[i]).normalized();
-    for (std::size_t k = 0; k < 3; ++k) {
-      const auto component = static_cast<float>(n[static_cast<int>(k)]);
-      self.normal_low[k] = std::min(self.normal_low[k], component - kOutwards);
-      self.normal_high[k] = std::max(self.normal_high[k], component + kOutwards);
+    for (int k = 0; k < 3; ++k) {
+      const auto component = static_cast<float>(n[k]);
+      node.normal_low[k] = std::min(node.normal_low[k], component - kOutwards);
+      node.normal_high[k] = std::max(node.normal_high[k], component + kOutwards);
     }
   }
+  for (int k = 0; k < 3; ++k) {
+    node.middle[k] = 0.5 * (low[k] + high[k]);
+    node.half[k] = 0.5 * (high[k] - low[k]);
+  }
+  add_slab(node);
 }
 
 }  // namespace treadmark::mesh

@@ -11,7 +11,7 @@ namespace treadmark::mesh {
 namespace {
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-11;  ///< [m] for comparisons of heights and boxes at coordinates up to 100 m
+constexpr double kRounding = kBoxRounding;
 constexpr std::size_t kDepth = 64;   ///< levels of the hierarchy: 32-bit numbers are halved
 
 class Stack {
@@ -31,8 +31,8 @@ class Stack {
 struct Bvh::Extent {
   Vec3 middle, half;
   Extent(const Node& node, const PlaneView& view)
-      : middle(view.to_plane(0.5 * (node.low + node.high))),
-        half(view.rotation.cwiseAbs().transpose() * (0.5 * (node.high - node.low))) {}
+      : middle(view.to_plane(Eigen::Map<const Vec3>(node.middle))),
+        half(view.rotation.cwiseAbs().transpose() * Eigen::Map<const Vec3>(node.half)) {}
   bool over(double x, double y, double margin) const {
     return std::fabs(middle.x() - x) <= half.x() + margin && std::fabs(middle.y() - y) <= half.y() + margin;
   }
@@ -40,12 +40,11 @@ struct Bvh::Extent {
 };
 
 LineHit Bvh::outermost(const PlaneView& view, double x, double y) const {
-  constexpr double kSame = 1e-11;  // [m] the two sides of a fold meet at one height: its outside is seen
   LineHit inside, beside;
   double depth = -kInfinity, depth_beside = -kInfinity;
   const auto better = [&](const LineHit& h, const LineHit& best, double best_depth) {
     const double d = view.side * h.z;
-    if (std::fabs(d - best_depth) <= kSame && h.cover != best.cover) return h.cover == Cover::front;
+    if (std::fabs(d - best_depth) <= kSameHeight && h.cover != best.cover) return h.cover == Cover::front;
     return d > best_depth;
   };
   Stack stack;

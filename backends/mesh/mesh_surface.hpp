@@ -29,12 +29,12 @@ class MeshSurface final : public Surface {
   std::size_t memory_bytes() const override;
 
  private:
-  class Lines;
-
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+
+  const SmoothPatches* smooth() const { return smooth_ ? &*smooth_ : nullptr; }
 
   std::string backend_;
   Facing facing_;

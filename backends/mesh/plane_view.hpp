@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 
+#include "treadmark/backends/mesh/kernel_types.hpp"
 #include "treadmark/backends/mesh/prepared_mesh.hpp"
 #include "treadmark/core/surface.hpp"
 
@@ -23,9 +24,23 @@ struct PlaneView {
   PlaneView(const PreparedMesh& mesh, const Pose& X_SP, Facing facing)
       : origin(X_SP.origin - mesh.centre), rotation(X_SP.rotation), side(facing == Facing::down ? 1.0 : -1.0) {}
 
-  Vec3 to_plane(const Vec3& local) const { return rotation.transpose() * (local - origin); }
+  /// In the order of operations of the kernels, so that all agree to the last bit.
+  Vec3 to_plane(const Vec3& local) const {
+    const double dx = local.x() - origin.x(), dy = local.y() - origin.y(), dz = local.z() - origin.z();
+    Vec3 q;
+    for (int i = 0; i < 3; ++i) q[i] = (rotation(0, i) * dx + rotation(1, i) * dy) + rotation(2, i) * dz;
+    return q;
+  }
   Vec3 to_local(double x, double y, double z) const { return origin + rotation * Vec3(x, y, z); }
   Vec3 direction() const { return rotation.col(2); }
+
+  /// The same for kernels.
+  PlaneLines lines() const {
+    PlaneLines l{{origin.x(), origin.y(), origin.z()}, {}, side};
+    for (int j = 0; j < 3; ++j)
+      for (int i = 0; i < 3; ++i) l.rotation[j][i] = rotation(j, i);
+    return l;
+  }
 };
 
 enum class Cover { none, front, back };
@@ -34,6 +49,7 @@ enum class Cover { none, front, back };
 struct LineHit {
   std::uint32_t triangle = kNone;
   Cover cover = Cover::none;
+  bool beside = false;        ///< the line passes a rim within kRimTolerance
   std::array<double, 3> b{};  ///< barycentric coordinates, >= 0, sum 1
   double z = 0.0;             ///< height along the plane normal [m]
 };
@@ -67,8 +83,8 @@ struct ProjectedTriangle {
 
   /// For edge functions of a point inside.
   LineHit hit(const std::array<double, 3>& e, Cover which) const {
-    const double sum = e[0] + e[1] + e[2];
-    LineHit h{index, which, {e[0] / sum, e[1] / sum, e[2] / sum}, 0.0};
+    const double inverse = 1.0 / (e[0] + e[1] + e[2]);
+    LineHit h{index, which, false, {e[0] * inverse, e[1] * inverse, e[2] * inverse}, 0.0};
     h.z = h.b[0] * q[0].z() + h.b[1] * q[1].z() + h.b[2] * q[2].z();
     return h;
   }
@@ -90,6 +106,7 @@ struct ProjectedTriangle {
       nearest = distance;
       best.triangle = index;
       best.cover = sum > 0.0 ? Cover::front : Cover::back;
+      best.beside = true;
       best.b = {};
       best.b[(k + 1) % 3] = 1.0 - s;
       best.b[(k + 2) % 3] = s;

@@ -42,6 +42,26 @@ SmoothPatches::SmoothPatches(const PreparedMesh& mesh, double crease_angle)
                                  std::numeric_limits<float>::infinity());
   });
   largest_bulge_ = *std::max_element(bulge_.begin(), bulge_.end());
+  needle_.resize(n);
+  for (std::size_t t = 0; t < n; ++t) {
+    const Corners& c = mesh.triangles[t];
+    needle_[t] = is_sliver(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
+  }
+}
+
+bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines, std::uint32_t triangle,
+                            const double* places, double* patch) const {
+  if (needle_[triangle]) return false;
+  PatchSource source;
+  for (std::size_t k = 0; k < 3; ++k) {
+    const VertexFit& fit = fits_.fits[fits_.of_corner[triangle][k]];
+    source.fits[k] = {fit.axis_u.data(), fit.axis_v.data(), fit.normal.data(), fit.c.data()};
+    source.corners[k] = mesh.vertices[mesh.triangles[triangle][k]].data();
+  }
+  source.places = places;
+  source.bulge = static_cast<double>(bulge_[triangle]);
+  kernel.prepare(lines, source, patch);
+  return true;
 }
 
 Vec3 SmoothPatches::mean_normal(std::uint32_t triangle) const {
@@ -85,14 +105,13 @@ bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& tri
   std::array<double, 3> w = blend_weights<double>(hit.b, feet);
   double t = 0.0;
   if (!solve(fits, w, start, direction, view.side, t)) return false;
-  // reach() is never less than the bulge
-  if (!(std::fabs(t) <= static_cast<double>(bulge_[triangle.index]) || std::fabs(t) <= reach(view, triangle.index))) return false;
+  if (!(std::fabs(t) <= reach(view, triangle.index))) return false;
   out.z = hit.z + t;
   if (derivatives == 0) return true;
 
   // weights with derivatives; across a sliver they mean nothing
   std::array<Jet2, 3> jets{w[0], w[1], w[2]};
-  if (!is_sliver(triangle.q[0], triangle.q[1], triangle.q[2])) {
+  if (!needle_[triangle.index]) {
     if (derivatives == 1) {
       const auto first = blend_weights(barycentric_jets<Jet1>(triangle, hit), feet);
       for (std::size_t k = 0; k < 3; ++k) jets[k] = Jet2(w[k], first[k].x, first[k].y);
@@ -141,8 +160,10 @@ bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& tri
 }
 
 double SmoothPatches::reach(const PlaneView& view, std::uint32_t triangle) const {
-  const double cos = std::fabs(mean_normal(triangle).dot(view.direction()));
-  return static_cast<double>(bulge_[triangle]) / std::max(cos, 1.0 / kSteepest);
+  const Corners& c = fits_.of_corner[triangle];
+  const double cosine =
+      std::fabs((fits_.fits[c[0]].normal + fits_.fits[c[1]].normal + fits_.fits[c[2]].normal).dot(view.direction())) / 3.0;
+  return static_cast<double>(bulge_[triangle]) / std::max(cosine, 1.0 / kSteepest);
 }
 
 /// Distance between facet and surface along the mean normal, on a lattice of barycentric coordinates.

@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "treadmark/backends/mesh/patch.hpp"
 #include "treadmark/backends/mesh/plane_view.hpp"
 #include "treadmark/backends/mesh/vertex_fit.hpp"
 
@@ -31,12 +32,16 @@ class SmoothPatches {
   bool evaluate(const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit, double x, double y,
                 int derivatives, Evaluated& out) const;
 
+  /// The triangle made ready for kernels; places: its corners in the plane frame. False for needles, which evaluate() takes.
+  bool prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines, std::uint32_t triangle,
+               const double* places, double* patch) const;
+
   /// Greatest distance along the plane normal between the facet and the surface over it [m].
   double reach(const PlaneView& view, std::uint32_t triangle) const;
   double largest_reach() const { return kSteepest * static_cast<double>(largest_bulge_); }
   double largest_bulge() const { return static_cast<double>(largest_bulge_); }
 
-  std::size_t memory_bytes() const { return fits_.memory_bytes() + bulge_.capacity() * sizeof(float); }
+  std::size_t memory_bytes() const { return fits_.memory_bytes() + bulge_.capacity() * sizeof(float) + needle_.capacity() / 8; }
 
  private:
   static constexpr double kSteepest = 10.0;  ///< longest way along a line, in bulges
@@ -48,6 +53,7 @@ class SmoothPatches {
 
   VertexFits fits_;
   std::vector<float> bulge_;  ///< along the mean normal of the corners [m]
+  std::vector<bool> needle_;
   float largest_bulge_ = 0.0f;
 };
 

@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/backends/mesh/patch.hpp"
+#include "treadmark/backends/mesh/tile.hpp"
+
+namespace treadmark::mesh {
+
+/// The kernels of this processor.
+struct Kernels {
+  bool (*fill_tile)(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
+  PatchKernel patch;
+};
+
+const Kernels& generic_kernels();
+/// nullptr where the processor has no AVX2.
+const Kernels* avx2_kernels();
+/// The fastest ones.
+const Kernels& kernels();
+
+}  // namespace treadmark::mesh

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/mesh/patch_kernel.hpp"
+
+namespace treadmark::mesh {
+
+const PatchKernel kPatchGeneric{prepare_patch, patch_points, patch_mixed};
+
+}  // namespace treadmark::mesh

@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/mesh/tile_kernel.hpp"
+
+namespace treadmark::mesh {
+
+bool fill_tile_generic(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile) { return TileFill(mesh, lines, tile).run(); }
+
+}  // namespace treadmark::mesh
