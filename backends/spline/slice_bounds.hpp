@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstring>
 #include <numbers>
 #include <type_traits>
 #include <vector>
@@ -19,91 +20,165 @@ struct PlaneWindow {
   Interval across, along;
 };
 
+/// A range by its middle and half width: sums need no case distinctions.
+struct Range {
+  double middle, half;
+  explicit Range(const Interval& a) : middle(0.5 * (a.low + a.high)), half(0.5 * (a.high - a.low)) {}
+  Range(double at, double reach) : middle(at), half(reach) {}
+  Interval interval() const { return {middle - half, middle + half}; }
+  bool overlaps(const Range& other) const { return std::abs(middle - other.middle) <= half + other.half; }
+};
+
 /// What boxes around parts of a rail may have to do with a window; all answers are conservative.
 class RailWindow {
  public:
-  explicit RailWindow(const PlaneWindow& window) : window_(window) {}
+  explicit RailWindow(const PlaneWindow& window);
 
-  bool exists() const;                                ///< false: the plane has no lines that suit
-  Interval u(const SliceHulls::Box& box) const;       ///< that the window can see of the box
-  Interval heights(const SliceHulls::Box& box) const;  ///< of the box over the window, empty if it is not
-  /// Calls use(part) for the parts of u that lie in the span, in the span's own values.
-  template <class Use>
-  static void clip(const Interval& u, const Interval& span, const Use& use) {
-    const Interval part{std::max(u.low, span.low), std::min(u.high, span.high)};
-    if (!part.empty()) use(part);
+  bool exists() const { return exists_; }                 ///< false: the plane has no lines that suit
+  Interval u(const Range& y, const Range& w) const { return u_.of(y, w).interval(); }  ///< that the window can see of the box
+  /// Heights of the box over the window, empty if it is not.
+  Interval heights(const Range& y, const Range& w) const {
+    return s_.of(y, w).overlaps(along_) ? n_.of(y, w).interval() : Interval::none();
   }
+  /// Turns to be added to u.
+  static constexpr int kTurns = 0;
 
  private:
-  PlaneWindow window_;
+  // A linear function of (y, w), known up to half.
+  struct Linear {
+    double at_zero, half, by_y, by_w;
+    Range of(const Range& y, const Range& w) const {
+      return {at_zero + by_y * y.middle + by_w * w.middle, half + std::abs(by_y) * y.half + std::abs(by_w) * w.half};
+    }
+  };
+  bool exists_;
+  Linear u_{}, s_{}, n_{};
+  Range along_;
 };
 
 /// The same for a wheel.
 class WheelWindow {
  public:
-  explicit WheelWindow(const PlaneWindow& window)
-      : window_(window), view_(window.across_axis, window.along_axis, window.normal, window.origin) {}
+  explicit WheelWindow(const PlaneWindow& window);
 
   bool exists() const { return true; }
-  Interval u(const SliceHulls::Box& box) const;
-  Interval heights(const SliceHulls::Box& box) const;
-  template <class Use>
-  static void clip(const Interval& u, const Interval& span, const Use& use) {
-    for (int turn = -2; turn <= 2; ++turn) RailWindow::clip(u + turn * 2.0 * std::numbers::pi, span, use);
+  Interval u(const Range& y, const Range& r) const;
+  Interval heights(const Range& y, const Range& r) const {
+    const Range a = a_of(y);
+    const double size = std::abs(a.middle), far = size + a.half, near = std::max(0.0, size - a.half);
+    const double r_high = r.middle + r.half, r_low = r.middle - r.half;
+    if (near > r_high) return Interval::none();
+    const Range b(Interval{std::sqrt(std::max(0.0, r_low * r_low - far * far)), std::sqrt(std::max(0.0, r_high * r_high - near * near))});
+    if (!s_.of(y, b).overlaps(along_)) return Interval::none();
+    return n_.of(y, b).interval();
   }
+  static constexpr int kTurns = 2;
 
  private:
-  WheelBoxBounds bounds() const { return {view_, window_.across, window_.along}; }
+  // Linear in y and b, after a has been put in.
+  struct Linear {
+    double at_zero, half, by_y, by_b;
+    Range of(const Range& y, const Range& b) const {
+      return {at_zero + by_y * y.middle + by_b * b.middle, half + std::abs(by_y) * y.half + std::abs(by_b) * b.half};
+    }
+  };
+  Range a_of(const Range& y) const { return {a_.at_zero + a_.by_y * y.middle, a_.half + std::abs(a_.by_y) * y.half}; }
 
-  PlaneWindow window_;
-  WheelView view_;
+  Linear a_{}, s_{}, n_{};
+  Range along_;
+  double sense_, u_middle_;
 };
 
 template <class Geometry>
 using WindowOn = std::conditional_t<std::is_same_v<Geometry, WheelGeometry>, WheelWindow, RailWindow>;
 
-/// Range of the heights over the window.
+/// The pyramid of boxes as seen through a window, for BoundSearch.
 template <class Window>
-Interval heights_over(const Window& window, const SliceNet& net, const SliceHulls& hulls) {
-  Interval heights = Interval::none();
-  if (!window.exists()) return heights;
-  const Interval all_u = window.u(hulls.all());
-  const auto wanted = [&](const Interval& group) {
-    bool some = false;
-    Window::clip(all_u, group, [&](const Interval&) { some = true; });
-    return some;
+class SliceTree {
+ public:
+  struct Node {
+    int level, row, column;
+    double turn;  // to be added to the window's u
   };
-  hulls.visit(wanted, [&](const SliceHulls::Box& box, std::size_t group, int cell) {
-    if (window.heights(box).empty()) return false;
-    if (cell < 0) return true;
-    // Only what the window sees of each span.
-    const Interval u = window.u(box);
-    for (int span = hulls.first_span(group); span < hulls.first_span(group + 1); ++span)
-      Window::clip(u, hulls.span_range(net, span), [&](const Interval& part) {
-        SliceHulls::Box seen;
-        if (!net.hull(span, cell, part.low, part.high, seen.y, seen.w)) return;
-        if (const Interval n = window.heights(seen); !n.empty()) heights.include(n);
-      });
-    return true;
-  });
-  return heights;
-}
+  static constexpr std::size_t kMostChildren = 48;  // the root's in every turn, else 4 x 4 or 8
+
+  SliceTree(const Window& window, const SliceNet& net, const SliceHulls& hulls) : window_(window), net_(net), hulls_(hulls) {}
+
+  Node root() const { return {static_cast<int>(hulls_.levels().size()), 0, 0, 0.0}; }
+  static bool is_leaf(const Node& node) { return node.level == 0; }
+
+  template <class Visit>
+  void children(const Node& node, const Visit& visit) const {
+    const auto level_count = static_cast<int>(hulls_.levels().size());
+    const SliceHulls::Level& below = hulls_.levels()[static_cast<std::size_t>(node.level) - 1];
+    if (node.level == level_count) {
+      const Interval u = window_.u(range_y(hulls_.all()), range_w(hulls_.all()));
+      for (int turn = -Window::kTurns; turn <= Window::kTurns; ++turn)
+        boxes(below, node.level - 1, u, turn * 2.0 * std::numbers::pi, 0, below.rows, 0, below.columns, visit);
+      return;
+    }
+    const SliceHulls::Level& level = hulls_.levels()[static_cast<std::size_t>(node.level)];
+    const HullBox& box = level.box(node.row, node.column);
+    const int row = node.row * level.rows_below, column = node.column * level.columns_below;
+    boxes(below, node.level - 1, window_.u(range_y(box), range_w(box)), node.turn, row, std::min(below.rows, row + level.rows_below), column,
+          std::min(below.columns, column + level.columns_below), visit);
+  }
+
+  /// Only what the window sees of each span.
+  Interval leaf(const Node& node) const {
+    Interval heights = Interval::none();
+    const HullBox& box = hulls_.levels().front().box(node.row, node.column);
+    const Range y = range_y(box), w = range_w(box);
+    const Interval u = window_.u(y, w) + node.turn, row = hulls_.levels().front().u[static_cast<std::size_t>(node.row)];
+    if (u.low <= row.low && u.high >= row.high) return window_.heights(y, w);
+    for (int span = hulls_.first_span(node.row); span < hulls_.first_span(node.row + 1); ++span) {
+      const Interval all = hulls_.span_range(net_, span), part{std::max(u.low, all.low), std::min(u.high, all.high)};
+      if (part.empty()) continue;
+      Interval seen_y, seen_w;
+      if (!net_.hull(span, node.column, part.low, part.high, seen_y, seen_w)) continue;
+      if (const Interval n = window_.heights(Range(seen_y), Range(seen_w)); !n.empty()) heights.include(n);
+    }
+    return heights;
+  }
+
+ private:
+  static Range range_y(const HullBox& box) { return {static_cast<double>(box.y), static_cast<double>(box.half_y)}; }
+  static Range range_w(const HullBox& box) { return {static_cast<double>(box.w), static_cast<double>(box.half_w)}; }
+
+  template <class Visit>
+  void boxes(const SliceHulls::Level& level, int index, const Interval& u, double turn, int first_row, int last_row, int first_column,
+             int last_column, const Visit& visit) const {
+    for (int row = first_row; row < last_row; ++row) {
+      if (!level.u[static_cast<std::size_t>(row)].overlaps(u + turn)) continue;
+      for (int column = first_column; column < last_column; ++column) {
+        const HullBox& box = level.box(row, column);
+        if (box.empty()) continue;
+        const Interval heights = window_.heights(range_y(box), range_w(box));
+        if (!heights.empty()) visit(Node{index, row, column, turn}, heights);
+      }
+    }
+  }
+
+  const Window& window_;
+  const SliceNet& net_;
+  const SliceHulls& hulls_;
+};
 
 /// Marks the cells that may lie over the window.
 template <class Window>
-void mark_cells_over(const Window& window, const SliceHulls& hulls, std::vector<char>& marks) {
+void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls& hulls, std::vector<char>& marks) {
   if (!window.exists()) return;
-  const Interval all_u = window.u(hulls.all());
-  const auto wanted = [&](const Interval& group) {
-    bool some = false;
-    Window::clip(all_u, group, [&](const Interval&) { some = true; });
-    return some;
+  using Tree = SliceTree<Window>;
+  const Tree tree(window, net, hulls);
+  const auto descend = [&](const auto& self, const typename Tree::Node& node) -> void {
+    tree.children(node, [&](const typename Tree::Node& child, const Interval&) {
+      if (Tree::is_leaf(child))
+        marks[static_cast<std::size_t>(child.column)] = 1;
+      else
+        self(self, child);
+    });
   };
-  hulls.visit(wanted, [&](const SliceHulls::Box& box, std::size_t, int cell) {
-    if (window.heights(box).empty()) return false;
-    if (cell >= 0) marks[static_cast<std::size_t>(cell)] = 1;
-    return true;
-  });
+  descend(descend, tree.root());
 }
 
 }  // namespace treadmark::spline

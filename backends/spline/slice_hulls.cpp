@@ -49,35 +49,81 @@ void widen(SliceHulls::Twist& twist, const SliceNet& net, int span, int cell) {
   for (int k = 0; k < 4; ++k) twist.uuu = greater(twist.uuu, 6.0 * net.line(span, cell + k).power[3]);
 }
 
-}  // namespace
+// Least float interval about a range.
+void round_outwards(const Interval& range, float& middle, float& half) {
+  middle = static_cast<float>(0.5 * (range.low + range.high));
+  const double exact = std::max(range.high - static_cast<double>(middle), static_cast<double>(middle) - range.low);
+  half = std::nextafter(static_cast<float>(exact), std::numeric_limits<float>::infinity());
+}
 
-SliceHulls::SliceHulls(const SliceNet& net)
-    : cells_(static_cast<std::size_t>(net.cells())), coarse_per_group_((cells_ + kCellsPerGroup - 1) / kCellsPerGroup),
-      spans_(net.spans()) {
-  constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  const auto spans = static_cast<std::size_t>(net.spans());
-  for (std::size_t first = 0; first < spans; first += kSpansPerGroup) {
-    const std::size_t end = std::min(spans, first + kSpansPerGroup);
-    Interval u{net.span_start(static_cast<int>(first)), net.span_end(static_cast<int>(end) - 1)};
-    if (!net.closed() && first == 0) u.low = -kInfinite;
-    if (!net.closed() && end == spans) u.high = kInfinite;
-    u_.push_back(u);
-    const std::size_t group = coarse_.size();
-    coarse_.resize(group + coarse_per_group_);
-    for (std::size_t cell = 0; cell < cells_; ++cell) {
-      Box box;
-      Twist& twist = twist_.emplace_back();
-      for (std::size_t span = first; span < end; ++span) {
-        widen(twist, net, static_cast<int>(span), static_cast<int>(cell));
-        Box part;
-        if (net.hull(static_cast<int>(span), static_cast<int>(cell), net.span_start(static_cast<int>(span)),
-                     net.span_end(static_cast<int>(span)), part.y, part.w)) box.include(part);
-      }
-      fine_.push_back(box);
-      coarse_[group + cell / kCellsPerGroup].include(box);
-      all_.include(box);
+// The level above, whose boxes hold rows x columns of the one below.
+SliceHulls::Level level_above(const SliceHulls::Level& below, int rows, int columns) {
+  SliceHulls::Level level;
+  level.rows = (below.rows + rows - 1) / rows;
+  level.columns = (below.columns + columns - 1) / columns;
+  level.rows_below = rows;
+  level.columns_below = columns;
+  for (int row = 0; row < level.rows; ++row) {
+    const int first_row = row * rows, last_row = std::min(below.rows, first_row + rows);
+    level.u.push_back({below.u[static_cast<std::size_t>(first_row)].low, below.u[static_cast<std::size_t>(last_row) - 1].high});
+    for (int column = 0; column < level.columns; ++column) {
+      Interval y = Interval::none(), w = Interval::none();
+      for (int r = first_row; r < last_row; ++r)
+        for (int c = column * columns; c < std::min(below.columns, (column + 1) * columns); ++c)
+          if (const HullBox& box = below.box(r, c); !box.empty()) {
+            y.include(box.range_y());
+            w.include(box.range_w());
+          }
+      level.boxes.push_back(y.empty() ? HullBox() : HullBox(y, w));
     }
   }
+  return level;
+}
+
+}  // namespace
+
+HullBox::HullBox(const Interval& range_y, const Interval& range_w) {
+  round_outwards(range_y, y, half_y);
+  round_outwards(range_w, w, half_w);
+}
+
+SliceHulls::SliceHulls(const SliceNet& net) : cells_(static_cast<std::size_t>(net.cells())), spans_(net.spans()) {
+  constexpr double kInfinite = std::numeric_limits<double>::infinity();
+  constexpr int kFewBoxes = 8;
+  Level finest;
+  finest.rows = (spans_ + kSpansPerGroup - 1) / kSpansPerGroup;
+  finest.columns = net.cells();
+  for (int row = 0; row < finest.rows; ++row) {
+    const int first = first_span(row), end = first_span(row + 1);
+    Interval u{net.span_start(first), net.span_end(end - 1)};
+    if (!net.closed() && first == 0) u.low = -kInfinite;
+    if (!net.closed() && end == spans_) u.high = kInfinite;
+    finest.u.push_back(u);
+    for (int cell = 0; cell < net.cells(); ++cell) {
+      Interval y = Interval::none(), w = Interval::none();
+      Twist& twist = twist_.emplace_back();
+      for (int span = first; span < end; ++span) {
+        widen(twist, net, span, cell);
+        Interval part_y, part_w;
+        if (!net.hull(span, cell, net.span_start(span), net.span_end(span), part_y, part_w)) continue;
+        y.include(part_y);
+        w.include(part_w);
+      }
+      finest.boxes.push_back(y.empty() ? HullBox() : HullBox(y, w));
+      all_y_.include(y);
+      all_w_.include(w);
+    }
+  }
+  levels_.push_back(std::move(finest));
+  levels_.push_back(level_above(levels_.back(), 1, 8));
+  while (levels_.back().rows * levels_.back().columns > kFewBoxes) levels_.push_back(level_above(levels_.back(), 4, 4));
+  if (!empty()) all_ = HullBox(all_y_, all_w_);
+}
+
+std::size_t SliceHulls::memory_bytes() const {
+  std::size_t bytes = twist_.size() * sizeof(Twist);
+  for (const Level& level : levels_) bytes += level.boxes.size() * sizeof(HullBox) + level.u.size() * sizeof(Interval);
+  return bytes;
 }
 
 }  // namespace treadmark::spline

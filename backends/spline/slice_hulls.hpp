@@ -8,68 +8,68 @@
 
 namespace treadmark::spline {
 
-/// Boxes of (y, w) around parts of a slice net, from control points, in two levels: groups of u-spans by single v-cells,
-/// and by groups of cells. Empty intervals where there is no surface. Also bounds of derivatives.
+/// Ranges of (y, w) by middle and half width, rounded outwards; half_y < 0: empty.
+struct HullBox {
+  float y = 0.0F, w = 0.0F, half_y = -1.0F, half_w = -1.0F;
+
+  HullBox() = default;
+  HullBox(const Interval& range_y, const Interval& range_w);
+  bool empty() const { return half_y < 0.0F; }
+  Interval range_y() const { return {static_cast<double>(y) - static_cast<double>(half_y), static_cast<double>(y) + static_cast<double>(half_y)}; }
+  Interval range_w() const { return {static_cast<double>(w) - static_cast<double>(half_w), static_cast<double>(w) + static_cast<double>(half_w)}; }
+};
+
+/// A pyramid of boxes of (y, w) around parts of a slice net, from control points. The finest boxes hold a group of u-spans
+/// and one v-cell; every box of a level above holds several of the level below. Also bounds of derivatives.
 class SliceHulls {
  public:
-  struct Box {
-    Interval y = Interval::none(), w = Interval::none();
-    bool empty() const { return y.empty(); }
-    void include(const Box& other) {
-      y.include(other.y);
-      w.include(other.w);
-    }
-  };
-
   /// Bounds of derivatives (u in its unit, v in cells), greatest of both fields.
   struct Twist {
     float uuu = 0.0F, uuv = 0.0F, uuvv = 0.0F, uvv = 0.0F, uvvv = 0.0F, vv = 0.0F, vvv = 0.0F;
+  };
+
+  struct Level {
+    int rows = 0, columns = 0;                      ///< along u and v
+    int rows_below = 1, columns_below = 1;          ///< of the level below in one box
+    std::vector<Interval> u;                        ///< of each row; the outer ones of a rail go on for ever
+    std::vector<HullBox> boxes;                     ///< by rows
+    const HullBox& box(int row, int column) const {
+      return boxes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+    }
   };
 
   explicit SliceHulls(const SliceNet& net);
 
   /// Over a cell and the group of spans that holds the span.
   const Twist& twist(int span, int cell) const {
-    return twist_[static_cast<std::size_t>(span) / kSpansPerGroup * cells_ + static_cast<std::size_t>(cell)];
+    return twist_[static_cast<std::size_t>(span / kSpansPerGroup) * cells_ + static_cast<std::size_t>(cell)];
   }
 
-  const Box& all() const { return all_; }
-  std::size_t memory_bytes() const { return (fine_.size() + coarse_.size()) * sizeof(Box) + twist_.size() * sizeof(Twist) + u_.size() * sizeof(Interval); }
+  bool empty() const { return !(all_y_.low <= all_y_.high); }
+  const Interval& all_y() const { return all_y_; }
+  const Interval& all_w() const { return all_w_; }
+  const HullBox& all() const { return all_; }
+  std::size_t memory_bytes() const;
 
+  /// From the finest (rows: groups of spans, columns: cells) to the coarsest.
+  const std::vector<Level>& levels() const { return levels_; }
   /// Spans of a group: first_span(group) .. first_span(group + 1) - 1.
-  int first_span(std::size_t group) const {
-    return group < u_.size() ? static_cast<int>(group * kSpansPerGroup) : spans_;
-  }
+  int first_span(int group) const { return std::min(group * kSpansPerGroup, spans_); }
   /// u of a span; the outer ones of a rail go on for ever.
   Interval span_range(const SliceNet& net, int span) const {
-    return {span == 0 ? u_.front().low : net.span_start(span), span + 1 == spans_ ? u_.back().high : net.span_end(span)};
-  }
-
-  /// For all groups of spans with wanted_u(interval): calls visit(box, group, -1) for every group of cells, and, where that
-  /// returns true, visit(box, group, cell) for each cell of it.
-  template <class WantedU, class Visit>
-  void visit(const WantedU& wanted_u, const Visit& visit) const {
-    for (std::size_t g = 0; g < u_.size(); ++g) {
-      if (!wanted_u(u_[g])) continue;
-      for (std::size_t c = 0; c < coarse_per_group_; ++c) {
-        const Box& coarse = coarse_[g * coarse_per_group_ + c];
-        if (coarse.empty() || !visit(coarse, g, -1)) continue;
-        const std::size_t end = std::min(cells_, (c + 1) * kCellsPerGroup);
-        for (std::size_t k = c * kCellsPerGroup; k < end; ++k)
-          if (const Box& fine = fine_[g * cells_ + k]; !fine.empty()) visit(fine, g, static_cast<int>(k));
-      }
-    }
+    const std::vector<Interval>& u = levels_.front().u;
+    return {span == 0 ? u.front().low : net.span_start(span), span + 1 == spans_ ? u.back().high : net.span_end(span)};
   }
 
  private:
-  static constexpr std::size_t kSpansPerGroup = 4, kCellsPerGroup = 16;
+  static constexpr int kSpansPerGroup = 4;
 
-  std::size_t cells_, coarse_per_group_;
+  std::size_t cells_;
   int spans_;
-  std::vector<Interval> u_;  // of each group of spans
-  std::vector<Box> fine_, coarse_;
+  std::vector<Level> levels_;
   std::vector<Twist> twist_;
-  Box all_;
+  Interval all_y_ = Interval::none(), all_w_ = Interval::none();
+  HullBox all_;
 };
 
 }  // namespace treadmark::spline

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <type_traits>
 
+#include "treadmark/backends/spline/bound_search.hpp"
 #include "treadmark/backends/spline/column_hits.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
@@ -42,7 +43,7 @@ struct CellRun {
 template <class Geometry>
 std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls) {
   std::vector<char> marks(static_cast<std::size_t>(net.cells()) + 1, 0);
-  mark_cells_over(WindowOn<Geometry>(window), hulls, marks);
+  mark_cells_over(WindowOn<Geometry>(window), net, hulls, marks);
   std::vector<CellRun> runs;
   for (int k = 0; k < net.cells(); ++k) {
     if (!marks[static_cast<std::size_t>(k)]) continue;
@@ -107,8 +108,8 @@ void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geom
 template <class Geometry>
 SliceSurface<Geometry>::SliceSurface(SliceNet net, double nominal_radius)
     : net_(with_radius<Geometry>(std::move(net), nominal_radius)), geometry_(nominal_radius), hulls_(net_) {
-  if (hulls_.all().empty()) throw Error(ErrorKind::input_data, "the slices leave no surface");
-  if (kIsWheel<Geometry> && !(hulls_.all().w.low > 0.0))
+  if (hulls_.empty()) throw Error(ErrorKind::input_data, "the slices leave no surface");
+  if (kIsWheel<Geometry> && !(hulls_.all_w().low > 0.0))
     throw Error(ErrorKind::configuration, "a wheel's radius must be positive on all slices", {},
                 "check the nominal radius and the unit of the slices");
 }
@@ -126,10 +127,10 @@ Facing SliceSurface<Geometry>::facing() const {
 
 template <class Geometry>
 Box3 SliceSurface<Geometry>::bounds() const {
-  const auto& all = hulls_.all();
-  if constexpr (kIsWheel<Geometry>) return {{-all.w.high, all.y.low, -all.w.high}, {all.w.high, all.y.high, all.w.high}};
+  const Interval &y = hulls_.all_y(), &w = hulls_.all_w();
+  if constexpr (kIsWheel<Geometry>) return {{-w.high, y.low, -w.high}, {w.high, y.high, w.high}};
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
-  return {{-kInfinite, all.y.low, all.w.low}, {kInfinite, all.y.high, all.w.high}};
+  return {{-kInfinite, y.low, w.low}, {kInfinite, y.high, w.high}};
 }
 
 template <class Geometry>
@@ -213,7 +214,9 @@ HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Re
   const Interval x = widened(rectangle_P.x_min, rectangle_P.x_max), y = widened(rectangle_P.y_min, rectangle_P.y_max);
   const WindowOn<Geometry> window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0),
                                    X_SP.rotation.col(2), X_SP.origin, along_y ? x : y, along_y ? y : x});
-  const Interval n = heights_over(window, net_, hulls_);
+  if (!window.exists()) return {0.0, 0.0, true};
+  const SliceTree tree(window, net_, hulls_);
+  const Interval n = BoundSearch(tree).range(tree.root());
   if (n.empty()) return {0.0, 0.0, true};
   return {n.low - 1e-12, n.high + 1e-12, false};
 }

@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <algorithm>
+#include <array>
+
+#include "treadmark/backends/spline/interval.hpp"
+
+namespace treadmark::spline {
+
+/// Range of the heights of all leaves of a tree of boxes, by branch and bound: first the low end, then the high end, always
+/// the most promising child first; a box that widens the range by a small part only is taken as it is.
+/// Tree: Node; kMostChildren; children(node, visit(child, heights)), in which it leaves out boxes that are not over the
+/// window; is_leaf(node); leaf(node): heights, may be empty.
+template <class Tree>
+class BoundSearch {
+ public:
+  explicit BoundSearch(const Tree& tree) : tree_(tree) {}
+
+  Interval range(const typename Tree::Node& root) {
+    descend<true>(root);
+    descend<false>(root);
+    return {found_low_, found_high_};
+  }
+
+ private:
+  static constexpr double kNegligible = 0.03;  // of the range
+
+  struct Candidate {
+    Interval heights;
+    typename Tree::Node node;
+  };
+
+  // Whether the boxes add nothing to that end.
+  template <bool low>
+  bool settled(const Interval& n) {
+    const double room = kNegligible * std::max(0.0, sure_.width());
+    if constexpr (low) {
+      if (n.low >= found_low_) return true;
+      if (n.low < sure_.low - room) return false;
+      found_low_ = n.low;
+    } else {
+      if (n.high <= found_high_) return true;
+      if (n.high > sure_.high + room) return false;
+      found_high_ = n.high;
+    }
+    return true;
+  }
+
+  void include(const Interval& n) {
+    if (n.empty()) return;
+    sure_.include(n);
+    found_low_ = std::min(found_low_, n.low);
+    found_high_ = std::max(found_high_, n.high);
+  }
+
+  template <bool low>
+  void descend(const typename Tree::Node& node) {
+    std::array<Candidate, Tree::kMostChildren> candidates;
+    std::size_t count = 0;
+    tree_.children(node, [&](const typename Tree::Node& child, const Interval& heights) {
+      std::size_t at = count++;
+      for (; at > 0 && before<low>(heights, candidates[at - 1].heights); --at) candidates[at] = candidates[at - 1];
+      candidates[at] = {heights, child};
+    });
+    for (std::size_t i = 0; i < count; ++i) {
+      if (settled<low>(candidates[i].heights)) continue;
+      if (tree_.is_leaf(candidates[i].node))
+        include(tree_.leaf(candidates[i].node));
+      else
+        descend<low>(candidates[i].node);
+    }
+  }
+
+  template <bool low>
+  static bool before(const Interval& a, const Interval& b) {
+    return low ? a.low < b.low : a.high > b.high;
+  }
+
+  const Tree& tree_;
+  Interval sure_ = Interval::none();
+  double found_low_ = Interval::none().low, found_high_ = Interval::none().high;
+};
+
+}  // namespace treadmark::spline
