@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
+#include <utility>
 
 #include "treadmark/backends/displacement/displaced_line.hpp"
 
@@ -40,12 +42,33 @@ struct Seen {
 
 Interval ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
+constexpr std::size_t kLeaf = 256;   ///< points that are judged together
+constexpr double kLeafSize = 3e-3;   ///< [m]
+
+/// Points of the same square of kLeafSize next to each other, whatever the order of the list.
+void order_by_squares(std::vector<PlanePoint>& points, const Rectangle& r) {
+  constexpr double kMost = 1e9;
+  if (!(std::max(r.x_max - r.x_min, r.y_max - r.y_min) <= kMost * kLeafSize)) return;
+  std::vector<std::pair<std::uint64_t, std::size_t>> squares(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const auto ix = static_cast<std::uint64_t>((points[i].x - r.x_min) / kLeafSize);
+    const auto iy = static_cast<std::uint64_t>((points[i].y - r.y_min) / kLeafSize);
+    squares[i] = {(iy << 32) | ix, i};
+  }
+  if (std::is_sorted(squares.begin(), squares.end())) return;
+  std::sort(squares.begin(), squares.end());
+  std::vector<PlanePoint> ordered_points;
+  ordered_points.reserve(points.size());
+  for (const auto& one : squares) ordered_points.push_back(points[one.second]);
+  points.swap(ordered_points);
+}
+
 }  // namespace
 
 void DisplacedPoints::solve(std::vector<PlanePoint>& points) {
   leaves_.clear(), leaf_unknowns_.clear(), unknowns_.clear(), searched_.clear(), slopes_.clear();
   if (points.empty()) return;
-  divide(points, {0, points.size()}, max_offset_);
+  divide_list(points);
   iterate(points);
   for (std::size_t k = 0; k < leaves_.size(); ++k) {
     const Range all = leaf_unknowns_[k];
@@ -66,10 +89,33 @@ void DisplacedPoints::solve(std::vector<PlanePoint>& points) {
   for (const std::size_t i : searched_) search(points[i]);
 }
 
+/// Cuts the list into ranges that may be judged as a whole.
+void DisplacedPoints::divide_list(std::vector<PlanePoint>& points) {
+  const std::size_t n = points.size();
+  Rectangle r = around(points, 0, n);
+  const auto small = [](const Rectangle& one) { return std::max(one.x_max - one.x_min, one.y_max - one.y_min) <= kLeafSize; };
+  if (!small(r)) {
+    const HeightBounds near = view_.base.height_bounds(view_.X_SP, enlarged(r, max_offset_));
+    if (near.empty || view_.field.range(view_.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_})).zero()) return;
+    order_by_squares(points, r);
+  }
+  std::size_t begin = 0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const PlanePoint& p = points[i];
+    Rectangle grown{p.x, p.x, p.y, p.y};
+    if (i > begin) grown = {std::min(r.x_min, p.x), std::max(r.x_max, p.x), std::min(r.y_min, p.y), std::max(r.y_max, p.y)};
+    if (i > begin && (i - begin == kLeaf || !small(grown))) {
+      divide(points, {begin, i}, max_offset_);
+      begin = i;
+      grown = {p.x, p.x, p.y, p.y};
+    }
+    r = grown;
+  }
+  divide(points, {begin, n}, max_offset_);
+}
+
 /// Leaves alone what no offset can reach, and divides the rest until it is small enough to be judged as a whole.
 void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range, double max_offset) {
-  constexpr std::size_t kLeaf = 256;
-  constexpr double kLeafSize = 3e-3;   // [m]
   constexpr double kSteep = 6.0;       // slope up to which one judgement serves many points
   const std::size_t n = range.end - range.begin;
   const double side = view_.side();
@@ -88,12 +134,11 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
 
   const double size = std::max(r.x_max - r.x_min, r.y_max - r.y_min);
   const auto halve = [&] {
-    std::size_t middle = range.begin + n / 2;
-    if (n > 2 * kLeaf) middle = range.begin + (n / kLeaf + 1) / 2 * kLeaf;
+    const std::size_t middle = range.begin + n / 2;
     divide(points, {range.begin, middle}, max_offset);
     divide(points, {middle, range.end}, max_offset);
   };
-  if (n > kLeaf || (n > 1 && (size > kLeafSize || seen.steepest > kSteep))) return halve();
+  if (n > 1 && seen.steepest > kSteep) return halve();
 
   const View::Directions e = view_.directions(uy);
   const Rectangle moved = View::moved_back(r, offsets, e);
@@ -102,11 +147,14 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
   if (seen.present == 0 && reach <= kNoReach) return;
   const Rectangle sources{std::min(r.x_min, moved.x_min), std::max(r.x_max, moved.x_max), std::min(r.y_min, moved.y_min),
                           std::max(r.y_max, moved.y_max)};
-  const HeightBounds source = view_.base.height_bounds(view_.X_SP, sources);
-  if (source.empty) return;
   // Another sheet of the base close by would show as heights far beyond those of the points.
-  const double outermost_base = side > 0.0 ? source.z_max : -source.z_min;
   const double slack = (1.5 * seen.steepest + 0.3) * (2.0 * size + 4.0 * reach) + 1e-4;
+  double outermost_base = side > 0.0 ? near.z_max : -near.z_min;
+  if (!(seen.present > 0 && outermost_base - seen.outer <= slack)) {
+    const HeightBounds source = view_.base.height_bounds(view_.X_SP, sources);
+    if (source.empty) return;
+    outermost_base = side > 0.0 ? source.z_max : -source.z_min;
+  }
   if (seen.present > 0 && outermost_base - seen.outer > slack && reach > kNoReach) {
     if (n > 1) return halve();
     searched_.push_back(range.begin);
@@ -158,7 +206,9 @@ void DisplacedPoints::iterate(const std::vector<PlanePoint>& points) {
         const PlanePoint& p = points[w.point];
         const NaturalPoint q(view_.body, X.apply({p.x, p.y, w.t}));
         const Vec2 at(p.x - d_[k] * X.rotation.col(0).dot(q.e), p.y - d_[k] * X.rotation.col(1).dot(q.e));
-        if (at.x() == w.cx && at.y() == w.cy) continue;
+        // near by, the tangent plane is as good as the base itself
+        constexpr double kSamePlace = 2e-10;  // [m]
+        if (std::fabs(at.x() - w.cx) <= kSamePlace && std::fabs(at.y() - w.cy) <= kSamePlace) continue;
         w.cx = at.x(), w.cy = at.y();
         asking_.push_back(active_[k]);
         moved_.push_back(at);

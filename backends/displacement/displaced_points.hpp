@@ -45,6 +45,7 @@ class DisplacedPoints {
     enum class State { moving, solved, failed } state;
   };
 
+  void divide_list(std::vector<PlanePoint>& points);
   void divide(std::vector<PlanePoint>& points, const Range& range, double max_offset);
   void collect(std::vector<PlanePoint>& points, const Leaf& leaf);
   void iterate(const std::vector<PlanePoint>& points);

@@ -14,6 +14,7 @@
 #include "treadmark/backends/displacement/natural_point.hpp"
 #include "treadmark/backends/displacement/reach.hpp"
 #include "treadmark/backends/displacement/shape.hpp"
+#include "treadmark/backends/displacement/upright_rail.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -39,6 +40,7 @@ class DisplacedSurface final : public Surface {
     if (!std::isfinite(range_.low) || !std::isfinite(range_.high))
       throw Error(ErrorKind::configuration, "offsets of a surface must be bounded");
     max_offset_ = greatest(range_);
+    rail_low_ = b.min.z(), rail_high_ = b.max.z();
   }
 
   std::string_view backend() const override { return backend_; }
@@ -61,6 +63,7 @@ class DisplacedSurface final : public Surface {
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
+  bool rail_heights(const Pose& X_SP, const Rectangle& r, Interval& t) const;
   View view(const Pose& X_SP) const { return {*base_, *field_, body_, X_SP}; }
   /// Whether no offset reaches any height over the rectangle.
   bool undisturbed(const View& view, const Rectangle& r) const {
@@ -75,6 +78,7 @@ class DisplacedSurface final : public Surface {
   std::string backend_;
   OffsetRange range_;
   double max_offset_ = 0.0;
+  double rail_low_ = 0.0, rail_high_ = 0.0;  ///< of the base [m]
 };
 
 /// Arrays for everything: the caller's where there are some.
@@ -97,7 +101,14 @@ struct Arrays {
 void DisplacedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const Grid2& g = plane_grid.grid;
   const View seen = view(plane_grid.X_SP);
-  if (undisturbed(seen, {g.x(0), g.x(g.nx - 1), g.y(0), g.y(g.ny - 1)})) return base_->heights(plane_grid, out);
+  const Rectangle whole{g.x(0), g.x(g.nx - 1), g.y(0), g.y(g.ny - 1)};
+  if (is_upright_rail(body_, plane_grid.X_SP)) {
+    base_->heights(plane_grid, out);
+    const UprightRail upright(*field_, plane_grid.X_SP);
+    if (!upright.undisturbed(whole)) upright.add(plane_grid, out);
+    return;
+  }
+  if (undisturbed(seen, whole)) return base_->heights(plane_grid, out);
   if (std::max(g.dx, g.dy) > kCoarsest || g.size() < kFewest) {
     std::vector<Vec2> points;
     points.reserve(g.size());
@@ -123,6 +134,10 @@ void DisplacedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
 void DisplacedSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
   const std::size_t n = points_P.size();
   if (n == 0) return;
+  if (is_upright_rail(body_, X_SP)) {
+    base_->heights_at(X_SP, points_P, out);
+    return UprightRail(*field_, X_SP).add(points_P, out);
+  }
   const View seen = view(X_SP);
   Arrays all(out, n);
   base_->heights_at(X_SP, points_P, {all.z, all.dzdx, all.dzdy});
@@ -167,7 +182,7 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
       p.status = LocateStatus::converged;
       continue;
     }
-    fill_shape(*base_, body_, position[k], position[k] - offset[k].value * at.e, below[k].normal_S, offset[k], p);
+    fill_shape(*base_, body_, position[k], position[k] - offset[k].value * at.e, below[k], offset[k], p);
     p.v = below[k].v;
     p.status = below[k].status == LocateStatus::ambiguous ? LocateStatus::ambiguous : LocateStatus::converged;
   }
@@ -175,16 +190,37 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
 
 HeightBounds DisplacedSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
   const View seen = view(X_SP);
-  const HeightBounds near = base_->height_bounds(X_SP, enlarged(r, max_offset_));
-  if (near.empty) return near;
-  const Rectangle uy = seen.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_});
+  Interval t;
+  if (!rail_heights(X_SP, r, t)) {
+    const HeightBounds near = base_->height_bounds(X_SP, enlarged(r, max_offset_));
+    if (near.empty) return near;
+    t = {near.z_min - max_offset_, near.z_max + max_offset_};
+  }
+  const Rectangle uy = seen.natural_box(r, t);
   const OffsetRange offsets = seen.offsets(uy);
   if (offsets.zero()) return base_->height_bounds(X_SP, r);
   const View::Directions e = seen.directions(uy);
   const HeightBounds source = base_->height_bounds(X_SP, View::moved_back(r, offsets, e));
   if (source.empty) return source;
-  const Interval shift = View::along_normal(offsets, e);
+  Interval shift = View::along_normal(offsets, e);
+  if (body_ == Body::rail) {  // what is known of the heights now is more than before
+    const Rectangle here = seen.natural_box(r, {std::max(t.low, source.z_min + shift.low), std::min(t.high, source.z_max + shift.high)});
+    shift = View::along_normal(seen.offsets(here), e);
+  }
   return {source.z_min + shift.low, source.z_max + shift.high, false};
+}
+
+/// Heights over r between which a rail lies, from its box alone; false if they say too little.
+bool DisplacedSurface::rail_heights(const Pose& X_SP, const Rectangle& r, Interval& t) const {
+  constexpr double kLeastUp = 0.5, kThickest = 0.5, kSlack = 1e-9;  // [m]
+  const Vec3 up = X_SP.rotation.row(2).transpose();
+  const double low = rail_low_ + range_.low - kSlack, high = rail_high_ + range_.high + kSlack;
+  if (body_ != Body::rail || !(up.z() > kLeastUp) || !(high - low < kThickest)) return false;
+  const Interval over = Interval{up.x(), up.x()} * Interval{r.x_min, r.x_max}, across = Interval{up.y(), up.y()} * Interval{r.y_min, r.y_max};
+  const double rounding = 1e-12 * (1.0 + std::fabs(X_SP.origin.z()) + std::fabs(over.low) + std::fabs(over.high));
+  t = {(low - X_SP.origin.z() - over.high - across.high - rounding) / up.z(),
+       (high - X_SP.origin.z() - over.low - across.low + rounding) / up.z()};
+  return std::isfinite(t.low) && std::isfinite(t.high);
 }
 
 }  // namespace

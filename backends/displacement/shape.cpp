@@ -38,10 +38,20 @@ Mat3 base_hessian(const Surface& base, Body body, const Vec3& c, const Vec3& nor
   return -side * (xx * a * a.transpose() + yy * b * b.transpose() + xy * (a * b.transpose() + b * a.transpose()));
 }
 
+/// The same of a prismatic rail or a round wheel: one principal direction is along the rail, or round the wheel.
+Mat3 profile_hessian(Body body, const Vec3& c, const SurfacePoint& below) {
+  const NaturalPoint at(body, c);
+  const Vec3& n = below.normal_S;
+  const Vec3 a = (at.along - n.dot(at.along) * n).normalized(), b = n.cross(a);
+  const double along = body == Body::wheel ? n.dot(at.e) / at.r : 0.0;
+  return along * a * a.transpose() + (below.curvature_1 + below.curvature_2 - along) * b * b.transpose();
+}
+
 }  // namespace
 
-void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, const Vec3& normal, const OffsetJet& o,
+void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, const SurfacePoint& below, const OffsetJet& o,
                 SurfacePoint& point) {
+  const Vec3& normal = below.normal_S;
   const NaturalPoint at(body, q);
   const Vec3 e_y = Vec3::UnitY(), grad_u = at.along * at.du_along;
   const Vec3 grad_o = o.d_u * grad_u + o.d_y * e_y;
@@ -59,7 +69,7 @@ void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, co
   const Mat3 hess_f = -turn * (f * at.along * at.along.transpose() + f_u * mixed);
   const Mat3 J = Mat3::Identity() - at.e * grad_o.transpose() - o.value * around;
   const Vec3 g = J.transpose() * normal;
-  const Mat3 H = J.transpose() * base_hessian(base, body, c, normal) * J -
+  const Mat3 H = J.transpose() * (base.constant_profile() ? profile_hessian(body, c, below) : base_hessian(base, body, c, normal)) * J -
                  (f * hess_o + grad_o * grad_f.transpose() + grad_f * grad_o.transpose() + o.value * hess_f);
 
   const double length = g.norm();

@@ -6,7 +6,6 @@
 #include <limits>
 #include <tuple>
 
-#include "treadmark/backends/offset/block_cache.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::offset {
@@ -29,8 +28,8 @@ void merge(Cell& sum, const Cell& other) {
 
 }  // namespace
 
-RangePyramid::RangePyramid(const SheetGrid& coefficients, const SheetFrame& frame, int degree)
-    : coefficients_(coefficients), frame_(frame), before_(degree == 1 ? 0 : 1), behind_(degree == 1 ? 1 : 2) {
+RangePyramid::RangePyramid(const SheetGrid& coefficients, const BlockDirectory& blocks, const SheetFrame& frame, int degree)
+    : blocks_(blocks), frame_(frame), before_(degree == 1 ? 0 : 1), behind_(degree == 1 ? 1 : 2) {
   // Cells of the blocks and their neighbours, whose points reach over.
   std::vector<std::pair<std::int32_t, std::int32_t>> keys;
   for (const SheetGrid::Entry& b : coefficients.blocks())
@@ -80,7 +79,6 @@ RangePyramid::Cell RangePyramid::summary(std::int32_t ci, std::int32_t cj, int i
                                          int j_first) const {
   constexpr float kInfinity = std::numeric_limits<float>::infinity();
   constexpr int kWidest = 2 * kCell + 8;
-  BlockCache cache(coefficients_);
   Cell sum{ci, cj, kInfinity, -kInfinity, 0.0f, 0.0f};
   float before[kWidest] = {};
   const int j_last = j_count + behind_;
@@ -88,7 +86,7 @@ RangePyramid::Cell RangePyramid::summary(std::int32_t ci, std::int32_t cj, int i
     const int row = frame_.wrapped(i_first + i);
     float left = 0.0f;
     for (int j = -before_; j < j_last; ++j) {
-      const float c = cache.value(row, j_first + j);
+      const float c = blocks_.value(row, j_first + j);
       float& above = before[j + before_];
       sum.low = std::min(sum.low, c);
       sum.high = std::max(sum.high, c);

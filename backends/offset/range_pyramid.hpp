@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "treadmark/backends/displacement/offset_field.hpp"
+#include "treadmark/backends/offset/block_directory.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 
 namespace treadmark::offset {
@@ -14,7 +15,8 @@ namespace treadmark::offset {
 /// is something.
 class RangePyramid {
  public:
-  RangePyramid(const SheetGrid& coefficients, const SheetFrame& frame, int degree);
+  /// blocks: where those of coefficients lie; kept.
+  RangePyramid(const SheetGrid& coefficients, const BlockDirectory& blocks, const SheetFrame& frame, int degree);
 
   displacement::OffsetRange range(const Rectangle& uy) const;
   std::size_t memory_bytes() const;
@@ -31,7 +33,7 @@ class RangePyramid {
   void include(const Box& box, Cell& sum) const;
   void include_level(const Box& box, std::size_t level, Cell& sum) const;
 
-  const SheetGrid& coefficients_;
+  const BlockDirectory& blocks_;
   SheetFrame frame_;
   int before_, behind_;  ///< coefficients a point between voxels 0 and 1 depends on: [-before, behind]
   std::vector<std::vector<Cell>> levels_;

@@ -5,19 +5,18 @@
 #include <algorithm>
 #include <utility>
 
-#include "treadmark/backends/offset/block_cache.hpp"
+#include "treadmark/backends/offset/block_directory.hpp"
 #include "treadmark/backends/offset/coefficients.hpp"
 #include "treadmark/backends/offset/range_pyramid.hpp"
+#include "treadmark/backends/offset/sheet_kernel.hpp"
+#include "treadmark/core/cpu.hpp"
 
 namespace treadmark::offset {
 
 namespace {
 
-/// Integers up to 2^30, rounded down, without a call.
-inline int round_down(double x) {
-  const int i = static_cast<int>(x);
-  return i - (x < i);
-}
+/// Of numbers up to 2^30 in size, which SheetField::within has made sure of.
+inline int round_down(double x) { return static_cast<int>(std::floor(x)); }
 
 /// Weights of a B-spline of one degree, with derivatives by voxel.
 template <int kDegree>
@@ -65,11 +64,15 @@ class SheetField final : public displacement::OffsetField {
   explicit SheetField(std::shared_ptr<const SparseOffsets> offsets)
       : offsets_(std::move(offsets)),
         own_(kDegree == 1 ? SheetGrid{} : spline_coefficients(*offsets_, kDegree, smallest())),
+        directory_(grid()),
         frame_(offsets_->frame),
-        ranges_(grid(), frame_, kDegree) {}
+        ranges_(grid(), directory_, frame_, kDegree),
+        view_(view()),
+        kernel_(fastest()) {}
+  SheetField(const SheetField&) = delete;  // the view points into it
+  SheetField& operator=(const SheetField&) = delete;
 
   displacement::OffsetJet jet(double u, double y) const override {
-    BlockCache cache(grid());
     const double s = frame_.along(u), t = frame_.across(y);
     displacement::OffsetJet j;
     if (!within(s, t)) return j;
@@ -80,7 +83,7 @@ class SheetField final : public displacement::OffsetField {
     for (int i = 0; i <= kDegree; ++i) {
       double row = 0.0, row1 = 0.0, row2 = 0.0;
       for (int k = 0; k <= kDegree; ++k) {
-        const double c = cache.value(frame_.wrapped(a.first + i), b.first + k);
+        const double c = directory_.value(frame_.wrapped(a.first + i), b.first + k);
         row += b.w[k] * c, row1 += b.w1[k] * c, row2 += b2[k] * c;
       }
       j.value += a.w[i] * row, j.d_u += a.w1[i] * row, j.d_y += a.w[i] * row1;
@@ -92,24 +95,13 @@ class SheetField final : public displacement::OffsetField {
 
   void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
                 std::span<double> d_y) const override {
-    BlockCache cache(grid());
-    const double per_u = 1.0 / frame_.du, per_y = 1.0 / frame_.dy;
-    const double low = frame_.branch_begin(), high = low + frame_.period();
-    for (std::size_t n = 0; n < u.size(); ++n) {
-      double v = 0.0, v_u = 0.0, v_y = 0.0;
-      double s = (u[n] - frame_.u0) * per_u;
-      if (frame_.body == Body::wheel && !(s >= low && s < high)) s = frame_.along(u[n]);  // another branch
-      point(s, (y[n] - frame_.y0) * per_y, cache, v, v_u, v_y);
-      value[n] = v;
-      if (!d_u.empty()) d_u[n] = v_u * per_u;
-      if (!d_y.empty()) d_y[n] = v_y * per_y;
-    }
+    kernel_(view_, u.size(), u.data(), y.data(), value.data(), d_u.empty() ? nullptr : d_u.data(), d_y.empty() ? nullptr : d_y.data());
   }
 
   displacement::OffsetRange range(const Rectangle& uy) const override { return ranges_.range(uy); }
 
   std::size_t memory_bytes() const override {
-    return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) + ranges_.memory_bytes();
+    return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) + directory_.memory_bytes() + ranges_.memory_bytes();
   }
 
  private:
@@ -121,54 +113,27 @@ class SheetField final : public displacement::OffsetField {
     return std::fabs(s) < kFar && std::fabs(t) < kFar;
   }
 
-  void point(double s, double t, BlockCache& cache, double& value, double& d_s, double& d_t) const {
-    if (!within(s, t)) return;
-    const Weights<kDegree> a(s), b(t);
-    const int i = a.first, j = b.first;
-    const float* rows[kDegree + 1];
-    float gathered[(kDegree + 1) * (kDegree + 1)];
-    if (!find_rows(i, j, cache, rows, gathered)) return;
-    for (int k = 0; k <= kDegree; ++k) {
-      double row = 0.0, row1 = 0.0;
-      for (int l = 0; l <= kDegree; ++l) {
-        const auto c = static_cast<double>(rows[k][l]);
-        row += b.w[l] * c, row1 += b.w1[l] * c;
-      }
-      value += a.w[k] * row;
-      d_s += a.w1[k] * row;
-      d_t += a.w[k] * row1;
-    }
+  static const float* find(const void* owner, std::int32_t bi, std::int32_t bj) {
+    return static_cast<const BlockDirectory*>(owner)->get(bi, bj);
   }
-
-  /// Where the coefficients (i + k, j ...) lie; those of two blocks side by side are gathered. False: all of them are 0.
-  bool find_rows(int i, int j, BlockCache& cache, const float** rows, float* gathered) const {
-    static constexpr float kZeros[kDegree + 1] = {};
-    const int bj = j >> 6, from = j & 63;
-    const bool beside = from + kDegree >= kBlockJ, inside = frame_.turn == 0 || (i >= 0 && i + kDegree < frame_.turn);
-    bool any = false;
-    for (int k = 0; k <= kDegree; ++k) {
-      const int row = inside ? i + k : frame_.wrapped(i + k), offset = (row & 7) << 6;
-      const float* left = cache.get(row >> 3, bj);
-      any = any || left != nullptr;
-      if (!beside) {
-        rows[k] = left == nullptr ? kZeros : left + (offset | from);
-        continue;
-      }
-      const float* right = cache.get(row >> 3, bj + 1);
-      any = any || right != nullptr;
-      rows[k] = gathered;
-      for (int l = 0; l <= kDegree; ++l) {
-        const float* block = from + l < kBlockJ ? left : right;
-        *gathered++ = block == nullptr ? 0.0f : block[offset | ((from + l) & 63)];
-      }
-    }
-    return any;
+  SheetView view() const {
+    const bool wheel = frame_.body == Body::wheel;
+    return {frame_.u0, 1.0 / frame_.du, frame_.y0, 1.0 / frame_.dy, wheel ? frame_.branch_begin() : 0.0, wheel ? frame_.period() : 0.0,
+            frame_.turn, directory_.table(), directory_.first().bi, directory_.bi_count(), directory_.first().bj,
+            directory_.bj_count(), &find, &directory_};
+  }
+  static SheetKernel fastest() {
+    const SheetKernel avx2 = cpu_has_avx2() ? sheet_kernel_avx2(kDegree) : nullptr;
+    return avx2 != nullptr ? avx2 : sheet_kernel_generic(kDegree);
   }
 
   std::shared_ptr<const SparseOffsets> offsets_;
   SheetGrid own_;  ///< coefficients; of degree 1 they are the offsets themselves
+  BlockDirectory directory_;
   SheetFrame frame_;
   RangePyramid ranges_;
+  SheetView view_;
+  SheetKernel kernel_;
 };
 
 }  // namespace

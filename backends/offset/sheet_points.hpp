@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Included by sheet_kernel_generic.cpp and sheet_kernel_avx2.cpp only.
+#pragma once
+
+#include "treadmark/backends/offset/sheet_kernel.hpp"
+
+namespace treadmark::offset {
+
+namespace {
+
+typedef double Four __attribute__((vector_size(32)));
+typedef float FourSingle __attribute__((vector_size(16), aligned(4), may_alias));
+
+/// Integers up to 2^30, rounded down, without a call.
+inline int down(double x) {
+  const int i = static_cast<int>(x);
+  return i - (x < i);
+}
+
+inline const float* block_of(const SheetView& v, int bi, int bj) {
+  if (v.blocks == nullptr) return v.find(v.owner, bi, bj);
+  const unsigned i = static_cast<unsigned>(bi) - static_cast<unsigned>(v.bi_first), j = static_cast<unsigned>(bj) - static_cast<unsigned>(v.bj_first);
+  if (i >= static_cast<unsigned>(v.bi_count) || j >= static_cast<unsigned>(v.bj_count)) return nullptr;
+  return v.blocks[static_cast<std::size_t>(i) * static_cast<std::size_t>(v.bj_count) + j];
+}
+
+inline float coefficient(const SheetView& v, int i, int j) {
+  if (v.turn != 0) {
+    i %= v.turn;
+    i += i < 0 ? v.turn : 0;
+  }
+  const float* b = block_of(v, i >> 3, j >> 6);
+  return b == nullptr ? 0.0f : b[((i & 7) << 6) | (j & 63)];
+}
+
+/// The coefficients that the points between neighbouring voxels depend on; kept while points stay there.
+template <int kRows>
+struct Patch {
+  Four row[kRows] = {};  ///< the last is 0 where fewer than four are needed
+  int i = INT32_MIN, j = INT32_MIN;
+  bool zero = true;
+
+  void move(const SheetView& v, int i_new, int j_new) {
+    i = i_new, j = j_new;
+    const int in_i = i & 7, in_j = j & 63;
+    if (in_i + kRows <= 8 && in_j + 4 <= 64 && (v.turn == 0 || (i >= 0 && i + kRows <= v.turn))) {
+      const float* b = block_of(v, i >> 3, j >> 6);
+      zero = b == nullptr;
+      if (zero) return;
+      b += (in_i << 6) | in_j;
+      for (int k = 0; k < kRows; ++k) row[k] = __builtin_convertvector(*reinterpret_cast<const FourSingle*>(b + 64 * k), Four);
+    } else {
+      zero = false;
+      for (int k = 0; k < kRows; ++k)
+        for (int l = 0; l < 4; ++l) row[k][l] = l < kRows ? coefficient(v, i + k, j + l) : 0.0f;
+    }
+  }
+};
+
+inline double sum(const Four& x) { return (x[0] + x[1]) + (x[2] + x[3]); }
+
+template <int kDegree>
+struct Basis;
+/// Weights of the four coefficients as polynomials of the place between them: one + f (two + f (three + f four)).
+template <>
+struct Basis<3> {
+  static constexpr double kShift = 0.0;
+  static constexpr Four kOne = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0}, kThree = {0.5, -1.0, 0.5, 0.0},
+                        kFour = {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0};
+};
+template <>
+struct Basis<2> {
+  static constexpr double kShift = 0.5;
+  static constexpr Four kOne = {0.125, 0.75, 0.125, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0}, kThree = {0.5, -1.0, 0.5, 0.0},
+                        kFour = {0.0, 0.0, 0.0, 0.0};
+};
+
+/// Of degree 2 and 3: rows of four coefficients, weighted along u first.
+template <int kDegree>
+struct Smooth {
+  using B = Basis<kDegree>;
+  static constexpr double kShift = B::kShift;
+  static constexpr int kBefore = 1;
+  Patch<kDegree + 1> patch;
+
+  void at(double f, double g, double& value, double& d_s, double& d_t) const {
+    const Four a = B::kOne + f * (B::kTwo + f * (B::kThree + f * B::kFour)), a1 = B::kTwo + f * (2.0 * B::kThree + f * (3.0 * B::kFour));
+    const Four b = B::kOne + g * (B::kTwo + g * (B::kThree + g * B::kFour)), b1 = B::kTwo + g * (2.0 * B::kThree + g * (3.0 * B::kFour));
+    Four across = a[0] * patch.row[0], across1 = a1[0] * patch.row[0];
+    for (int k = 1; k <= kDegree; ++k) across += a[k] * patch.row[k], across1 += a1[k] * patch.row[k];
+    value = sum(across * b);
+    d_s = sum(across1 * b);
+    d_t = sum(across * b1);
+  }
+};
+
+struct Straight {
+  static constexpr double kShift = 0.0;
+  static constexpr int kBefore = 0;
+  Patch<2> patch;
+
+  void at(double f, double g, double& value, double& d_s, double& d_t) const {
+    const Four &first = patch.row[0], &next = patch.row[1];
+    const double a = first[0] + g * (first[1] - first[0]), b = next[0] + g * (next[1] - next[0]);
+    value = a + f * (b - a);
+    d_s = b - a;
+    d_t = (1.0 - f) * (first[1] - first[0]) + f * (next[1] - next[0]);
+  }
+};
+
+template <class Spline>
+void sheet_points(const SheetView& v, std::size_t n, const double* u, const double* y, double* value, double* d_u, double* d_y) {
+  constexpr double kFar = 1 << 30;
+  Spline spline;
+  for (std::size_t k = 0; k < n; ++k) {
+    double s = (u[k] - v.u0) * v.per_u;
+    const double t = (y[k] - v.y0) * v.per_y;
+    if (v.period > 0.0 && !(s >= v.branch && s < v.branch + v.period) && s > -kFar && s < kFar) {  // another branch
+      s -= v.period * down((s - v.branch) / v.period);
+      if (!(s < v.branch + v.period)) s = v.branch;
+    }
+    double value_k = 0.0, d_s = 0.0, d_t = 0.0;
+    if (s > -kFar && s < kFar && t > -kFar && t < kFar) {  // NaN is nowhere
+      const int i = down(s + Spline::kShift), j = down(t + Spline::kShift);
+      if (i - Spline::kBefore != spline.patch.i || j - Spline::kBefore != spline.patch.j)
+        spline.patch.move(v, i - Spline::kBefore, j - Spline::kBefore);
+      if (!spline.patch.zero) spline.at(s - i, t - j, value_k, d_s, d_t);
+    }
+    value[k] = value_k;
+    if (d_u != nullptr) d_u[k] = d_s * v.per_u;
+    if (d_y != nullptr) d_y[k] = d_t * v.per_y;
+  }
+}
+
+SheetKernel kernel_of_degree(int degree) {
+  return degree == 1 ? &sheet_points<Straight> : degree == 2 ? &sheet_points<Smooth<2>> : &sheet_points<Smooth<3>>;
+}
+
+}  // namespace
+
+}  // namespace treadmark::offset
