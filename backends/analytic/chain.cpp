@@ -42,6 +42,23 @@ std::vector<ChainSegment> resolve(const ArcChain& chain) {
   return resolved;
 }
 
+std::vector<Chord> chords_of(const std::vector<ChainSegment>& chain) {
+  std::vector<Chord> all;
+  for (const ChainSegment& seg : chain) {
+    // sagitta = curvature length^2/8, and no part turns by more than 1/4
+    const double k = std::fabs(seg.curvature);
+    const double parts = std::ceil(std::max(seg.length * std::sqrt(k / (8.0 * GraphCurve::kChordOff)), 4.0 * k * seg.length));
+    const int n = static_cast<int>(std::clamp(parts, 1.0, 2000.0));
+    ChainPoint a = point_on(seg, 0.0);
+    for (int i = 1; i <= n; ++i) {
+      const ChainPoint b = point_on(seg, seg.length * i / n);
+      all.push_back({a.y, a.z, b.y, b.z, sagitta(k, std::hypot(b.y - a.y, b.z - a.z))});
+      a = b;
+    }
+  }
+  return all;
+}
+
 GraphCurve graph_of(const ArcChain& chain) {
   GraphCurve curve;
   constexpr double kVertical = 0.5 * std::numbers::pi + 1e-12;

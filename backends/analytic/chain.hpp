@@ -4,6 +4,7 @@
 
 #include <vector>
 
+#include "treadmark/backends/analytic/chord_tree.hpp"
 #include "treadmark/backends/analytic/graph_curve.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
@@ -26,6 +27,9 @@ std::vector<ChainSegment> resolve(const ArcChain& chain);
 
 /// The point at distance d from the start of a segment, 0 <= d <= length.
 ChainPoint point_on(const ChainSegment& segment, double d);
+
+/// Chords that keep to the chain within GraphCurve::kChordOff.
+std::vector<Chord> chords_of(const std::vector<ChainSegment>& chain);
 
 /// The chain as a graph z(y). Errors: Error(configuration) if it is vertical or turns back somewhere.
 GraphCurve graph_of(const ArcChain& chain);

@@ -6,102 +6,131 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/backends/analytic/turned_chain.hpp"
+
 namespace treadmark::analytic {
 
-CutBounds::CutBounds(std::span<const Cutter> cutters, const Pose& X_SP, const Rectangle& r)
-    : cutters_(cutters),
-      X_(X_SP),
-      x_(0.5 * (r.x_min + r.x_max)),
-      y_(0.5 * (r.y_min + r.y_max)),
-      half_x_(0.5 * (r.x_max - r.x_min)),
-      half_y_(0.5 * (r.y_max - r.y_min)),
-      tolerance_(1e-7 + 0.01 * (half_x_ + half_y_)) {}
+namespace {
 
-CutBounds::Box CutBounds::box(double a, double b) const {
-  Box all{false, true};
-  for (const Cutter& cutter : cutters_) {
-    const Box one = box(cutter, a, b);
-    all.all_removed |= one.all_removed;
-    all.none_removed &= one.none_removed;
+constexpr double kInfinity = std::numeric_limits<double>::infinity();
+constexpr double kRounding = 1e-12;  // [m]
+
+struct Window {
+  double low, high;
+  Window widened(double by) const { return {low - by, high + by}; }
+};
+
+/// All lines over the rectangle. A point at height t has the coordinates w across and a + m t along the part of the normal
+/// in the section's plane, d of unit length.
+struct Lines {
+  double d_y, d_z, m, n_x;
+  Window w, a, x;  ///< x at t = 0
+  double size;
+
+  Lines(const Pose& X, const Rectangle& r) : n_x(X.rotation(0, 2)) {
+    const double n_y = X.rotation(1, 2), n_z = X.rotation(2, 2);
+    m = std::sqrt(n_y * n_y + n_z * n_z);
+    if (!(m > 0.0)) return;
+    d_y = n_y / m;
+    d_z = n_z / m;
+    const double hx = 0.5 * (r.x_max - r.x_min), hy = 0.5 * (r.y_max - r.y_min);
+    size = hx + hy;
+    const auto e_x = X.rotation.col(0), e_y = X.rotation.col(1);
+    const Vec3 middle = X.origin + e_x * (r.x_min + hx) + e_y * (r.y_min + hy);
+    const auto window = [&](const auto& of) {
+      const double half = std::fabs(of(e_x)) * hx + std::fabs(of(e_y)) * hy + kRounding;
+      return Window{of(middle) - half, of(middle) + half};
+    };
+    w = window([&](const auto& p) { return p.y() * d_z - p.z() * d_y; });
+    a = window([&](const auto& p) { return p.y() * d_y + p.z() * d_z; });
+    x = window([](const auto& p) { return p.x(); });
   }
-  return all;
+  /// Places x of all points with t in a window.
+  Window x_over(const Window& t) const {
+    return {x.low + std::min(n_x * t.low, n_x * t.high), x.high + std::max(n_x * t.low, n_x * t.high)};
+  }
+};
+
+/// The greatest h on the wall above an end (s, q) of the section, seen along (d_s, d_q), d_q > 0, over a window of w.
+double greatest_on_wall(double s, double q, double d_s, double d_q, const Window& w) {
+  const double w_end = s * d_q - q * d_s;
+  const double up = w_end < w.low ? (w.low - w_end) / d_s : w_end > w.high ? (w.high - w_end) / d_s : 0.0;
+  return up >= 0.0 ? s * d_s + (q - up) * d_q : -kInfinity;
 }
 
-/// First moved across the rail within the section at the middle, then along it.
-CutBounds::Box CutBounds::box(const Cutter& cutter, double a, double b) const {
-  const Vec3 p = X_.apply({x_, y_, 0.5 * (a + b)});
-  const double half[3] = {half_x_, half_y_, 0.5 * (b - a)};
-  Cutter::Hint hint;
-  const Cutter::Place at = cutter.place(p, hint);
-  double x_half = 0.0, s_half = 0.0, yz_half = 0.0;
-  for (int k = 0; k < 3; ++k) {
-    const double e_y = X_.rotation(1, k), e_z = X_.rotation(2, k);
-    x_half += std::fabs(X_.rotation(0, k)) * half[k];
-    s_half += std::fabs(at.cos * e_y + at.sin * e_z) * half[k];
-    yz_half += std::hypot(e_y, e_z) * half[k];
-  }
-  const CutterPath& path = cutter.path();
-  const double x_low = p.x() - x_half, x_high = p.x() + x_half;
-  const CutterPath::Range y = path.range(CutterPath::kY, x_low, x_high), z = path.range(CutterPath::kZ, x_low, x_high);
-  const double reach = std::hypot(at.s, at.q) + yz_half + (std::hypot(y.steepest, z.steepest)) * x_half;
-  const double path_rate = path.range(CutterPath::kRoll, x_low, x_high).steepest * reach + std::hypot(y.steepest, z.steepest);
-  s_half += path_rate * x_half;
+struct Reach {
+  double greatest = -kInfinity;  ///< of t where lines leave the volume; -infinity if none can be in it
+  double least = -kInfinity;     ///< below this t all points of the lines are removed
+};
 
-  constexpr double kRounding = 1e-13;
-  const double s_low = at.s - s_half - kRounding, s_high = at.s + s_half + kRounding;
-  const bool within = x_low >= cutter.x_min() && x_high <= cutter.x_max() && s_low >= cutter.s_min() && s_high <= cutter.s_max();
-  Box result;
-  if (x_high < cutter.x_min() || x_low > cutter.x_max() || s_high < cutter.s_min() || s_low > cutter.s_max()) {
-    result.none_removed = true;
-    return result;
-  }
-  CurveRange h = cutter.section().range(s_low, s_high);
-  if (!within) {  // beyond its ends the section goes on level
-    h.dh_min = std::min(h.dh_min, 0.0);
-    h.dh_max = std::max(h.dh_max, 0.0);
-  }
-  double change = (1.0 + std::max(std::fabs(h.dh_min), std::fabs(h.dh_max))) * path_rate * x_half + kRounding;
-  for (int k = 0; k < 3; ++k) {
-    const double e_y = X_.rotation(1, k), e_z = X_.rotation(2, k);
-    const double s = at.cos * e_y + at.sin * e_z, q = at.cos * e_z - at.sin * e_y;
-    change += std::max(std::fabs(h.dh_min * s - q), std::fabs(h.dh_max * s - q)) * half[k];
-  }
-  result.all_removed = within && at.gap() - change > 0.0;
-  result.none_removed = at.gap() + change <= 0.0;
+/// For results t in a window, whose low end no result can be below.
+Reach reach(const Cutter& cutter, const Lines& lines, const Window& t) {
+  const Window x = lines.x_over(t);
+  if (x.high < cutter.x_min() || x.low > cutter.x_max()) return {};
+  const CutterPath& path = cutter.path();
+  const CutterPath::Range y = path.range(CutterPath::kY, x.low, x.high), z = path.range(CutterPath::kZ, x.low, x.high);
+  const CutterPath::Range roll = path.range(CutterPath::kRoll, x.low, x.high);
+  const double thickness =
+      std::hypot(0.5 * (y.high - y.low), 0.5 * (z.high - z.low)) + 0.5 * (roll.high - roll.low) * cutter.reach() + kRounding;
+  const double y_m = 0.5 * (y.low + y.high), z_m = 0.5 * (z.low + z.high), r_m = 0.5 * (roll.low + roll.high);
+  const double cos = std::cos(r_m), sin = std::sin(r_m);
+  const double d_s = cos * lines.d_y + sin * lines.d_z, d_q = cos * lines.d_z - sin * lines.d_y;
+  constexpr double kSideways = 0.05;  // a wall seen nearly from above ends far down
+  if (d_q < kSideways) return {kInfinity, -kInfinity};
+
+  // the section at the middle of the path, and places relative to it
+  const Window w = lines.w.widened(thickness);
+  const double w_m = y_m * lines.d_z - z_m * lines.d_y, h_m = y_m * lines.d_y + z_m * lines.d_z;
+  const Window v{w.low - w_m, w.high - w_m};
+  const TurnedChain view(d_s, d_q);
+  const double coarse = 1e-6 + 0.02 * lines.size;
+  const GraphCurve& section = cutter.section();
+  const double h_start = section.start_height(), h_end = section.end_height();
+  const double high = std::max({view.greatest(cutter.chords(), v.low, v.high, coarse),
+                                greatest_on_wall(cutter.s_min(), h_start, d_s, d_q, v),
+                                greatest_on_wall(cutter.s_max(), h_end, d_s, d_q, v)});
+  if (!(high > -kInfinity)) return {};
+  Reach result;
+  result.greatest = (high + h_m + thickness - lines.a.low) / lines.m + kRounding;
+
+  if (!(x.low > cutter.x_min() && x.high < cutter.x_max())) return result;
+  const double low = view.least(cutter.chords(), v.low, v.high, coarse) - thickness;
+  const double from = lines.m * t.low + lines.a.low - h_m - kRounding;
+  if (!std::isfinite(low) || low <= from) return result;
+  // Between `from` and `low` no point of the section lies over the window; so all of it is removed, or nothing.
+  const double s_low = v.low * d_q + std::min(from * d_s, low * d_s), s_high = v.high * d_q + std::max(from * d_s, low * d_s);
+  if (!(s_low - thickness > cutter.s_min() && s_high + thickness < cutter.s_max())) return result;
+  const double v_m = 0.5 * (v.low + v.high), s = v_m * d_q + low * d_s, q = low * d_q - v_m * d_s;
+  if (section.height(s, section.find(s, 0)) > q) result.least = (low + h_m - lines.a.high) / lines.m - kRounding;
   return result;
 }
 
-bool CutBounds::find_bottom(double a, double b, double& bottom) const {
-  if (box(a, b).all_removed) return false;
-  if (b - a < tolerance_) {
-    bottom = a;
-    return true;
-  }
-  const double m = 0.5 * (a + b);
-  return find_bottom(a, m, bottom) || find_bottom(m, b, bottom);
-}
+}  // namespace
 
-HeightBounds CutBounds::heights(const HeightBounds& base) const {
+HeightBounds cut_bounds(std::span<const Cutter> cutters, const Pose& X_SP, const Rectangle& r, const HeightBounds& base) {
   if (base.empty) return base;
-  // Above a height over which nothing is removed, every line has found its way out.
+  const Lines lines(X_SP, r);
   HeightBounds result = base;
-  double inside = base.z_max, step = tolerance_, above = base.z_max;
-  constexpr int kDoublings = 60;
-  int i = 0;
-  while (!box(above, above).none_removed && i++ < kDoublings) {
-    inside = above;
-    above += step;
-    step *= 2.0;
+  constexpr double kAlong = 1e-6;
+  for (const Cutter& cutter : cutters) {
+    if (!(lines.m > kAlong)) {
+      result.z_max = kInfinity;
+      break;
+    }
+    // nothing of the cutter lies further along the normal
+    const double farthest = std::max(cutter.y_min() * lines.d_y, cutter.y_max() * lines.d_y) + cutter.z_max() * lines.d_z;
+    const double last = lines.d_z > 0.0 ? std::max(base.z_max, (farthest - lines.a.low) / lines.m) : kInfinity;
+    if (last == kInfinity) {
+      result.z_max = kInfinity;
+      continue;
+    }
+    Reach one = reach(cutter, lines, {base.z_min, last});
+    constexpr double kWorthAnother = 0.5;
+    if (std::isfinite(one.greatest) && std::fabs(lines.n_x) * (last - std::max(base.z_min, one.greatest)) > kWorthAnother * lines.size)
+      one = reach(cutter, lines, {base.z_min, std::max(base.z_min, one.greatest)});
+    result.z_max = std::max(result.z_max, one.greatest);
+    result.z_min = std::max(result.z_min, one.least);
   }
-  if (i > kDoublings) above = std::numeric_limits<double>::infinity();
-  while (above - inside > tolerance_ && std::isfinite(above)) {
-    const double m = 0.5 * (inside + above);
-    (box(m, m).none_removed ? above : inside) = m;
-  }
-  result.z_max = above;
-  constexpr double kRounding = 1e-12;
-  if (std::isfinite(above) && find_bottom(base.z_min, above + kRounding, result.z_min)) return result;
-  result.z_min = base.z_min;
   return result;
 }
 

@@ -142,7 +142,7 @@ void CutSurface::do_locate(const Pose& X, std::span<const Vec2> points_P, std::s
 }
 
 HeightBounds CutSurface::do_height_bounds(const Pose& X, const Rectangle& rectangle_P) const {
-  return CutBounds(cutters_, X, rectangle_P).heights(base_->height_bounds(X, rectangle_P));
+  return cut_bounds(cutters_, X, rectangle_P, base_->height_bounds(X, rectangle_P));
 }
 
 }  // namespace treadmark::analytic

@@ -14,6 +14,7 @@ namespace treadmark::analytic {
 Cutter::Cutter(CutterPath path, GraphCurve section, const std::string& name)
     : path_(std::move(path)),
       section_(std::move(section)),
+      chords_(section_.chords()),
       x_min_(path_.x_min()),
       x_max_(path_.x_max()),
       s_min_(section_.y_min()),
@@ -32,6 +33,7 @@ Cutter::Cutter(CutterPath path, GraphCurve section, const std::string& name)
   if (path_slope_ + roll_.steepest * reach > kSteepestPath)
     throw Error(ErrorKind::configuration, name + ": the path is steeper than 45 degrees between its stations", {},
                 "move the stations apart or add some");
+  reach_ = reach;
   z_max_ = z.high + reach;
   y_min_ = y.low - reach;
   y_max_ = y.high + reach;

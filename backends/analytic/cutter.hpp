@@ -55,19 +55,22 @@ class Cutter {
   double path_slope() const { return path_slope_; }
   const CutterPath& path() const { return path_; }
   const GraphCurve& section() const { return section_; }
+  const ChordTree& chords() const { return chords_; }  ///< of the section
+  double reach() const { return reach_; }              ///< greatest distance of the section from its origin
   /// Greatest z and widest y that the cutter reaches.
   double z_max() const { return z_max_; }
   double y_min() const { return y_min_; }
   double y_max() const { return y_max_; }
-  std::size_t memory_bytes() const { return sizeof(*this) + path_.memory_bytes(); }
+  std::size_t memory_bytes() const { return sizeof(*this) + path_.memory_bytes() + chords_.memory_bytes(); }
 
  private:
   void move_to(double x, Hint& hint) const;
 
   CutterPath path_;
   GraphCurve section_;
+  ChordTree chords_;
   double x_min_, x_max_, s_min_, s_max_;
-  double steepest_ = 0.0, path_slope_ = 0.0;
+  double steepest_ = 0.0, path_slope_ = 0.0, reach_ = 0.0;
   double z_max_ = 0.0, y_min_ = 0.0, y_max_ = 0.0;
   CutterPath::Range roll_;
 };

@@ -152,4 +152,38 @@ FlatDepth::Range FlatDepth::range(double theta, double half_range, double y_min,
   return sum;
 }
 
+void FlatDepth::depths(double theta, double half_range, double y_min, double y_max, double& low, double& high) const {
+  low = high = 0.0;
+  const auto distances = [](double middle, double half, double& near, double& far) {
+    near = std::max(0.0, std::fabs(middle) - half);
+    far = std::fabs(middle) + half;
+  };
+  for (const Flat& f : flats_) {
+    double turn = theta - f.center, near, far;
+    if (turn > kPi) turn -= 2.0 * kPi;
+    if (turn < -kPi) turn += 2.0 * kPi;
+    distances(turn, half_range, near, far);
+    if (far > kPi) {
+      near = std::max(0.0, std::min(near, 2.0 * kPi - far));
+      far = kPi;
+    }
+    if (near >= f.half_angle) continue;
+    double e_near, e_far;
+    distances(0.5 * (y_min + y_max) - f.y_center, 0.5 * (y_max - y_min), e_near, e_far);
+    if (f.half_width > 0.0 && e_near >= f.half_width) continue;
+    // both factors fall from the middle outwards
+    double d, d1, d2, w, w1, w2;
+    f.along(near, d, d1, d2);
+    f.across(f.y_center + e_near, w, w1, w2);
+    high += d * w;
+    if (far >= f.half_angle || (f.half_width > 0.0 && e_far >= f.half_width)) continue;
+    f.along(far, d, d1, d2);
+    f.across(f.y_center + e_far, w, w1, w2);
+    low += d * w;
+  }
+  constexpr double kRounding = 1e-15;  // [m]
+  low = std::max(0.0, low - kRounding);
+  high += high > 0.0 ? kRounding : 0.0;
+}
+
 }  // namespace treadmark::analytic

@@ -83,6 +83,42 @@ Jet GraphCurve::jet(double y, int piece) const {
                           : polynomials_[static_cast<std::size_t>(e.polynomial)].jet(y);
 }
 
+Chord GraphCurve::chord(double a, double b, int piece) const {
+  const Entry& e = entries_[static_cast<std::size_t>(piece)];
+  if (e.polynomial < 0) {
+    const ArcGraph& arc = arcs_[static_cast<std::size_t>(e.arc)];
+    Chord c{a, arc.height(a), b, arc.height(b), 0.0};
+    c.off = sagitta(arc.k, std::hypot(b - a, c.h_b - c.h_a));
+    return c;
+  }
+  const PolynomialGraph& p = polynomials_[static_cast<std::size_t>(e.polynomial)];
+  double slope = 0.0;
+  Chord c{a, p.height_and_slope(a, slope), b, p.height_and_slope(b, slope), 0.0};
+  // a curve with slopes in an interval leaves its chord by at most a quarter of its width times the length
+  const CurveRange range = p.range(a, b);
+  c.off = 0.25 * (range.dh_max - range.dh_min) * (b - a);
+  return c;
+}
+
+std::vector<Chord> GraphCurve::chords() const {
+  constexpr double kShortest = 1e-5;  // [m]
+  constexpr int kFirstParts = 4;      // arcs of less than half a circle
+  std::vector<Chord> all;
+  const auto divide = [&](const auto& self, double a, double b, int piece) -> void {
+    const Chord c = chord(a, b, piece);
+    if (c.off <= kChordOff || b - a < kShortest) return all.push_back(c);
+    const double middle = 0.5 * (a + b);
+    self(self, a, middle, piece);
+    self(self, middle, b, piece);
+  };
+  for (int i = 0; i < piece_count(); ++i) {
+    const double start = piece_start(i), width = piece_end(i) - start;
+    for (int k = 0; k < kFirstParts; ++k)
+      divide(divide, start + width * k / kFirstParts, k + 1 < kFirstParts ? start + width * (k + 1) / kFirstParts : piece_end(i), i);
+  }
+  return all;
+}
+
 CurveRange GraphCurve::range(double a, double b) const {
   a = std::max(a, y_min());
   b = std::min(b, y_max());

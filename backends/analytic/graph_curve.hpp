@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "treadmark/backends/analytic/arc_graph.hpp"
+#include "treadmark/backends/analytic/chord_tree.hpp"
 
 namespace treadmark::analytic {
 
@@ -51,6 +52,12 @@ class GraphCurve {
     while (i > 0 && y < starts_[static_cast<std::size_t>(i)]) --i;
     return i;
   }
+  double start_height() const { return height(y_min(), 0); }
+  double end_height() const { return height(y_max(), piece_count() - 1); }
+  double height(double y, int piece) const {
+    double slope;
+    return height_and_slope(y, piece, slope);
+  }
   double height_and_slope(double y, int piece, double& slope) const {
     const Entry& e = entries_[static_cast<std::size_t>(piece)];
     return e.polynomial < 0 ? arcs_[static_cast<std::size_t>(e.arc)].height_and_slope(y, slope)
@@ -61,7 +68,12 @@ class GraphCurve {
   /// Rigorous bounds over [a, b], clipped to the curve.
   CurveRange range(double a, double b) const;
 
+  /// Chords that keep to the curve within kChordOff, from its first to its last point.
+  static constexpr double kChordOff = 1e-6;  ///< [m]
+  std::vector<Chord> chords() const;
+
  private:
+  Chord chord(double a, double b, int piece) const;
   struct Entry {
     int arc = -1, polynomial = -1;
   };

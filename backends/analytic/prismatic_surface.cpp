@@ -3,10 +3,13 @@
 #include "treadmark/backends/analytic/prismatic_surface.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
 #include <limits>
+#include <numbers>
 
-#include "treadmark/backends/analytic/chain_view.hpp"
+#include "treadmark/backends/analytic/turned_chain.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::analytic {
@@ -126,7 +129,39 @@ class RowWriter : PointWriter {
 
 }  // namespace
 
-PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain)) {}
+PrismaticSurface::PrismaticSurface(const ArcChain& chain) : chain_(resolve(chain)), chords_(chords_of(chain_)) {
+  static std::atomic<std::uint64_t> surfaces{0};
+  id_ = ++surfaces;
+  angle_min_ = std::numeric_limits<double>::infinity();
+  angle_max_ = -angle_min_;
+  for (const ChainSegment& seg : chain_)
+    for (const double angle : {seg.angle, seg.angle + seg.curvature * seg.length}) {
+      angle_min_ = std::min(angle_min_, angle);
+      angle_max_ = std::max(angle_max_, angle);
+    }
+}
+
+std::shared_ptr<const ChainView> PrismaticSurface::view(double d_y, double d_z) const {
+  struct Kept {
+    std::uint64_t id = 0;
+    double d_y = 0.0, d_z = 0.0;
+    std::shared_ptr<const ChainView> view;
+  };
+  thread_local std::array<Kept, 4> all;
+  thread_local std::size_t next = 0;
+  for (const Kept& kept : all)
+    if (kept.id == id_ && kept.d_y == d_y && kept.d_z == d_z) return kept.view;
+  Kept& kept = all[next];
+  next = (next + 1) % all.size();
+  kept = {id_, d_y, d_z, std::make_shared<const ChainView>(chain_, d_y, d_z)};
+  return kept.view;
+}
+
+bool PrismaticSurface::graph(double d_y, double d_z) const {
+  constexpr double kUpright = 0.5 * std::numbers::pi - 1e-9;
+  const double turn = std::atan2(d_y, d_z);
+  return angle_min_ + turn > -kUpright && angle_max_ + turn < kUpright;
+}
 
 Box3 PrismaticSurface::bounds() const {
   constexpr double kInfinity = std::numeric_limits<double>::infinity();
@@ -154,7 +189,8 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
     for (const auto array : {out.z, out.dzdx, out.dzdy}) std::fill(array.begin(), array.end(), kNaN);
     return;
   }
-  const ChainView view(chain_, projection.d_y, projection.d_z);
+  const auto shared = this->view(projection.d_y, projection.d_z);
+  const ChainView& view = *shared;
   const RowWriter rows(projection, view, g, out);
   constexpr std::size_t kWorthThreads = 50'000;
   if (g.size() < kWorthThreads)
@@ -169,7 +205,8 @@ void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poi
     for (const auto array : {out.z, out.dzdx, out.dzdy}) std::fill(array.begin(), array.end(), kNaN);
     return;
   }
-  const ChainView view(chain_, projection.d_y, projection.d_z);
+  const auto shared = this->view(projection.d_y, projection.d_z);
+  const ChainView& view = *shared;
   const ListWriter list(projection, view, out);
   constexpr std::size_t kPointsPerTask = 20'000;
   parallel_for((points_P.size() + kPointsPerTask - 1) / kPointsPerTask, [&](std::size_t task) {
@@ -181,7 +218,8 @@ void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
   const Projection p(X_SP);
   std::fill(out.begin(), out.end(), SurfacePoint{});
   if (p.degenerate()) return;
-  const ChainView view(chain_, p.d_y, p.d_z);
+  const auto shared = this->view(p.d_y, p.d_z);
+  const ChainView& view = *shared;
   int interval = 0;
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     const double x = points_P[i].x(), y = points_P[i].y();
@@ -207,15 +245,20 @@ void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
 HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
   const Projection p(X_SP);
   if (p.degenerate()) return {0.0, 0.0, true};
-  const ChainView view(chain_, p.d_y, p.d_z);
-  const double xm = 0.5 * (r.x_min + r.x_max), ym = 0.5 * (r.y_min + r.y_max);
-  const double hx = 0.5 * (r.x_max - r.x_min), hy = 0.5 * (r.y_max - r.y_min);
-  const double w = p.w0 + p.wx * xm + p.wy * ym, w_half = std::fabs(p.wx) * hx + std::fabs(p.wy) * hy;
-  const double a = p.a0 + p.ax * xm + p.ay * ym, a_half = std::fabs(p.ax) * hx + std::fabs(p.ay) * hy;
+  const double hx = 0.5 * (r.x_max - r.x_min), hy = 0.5 * (r.y_max - r.y_min), xm = r.x_min + hx, ym = r.y_min + hy;
   constexpr double kRounding = 1e-12;  // [m]
-  const auto h = view.range(w - w_half - kRounding, w + w_half + kRounding);
-  if (!h) return {0.0, 0.0, true};
-  return {(h->first - a - a_half - kRounding) / p.m, (h->second - a + a_half + kRounding) / p.m, false};
+  const double w = p.w0 + p.wx * xm + p.wy * ym, w_half = std::fabs(p.wx) * hx + std::fabs(p.wy) * hy + kRounding;
+  const double a = p.a0 + p.ax * xm + p.ay * ym, a_half = std::fabs(p.ax) * hx + std::fabs(p.ay) * hy + kRounding;
+  const auto bounds = [&](double low, double high) { return HeightBounds{(low - a - a_half) / p.m, (high - a + a_half) / p.m, false}; };
+  if (!graph(p.d_y, p.d_z)) {
+    const auto range = view(p.d_y, p.d_z)->range(w - w_half, w + w_half);
+    return range ? bounds(range->first, range->second) : HeightBounds{0.0, 0.0, true};
+  }
+  const TurnedChain turned(p.d_y, p.d_z);
+  const double coarse = 1e-6 + 0.02 * (hx + hy);
+  const double least = turned.least(chords_, w - w_half, w + w_half, coarse);
+  if (!std::isfinite(least)) return {0.0, 0.0, true};
+  return bounds(least, turned.greatest(chords_, w - w_half, w + w_half, coarse));
 }
 
 }  // namespace treadmark::analytic

@@ -2,9 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <vector>
 
 #include "treadmark/backends/analytic/chain.hpp"
+#include "treadmark/backends/analytic/chain_view.hpp"
+#include "treadmark/backends/analytic/chord_tree.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::analytic {
@@ -20,7 +24,7 @@ class PrismaticSurface final : public Surface {
   Facing facing() const override { return Facing::up; }
   bool constant_profile() const override { return true; }
   Box3 bounds() const override;
-  std::size_t memory_bytes() const override { return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment); }
+  std::size_t memory_bytes() const override { return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment) + chords_.memory_bytes(); }
 
  private:
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
@@ -28,7 +32,15 @@ class PrismaticSurface final : public Surface {
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
+  /// The chain seen along (d_y, d_z). The views used last are kept by every thread, because neighbouring calls share one.
+  std::shared_ptr<const ChainView> view(double d_y, double d_z) const;
+  /// Whether the chain seen along (d_y, d_z) hides nothing of itself.
+  bool graph(double d_y, double d_z) const;
+
   std::vector<ChainSegment> chain_;
+  ChordTree chords_;
+  std::uint64_t id_;  ///< of this surface alone
+  double angle_min_ = 0.0, angle_max_ = 0.0;
 };
 
 }  // namespace treadmark::analytic

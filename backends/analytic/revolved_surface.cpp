@@ -135,7 +135,8 @@ void RevolvedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P
 }
 
 HeightBounds RevolvedSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
-  return WheelBounds(body_, X_SP, r).heights();
+  const auto bounds = body_.hull.heights(body_.nominal_radius, body_.flats, X_SP, r);
+  return bounds ? *bounds : WheelBounds(body_, X_SP, r).heights();
 }
 
 }  // namespace treadmark::analytic

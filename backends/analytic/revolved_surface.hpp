@@ -23,7 +23,7 @@ class RevolvedSurface final : public Surface {
     return {{-body_.r_max, body_.curve.y_min(), -body_.r_max}, {body_.r_max, body_.curve.y_max(), body_.r_max}};
   }
   std::size_t memory_bytes() const override {
-    return sizeof(*this) + body_.chords.memory_bytes() + body_.flats.memory_bytes() +
+    return sizeof(*this) + body_.chords.memory_bytes() + body_.hull.memory_bytes() + body_.flats.memory_bytes() +
            static_cast<std::size_t>(body_.curve.piece_count()) * sizeof(PolynomialGraph);
   }
 

@@ -52,7 +52,7 @@ std::size_t ChordSlopes::cell(double y) const {
 }
 
 WheelBody::WheelBody(GraphCurve profile, double radius, const std::vector<WheelFlat>& wheel_flats)
-    : curve(std::move(profile)), nominal_radius(radius), chords(curve) {
+    : curve(std::move(profile)), nominal_radius(radius), chords(curve), hull(curve) {
   if (!(radius > 0.0) || !std::isfinite(radius))
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
   flats = FlatDepth(wheel_flats, radius);

@@ -6,6 +6,7 @@
 
 #include "treadmark/backends/analytic/flat_depth.hpp"
 #include "treadmark/backends/analytic/graph_curve.hpp"
+#include "treadmark/backends/analytic/wheel_hull.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::analytic {
@@ -33,6 +34,7 @@ struct WheelBody {
   double nominal_radius = 0.0;
   FlatDepth flats;
   ChordSlopes chords;
+  WheelHull hull;
   double r_max = 0.0;  ///< greatest radius, rounded up
 
   /// Errors: Error(configuration) if the radius is not positive or the profile or a flat reaches the axle.
