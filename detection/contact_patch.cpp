@@ -81,7 +81,11 @@ double sub_patch_coupling(double distance, const PatchRules& rules) {
 
 std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, const std::vector<ContactPatch>& near_misses,
                                           const PatchRules& rules) {
-  const auto field_side_first = [](const ContactPatch& a, const ContactPatch& b) { return a.y > b.y; };
+  // To the nanometre: patches behind one another at the same y must not change places by rounding.
+  const auto field_side_first = [](const ContactPatch& a, const ContactPatch& b) {
+    const long long y_a = std::llround(1e9 * a.y), y_b = std::llround(1e9 * b.y);
+    return y_a != y_b ? y_a > y_b : a.x < b.x;
+  };
   std::stable_sort(patches.begin(), patches.end(), field_side_first);
 
   // A region about to open extends the patch it will belong to.

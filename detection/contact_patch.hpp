@@ -36,7 +36,7 @@ struct PatchRules {
   double near_miss = -1e-3;                     ///< G_MISS [m]; near misses with a smaller gap extend patches; negative = off
 };
 
-/// Combines, turns and sorts (field side first). Regions closer than D_COMB with similar angles become one patch; those
+/// Combines, turns and sorts (field side first, then by x). Regions closer than D_COMB with similar angles become one patch; those
 /// closer than D_SEP become one patch with several parts; of patches that stay apart but closer than D_TURN the angles are turned towards each other, so that
 /// a merge is no jump. near_misses extend the patches near them.
 std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, const std::vector<ContactPatch>& near_misses,

@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// The search that leaves out what cannot touch against the search that leaves out nothing.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+
+#include "treadmark/backends/create.hpp"
+#include "treadmark/tests/search/scenes.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using detection::ContactSearch;
+using detection::SearchMethod;
+
+class PrunedSearch : public ::testing::TestWithParam<std::string_view> {};
+
+// Values at the points are the same but for rounding: heights may depend on how a grid is cut by 1e-12 m. An extent is where
+// the gap is zero: at a grazing angle it moves by more than the gap does.
+constexpr double kSame = 1e-9;
+
+int configurations() {
+  const char* wanted = std::getenv("TREADMARK_CONFIGURATIONS");
+  return wanted ? std::atoi(wanted) : 1000;
+}
+
+TEST_P(PrunedSearch, EqualsFullSearchInRandomConfigurations) {
+  const Bodies bodies = bodies_in(GetParam());
+  std::mt19937 random(20'26'11);
+  std::size_t evaluated = 0, points = 0;
+  std::array<int, 4> with_patches{};
+  int grazing = 0, unfaced = 0, searches = 0;
+  for (int k = 0; k < configurations(); ++k) {
+    const auto pair = random_pair(bodies, random);
+    auto settings = random_settings(pair, random);
+    settings.method = SearchMethod::full_grid;
+    ContactSearch full(pair, settings);
+    settings.method = SearchMethod::pruned_grid;
+    ContactSearch pruned(pair, settings);
+    const double least = full.least_gap();
+    if (std::isnan(least)) {
+      ++unfaced;
+      ASSERT_TRUE(std::isnan(pruned.least_gap())) << "configuration " << k;
+      ASSERT_TRUE(pruned.at(0.0).patches.empty());
+      continue;
+    }
+    ASSERT_NEAR(pruned.least_gap(), least, 1e-11) << "configuration " << k;
+    // From grazing to deep and back, as force iterations go.
+    std::vector<double> depths{std::pow(10.0, std::uniform_real_distribution<double>(-5.0, -3.3)(random)), -2e-5, 1e-9,
+                               std::uniform_real_distribution<double>(2e-5, 3e-4)(random)};
+    std::ranges::shuffle(depths, random);
+    depths.resize(2);
+    for (const double depth : depths) {
+      const auto expected = full.at(least + depth), found = pruned.at(least + depth);
+      const std::string differs = difference(found, expected, kSame);
+      ASSERT_EQ(differs, "") << "configuration " << k << ", " << depth << " m deep";
+      ++with_patches[std::min<std::size_t>(3, expected.patches.size())];
+      grazing += depth == 1e-9;
+      ++searches;
+    }
+    evaluated += pruned.points_evaluated();
+    points += settings.grid_T.size();
+  }
+  const auto at_least = [&](double share) { return static_cast<int>(share * searches); };
+  // The configurations are what they are meant to be.
+  EXPECT_GT(with_patches[0], at_least(0.02));
+  EXPECT_GT(with_patches[1], at_least(0.2));
+  EXPECT_GT(with_patches[2] + with_patches[3], at_least(0.02));
+  EXPECT_GT(grazing, at_least(0.1));
+  EXPECT_LT(unfaced, configurations() / 10);
+  EXPECT_LT(static_cast<double>(evaluated), 0.6 * static_cast<double>(points));
+  RecordProperty("evaluated", std::to_string(static_cast<double>(evaluated) / static_cast<double>(points)));
+  RecordProperty("patches", std::to_string(with_patches[0]) + " " + std::to_string(with_patches[1]) + " " +
+                                std::to_string(with_patches[2]) + " " + std::to_string(with_patches[3]));
+  std::printf("patches %d %d %d %d unfaced %d evaluated %g\n", with_patches[0], with_patches[1], with_patches[2], with_patches[3], unfaced,
+              static_cast<double>(evaluated) / static_cast<double>(points));
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, PrunedSearch, ::testing::ValuesIn(backend_names().begin(), backend_names().end()),
+                         [](const auto& backend) {
+                           std::string name(backend.param);
+                           std::ranges::replace(name, '-', '_');
+                           return name;
+                         });
+
+}  // namespace
+}  // namespace treadmark::testing
