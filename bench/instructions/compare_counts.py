@@ -5,7 +5,7 @@
 
 usage: compare_counts.py BASELINE COUNTS --configuration WORDS [--update]
 
-COUNTS has a line a path: name, unit, instructions of one run, units in one run. BASELINE is a JSON file: counts a unit by
+COUNTS has a line a path: name, unit, units in one run, instructions of one run. BASELINE is a JSON file: counts a unit by
 configuration (compiler, kernels, tool) and path. Exit status: 0 no count grew by more than 5 %, 1 one did, 2 there is no
 baseline of this configuration. --update writes the counts into the baseline and exits with 0.
 """
@@ -21,7 +21,7 @@ def read_counts(text):
     """(path, unit, instructions a unit) of every line, in the order of the names."""
     rows = []
     for line in text.splitlines():
-        path, unit, instructions, units = line.split()
+        path, unit, units, instructions = line.split()
         rows.append((path, unit, int(instructions) / int(units)))
     return sorted(rows)
 

@@ -3,9 +3,10 @@
 #include "treadmark/bench/instructions/paths.hpp"
 
 #include <algorithm>
+#include <map>
 #include <memory>
 #include <stdexcept>
-#include <variant>
+#include <utility>
 
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_scene.hpp"
@@ -22,45 +23,45 @@ constexpr double kResolution = 2e-3;  // of samples [m]
 constexpr app::BenchGrid kGrid{0.5e-3, 6000};
 constexpr const char* kDetectionBackends[] = {"analytic", "spline", "mesh", "offset"};
 
-/// The scene and its bodies in one representation; shared by the functions of a path.
-struct Setting {
-  app::BenchScene scene;
-  std::shared_ptr<const Surface> rail, wheel;
-  detection::BodyPair bodies;
-};
+const app::BenchScene& scene() {
+  static const app::BenchScene the_scene = app::make_bench_scene(app::bench_case(), kGrid);
+  return the_scene;
+}
 
-std::shared_ptr<const Setting> make_setting(const std::string& backend, bool with_rail, bool with_wheel) {
-  auto s = std::make_shared<Setting>();
-  s->scene = app::make_bench_scene(app::bench_case(), kGrid);
-  const double resolution = backend == "analytic" ? 0.0 : kResolution;
-  if (with_rail) s->rail = represent(*s->scene.rail, {backend, resolution, s->scene.regions.rail}).surface;
-  if (with_wheel) s->wheel = represent(*s->scene.wheel, {backend, resolution, s->scene.regions.wheel}).surface;
-  s->bodies = s->scene.bodies;
-  if (s->rail) s->bodies.rail = s->rail.get();
-  if (s->wheel) s->bodies.wheel = s->wheel.get();
-  return s;
+double resolution_of(const std::string& backend) { return backend == "analytic" ? 0.0 : kResolution; }
+
+const Surface& surface(const std::string& backend, Body body) {
+  static std::map<std::pair<std::string, Body>, std::shared_ptr<const Surface>> known;
+  auto& entry = known[{backend, body}];
+  const Region& region = body == Body::rail ? scene().regions.rail : scene().regions.wheel;
+  if (!entry) entry = represent(scene().natural(body), {backend, resolution_of(backend), region}).surface;
+  return *entry;
+}
+
+detection::BodyPair bodies(const std::string& backend) {
+  detection::BodyPair pair = scene().bodies;
+  pair.rail = &surface(backend, Body::rail);
+  pair.wheel = &surface(backend, Body::wheel);
+  return pair;
 }
 
 MeasuredPath heights(const std::string& backend, Body body, bool tilted) {
-  const bool rail = body == Body::rail;
-  const auto s = make_setting(backend, rail, !rail);
-  const auto surface = rail ? s->rail : s->wheel;
-  const app::BenchView& view = s->scene.view(body);
-  const PlaneGrid plane{tilted ? view.tilted.X_SP : view.level.X_SP, view.grid};
-  const auto z = std::make_shared<std::vector<double>>(view.grid.size());
-  const double resolution = backend == "analytic" ? 0.0 : kResolution;
-  return {"point", z->size(), [surface, plane, z] { surface->heights(plane, {*z, {}, {}}); },
-          [s, surface, body, resolution] { return app::check_surface(*surface, s->scene.view(body), resolution).reason; }};
+  const Surface* s = &surface(backend, body);
+  const app::BenchView* view = &scene().view(body);
+  const PlaneGrid plane{tilted ? view->tilted.X_SP : view->level.X_SP, view->grid};
+  const auto z = std::make_shared<std::vector<double>>(view->grid.size());
+  return {"point", z->size(), [s, plane, z] { s->heights(plane, {*z, {}, {}}); },
+          [s, view, backend] { return app::check_surface(*s, *view, resolution_of(backend)).reason; }};
 }
 
 MeasuredPath search(const std::string& backend, bool cold) {
-  const auto s = make_setting(backend, true, true);
-  const auto check = [s] { return app::check_search(s->bodies, s->scene.search); };
-  if (cold) return {"search", 1, [s] { detection::ContactSearch(s->bodies, s->scene.search).at(0.0); }, check};
-  const auto made = std::make_shared<detection::ContactSearch>(s->bodies, s->scene.search);
+  const detection::BodyPair pair = bodies(backend);
+  const auto check = [pair] { return app::check_search(pair, scene().search); };
+  if (cold) return {"search", 1, [pair] { detection::ContactSearch(pair, scene().search).at(0.0); }, check};
+  const auto made = std::make_shared<detection::ContactSearch>(pair, scene().search);
   made->at(0.0);
   const auto further = std::make_shared<bool>(false);  // never twice the same position
-  const auto run = [s, made, further] {
+  const auto run = [made, further] {
     *further = !*further;
     made->at(*further ? app::kWarmStep : 2.0 * app::kWarmStep);
   };
@@ -68,10 +69,10 @@ MeasuredPath search(const std::string& backend, bool cold) {
 }
 
 MeasuredPath distance(const std::string& backend) {
-  const auto s = make_setting(backend, true, true);
-  const app::BenchScene& where = s->scene;
-  return {"element", where.contact_grid.size(), [s, &where] { detection::undeformed_distance(s->bodies, where.X_TC, where.contact_grid); },
-          [s, &where] { return app::check_distance(s->bodies, where.X_TC, where.contact_grid); }};
+  const detection::BodyPair pair = bodies(backend);
+  return {"element", scene().contact_grid.size(),
+          [pair] { detection::undeformed_distance(pair, scene().X_TC, scene().contact_grid); },
+          [pair] { return app::check_distance(pair, scene().X_TC, scene().contact_grid); }};
 }
 
 /// What is wrong with a solution of the normal problem.
@@ -86,11 +87,10 @@ std::string check_normal(const kalker::ContactProblem& problem, const kalker::Co
 }
 
 MeasuredPath normal() {
-  const app::BenchScene scene = app::make_bench_scene(app::bench_case(), kGrid);
   const auto distance = std::make_shared<const detection::UndeformedDistance>(
-      detection::undeformed_distance(scene.bodies, scene.X_TC, scene.contact_grid));
+      detection::undeformed_distance(scene().bodies, scene().X_TC, scene().contact_grid));
   kalker::ContactProblem problem;
-  problem.grid = scene.contact_grid;
+  problem.grid = scene().contact_grid;
   problem.gap = distance->distance;
   problem.force_prescribed = false;
   problem.approach = distance->approach;

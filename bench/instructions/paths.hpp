@@ -19,7 +19,7 @@ struct MeasuredPath {
 /// Names of all paths, in the order of the table: "heights/wheel/spline/tilted" ...
 const std::vector<std::string>& path_names();
 
-/// Makes what a path needs. Throws std::invalid_argument for a name that is not one of these.
+/// Makes what a path needs, which is kept for the paths that need it too. Not thread-safe. Throws std::invalid_argument for a name that is not one of these.
 MeasuredPath make_path(const std::string& name);
 
 }  // namespace treadmark::bench
