@@ -15,15 +15,28 @@ namespace treadmark::spline {
 class ColumnHits {
  public:
   ColumnHits(int count, Facing facing) : sign_(facing == Facing::up ? -1.0 : 1.0) {
-    const auto size = static_cast<std::size_t>(count);
-    n.resize(size), v.resize(size), u.resize(size), cell.resize(size), several.resize(size);
+    resize(count);
     clear();
+  }
+
+  /// To be cleared afterwards. All but n have room up to a multiple of four.
+  void resize(int count) {
+    const auto size = static_cast<std::size_t>(count), padded = (size + 3) / 4 * 4;
+    n.resize(size), v.resize(padded), u.resize(padded), cell.resize(padded), several.resize(size);
   }
 
   void clear() {
     n.assign(n.size(), std::numeric_limits<double>::quiet_NaN());
     several.assign(several.size(), 0);
   }
+
+  /// Also the places, for results at all points alike.
+  void clear_places() {
+    v.assign(v.size(), std::numeric_limits<double>::quiet_NaN());
+    u.assign(u.size(), std::numeric_limits<double>::quiet_NaN());
+    cell.assign(cell.size(), 0);
+  }
+  double sign() const { return sign_; }
 
   void operator()(int i, double height, int in_cell, double at_v, double at_u) {
     const auto k = static_cast<std::size_t>(i);

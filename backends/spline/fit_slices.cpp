@@ -258,15 +258,15 @@ SliceNet fit_slices(const SliceSet& slices) {
       const int source = plan.interval[static_cast<std::size_t>(span)];
       const std::size_t i = source >= 0 ? static_cast<std::size_t>(source) : source == kBeforeFirst ? 0 : n - 2;
       if (!present[i]) continue;
-      SliceNet::LineCubic& cubic = net.line(span, static_cast<int>(j));
       if (source >= 0) {
-        cubic = interval[i];
+        net.set_line(span, static_cast<int>(j), interval[i]);
         continue;
       }
       const double t = source == kBeforeFirst ? 0.0 : all.u[n - 1] - all.u[n - 2];
       const NetPair* p = interval[i].power;
-      cubic = {};
-      cubic.power[0] = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
+      SliceNet::LineCubic constant;
+      constant.power[0] = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
+      net.set_line(span, static_cast<int>(j), constant);
     }
   }
   return net;

@@ -30,6 +30,7 @@ class RailGeometry {
   static constexpr double kLargestStepU = 1.0;
   static constexpr double kLargestPrediction = 0.1;  // from one cut to the next
   static constexpr double kTurnsNormal = 0.0;
+  static constexpr bool kTurns = false;
 
   explicit RailGeometry(double) {}
 
@@ -56,6 +57,7 @@ class WheelGeometry {
   static constexpr double kLargestStepU = 0.2;
   static constexpr double kLargestPrediction = 0.1;
   static constexpr double kTurnsNormal = 1.0;  // the radius turns with u
+  static constexpr bool kTurns = true;
 
   explicit WheelGeometry(double nominal_radius) : radius_(nominal_radius) {}
 

@@ -14,12 +14,18 @@ float greater(float bound, const NetPair& value) {
   return size > static_cast<double>(bound) ? static_cast<float>(size * (1.0 + 1e-6)) : bound;
 }
 
-void widen(SliceHulls::Twist& twist, const SliceNet& net, int span, int cell) {
+// Bounds of derivatives (u in its unit, v in cells), greatest of both fields.
+struct Twist {
+  float uuu = 0.0F, uuv = 0.0F, uuvv = 0.0F, uvv = 0.0F, uvvv = 0.0F, vv = 0.0F, vvv = 0.0F;
+};
+
+void widen(Twist& twist, const SliceNet& net, int span, int cell) {
   const double h = net.span_end(span) - net.span_start(span);
   // Bezier points along u of each line's value, first and second derivative.
   NetPair value[4][4], first[4][3], second[4][2];
   for (int k = 0; k < 4; ++k) {
-    const NetPair* p = net.line(span, cell + k).power;
+    const SliceNet::LineCubic line = net.line(span, cell + k);
+    const NetPair* p = line.power;
     const NetPair c1 = h * p[1], c2 = (h * h) * p[2], c3 = (h * h * h) * p[3];
     value[k][0] = p[0];
     value[k][1] = p[0] + (1.0 / 3.0) * c1;
@@ -87,12 +93,13 @@ HullBox::HullBox(const Interval& range_y, const Interval& range_w) {
   round_outwards(range_w, w, half_w);
 }
 
-SliceHulls::SliceHulls(const SliceNet& net) : cells_(static_cast<std::size_t>(net.cells())), spans_(net.spans()) {
+SliceHulls::SliceHulls(const SliceNet& net) : stride_((static_cast<std::size_t>(net.cells()) + 3) / 4 * 4 + 4), spans_(net.spans()) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   constexpr int kFewBoxes = 8;
   Level finest;
   finest.rows = (spans_ + kSpansPerGroup - 1) / kSpansPerGroup;
   finest.columns = net.cells();
+  twist_.assign(static_cast<std::size_t>(finest.rows) * 7 * stride_, 0.0F);
   for (int row = 0; row < finest.rows; ++row) {
     const int first = first_span(row), end = first_span(row + 1);
     Interval u{net.span_start(first), net.span_end(end - 1)};
@@ -101,7 +108,7 @@ SliceHulls::SliceHulls(const SliceNet& net) : cells_(static_cast<std::size_t>(ne
     finest.u.push_back(u);
     for (int cell = 0; cell < net.cells(); ++cell) {
       Interval y = Interval::none(), w = Interval::none();
-      Twist& twist = twist_.emplace_back();
+      Twist twist;
       for (int span = first; span < end; ++span) {
         widen(twist, net, span, cell);
         Interval part_y, part_w;
@@ -109,6 +116,8 @@ SliceHulls::SliceHulls(const SliceNet& net) : cells_(static_cast<std::size_t>(ne
         y.include(part_y);
         w.include(part_w);
       }
+      const float bounds[7] = {twist.uuu, twist.uuv, twist.uuvv, twist.uvv, twist.uvvv, twist.vvv, twist.vv};
+      for (std::size_t i = 0; i < 7; ++i) twist_[(static_cast<std::size_t>(row) * 7 + i) * stride_ + static_cast<std::size_t>(cell)] = bounds[i];
       finest.boxes.push_back(y.empty() ? HullBox() : HullBox(y, w));
       all_y_.include(y);
       all_w_.include(w);
@@ -121,7 +130,7 @@ SliceHulls::SliceHulls(const SliceNet& net) : cells_(static_cast<std::size_t>(ne
 }
 
 std::size_t SliceHulls::memory_bytes() const {
-  std::size_t bytes = twist_.size() * sizeof(Twist);
+  std::size_t bytes = twist_.size() * sizeof(float);
   for (const Level& level : levels_) bytes += level.boxes.size() * sizeof(HullBox) + level.u.size() * sizeof(Interval);
   return bytes;
 }

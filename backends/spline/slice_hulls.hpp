@@ -23,10 +23,7 @@ struct HullBox {
 /// and one v-cell; every box of a level above holds several of the level below. Also bounds of derivatives.
 class SliceHulls {
  public:
-  /// Bounds of derivatives (u in its unit, v in cells), greatest of both fields.
-  struct Twist {
-    float uuu = 0.0F, uuv = 0.0F, uuvv = 0.0F, uvv = 0.0F, uvvv = 0.0F, vv = 0.0F, vvv = 0.0F;
-  };
+  static constexpr int kSpansPerGroup = 4;
 
   struct Level {
     int rows = 0, columns = 0;                      ///< along u and v
@@ -40,10 +37,12 @@ class SliceHulls {
 
   explicit SliceHulls(const SliceNet& net);
 
-  /// Over a cell and the group of spans that holds the span.
-  const Twist& twist(int span, int cell) const {
-    return twist_[static_cast<std::size_t>(span / kSpansPerGroup) * cells_ + static_cast<std::size_t>(cell)];
+  /// Bounds of derivatives over a cell and the group of spans that holds the span, `which` after another, `stride` apart;
+  /// u in its unit, v in cells, greatest of both fields: uuu, uuv, uuvv, uvv, uvvv, vvv, vv.
+  const float* twist(int span, int cell) const {
+    return twist_.data() + static_cast<std::size_t>(span / kSpansPerGroup) * 7 * stride_ + static_cast<std::size_t>(cell);
   }
+  long twist_stride() const { return static_cast<long>(stride_); }
 
   bool empty() const { return !(all_y_.low <= all_y_.high); }
   const Interval& all_y() const { return all_y_; }
@@ -62,12 +61,10 @@ class SliceHulls {
   }
 
  private:
-  static constexpr int kSpansPerGroup = 4;
-
-  std::size_t cells_;
+  std::size_t stride_;
   int spans_;
   std::vector<Level> levels_;
-  std::vector<Twist> twist_;
+  std::vector<float> twist_;
   Interval all_y_ = Interval::none(), all_w_ = Interval::none();
   HullBox all_;
 };

@@ -7,15 +7,12 @@
 namespace treadmark::spline {
 
 SliceNet::SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions)
-    : starts_(std::move(span_starts)), u_end_(u_end), closed_(closed), positions_(positions) {
-  constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-  LineCubic missing;
-  for (NetPair& power : missing.power) power = {kNaN, kNaN};
-  cubics_.assign(starts_.size() * static_cast<std::size_t>(lines()), missing);
+    : starts_(std::move(span_starts)), closed_(closed), positions_(positions), stride_((static_cast<std::size_t>(positions) + 3) / 4 * 4 + 4) {
+  cubics_.assign(starts_.size() * 8 * stride_, std::numeric_limits<double>::quiet_NaN());
+  starts_.push_back(u_end);
 }
 
 NetSecond SliceNet::second_at(const Place& place, int cell, double f) const {
-  const LineCubic* c = &line(place.span, cell);
   const double t = place.t, g = 1.0 - f;
   const double basis[4] = {g * g * g / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
                            f * f * f / 6.0};
@@ -23,7 +20,8 @@ NetSecond SliceNet::second_at(const Place& place, int cell, double f) const {
   const double basis_vv[4] = {g, 3.0 * f - 2.0, 3.0 * g - 2.0, f};
   NetSecond sum;
   for (int k = 0; k < 4; ++k) {
-    const NetPair* p = c[k].power;
+    const LineCubic c = line(place.span, cell + k);
+    const NetPair* p = c.power;
     sum.by_uu = sum.by_uu + basis[k] * (2.0 * p[2] + (6.0 * t) * p[3]);
     sum.by_uv = sum.by_uv + basis_v[k] * (p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]));
     sum.by_vv = sum.by_vv + basis_vv[k] * (p[0] + t * (p[1] + t * (p[2] + t * p[3])));
@@ -39,7 +37,8 @@ bool SliceNet::hull(int span, int cell, double u0, double u1, Interval& y, Inter
   // In v the B-spline hull is loose by the sag of the control polygon, so go over to Bezier points in both directions.
   NetPair bezier_u[4][4];
   for (int k = 0; k < 4; ++k) {
-    const NetPair* p = line(span, cell + k).power;
+    const LineCubic c = line(span, cell + k);
+    const NetPair* p = c.power;
     const NetPair c0 = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
     const NetPair c1 = h * (p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]));
     const NetPair c2 = (h * h) * (p[2] + (3.0 * t) * p[3]), c3 = (h * h * h) * p[3];

@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/backends/spline/slice_kernels.hpp"
 #include "treadmark/core/profile.hpp"
 
 namespace treadmark::spline {
@@ -31,7 +32,7 @@ struct NetSecond {
 };
 
 /// A tensor B-spline surface (y, w)(u, v) with uniform knots in v, stored for evaluation: on every u-span each v-line of
-/// coefficients is a cubic in t = u - start of span. v runs from 1 to positions(); cell k holds v in [k + 1, k + 2].
+/// coefficients is a cubic in t = u - start of span; equal numbers of successive lines lie side by side. v runs from 1 to positions(); cell k holds v in [k + 1, k + 2].
 /// Where a line is missing its numbers are NaN, and so are results that need it. Immutable after building.
 class SliceNet {
  public:
@@ -44,19 +45,28 @@ class SliceNet {
   /// [u_end - 2 pi, u_end) first. Otherwise the first and last span go on for ever.
   SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions);
 
-  int spans() const { return static_cast<int>(starts_.size()); }
+  int spans() const { return static_cast<int>(starts_.size()) - 1; }
   int lines() const { return positions_ + 2; }
   int positions() const { return positions_; }
   int cells() const { return positions_ - 1; }
   bool closed() const { return closed_; }
   double span_start(int span) const { return starts_[static_cast<std::size_t>(span)]; }
-  double span_end(int span) const {
-    return span + 1 < spans() ? starts_[static_cast<std::size_t>(span) + 1] : u_end_;
-  }
-  std::size_t memory_bytes() const { return cubics_.size() * sizeof(LineCubic) + starts_.size() * sizeof(double); }
+  double span_end(int span) const { return starts_[static_cast<std::size_t>(span) + 1]; }
+  std::size_t memory_bytes() const { return (cubics_.size() + starts_.size()) * sizeof(double); }
 
-  LineCubic& line(int span, int line) { return cubics_[index(span, line)]; }
-  const LineCubic& line(int span, int line) const { return cubics_[index(span, line)]; }
+  LineCubic line(int span, int line) const {
+    const double* p = numbers(span, line);
+    LineCubic cubic;
+    for (std::size_t m = 0; m < 4; ++m) cubic.power[m] = {p[2 * m * stride_], p[(2 * m + 1) * stride_]};
+    return cubic;
+  }
+  void set_line(int span, int line, const LineCubic& cubic) {
+    double* p = cubics_.data() + index(span, line);
+    for (std::size_t m = 0; m < 4; ++m) p[2 * m * stride_] = cubic.power[m].y, p[(2 * m + 1) * stride_] = cubic.power[m].w;
+  }
+  NetArrays arrays() const {
+    return {cubics_.data(), starts_.data(), static_cast<long>(8 * stride_), static_cast<long>(stride_), spans()};
+  }
 
   /// Span and offset for u; hint: the span of a near point.
   struct Place {
@@ -76,14 +86,15 @@ class SliceNet {
 
  private:
   std::size_t index(int span, int line) const {
-    return static_cast<std::size_t>(span) * static_cast<std::size_t>(lines()) + static_cast<std::size_t>(line);
+    return static_cast<std::size_t>(span) * 8 * stride_ + static_cast<std::size_t>(line);
   }
+  const double* numbers(int span, int line) const { return cubics_.data() + index(span, line); }
 
-  std::vector<double> starts_;
-  double u_end_;
+  std::vector<double> starts_;  // of the spans, and the end of the last
   bool closed_;
   int positions_;
-  std::vector<LineCubic> cubics_;
+  std::size_t stride_;  // from a power to the next: lines and NaN up to where four breaks at a time may read
+  std::vector<double> cubics_;
 };
 
 // Both fields at once in one register (GCC and clang).
@@ -91,16 +102,13 @@ namespace detail {
 typedef double Pair __attribute__((vector_size(16)));
 
 inline Pair both(double x) { return Pair{x, x}; }
-inline Pair load(const NetPair& p) { return Pair{p.y, p.w}; }
 inline NetPair store(const Pair& p) { return {p[0], p[1]}; }
-inline Pair cubic(const SliceNet::LineCubic& l, const Pair& t) {
-  return load(l.power[0]) + t * (load(l.power[1]) + t * (load(l.power[2]) + t * load(l.power[3])));
-}
 }  // namespace detail
 
 inline SliceNet::Place SliceNet::find(double u, int hint) const {
   constexpr double kTurn = 2.0 * std::numbers::pi;
-  if (closed_ && !(u >= u_end_ - kTurn && u < u_end_)) u -= kTurn * std::floor((u - u_end_) / kTurn + 1.0);
+  const double u_end = starts_.back();
+  if (closed_ && !(u >= u_end - kTurn && u < u_end)) u -= kTurn * std::floor((u - u_end) / kTurn + 1.0);
   int span = hint;
   for (int step = 0; step < 4; ++step) {
     if (u < starts_[static_cast<std::size_t>(span)] && span > 0)
@@ -111,37 +119,40 @@ inline SliceNet::Place SliceNet::find(double u, int hint) const {
       return {span, u - starts_[static_cast<std::size_t>(span)]};
   }
   const auto first = starts_.begin() + 1;
-  span = static_cast<int>(std::upper_bound(first, starts_.end(), u) - first);
+  span = static_cast<int>(std::upper_bound(first, starts_.end() - 1, u) - first);
   return {span, u - starts_[static_cast<std::size_t>(span)]};
 }
 
 inline NetValue SliceNet::at_break(const Place& place, int k) const {
   using detail::Pair;
-  const LineCubic* c = &line(place.span, k);
+  const double* c = numbers(place.span, k);
   const Pair t = detail::both(place.t);
   // Powers of t at the break first, then one polynomial instead of three.
-  Pair power[4];
-  for (int m = 0; m < 4; ++m)
-    power[m] = detail::both(1.0 / 6.0) * (detail::load(c[0].power[m]) + detail::load(c[2].power[m])) +
-               detail::both(2.0 / 3.0) * detail::load(c[1].power[m]);
-  const Pair left = detail::cubic(c[0], t), right = detail::cubic(c[2], t);
+  Pair power[4], change[4];
+  for (std::size_t m = 0; m < 4; ++m) {
+    const double *y = c + 2 * m * stride_, *w = y + stride_;
+    const Pair left{y[0], w[0]}, middle{y[1], w[1]}, right{y[2], w[2]};
+    power[m] = detail::both(1.0 / 6.0) * (left + right) + detail::both(2.0 / 3.0) * middle;
+    change[m] = right - left;
+  }
   return {detail::store(power[0] + t * (power[1] + t * (power[2] + t * power[3]))),
           detail::store(power[1] + t * (detail::both(2.0) * power[2] + t * (detail::both(3.0) * power[3]))),
-          detail::store(detail::both(0.5) * (right - left))};
+          detail::store(detail::both(0.5) * (change[0] + t * (change[1] + t * (change[2] + t * change[3]))))};
 }
 
 inline NetValue SliceNet::at(const Place& place, int cell, double f) const {
   using detail::Pair;
-  const LineCubic* c = &line(place.span, cell);
+  const double* c = numbers(place.span, cell);
   const double g = 1.0 - f;
   const double basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
                            f * f * f * (1.0 / 6.0)};
   const double basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
   const Pair t = detail::both(place.t), two = detail::both(2.0), t3 = detail::both(3.0 * place.t);
   Pair value{}, by_u{}, by_v{};
-  for (int k = 0; k < 4; ++k) {
-    const Pair p1 = detail::load(c[k].power[1]), p2 = detail::load(c[k].power[2]), p3 = detail::load(c[k].power[3]);
-    const Pair at_t = detail::load(c[k].power[0]) + t * (p1 + t * (p2 + t * p3));
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto power = [&](std::size_t m) { return Pair{c[2 * m * stride_ + k], c[(2 * m + 1) * stride_ + k]}; };
+    const Pair p1 = power(1), p2 = power(2), p3 = power(3);
+    const Pair at_t = power(0) + t * (p1 + t * (p2 + t * p3));
     value += detail::both(basis[k]) * at_t;
     by_v += detail::both(basis_v[k]) * at_t;
     by_u += detail::both(basis[k]) * (p1 + t * (two * p2 + t3 * p3));

@@ -4,14 +4,34 @@
 
 #include <cmath>
 #include <limits>
+#include <numbers>
 #include <vector>
 
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/slice_geometry.hpp"
 #include "treadmark/backends/spline/slice_hulls.hpp"
+#include "treadmark/backends/spline/slice_kernels.hpp"
 #include "treadmark/backends/spline/slice_net.hpp"
 
 namespace treadmark::spline {
+
+/// Memory for sections, used again by the next one of the same thread.
+struct SectionWorkspace {
+  std::vector<double> numbers;
+  std::vector<int> spans, first_sample, sample_count, pair_cell, pair_sample;
+  std::vector<char> trouble, fast, redo;
+  std::vector<CellCubics> cells;
+
+  void fit(std::size_t breaks) {
+    if (spans.size() >= breaks) return;
+    numbers.assign(9 * breaks, std::numeric_limits<double>::quiet_NaN());
+    spans.assign(breaks, 0), first_sample.resize(breaks), sample_count.resize(breaks);
+    trouble.resize(breaks), fast.resize(breaks), redo.assign(breaks, 0);
+    cells.resize(breaks);
+    pair_cell.resize(kPairs + 8), pair_sample.resize(kPairs + 8);
+  }
+  static constexpr int kPairs = 1024;
+};
 
 /// A slice surface cut at one value c of the across coordinate, for SectionRaster. The cut has u = u(v): every evaluation
 /// corrects u by one Newton step. Cuts follow one another, with the same lines each time;
@@ -24,56 +44,90 @@ class SliceSection {
   static constexpr double kStepU = Geometry::kStepU;
 
   SliceSection(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Vec3& across, const Vec3& along, const Vec3& normal,
-               const Vec3& origin)
-      : net_(net), hulls_(hulls), geometry_(geometry), across_direction_(across), normal_direction_(normal), origin_(origin),
-        along_direction_(along), breaks_(static_cast<std::size_t>(net.positions()), SectionPoint{}), spans_(breaks_.size()),
-        u_by_c_(breaks_.size()), change_(breaks_.size()), predicted_u_by_c_(breaks_.size()) {}
+               const Vec3& origin, SectionWorkspace& workspace, const SliceKernels& kernels = slice_kernels())
+      : net_(net), hulls_(hulls), geometry_(geometry), kernels_(kernels), work_(workspace), across_direction_(across), normal_direction_(normal),
+        origin_(origin), along_direction_(along) {
+    const std::size_t breaks = (static_cast<std::size_t>(net.positions()) + 3) / 4 * 4 + 4;
+    work_.fit(breaks);
+    double* p = work_.numbers.data();
+    SectionArrays& a = arrays_;
+    for (double** array : {&a.s, &a.n, &a.ds, &a.dn, &a.u, &a.du, &a.u_by_c, &a.change, &a.predicted}) *array = p, p += breaks;
+    a.spans = work_.spans.data();
+    a.net = net.arrays();
+    a.wheel = Geometry::kTurns;
+    a.u_tolerance = kCutStepU, a.largest_step = Geometry::kLargestStepU, a.largest_prediction = Geometry::kLargestPrediction;
+    a.span = 0;
+    twist_ = {hulls.twist(0, 0), hulls.twist_stride(), SliceHulls::kSpansPerGroup, kGreatestError, kGreatestTurn, Geometry::kTurnsNormal};
+  }
 
   /// Forgets the cuts so far: the next ones may have other lines.
   void restart() { started_ = false; }
 
   /// Moves to the across coordinate c.
   void start_cut(double c) {
-    shift_ = started_ ? c - c_ : 0.0;
+    arrays_.shift = started_ ? c - arrays_.c : 0.0;
     started_ = true;
-    c_ = c;
-    before_ = geometry_.guess_u(across_direction_, normal_direction_, origin_, c);
-    slope_ = 0.0;
-    set_reference(before_);
+    arrays_.c = c;
+    guess_ = geometry_.guess_u(across_direction_, normal_direction_, origin_, c);
+    set_reference(guess_);
+    arrays_.turn = 0.0;
+    if (net_.closed() && guess_ == guess_) {
+      const SliceNet::Place place = net_.find(guess_, span_);
+      arrays_.span = span_ = place.span;
+      constexpr double kTurn = 2.0 * std::numbers::pi;
+      arrays_.turn = kTurn * std::round((net_.span_start(place.span) + place.t - guess_) / kTurn);
+    } else if (!net_.closed()) {
+      arrays_.span = span_ = net_.find(guess_, span_).span;
+    }
   }
 
   /// Cuts the lines v = first + 1 .. last + 1; afterwards break_at(k) is v = k + 1.
   void cut(int first, int last) {
-    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-    for (int line = first; line <= last; ++line) {
-      const auto k = static_cast<std::size_t>(line);
-      SectionPoint& p = breaks_[k];
-      // From the last cut, else from the neighbour.
-      const bool known = shift_ != 0.0 && std::abs(shift_ * predicted_u_by_c_[k]) < Geometry::kLargestPrediction && !std::isnan(p.s);
-      double u = known ? p.u + shift_ * predicted_u_by_c_[k] : before_ + slope_;
-      double u_by_c = 0.0;
-      int left = kMaxCutSteps;
-      do {
-        p = at_break(line, u, u_by_c);
-        p.u_step = std::clamp(p.u_step, -Geometry::kLargestStepU, Geometry::kLargestStepU);
-        u += p.u_step;
-      } while (std::abs(p.u_step) > kCutStepU && --left > 0);
-      if (left == 0 || std::isnan(p.u_step)) {
-        p.s = kNaN;
-        continue;
-      }
-      // Adams and Bashforth's step of order 3 to the next cut, at the same distance.
-      const double change = known ? u_by_c - u_by_c_[k] : 0.0;
-      const double change_of_change = known && change_[k] != 0.0 ? change - change_[k] : 0.0;
-      predicted_u_by_c_[k] = u_by_c + 0.5 * change + (5.0 / 12.0) * change_of_change;
-      u_by_c_[k] = u_by_c;
-      change_[k] = change;
-      p.u = u;
-      spans_[k] = span_;
-      before_ = u, slope_ = p.du;
-    }
+    arrays_.before = guess_, arrays_.slope = 0.0;
+    char* trouble = work_.trouble.data();
+    kernels_.cut(arrays_, first / 4, last / 4, trouble);
+    for (int group = first / 4; group <= last / 4; ++group)
+      if (trouble[group]) cut_one_by_one(std::max(first, 4 * group), std::min(last, 4 * group + 3));
   }
-  const SectionPoint& break_at(int k) const { return breaks_[static_cast<std::size_t>(k)]; }
+  SectionPoint break_at(int line) const {
+    const auto k = static_cast<std::size_t>(line);
+    const SectionArrays& a = arrays_;
+    return {a.s[k], a.n[k], a.ds[k], a.dn[k], a.u[k], a.du[k]};
+  }
+
+  /// Hits of all samples by kernels; careful(cell) is called for cells that these do not serve. hits.v may be null.
+  template <class Careful>
+  void hit(int first, int last, const SampleArrays& samples, const HitArrays& hits, const Careful& careful) {
+    char *fast = work_.fast.data(), *redo = work_.redo.data();
+    int *first_sample = work_.first_sample.data(), *sample_count = work_.sample_count.data();
+    int *cell = work_.pair_cell.data(), *sample = work_.pair_sample.data();
+    kernels_.prepare(arrays_, twist_, samples, first, last, work_.cells.data(), first_sample, sample_count, fast);
+    int pairs = 0;
+    const auto flush = [&] {
+      kernels_.solve(work_.cells.data(), samples, cell, sample, pairs, hits, redo);
+      pairs = 0;
+    };
+    for (int k = first; k < last; ++k) {
+      int i = first_sample[k], count = sample_count[k];
+      if (pairs + 4 > SectionWorkspace::kPairs) flush();
+      while (count > 4) {
+        for (int j = 0; j < 4; ++j) cell[pairs + j] = k, sample[pairs + j] = i + j;
+        pairs += 4, i += 4, count -= 4;
+        if (pairs + 4 > SectionWorkspace::kPairs) flush();
+      }
+      for (int j = 0; j < 4; ++j) cell[pairs + j] = k, sample[pairs + j] = i + j;  // some of them are overwritten
+      pairs += count;
+    }
+    flush();
+    for (int k = first; k < last; ++k)
+      if (!fast[k] || redo[k]) {
+        redo[k] = 0;
+        careful(k);
+      }
+  }
+
+  /// Of all hits; arrays padded to a multiple of four.
+  void slopes_of(const HitArrays& hits, int count, const SlopeArrays& slopes) { kernels_.slopes(arrays_, hits, count, slopes); }
 
   SectionPoint point(int cell, double v, double u) const {
     const SliceNet::Place place = net_.find(u, span_);
@@ -85,19 +139,18 @@ class SliceSection {
   /// For one u a cell is a cubic in v, so only the change of u along the cell spoils that: the interpolation error of the
   /// Hermite cubic is its fourth derivative / 384, bounded here by the terms of the chain rule that count.
   bool near_cubic(int cell, const SectionPoint& a, const SectionPoint& b) const {
-    constexpr double kGreatestError = 1e-11;  // [m]
-    constexpr double kGreatestTurn = 2e-4;    // of u along a cell, [m] or [rad]; beyond, neglected terms grow
     const double turn = std::max(std::abs(a.du), std::abs(b.du)), bend = std::abs(b.du - a.du);
     if (!(turn < kGreatestTurn)) return false;
     // Pieces of a cell lie between its breaks, and those at most one span apart.
-    const int span_a = spans_[static_cast<std::size_t>(cell)], span_b = spans_[static_cast<std::size_t>(cell) + 1];
+    const int span_a = arrays_.spans[cell], span_b = arrays_.spans[cell + 1];
     if (std::abs(span_b - span_a) > 1) return false;
-    const auto error = [&](const SliceHulls::Twist& t) {
-      const double vvv = t.uvvv + Geometry::kTurnsNormal * t.vvv, vv = t.uvv + Geometry::kTurnsNormal * t.vv;
+    const auto error = [&](const float* bounds) {
+      const auto t = [&](long which) { return static_cast<double>(bounds[which * hulls_.twist_stride()]); };
+      const double uuu = t(0), uuv = t(1), uuvv = t(2);
+      const double vvv = t(4) + Geometry::kTurnsNormal * t(5), vv = t(3) + Geometry::kTurnsNormal * t(6);
       // uuu jumps where the cell leaves a span.
-      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * (turn * t.uuvv + bend * (2.0 * t.uuv + turn * t.uuu))) *
-                 (1.0 / 384.0) +
-             turn * turn * turn * t.uuu * (1.0 / 24.0);
+      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * (turn * uuvv + bend * (2.0 * uuv + turn * uuu))) * (1.0 / 384.0) +
+             turn * turn * turn * uuu * (1.0 / 24.0);
     };
     return error(hulls_.twist(span_a, cell)) <= kGreatestError &&
            (span_b == span_a || error(hulls_.twist(span_b, cell)) <= kGreatestError);
@@ -121,12 +174,49 @@ class SliceSection {
   static constexpr int kMaxCutSteps = 30;
   // Derivatives at the breaks serve for Hermite cubics, so that they count to first order.
   static constexpr double kCutStepU = 0.05 * kStepU;
+  static constexpr double kGreatestError = 1e-11;  // [m], of a cubic in place of the section
+  static constexpr double kGreatestTurn = 2e-4;    // of u along a cell, [m] or [rad]; beyond, neglected terms grow
 
   void set_reference(double u) {
-    reference_ = u;
+    reference_ = arrays_.reference = u;
     across_ = Geometry::turned(across_direction_, origin_, u);
     along_ = Geometry::turned(along_direction_, origin_, u);
     normal_ = Geometry::turned(normal_direction_, origin_, u);
+    const auto set = [](double (&to)[4], const TurnedAxis& axis) { to[0] = axis.x, to[1] = axis.y, to[2] = axis.z, to[3] = axis.origin; };
+    set(arrays_.across, across_);
+    set(arrays_.along, along_);
+    set(arrays_.normal, normal_);
+  }
+
+  // For lines that are missing or far from the guess.
+  void cut_one_by_one(int first, int last) {
+    constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+    double before = guess_, slope = 0.0;
+    for (int line = first; line <= last; ++line) {
+      const auto k = static_cast<std::size_t>(line);
+      // From the last cut, else from the neighbour.
+      const double change_of_u = arrays_.shift * arrays_.predicted[k];
+      const bool known = arrays_.shift != 0.0 && std::abs(change_of_u) < Geometry::kLargestPrediction && !std::isnan(arrays_.s[k]);
+      double u = known ? arrays_.u[k] + change_of_u : before + slope;
+      double u_by_c = 0.0;
+      int left = kMaxCutSteps;
+      SectionPoint p{};
+      do {
+        p = at_break(line, u, u_by_c);
+        p.u_step = std::clamp(p.u_step, -Geometry::kLargestStepU, Geometry::kLargestStepU);
+        u += p.u_step;
+      } while (std::abs(p.u_step) > kCutStepU && --left > 0);
+      arrays_.s[k] = p.s;
+      if (left == 0 || std::isnan(p.u_step)) {
+        arrays_.s[k] = kNaN;
+        continue;
+      }
+      arrays_.n[k] = p.n, arrays_.ds[k] = p.ds, arrays_.dn[k] = p.dn, arrays_.u[k] = u, arrays_.du[k] = p.du;
+      arrays_.predicted[k] = arrays_.u_by_c[k] = u_by_c;
+      arrays_.change[k] = 0.0;
+      arrays_.spans[k] = span_;
+      before = u, slope = p.du;
+    }
   }
 
   SectionPoint at_break(int k, double u, double& u_by_c) const {
@@ -138,7 +228,7 @@ class SliceSection {
   SectionPoint combine(double u, const NetValue& value, double& u_by_c) const {
     const TurnedPoint at = Geometry::point(u, reference_, value);
     u_by_c = 1.0 / across_.of(at.by_u);
-    const double step = (c_ + across_.origin - across_.of(at.p)) * u_by_c, du = -across_.of(at.by_v) * u_by_c;
+    const double step = (arrays_.c + across_.origin - across_.of(at.p)) * u_by_c, du = -across_.of(at.by_v) * u_by_c;
     double p[3], d[3];
     for (int i = 0; i < 3; ++i) {
       p[i] = at.p[i] + step * at.by_u[i];
@@ -150,14 +240,13 @@ class SliceSection {
   const SliceNet& net_;
   const SliceHulls& hulls_;
   const Geometry& geometry_;
+  const SliceKernels& kernels_;
+  SectionWorkspace& work_;
+  SectionArrays arrays_{};
+  TwistArrays twist_{};
   Vec3 across_direction_, normal_direction_, origin_, along_direction_;
   TurnedAxis across_, along_, normal_;
-  std::vector<SectionPoint> breaks_;
-  std::vector<int> spans_;
-  std::vector<double> u_by_c_, change_, predicted_u_by_c_;
-  double c_ = 0.0, reference_ = 0.0;
-  double shift_ = 0.0;               // from the cut before
-  double before_ = 0.0, slope_ = 0.0;  // u of the line cut last, and its change from line to line
+  double reference_ = 0.0, guess_ = 0.0;
   bool started_ = false;
   mutable int span_ = 0;  // of the last evaluation; neighbours are near
 };

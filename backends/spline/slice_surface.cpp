@@ -21,17 +21,36 @@ namespace {
 // Lines of a task share their cuts; fixed, so that results do not depend on the number of threads.
 constexpr std::size_t kLinesPerTask = 16;
 
+constexpr std::size_t kPointsWorthThreads = 2000;
+
+// Of one thread, used again by the next call.
+struct Workspace {
+  SectionWorkspace section;
+  ColumnHits hits[2] = {ColumnHits(0, Facing::up), ColumnHits(0, Facing::down)};
+  std::vector<double> along, across;
+};
+Workspace& workspace() {
+  thread_local Workspace work;
+  return work;
+}
+
 // A last correction of v is a small part of a cell, except at folds, where it means nothing.
 constexpr double kPolish = 1e-4;
 
 template <class Geometry>
 constexpr bool kIsWheel = std::is_same_v<Geometry, WheelGeometry>;
 
+void raise(SliceNet& net, int span, int line, double by) {
+  SliceNet::LineCubic cubic = net.line(span, line);
+  cubic.power[0].w += by;
+  net.set_line(span, line, cubic);
+}
+
 template <class Geometry>
 SliceNet with_radius(SliceNet net, double nominal_radius) {
   if constexpr (kIsWheel<Geometry>)
     for (int span = 0; span < net.spans(); ++span)
-      for (int line = 0; line < net.lines(); ++line) net.line(span, line).power[0].w += nominal_radius;
+      for (int line = 0; line < net.lines(); ++line) raise(net, span, line, nominal_radius);
   return net;
 }
 
@@ -40,9 +59,15 @@ struct CellRun {
   int first, last;
 };
 
+HitArrays hit_arrays(ColumnHits& hits, bool places) {
+  if (!places) return {hits.sign(), hits.n.data(), nullptr, nullptr, nullptr};
+  return {hits.sign(), hits.n.data(), hits.cell.data(), hits.v.data(), hits.u.data()};
+}
+
 template <class Geometry>
 std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls) {
-  std::vector<char> marks(static_cast<std::size_t>(net.cells()) + 1, 0);
+  thread_local std::vector<char> marks;
+  marks.assign(static_cast<std::size_t>(net.cells()) + 1, 0);
   mark_cells_over(WindowOn<Geometry>(window), net, hulls, marks);
   std::vector<CellRun> runs;
   for (int k = 0; k < net.cells(); ++k) {
@@ -60,6 +85,18 @@ void raster_cells(const SliceSection<Geometry>& section, const std::vector<CellR
   for (const CellRun& run : runs)
     for (int k = run.first; k < run.last; ++k)
       raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+  raster.finish();
+}
+
+// The same by kernels where these serve; does not say whether there are several hits.
+template <class Geometry>
+void hit_cells(SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples, bool places, ColumnHits& hits) {
+  SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
+  const SampleArrays sample_arrays{samples.first, samples.step, samples.count, kEdgeSlack};
+  const HitArrays arrays = hit_arrays(hits, places);
+  for (const CellRun& run : runs)
+    section.hit(run.first, run.last, sample_arrays, arrays,
+                [&](int k) { raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1)); });
   raster.finish();
 }
 
@@ -85,7 +122,7 @@ void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geom
   };
   for_listed_points(points_P, along_y, [&](std::span<const ListedPoint> points) {
     ColumnHits hits(1, kIsWheel<Geometry> ? Facing::down : Facing::up);
-    SliceSection<Geometry> section(net, hulls, geometry, across, along, normal, X_SP.origin);
+    SliceSection<Geometry> section(net, hulls, geometry, across, along, normal, X_SP.origin, workspace().section);
     const auto do_batch = [&](std::span<const ListedPoint> batch, const std::vector<CellRun>& runs) {
       section.restart();
       for_lines(batch, [&](ListedLine line) {
@@ -143,10 +180,11 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
   const GridLines g(plane_grid, Geometry::lines_along_y(plane_grid.X_SP.rotation));
   const auto dz_along = g.along_is_y ? out.dzdy : out.dzdx, dz_across = g.along_is_y ? out.dzdx : out.dzdy;
   const bool slopes = !dz_along.empty() || !dz_across.empty();
-  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
-  parallel_for(tasks, [&](std::size_t task) {
-    ColumnHits hits(g.samples.count, facing());
-    SliceSection<Geometry> section(net_, hulls_, geometry_, g.across, g.along, g.normal, g.origin);
+  const auto do_task = [&](std::size_t task) {
+    Workspace& work = workspace();
+    ColumnHits& hits = work.hits[kIsWheel<Geometry>];
+    hits.resize(g.samples.count);
+    SliceSection<Geometry> section(net_, hulls_, geometry_, g.across, g.along, g.normal, g.origin, work.section);
     const int first = static_cast<int>(task * kLinesPerTask);
     const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
     const auto runs = runs_over<Geometry>({g.across, g.along, g.normal, g.origin,
@@ -154,21 +192,28 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
                                            widened(g.samples.first, g.samples.last())}, net_, hulls_);
     for (int line = first; line <= last; ++line) {
       hits.clear();
+      if (slopes) hits.clear_places();
       section.start_cut(g.across_at(line));
       for (const CellRun& run : runs) section.cut(run.first, run.last);
-      raster_cells(section, runs, g.samples, hits);
+      hit_cells(section, runs, g.samples, slopes, hits);
       const std::size_t start = static_cast<std::size_t>(line) * g.across_stride;
-      if (!out.z.empty())
-        for (std::size_t i = 0; i < hits.n.size(); ++i) out.z[start + i * g.along_stride] = hits.n[i];
+      const auto write = [&](const std::vector<double>& values, std::span<double> to) {
+        if (to.empty()) return;
+        for (std::size_t i = 0; i < hits.n.size(); ++i) to[start + i * g.along_stride] = values[i];
+      };
+      write(hits.n, out.z);
       if (!slopes) continue;
-      for (std::size_t i = 0; i < hits.n.size(); ++i) {
-        typename SliceSection<Geometry>::Slopes slope{hits.n[i], hits.n[i]};  // NaN stays
-        if (!std::isnan(hits.n[i])) slope = section.slopes(hits.cell[i], hits.v[i], hits.u[i]);
-        if (!dz_along.empty()) dz_along[start + i * g.along_stride] = slope.along;
-        if (!dz_across.empty()) dz_across[start + i * g.along_stride] = slope.across;
-      }
+      work.along.resize(hits.u.size()), work.across.resize(hits.u.size());
+      section.slopes_of(hit_arrays(hits, true), g.samples.count, {work.along.data(), work.across.data()});
+      write(work.along, dz_along);
+      write(work.across, dz_across);
     }
-  });
+  };
+  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
+  if (plane_grid.grid.size() < kPointsWorthThreads)
+    for (std::size_t task = 0; task < tasks; ++task) do_task(task);
+  else
+    parallel_for(tasks, do_task);
 }
 
 template <class Geometry>
