@@ -6,6 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash scripts/install-packages.sh
-cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
+cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON \
+  -DTREADMARK_WARNINGS_AS_ERRORS=ON
 cmake --build build/test
 ctest --test-dir build/test --output-on-failure -j2
