@@ -114,6 +114,16 @@ DepthJet FlatDepth::jet(double theta, double y) const {
   return sum;
 }
 
+std::vector<FlatLanes> FlatDepth::lanes() const {
+  std::vector<FlatLanes> all;
+  for (const Flat& f : flats_) {
+    if (f.half_angle > kWidestFlatLane) return {};
+    all.push_back({f.shape == WheelFlat::Shape::fresh, f.sin_center, f.cos_center, f.cos_half_angle, f.depth, f.chord_radius,
+                   f.wave_number, f.y_center, f.half_width, f.y_wave_number});
+  }
+  return all;
+}
+
 bool FlatDepth::touches(double theta, double half_range) const {
   for (const Flat& f : flats_)
     if (std::fabs(wrap_angle(theta - f.center)) <= f.half_angle + half_range) return true;

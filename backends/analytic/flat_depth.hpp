@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "treadmark/backends/analytic/offset_functions.hpp"
+#include "treadmark/backends/analytic/wheel_lanes.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
 namespace treadmark::analytic {
@@ -42,6 +43,8 @@ class FlatDepth {
   Range range(double theta, double half_range, double y_min, double y_max) const;
   /// The same for D alone, faster; theta within +-3 pi.
   void depths(double theta, double half_range, double y_min, double y_max, double& low, double& high) const;
+  /// For the kernels; nothing if some flat is too wide for them.
+  std::vector<FlatLanes> lanes() const;
   std::size_t memory_bytes() const { return flats_.capacity() * sizeof(Flat); }
 
  private:

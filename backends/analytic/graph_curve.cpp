@@ -83,6 +83,24 @@ Jet GraphCurve::jet(double y, int piece) const {
                           : polynomials_[static_cast<std::size_t>(e.polynomial)].jet(y);
 }
 
+PieceLanes GraphCurve::lanes(int piece) const {
+  const Entry& e = entries_[static_cast<std::size_t>(piece)];
+  PieceLanes lanes{};
+  lanes.y_low = piece_start(piece);
+  lanes.y_high = piece_end(piece);
+  lanes.arc = e.polynomial < 0;
+  if (lanes.arc) {
+    const ArcGraph& a = arcs_[static_cast<std::size_t>(e.arc)];
+    lanes.x0 = a.x0, lanes.h0 = a.h0, lanes.s0 = a.s0, lanes.c0 = a.c0, lanes.k = a.k;
+  } else {
+    static_assert(PieceLanes::kTerms == PolynomialGraph::kTerms);
+    const PolynomialGraph& p = polynomials_[static_cast<std::size_t>(e.polynomial)];
+    lanes.x0 = p.middle, lanes.half = p.half;
+    std::copy(std::begin(p.c), std::end(p.c), lanes.c);
+  }
+  return lanes;
+}
+
 Chord GraphCurve::chord(double a, double b, int piece) const {
   const Entry& e = entries_[static_cast<std::size_t>(piece)];
   if (e.polynomial < 0) {

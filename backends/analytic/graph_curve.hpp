@@ -6,6 +6,7 @@
 
 #include "treadmark/backends/analytic/arc_graph.hpp"
 #include "treadmark/backends/analytic/chord_tree.hpp"
+#include "treadmark/backends/analytic/wheel_lanes.hpp"
 
 namespace treadmark::analytic {
 
@@ -64,6 +65,8 @@ class GraphCurve {
                             : polynomials_[static_cast<std::size_t>(e.polynomial)].height_and_slope(y, slope);
   }
   Jet jet(double y, int piece) const;
+
+  PieceLanes lanes(int piece) const;
 
   /// Rigorous bounds over [a, b], clipped to the curve.
   CurveRange range(double a, double b) const;

@@ -25,6 +25,8 @@ ChordSlopes::ChordSlopes(const GraphCurve& curve) {
   for (int i = 0; i < kCells; ++i) cells.push_back(curve.range(y_min_ + i * width, y_min_ + (i + 1) * width));
   right_.assign(kCells, -kInfinity);
   left_.assign(kCells, kInfinity);
+  right_least_ = left_;
+  left_most_ = right_;
   const auto at = [](int i) { return static_cast<std::size_t>(i); };
   for (int i = 0; i < kCells; ++i) {
     const CurveRange& a = cells[at(i)];
@@ -42,6 +44,8 @@ ChordSlopes::ChordSlopes(const GraphCurve& curve) {
       }
       right_[at(i)] = std::max(right_[at(i)], most);
       left_[at(j)] = std::min(left_[at(j)], least);
+      right_least_[at(i)] = std::min(right_least_[at(i)], least);
+      left_most_[at(j)] = std::max(left_most_[at(j)], most);
     }
   }
 }
@@ -60,6 +64,10 @@ WheelBody::WheelBody(GraphCurve profile, double radius, const std::vector<WheelF
   if (!(radius + range.h_min - flats.max_depth() > 0.0))
     throw Error(ErrorKind::configuration, "the wheel's profile or a flat reaches down to the axle");
   r_max = (radius + range.h_max) * (1.0 + 1e-12);
+  r_min = (radius + range.h_min - flats.max_depth()) * (1.0 - 1e-12);
+  for (int i = 0; i < curve.piece_count(); ++i) pieces.push_back(curve.lanes(i));
+  narrow_flats = flats.lanes();
+  all_narrow = flats.empty() || !narrow_flats.empty();
 }
 
 WheelRay::WheelRay(const WheelBody& body, const Vec3& direction)
@@ -140,14 +148,27 @@ bool WheelRay::newton(double guess, WheelHit& hit, bool exact) {
 /// From the hit outwards r rises at least with its slope here, because r(t) is convex; the profile rises at most with its
 /// steepest chord; inside a flat the depth shrinks at most with its Lipschitz constants. If the first beats the
 /// others, the line never meets the wheel again.
-bool WheelRay::is_outermost(const WheelHit& hit) const {
-  double margin = radial_slope(hit.t);
+bool WheelRay::is_outermost(const WheelBody& body, const Vec3& n, double spin, const WheelHit& hit) {
+  double margin = (hit.x * n.x() + hit.z * n.z()) / hit.r;
+  const double n_y = n.y();
+  if (n_y > 0.0) margin -= body.chords.greatest_right(hit.y) * n_y;
+  if (n_y < 0.0) margin -= body.chords.least_left(hit.y) * n_y;
+  if (hit.depth > 0.0) margin -= body.flats.max_d_theta() * std::fabs(spin) / (hit.r * hit.r) + body.flats.max_d_y() * std::fabs(n_y);
+  constexpr double kBeside = 1e-6;  // the point may lie kNear beside the hit
+  return margin > kBeside;
+}
+
+/// The same inwards, down to the least radius of the wheel: the gap only rises on the way to the hit, so it has no other root.
+bool WheelRay::rises_to(const WheelHit& hit) const {
+  const double r = body_.r_min, ahead_2 = a_ * r * r - spin_ * spin_;  // (x n_x + z n_z)^2 at that radius
+  if (!(ahead_2 > 0.0)) return false;
   const double n_y = n_.y();
-  if (n_y > 0.0) margin -= body_.chords.greatest_right(hit.y) * n_y;
-  if (n_y < 0.0) margin -= body_.chords.least_left(hit.y) * n_y;
-  if (hit.depth > 0.0)
-    margin -= body_.flats.max_d_theta() * std::fabs(spin_) / (hit.r * hit.r) + body_.flats.max_d_y() * std::fabs(n_y);
-  return margin > 0.0;
+  double margin = std::sqrt(ahead_2) / r;
+  if (n_y > 0.0) margin -= body_.chords.greatest_left(hit.y) * n_y;
+  if (n_y < 0.0) margin -= body_.chords.least_right(hit.y) * n_y;
+  if (!body_.flats.empty()) margin -= body_.flats.max_d_theta() * std::fabs(spin_) / (r * r) + body_.flats.max_d_y() * std::fabs(n_y);
+  constexpr double kBeside = 1e-6;
+  return margin > kBeside;
 }
 
 /// Root in a bracket with a sign change: Newton, held inside by bisection.
@@ -215,7 +236,7 @@ bool WheelRay::cast(const Vec3& origin, double guess, WheelHit& hit, bool exact)
   o_ = origin;
   if (!clip()) return false;
   if (!(guess >= t_low_ && guess <= t_high_)) guess = t_high_;
-  if (newton(guess, hit, exact) && is_outermost(hit)) return true;
+  if (newton(guess, hit, exact) && is_outermost(body_, n_, spin_, hit)) return true;
   double slope = 0.0;
   Bracket a{t_low_, 0.0}, b{t_high_, 0.0};
   a.g = gap(a.t, slope, hit);
@@ -233,7 +254,7 @@ void WheelRay::refine(WheelHit& hit) {
 
 bool WheelRay::hides_others(const WheelHit& hit) {
   constexpr double kApart = 1e-9;  // [m]
-  if (!(hit.t - kApart > t_low_)) return false;
+  if (!(hit.t - kApart > t_low_) || rises_to(hit)) return false;
   WheelHit at;
   double slope = 0.0;
   Bracket a{t_low_, 0.0}, b{hit.t - kApart, 0.0};

@@ -20,12 +20,15 @@ class ChordSlopes {
   double greatest_right(double y) const { return right_[cell(y)]; }
   /// Lower bound of (h(y) - h(y2))/(y - y2) over y2 < y.
   double least_left(double y) const { return left_[cell(y)]; }
-  std::size_t memory_bytes() const { return (right_.capacity() + left_.capacity()) * sizeof(double); }
+  /// The other two: upper bound over y2 < y, lower bound over y2 > y.
+  double greatest_left(double y) const { return left_most_[cell(y)]; }
+  double least_right(double y) const { return right_least_[cell(y)]; }
+  std::size_t memory_bytes() const { return 4 * right_.capacity() * sizeof(double); }
 
  private:
   std::size_t cell(double y) const;
   double y_min_, per_length_;
-  std::vector<double> right_, left_;
+  std::vector<double> right_, left_, right_least_, left_most_;
 };
 
 /// A wheel without its Surface dress: r(theta, y) = R + z(y) - D(theta, y).
@@ -35,6 +38,10 @@ struct WheelBody {
   FlatDepth flats;
   ChordSlopes chords;
   WheelHull hull;
+  std::vector<PieceLanes> pieces;        ///< for the kernels, as are these:
+  std::vector<FlatLanes> narrow_flats;
+  bool all_narrow = true;
+  double r_min = 0.0;  ///< least radius, flats included
   double r_max = 0.0;  ///< greatest radius, rounded up
 
   /// Errors: Error(configuration) if the radius is not positive or the profile or a flat reaches the axle.
@@ -63,6 +70,8 @@ class WheelRay {
   static constexpr double kNear = 3e-8;  ///< [m]
   /// Everything about the last hit at exactly its t.
   void refine(WheelHit& hit);
+  /// Whether the line through a point that was found on the wheel cannot meet it further out.
+  static bool is_outermost(const WheelBody& body, const Vec3& direction, double spin, const WheelHit& hit);
   /// Whether the line of the last successful cast meets the wheel again below the hit.
   bool hides_others(const WheelHit& hit);
 
@@ -73,7 +82,7 @@ class WheelRay {
   bool clip();
   double gap(double t, double& slope, WheelHit& at);
   bool newton(double guess, WheelHit& hit, bool exact);
-  bool is_outermost(const WheelHit& hit) const;
+  bool rises_to(const WheelHit& hit) const;
   double search(Bracket a, Bracket b, int depth);
   double polish(Bracket a, Bracket b);
   double radial_slope(double t) const;

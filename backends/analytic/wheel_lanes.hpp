@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+namespace treadmark::analytic {
+
+/// Plain data for the kernels that find hits of four lines at a time (see core/cpu.hpp); no headers, no functions.
+
+inline constexpr int kWheelLanes = 4;
+
+/// One flat as FlatDepth::Flat has it.
+struct FlatLanes {
+  bool fresh;
+  double sin_center, cos_center, cos_half_angle;
+  double depth, chord_radius, wave_number;
+  double y_center, half_width, y_wave_number;
+};
+/// Flats beyond this half angle [rad] are left to the other path.
+inline constexpr double kWidestFlatLane = 0.5;
+
+/// One piece of the profile: an arc (see ArcGraph) or a polynomial in (y - x0)/half.
+struct PieceLanes {
+  static constexpr int kTerms = 9;
+  bool arc;
+  double y_low, y_high;
+  double x0, h0, s0, c0, k;
+  double half, c[kTerms];
+};
+
+/// What four lines o + t n of one direction share.
+struct WheelLanesInput {
+  double n_x, n_y, n_z, a;  ///< a = n_x^2 + n_z^2
+  double radius, r_max;
+  double near;              ///< WheelRay::kNear
+  bool exact;               ///< everything at exactly t, else within `near` of it
+  PieceLanes piece;
+  const FlatLanes* flats;
+  int flat_count;
+};
+
+struct WheelLanesHits {
+  double o_x[kWheelLanes], o_y[kWheelLanes], o_z[kWheelLanes];
+  double t[kWheelLanes];  ///< in: guess, NaN: none; out: height
+  double x[kWheelLanes], y[kWheelLanes], z[kWheelLanes], r[kWheelLanes];
+  double f_theta[kWheelLanes], f_y[kWheelLanes], depth[kWheelLanes];
+};
+
+/// Newton's method for all lanes. Returns the lanes, one bit each, that settled on the piece and on the half facing +n.
+using WheelLanesKernel = unsigned (*)(const WheelLanesInput&, WheelLanesHits&);
+WheelLanesKernel wheel_lanes_generic();
+WheelLanesKernel wheel_lanes_avx2();  ///< nullptr where it is not compiled
+/// The one for this processor.
+WheelLanesKernel wheel_lanes_kernel();
+
+}  // namespace treadmark::analytic
