@@ -8,15 +8,14 @@
 
 namespace treadmark::displacement {
 
-BaseHeights::BaseHeights(const Surface& base, const PlaneGrid& plane_grid, std::span<double> dzdx, std::span<double> dzdy)
+BaseHeights::BaseHeights(const Surface& base, const PlaneGrid& plane_grid, const HeightsOut& out)
     : g_(plane_grid.grid),
       stride_(static_cast<std::size_t>(g_.nx) + 2),
       z_(stride_ * (static_cast<std::size_t>(g_.ny) + 2), std::numeric_limits<double>::quiet_NaN()),
       smooth_(g_.size()) {
-  std::vector<double> z(g_.size());
-  base.heights(plane_grid, {z, dzdx, dzdy});
+  base.heights(plane_grid, out);
   const auto nx = static_cast<std::size_t>(g_.nx);
-  for (int iy = 0; iy < g_.ny; ++iy) std::copy_n(z.data() + nx * static_cast<std::size_t>(iy), nx, row(iy));
+  for (int iy = 0; iy < g_.ny; ++iy) std::copy_n(out.z.data() + nx * static_cast<std::size_t>(iy), nx, row(iy));
   ask_rim(base, plane_grid.X_SP);
   judge();
 }

@@ -14,8 +14,8 @@ namespace treadmark::displacement {
 /// neighbours, where one sheet hides another, shows as a jump.
 class BaseHeights {
  public:
-  /// Asks the base for heights, and for slopes into dzdx and dzdy, each of grid.size() or empty.
-  BaseHeights(const Surface& base, const PlaneGrid& plane_grid, std::span<double> dzdx, std::span<double> dzdy);
+  /// Asks the base for heights into out.z, and for slopes into out.dzdx and out.dzdy, each of grid.size() or empty.
+  BaseHeights(const Surface& base, const PlaneGrid& plane_grid, const HeightsOut& out);
 
   static constexpr double kBend = 100.0;  ///< [1/m]
 

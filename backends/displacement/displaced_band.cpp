@@ -10,13 +10,23 @@ namespace treadmark::displacement {
 
 namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kColumns = 16;       ///< of a block
-constexpr int kTogether = 4 * kColumns;  ///< columns solved together: what they need stays in the cache
+constexpr int kColumns = 32;       ///< of a block
 /// [m] What is left of the way aside: heights then miss half its square times the curvature, normals its curvature.
 constexpr double kLinear = 2e-10;
 /// [m] Way along the surface for which the slopes of an offset are the same.
 constexpr double kSamePlace = 1e-8;
+
+/// Whether a step leaves offset, base and their slopes as they are but for rounding and straight changes.
+bool is_last(double step, double rate, double tilt, double steepness) {
+  const double size = std::fabs(step);
+  return size * rate * steepness <= kLinear && size * tilt <= kSamePlace;
+}
 }  // namespace
+
+BandPoints DisplacedBand::Points::pointers() {
+  return {t.data(), d.data(), d_u.data(), d_y.data(), sin.data(), cos.data(), per_r.data(), h.data(), hx.data(), hy.data(),
+          step.data(), steepness.data(), gx.data(), gy.data(), gz.data(), back_x.data(), back_y.data()};
+}
 
 DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& grid, const BaseHeights& base, const HeightsOut& out)
     : view_(view),
@@ -24,67 +34,70 @@ DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& g
       g_(grid),
       base_(base),
       out_(out),
-      across_(view.X_SP.rotation.row(1).transpose()),
-      along_rail_(view.X_SP.rotation.row(0).transpose()),
-      up_rail_(view.X_SP.rotation.row(2).transpose()),
-      natural_(view.body, view.X_SP) {}
-
-inline bool DisplacedBand::is_last(double step, const Block& block, double steepness) {
-  const double size = std::fabs(step);
-  return size * block.rate * steepness <= kLinear && size * block.tilt <= kSamePlace;
-}
-
-inline DisplacedBand::Equation DisplacedBand::equation(const Point& p, double x, double y) const {
-  const bool wheel = view_.body == Body::wheel;
-  const Vec3 e = wheel ? Vec3(along_rail_ * p.sin + up_rail_ * p.cos) : up_rail_;
-  const Vec3 a = wheel ? Vec3(along_rail_ * p.cos - up_rail_ * p.sin) : along_rail_;
-  const double du_along = wheel ? p.per_r : 1.0, de_along = wheel ? p.per_r : 0.0;
-  const double aside_x = x - p.d * e.x() - p.cx, aside_y = y - p.d * e.y() - p.cy;
-  const Vec3 M(-p.hx, -p.hy, 1.0);
-  const double Me = M.dot(e), Ma = M.dot(a);
-  return {p.t - p.d * e.z() - (p.h + p.hx * aside_x + p.hy * aside_y), M.norm(),
-          M - a * (p.d_u * du_along * Me + p.d * de_along * Ma) - across_ * (p.d_y * Me)};
+      kernel_(band_kernel()),
+      axes_{view.body == Body::wheel, {}, {}, {}},
+      patch_(base, grid, !out.dzdx.empty() || !out.dzdy.empty()),
+      natural_(view.body, view.X_SP) {
+  for (int k = 0; k < 3; ++k) {
+    axes_.along[k] = view.X_SP.rotation(0, k);
+    axes_.across[k] = view.X_SP.rotation(1, k);
+    axes_.up[k] = view.X_SP.rotation(2, k);
+  }
+  natural_.resize(kTogether);
 }
 
 void DisplacedBand::solve(int first, int last) {
   first_ = first, last_ = last;
-  left_.clear();
-  for (int iy = first; iy < last; ++iy) std::copy_n(base_.row(iy), g_.nx, out_.z.data() + g_.index(0, iy));
-  for (int begin = 0; begin < g_.nx; begin += kTogether) {
-    divide(begin, std::min(begin + kTogether, g_.nx));
-    if (!columns_.empty()) solve_columns();
-  }
+  left_.clear(), asking_.clear(), blocks_.clear();
+  for (int begin = 0; begin < g_.nx; begin += static_cast<int>(kTogether))
+    divide(begin, std::min(begin + static_cast<int>(kTogether), g_.nx));
+  ask_base();
   solve_left();
 }
 
+/// Judges blocks and solves runs of those that are solved together.
 void DisplacedBand::divide(int first_column, int last_column) {
-  blocks_.clear(), columns_.clear();
+  int run = first_column;
+  const auto end_run = [&](int end) {
+    if (end > run) solve_columns(run, end);
+  };
   for (int begin = first_column; begin < last_column; begin += kColumns) {
     Block block{};
     const int end = std::min(begin + kColumns, last_column);
     const Kind kind = judge(begin, end, block);
     if (kind == Kind::together) {
       blocks_.push_back(block);
-      for (int ix = begin; ix < end; ++ix) columns_.push_back({ix, blocks_.size() - 1});
-    } else if (kind == Kind::one_by_one) {
+      for (int ix = begin; ix < end; ++ix) block_[static_cast<std::size_t>(ix - run)] = blocks_.size() - 1;
+      continue;
+    }
+    if (kind == Kind::one_by_one)
       for (int iy = first_; iy < last_; ++iy)
         for (int ix = begin; ix < end; ++ix) leave(ix, iy);
-    }
+    end_run(begin);
+    run = end;
   }
+  end_run(last_column);
 }
 
-void DisplacedBand::solve_columns() {
-  const std::size_t m = columns_.size();
-  points_.resize(m * static_cast<std::size_t>(last_ - first_));
-  for (auto& rise : rise_) rise.assign(m, kNaN);
-  for (auto* one : {&x_, &t_, &d_, &d_u_, &d_y_}) one->resize(m);
-  natural_.resize(m);
-  const int ix = columns_[m / 2].ix;
-  const double z = base_.row(first_)[ix];
-  natural_.look_near(view_.X_SP.apply({g_.x(ix), g_.y(first_), std::isnan(z) ? 0.0 : z}));
-  for (int iy = first_; iy < last_; ++iy) solve_row(iy);
-  ask_base();
-  finish();
+void DisplacedBand::solve_columns(int first_column, int last_column) {
+  begin_ = first_column;
+  n_ = static_cast<std::size_t>(last_column - first_column);
+  moves_ = false;
+  for (std::size_t k = 0; k < n_; ++k) {
+    now_.x[k] = g_.x(begin_ + static_cast<int>(k));
+    moves_ = moves_ || block_of(k).moves;
+  }
+  if (moves_) moves_ = patch_.look(first_column, last_column, first_, last_);
+  for (Row& rise : rise_) rise.fill(kNaN);
+  const std::size_t middle = n_ / 2;
+  const double z = base_.row(first_)[begin_ + static_cast<int>(middle)];
+  natural_.look_near(view_.X_SP.apply({now_.x[middle], g_.y(first_), std::isnan(z) ? 0.0 : z}));
+  for (int iy = first_; iy < last_; ++iy) {
+    foretell(iy);
+    approach(iy);
+    see_base(iy);
+    finish(iy);
+  }
 }
 
 DisplacedBand::Kind DisplacedBand::judge(int begin, int end, Block& block) {
@@ -151,128 +164,162 @@ void DisplacedBand::leave(int ix, int iy) {
                    out_.dzdy.empty() ? kNaN : out_.dzdy[i]});
 }
 
-/// The offsets of one row where its heights lie, to within what Newton's last step makes good.
-void DisplacedBand::solve_row(int iy) {
-  constexpr int kPasses = 4;
-  const double* z = base_.row(iy);
-  active_.clear();
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    Point& p = at(iy, k);
-    p.present = !std::isnan(z[columns_[k].ix]);
-    if (!p.present) continue;
+/// Where the heights of a row will lie, and the tangent planes of the base.
+void DisplacedBand::foretell(int iy) {
+  const double per_2dx = 0.5 / g_.dx, per_2dy = 0.5 / g_.dy;
+  const double *z = base_.row(iy) + begin_, *before = base_.row(iy - 1) + begin_, *behind = base_.row(iy + 1) + begin_;
+  for (std::size_t k = 0; k < n_; ++k) {
     double rise = 4.0 * (rise_[0][k] + rise_[2][k]) - 6.0 * rise_[1][k] - rise_[3][k];
     if (std::isnan(rise)) rise = 3.0 * (rise_[0][k] - rise_[1][k]) + rise_[2][k];
     if (std::isnan(rise)) rise = 2.0 * rise_[0][k] - rise_[1][k];
     if (std::isnan(rise)) rise = rise_[0][k];
-    p.t = z[columns_[k].ix] + (std::isnan(rise) ? 0.0 : rise);
-    p.step = 0.0;
-    active_.push_back(k);
+    if (std::isnan(rise)) rise = 0.0;
+    const bool present = !std::isnan(z[k]);
+    now_.h[k] = present ? z[k] : 0.0;
+    now_.t[k] = now_.h[k] + rise;
+    const std::ptrdiff_t i = static_cast<std::ptrdiff_t>(k);
+    const double hx = (z[i + 1] - z[i - 1]) * per_2dx, hy = (behind[i] - before[i]) * per_2dy;
+    now_.hx[k] = std::isnan(hx) ? 0.0 : hx;
+    now_.hy[k] = std::isnan(hy) ? 0.0 : hy;
   }
-  for (int pass = 0; pass < kPasses && !active_.empty(); ++pass) {
-    approach(iy, active_, next_);
-    active_.swap(next_);
+}
+
+void DisplacedBand::ask_offsets(Points& p, double y, std::size_t n) {
+  natural_.find(y, p.x.data(), p.t.data(), n);
+  view_.field.evaluate({natural_.u.data(), n}, {natural_.y.data(), n}, {p.d.data(), n}, {p.d_u.data(), n}, {p.d_y.data(), n});
+  if (axes_.wheel) {
+    std::copy_n(natural_.sin.data(), n, p.sin.data());
+    std::copy_n(natural_.cos.data(), n, p.cos.data());
+    std::copy_n(natural_.per_r.data(), n, p.per_r.data());
   }
-  for (std::size_t k = 0; k < columns_.size(); ++k) {
-    const Point& p = at(iy, k);
+  kernel_.solve_tangent(axes_, n, p.pointers());
+}
+
+/// Asks for the offsets, and steps with the tangent plane of the base, until that does not move the points too far.
+void DisplacedBand::approach(int iy) {
+  constexpr int kPasses = 4;
+  const double y = g_.y(iy);
+  const double* z = base_.row(iy) + begin_;
+  ask_offsets(now_, y, n_);
+  std::size_t n = 0;
+  for (std::size_t k = 0; k < n_; ++k) {
+    const Block& block = block_of(k);
+    if (!is_last(now_.step[k], block.rate, block.tilt, now_.steepness[k]) && !std::isnan(z[k])) which_[n++] = k;
+  }
+  for (int pass = 1; pass < kPasses && n > 0; ++pass) {
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::size_t k = which_[j];
+      again_.x[j] = now_.x[k];
+      again_.t[j] = now_.t[k] + now_.step[k];
+      again_.h[j] = now_.h[k], again_.hx[j] = now_.hx[k], again_.hy[j] = now_.hy[k];
+    }
+    ask_offsets(again_, y, n);
+    std::size_t next = 0;
+    for (std::size_t j = 0; j < n; ++j) {
+      const std::size_t k = which_[j];
+      for (Row Points::*one : {&Points::t, &Points::d, &Points::d_u, &Points::d_y, &Points::sin, &Points::cos, &Points::per_r,
+                               &Points::step, &Points::steepness, &Points::back_x, &Points::back_y})
+        (now_.*one)[k] = (again_.*one)[j];
+      const Block& block = block_of(k);
+      if (!is_last(now_.step[k], block.rate, block.tilt, now_.steepness[k])) which_[next++] = k;
+    }
+    n = next;
+  }
+  for (std::size_t k = 0; k < n_; ++k) {
     rise_[3][k] = rise_[2][k];
     rise_[2][k] = rise_[1][k];
     rise_[1][k] = rise_[0][k];
-    rise_[0][k] = p.present ? p.t + p.step - z[columns_[k].ix] : kNaN;
+    rise_[0][k] = now_.t[k] + now_.step[k] - z[k];
   }
 }
 
-/// Asks for the offsets, and steps with the tangent plane of the base. next: points that this moves too far.
-void DisplacedBand::approach(int iy, const std::vector<std::size_t>& active, std::vector<std::size_t>& next) {
-  const double y = g_.y(iy), per_2dx = 0.5 / g_.dx, per_2dy = 0.5 / g_.dy;
-  const double *z = base_.row(iy), *before = base_.row(iy - 1), *behind = base_.row(iy + 1);
-  const std::size_t n = active.size();
-  for (std::size_t j = 0; j < n; ++j) {
-    const std::size_t k = active[j];
-    Point& p = at(iy, k);
-    x_[j] = g_.x(columns_[k].ix);
-    t_[j] = p.t = p.t + p.step;
+/// The base at the points moved back.
+void DisplacedBand::see_base(int iy) {
+  known_.fill(false);
+  if (moves_) {
+    const double per_dx = 1.0 / g_.dx, per_dy = 1.0 / g_.dy;
+    for (std::size_t k = 0; k < n_; ++k) along_[k] = -now_.back_x[k] * per_dx, across_[k] = -now_.back_y[k] * per_dy;
+    patch_.row(iy, along_.data(), across_.data(), now_.h.data(), now_.hx.data(), now_.hy.data(), known_.data());
   }
-  natural_.find(y, x_.data(), t_.data(), n);
-  const auto first = [n](std::vector<double>& all) { return std::span<double>(all.data(), n); };
-  view_.field.evaluate(first(natural_.u), first(natural_.y), first(d_), first(d_u_), first(d_y_));
-  next.clear();
-  for (std::size_t j = 0; j < n; ++j) {
-    const std::size_t k = active[j];
-    Point& p = at(iy, k);
-    p.d = d_[j], p.d_u = d_u_[j], p.d_y = d_y_[j];
-    p.sin = natural_.sin[j], p.cos = natural_.cos[j], p.per_r = natural_.per_r[j];
-    const int ix = columns_[k].ix;
-    p.hx = (z[ix + 1] - z[ix - 1]) * per_2dx, p.hy = (behind[ix] - before[ix]) * per_2dy;
-    if (std::isnan(p.hx)) p.hx = 0.0;
-    if (std::isnan(p.hy)) p.hy = 0.0;
-    p.cx = x_[j], p.cy = y, p.h = z[ix];
-    const Equation q = equation(p, x_[j], y);
-    p.step = -q.F / q.g.z();
-    if (!is_last(p.step, blocks_[columns_[k].block], q.steepness)) next.push_back(k);
+  for (std::size_t k = 0; k < n_; ++k) {
+    if (block_of(k).moves) continue;
+    // nothing moves: the base is that at the point itself
+    const int ix = begin_ + static_cast<int>(k);
+    const std::size_t i = g_.index(ix, iy);
+    known_[k] = true;
+    now_.h[k] = base_.row(iy)[ix];
+    if (!out_.dzdx.empty()) now_.hx[k] = out_.dzdx[i];
+    if (!out_.dzdy.empty()) now_.hy[k] = out_.dzdy[i];
   }
 }
 
-void DisplacedBand::ask_base() {
-  const bool wheel = view_.body == Body::wheel;
-  moved_.clear(), asking_.clear();
-  for (int iy = first_; iy < last_; ++iy)
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      Point& p = at(iy, k);
-      if (!p.present || !blocks_[columns_[k].block].moves) continue;
-      const double ex = wheel ? along_rail_.x() * p.sin + up_rail_.x() * p.cos : up_rail_.x();
-      const double ey = wheel ? along_rail_.y() * p.sin + up_rail_.y() * p.cos : up_rail_.y();
-      p.cx -= p.d * ex, p.cy -= p.d * ey;
-      asking_.push_back(&p);
-      moved_.push_back({p.cx, p.cy});
-    }
-  const std::size_t n = moved_.size();
-  if (n == 0) return;
-  for (auto* one : {&h_, &hx_, &hy_}) one->resize(n);
-  view_.base.heights_at(view_.X_SP, moved_, {h_, hx_, hy_});
-  for (std::size_t j = 0; j < n; ++j) asking_[j]->h = h_[j], asking_[j]->hx = hx_[j], asking_[j]->hy = hy_[j];
-}
-
-void DisplacedBand::finish() {
+inline bool DisplacedBand::is_good(const Points& p, std::size_t k, int ix, int iy, const Block& block, double moved_x, double moved_y) const {
   constexpr double kLeastSlope = 0.02;
   // Slopes of the base may grow outwards by as much again.
   constexpr double kGrowth = 2.0, kSafe = 0.5;
-  const bool slopes = !out_.dzdx.empty() || !out_.dzdy.empty();
-  const double per_dx = 1.0 / g_.dx, per_dy = 1.0 / g_.dy;
-  for (int iy = first_; iy < last_; ++iy)
-    for (std::size_t k = 0; k < columns_.size(); ++k) {
-      Point& p = at(iy, k);
-      if (!p.present) continue;
-      const int ix = columns_[k].ix;
-      const Block& block = blocks_[columns_[k].block];
-      const std::size_t i = g_.index(ix, iy);
-      if (!block.moves) {  // the slopes of the base are those at the point itself
-        if (!out_.dzdx.empty()) p.hx = out_.dzdx[i];
-        if (!out_.dzdy.empty()) p.hy = out_.dzdy[i];
-      }
-      if (block.moves && !std::isnan(p.h) && (std::isnan(p.hx) || std::isnan(p.hy))) {  // a rim seen edge-on
-        for (const auto array : {out_.z, out_.dzdx, out_.dzdy})
-          if (!array.empty()) array[i] = kNaN;
-        continue;
-      }
-      const Equation q = equation(p, g_.x(ix), g_.y(iy));
-      const double step = -q.F / q.g.z(), aside = block.rate * q.steepness;
-      bool good = q.g.z() > kLeastSlope && is_last(step, block, q.steepness);
-      if (block.moves && good) {
-        const double jx = (p.cx - g_.x0) * per_dx + 0.5, jy = (p.cy - g_.y0) * per_dy + 0.5;  // the nearest point is below
-        good = kGrowth * aside <= kSafe && jx >= -1.0 && jx < g_.nx + 1 && jy >= -1.0 && jy < g_.ny + 1 &&
-               (base_.smooth(std::clamp(static_cast<int>(jx), 0, g_.nx - 1), std::clamp(static_cast<int>(jy), 0, g_.ny - 1)) &
-                block.needed) != 0;
-      }
-      if (!good) {
-        leave(ix, iy);
-        continue;
-      }
-      if (p.d == 0.0 && p.d_u == 0.0 && p.d_y == 0.0) continue;  // the base, bit for bit
-      out_.z[i] = p.t + step;
-      if (!slopes) continue;
-      if (!out_.dzdx.empty()) out_.dzdx[i] = -q.g.x() / q.g.z();
-      if (!out_.dzdy.empty()) out_.dzdy[i] = -q.g.y() / q.g.z();
+  if (!(p.gz[k] > kLeastSlope) || !is_last(p.step[k], block.rate, block.tilt, p.steepness[k])) return false;
+  if (!block.moves) return true;
+  if (!(kGrowth * block.rate * p.steepness[k] <= kSafe)) return false;
+  if (std::fabs(moved_x) < 0.5 && std::fabs(moved_y) < 0.5) return (base_.smooth(ix, iy) & block.needed) != 0;
+  const double jx = ix + moved_x + 0.5, jy = iy + moved_y + 0.5;  // the nearest point is below
+  return jx >= -1.0 && jx < g_.nx + 1 && jy >= -1.0 && jy < g_.ny + 1 &&
+         (base_.smooth(std::clamp(static_cast<int>(jx), 0, g_.nx - 1), std::clamp(static_cast<int>(jy), 0, g_.ny - 1)) & block.needed) != 0;
+}
+
+inline void DisplacedBand::write(const Points& p, std::size_t k, int ix, int iy) {
+  if (p.d[k] == 0.0 && p.d_u[k] == 0.0 && p.d_y[k] == 0.0) return;  // the base, bit for bit
+  const std::size_t i = g_.index(ix, iy);
+  out_.z[i] = p.t[k] + p.step[k];
+  if (!out_.dzdx.empty()) out_.dzdx[i] = -p.gx[k] / p.gz[k];
+  if (!out_.dzdy.empty()) out_.dzdy[i] = -p.gy[k] / p.gz[k];
+}
+
+void DisplacedBand::finish(int iy) {
+  const double* z = base_.row(iy) + begin_;
+  kernel_.solve_moved(axes_, n_, now_.pointers());
+  for (std::size_t k = 0; k < n_; ++k) {
+    if (std::isnan(z[k])) continue;
+    const int ix = begin_ + static_cast<int>(k);
+    if (!known_[k])
+      asking_.push_back({ix, iy, block_[k], now_.t[k], now_.d[k], now_.d_u[k], now_.d_y[k], now_.sin[k], now_.cos[k], now_.per_r[k],
+                         now_.x[k] - now_.back_x[k], g_.y(iy) - now_.back_y[k]});
+    else if (is_good(now_, k, ix, iy, block_of(k), along_[k], across_[k]))
+      write(now_, k, ix, iy);
+    else
+      leave(ix, iy);
+  }
+}
+
+/// Solves the points whose base could not be interpolated.
+void DisplacedBand::ask_base() {
+  const std::size_t all = asking_.size();
+  if (all == 0) return;
+  std::vector<Vec2> moved(all);
+  std::vector<double> h(all), hx(all), hy(all);
+  for (std::size_t i = 0; i < all; ++i) moved[i] = {asking_[i].x, asking_[i].y};
+  view_.base.heights_at(view_.X_SP, moved, {h, hx, hy});
+  for (std::size_t begin = 0; begin < all; begin += kTogether) {
+    const std::size_t n = std::min(kTogether, all - begin);
+    Points& p = again_;
+    for (std::size_t j = 0; j < n; ++j) {
+      const Asking& one = asking_[begin + j];
+      p.t[j] = one.t, p.d[j] = one.d, p.d_u[j] = one.d_u, p.d_y[j] = one.d_y;
+      p.sin[j] = one.sin, p.cos[j] = one.cos, p.per_r[j] = one.per_r;
+      p.h[j] = h[begin + j], p.hx[j] = hx[begin + j], p.hy[j] = hy[begin + j];
     }
+    kernel_.solve_moved(axes_, n, p.pointers());
+    for (std::size_t j = 0; j < n; ++j) {
+      const Asking& one = asking_[begin + j];
+      if (!std::isnan(p.h[j]) && (std::isnan(p.hx[j]) || std::isnan(p.hy[j]))) {  // a rim seen edge-on
+        for (const auto array : {out_.z, out_.dzdx, out_.dzdy})
+          if (!array.empty()) array[g_.index(one.ix, one.iy)] = kNaN;
+      } else if (is_good(p, j, one.ix, one.iy, blocks_[one.block], (one.x - g_.x(one.ix)) / g_.dx, (one.y - g_.y(one.iy)) / g_.dy)) {
+        write(p, j, one.ix, one.iy);
+      } else {
+        leave(one.ix, one.iy);
+      }
+    }
+  }
 }
 
 void DisplacedBand::solve_left() {

@@ -116,9 +116,9 @@ void DisplacedSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
       for (int ix = 0; ix < g.nx; ++ix) points.push_back({g.x(ix), g.y(iy)});
     return do_heights_at(plane_grid.X_SP, points, out);
   }
-  const BaseHeights base(*base_, plane_grid, out.dzdx, out.dzdy);
   std::vector<double> spare(out.z.empty() ? g.size() : 0);
   const HeightsOut all{out.z.empty() ? std::span<double>(spare) : out.z, out.dzdx, out.dzdy};
+  const BaseHeights base(*base_, plane_grid, all);
   const auto band = [&](std::size_t which) {
     const int first = static_cast<int>(which) * DisplacedBand::kRows;
     DisplacedBand(seen, max_offset_, g, base, all).solve(first, std::min(first + DisplacedBand::kRows, g.ny));

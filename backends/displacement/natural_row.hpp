@@ -6,6 +6,7 @@
 #include <cstddef>
 #include <vector>
 
+#include "treadmark/backends/displacement/band_kernel.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/profile.hpp"
 
@@ -40,27 +41,15 @@ class NaturalRow {
       for (std::size_t i = 0; i < n; ++i) u[i] = ox + xx * x[i] + xt * t[i];
       return;
     }
-    const double zx = R(2, 0), zt = R(2, 2), oz = o.z(), s = sin_, c = cos_, theta = theta_;
-    double farthest = 0.0, least_ahead = 1.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      const double a = ox + xx * x[i] + xt * t[i], b = oz + zx * x[i] + zt * t[i];
-      const double one = 1.0 / std::sqrt(a * a + b * b);
-      sin[i] = a * one, cos[i] = b * one, per_r[i] = one;
-      const double ahead = a * s + b * c, ratio = (a * c - b * s) / ahead, w = ratio * ratio;
-      farthest = farthest > w ? farthest : w;
-      least_ahead = least_ahead < ahead ? least_ahead : ahead;
-      // series of the arc tangent; the next term is 3e-17 at the end of its range
-      const double tail = 1.0 / 3.0 - w * (1.0 / 5.0 - w * (1.0 / 7.0 - w * (1.0 / 9.0 - w * (1.0 / 11.0 - w * (1.0 / 13.0 - w / 15.0)))));
-      u[i] = theta + (ratio - ratio * w * tail);
-    }
-    constexpr double kSeries = 0.125 * 0.125;
-    if (farthest <= kSeries && least_ahead > 0.0) return;
+    const BandTurn turn{ox, xx, xt, o.z(), R(2, 0), R(2, 2), theta_, sin_, cos_};
+    if (kernel_.turn(turn, n, x, t, u.data(), sin.data(), cos.data(), per_r.data())) return;
     for (std::size_t i = 0; i < n; ++i) u[i] = std::atan2(sin[i], cos[i]);
   }
 
  private:
   bool wheel_;
   const Pose& X_;
+  const BandKernel& kernel_ = band_kernel();
   double theta_ = 0.0, sin_ = 0.0, cos_ = 1.0;
 };
 

@@ -41,6 +41,8 @@ OffsetSample offsets_from_map(const OffsetMap& map, Body body, double tolerance)
   if (!(tolerance >= 0.0) || !std::isfinite(tolerance)) throw Error(ErrorKind::configuration, "the tolerance of offsets must not be negative");
   if (g.nx < 2 || g.ny < 2 || !(g.dx > 0.0) || !(g.dy > 0.0) || !std::isfinite(g.dx + g.dy + g.x0 + g.y0))
     throw Error(ErrorKind::input_data, fmt::format("the offset map {} needs two points and positive steps along both axes", map.name));
+  if (g.dx < kLeastStep || g.dy < kLeastStep)
+    throw Error(ErrorKind::input_data, fmt::format("the steps of the offset map {} are below {} m", map.name, kLeastStep));
   if (map.offset.size() != g.size())
     throw Error(ErrorKind::input_data, fmt::format("the offset map {} has {} values, its grid {}", map.name, map.offset.size(), g.size()));
   for (const float v : map.offset)

@@ -140,6 +140,8 @@ void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec
   if (frame.size() != 7 || !(frame[2] > 0.0) || !(frame[3] > 0.0) || !(frame[4] >= 0.0 && frame[4] < kMostVoxels) ||
       (!wheel && frame[4] != 0.0) || !(frame[5] <= frame[6]) || std::fabs(frame[5]) > kMostVoxels || std::fabs(frame[6]) > kMostVoxels)
     in.refuse("the entry 'frame' of the VDB file is broken");
+  if (!(frame[2] >= kLeastStep) || !(frame[3] >= kLeastStep))
+    in.refuse(fmt::format("the steps of the offsets in the VDB file are below {} m", kLeastStep));
   f.u0 = frame[0], f.y0 = frame[1], f.du = frame[2], f.dy = frame[3];
   f.turn = static_cast<int>(frame[4]);
   f.first = frame[5], f.last = frame[6];

@@ -75,7 +75,7 @@ class SheetField final : public displacement::OffsetField {
   displacement::OffsetJet jet(double u, double y) const override {
     const double s = frame_.along(u), t = frame_.across(y);
     displacement::OffsetJet j;
-    if (!within(s, t)) return j;
+    if (!within((u - frame_.u0) / frame_.du, t) || !within(s, t)) return j;  // so many turns say nothing
     const Weights<kDegree> a(s), b(t);
     double a2[kDegree + 1], b2[kDegree + 1];
     a.second(s, a2);

@@ -11,6 +11,9 @@
 
 namespace treadmark::offset {
 
+/// Steps below this are a mistake, and places counted in them are no integers [m] or [rad].
+inline constexpr double kLeastStep = 1e-9;
+
 /// Where voxels lie: (u, y) = (u0 + i du, y0 + j dy).
 struct SheetFrame {
   Body body = Body::rail;

@@ -72,7 +72,8 @@ TEST(DisplacedGrid, BaseHeightsKnowJumpsAndMisses) {
   // seen across the flange, the tread hides behind it
   const Pose X = pose({0.0, -0.045, kR + 0.02}, 0.9, 0.0, 0.0);
   const Grid2 g{-0.01, -0.04, 0.5e-3, 0.5e-3, 21, 161};
-  const BaseHeights base(*s1002(), {X, g}, {}, {});
+  std::vector<double> z(g.size());
+  const BaseHeights base(*s1002(), {X, g}, {z, {}, {}});
   int jumps = 0, smooth = 0;
   for (int iy = 1; iy + 1 < g.ny; ++iy)
     for (int ix = 1; ix + 1 < g.nx; ++ix) {

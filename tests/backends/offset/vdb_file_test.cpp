@@ -9,6 +9,8 @@
 #include <random>
 #include <string>
 
+#include "treadmark/backends/offset/metadata.hpp"
+#include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/offset/wheel_with_flat.hpp"
 
@@ -161,6 +163,25 @@ TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
                                  Pair{"tolerance", "tolerante"}, Pair{one_metre, one_mile}}) {
     put(edited(good, from, to));
     EXPECT_EQ(kind(), kInputData) << from << " to " << to;
+  }
+}
+
+TEST(VdbMetadata, RefusesStepsOfNothing) {
+  const SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.002, 21, 21}, std::vector<float>(441, 1e-4f)};
+  offset::Metadata m = offset::to_metadata(*offset::offsets_from_map(map, Body::rail, 1e-9).offsets, rail);
+  offset::SparseOffsets read;
+  SurfaceSpec base;
+  EXPECT_NO_THROW(offset::from_metadata(m, read, base, "file"));
+  for (const char* frame : {"0 0 1e-10 0.001 0 0 0", "0 0 0.001 1e-300 0 0 0"}) {
+    m["frame"] = frame;
+    try {
+      offset::from_metadata(m, read, base, "file");
+      ADD_FAILURE() << frame;
+    } catch (const Error& e) {
+      EXPECT_EQ(e.kind(), ErrorKind::input_data);
+      EXPECT_NE(std::string(e.what()).find("steps"), std::string::npos) << e.what();
+    }
   }
 }
 
