@@ -26,8 +26,9 @@ inline Samples one_sample(double along) { return {along, 1e-3, 1}; }
 using ListedLine = std::span<const ListedPoint>;
 
 inline constexpr std::size_t kPointsPerTask = 256, kPointsPerBatch = 32;
-/// A batch that more cells lie over is split, unless all its points lie on one line.
+/// A batch that more cells lie over, or that is wider than this, is split, unless all its points lie on one line.
 inline constexpr std::size_t kCellsPerBatch = 6;
+inline constexpr double kWidestBatch = 8e-3;  // [m]
 
 /// Cuts [points) into batches of neighbours. over(across, along): the cells over a rectangle; count(cells): how many;
 /// use(batch, cells): called for every batch in the order of the list, also with no cells.
@@ -38,13 +39,15 @@ void split_batch(std::span<const ListedPoint> points, const Over& over, const Co
     across.include({p.across, p.across});
     along.include({p.along, p.along});
   }
-  const auto cells = over(across, along);
-  if (points.size() > 1 && across.low < across.high && count(cells) > kCellsPerBatch) {
+  const bool may_split = points.size() > 1 && across.low < across.high;
+  const auto split = [&] {
     const std::size_t half = points.size() / 2;
     split_batch(points.first(half), over, count, use);
     split_batch(points.subspan(half), over, count, use);
-    return;
-  }
+  };
+  if (may_split && std::max(across.width(), along.width()) > kWidestBatch) return split();
+  const auto cells = over(across, along);
+  if (may_split && count(cells) > kCellsPerBatch) return split();
   use(points, cells);
 }
 

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "treadmark/backends/spline/bound_search.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_hull.hpp"
@@ -18,13 +19,29 @@ namespace {
 
 constexpr double kSamePosition = 1e-15;    // [m]
 constexpr std::size_t kLinesPerTask = 32;
-constexpr int kMaxHullHalvings = 8;
+
+// A range of the width of the viewed profile.
+struct WidthWindow {
+  const ProfileView& view;
+  Range width;
+  double small_width;
+
+  WidthWindow(const ProfileView& profile_view, const Interval& window)
+      : view(profile_view), width(window), small_width(2.0 * window.width() + 1e-5) {}
+  static Range on(const Vec2& direction, const Range& y, const Range& z) {
+    return {direction.x() * y.middle + direction.y() * z.middle, std::abs(direction.x()) * y.half + std::abs(direction.y()) * z.half};
+  }
+  Interval heights(const Range& y, const Range& z) const {
+    return on(view.width, y, z).overlaps(width) ? on(view.depth, y, z).interval() : Interval::none();
+  }
+  bool small(const Range& y, const Range& z) const { return 2.0 * on(view.width, y, z).half <= small_width; }
+};
 
 void fill(std::span<double> values, double value) { std::fill(values.begin(), values.end(), value); }
 
 }  // namespace
 
-PrismaticSurface::PrismaticSurface(ProfileSpline profile) : profile_(std::move(profile)) {}
+PrismaticSurface::PrismaticSurface(ProfileSpline profile) : profile_(std::move(profile)), hulls_(profile_) {}
 
 Vec3 PrismaticSurface::point(double u, double v) const {
   const Vec2 p = profile_.position(v);
@@ -43,7 +60,7 @@ Box3 PrismaticSurface::bounds() const {
 }
 
 std::size_t PrismaticSurface::memory_bytes() const {
-  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes();
+  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() + hulls_.memory_bytes();
 }
 
 void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
@@ -191,18 +208,9 @@ HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangl
   Interval window = over_rectangle(view.width);
   const double slack = 1e-12 + 1e-9 * window.width();
   window = {window.low - slack, window.high + slack};
-  Interval depth = Interval::none();
-  const auto add = [&](const auto& self, const BezierCubic& curve, int halvings) -> void {
-    const Interval w = curve.range(view.width);
-    if (!w.overlaps(window)) return;
-    if (halvings < kMaxHullHalvings && w.width() > 2.0 * window.width() + 1e-5) {
-      for (const BezierCubic& half : curve.halves()) self(self, half, halvings + 1);
-      return;
-    }
-    depth.include(curve.range(view.depth));
-  };
-  for (std::size_t k = 0; k < profile_.segments().size(); ++k)
-    add(add, BezierCubic(profile_.segments()[k], profile_.breaks()[k + 1] - profile_.breaks()[k]), 0);
+  const WidthWindow seen(view, window);
+  const ProfileTree tree(seen, profile_, hulls_);
+  const Interval depth = BoundSearch(tree).range(tree.root());
   if (depth.empty()) return {0.0, 0.0, true};
   const Interval n = (1.0 / view.normal_part) * (depth + -1.0 * over_rectangle(view.depth));
   const double rounding = 1e-12 * (1.0 + std::abs(n.low) + std::abs(n.high));

@@ -3,6 +3,7 @@
 #pragma once
 
 #include "treadmark/backends/spline/profile_spline.hpp"
+#include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
@@ -29,6 +30,7 @@ class PrismaticSurface final : public Surface {
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
   ProfileSpline profile_;
+  ProfileHulls hulls_;
 };
 
 }  // namespace treadmark::spline

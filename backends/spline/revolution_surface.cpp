@@ -6,6 +6,7 @@
 #include <cmath>
 #include <vector>
 
+#include "treadmark/backends/spline/bound_search.hpp"
 #include "treadmark/backends/spline/column_hits.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
@@ -19,7 +20,6 @@ namespace treadmark::spline {
 namespace {
 
 constexpr std::size_t kLinesPerTask = 16;
-constexpr int kMaxHullHalvings = 8;
 
 // The wheel cut at one value of the across coordinate.
 class RevolutionSection {
@@ -93,18 +93,27 @@ ProfileSpline add_radius(const ProfileSpline& profile, double nominal_radius) {
                        {profile.kinks().begin(), profile.kinks().end()});
 }
 
-// Segments that may lie over a rectangle.
-std::vector<int> cells_over(std::span<const ProfileBox> boxes, const WheelView& view, Interval across, Interval along) {
-  constexpr double kSlack = 1e-9;  // [m], rounding and the slack at edges
-  const WheelBoxBounds bounds{view, {across.low - kSlack, across.high + kSlack}, {along.low - kSlack, along.high + kSlack}};
-  std::vector<int> cells;
-  for (std::size_t k = 0; k < boxes.size(); ++k)
-    if (!bounds.of(boxes[k].y, boxes[k].r).n.empty()) cells.push_back(static_cast<int>(k));
-  return cells;
+// What a rectangle sees of the wheel; a little widened for rounding and the slack at edges.
+class ProfileWindow {
+ public:
+  ProfileWindow(const PlaneWindow& window) : window_(window), small_(2.0 * window.along.width() + 1e-5) {}
+
+  Interval heights(const Range& y, const Range& r) const { return window_.heights(y, r); }
+  bool small(const Range& y, const Range& r) const { return 2.0 * window_.along_of(y, r).half <= small_; }
+
+ private:
+  WheelWindow window_;
+  double small_;
+};
+Interval widened(double low, double high) {
+  constexpr double kSlack = 1e-9;  // [m]
+  return {low - kSlack, high + kSlack};
 }
 
-BezierCubic hull(const ProfileSpline& profile, std::size_t k) {
-  return BezierCubic(profile.segments()[k], profile.breaks()[k + 1] - profile.breaks()[k]);
+// Segments that may lie over a rectangle.
+void cells_over(const ProfileSpline& profile, const ProfileHulls& hulls, const PlaneWindow& plane, std::vector<int>& cells) {
+  const ProfileWindow window(plane);
+  segments_over(ProfileTree(window, profile, hulls), cells);
 }
 
 // Slopes along and across the grid lines at a hit.
@@ -130,11 +139,9 @@ SurfaceDerivatives derivatives(const ProfileSpline& profile, double u, double v)
 }  // namespace
 
 RevolutionSurface::RevolutionSurface(ProfileSpline profile, double nominal_radius)
-    : profile_(add_radius(profile, nominal_radius)), nominal_radius_(nominal_radius) {
-  for (std::size_t k = 0; k < profile_.segments().size(); ++k) {
-    const BezierCubic points = hull(profile_, k);
-    boxes_.push_back({points.range({1.0, 0.0}), points.range({0.0, 1.0})});
-    if (!(boxes_.back().r.low > 0.0))
+    : profile_(add_radius(profile, nominal_radius)), nominal_radius_(nominal_radius), hulls_(profile_) {
+  for (const HullBox& box : hulls_.levels().front()) {
+    if (!(box.range_w().low > 0.0))
       throw Error(ErrorKind::configuration, "a wheel's radius must be positive over its whole profile", {},
                   "check the nominal radius and the unit of the profile");
   }
@@ -147,16 +154,16 @@ Vec3 RevolutionSurface::point(double u, double v) const {
 
 Box3 RevolutionSurface::bounds() const {
   Interval y = Interval::none(), r = Interval::none();
-  for (const ProfileBox& box : boxes_) {
-    y.include(box.y);
-    r.include(box.r);
+  for (const HullBox& box : hulls_.levels().back()) {
+    y.include(box.range_y());
+    r.include(box.range_w());
   }
   return {{-r.high, y.low, -r.high}, {r.high, y.high, r.high}};
 }
 
 std::size_t RevolutionSurface::memory_bytes() const {
   return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() +
-         boxes_.size() * sizeof(ProfileBox);
+         hulls_.memory_bytes();
 }
 
 void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
@@ -169,8 +176,9 @@ void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut
     ColumnHits hits(g.samples.count, Facing::down);
     const int first = static_cast<int>(task * kLinesPerTask);
     const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
-    const std::vector<int> cells = cells_over(boxes_, view, {g.across_at(first), g.across_at(last)},
-                                              {g.samples.first, g.samples.last()});
+    std::vector<int> cells;
+    cells_over(profile_, hulls_, {g.across, g.along, g.normal, g.origin, widened(g.across_at(first), g.across_at(last)),
+                                  widened(g.samples.first, g.samples.last())}, cells);
     for (int line = first; line <= last; ++line) {
       hits.clear();
       const RevolutionSection section(profile_, view, g.across_at(line));
@@ -195,7 +203,11 @@ void RevolutionSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> po
   const WheelView view(across, along, normal, X_SP.origin);
   const auto dz_along = along_y ? out.dzdy : out.dzdx, dz_across = along_y ? out.dzdx : out.dzdy;
   const bool slopes = !dz_along.empty() || !dz_across.empty();
-  const auto over = [&](const Interval& a, const Interval& s) { return cells_over(boxes_, view, a, s); };
+  const auto over = [&](const Interval& a, const Interval& s) {
+    std::vector<int> cells;
+    cells_over(profile_, hulls_, {across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)}, cells);
+    return cells;
+  };
   const auto count = [](const std::vector<int>& cells) { return cells.size(); };
   for_listed_points(points_P, along_y, [&](std::span<const ListedPoint> points) {
     ColumnHits hits(1, Facing::down);
@@ -224,14 +236,17 @@ void RevolutionSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> po
 
 void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const bool along_y = wheel_lines_along_y(X_SP.rotation);
-  const WheelView view(X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
+  const WheelView view(across, along, normal, X_SP.origin);
   ColumnHits hits(1, Facing::down);
+  std::vector<int> cells;
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     out[i] = {};
     hits.clear();
     const double a = points_P[i][along_y ? 0 : 1], s = points_P[i][along_y ? 1 : 0];
     const RevolutionSection section(profile_, view, a);
-    section.raster(cells_over(boxes_, view, {a, a}, {s, s}), {s, 1.0, 1}, hits);
+    cells_over(profile_, hulls_, {across, along, normal, X_SP.origin, widened(a, a), widened(s, s)}, cells);
+    section.raster(cells, {s, 1.0, 1}, hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
     const double v = hits.v[0];
@@ -245,20 +260,11 @@ void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points
 
 HeightBounds RevolutionSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
   const bool along_y = wheel_lines_along_y(X_SP.rotation);
-  const WheelView view(X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin);
-  const Interval x{r.x_min - 1e-9, r.x_max + 1e-9}, y{r.y_min - 1e-9, r.y_max + 1e-9};
-  const WheelBoxBounds box{view, along_y ? x : y, along_y ? y : x};
-  Interval n = Interval::none();
-  const auto add = [&](const auto& self, const BezierCubic& curve, int halvings) -> void {
-    const auto part = box.of(curve.range({1.0, 0.0}), curve.range({0.0, 1.0}));
-    if (part.n.empty()) return;
-    if (halvings < kMaxHullHalvings && part.s.width() > 2.0 * box.along.width() + 1e-5) {
-      for (const BezierCubic& half : curve.halves()) self(self, half, halvings + 1);
-      return;
-    }
-    n.include(part.n);
-  };
-  for (std::size_t k = 0; k < profile_.segments().size(); ++k) add(add, hull(profile_, k), 0);
+  const Interval x = widened(r.x_min, r.x_max), y = widened(r.y_min, r.y_max);
+  const ProfileWindow window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin,
+                              along_y ? x : y, along_y ? y : x});
+  const ProfileTree tree(window, profile_, hulls_);
+  const Interval n = BoundSearch(tree).range(tree.root());
   if (n.empty()) return {0.0, 0.0, true};
   return {n.low - 1e-12, n.high + 1e-12, false};
 }

@@ -4,16 +4,11 @@
 
 #include <vector>
 
-#include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/profile_spline.hpp"
+#include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
-
-/// Box around one segment of a wheel profile.
-struct ProfileBox {
-  Interval y, r;
-};
 
 /// A round wheel: p(u, v) = (r sin u, y(v), r cos u), r = nominal radius + z(v), u = angle about the axle [rad],
 /// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of the
@@ -42,7 +37,7 @@ class RevolutionSurface final : public Surface {
 
   ProfileSpline profile_;  // (y, r)
   double nominal_radius_;
-  std::vector<ProfileBox> boxes_;
+  ProfileHulls hulls_;
 };
 
 }  // namespace treadmark::spline

@@ -64,17 +64,22 @@ class WheelWindow {
   bool exists() const { return true; }
   Interval u(const Range& y, const Range& r) const;
   Interval heights(const Range& y, const Range& r) const {
-    const Range a = a_of(y);
-    const double size = std::abs(a.middle), far = size + a.half, near = std::max(0.0, size - a.half);
-    const double r_high = r.middle + r.half, r_low = r.middle - r.half;
-    if (near > r_high) return Interval::none();
-    const Range b(Interval{std::sqrt(std::max(0.0, r_low * r_low - far * far)), std::sqrt(std::max(0.0, r_high * r_high - near * near))});
-    if (!s_.of(y, b).overlaps(along_)) return Interval::none();
+    const Range b = b_of(y, r);
+    if (b.half < 0.0 || !s_.of(y, b).overlaps(along_)) return Interval::none();
     return n_.of(y, b).interval();
   }
+  Range along_of(const Range& y, const Range& r) const { return s_.of(y, b_of(y, r)); }
   static constexpr int kTurns = 2;
 
  private:
+  // half < 0: out of reach
+  Range b_of(const Range& y, const Range& r) const {
+    const Range a = a_of(y);
+    const double size = std::abs(a.middle), far = size + a.half, near = std::max(0.0, size - a.half);
+    const double r_high = r.middle + r.half, r_low = r.middle - r.half;
+    if (near > r_high) return {0.0, -1.0};
+    return Range(Interval{std::sqrt(std::max(0.0, r_low * r_low - far * far)), std::sqrt(std::max(0.0, r_high * r_high - near * near))});
+  }
   // Linear in y and b, after a has been put in.
   struct Linear {
     double at_zero, half, by_y, by_b;
@@ -107,21 +112,26 @@ class SliceTree {
   Node root() const { return {static_cast<int>(hulls_.levels().size()), 0, 0, 0.0}; }
   static bool is_leaf(const Node& node) { return node.level == 0; }
 
+  /// skip(child): whether nobody wants to know of it.
   template <class Visit>
   void children(const Node& node, const Visit& visit) const {
+    children(node, visit, [](const Node&) { return false; });
+  }
+  template <class Visit, class Skip>
+  void children(const Node& node, const Visit& visit, const Skip& skip) const {
     const auto level_count = static_cast<int>(hulls_.levels().size());
     const SliceHulls::Level& below = hulls_.levels()[static_cast<std::size_t>(node.level) - 1];
     if (node.level == level_count) {
       const Interval u = window_.u(range_y(hulls_.all()), range_w(hulls_.all()));
       for (int turn = -Window::kTurns; turn <= Window::kTurns; ++turn)
-        boxes(below, node.level - 1, u, turn * 2.0 * std::numbers::pi, 0, below.rows, 0, below.columns, visit);
+        boxes(below, node.level - 1, u, turn * 2.0 * std::numbers::pi, 0, below.rows, 0, below.columns, visit, skip);
       return;
     }
     const SliceHulls::Level& level = hulls_.levels()[static_cast<std::size_t>(node.level)];
     const HullBox& box = level.box(node.row, node.column);
     const int row = node.row * level.rows_below, column = node.column * level.columns_below;
     boxes(below, node.level - 1, window_.u(range_y(box), range_w(box)), node.turn, row, std::min(below.rows, row + level.rows_below), column,
-          std::min(below.columns, column + level.columns_below), visit);
+          std::min(below.columns, column + level.columns_below), visit, skip);
   }
 
   /// Only what the window sees of each span.
@@ -145,16 +155,17 @@ class SliceTree {
   static Range range_y(const HullBox& box) { return {static_cast<double>(box.y), static_cast<double>(box.half_y)}; }
   static Range range_w(const HullBox& box) { return {static_cast<double>(box.w), static_cast<double>(box.half_w)}; }
 
-  template <class Visit>
+  template <class Visit, class Skip>
   void boxes(const SliceHulls::Level& level, int index, const Interval& u, double turn, int first_row, int last_row, int first_column,
-             int last_column, const Visit& visit) const {
+             int last_column, const Visit& visit, const Skip& skip) const {
     for (int row = first_row; row < last_row; ++row) {
       if (!level.u[static_cast<std::size_t>(row)].overlaps(u + turn)) continue;
       for (int column = first_column; column < last_column; ++column) {
         const HullBox& box = level.box(row, column);
-        if (box.empty()) continue;
+        const Node child{index, row, column, turn};
+        if (box.empty() || skip(child)) continue;
         const Interval heights = window_.heights(range_y(box), range_w(box));
-        if (!heights.empty()) visit(Node{index, row, column, turn}, heights);
+        if (!heights.empty()) visit(child, heights);
       }
     }
   }
@@ -176,7 +187,7 @@ void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls
         marks[static_cast<std::size_t>(child.column)] = 1;
       else
         self(self, child);
-    });
+    }, [&](const typename Tree::Node& child) { return Tree::is_leaf(child) && marks[static_cast<std::size_t>(child.column)]; });
   };
   descend(descend, tree.root());
 }

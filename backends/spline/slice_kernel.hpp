@@ -20,22 +20,26 @@ struct Fields {
   V y, w, y_u, w_u, y_v, w_v;
 };
 
+// One field at four breaks, its derivative by t and by v; Horner's rule for all three.
+TREADMARK_LANES void field_at_breaks(const double* p, long stride, V t, V& value, V& by_t, V& by_v) {
+  V c{}, dc{}, d{};
+  for (int m = 3; m >= 0; --m) {
+    const double* q = p + 2 * m * stride;
+    const V left = load(q), middle = load(q + 1), right = load(q + 2);
+    dc = dc * t + c;
+    c = c * t + ((1.0 / 6.0) * (left + right) + (2.0 / 3.0) * middle);
+    d = d * t + (right - left);
+  }
+  value = c, by_t = dc, by_v = 0.5 * d;
+}
+
 // At four breaks in one span.
 TREADMARK_LANES Fields at_breaks(const NetArrays& net, int span, int k, V t) {
   const double* p = net.cubics + span * net.span_size + k;
-  V power[8], change[8];
-  for (int m = 0; m < 8; ++m) {
-    const V left = load(p + m * net.stride), middle = load(p + m * net.stride + 1), right = load(p + m * net.stride + 2);
-    power[m] = (1.0 / 6.0) * (left + right) + (2.0 / 3.0) * middle;
-    change[m] = right - left;
-  }
-  const V t2 = 2.0 * t, t3 = 3.0 * t;
-  return {power[0] + t * (power[2] + t * (power[4] + t * power[6])),
-          power[1] + t * (power[3] + t * (power[5] + t * power[7])),
-          power[2] + t2 * power[4] + t * (t3 * power[6]),
-          power[3] + t2 * power[5] + t * (t3 * power[7]),
-          0.5 * (change[0] + t * (change[2] + t * (change[4] + t * change[6]))),
-          0.5 * (change[1] + t * (change[3] + t * (change[5] + t * change[7])))};
+  Fields f;
+  field_at_breaks(p, net.stride, t, f.y, f.y_u, f.y_v);
+  field_at_breaks(p + net.stride, net.stride, t, f.w, f.w_u, f.w_v);
+  return f;
 }
 
 TREADMARK_LANES void sine_cosine(V x, V& sine, V& cosine) {
@@ -195,8 +199,15 @@ TREADMARK_LANES VMask near_cubic(const SectionArrays& section, const TwistArrays
   return result;
 }
 
-void prepare(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last, CellCubics* cells,
-             int* first_sample, int* sample_count, char* fast) {
+// The cubic on [0, 1] by its first value, its rise and its end slopes.
+TREADMARK_LANES void hermite(V (&c)[4], V first, V rise, V slope_0, V slope_1) {
+  c[0] = first, c[1] = slope_0, c[2] = 3.0 * rise - 2.0 * slope_0 - slope_1, c[3] = slope_0 + slope_1 - 2.0 * rise;
+  transpose(c);
+}
+
+template <bool place>
+void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last, CellCubics* cells,
+                   int* first_sample, int* sample_count, char* fast) {
   constexpr double kUpright = 1e-9;  // [m]
   const double inverse_step = 1.0 / samples.step;
   const V zero = all(0.0), end = all(samples.count);
@@ -209,37 +220,30 @@ void prepare(const SectionArrays& section, const TwistArrays& twist, const Sampl
     good &= near_cubic(section, twist, k, greatest(absolute(dua), absolute(dub)), absolute(dub - dua));
     const int good_bits = bits(good);
     for (int i = 0; i < 4; ++i) fast[k + i] = static_cast<char>((good_bits >> i) & 1);
-    const V low = least(sa, sb), high = greatest(sa, sb);
-    const V from = least(greatest((low - samples.first) * inverse_step + (1.0 - samples.slack), zero), end);
-    const V to = least(greatest((high - samples.first) * inverse_step + (1.0 + samples.slack), zero), end);
+    const V from = least(greatest((least(sa, sb) - samples.first) * inverse_step + (1.0 - samples.slack), zero), end);
+    const V to = least(greatest((greatest(sa, sb) - samples.first) * inverse_step + (1.0 + samples.slack), zero), end);
     const VInt from_i = __builtin_convertvector(good ? from : zero, VInt), to_i = __builtin_convertvector(good ? to : zero, VInt);
     const VInt count = to_i - from_i;
     store(first_sample + k, from_i);
     store(sample_count + k, count > 0 ? count : VInt{});
-    const V inverse_rise = 1.0 / rise;
-    V f[4];
-    const V slope_a = least(rise / dsa, all(3.0)), slope_b = least(rise / dsb, all(3.0));
+    // One division for three quotients.
+    const V both = dsa * dsb, inverse = 1.0 / (both * rise), rise_inverse = rise * rise * inverse;
+    const V inverse_rise = both * inverse, slope_a = least(rise_inverse * dsb, all(3.0)), slope_b = least(rise_inverse * dsa, all(3.0));
+    V f[4], s[4], n[4], u[4];
     f[0] = zero;
     f[1] = slope_a * inverse_rise;
     f[2] = (3.0 - 2.0 * slope_a - slope_b) * inverse_rise * inverse_rise;
     f[3] = (slope_a + slope_b - 2.0) * inverse_rise * inverse_rise * inverse_rise;
-    const auto hermite = [](V (&c)[4], V a, V change, V slope_0, V slope_1) __attribute__((always_inline)) {
-      c[0] = a, c[1] = slope_0, c[2] = 3.0 * change - 2.0 * slope_0 - slope_1, c[3] = slope_0 + slope_1 - 2.0 * change;
-    };
-    V s[4], n[4], u[4];
-    hermite(s, sa, rise, dsa, dsb);
-    const V na = load(section.n + k), ua = load(section.u + k);
-    hermite(n, na, load(section.n + k + 1) - na, load(section.dn + k), load(section.dn + k + 1));
-    hermite(u, ua, load(section.u + k + 1) - ua, dua, dub);
-    transpose(s);
-    transpose(n);
-    transpose(u);
     transpose(f);
+    const V na = load(section.n + k), ua = load(section.u + k);
+    hermite(s, sa, rise, dsa, dsb);
+    hermite(n, na, load(section.n + k + 1) - na, load(section.dn + k), load(section.dn + k + 1));
+    if constexpr (place) hermite(u, ua, load(section.u + k + 1) - ua, dua, dub);
     for (int i = 0; i < 4; ++i) {
       store(cells[k + i].s, s[i]);
       store(cells[k + i].n, n[i]);
-      store(cells[k + i].u, u[i]);
       store(cells[k + i].f, f[i]);
+      if constexpr (place) store(cells[k + i].u, u[i]);
     }
   }
 }
@@ -297,10 +301,34 @@ void solve_pairs(const CellCubics* cells, const SampleArrays& samples, int* pair
   }
 }
 
-void solve(const CellCubics* cells, const SampleArrays& samples, int* pair_cell, int* pair_sample, int count, const HitArrays& hits,
-           char* redo) {
-  hits.v == nullptr ? solve_pairs<false>(cells, samples, pair_cell, pair_sample, count, hits, redo)
-                    : solve_pairs<true>(cells, samples, pair_cell, pair_sample, count, hits, redo);
+template <bool place>
+void hit_cells(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last,
+               const CellArrays& work, const HitArrays& hits) {
+  constexpr int kPairs = 512;
+  int cell[kPairs + 4], sample[kPairs + 4];
+  prepare_cells<place>(section, twist, samples, first, last, work.cells, work.first_sample, work.sample_count, work.fast);
+  int pairs = 0;
+  for (int k = first; k < last; ++k) {
+    int i = work.first_sample[k], count = work.sample_count[k];
+    for (;; i += 4, count -= 4) {
+      if (pairs > kPairs - 4) {
+        solve_pairs<place>(work.cells, samples, cell, sample, pairs, hits, work.redo);
+        pairs = 0;
+      }
+      // always four: the next ones overwrite what is too much
+      store(cell + pairs, VInt{k, k, k, k});
+      store(sample + pairs, VInt{i, i + 1, i + 2, i + 3});
+      pairs += count < 4 ? count : 4;
+      if (count <= 4) break;
+    }
+  }
+  solve_pairs<place>(work.cells, samples, cell, sample, pairs, hits, work.redo);
+}
+
+void hit(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last, const CellArrays& work,
+         const HitArrays& hits) {
+  hits.v == nullptr ? hit_cells<false>(section, twist, samples, first, last, work, hits)
+                    : hit_cells<true>(section, twist, samples, first, last, work, hits);
 }
 
 template <bool wheel>
@@ -351,7 +379,7 @@ void slopes(SectionArrays& section, const HitArrays& hits, int count, const Slop
   section.wheel ? slopes_at<true>(section, hits, count, out) : slopes_at<false>(section, hits, count, out);
 }
 
-constexpr SliceKernels kKernels = {cut, prepare, solve, slopes};
+constexpr SliceKernels kKernels = {cut, hit, slopes};
 
 }  // namespace
 }  // namespace treadmark::spline

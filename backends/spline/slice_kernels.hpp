@@ -45,6 +45,13 @@ struct alignas(32) CellCubics {
   double s[4], n[4], u[4], f[4];
 };
 
+/// Room for cells, as many as breaks.
+struct CellArrays {
+  CellCubics* cells;
+  int *first_sample, *sample_count;
+  char *fast, *redo;
+};
+
 struct SampleArrays {
   double first, step;
   int count;
@@ -66,13 +73,10 @@ struct SlopeArrays {
 struct SliceKernels {
   /// Cuts breaks 4 first .. 4 last + 3; trouble[group] = 1 where one of four did not settle, else 0.
   void (*cut)(SectionArrays& section, int first, int last, char* trouble);
-  /// For cells first .. last - 1: whether their cubics serve (fast), then these and the samples over them.
-  void (*prepare)(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last,
-                  CellCubics* cells, int* first_sample, int* sample_count, char* fast);
-  /// Hits of `count` pairs of cell and sample; room for three more pairs behind them. redo[cell] = 1 for cells with a hit
-  /// that did not converge.
-  void (*solve)(const CellCubics* cells, const SampleArrays& samples, int* pair_cell, int* pair_sample, int count,
-                const HitArrays& hits, char* redo);
+  /// Hits of the samples over cells first .. last - 1 of which the cubics serve: fast[cell] = 1, else 0. redo[cell] = 1 for
+  /// cells with a hit that did not converge.
+  void (*hit)(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last,
+              const CellArrays& work, const HitArrays& hits);
   /// Slopes of the surface at the hits; arrays padded to a multiple of four.
   void (*slopes)(SectionArrays& section, const HitArrays& hits, int count, const SlopeArrays& slopes);
 };

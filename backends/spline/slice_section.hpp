@@ -18,7 +18,7 @@ namespace treadmark::spline {
 /// Memory for sections, used again by the next one of the same thread.
 struct SectionWorkspace {
   std::vector<double> numbers;
-  std::vector<int> spans, first_sample, sample_count, pair_cell, pair_sample;
+  std::vector<int> spans, first_sample, sample_count;
   std::vector<char> trouble, fast, redo;
   std::vector<CellCubics> cells;
 
@@ -28,9 +28,7 @@ struct SectionWorkspace {
     spans.assign(breaks, 0), first_sample.resize(breaks), sample_count.resize(breaks);
     trouble.resize(breaks), fast.resize(breaks), redo.assign(breaks, 0);
     cells.resize(breaks);
-    pair_cell.resize(kPairs + 8), pair_sample.resize(kPairs + 8);
   }
-  static constexpr int kPairs = 1024;
 };
 
 /// A slice surface cut at one value c of the across coordinate, for SectionRaster. The cut has u = u(v): every evaluation
@@ -99,26 +97,8 @@ class SliceSection {
   template <class Careful>
   void hit(int first, int last, const SampleArrays& samples, const HitArrays& hits, const Careful& careful) {
     char *fast = work_.fast.data(), *redo = work_.redo.data();
-    int *first_sample = work_.first_sample.data(), *sample_count = work_.sample_count.data();
-    int *cell = work_.pair_cell.data(), *sample = work_.pair_sample.data();
-    kernels_.prepare(arrays_, twist_, samples, first, last, work_.cells.data(), first_sample, sample_count, fast);
-    int pairs = 0;
-    const auto flush = [&] {
-      kernels_.solve(work_.cells.data(), samples, cell, sample, pairs, hits, redo);
-      pairs = 0;
-    };
-    for (int k = first; k < last; ++k) {
-      int i = first_sample[k], count = sample_count[k];
-      if (pairs + 4 > SectionWorkspace::kPairs) flush();
-      while (count > 4) {
-        for (int j = 0; j < 4; ++j) cell[pairs + j] = k, sample[pairs + j] = i + j;
-        pairs += 4, i += 4, count -= 4;
-        if (pairs + 4 > SectionWorkspace::kPairs) flush();
-      }
-      for (int j = 0; j < 4; ++j) cell[pairs + j] = k, sample[pairs + j] = i + j;  // some of them are overwritten
-      pairs += count;
-    }
-    flush();
+    kernels_.hit(arrays_, twist_, samples, first, last,
+                 {work_.cells.data(), work_.first_sample.data(), work_.sample_count.data(), fast, redo}, hits);
     for (int k = first; k < last; ++k)
       if (!fast[k] || redo[k]) {
         redo[k] = 0;
