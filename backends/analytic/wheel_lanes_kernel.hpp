@@ -128,7 +128,7 @@ unsigned wheel_lanes(const WheelLanesInput& in, WheelLanesHits& hits) {
   Mask fine = room > 0.0, settled = fine & ~fine;
 
   constexpr int kSteps = 8;
-  constexpr double kSteep = 50.0, kExact = 1e-11;
+  constexpr double kSteep = 50.0, kExact = 1e-12;
   Lanes x, y, z, r, dh, slope, step, f_y;
   Depth depth;
   for (int i = 0; i <= kSteps; ++i) {

@@ -5,7 +5,6 @@
 #include <cmath>
 #include <limits>
 
-#include "treadmark/backends/spline/nurbs_bounds.hpp"
 #include "treadmark/backends/spline/nurbs_view.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -107,7 +106,7 @@ void NurbsSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, s
 }
 
 HeightBounds NurbsSurface::do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const {
-  const Interval z = nurbs_heights_over(net_, X_SP, rectangle_P, facing());
+  const Interval z = hull_.heights_over(X_SP, rectangle_P, facing());
   if (z.empty()) return {0.0, 0.0, true};
   return {z.low, z.high, false};
 }

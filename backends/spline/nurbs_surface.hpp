@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include "treadmark/backends/spline/nurbs_bounds.hpp"
 #include "treadmark/backends/spline/nurbs_net.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/core/profile.hpp"
@@ -14,7 +15,7 @@ namespace treadmark::spline {
 /// surface edge-on meets nothing.
 class NurbsSurface final : public Surface {
  public:
-  NurbsSurface(NurbsNet net, Body body) : net_(std::move(net)), body_(body) {}
+  NurbsSurface(NurbsNet net, Body body) : net_(std::move(net)), hull_(net_), body_(body) {}
 
   const NurbsNet& net() const { return net_; }
   /// Position and derivatives by the surface's own parameters, clamped to its borders.
@@ -24,7 +25,7 @@ class NurbsSurface final : public Surface {
   std::string_view backend() const override { return "nurbs"; }
   Facing facing() const override { return body_ == Body::rail ? Facing::up : Facing::down; }
   Box3 bounds() const override { return net_.bounds(); }
-  std::size_t memory_bytes() const override { return sizeof(*this) + net_.memory_bytes(); }
+  std::size_t memory_bytes() const override { return sizeof(*this) + net_.memory_bytes() + hull_.memory_bytes(); }
 
  private:
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
@@ -34,6 +35,7 @@ class NurbsSurface final : public Surface {
   SurfaceDerivatives derivatives_at(const NurbsNet::Place& place) const;
 
   NurbsNet net_;
+  NurbsHull hull_;
   Body body_;
 };
 
