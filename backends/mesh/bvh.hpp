@@ -14,7 +14,8 @@ namespace treadmark::mesh {
 /// a point and a box becomes a rectangle with a range of heights.
 class Bvh {
  public:
-  explicit Bvh(const PreparedMesh& mesh);
+  /// Puts triangles and vertices in the order of the leaves, so that neighbours lie side by side in memory.
+  explicit Bvh(PreparedMesh& mesh);
 
   /// The outermost triangle over (x, y), its outside or inside; none if the line passes by more than kRimTolerance.
   LineHit outermost(const PlaneView& view, double x, double y) const;
@@ -22,29 +23,33 @@ class Bvh {
   /// Whether the line meets, inside of the given hit, another triangle from outside.
   bool hides_others(const PlaneView& view, double x, double y, const LineHit& hit) const;
 
-  /// Range of the triangles that show their outside over the rectangle; margin(t, view) [m] widens that of triangle t and is
-  /// at most largest_margin.
-  HeightBounds bounds(const PlaneView& view, const Rectangle& r, double largest_margin,
-                      const std::function<double(std::uint32_t)>& margin) const;
+  /// A surface about triangle t: the greatest distance along the normals [m] and their mean, at most of unit length.
+  struct About {
+    double distance;
+    Vec3 normal;
+  };
+  /// Makes the nodes hold the surface about the triangles.
+  void add_surface(const std::function<About(std::uint32_t)>& about);
 
   MeshArrays arrays() const {
-    return {mesh_.vertices.data()->data(), mesh_.triangles.data()->data(), mesh_.neighbours.data()->data(), nodes_.data(), order_.data()};
+    return {mesh_.vertices.data()->data(), mesh_.triangles.data()->data(), mesh_.neighbours.data()->data(), nodes_.data(),
+            about_.empty() ? nullptr : about_.data()->data()};
   }
 
-  std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node) + order_.capacity() * sizeof(std::uint32_t); }
+  std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node) + about_.capacity() * sizeof(about_[0]); }
 
  private:
   using Node = BvhNode;
-  struct Extent;
 
-  void build(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
-             std::uint32_t stop_at);
+  void split(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
+             std::vector<std::uint32_t>& order, std::uint32_t stop_at);
+  void close_below(std::uint32_t node);
   void close(std::uint32_t node);
   void add_slab(Node& node) const;
 
   const PreparedMesh& mesh_;
   std::vector<Node> nodes_;
-  std::vector<std::uint32_t> order_;
+  std::vector<std::array<float, 4>> about_;  ///< see MeshArrays
 };
 
 }  // namespace treadmark::mesh

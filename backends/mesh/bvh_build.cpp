@@ -13,6 +13,7 @@ namespace treadmark::mesh {
 namespace {
 
 constexpr std::uint32_t kLeaf = 4;             ///< triangles in a leaf
+constexpr float kOutwards = 1e-6f;             ///< of a normal: more than its rounding to float
 constexpr std::uint32_t kTask = 16 * 1024;     ///< triangles of a subtree that one thread builds
 
 /// Leaves are full but for the last one, so that the size of a subtree follows from its number of triangles.
@@ -20,20 +21,43 @@ std::uint32_t leaf_count(std::uint32_t triangles) { return (triangles + kLeaf - 
 std::uint32_t left_count(std::uint32_t triangles) { return leaf_count(triangles) / 2 * kLeaf; }
 std::uint32_t node_count(std::uint32_t triangles) { return 2 * leaf_count(triangles) - 1; }
 
+/// Triangle i becomes what order[i] was; vertices are numbered as triangles name them first.
+void reorder(PreparedMesh& mesh, const std::vector<std::uint32_t>& order) {
+  const std::size_t n = order.size();
+  std::vector<std::uint32_t> place(n), vertex(mesh.vertices.size(), kNone);
+  for (std::size_t i = 0; i < n; ++i) place[order[i]] = static_cast<std::uint32_t>(i);
+  std::vector<Corners> triangles(n), neighbours(n);
+  std::vector<Vec3> vertices;
+  vertices.reserve(mesh.vertices.size());
+  for (std::size_t i = 0; i < n; ++i)
+    for (std::size_t k = 0; k < 3; ++k) {
+      const std::uint32_t v = mesh.triangles[order[i]][k], across = mesh.neighbours[order[i]][k];
+      if (vertex[v] == kNone) {
+        vertex[v] = static_cast<std::uint32_t>(vertices.size());
+        vertices.push_back(mesh.vertices[v]);
+      }
+      triangles[i][k] = vertex[v];
+      neighbours[i][k] = across == kNone ? kNone : place[across];
+    }
+  mesh.triangles = std::move(triangles);
+  mesh.neighbours = std::move(neighbours);
+  mesh.vertices = std::move(vertices);
+}
+
 }  // namespace
 
-Bvh::Bvh(const PreparedMesh& mesh) : mesh_(mesh) {
+Bvh::Bvh(PreparedMesh& mesh) : mesh_(mesh) {
   const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
   nodes_.resize(node_count(n));
-  order_.resize(n);
-  std::iota(order_.begin(), order_.end(), 0u);
+  std::vector<std::uint32_t> order(n);
+  std::iota(order.begin(), order.end(), 0u);
   std::vector<Vec3> middles(n);
   for (std::uint32_t t = 0; t < n; ++t)
     middles[t] =
         (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] + mesh.vertices[mesh.triangles[t][2]]) / 3.0;
 
   // the upper levels first, then their subtrees side by side, then the boxes of the upper levels from below
-  build(0, 0, n, middles, kTask);
+  split(0, 0, n, middles, order, kTask);
   std::vector<std::uint32_t> tasks, upper;
   for (std::vector<std::uint32_t> open{0}; !open.empty();) {
     const std::uint32_t i = open.back();
@@ -46,60 +70,67 @@ Bvh::Bvh(const PreparedMesh& mesh) : mesh_(mesh) {
     open.push_back(i + 1);
     open.push_back(nodes_[i].right);
   }
-  parallel_for(tasks.size(), [&](std::size_t k) { build(tasks[k], nodes_[tasks[k]].begin, nodes_[tasks[k]].count, middles, 0); });
+  parallel_for(tasks.size(), [&](std::size_t k) { split(tasks[k], nodes_[tasks[k]].begin, nodes_[tasks[k]].count, middles, order, 0); });
+  reorder(mesh, order);
+  parallel_for(tasks.size(), [&](std::size_t k) { close_below(tasks[k]); });
   std::sort(upper.rbegin(), upper.rend());
   for (const std::uint32_t i : upper) close(i);
 }
 
-void Bvh::build(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
-                std::uint32_t stop_at) {
+void Bvh::split(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
+                std::vector<std::uint32_t>& order, std::uint32_t stop_at) {
   Node& self = nodes_[node];
   self.begin = begin;
   self.count = count;
   self.right = 0;
-  if (count <= stop_at) return;
-  if (count > kLeaf) {
-    Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-    for (std::uint32_t i = begin; i < begin + count; ++i) {
-      low = low.cwiseMin(middles[order_[i]]);
-      high = high.cwiseMax(middles[order_[i]]);
-    }
-    int axis = 0;
-    (high - low).maxCoeff(&axis);
-    const std::uint32_t left = left_count(count);
-    const auto first = order_.begin() + begin;
-    std::nth_element(first, first + left, first + count, [&](std::uint32_t a, std::uint32_t b) {
-      return middles[a][axis] != middles[b][axis] ? middles[a][axis] < middles[b][axis] : a < b;
-    });
-    self.right = node + 1 + node_count(left);
-    build(node + 1, begin, left, middles, stop_at);
-    build(self.right, begin + left, count - left, middles, stop_at);
+  if (count <= stop_at || count <= kLeaf) return;
+  Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
+  for (std::uint32_t i = begin; i < begin + count; ++i) {
+    low = low.cwiseMin(middles[order[i]]);
+    high = high.cwiseMax(middles[order[i]]);
   }
-  if (stop_at == 0) close(node);
+  int axis = 0;
+  (high - low).maxCoeff(&axis);
+  const std::uint32_t left = left_count(count);
+  const auto first = order.begin() + begin;
+  std::nth_element(first, first + left, first + count, [&](std::uint32_t a, std::uint32_t b) {
+    return middles[a][axis] != middles[b][axis] ? middles[a][axis] < middles[b][axis] : a < b;
+  });
+  self.right = node + 1 + node_count(left);
+  split(node + 1, begin, left, middles, order, stop_at);
+  split(self.right, begin + left, count - left, middles, order, stop_at);
+}
+
+void Bvh::close_below(std::uint32_t node) {
+  if (nodes_[node].right != 0) {
+    close_below(node + 1);
+    close_below(nodes_[node].right);
+  }
+  close(node);
 }
 
 /// The direction in which the triangles of a node are thinnest, about: the slab perpendicular to their mean normal.
 void Bvh::add_slab(Node& node) const {
   constexpr std::uint32_t kLargest = 4096;  ///< triangles of a node that is worth it
   std::fill_n(node.slab_normal, 3, 0.0f);
-  node.slab_low = node.slab_high = 0.0f;
+  node.slab_low = node.slab_high = node.margin = 0.0f;
   if (node.count > kLargest) return;
   Vec3 normal = Vec3::Zero();
-  for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) normal += doubled_area(mesh_, order_[i]);
+  for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) normal += doubled_area(mesh_, i);
   const double length = normal.norm();
   if (!(length > 0.0)) return;
   for (int k = 0; k < 3; ++k) normal[k] = static_cast<double>(node.slab_normal[k] = static_cast<float>(normal[k] / length));
   const Vec3 middle(node.middle[0], node.middle[1], node.middle[2]);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i)
-    for (const std::uint32_t v : mesh_.triangles[order_[i]]) {
+    for (const std::uint32_t v : mesh_.triangles[i]) {
       const double at = normal.dot(mesh_.vertices[v] - middle);
       low = std::min(low, at);
       high = std::max(high, at);
     }
-  constexpr double kOutwards = 1e-7;  // more than the rounding to float
-  node.slab_low = static_cast<float>(low - kOutwards * std::fabs(low) - kBoxRounding);
-  node.slab_high = static_cast<float>(high + kOutwards * std::fabs(high) + kBoxRounding);
+  constexpr double kRounding = 1e-7;  // of a float, and more
+  node.slab_low = static_cast<float>(low - kRounding * std::fabs(low) - kBoxRounding);
+  node.slab_high = static_cast<float>(high + kRounding * std::fabs(high) + kBoxRounding);
 }
 
 /// Box and normals of a node from its children or its triangles.
@@ -118,12 +149,11 @@ void Bvh::close(std::uint32_t number) {
       }
   }
   for (std::uint32_t i = node.begin; node.right == 0 && i < node.begin + node.count; ++i) {
-    constexpr float kOutwards = 1e-6f;  // more than the rounding to float
-    for (const std::uint32_t v : mesh_.triangles[order_[i]]) {
+    for (const std::uint32_t v : mesh_.triangles[i]) {
       low = low.cwiseMin(mesh_.vertices[v]);
       high = high.cwiseMax(mesh_.vertices[v]);
     }
-    const Vec3 n = doubled_area(mesh_, order_[i]).normalized();
+    const Vec3 n = doubled_area(mesh_, i).normalized();
     for (int k = 0; k < 3; ++k) {
       const auto component = static_cast<float>(n[k]);
       node.normal_low[k] = std::min(node.normal_low[k], component - kOutwards);
@@ -135,6 +165,33 @@ void Bvh::close(std::uint32_t number) {
     node.half[k] = 0.5 * (high[k] - low[k]);
   }
   add_slab(node);
+}
+
+void Bvh::add_surface(const std::function<About(std::uint32_t)>& about) {
+  about_.resize(mesh_.triangles.size());
+  for (std::size_t i = nodes_.size(); i-- > 0;) {  // children come behind
+    Node& node = nodes_[i];
+    const auto widen = [&](std::size_t k, float low, float high) {
+      node.normal_low[k] = std::min(node.normal_low[k], low);
+      node.normal_high[k] = std::max(node.normal_high[k], high);
+    };
+    if (node.right != 0) {
+      for (const Node* child : {&nodes_[i + 1], &nodes_[node.right]}) {
+        node.margin = std::max(node.margin, child->margin);
+        for (std::size_t k = 0; k < 3; ++k) widen(k, child->normal_low[k], child->normal_high[k]);
+      }
+      continue;
+    }
+    for (std::uint32_t t = node.begin; t < node.begin + node.count; ++t) {
+      const About surface = about(t);
+      about_[t][0] = std::nextafter(static_cast<float>(surface.distance), std::numeric_limits<float>::infinity());
+      node.margin = std::max(node.margin, about_[t][0]);
+      for (std::size_t k = 0; k < 3; ++k) {
+        const float component = about_[t][k + 1] = static_cast<float>(surface.normal[static_cast<int>(k)]);
+        widen(k, component - kOutwards, component + kOutwards);
+      }
+    }
+  }
 }
 
 }  // namespace treadmark::mesh

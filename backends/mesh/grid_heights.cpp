@@ -48,7 +48,7 @@ class GridHeights {
     tile.nx = piece.x1 - piece.x0;
     tile.ny = piece.y1 - piece.y0;
     for (int ix = 0; ix < tile.nx + Tile::kPad; ++ix) tile.x[ix] = grid_.x(piece.x0 + ix);
-    for (int iy = 0; iy < tile.ny; ++iy) tile.y[iy] = grid_.y(piece.y0 + iy);
+    for (int iy = 0; iy < tile.ny + Tile::kPad; ++iy) tile.y[iy] = grid_.y(piece.y0 + iy);
     tile.inverse_dx = 1.0 / grid_.dx;
     tile.inverse_dy = 1.0 / grid_.dy;
     if (!kernels().fill_tile(arrays_, lines_, tile)) return split(piece);
@@ -93,7 +93,7 @@ class GridHeights {
       look(p, ix, iy);
       return Tile::kNobody;
     }
-    if (owner >= 0 && w_.tile.triangles[owner].front) return owner;
+    if (owner >= 0) return owner;
     results_.miss(result(p, ix, iy));
     return Tile::kNobody;
   }

@@ -12,10 +12,11 @@ namespace treadmark::mesh {
 /// A node of the hierarchy (bvh.hpp).
 struct BvhNode {
   double middle[3], half[3];              ///< box, local [m]
-  float normal_low[3], normal_high[3];    ///< range of the unit normals, rounded outwards
+  float normal_low[3], normal_high[3];    ///< range of the unit normals of facets and surface, rounded outwards
   float slab_normal[3];                   ///< slab that holds the triangles: slab_low <= n.(p - middle) <= slab_high [m];
   float slab_low, slab_high;              ///< n = 0: none
-  std::uint32_t begin, count;             ///< triangles in order; the left child of an inner node follows it
+  float margin;                           ///< of the surface about the triangles, along the normals [m]
+  std::uint32_t begin, count;             ///< triangles; the left child of an inner node follows it
   std::uint32_t right;                    ///< right child, 0 for leaves
 };
 
@@ -24,7 +25,7 @@ struct MeshArrays {
   const std::uint32_t* triangles;   ///< three vertices each
   const std::uint32_t* neighbours;  ///< across the edge opposite to each corner
   const BvhNode* nodes;
-  const std::uint32_t* order;
+  const float* about;               ///< margin [m] and mean normal of the surface about each triangle; null without one
 };
 
 /// Lines along the z axis of a plane (plane_view.hpp).

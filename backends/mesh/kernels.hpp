@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include "treadmark/backends/mesh/bounds.hpp"
 #include "treadmark/backends/mesh/patch.hpp"
 #include "treadmark/backends/mesh/tile.hpp"
 
@@ -10,6 +11,7 @@ namespace treadmark::mesh {
 /// The kernels of this processor.
 struct Kernels {
   bool (*fill_tile)(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
+  BoundsFound (*find_bounds)(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
   PatchKernel patch;
 };
 

@@ -42,6 +42,9 @@ TREADMARK_LANES V4 least(V4 a, V4 b) { return (V4)_mm256_min_pd((__m256d)a, (__m
 TREADMARK_LANES V4 most(V4 a, V4 b) { return (V4)_mm256_max_pd((__m256d)a, (__m256d)b); }
 /// Bit k: lane k is set.
 TREADMARK_LANES int bits(M4 mask) { return _mm256_movemask_pd((__m256d)mask); }
+TREADMARK_LANES V4 floor(V4 a) { return (V4)_mm256_floor_pd((__m256d)a); }
+/// Whole numbers.
+TREADMARK_LANES void store(int* p, V4 a) { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvttpd_epi32((__m256d)a)); }
 /// a b + c, rounded once where the processor can.
 TREADMARK_LANES V4 fma(V4 a, V4 b, V4 c) { return (V4)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c); }
 #else
@@ -49,6 +52,14 @@ TREADMARK_LANES V4 least(V4 a, V4 b) { return select(a < b, a, b); }
 TREADMARK_LANES V4 most(V4 a, V4 b) { return select(a > b, a, b); }
 TREADMARK_LANES int bits(M4 mask) {
   return static_cast<int>((mask[0] & 1) | (mask[1] & 2) | (mask[2] & 4) | (mask[3] & 8));
+}
+TREADMARK_LANES V4 floor(V4 a) {
+  constexpr double kWhole = 6755399441055744.0;  // 1.5 * 2^52: sums are whole; for numbers below 2^51
+  const V4 near = (a + all(kWhole)) - all(kWhole);
+  return select(near > a, near - all(1.0), near);
+}
+TREADMARK_LANES void store(int* p, V4 a) {
+  for (int k = 0; k < 4; ++k) p[k] = static_cast<int>(a[k]);
 }
 TREADMARK_LANES V4 fma(V4 a, V4 b, V4 c) { return a * b + c; }
 #endif

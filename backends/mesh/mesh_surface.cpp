@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <vector>
 
 #include "treadmark/backends/mesh/grid_heights.hpp"
 #include "treadmark/backends/mesh/line_caster.hpp"
@@ -40,7 +40,9 @@ void describe(const PlaneView& view, Facing facing, const Evaluated& e, SurfaceP
 MeshSurface::MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool single_precision)
     : backend_(options.backend), facing_(body == Body::wheel ? Facing::down : Facing::up), mesh_(std::move(mesh)), bvh_(mesh_) {
   if (single_precision) scene_ = std::make_unique<RayScene>(mesh_);
-  if (options.refinement == Refinement::smooth) smooth_.emplace(mesh_, options.crease_angle);
+  if (options.refinement != Refinement::smooth) return;
+  smooth_.emplace(mesh_, options.crease_angle);
+  bvh_.add_surface([&](std::uint32_t t) { return Bvh::About{smooth_->bulge(t), smooth_->mean_of_normals(t)}; });
 }
 
 Box3 MeshSurface::bounds() const {
@@ -54,10 +56,40 @@ std::size_t MeshSurface::memory_bytes() const {
 }
 
 void MeshSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
-  grid_heights(mesh_, bvh_, smooth(), PlaneView(mesh_, plane_grid.X_SP, facing_), plane_grid.grid, Results(out));
+  const Grid2& g = plane_grid.grid;
+  constexpr std::size_t kFew = 16;
+  if (!scene_) {
+    std::vector<Vec2> all(g.size());
+    for (int iy = 0; iy < g.ny; ++iy)
+      for (int ix = 0; ix < g.nx; ++ix) all[g.index(ix, iy)] = Vec2(g.x(ix), g.y(iy));
+    return plain_heights(plane_grid.X_SP, all, out);
+  }
+  if (g.size() > kFew)
+    return grid_heights(mesh_, bvh_, smooth(), PlaneView(mesh_, plane_grid.X_SP, facing_), g, Results(out));
+  std::array<Vec2, kFew> points;
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (int ix = 0; ix < g.nx; ++ix) points[g.index(ix, iy)] = Vec2(g.x(ix), g.y(iy));
+  do_heights_at(plane_grid.X_SP, std::span(points).first(g.size()), out);
+}
+
+void MeshSurface::plain_heights(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  const Results results(out);
+  const PlaneView view(mesh_, X_SP, facing_);
+  LineCaster caster(mesh_, bvh_, nullptr, view);
+  for (std::size_t i = 0; i < points_P.size(); ++i) {
+    const double x = points_P[i].x(), y = points_P[i].y();
+    const LineHit hit = caster.look(x, y);
+    if (hit.cover != Cover::front) {
+      results.miss(i);
+      continue;
+    }
+    const Evaluated e = evaluate_hit(smooth(), view, caster.triangle(hit), hit, x, y, results.slopes ? 1 : 0);
+    results.put(i, e.z, e.dzdx, e.dzdy);
+  }
 }
 
 void MeshSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  if (!scene_) return plain_heights(X_SP, points_P, out);
   constexpr std::size_t kChunk = 1024;
   constexpr std::size_t kPacket = LineCaster::kPacket;
   const Results results(out);
@@ -91,11 +123,18 @@ void MeshSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P
 
 void MeshSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const PlaneView view(mesh_, X_SP, facing_);
-  LineCaster caster(mesh_, bvh_, nullptr, view);
+  LineCaster caster(mesh_, bvh_, scene_.get(), view);
+  std::array<Vec2, LineCaster::kPacket> packet;
+  std::array<LineHit, LineCaster::kPacket> hits;
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     out[i] = {};
     const double x = points_P[i].x(), y = points_P[i].y();
-    const LineHit hit = caster.look(x, y);
+    if (i % packet.size() == 0) {
+      const std::size_t count = std::min(packet.size(), points_P.size() - i);
+      std::copy_n(points_P.begin() + static_cast<std::ptrdiff_t>(i), count, packet.begin());
+      caster.cast(packet, count, hits);
+    }
+    const LineHit& hit = hits[i % packet.size()];
     if (hit.cover != Cover::front) continue;
     const Evaluated e = evaluate_hit(smooth(), view, caster.triangle(hit), hit, x, y, 2);
     out[i].position_S = X_SP.apply({x, y, e.z});
@@ -106,8 +145,10 @@ void MeshSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, st
 
 HeightBounds MeshSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
   const PlaneView view(mesh_, X_SP, facing_);
-  const double largest = smooth_ ? smooth_->largest_reach() : 0.0;
-  return bvh_.bounds(view, r, largest, [&](std::uint32_t t) { return smooth_ ? smooth_->reach(view, t) : 0.0; });
+  const BoundsQuery query{0.5 * (r.x_min + r.x_max), 0.5 * (r.y_min + r.y_max), 0.5 * (r.x_max - r.x_min), 0.5 * (r.y_max - r.y_min)};
+  const BoundsFound found = kernels().find_bounds(bvh_.arrays(), view.lines(), query);
+  if (found.low > found.high) return {0.0, 0.0, true};
+  return {found.low, found.high, false};
 }
 
 }  // namespace treadmark::mesh

@@ -13,11 +13,12 @@
 
 namespace treadmark::mesh {
 
-/// A wheel or rail of triangles. Single precision finds a triangle, double precision walks from there to the one that holds
-/// the line; misses, insides and walks that end at a rim are decided by the hierarchy in double precision. The first triangle
-/// on a line from outside counts; if it shows its inside, the line misses. Without a RayScene the hierarchy does it all.
-/// A line that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a fold that
-/// hides another part may get either of the two heights; with the hierarchy alone the fold is sharp to rounding.
+/// A wheel or rail of triangles. Grids are filled triangle by triangle (tile.hpp). For points and lists single precision finds
+/// a triangle, double precision walks from there to the one that holds the line; misses, insides and walks that end at a rim
+/// are decided by the hierarchy in double precision. The first triangle on a line from outside counts; if it shows its
+/// inside, the line misses. Without a RayScene the hierarchy does it all, line by line.
+/// A single line that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a fold that
+/// hides another part may get either of the two heights; on grids, and with the hierarchy alone, the fold is sharp to rounding.
 /// u = x [m] or theta [rad], v = y [m].
 class MeshSurface final : public Surface {
  public:
@@ -34,6 +35,8 @@ class MeshSurface final : public Surface {
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
+  /// Line by line, without kernels and single precision.
+  void plain_heights(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;
   const SmoothPatches* smooth() const { return smooth_ ? &*smooth_ : nullptr; }
 
   std::string backend_;

@@ -21,11 +21,12 @@ static void prepare_patch(const PlaneLines& lines, const PatchSource& source, do
   double edges[3][3];  // from corner k to the next one
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j) edges[k][j] = source.corners[(k + 1) % 3][j] - source.corners[k][j];
-  double towards = 0.0;
+  double towards = 0.0, above[kLanes], below[kLanes];
   for (int k = 0; k < 3; ++k) {
     const double *next = edges[k], *facing = edges[(k + 1) % 3], *back = edges[(k + 2) % 3];
     // the foot of corner k on the edge from the next corner to the other one
-    patch[kFeet + k] = -dot3(facing, next) / dot3(facing, facing);
+    above[k] = -dot3(facing, next);
+    below[k] = dot3(facing, facing);
     const PatchSource::Fit& fit = source.fits[k];
     double* f = patch + kFits + k * kFitEntries;
     V4 to_next = all(0.0), to_other = to_next, along = to_next;
@@ -48,7 +49,10 @@ static void prepare_patch(const PlaneLines& lines, const PatchSource& source, do
     f[kTwist] = uu * (c[5] * du + c[6] * dv) + vv * (c[7] * du + c[8] * dv);
   }
   const double cosine = (towards < 0.0 ? -towards : towards) / 3.0;
-  patch[kReach] = source.bulge / (cosine > kLeastCosine ? cosine : kLeastCosine);
+  above[3] = source.bulge;
+  below[3] = cosine > kLeastCosine ? cosine : kLeastCosine;
+  static_assert(kReach == kFeet + 3);
+  store(patch + kFeet, load(above) / load(below));
 }
 
 /// Entries of one patch for all lanes.
@@ -91,19 +95,19 @@ template <bool kSlopes, class Patch>
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     e[k] = (qx[i] - x) * (qy[j] - y) - (qy[i] - y) * (qx[j] - x);
   }
-  const V4 per = one / (e[0] + e[1] + e[2]);
+  const V4 total = e[0] + e[1] + e[2], per = one / total;
   for (int k = 0; k < 3; ++k) b[k] = e[k] * per;
   const V4 flat = b[0] * qz[0] + b[1] * qz[1] + b[2] * qz[2];
 
-  // weights: see blend_weights
+  // weights: see blend_weights; their ratios need no barycentric coordinates, so that both divisions run at a time
   V4 square[3], foot[3], place[3], step[3], beta[3], w[3];
   for (int k = 0; k < 3; ++k) {
-    const V4 product = b[(k + 1) % 3] * b[(k + 2) % 3];
+    const V4 product = e[(k + 1) % 3] * e[(k + 2) % 3];
     square[k] = product * product;
     w[k] = zero;
   }
-  const V4 sum = square[0] + square[1] + square[2], per_sum = one / sum;
-  M4 fine = sum > all(1e-200);
+  const V4 sum = square[0] + square[1] + square[2], per_sum = one / sum, total2 = total * total;
+  M4 fine = sum > all(1e-200) * (total2 * total2);
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
     foot[k] = patch(kFeet + k);
@@ -130,15 +134,18 @@ template <bool kSlopes, class Patch>
     g3 = fma(-w[k], patch(at + kTwist), g3);
   }
   const V4 out = all(side), grazing = all(kGrazingLine), g22 = g2 * two, g33 = g3 * three;
-  V4 t = zero;
+  // Newton's method; the slope changes little, so that its inverse is corrected instead of divided again
+  const V4 per_slope = one / g1;
+  V4 t = -g0 * per_slope;
+  fine &= out * g1 > grazing;
   M4 open = fine;
   constexpr int kMost = 12;
   for (int i = 0; i < kMost; ++i) {
     const V4 value = fma(t, fma(t, fma(t, g3, g2), g1), g0), slope = fma(t, fma(t, g33, g22), g1);
     fine &= ~open | (out * slope > grazing);
     open &= fine;
-    const V4 change = value / slope, next = t - change;
-    t = select(open, next, t);
+    const V4 inverse = per_slope * fma(-slope, per_slope, two), change = value * inverse;
+    t = select(open, t - change, t);
     open &= magnitude(change) > fma(all(1e-9), magnitude(t), all(1e-16));
     if (bits(open) == 0) break;
   }
@@ -169,7 +176,7 @@ template <bool kSlopes, class Patch>
   }
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
-    by[k] = fma(two * b[k] * per_sum, fma(b[j] * b[j], h[i], b[i] * b[i] * h[j]), by[k]);
+    by[k] = fma(two * e[k] * total * per_sum, fma(e[j] * e[j], h[i], e[i] * e[i] * h[j]), by[k]);
   }
   V4 sx = zero, sy = zero;
   const V4 per_gt = one / gt;

@@ -64,9 +64,9 @@ bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh,
   return true;
 }
 
-Vec3 SmoothPatches::mean_normal(std::uint32_t triangle) const {
+Vec3 SmoothPatches::mean_of_normals(std::uint32_t triangle) const {
   const Corners& c = fits_.of_corner[triangle];
-  return (fits_.fits[c[0]].normal + fits_.fits[c[1]].normal + fits_.fits[c[2]].normal).normalized();
+  return (fits_.fits[c[0]].normal + fits_.fits[c[1]].normal + fits_.fits[c[2]].normal) / 3.0;
 }
 
 /// t along the line from start where the blend vanishes: a cubic in t, because the weights stay.
@@ -160,9 +160,7 @@ bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& tri
 }
 
 double SmoothPatches::reach(const PlaneView& view, std::uint32_t triangle) const {
-  const Corners& c = fits_.of_corner[triangle];
-  const double cosine =
-      std::fabs((fits_.fits[c[0]].normal + fits_.fits[c[1]].normal + fits_.fits[c[2]].normal).dot(view.direction())) / 3.0;
+  const double cosine = std::fabs(mean_of_normals(triangle).dot(view.direction()));
   return static_cast<double>(bulge_[triangle]) / std::max(cosine, 1.0 / kSteepest);
 }
 
@@ -175,7 +173,7 @@ double SmoothPatches::sampled_bulge(const PreparedMesh& mesh, std::uint32_t tria
   const std::array<Vec3, 3> v{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]};
   const auto feet = edge_feet(v);
   const double longest = std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
-  const Vec3 direction = mean_normal(triangle);
+  const Vec3 direction = mean_of_normals(triangle).normalized();
   double most = 0.0;
   for (int i = 0; i <= kLattice; ++i)
     for (int j = 0; j <= kLattice - i; ++j) {

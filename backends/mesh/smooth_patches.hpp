@@ -38,6 +38,9 @@ class SmoothPatches {
 
   /// Greatest distance along the plane normal between the facet and the surface over it [m].
   double reach(const PlaneView& view, std::uint32_t triangle) const;
+  /// Along the mean normal of the corners [m], and that mean.
+  double bulge(std::uint32_t triangle) const { return static_cast<double>(bulge_[triangle]); }
+  Vec3 mean_of_normals(std::uint32_t triangle) const;
   double largest_reach() const { return kSteepest * static_cast<double>(largest_bulge_); }
   double largest_bulge() const { return static_cast<double>(largest_bulge_); }
 
@@ -46,7 +49,6 @@ class SmoothPatches {
  private:
   static constexpr double kSteepest = 10.0;  ///< longest way along a line, in bulges
 
-  Vec3 mean_normal(std::uint32_t triangle) const;
   bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start, const Vec3& direction,
              double side, double& t) const;
   double sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const;

@@ -6,11 +6,10 @@
 
 namespace treadmark::mesh {
 
-/// A triangle that covers points of a tile, in the plane frame.
+/// A triangle that shows its outside over points of a tile, in the plane frame.
 struct TileTriangle {
   double q[9];          ///< x, y, z of the three corners
   std::uint32_t index;
-  bool front;           ///< shows its outside
 };
 
 /// A small piece of a grid with, for every point, the outermost triangle found so far. Rows are kStride apart.
@@ -19,14 +18,14 @@ struct Tile {
   static constexpr int kPad = 4;                  ///< entries behind a row that lanes may touch
   static constexpr int kStride = kWide + kPad;
   static constexpr int kSlots = 2 * kWide * kHigh;
-  enum Owner : std::int64_t { kNobody = -1, kRim = -2 };  ///< kRim: covered by none, but close to an edge
+  static constexpr std::int64_t kNobody = -1, kRim = -2, kInside = -3;  ///< kRim: close to an edge, kInside: seen from inside
 
-  double x[kStride], y[kHigh];     ///< places of the points [m]
+  double x[kStride], y[kHigh + kPad];     ///< places of the points [m]
   double inverse_dx, inverse_dy;   ///< [1/m]
   int nx, ny;
 
   double depth[kStride * kHigh];        ///< outwards, of the outermost triangle; -inf without one
-  std::int64_t owner[kStride * kHigh];  ///< number in triangles, or an Owner
+  std::int64_t owner[kStride * kHigh];  ///< number in triangles, or one of the above
   bool asked[kStride * kHigh];          ///< too close to call: the hierarchy decides
   bool any_asked;
   TileTriangle triangles[kSlots];

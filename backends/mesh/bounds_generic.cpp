@@ -1,0 +1,11 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/mesh/bounds_kernel.hpp"
+
+namespace treadmark::mesh {
+
+BoundsFound find_bounds_generic(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query) {
+  return BoundsSearch(mesh, lines, query).run();
+}
+
+}  // namespace treadmark::mesh
