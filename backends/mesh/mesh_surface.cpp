@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <vector>
 
 #include "treadmark/backends/mesh/grid_heights.hpp"
 #include "treadmark/backends/mesh/line_caster.hpp"
@@ -57,43 +56,35 @@ std::size_t MeshSurface::memory_bytes() const {
 
 void MeshSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const Grid2& g = plane_grid.grid;
-  constexpr std::size_t kFew = 16;
-  if (!scene_) {
-    std::vector<Vec2> all(g.size());
-    for (int iy = 0; iy < g.ny; ++iy)
-      for (int ix = 0; ix < g.nx; ++ix) all[g.index(ix, iy)] = Vec2(g.x(ix), g.y(iy));
-    return plain_heights(plane_grid.X_SP, all, out);
-  }
-  if (g.size() > kFew)
-    return grid_heights(mesh_, bvh_, smooth(), PlaneView(mesh_, plane_grid.X_SP, facing_), g, Results(out));
-  std::array<Vec2, kFew> points;
+  const PlaneView view(mesh_, plane_grid.X_SP, facing_);
+  if (scene_ && g.size() > 1) return grid_heights(mesh_, bvh_, smooth(), view, g, Results(out));
   for (int iy = 0; iy < g.ny; ++iy)
-    for (int ix = 0; ix < g.nx; ++ix) points[g.index(ix, iy)] = Vec2(g.x(ix), g.y(iy));
-  do_heights_at(plane_grid.X_SP, std::span(points).first(g.size()), out);
+    for (int ix = 0; ix < g.nx; ++ix) plain_height(view, g.x(ix), g.y(iy), Results(out), g.index(ix, iy));
 }
 
-void MeshSurface::plain_heights(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
-  const Results results(out);
-  const PlaneView view(mesh_, X_SP, facing_);
+void MeshSurface::plain_height(const PlaneView& view, double x, double y, const Results& results, std::size_t i) const {
   LineCaster caster(mesh_, bvh_, nullptr, view);
-  for (std::size_t i = 0; i < points_P.size(); ++i) {
-    const double x = points_P[i].x(), y = points_P[i].y();
-    const LineHit hit = caster.look(x, y);
-    if (hit.cover != Cover::front) {
-      results.miss(i);
-      continue;
-    }
-    const Evaluated e = evaluate_hit(smooth(), view, caster.triangle(hit), hit, x, y, results.slopes ? 1 : 0);
-    results.put(i, e.z, e.dzdx, e.dzdy);
+  const LineHit hit = caster.look(x, y);
+  if (hit.cover != Cover::front) return results.miss(i);
+  if (scene_) {  // as in grids and lists
+    const PlaneLines lines = view.lines();
+    PointHeights heights(mesh_, smooth(), view, lines, results);
+    heights.add(i, x, y, hit, caster.triangle(hit));
+    return heights.finish();
   }
+  const Evaluated e = evaluate_hit(smooth(), view, caster.triangle(hit), hit, x, y, results.slopes ? 1 : 0);
+  results.put(i, e.z, e.dzdx, e.dzdy);
 }
 
 void MeshSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
-  if (!scene_) return plain_heights(X_SP, points_P, out);
   constexpr std::size_t kChunk = 1024;
   constexpr std::size_t kPacket = LineCaster::kPacket;
   const Results results(out);
   const PlaneView view(mesh_, X_SP, facing_);
+  if (!scene_) {
+    for (std::size_t i = 0; i < points_P.size(); ++i) plain_height(view, points_P[i].x(), points_P[i].y(), results, i);
+    return;
+  }
   const PlaneLines lines = view.lines();
   const auto work = [&](std::size_t chunk) {
     LineCaster caster(mesh_, bvh_, scene_.get(), view);

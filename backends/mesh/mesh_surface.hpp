@@ -9,6 +9,7 @@
 #include "treadmark/backends/mesh/bvh.hpp"
 #include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/backends/mesh/ray_scene.hpp"
+#include "treadmark/backends/mesh/results.hpp"
 #include "treadmark/backends/mesh/smooth_patches.hpp"
 
 namespace treadmark::mesh {
@@ -35,8 +36,8 @@ class MeshSurface final : public Surface {
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
-  /// Line by line, without kernels and single precision.
-  void plain_heights(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;
+  /// One line by the hierarchy alone, to results i.
+  void plain_height(const PlaneView& view, double x, double y, const Results& results, std::size_t i) const;
   const SmoothPatches* smooth() const { return smooth_ ? &*smooth_ : nullptr; }
 
   std::string backend_;

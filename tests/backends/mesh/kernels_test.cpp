@@ -107,8 +107,8 @@ TEST(MeshKernels, TilesEqualTheWhole) {
         constexpr double kStep = 1.0 / 2048.0;
         const Grid2 g{-61.0 * kStep, -61.0 * kStep, kStep, kStep, 121, 121};
         const Fields whole = evaluate(*surface, X, g);
-        for (const auto& [nx, ny] : {std::pair{8, 8}, {33, 5}, {1, 40}, {31, 64}, {5, 3}})
-          for (const auto& [x, y] : {std::pair{31, 32}, {7, 50}, {63, 29}}) {
+        for (const auto& [nx, ny] : {std::pair{8, 8}, {33, 5}, {1, 40}, {31, 60}, {5, 3}, {1, 1}})
+          for (const auto& [x, y] : {std::pair{31, 32}, {7, 50}, {63, 29}, {40, 61}}) {
             const Fields part = evaluate(*surface, X, {g.x(x), g.y(y), g.dx, g.dy, nx, ny});
             for (int iy = 0; iy < ny; ++iy)
               for (int ix = 0; ix < nx; ++ix) {
