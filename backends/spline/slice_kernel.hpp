@@ -345,8 +345,8 @@ void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const S
     V w[4], y_u[4], w_u[4], y_v[4], w_v[4];
     for (int lane = 0; lane < 4; ++lane) {
       double u_lane = u_net[lane];
-      if (wheel && u_lane >= net.starts[net.spans]) u_lane -= kTurn;
-      if (wheel && u_lane < net.starts[0]) u_lane += kTurn;
+      const double u_end = net.starts[net.spans];
+      if (wheel && !(u_lane >= net.starts[0] && u_lane < u_end)) u_lane -= kTurn * __builtin_floor((u_lane - u_end) / kTurn + 1.0);
       section.span = span_of(net, u_lane, section.span);
       const double t = u_lane - net.starts[section.span];
       const double* p = net.cubics + section.span * net.span_size + hits.cell[i + lane];

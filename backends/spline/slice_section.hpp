@@ -63,16 +63,19 @@ class SliceSection {
 
   /// Moves to the across coordinate c.
   void start_cut(double c) {
+    constexpr double kTurn = 2.0 * std::numbers::pi;
+    const double last = guess_;
     arrays_.shift = started_ ? c - arrays_.c : 0.0;
-    started_ = true;
     arrays_.c = c;
     guess_ = geometry_.guess_u(across_direction_, normal_direction_, origin_, c);
+    // in the turn of the cut before, from which u goes on
+    if (started_ && net_.closed() && !std::isnan(last)) guess_ += kTurn * std::round((last - guess_) / kTurn);
+    started_ = true;
     set_reference(guess_);
     arrays_.turn = 0.0;
     if (net_.closed() && guess_ == guess_) {
       const SliceNet::Place place = net_.find(guess_, span_);
       arrays_.span = span_ = place.span;
-      constexpr double kTurn = 2.0 * std::numbers::pi;
       arrays_.turn = kTurn * std::round((net_.span_start(place.span) + place.t - guess_) / kTurn);
     } else if (!net_.closed()) {
       arrays_.span = span_ = net_.find(guess_, span_).span;
