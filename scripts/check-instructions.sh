@@ -28,12 +28,14 @@ trap 'rm -rf "$work"' EXIT
 # callgrind: one run of all of them, collecting in one function only and dumped whenever it ends (two patterns, because a
 # pattern has one meaning only).
 count_callgrind() {
-  local out=$work/callgrind.$BASHPID i=0
+  local out=$work/callgrind.$BASHPID i=0 instructions
   valgrind --tool=callgrind --toggle-collect='*counted_run*' --dump-after='*counted_run(*' --callgrind-out-file="$out" \
     "$program" count "$@" >"$out.lines" 2>"$out.err" || { cat "$out.err" >&2; return 1; }
   while read -r line; do
     i=$((i + 1))
-    echo "$line $(sed -n 's/^totals: //p' "$out.$i")"
+    instructions=$(sed -n 's/^totals: //p' "$out.$i")
+    [[ $instructions -gt 0 ]] || { echo "callgrind counted nothing for $line" >&2; return 1; }
+    echo "$line $instructions"
   done <"$out.lines"
 }
 # perf: two runs that differ in their repeats only; what is left of their difference is the path itself.

@@ -35,7 +35,7 @@ Line cells(const BenchRow& row) {
             row.body == Body::rail ? "rail" : "wheel",
             std::isfinite(row.difference) ? micrometres(row.difference) : "-",
             digits(1e3 * row.build),
-            row.memory_bytes > 0 ? fmt::format("{:.2g}", 1e-6 * static_cast<double>(row.memory_bytes)) : "-",
+            row.memory_bytes > 0 ? digits(1e-6 * static_cast<double>(row.memory_bytes)) : "-",
             digits(1e9 * row.height),
             digits(1e9 * row.height_tilted),
             digits(1e9 * row.normal),

@@ -100,13 +100,14 @@ std::string check_slopes(const Surface& subject, const BenchView::Plane& plane, 
   subject.heights_at(plane.X_SP, points, {z, {}, {}});
   for (std::size_t n = 0; n < chosen.size(); ++n) {
     const std::size_t i = chosen[n];
-    const auto between = [&](double slope, double before, double after) {
-      const double left = (plane.z[i] - before) / kStep, right = (after - plane.z[i]) / kStep;
-      const double room = kSlope * (1.0 + plane.dzdx[i] * plane.dzdx[i] + plane.dzdy[i] * plane.dzdy[i]);
-      return slope >= std::fmin(left, right) - room && slope <= std::fmax(left, right) + room;
-    };
-    if (!between(plane.dzdx[i], z[4 * n], z[4 * n + 1]) || !between(plane.dzdy[i], z[4 * n + 2], z[4 * n + 3]))
-      return "slopes differ from differences of heights " + place(g, i);
+    const double room = kSlope * (1.0 + plane.dzdx[i] * plane.dzdx[i] + plane.dzdy[i] * plane.dzdy[i]);
+    for (const bool along : {true, false}) {
+      const double slope = along ? plane.dzdx[i] : plane.dzdy[i];
+      const double *before = &z[4 * n + (along ? 0 : 2)], *after = before + 1;
+      const double left = (plane.z[i] - *before) / kStep, right = (*after - plane.z[i]) / kStep;
+      if (slope >= std::fmin(left, right) - room && slope <= std::fmax(left, right) + room) continue;
+      return fmt::format("slopes differ from differences of heights: {:.6f} instead of {:.6f} to {:.6f} {}", slope, left, right, place(g, i));
+    }
   }
   return {};
 }

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/bench/bench_case.hpp"
@@ -186,6 +187,15 @@ TEST(Bench, StopsBetweenMeasures) {
   ASSERT_EQ(report.rows.size(), 2u);
   EXPECT_EQ(report.rows[1].backend, "spline");
   EXPECT_THAT(bench_table(report), HasSubstr("interrupted"));
+}
+
+TEST(Bench, ThePageOfFiguresHasTheColumnsOfTheTable) {
+  std::ifstream file(std::filesystem::path(TREADMARK_SOURCE_DIR) / "docs" / "bench.md");
+  const std::string page{std::istreambuf_iterator<char>(file), {}};
+  std::string table = bench_markdown({});
+  table.erase(0, table.find("\n\n") + 2);  // the machine
+  EXPECT_THAT(page, HasSubstr(table));
+  for (const std::string_view backend : backend_names()) EXPECT_THAT(page, HasSubstr("| " + std::string(backend) + " | "));
 }
 
 TEST(Bench, MedianOfRepeats) {
