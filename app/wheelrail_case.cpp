@@ -7,12 +7,19 @@
 namespace treadmark::app {
 namespace {
 
+constexpr int kGrid = 5, kSteepGrid = 6;  // of DiscretisationInput::method
+
 wheelrail::Discretisation::SearchGrid search_grid(const io::DiscretisationInput& d, bool constant_profiles) {
   using Grid = wheelrail::Discretisation::SearchGrid;
-  constexpr int kGrid = 5, kSteepGrid = 6;
   if (!d.reference_search_mesh) return Grid::refined;
   if (d.method == kSteepGrid) return Grid::reference_steep;
   return d.method == kGrid || !constant_profiles ? Grid::reference_mesh : Grid::refined;
+}
+
+detection::SearchMethod search_method(const io::DiscretisationInput& d) {
+  using Method = detection::SearchMethod;
+  if (!d.prune) return Method::full_grid;
+  return d.method == kGrid || d.method == kSteepGrid ? Method::pruned_grid : Method::automatic;
 }
 
 }  // namespace
@@ -48,6 +55,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.discretisation.linear_weight = d.linear_weight;
   p.discretisation.reference_at_deepest = d.method == kInitialContactPoint;
   p.discretisation.search = search_grid(d, constant_profiles);
+  p.discretisation.search_method = search_method(d);
 
   p.material = input.material;
   p.friction = input.friction;

@@ -43,6 +43,39 @@ class Silhouette {
   double length_, cosine_, sine_, side_;
 };
 
+/// A wheel of revolution from samples of its profile at equal steps, cubic between them.
+class SampledWheel {
+ public:
+  SampledWheel(const Pose& X_TW, double first, double step, const std::vector<double>& r, const std::vector<double>& by_y)
+      : X_(X_TW), down_(X_TW.rotation.row(2)), first_(first), inverse_step_(1.0 / step), step_(step), r_(r), by_y_(by_y) {}
+
+  /// Height over (x, y) by Newton's method from a near one; NaN off the profile.
+  double height(double x, double y, double z) const {
+    constexpr int kSteps = 3;
+    for (int i = 0; i < kSteps; ++i) {
+      const Vec3 q = X_.apply_inverse({x, y, z});
+      const double place = (q.y() - first_) * inverse_step_;
+      if (!(place >= 0.0 && place <= static_cast<double>(r_.size() - 1))) return kNaN;
+      const std::size_t k = std::min(static_cast<std::size_t>(place), r_.size() - 2);
+      const double f = place - static_cast<double>(k), rise = r_[k + 1] - r_[k], a = by_y_[k] * step_, b = by_y_[k + 1] * step_;
+      const double c2 = 3.0 * rise - 2.0 * a - b, c3 = a + b - 2.0 * rise;
+      const double radius = r_[k] + f * (a + f * (c2 + f * c3)), slope = (a + f * (2.0 * c2 + 3.0 * f * c3)) * inverse_step_;
+      const double distance = std::sqrt(q.x() * q.x() + q.z() * q.z());
+      z -= (distance - radius) / ((q.x() * down_.x() + q.z() * down_.z()) / distance - slope * down_.y());
+    }
+    return z;
+  }
+
+ private:
+  Pose X_;
+  Vec3 down_;
+  double first_, inverse_step_, step_;
+  const std::vector<double>&r_, &by_y_;
+};
+
+/// Shift of a row's weighted middle over that of its ends: moments of the cubic part.
+double middle_share(PenetrationWeight weight) { return weight == PenetrationWeight::squared ? 3.0 / 7.0 : 3.0 / 5.0; }
+
 /// Integral over x of the penetration c - x^2 / (2 radius), or of its square; half: half the width.
 double row_weight(PenetrationWeight weight, double c, double half) {
   return weight == PenetrationWeight::squared ? 16.0 / 15.0 * c * c * half : 4.0 / 3.0 * c * half;
@@ -61,10 +94,10 @@ ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)
   const Box3 box = bodies.wheel->bounds();
   const double width = box.max.y() - box.min.y();
   const int count = std::clamp(static_cast<int>(width / kProfileStep) + 2, 16, 20000);
-  outline_ = trace({g.y0, g.dy, g.ny}, {box.min.y(), width / (count - 1), count});
+  outline_ = trace({g.y0, g.dy, g.ny}, {box.min.y(), width / (count - 1), count}, false);
 }
 
-ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s) {
+ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s, bool curves) {
   const auto n = static_cast<std::size_t>(s.count), m = static_cast<std::size_t>(rows.count);
   std::vector<double> r(n), by_y(n);
   bodies_.wheel->heights({Pose{}, {0.0, s.first, 1.0, s.step, 1, s.count}}, {r, {}, by_y});
@@ -108,6 +141,21 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s) {
     }
     a = b;
   }
+  line.cubic.assign(m, 0.0);
+  if (curves) {
+    // The curve through its lowest point and one on either side, about as far as contact reaches.
+    constexpr double kReach = 8e-3;  // [m]
+    const SampledWheel wheel(bodies_.X_TW, s.first, s.step, r, by_y);
+    for (std::size_t k = 0; k < m; ++k) {
+      if (std::isnan(wheel_z[k])) continue;
+      const double y = rows.y(static_cast<int>(k)), guess = wheel_z[k] - 0.5 * kReach * kReach / line.radius[k];
+      const double before = wheel.height(line.x[k] - kReach, y, guess), behind = wheel.height(line.x[k] + kReach, y, guess);
+      const double drop = wheel_z[k] - 0.5 * (before + behind);
+      if (!(drop > 0.0)) continue;
+      line.radius[k] = 0.5 * (kReach * kReach + drop * drop) / drop;
+      line.cubic[k] = 0.5 * (behind - before) / (kReach * kReach * kReach);
+    }
+  }
   line.least = kNaN;
   for (std::size_t k = 0; k < m; ++k) {
     line.gap[k] = line.rail_z[k] - wheel_z[k];
@@ -133,7 +181,7 @@ const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_
   constexpr std::size_t kKept = 8;
   if (fine_.size() >= kKept) fine_.erase(fine_.begin());
   fine_.push_back({first_row, last_row,
-                   trace({low, (high - low) / (kFineRows - 1), kFineRows}, {y_min, (y_max - y_min) / (kFineRows - 1), kFineRows})});
+                   trace({low, (high - low) / (kFineRows - 1), kFineRows}, {y_min, (y_max - y_min) / (kFineRows - 1), kFineRows}, true)});
   return fine_.back().outline;
 }
 
@@ -179,11 +227,12 @@ void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_
       const auto j = static_cast<std::size_t>(i);
       const double c = -gap(i), half = std::sqrt(c * std::max(0.0, 2.0 * fine.radius[j] - c)), w = row_weight(weight, c, half);
       sum += w;
-      sum_x += w * fine.x[j];
+      const double shift = fine.cubic[j] * half * half * fine.radius[j];  // of both ends
+      sum_x += w * (fine.x[j] + middle_share(weight) * shift);
       sum_y += w * rows.y(i);
       sum_a += w * std::atan(fine.rail_slope[j]);
-      p.extent.box.x_min = std::min(p.extent.box.x_min, fine.x[j] - half);
-      p.extent.box.x_max = std::max(p.extent.box.x_max, fine.x[j] + half);
+      p.extent.box.x_min = std::min(p.extent.box.x_min, fine.x[j] + shift - half);
+      p.extent.box.x_max = std::max(p.extent.box.x_max, fine.x[j] + shift + half);
       if (gap(i) < gap(deepest)) deepest = i;
     }
     const auto end = [&](int inside, int outside) {

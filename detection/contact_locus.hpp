@@ -45,13 +45,14 @@ class ContactLocus {
     double first = 0.0, step = 0.0;
     int count = 0;
   };
-  /// Per row: gap there, where along x, the radius of the wheel's curve along x, and the rail. NaN gap: none.
+  /// Per row: gap there, where along x, the wheel's curve along x as a circle with a cubic part (a yawed wheel is askew), and
+  /// the rail. NaN gap: none.
   struct Outline {
     Rows rows;
-    std::vector<double> gap, x, radius, rail_z, rail_slope;
+    std::vector<double> gap, x, radius, cubic, rail_z, rail_slope;
     double least = 0.0;
   };
-  Outline trace(const Rows& rows, const Samples& samples);
+  Outline trace(const Rows& rows, const Samples& samples, bool curves);
   const Outline& fine_outline(int first_row, int last_row);
   void weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest, Found& found) const;
 

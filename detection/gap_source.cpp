@@ -4,11 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::detection {
 namespace {
+
+constexpr int kRowsPerLean = 8;
 
 Rectangle spanned(const Grid2& g, const IndexBox& b) {
   return {g.x(b.ix), g.x(b.ix + b.nx - 1), g.y(b.iy), g.y(b.iy + b.ny - 1)};
@@ -30,16 +33,44 @@ struct GapSource::Patch {
 GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets)
     : bodies_(bodies), X_RT_(bodies.X_TR.inverse()), X_WT_(bodies.X_TW.inverse()), grid_(grid_T) {
   if (facets) facets_.emplace(*bodies.wheel, bodies.X_TW, *facets, grid_T);
+  const Grid2& g = grid_T;
+  const int n = (g.ny - 1) / kRowsPerLean + 1;
+  lean_.resize(static_cast<std::size_t>(n));
+  bodies.rail->heights({X_RT_, {g.x(g.nx / 2), g.y(0) + 0.5 * kRowsPerLean * g.dy, 1.0, kRowsPerLean * g.dy, 1, n}}, {{}, {}, lean_});
 }
 
-GapBounds GapSource::bounds(const IndexBox& box) const {
-  Rectangle r = spanned(grid_, box);
+GapBounds GapSource::bounds(const IndexBox& box, bool close) const {
+  const Rectangle r = spanned(grid_, box), wheel_r = facets_ ? facets_->reach(r) : r;
   const HeightBounds rail = bodies_.rail->height_bounds(X_RT_, r);
   if (rail.empty) return {0.0, 0.0, true};
-  if (facets_) r = facets_->reach(r);
-  const HeightBounds wheel = bodies_.wheel->height_bounds(X_WT_, r);
+  const HeightBounds wheel = bodies_.wheel->height_bounds(X_WT_, wheel_r);
   if (wheel.empty) return {0.0, 0.0, true};
-  return {rail.z_min - wheel.z_max, rail.z_max - wheel.z_min, false};
+  GapBounds gap{rail.z_min - wheel.z_max, rail.z_max - wheel.z_min, false};
+  if (close) {
+    const double slope = lean_[static_cast<std::size_t>((box.iy + box.ny / 2) / kRowsPerLean)];
+    constexpr double kLevel = 0.02, kSteep = 3.0;
+    if (std::abs(slope) > kLevel && std::abs(slope) < kSteep)
+      gap.low = std::max(gap.low, least_along_rail(r, rail, wheel_r, wheel, slope));
+  }
+  return gap;
+}
+
+// In a frame P rolled by d a vertical line meets rail and wheel at points whose heights along P's normal differ by gap cos(d).
+// The rail's point lies not before the outermost surface that P sees there, the wheel's not beyond: bounds of what P
+// sees, over all places in P that these points may have, bound the gap.
+double GapSource::least_along_rail(const Rectangle& rail_r, const HeightBounds& rail, const Rectangle& wheel_r,
+                                   const HeightBounds& wheel, double slope) const {
+  const double roll = std::atan(slope), sine = std::sin(roll), cosine = std::cos(roll);
+  const double y_middle = 0.5 * (rail_r.y_min + rail_r.y_max), z_middle = 0.5 * (rail.z_min + rail.z_max);
+  const Pose X_TP{{0.0, y_middle, z_middle}, rotation_x(roll)};
+  const auto seen = [&](const Rectangle& r, const HeightBounds& z) {
+    const double a = (z.z_min - z_middle) * sine, b = (z.z_max - z_middle) * sine;
+    return Rectangle{r.x_min, r.x_max, (r.y_min - y_middle) * cosine + std::min(a, b), (r.y_max - y_middle) * cosine + std::max(a, b)};
+  };
+  const HeightBounds n_rail = bodies_.rail->height_bounds(X_RT_ * X_TP, seen(rail_r, rail));
+  const HeightBounds n_wheel = bodies_.wheel->height_bounds(X_WT_ * X_TP, seen(wheel_r, wheel));
+  if (n_rail.empty || n_wheel.empty) return -std::numeric_limits<double>::infinity();
+  return (n_rail.z_min - n_wheel.z_max) / cosine;
 }
 
 void GapSource::fill(std::span<GapField::Tile* const> tiles) {

@@ -22,8 +22,9 @@ class GapSource {
  public:
   GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets);
 
-  /// Conservative bounds over the rectangle that the points of a box span.
-  GapBounds bounds(const IndexBox& box) const;
+  /// Conservative bounds over the rectangle that the points of a box span. close: a second look, in a plane that leans as the
+  /// rail does, so that slopes that both bodies have do not count; worth it for small boxes.
+  GapBounds bounds(const IndexBox& box, bool close) const;
 
   /// Fills a tile. Not thread-safe where the wheel has facets.
   void fill(GapField::Tile& tile) { fill(std::span<GapField::Tile* const>(std::vector<GapField::Tile*>{&tile})); }
@@ -33,10 +34,13 @@ class GapSource {
  private:
   struct Patch;
   void fill_patch(const Patch& patch);
+  double least_along_rail(const Rectangle& rail_rectangle, const HeightBounds& rail, const Rectangle& wheel_rectangle,
+                          const HeightBounds& wheel, double slope) const;
 
   BodyPair bodies_;
   Pose X_RT_, X_WT_;
   Grid2 grid_;
+  std::vector<double> lean_;  ///< slope of the rail in the middle of the grid, every few rows
   std::optional<FacetWheel> facets_;
 };
 

@@ -180,6 +180,14 @@ void add_discretisation(KeyList& list) {
                       "contact search: automatic (locus for constant profiles), on a grid, on a grid for steep slopes, or with the "
                       "reference at the initial contact point",
                       [](W& c) -> int& { return c.discretisation.method; });
+  KeyInfo prune = key_info("discretisation.prune", KeyType::flag,
+                           "search on a grid: leave out what provably cannot touch; false = evaluate all of the grid, without the "
+                           "locus of constant profiles too");
+  prune.scope = KeyScope::wheel_rail;
+  prune.default_text = "true";
+  list.add(prune).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<W>(c).discretisation.prune = v.flag();
+  };
   KeyInfo mesh = key_info("discretisation.reference_search_mesh", KeyType::flag,
                           "search on the coarse mesh of the reference program (for comparison)");
   mesh.scope = KeyScope::wheel_rail;

@@ -84,6 +84,8 @@ struct DiscretisationInput {
   int method = 2;
   /// Search mesh as in the reference program (coarse, tied to dx, ds), instead of Treadmark's refined one.
   bool reference_search_mesh = false;
+  /// Grids: heights only where contact cannot be ruled out; false = everywhere (brute force).
+  bool prune = true;
 };
 
 /// Numbers of the solver lines (G digit).

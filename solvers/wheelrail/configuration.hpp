@@ -8,6 +8,7 @@
 #include "treadmark/core/friction.hpp"
 #include "treadmark/core/material.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/detection/contact_search.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -71,6 +72,7 @@ struct Discretisation {
     reference_mesh,   ///< one grid whose steps follow dx, ds as in the reference program (CONTACT)
     reference_steep,  ///< the same with its finer lateral steps for steep slopes
   } search = SearchGrid::refined;
+  detection::SearchMethod search_method = detection::SearchMethod::automatic;
 };
 
 struct Problem {

@@ -74,6 +74,7 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   const LateralRange rail = visible_range(*geometry.rail, placed.X_TS.inverse(), placed.X_TA.origin.x());
 
   detection::SearchSettings s;
+  s.method = d.search_method;
   s.refine = d.search == Discretisation::SearchGrid::refined;
   s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.facets);
   s.refined_dx = 0.3 * d.dx;

@@ -25,8 +25,8 @@ SurfaceSpec damaged_rail() {
 SurfaceSpec corrugated_rail() {
   SurfaceSpec spec{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
   Corrugation waves;
-  waves.waves = {{0.02, 0.1e-3, 0.4}, {0.033, 0.1e-3, 0.0}};
-  waves.x_start = -0.05, waves.x_end = 0.05, waves.ramp = 0.01;
+  waves.waves = {{0.013, 0.1e-3, 0.4}, {0.031, 0.1e-3, 0.0}};
+  waves.x_start = -0.05, waves.x_end = 0.05, waves.ramp = 0.01, waves.width = 0.06;
   spec.defects.corrugations = {waves};
   return spec;
 }
@@ -103,7 +103,7 @@ detection::SearchSettings random_settings(const detection::BodyPair& pair, std::
   s.refined_points = 18;
   s.reference_at_deepest = maybe(random, 0.2);
   if (maybe(random, 0.3)) s.rules.near_miss = uniform(random, 1e-5, 1e-4);
-  if (maybe(random, 0.5)) s.rules.separation = 2e-3, s.rules.combination = 1e-3;
+  if (maybe(random, 0.7)) s.rules.separation = 1e-3, s.rules.combination = 0.5e-3;
   return s;
 }
 
@@ -122,7 +122,7 @@ std::string difference(const detection::SearchResult& a, const detection::Search
     const detection::ContactPatch &p = a.patches[i], &q = b.patches[i];
     compare("x", p.x, q.x);
     compare("y", p.y, q.y);
-    compare("inclination", p.inclination, q.inclination, 10.0);  // slopes at a point carry fewer digits than heights
+    compare("inclination", p.inclination, q.inclination, 1000.0);  // next to a jump of curvature slopes of offsets are good to 1e-4 at single points
     compare("weight", p.weight, q.weight);
     compare("deepest gap", p.least_gap, q.least_gap);
     if (p.parts.size() != q.parts.size()) {

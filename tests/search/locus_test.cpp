@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// The contact locus of constant profiles against the grid.
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/backends/create.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/tests/search/scenes.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using detection::ContactSearch;
+using detection::SearchMethod;
+using detection::SearchSettings;
+
+constexpr double kRadius = 0.46;
+
+struct Profiles {
+  std::shared_ptr<const Surface> rail, wheel;
+};
+
+Profiles profiles(std::string_view backend) {
+  return {create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}}, backend),
+          create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}}, backend)};
+}
+
+SearchSettings fine_grid() {
+  SearchSettings s;
+  s.grid_T = {-0.09, -0.036, 1e-3, 0.25e-3, 181, 289};
+  s.refined_points = 300;
+  s.rules.separation = 2e-3, s.rules.combination = 1e-3;
+  return s;
+}
+
+detection::BodyPair placed(const Profiles& p, double y, double roll, double yaw, double pitch) {
+  detection::BodyPair pair{p.rail.get(), p.wheel.get(), {Vec3::Zero(), rotation_x(-1.0 / 40.0)}, {}};
+  pair.X_TW = {{0.0, y, -kRadius}, rotation({roll, yaw, pitch})};
+  return pair;
+}
+
+class Locus : public ::testing::TestWithParam<std::string_view> {};
+
+TEST_P(Locus, EqualsTheGrid) {
+  const Profiles p = profiles(GetParam());
+  int two_patches = 0;
+  std::vector<double> lateral;
+  for (double y = -0.012; y < 0.0121; y += 0.75e-3) lateral.push_back(y);
+  for (double y = 0.0; y < 0.8e-3; y += 0.02e-3) lateral.push_back(y);  // where the flange takes over
+  for (const double y : lateral)
+    for (const double yaw : {0.0, 0.004, -0.025})
+      for (const double depth : {2e-5, 1.2e-4}) {
+        const auto pair = placed(p, y, 0.3 * yaw, yaw, 0.4 * y / 0.012);
+        SearchSettings s = fine_grid();
+        s.method = SearchMethod::automatic;
+        ContactSearch locus(pair, s);
+        ASSERT_EQ(locus.method(), SearchMethod::locus);
+        s.method = SearchMethod::pruned_grid;
+        ContactSearch grid(pair, s);
+        const double least = grid.at(grid.least_gap()).least_gap + grid.least_gap();
+        const auto a = locus.at(least + depth), b = grid.at(least + depth);
+        const std::string where = "y = " + std::to_string(y) + ", yaw = " + std::to_string(yaw) + ", depth " + std::to_string(depth);
+        ASSERT_EQ(a.patches.size(), b.patches.size()) << where;
+        two_patches += a.patches.size() == 2;
+        for (std::size_t i = 0; i < a.patches.size(); ++i) {
+          const auto &u = a.patches[i], &v = b.patches[i];
+          const double position = std::hypot(u.x - v.x, u.y - v.y);
+          const auto &e = u.extent.box, &f = v.extent.box;
+          const double extent = std::max({std::abs(e.x_min - f.x_min), std::abs(e.x_max - f.x_max), std::abs(e.y_min - f.y_min), std::abs(e.y_max - f.y_max)});
+          // The coarse grid cuts the ends off thin patches on the flange; the locus does not.
+          const bool steep = std::abs(u.inclination) > 0.9;
+          EXPECT_LT(position, steep ? 2e-5 : 1e-5) << where;
+          EXPECT_LT(extent, steep ? 1.2e-3 : 5e-5) << where;
+          EXPECT_NEAR(u.inclination, v.inclination, 2e-4) << where;
+          EXPECT_NEAR(u.least_gap, v.least_gap, 1e-7) << where;
+          EXPECT_NEAR(u.weight, v.weight, (steep ? 2e-2 : 5e-3) * v.weight) << where;
+        }
+      }
+  EXPECT_GT(two_patches, 0);
+}
+
+INSTANTIATE_TEST_SUITE_P(Backends, Locus, ::testing::Values("analytic", "spline"), [](const auto& backend) { return std::string(backend.param); });
+
+TEST(LocusMethod, IsForConstantProfilesAlongTheTrackOnly) {
+  const Profiles p = profiles("analytic");
+  auto pair = placed(p, 0.0, 0.0, 0.0, 0.0);
+  SearchSettings s = fine_grid();
+  EXPECT_EQ(ContactSearch(pair, s).method(), SearchMethod::locus);
+  pair.X_TR.rotation = rotation_z(0.01);
+  EXPECT_EQ(ContactSearch(pair, s).method(), SearchMethod::pruned_grid);
+  s.method = SearchMethod::locus;
+  EXPECT_THROW(ContactSearch(pair, s), Error);
+
+  const Bodies damaged = bodies_in("analytic");
+  pair.X_TR.rotation = Mat3::Identity();
+  pair.wheel = damaged.wheels[0].get();
+  EXPECT_THROW(ContactSearch(pair, s), Error);
+}
+
+TEST(LocusMethod, KeepsTheGapWithoutContactAndIsNaNBesideTheRail) {
+  const Profiles p = profiles("analytic");
+  SearchSettings s = fine_grid();
+  ContactSearch apart(placed(p, 0.0, 0.0, 0.0, 0.0), s);
+  const double least = apart.least_gap();
+  EXPECT_TRUE(apart.at(least - 1e-4).patches.empty());
+  EXPECT_NEAR(apart.at(least - 1e-4).least_gap, 1e-4, 1e-9);
+  ContactSearch beside(placed(p, 0.5, 0.0, 0.0, 0.0), s);
+  EXPECT_TRUE(std::isnan(beside.least_gap()));
+  EXPECT_TRUE(beside.at(0.0).patches.empty());
+}
+
+}  // namespace
+}  // namespace treadmark::testing
