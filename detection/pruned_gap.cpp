@@ -30,7 +30,7 @@ PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::opt
 void PrunedGap::push(int tx, int ty, int nx, int ny) {
   const IndexBox first = field_.tile_box(tx, ty), last = field_.tile_box(tx + nx - 1, ty + ny - 1);
   const IndexBox box{first.ix, first.iy, last.ix + last.nx - first.ix, last.iy + last.ny - first.iy};
-  constexpr int kCloseLook = 4;  // tiles
+  constexpr int kCloseLook = 1;  // tiles
   Node node{source_.bounds(box, nx * ny <= kCloseLook), tx, ty, nx, ny};
   if (node.bounds.empty) return;
   node.bounds.low -= kRounding;

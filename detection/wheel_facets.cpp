@@ -64,17 +64,27 @@ Rectangle FacetWheel::reach(const Rectangle& r) const {
 
 const Vec3& FacetWheel::make_corner(int k, int j) {
   Section& s = sections_[static_cast<std::size_t>(k)];
-  constexpr int kSpare = 8;
-  int first = std::min(wanted_first_, j - kSpare), last = std::max(wanted_last_, j + kSpare);
-  if (!s.points.empty()) {
-    first = std::min(first, s.first);
-    last = std::max(last, s.first + static_cast<int>(s.points.size()) - 1);
-  }
-  first = std::max(first, 0), last = std::min(last, across_ - 1);
+  constexpr int kSpare = 3;
+  const int low = std::max(0, std::min(wanted_first_, j - kSpare)), high = std::min(across_ - 1, std::max(wanted_last_, j + kSpare));
   const double angle = lowest_ + facets_.half_angle * (2.0 * k / (facets_.sections - 1) - 1.0);
-  s.first = first;
-  s.points = section(wheel_, X_TW_, angle, first_ + first * step_, step_, last - first + 1);
-  return s.points[static_cast<std::size_t>(j - first)];
+  const auto corners = [&](int first, int last) { return section(wheel_, X_TW_, angle, first_ + first * step_, step_, last - first + 1); };
+  if (s.points.empty()) {
+    s.first = low;
+    s.points = corners(low, high);
+  } else {
+    const int last = s.first + static_cast<int>(s.points.size()) - 1;
+    if (low < s.first) {
+      std::vector<Vec3> more = corners(low, s.first - 1);
+      more.insert(more.end(), s.points.begin(), s.points.end());
+      s.points = std::move(more);
+      s.first = low;
+    }
+    if (high > last) {
+      const std::vector<Vec3> more = corners(last + 1, high);
+      s.points.insert(s.points.end(), more.begin(), more.end());
+    }
+  }
+  return s.points[static_cast<std::size_t>(j - s.first)];
 }
 
 // Continuous indices (a, b) of the facet point over (x, y): Newton on the bilinear map, cell by cell.
@@ -84,18 +94,27 @@ double FacetWheel::height_over(double x, double y, double& a, double& b) {
     const int k = std::clamp(static_cast<int>(std::floor(a)), 0, facets_.sections - 2);
     const int j = std::clamp(static_cast<int>(std::floor(b)), 0, across_ - 2);
     const double u = a - k, v = b - j;
-    // The last corner first: making it may move the others.
-    for (const int dk : {0, 1})
-      for (const int dj : {0, 1}) corner(k + dk, j + dj);
-    const Vec3 &p00 = corner(k, j), &p10 = corner(k + 1, j), &p01 = corner(k, j + 1), &p11 = corner(k + 1, j + 1);
-    const Vec3 low = p00 + u * (p10 - p00), high = p01 + u * (p11 - p01);
-    const Vec3 dv = high - low, p = low + v * dv, du = (p10 - p00) + v * ((p11 - p01) - (p10 - p00));
-    const double rx = x - p.x(), ry = y - p.y(), inverse = 1.0 / (du.x() * dv.y() - du.y() * dv.x());
+    if (!has_corners(k, j) || !has_corners(k + 1, j))
+      for (const int dk : {0, 1})
+        for (const int dj : {0, 1}) corner(k + dk, j + dj);
+    const Vec3 *first = &corner(k, j), *second = &corner(k + 1, j);
+    const Vec3 &p00 = first[0], &p01 = first[1], &p10 = second[0], &p11 = second[1];
+    const Vec3 along = p10 - p00, twist = (p11 - p01) - along, du = along + v * twist, across = p01 - p00, dv = across + u * twist;
+    const double rx = x - (p00.x() + u * along.x() + v * dv.x()), ry = y - (p00.y() + u * along.y() + v * dv.y());
+    const double inverse = 1.0 / (du.x() * dv.y() - du.y() * dv.x());
     const double da = (rx * dv.y() - ry * dv.x()) * inverse, db = (ry * du.x() - rx * du.y()) * inverse;
     if (!std::isfinite(da) || !std::isfinite(db)) return kNaN;
-    constexpr double kTolerance = 1e-7;  // of a facet: the rest of a nanometre is straight
-    const bool inside = u > -kTolerance && u < 1 + kTolerance && v > -kTolerance && v < 1 + kTolerance;
-    if (std::abs(da) < kTolerance && std::abs(db) < kTolerance) return inside ? p.z() + da * du.z() + db * dv.z() : kNaN;
+    // After a step this small the rest of the way is twist * da * db: far below a nanometre.
+    constexpr double kLastStep = 1e-4, kRim = 1e-7;  // of a facet
+    if (std::abs(da) < kLastStep && std::abs(db) < kLastStep) {
+      const double u_end = u + da, v_end = v + db;
+      const bool inside = u_end > -kRim && u_end < 1 + kRim && v_end > -kRim && v_end < 1 + kRim;
+      if (inside) {
+        a = k + u_end, b = j + v_end;
+        return p00.z() + u_end * along.z() + v_end * (across.z() + u_end * twist.z());
+      }
+      if (std::abs(da) < kRim && std::abs(db) < kRim) return kNaN;
+    }
     a = std::clamp(a + da, -0.5, facets_.sections - 0.5);
     b = std::clamp(b + db, -0.5, across_ - 0.5);
   }
@@ -103,7 +122,7 @@ double FacetWheel::height_over(double x, double y, double& a, double& b) {
 }
 
 void FacetWheel::heights(const Grid2& g, std::span<double> z) {
-  constexpr double kNear = 6.0;  // corners beside the grid; more are made when asked for
+  constexpr double kNear = 2.0;  // corners beside the grid; more are made when asked for
   const auto corner_at = [&](double y) { return (y - X_TW_.origin.y() - first_) / step_; };
   wanted_first_ = static_cast<int>(std::clamp(corner_at(g.y(0)) - kNear, 0.0, across_ - 1.0));
   wanted_last_ = static_cast<int>(std::clamp(corner_at(g.y(g.ny - 1)) + kNear, 0.0, across_ - 1.0));

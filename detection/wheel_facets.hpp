@@ -47,6 +47,10 @@ class FacetWheel {
     const auto i = static_cast<std::size_t>(j - s.first);
     return i < s.points.size() ? s.points[i] : make_corner(k, j);
   }
+  bool has_corners(int k, int j) const {  ///< this one and the next
+    const Section& s = sections_[static_cast<std::size_t>(k)];
+    return j >= s.first && j + 1 < s.first + static_cast<int>(s.points.size());
+  }
   const Vec3& make_corner(int k, int j);
   double height_over(double x, double y, double& a, double& b);
 

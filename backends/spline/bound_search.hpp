@@ -4,13 +4,14 @@
 
 #include <algorithm>
 #include <array>
+#include <utility>
 
 #include "treadmark/backends/spline/interval.hpp"
 
 namespace treadmark::spline {
 
-/// Range of the heights of all leaves of a tree of boxes, by branch and bound: first the low end, then the high end, always
-/// the most promising child first; a box that widens the range by a small part only is taken as it is.
+/// Range of the heights of all leaves of a tree of boxes, by branch and bound: first the low end, then the high end, the most
+/// promising child first; a box that widens the range by a small part only is taken as it is.
 /// Tree: Node; kMostChildren; children(node, visit(child, heights)), in which it leaves out boxes that are not over the
 /// window; is_leaf(node); leaf(node): heights, may be empty.
 template <class Tree>
@@ -25,7 +26,7 @@ class BoundSearch {
   }
 
  private:
-  static constexpr double kNegligible = 0.03;  // of the range
+  static constexpr double kNegligible = 0.15;  // of the range
 
   struct Candidate {
     Interval heights;
@@ -58,12 +59,14 @@ class BoundSearch {
   template <bool low>
   void descend(const typename Tree::Node& node) {
     std::array<Candidate, Tree::kMostChildren> candidates;
-    std::size_t count = 0;
+    std::size_t count = 0, best = 0;
     tree_.children(node, [&](const typename Tree::Node& child, const Interval& heights) {
-      std::size_t at = count++;
-      for (; at > 0 && before<low>(heights, candidates[at - 1].heights); --at) candidates[at] = candidates[at - 1];
-      candidates[at] = {heights, child};
+      if (low ? heights.low >= found_low_ : heights.high <= found_high_) return;
+      if (count > 0 && before<low>(heights, candidates[best].heights)) best = count;
+      candidates[count++] = {heights, child};
     });
+    if (count == 0) return;
+    std::swap(candidates[0], candidates[best]);
     for (std::size_t i = 0; i < count; ++i) {
       if (settled<low>(candidates[i].heights)) continue;
       if (tree_.is_leaf(candidates[i].node))

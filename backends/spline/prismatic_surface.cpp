@@ -3,7 +3,10 @@
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 
 #include <algorithm>
+#include <array>
+#include <atomic>
 #include <cmath>
+#include <memory>
 #include <vector>
 
 #include "treadmark/backends/spline/bound_search.hpp"
@@ -39,9 +42,30 @@ struct WidthWindow {
 
 void fill(std::span<double> values, double value) { std::fill(values.begin(), values.end(), value); }
 
+std::uint64_t next_id() {
+  static std::atomic<std::uint64_t> last{0};
+  return ++last;
+}
+
+// The views that a thread used last: single points come by the hundred along the same few directions.
+std::shared_ptr<const SortedProfile> sorted_view(std::uint64_t surface, const ProfileSpline& profile, const ProfileView& view) {
+  struct Kept {
+    std::uint64_t surface = 0;  // never used again after the surface's end
+    Vec2 depth, width;
+    std::shared_ptr<const SortedProfile> profile;
+  };
+  thread_local std::array<Kept, 4> kept;
+  thread_local std::size_t oldest = 0;
+  for (const Kept& k : kept)
+    if (k.surface == surface && k.depth == view.depth && k.width == view.width) return k.profile;
+  Kept& slot = kept[oldest++ % kept.size()];
+  slot = {surface, view.depth, view.width, std::make_shared<const SortedProfile>(profile, view)};
+  return slot.profile;
+}
+
 }  // namespace
 
-PrismaticSurface::PrismaticSurface(ProfileSpline profile) : profile_(std::move(profile)), hulls_(profile_) {}
+PrismaticSurface::PrismaticSurface(ProfileSpline profile) : id_(next_id()), profile_(std::move(profile)), hulls_(profile_) {}
 
 Vec3 PrismaticSurface::point(double u, double v) const {
   const Vec2 p = profile_.position(v);
@@ -81,14 +105,26 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   const double depth_origin = view.depth.dot(lateral(g.origin));
   const double scale = 1.0 / view.normal_part;
 
-  const ViewedProfile viewed(profile_, view);
+  const double last_along = g.samples.last();
+  Interval window = Interval::none();
+  for (const double across : {g.across_at(0), g.across_at(g.lines - 1)})
+    for (const double along : {g.samples.first, last_along}) {
+      const double width = w_origin + w_across * across + w_along * along;
+      window.include({width, width});
+    }
+  const double slack = kEdgeSlack * g.samples.step + 1e-12;
+  window = {window.low - slack, window.high + slack};
+  thread_local std::vector<int> segments;
+  const WidthWindow seen(view, window);
+  segments_over(ProfileTree(seen, profile_, hulls_), segments);
+  const ViewedProfile viewed(profile_, view, segments);
   const auto [z, dz_along, dz_across] = g.along_is_y ? std::tuple(out.z, out.dzdy, out.dzdx) : std::tuple(out.z, out.dzdx, out.dzdy);
   const bool slopes = !dz_along.empty() || !dz_across.empty();
 
   const auto raster_line = [&](int line, ColumnHits& hits) {
-    hits.clear();
     const Samples samples{w_origin + w_across * g.across_at(line) + w_along * g.samples.first, w_along * g.samples.step,
                           g.samples.count};
+    hits.clear();
     viewed.raster(samples, hits);
     if (!slopes) return;
     for (std::size_t i = 0; i < hits.n.size(); ++i) {
@@ -114,7 +150,8 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   const double across_reach = std::max(std::abs(g.across_at(0)), std::abs(g.across_at(g.lines - 1)));
   if (std::abs(w_across) * across_reach < kSamePosition && std::abs(depth_across) * across_reach < kSamePosition) {
     // A plane that is only rolled: all lines are the same.
-    ColumnHits hits(g.samples.count, Facing::up);
+    thread_local ColumnHits hits(0, Facing::up);
+    hits.resize(g.samples.count);
     raster_line(0, hits);
     write_line(0, hits);
     for (const auto values : {z, dz_along, dz_across}) {
@@ -154,18 +191,18 @@ void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poi
   const Vec3 width = on_axes(view.width), depth = on_axes(view.depth);
   const double scale = 1.0 / view.normal_part;
   const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
-  const SortedProfile sorted(profile_, view);
+  const std::shared_ptr<const SortedProfile> sorted = sorted_view(id_, profile_, view);
   for_listed_points(points_P, true, [&](std::span<const ListedPoint> points) {
     ColumnHits hits(1, Facing::up);
     for (const ListedPoint& p : points) {
       const double x = p.across, y = p.along;
-      sorted.hit(width.z() + width.x() * x + width.y() * y, hits);
+      sorted->hit(width.z() + width.x() * x + width.y() * y, hits);
       const double n = hits.n[0];
       if (!out.z.empty()) out.z[p.index] = scale * (n - (depth.z() + depth.x() * x + depth.y() * y));
       if (!slopes) continue;
       double slope = n;  // NaN stays
       if (!std::isnan(n)) {
-        const SectionPoint at = sorted.point(hits.cell[0], hits.v[0]);
+        const SectionPoint at = sorted->point(hits.cell[0], hits.v[0]);
         slope = at.dn / at.ds;
       }
       if (!out.dzdx.empty()) out.dzdx[p.index] = scale * (slope * width.x() - depth.x());
@@ -180,12 +217,12 @@ void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     std::fill(out.begin(), out.end(), SurfacePoint{});
     return;
   }
-  const SortedProfile sorted(profile_, view);
+  const std::shared_ptr<const SortedProfile> sorted = sorted_view(id_, profile_, view);
   ColumnHits hits(1, Facing::up);
   for (std::size_t i = 0; i < points_P.size(); ++i) {
     const Vec3 foot = X_SP.apply({points_P[i].x(), points_P[i].y(), 0.0});
     out[i] = {};
-    sorted.hit(view.width.dot(lateral(foot)), hits);
+    sorted->hit(view.width.dot(lateral(foot)), hits);
     if (std::isnan(hits.n[0])) continue;
     out[i].status = hits.several[0] ? LocateStatus::ambiguous : LocateStatus::converged;
     const double n = (hits.n[0] - view.depth.dot(lateral(foot))) / view.normal_part;

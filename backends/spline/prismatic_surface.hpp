@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
+
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/core/surface.hpp"
@@ -29,6 +31,7 @@ class PrismaticSurface final : public Surface {
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
+  std::uint64_t id_;  ///< of no other surface, ever
   ProfileSpline profile_;
   ProfileHulls hulls_;
 };

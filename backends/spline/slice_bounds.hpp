@@ -175,19 +175,23 @@ class SliceTree {
   const SliceHulls& hulls_;
 };
 
-/// Marks the cells that may lie over the window.
+/// Marks the cells that may lie over the window, and a few beside them: boxes of the second level count as a whole, since one
+/// more cell costs less than its test.
 template <class Window>
 void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls& hulls, std::vector<char>& marks) {
   if (!window.exists()) return;
   using Tree = SliceTree<Window>;
   const Tree tree(window, net, hulls);
+  const auto& levels = hulls.levels();
+  const int whole = std::min(1, static_cast<int>(levels.size()) - 1);
+  const auto width = static_cast<std::size_t>(whole == 0 ? 1 : levels[1].columns_below);
+  const auto cells = static_cast<std::size_t>(levels.front().columns);
   const auto descend = [&](const auto& self, const typename Tree::Node& node) -> void {
     tree.children(node, [&](const typename Tree::Node& child, const Interval&) {
-      if (Tree::is_leaf(child))
-        marks[static_cast<std::size_t>(child.column)] = 1;
-      else
-        self(self, child);
-    }, [&](const typename Tree::Node& child) { return Tree::is_leaf(child) && marks[static_cast<std::size_t>(child.column)]; });
+      if (child.level != whole) return self(self, child);
+      const std::size_t first = static_cast<std::size_t>(child.column) * width;
+      std::memset(marks.data() + first, 1, std::min(width, cells - first));
+    }, [&](const typename Tree::Node& child) { return child.level == whole && marks[static_cast<std::size_t>(child.column) * width]; });
   };
   descend(descend, tree.root());
 }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <vector>
 
 #include "treadmark/backends/spline/column_hits.hpp"
@@ -30,25 +31,33 @@ struct ProfileView {
   bool visible() const { return normal_part > kLeastNormalPart; }
 };
 
-/// The profile turned into a view; s = w, n = depth.
+/// Segments of the profile turned into a view; s = w, n = depth. Cells are numbered as the segments are given.
 class ViewedProfile {
  public:
   static constexpr double kStep = 1e-8, kStepU = 1e-8, kFine = 1e-15;
 
-  ViewedProfile(const ProfileSpline& profile, const ProfileView& view) : breaks_(profile.breaks()) {
-    cells_.reserve(profile.segments().size());
-    for (const CubicSegment& c : profile.segments()) {
-      CubicSegment& turned = cells_.emplace_back();
-      for (int k = 0; k < 4; ++k) {
-        turned.y[k] = view.width.x() * c.y[k] + view.width.y() * c.z[k];
-        turned.z[k] = view.depth.x() * c.y[k] + view.depth.y() * c.z[k];
+  ViewedProfile(const ProfileSpline& profile, const ProfileView& view, std::span<const int> segments) {
+    cells_.reserve(segments.size());
+    for (const int segment : segments) {
+      const auto k = static_cast<std::size_t>(segment);
+      const CubicSegment& c = profile.segments()[k];
+      Cell& cell = cells_.emplace_back();
+      for (std::size_t i = 0; i < 4; ++i) {
+        cell.turned.y[i] = view.width.x() * c.y[i] + view.width.y() * c.z[i];
+        cell.turned.z[i] = view.depth.x() * c.y[i] + view.depth.y() * c.z[i];
       }
+      cell.va = profile.breaks()[k];
+      cell.vb = profile.breaks()[k + 1];
+      const int index = static_cast<int>(cells_.size()) - 1;
+      cell.a = point(index, cell.va, 0.0);
+      cell.b = point(index, cell.vb, 0.0);
     }
   }
 
   SectionPoint point(int cell, double v, double) const {
-    const CubicSegment& c = cells_[static_cast<std::size_t>(cell)];
-    const double t = v - breaks_[static_cast<std::size_t>(cell)];
+    const Cell& at = cells_[static_cast<std::size_t>(cell)];
+    const CubicSegment& c = at.turned;
+    const double t = v - at.va;
     return {c.y[0] + t * (c.y[1] + t * (c.y[2] + t * c.y[3])), c.z[0] + t * (c.z[1] + t * (c.z[2] + t * c.z[3])),
             c.y[1] + t * (2.0 * c.y[2] + 3.0 * t * c.y[3]), c.z[1] + t * (2.0 * c.z[2] + 3.0 * t * c.z[3])};
   }
@@ -58,32 +67,42 @@ class ViewedProfile {
 
   void raster(const Samples& samples, ColumnHits& hits) const {
     SectionRaster<ViewedProfile, ColumnHits> raster(*this, samples, hits, hits.queue);
-    for (int k = 0; k < static_cast<int>(cells_.size()); ++k) {
-      const double a = breaks_[static_cast<std::size_t>(k)], b = breaks_[static_cast<std::size_t>(k) + 1];
-      raster.cell(k, a, point(k, a, 0.0), b, point(k, b, 0.0));
-    }
+    for (int k = 0; k < static_cast<int>(cells_.size()); ++k) add(k, raster);
     raster.finish();
+  }
+  void add(int cell, SectionRaster<ViewedProfile, ColumnHits>& raster) const {
+    const Cell& c = cells_[static_cast<std::size_t>(cell)];
+    raster.cell(cell, c.va, c.a, c.vb, c.b);
+  }
+
+  /// The least and greatest s of a cell; conservative.
+  Interval reach(int cell) const {
+    constexpr double kSlack = 1e-9;  // [m]
+    const Cell& c = cells_[static_cast<std::size_t>(cell)];
+    // A cubic stays within this of its ends.
+    const double slack = kSlack + (c.vb - c.va) * std::max(std::abs(c.a.ds), std::abs(c.b.ds));
+    return {std::min(c.a.s, c.b.s) - slack, std::max(c.a.s, c.b.s) + slack};
   }
 
  private:
-  std::span<const double> breaks_;
-  std::vector<CubicSegment> cells_;
+  struct Cell {
+    CubicSegment turned;
+    double va, vb;
+    SectionPoint a, b;
+  };
+  std::vector<Cell> cells_;
 };
 
-/// The same for points in any order: the cells that may lie over each of equal parts of the width are listed once.
+/// The whole profile in a view, for points in any order: the cells that may lie over each of equal parts of the width are
+/// listed once.
 class SortedProfile {
  public:
-  explicit SortedProfile(const ProfileSpline& profile, const ProfileView& view) : viewed_(profile, view) {
-    const auto breaks = profile.breaks();
-    const std::size_t cells = breaks.size() - 1;
+  SortedProfile(const ProfileSpline& profile, const ProfileView& view) : viewed_(profile, view, all_segments(profile)) {
+    const std::size_t cells = profile.segments().size();
     std::vector<Interval> reach(cells);
     Interval all = Interval::none();
     for (std::size_t k = 0; k < cells; ++k) {
-      const SectionPoint a = viewed_.point(static_cast<int>(k), breaks[k], 0.0), b = viewed_.point(static_cast<int>(k), breaks[k + 1], 0.0);
-      ends_.push_back({breaks[k], breaks[k + 1], a, b});
-      // A cubic stays within this of its ends.
-      const double slack = kSlack + (breaks[k + 1] - breaks[k]) * std::max(std::abs(a.ds), std::abs(b.ds));
-      reach[k] = {std::min(a.s, b.s) - slack, std::max(a.s, b.s) + slack};
+      reach[k] = viewed_.reach(static_cast<int>(k));
       all.include(reach[k]);
     }
     parts_ = std::max<std::size_t>(1, 2 * cells);
@@ -109,25 +128,21 @@ class SortedProfile {
     const Samples samples = one_sample(s);
     SectionRaster<ViewedProfile, ColumnHits> raster(viewed_, samples, hits, hits.queue);
     const std::size_t i = part(s);
-    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) {
-      const Ends& e = ends_[static_cast<std::size_t>(cells_[k])];
-      raster.cell(cells_[k], e.va, e.a, e.vb, e.b);
-    }
+    for (std::size_t k = begin_[i]; k < begin_[i + 1]; ++k) viewed_.add(cells_[k], raster);
     raster.finish();
   }
 
  private:
-  static constexpr double kSlack = 1e-9;  // [m]
-  struct Ends {
-    double va, vb;
-    SectionPoint a, b;
-  };
+  static std::vector<int> all_segments(const ProfileSpline& profile) {
+    std::vector<int> all(profile.segments().size());
+    for (std::size_t k = 0; k < all.size(); ++k) all[k] = static_cast<int>(k);
+    return all;
+  }
   std::size_t part(double s) const {
     return static_cast<std::size_t>(std::clamp((s - first_) * inverse_width_, 0.0, static_cast<double>(parts_) - 1.0));
   }
 
   ViewedProfile viewed_;
-  std::vector<Ends> ends_;
   std::size_t parts_ = 1;
   double first_ = 0.0, inverse_width_ = 0.0;
   std::vector<std::size_t> begin_;  // of each part in cells_
