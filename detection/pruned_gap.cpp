@@ -89,12 +89,18 @@ void PrunedGap::reveal(const IndexBox& box) {
 }
 
 double PrunedGap::least() {
-  while (!frontier_.empty() && frontier_.front().bounds.low < least_known_) {
-    const Node node = pop();
-    if (node.single())
-      fill({node});
-    else
-      split(node);
+  // One tile for a first idea of the least gap, then what could still be below it in growing groups, which cost less a tile.
+  std::vector<Node> wanted;
+  for (std::size_t group = 1; !frontier_.empty() && frontier_.front().bounds.low < least_known_; group *= 4) {
+    wanted.clear();
+    while (wanted.size() < group && !frontier_.empty() && frontier_.front().bounds.low < least_known_) {
+      const Node node = pop();
+      if (node.single())
+        wanted.push_back(node);
+      else
+        split(node);
+    }
+    fill(wanted);
   }
   return std::isfinite(least_known_) ? least_known_ : std::numeric_limits<double>::quiet_NaN();
 }

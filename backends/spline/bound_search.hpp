@@ -7,26 +7,35 @@
 #include <utility>
 
 #include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
 
-/// Range of the heights of all leaves of a tree of boxes, by branch and bound: first the low end, then the high end, the most
+/// Range of the heights of all leaves of a tree of boxes, by branch and bound: one end, then the other, the most
 /// promising child first; a box that widens the range by a small part only is taken as it is.
 /// Tree: Node; kMostChildren; children(node, visit(child, heights)), in which it leaves out boxes that are not over the
 /// window; is_leaf(node); leaf(node): heights, may be empty.
 template <class Tree>
 class BoundSearch {
  public:
-  explicit BoundSearch(const Tree& tree) : tree_(tree) {}
+  /// facing: the end towards the other body is found closely, the other end roughly.
+  BoundSearch(const Tree& tree, Facing facing)
+      : tree_(tree), room_low_(facing == Facing::up ? kClose : kRough), room_high_(facing == Facing::up ? kRough : kClose) {}
 
   Interval range(const typename Tree::Node& root) {
-    descend<true>(root);
-    descend<false>(root);
+    // The close end first: the range found with it serves the other.
+    if (room_low_ < room_high_) {
+      descend<true>(root);
+      descend<false>(root);
+    } else {
+      descend<false>(root);
+      descend<true>(root);
+    }
     return {found_low_, found_high_};
   }
 
  private:
-  static constexpr double kNegligible = 0.15;  // of the range
+  static constexpr double kClose = 0.15, kRough = 0.5;  // of the range
 
   struct Candidate {
     Interval heights;
@@ -36,7 +45,7 @@ class BoundSearch {
   // Whether the boxes add nothing to that end.
   template <bool low>
   bool settled(const Interval& n) {
-    const double room = kNegligible * std::max(0.0, sure_.width());
+    const double room = (low ? room_low_ : room_high_) * std::max(0.0, sure_.width());
     if constexpr (low) {
       if (n.low >= found_low_) return true;
       if (n.low < sure_.low - room) return false;
@@ -82,6 +91,7 @@ class BoundSearch {
   }
 
   const Tree& tree_;
+  double room_low_, room_high_;
   Interval sure_ = Interval::none();
   double found_low_ = Interval::none().low, found_high_ = Interval::none().high;
 };

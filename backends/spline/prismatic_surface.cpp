@@ -247,7 +247,7 @@ HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangl
   window = {window.low - slack, window.high + slack};
   const WidthWindow seen(view, window);
   const ProfileTree tree(seen, profile_, hulls_);
-  const Interval depth = BoundSearch(tree).range(tree.root());
+  const Interval depth = BoundSearch(tree, facing()).range(tree.root());
   if (depth.empty()) return {0.0, 0.0, true};
   const Interval n = (1.0 / view.normal_part) * (depth + -1.0 * over_rectangle(view.depth));
   const double rounding = 1e-12 * (1.0 + std::abs(n.low) + std::abs(n.high));

@@ -264,7 +264,7 @@ HeightBounds RevolutionSurface::do_height_bounds(const Pose& X_SP, const Rectang
   const ProfileWindow window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin,
                               along_y ? x : y, along_y ? y : x});
   const ProfileTree tree(window, profile_, hulls_);
-  const Interval n = BoundSearch(tree).range(tree.root());
+  const Interval n = BoundSearch(tree, facing()).range(tree.root());
   if (n.empty()) return {0.0, 0.0, true};
   return {n.low - 1e-12, n.high + 1e-12, false};
 }

@@ -261,7 +261,7 @@ HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Re
                                    X_SP.rotation.col(2), X_SP.origin, along_y ? x : y, along_y ? y : x});
   if (!window.exists()) return {0.0, 0.0, true};
   const SliceTree tree(window, net_, hulls_);
-  const Interval n = BoundSearch(tree).range(tree.root());
+  const Interval n = BoundSearch(tree, facing()).range(tree.root());
   if (n.empty()) return {0.0, 0.0, true};
   return {n.low - 1e-12, n.high + 1e-12, false};
 }
