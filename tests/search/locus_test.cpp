@@ -30,7 +30,7 @@ Profiles profiles(std::string_view backend) {
 
 SearchSettings fine_grid() {
   SearchSettings s;
-  s.grid_T = {-0.09, -0.036, 1e-3, 0.25e-3, 181, 289};
+  s.grid_T = {-0.09, -0.036, 0.3e-3, 0.06e-3, 601, 1201};
   s.refined_points = 300;
   s.rules.separation = 2e-3, s.rules.combination = 1e-3;
   return s;
@@ -49,7 +49,7 @@ TEST_P(Locus, EqualsTheGrid) {
   int two_patches = 0;
   std::vector<double> lateral;
   for (double y = -0.012; y < 0.0121; y += 0.75e-3) lateral.push_back(y);
-  for (double y = 0.0; y < 0.8e-3; y += 0.02e-3) lateral.push_back(y);  // where the flange takes over
+  for (double y = -1.5e-3; y < 0.8e-3; y += 0.05e-3) lateral.push_back(y);  // where the flange takes over
   for (const double y : lateral)
     for (const double yaw : {0.0, 0.004, -0.025})
       for (const double depth : {2e-5, 1.2e-4}) {
@@ -70,13 +70,13 @@ TEST_P(Locus, EqualsTheGrid) {
           const double position = std::hypot(u.x - v.x, u.y - v.y);
           const auto &e = u.extent.box, &f = v.extent.box;
           const double extent = std::max({std::abs(e.x_min - f.x_min), std::abs(e.x_max - f.x_max), std::abs(e.y_min - f.y_min), std::abs(e.y_max - f.y_max)});
-          // The coarse grid cuts the ends off thin patches on the flange; the locus does not.
+          // The locus takes the wheel along x as a circle with a cubic part: less exact on a yawed flange at 70 degrees.
           const bool steep = std::abs(u.inclination) > 0.9;
           EXPECT_LT(position, steep ? 2e-5 : 1e-5) << where;
-          EXPECT_LT(extent, steep ? 1.2e-3 : 5e-5) << where;
-          EXPECT_NEAR(u.inclination, v.inclination, 2e-4) << where;
+          EXPECT_LT(extent, steep ? 3e-4 : 5e-5) << where;
+          EXPECT_NEAR(u.inclination, v.inclination, steep ? 5e-4 : 2e-4) << where;
           EXPECT_NEAR(u.least_gap, v.least_gap, 1e-7) << where;
-          EXPECT_NEAR(u.weight, v.weight, (steep ? 2e-2 : 5e-3) * v.weight) << where;
+          EXPECT_NEAR(u.weight, v.weight, (steep ? 4e-2 : 5e-3) * v.weight) << where;
         }
       }
   EXPECT_GT(two_patches, 0);

@@ -6,10 +6,10 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdio>
 #include <cstdlib>
 
 #include "treadmark/backends/create.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/tests/search/scenes.hpp"
 
 namespace treadmark::testing {
@@ -77,8 +77,45 @@ TEST_P(PrunedSearch, EqualsFullSearchInRandomConfigurations) {
   RecordProperty("evaluated", std::to_string(static_cast<double>(evaluated) / static_cast<double>(points)));
   RecordProperty("patches", std::to_string(with_patches[0]) + " " + std::to_string(with_patches[1]) + " " +
                                 std::to_string(with_patches[2]) + " " + std::to_string(with_patches[3]));
-  std::printf("patches %d %d %d %d unfaced %d evaluated %g\n", with_patches[0], with_patches[1], with_patches[2], with_patches[3], unfaced,
-              static_cast<double>(evaluated) / static_cast<double>(points));
+}
+
+detection::BodyPair touching(const Bodies& bodies) {
+  detection::BodyPair pair{bodies.rails[0].get(), bodies.wheels[0].get(), {Vec3::Zero(), rotation_x(-0.025)}, {}};
+  pair.X_TW = {{0.0, 6e-3, -0.46}, rotation({0.0, 0.005, 0.02})};  // the flange is clear of the rail
+  return pair;
+}
+
+detection::SearchSettings over(double x_half, double y_half) {
+  detection::SearchSettings s;
+  s.grid_T = {-x_half, -y_half, 0.5e-3, 0.1e-3, static_cast<int>(std::lround(2.0 * x_half / 0.5e-3)) + 1,
+              static_cast<int>(std::lround(2.0 * y_half / 0.1e-3)) + 1};
+  return s;
+}
+
+TEST_P(PrunedSearch, WorkFollowsThePatchAndNotTheWindow) {
+  const Bodies bodies = bodies_in(GetParam());
+  const auto pair = touching(bodies);
+  const auto evaluated = [&](const detection::SearchSettings& settings) {
+    ContactSearch search(pair, settings);
+    const auto found = search.at(search.least_gap() + 1e-4);
+    EXPECT_EQ(found.patches.size(), 1u);
+    return static_cast<double>(search.points_evaluated());
+  };
+  const double once = evaluated(over(0.05, 0.036)), twice = evaluated(over(0.1, 0.036)), all = evaluated(over(0.1, 0.072));
+  EXPECT_LT(twice, 1.1 * once);
+  EXPECT_LT(all, 1.1 * twice);
+  EXPECT_GT(once, 0.0);
+}
+
+TEST_P(PrunedSearch, ThreadsDoNotChangeABit) {
+  const Bodies bodies = bodies_in(GetParam());
+  const auto pair = touching(bodies);
+  const auto found = [&](int threads) {
+    const ThreadLimit limit(threads);
+    ContactSearch search(pair, over(0.05, 0.02));
+    return search.at(search.least_gap() + 1e-4);
+  };
+  EXPECT_EQ(difference(found(1), found(4), 0.0), "");
 }
 
 INSTANTIATE_TEST_SUITE_P(Backends, PrunedSearch, ::testing::ValuesIn(backend_names().begin(), backend_names().end()),
