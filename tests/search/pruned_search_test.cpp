@@ -85,10 +85,12 @@ detection::BodyPair touching(const Bodies& bodies) {
   return pair;
 }
 
+// So fine that the patch covers many tiles.
 detection::SearchSettings over(double x_half, double y_half) {
+  constexpr double kStepX = 0.2e-3, kStepY = 0.05e-3;
   detection::SearchSettings s;
-  s.grid_T = {-x_half, -y_half, 0.5e-3, 0.1e-3, static_cast<int>(std::lround(2.0 * x_half / 0.5e-3)) + 1,
-              static_cast<int>(std::lround(2.0 * y_half / 0.1e-3)) + 1};
+  s.grid_T = {-x_half, -y_half, kStepX, kStepY, static_cast<int>(std::lround(2.0 * x_half / kStepX)) + 1,
+              static_cast<int>(std::lround(2.0 * y_half / kStepY)) + 1};
   return s;
 }
 
