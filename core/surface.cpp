@@ -51,6 +51,18 @@ HeightBounds Surface::height_bounds(const Pose& X_SP, const Rectangle& r) const 
   return do_height_bounds(X_SP, r);
 }
 
+void Surface::height_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const {
+  if (!(r.first.x_max >= r.first.x_min) || !(r.first.y_max >= r.first.y_min) || !(r.step_x > 0.0) || !(r.step_y > 0.0) || r.nx < 1 || r.ny < 1)
+    throw Error(ErrorKind::configuration, "height_bounds() needs rectangles with min <= max and positive steps");
+  if (out.size() != r.size()) throw Error(ErrorKind::configuration, "height_bounds() needs as many results as rectangles");
+  do_grid_bounds(X_SP, r, out);
+}
+
+void Surface::do_grid_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const {
+  for (int iy = 0; iy < r.ny; ++iy)
+    for (int ix = 0; ix < r.nx; ++ix) out[r.index(ix, iy)] = do_height_bounds(X_SP, r.at(ix, iy));
+}
+
 double height_at(const Surface& surface, const Pose& X_SP, const Vec2& point_P) {
   double z = 0.0;
   surface.heights({X_SP, {point_P.x(), point_P.y(), 1.0, 1.0, 1, 1}}, {{&z, 1}, {}, {}});

@@ -48,6 +48,21 @@ struct Rectangle {
   double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
 };
 
+/// Rectangles of one size in rows and columns; index = ix + nx * iy. They may overlap or leave gaps.
+struct RectangleGrid {
+  Rectangle first;
+  double step_x = 0.0, step_y = 0.0;  ///< from one to the next [m], > 0
+  int nx = 0, ny = 0;
+
+  Rectangle at(int ix, int iy) const {
+    return {first.x_min + ix * step_x, first.x_max + ix * step_x, first.y_min + iy * step_y, first.y_max + iy * step_y};
+  }
+  std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+  std::size_t index(int ix, int iy) const {
+    return static_cast<std::size_t>(ix) + static_cast<std::size_t>(nx) * static_cast<std::size_t>(iy);
+  }
+};
+
 /// Conservative: every height over the rectangle lies in [z_min, z_max]. empty: the surface is nowhere over it.
 struct HeightBounds {
   double z_min = 0.0, z_max = 0.0;
@@ -82,6 +97,8 @@ class Surface {
 
   /// Conservative bounds of the heights over a rectangle of the plane frame P.
   HeightBounds height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const;
+  /// The same for many rectangles at once. out.size() == rectangles_P.size(). May be less close than one at a time.
+  void height_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const;
 
  private:
   virtual void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const = 0;
@@ -89,6 +106,8 @@ class Surface {
   virtual void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const;
   virtual void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const = 0;
   virtual HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const = 0;
+  /// Falls back to one rectangle after the other; a backend that can do better overrides it.
+  virtual void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const;
 };
 
 /// Height over one point of a plane; NaN if there is none.

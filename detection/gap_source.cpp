@@ -39,38 +39,46 @@ GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::opt
   bodies.rail->heights({X_RT_, {g.x(g.nx / 2), g.y(0) + 0.5 * kRowsPerLean * g.dy, 1.0, kRowsPerLean * g.dy, 1, n}}, {{}, {}, lean_});
 }
 
-GapBounds GapSource::bounds(const IndexBox& box, bool close) const {
-  const Rectangle r = spanned(grid_, box), wheel_r = facets_ ? facets_->reach(r) : r;
-  const HeightBounds rail = bodies_.rail->height_bounds(X_RT_, r);
-  if (rail.empty) return {0.0, 0.0, true};
-  const HeightBounds wheel = bodies_.wheel->height_bounds(X_WT_, wheel_r);
-  if (wheel.empty) return {0.0, 0.0, true};
-  GapBounds gap{rail.z_min - wheel.z_max, rail.z_max - wheel.z_min, false};
-  if (close) {
-    const double slope = lean_[static_cast<std::size_t>((box.iy + box.ny / 2) / kRowsPerLean)];
-    constexpr double kLevel = 0.02, kSteep = 3.0;
-    if (std::abs(slope) > kLevel && std::abs(slope) < kSteep)
-      gap.low = std::max(gap.low, least_along_rail(r, rail, wheel_r, wheel, slope));
+GapBounds GapSource::bounds(const IndexBox& box) const { return bounds(box, 1, 1).front(); }
+
+std::vector<GapBounds> GapSource::bounds(const IndexBox& first, int nx, int ny) const {
+  const Rectangle r = spanned(grid_, first), wheel_r = facets_ ? facets_->reach(r) : r;
+  const double step_x = first.nx * grid_.dx, step_y = first.ny * grid_.dy;
+  const std::size_t n = static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny);
+  std::vector<HeightBounds> rail(n), wheel(n);
+  if (n == 1) {
+    rail[0] = bodies_.rail->height_bounds(X_RT_, r);
+    wheel[0] = rail[0].empty ? rail[0] : bodies_.wheel->height_bounds(X_WT_, wheel_r);
+  } else {
+    bodies_.rail->height_bounds(X_RT_, {r, step_x, step_y, nx, ny}, rail);
+    bodies_.wheel->height_bounds(X_WT_, {wheel_r, step_x, step_y, nx, ny}, wheel);
   }
-  return gap;
+  std::vector<GapBounds> gaps(n);
+  for (std::size_t i = 0; i < n; ++i)
+    if (!rail[i].empty && !wheel[i].empty)
+      gaps[i] = {rail[i].z_min - wheel[i].z_max, rail[i].z_max - wheel[i].z_min, false, rail[i], wheel[i]};
+  return gaps;
 }
 
 // In a frame P rolled by d a vertical line meets rail and wheel at points whose heights along P's normal differ by gap cos(d).
 // The rail's point lies not before the outermost surface that P sees there, the wheel's not beyond: bounds of what P
 // sees, over all places in P that these points may have, bound the gap.
-double GapSource::least_along_rail(const Rectangle& rail_r, const HeightBounds& rail, const Rectangle& wheel_r,
-                                   const HeightBounds& wheel, double slope) const {
+double GapSource::least_close(const IndexBox& box, const GapBounds& bounds) const {
+  const double slope = lean_[static_cast<std::size_t>((box.iy + box.ny / 2) / kRowsPerLean)];
+  constexpr double kLevel = 0.02, kSteep = 3.0;
+  if (!(std::abs(slope) > kLevel && std::abs(slope) < kSteep)) return bounds.low;
+  const Rectangle rail_r = spanned(grid_, box), wheel_r = facets_ ? facets_->reach(rail_r) : rail_r;
   const double roll = std::atan(slope), sine = std::sin(roll), cosine = std::cos(roll);
-  const double y_middle = 0.5 * (rail_r.y_min + rail_r.y_max), z_middle = 0.5 * (rail.z_min + rail.z_max);
+  const double y_middle = 0.5 * (rail_r.y_min + rail_r.y_max), z_middle = 0.5 * (bounds.rail.z_min + bounds.rail.z_max);
   const Pose X_TP{{0.0, y_middle, z_middle}, rotation_x(roll)};
   const auto seen = [&](const Rectangle& r, const HeightBounds& z) {
     const double a = (z.z_min - z_middle) * sine, b = (z.z_max - z_middle) * sine;
     return Rectangle{r.x_min, r.x_max, (r.y_min - y_middle) * cosine + std::min(a, b), (r.y_max - y_middle) * cosine + std::max(a, b)};
   };
-  const HeightBounds n_rail = bodies_.rail->height_bounds(X_RT_ * X_TP, seen(rail_r, rail));
-  const HeightBounds n_wheel = bodies_.wheel->height_bounds(X_WT_ * X_TP, seen(wheel_r, wheel));
-  if (n_rail.empty || n_wheel.empty) return -std::numeric_limits<double>::infinity();
-  return (n_rail.z_min - n_wheel.z_max) / cosine;
+  const HeightBounds n_rail = bodies_.rail->height_bounds(X_RT_ * X_TP, seen(rail_r, bounds.rail));
+  const HeightBounds n_wheel = bodies_.wheel->height_bounds(X_WT_ * X_TP, seen(wheel_r, bounds.wheel));
+  if (n_rail.empty || n_wheel.empty) return bounds.low;
+  return std::max(bounds.low, (n_rail.z_min - n_wheel.z_max) / cosine);
 }
 
 void GapSource::fill(std::span<GapField::Tile* const> tiles) {

@@ -11,10 +11,12 @@
 
 namespace treadmark::detection {
 
-/// Every gap over a rectangle lies in [low, high] where there is one [m]. empty: nowhere do both surfaces exist.
+/// Bounds of both bodies over a rectangle: every gap over it lies in [low, high] where there is one [m].
+/// empty: nowhere do both surfaces exist.
 struct GapBounds {
   double low = 0.0, high = 0.0;
-  bool empty = false;
+  bool empty = true;
+  HeightBounds rail, wheel;
 };
 
 /// Where the gaps on a grid come from: the two surfaces, or the rail and the facets of a wheel.
@@ -22,9 +24,13 @@ class GapSource {
  public:
   GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets);
 
-  /// Conservative bounds over the rectangle that the points of a box span. close: a second look, in a plane that leans as the
-  /// rail does, so that slopes that both bodies have do not count; worth it for small boxes.
-  GapBounds bounds(const IndexBox& box, bool close) const;
+  /// Conservative bounds over the rectangle that the points of a box span.
+  GapBounds bounds(const IndexBox& box) const;
+  /// The same for boxes of one size in nx columns and ny rows side by side, row by row, with one query of each body.
+  std::vector<GapBounds> bounds(const IndexBox& first, int nx, int ny) const;
+  /// A second look at the least gap over a box, in a plane that leans as the rail does, so that slopes that both bodies have do
+  /// not count; worth it for small boxes. bounds: of the box.
+  double least_close(const IndexBox& box, const GapBounds& bounds) const;
 
   /// Fills a tile. Not thread-safe where the wheel has facets.
   void fill(GapField::Tile& tile) { fill(std::span<GapField::Tile* const>(std::vector<GapField::Tile*>{&tile})); }
@@ -34,8 +40,6 @@ class GapSource {
  private:
   struct Patch;
   void fill_patch(const Patch& patch);
-  double least_along_rail(const Rectangle& rail_rectangle, const HeightBounds& rail, const Rectangle& wheel_rectangle,
-                          const HeightBounds& wheel, double slope) const;
 
   BodyPair bodies_;
   Pose X_RT_, X_WT_;

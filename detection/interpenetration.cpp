@@ -57,6 +57,11 @@ void grow_box(const GapField& field, double wheel_dz, Region& r) {
       if (penetrates(ix, iy)) return true;
     return false;
   };
+  // The cross through the minimum belongs to the box: a start that leaves little to grow.
+  while (penetrates(r.ix_min - 1, r.iy_deepest)) --r.ix_min;
+  while (penetrates(r.ix_max + 1, r.iy_deepest)) ++r.ix_max;
+  while (penetrates(r.ix_deepest, r.iy_min - 1)) --r.iy_min;
+  while (penetrates(r.ix_deepest, r.iy_max + 1)) ++r.iy_max;
   for (bool grown = true; grown;) {
     grown = false;
     if (column(r.ix_min - 1)) --r.ix_min, grown = true;

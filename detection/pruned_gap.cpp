@@ -14,6 +14,8 @@ constexpr int kLogX = 3, kLogY = 4;
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
+constexpr int kTogether = 64;  // tiles
+
 // Bounds hold for real numbers; heights come with rounding of this size.
 constexpr double kRounding = 1e-10;
 
@@ -24,17 +26,18 @@ PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::opt
   if (everything)
     reveal(IndexBox{0, 0, grid_T.nx, grid_T.ny});
   else
-    push(0, 0, field_.tiles_x(), field_.tiles_y());
+    split({{}, 0, 0, field_.tiles_x(), field_.tiles_y()});
 }
 
-void PrunedGap::push(int tx, int ty, int nx, int ny) {
+IndexBox PrunedGap::box(int tx, int ty, int nx, int ny) const {
   const IndexBox first = field_.tile_box(tx, ty), last = field_.tile_box(tx + nx - 1, ty + ny - 1);
-  const IndexBox box{first.ix, first.iy, last.ix + last.nx - first.ix, last.iy + last.ny - first.iy};
-  constexpr int kCloseLook = 1;  // tiles
-  Node node{source_.bounds(box, nx * ny <= kCloseLook), tx, ty, nx, ny};
+  return {first.ix, first.iy, last.ix + last.nx - first.ix, last.iy + last.ny - first.iy};
+}
+
+void PrunedGap::push(const Node& node) {
   if (node.bounds.empty) return;
-  node.bounds.low -= kRounding;
   frontier_.push_back(node);
+  frontier_.back().bounds.low -= kRounding;
   std::ranges::push_heap(frontier_, later);
 }
 
@@ -45,18 +48,40 @@ PrunedGap::Node PrunedGap::pop() {
   return node;
 }
 
+bool PrunedGap::refine(const Node& node) {
+  if (!node.single()) {
+    split(node);
+    return true;
+  }
+  if (node.looked_closely) return false;
+  Node closer = node;
+  closer.looked_closely = true;
+  closer.bounds.low = source_.least_close(box(node.tx, node.ty, 1, 1), node.bounds);
+  push(closer);
+  return true;
+}
+
 void PrunedGap::split(const Node& node) {
+  // Few tiles are cheaper looked at together than halved again and again.
+  if (node.nx * node.ny <= kTogether) {
+    const IndexBox first{node.tx << field_.log_x(), node.ty << field_.log_y(), 1 << field_.log_x(), 1 << field_.log_y()};
+    const std::vector<GapBounds> bounds = source_.bounds(first, node.nx, node.ny);
+    for (int iy = 0; iy < node.ny; ++iy)
+      for (int ix = 0; ix < node.nx; ++ix) push({bounds[static_cast<std::size_t>(iy * node.nx + ix)], node.tx + ix, node.ty + iy, 1, 1});
+    return;
+  }
+  const auto part = [&](int tx, int ty, int nx, int ny) { push({source_.bounds(box(tx, ty, nx, ny)), tx, ty, nx, ny}); };
   // Bodies slope more across than along the track: tiles are wanted twice as long as wide.
   const Grid2& g = field_.grid();
   const double length = node.nx * std::ldexp(g.dx, field_.log_x()), width = node.ny * std::ldexp(g.dy, field_.log_y());
   if (node.ny == 1 || (node.nx > 1 && length > 2.0 * width)) {
     const int half = node.nx / 2;
-    push(node.tx, node.ty, half, node.ny);
-    push(node.tx + half, node.ty, node.nx - half, node.ny);
+    part(node.tx, node.ty, half, node.ny);
+    part(node.tx + half, node.ty, node.nx - half, node.ny);
   } else {
     const int half = node.ny / 2;
-    push(node.tx, node.ty, node.nx, half);
-    push(node.tx, node.ty + half, node.nx, node.ny - half);
+    part(node.tx, node.ty, node.nx, half);
+    part(node.tx, node.ty + half, node.nx, node.ny - half);
   }
 }
 
@@ -75,10 +100,7 @@ void PrunedGap::reveal(double below) {
   std::vector<Node> wanted;
   while (!frontier_.empty() && frontier_.front().bounds.low < below) {
     const Node node = pop();
-    if (node.single() || node.bounds.high < below)
-      wanted.push_back(node);
-    else
-      split(node);
+    if (node.bounds.high < below || !refine(node)) wanted.push_back(node);
   }
   fill(wanted);
 }
@@ -95,10 +117,7 @@ double PrunedGap::least() {
     wanted.clear();
     while (wanted.size() < group && !frontier_.empty() && frontier_.front().bounds.low < least_known_) {
       const Node node = pop();
-      if (node.single())
-        wanted.push_back(node);
-      else
-        split(node);
+      if (!refine(node)) wanted.push_back(node);
     }
     fill(wanted);
   }

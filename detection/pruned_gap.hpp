@@ -36,12 +36,16 @@ class PrunedGap {
   struct Node {
     GapBounds bounds;
     int tx, ty, nx, ny;
+    bool looked_closely = false;
     bool single() const { return nx == 1 && ny == 1; }
   };
   static bool later(const Node& a, const Node& b) { return a.bounds.low > b.bounds.low; }
 
-  void push(int tx, int ty, int nx, int ny);
+  IndexBox box(int tx, int ty, int nx, int ny) const;
+  void push(const Node& node);
   Node pop();
+  /// Into smaller ones, or a closer look at a tile; false where nothing but its heights is left to be found out.
+  bool refine(const Node& node);
   void split(const Node& node);
   void fill(const std::vector<Node>& nodes);
 

@@ -24,6 +24,7 @@ std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, double angle, 
   wheel.heights({X_WP, line}, {radius, {}, {}});
   const Pose X_TP = X_TW * X_WP;
   std::vector<Vec3> points;
+  points.reserve(radius.size());
   for (int i = 0; i < count; ++i) points.push_back(X_TP.apply({0.0, line.y(i), radius[static_cast<std::size_t>(i)]}));
   return points;
 }
@@ -104,9 +105,10 @@ double FacetWheel::height_over(double x, double y, double& a, double& b) {
     const double inverse = 1.0 / (du.x() * dv.y() - du.y() * dv.x());
     const double da = (rx * dv.y() - ry * dv.x()) * inverse, db = (ry * du.x() - rx * du.y()) * inverse;
     if (!std::isfinite(da) || !std::isfinite(db)) return kNaN;
-    // After a step this small the rest of the way is twist * da * db: far below a nanometre.
-    constexpr double kLastStep = 1e-4, kRim = 1e-7;  // of a facet
-    if (std::abs(da) < kLastStep && std::abs(db) < kLastStep) {
+    // The rest of the way is twist * da * db.
+    constexpr double kClose = 1e-11;  // [m]
+    constexpr double kRim = 1e-7;     // of a facet
+    if (std::abs(da * db) * (std::abs(twist.x()) + std::abs(twist.y())) < kClose) {
       const double u_end = u + da, v_end = v + db;
       const bool inside = u_end > -kRim && u_end < 1 + kRim && v_end > -kRim && v_end < 1 + kRim;
       if (inside) {

@@ -254,4 +254,11 @@ HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangl
   return {n.low - rounding, n.high + rounding, false};
 }
 
+void PrismaticSurface::do_grid_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const {
+  const bool one_column = lateral(X_SP.rotation.col(0)).isZero(0.0);
+  for (int iy = 0; iy < r.ny; ++iy)
+    for (int ix = 0; ix < r.nx; ++ix)
+      out[r.index(ix, iy)] = one_column && ix > 0 ? out[r.index(0, iy)] : do_height_bounds(X_SP, r.at(ix, iy));
+}
+
 }  // namespace treadmark::spline

@@ -30,6 +30,7 @@ class PrismaticSurface final : public Surface {
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+  void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const override;
 
   std::uint64_t id_;  ///< of no other surface, ever
   ProfileSpline profile_;

@@ -40,6 +40,7 @@ class RailWindow {
   Interval heights(const Range& y, const Range& w) const {
     return s_.of(y, w).overlaps(along_) ? n_.of(y, w).interval() : Interval::none();
   }
+  Range along_of(const Range& y, const Range& w) const { return s_.of(y, w); }
   /// Turns to be added to u.
   static constexpr int kTurns = 0;
 
@@ -175,15 +176,33 @@ class SliceTree {
   const SliceHulls& hulls_;
 };
 
-/// Marks the cells that may lie over the window, and a few beside them: boxes of the second level count as a whole, since one
-/// more cell costs less than its test.
+/// Calls use(range along the lines, heights) for boxes that may be over the window: for one that is small and level beside a
+/// length, else for the finest ones in it.
+template <class Window, class Use>
+void for_small_boxes(const Window& window, const SliceNet& net, const SliceHulls& hulls, double length, const Use& use) {
+  constexpr double kSmall = 0.25, kLevel = 0.05;
+  using Tree = SliceTree<Window>;
+  const Tree tree(window, net, hulls);
+  const auto descend = [&](const auto& self, const typename Tree::Node& node) -> void {
+    tree.children(node, [&](const typename Tree::Node& child, const Interval& heights) {
+      const HullBox& box = hulls.levels()[static_cast<std::size_t>(child.level)].box(child.row, child.column);
+      const Range y(box.range_y()), w(box.range_w()), s = window.along_of(y, w);
+      if (!Tree::is_leaf(child) && (w.half > kLevel * length || s.half > kSmall * length)) return self(self, child);
+      use(s.interval(), heights);
+    });
+  };
+  descend(descend, tree.root());
+}
+
+/// Marks the cells that may lie over the window, and a few beside them where boxes of the second level count as a whole: for a
+/// single line a cell costs less than its test.
 template <class Window>
-void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls& hulls, std::vector<char>& marks) {
+void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls& hulls, bool single_line, std::vector<char>& marks) {
   if (!window.exists()) return;
   using Tree = SliceTree<Window>;
   const Tree tree(window, net, hulls);
   const auto& levels = hulls.levels();
-  const int whole = std::min(1, static_cast<int>(levels.size()) - 1);
+  const int whole = single_line ? std::min(1, static_cast<int>(levels.size()) - 1) : 0;
   const auto width = static_cast<std::size_t>(whole == 0 ? 1 : levels[1].columns_below);
   const auto cells = static_cast<std::size_t>(levels.front().columns);
   const auto descend = [&](const auto& self, const typename Tree::Node& node) -> void {

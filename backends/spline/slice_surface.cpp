@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <type_traits>
 
 #include "treadmark/backends/spline/bound_search.hpp"
@@ -65,15 +66,17 @@ HitArrays hit_arrays(ColumnHits& hits, bool places) {
 }
 
 template <class Geometry>
-std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls) {
+std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls, bool single_line) {
   thread_local std::vector<char> marks;
   marks.assign(static_cast<std::size_t>(net.cells()) + 1, 0);
-  mark_cells_over(WindowOn<Geometry>(window), net, hulls, marks);
+  mark_cells_over(WindowOn<Geometry>(window), net, hulls, single_line, marks);
   std::vector<CellRun> runs;
-  for (int k = 0; k < net.cells(); ++k) {
-    if (!marks[static_cast<std::size_t>(k)]) continue;
-    if (runs.empty() || runs.back().last != k) runs.push_back({k, k});
-    runs.back().last = k + 1;
+  // memchr is quicker than a loop, and the last mark is never set
+  const char *const begin = marks.data(), *const end = begin + net.cells();
+  for (const char* first = begin; (first = static_cast<const char*>(std::memchr(first, 1, static_cast<std::size_t>(end - first)))) != nullptr;) {
+    const char* last = static_cast<const char*>(std::memchr(first, 0, static_cast<std::size_t>(end - first) + 1));
+    runs.push_back({static_cast<int>(first - begin), static_cast<int>(last - begin)});
+    first = last;
   }
   return runs;
 }
@@ -113,7 +116,7 @@ void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geom
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
   const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
   const auto over = [&](const Interval& a, const Interval& s) {
-    return runs_over<Geometry>({across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)}, net, hulls);
+    return runs_over<Geometry>({across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)}, net, hulls, true);
   };
   const auto count = [](const std::vector<CellRun>& runs) {
     std::size_t cells = 0;
@@ -189,7 +192,7 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
     const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
     const auto runs = runs_over<Geometry>({g.across, g.along, g.normal, g.origin,
                                            widened(g.across_at(first), g.across_at(last)),
-                                           widened(g.samples.first, g.samples.last())}, net_, hulls_);
+                                           widened(g.samples.first, g.samples.last())}, net_, hulls_, first == last);
     for (int line = first; line <= last; ++line) {
       hits.clear();
       if (slopes) hits.clear_places();
@@ -264,6 +267,34 @@ HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Re
   const Interval n = BoundSearch(tree, facing()).range(tree.root());
   if (n.empty()) return {0.0, 0.0, true};
   return {n.low - 1e-12, n.high + 1e-12, false};
+}
+
+// Every small box goes to all rectangles it may be over: no descent for each of them.
+template <class Geometry>
+void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const {
+  const bool along_y = Geometry::lines_along_y(X_SP.rotation);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0);
+  const Interval x = widened(r.first.x_min, r.first.x_max), y = widened(r.first.y_min, r.first.y_max);
+  const Interval first_across = along_y ? x : y, first_along = along_y ? y : x;
+  const double step_across = along_y ? r.step_x : r.step_y, step_along = along_y ? r.step_y : r.step_x;
+  const int n_across = along_y ? r.nx : r.ny, n_along = along_y ? r.ny : r.nx;
+  const Interval all_along{first_along.low, first_along.high + (n_along - 1) * step_along};
+  std::vector<Interval> heights(static_cast<std::size_t>(n_along));
+  for (int i = 0; i < n_across; ++i) {
+    std::ranges::fill(heights, Interval::none());
+    const WindowOn<Geometry> window({across, along, X_SP.rotation.col(2), X_SP.origin, first_across + i * step_across, all_along});
+    if (window.exists())
+      for_small_boxes(window, net_, hulls_, first_along.width(), [&](const Interval& s, const Interval& n) {
+        const double begin = std::max(0.0, std::ceil((s.low - first_along.high) / step_along));
+        const double end = std::min(n_along - 1.0, std::floor((s.high - first_along.low) / step_along));
+        if (!(begin <= end)) return;
+        for (auto j = static_cast<std::size_t>(begin); j <= static_cast<std::size_t>(end); ++j) heights[j].include(n);
+      });
+    for (int j = 0; j < n_along; ++j) {
+      const Interval& n = heights[static_cast<std::size_t>(j)];
+      out[along_y ? r.index(i, j) : r.index(j, i)] = n.empty() ? HeightBounds{0.0, 0.0, true} : HeightBounds{n.low - 1e-12, n.high + 1e-12, false};
+    }
+  }
 }
 
 template class SliceSurface<RailGeometry>;

@@ -258,6 +258,53 @@ TEST_P(Conformance, HeightBoundsHoldEveryHeight) {
   EXPECT_GT(hit, 50);
 }
 
+TEST_P(Conformance, BoundsOfManyRectanglesHoldEveryHeight) {
+  std::mt19937 random(11);
+  std::uniform_real_distribution<double> unit(0.0, 1.0);
+  constexpr int kPoints = 8;
+  const bool wheel = shape().spec.body == Body::wheel;
+  int hit = 0, small = 0, loose = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    Pose X = shape().planes[static_cast<std::size_t>(trial) % shape().planes.size()];
+    if (trial % 3 != 0) X.rotation = X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
+    const double width = std::pow(10.0, -3.5 + 1.5 * unit(random)), height = std::pow(10.0, -3.5 + 1.5 * unit(random));
+    const double x = 0.1 * (unit(random) - 0.5), y = 0.15 * (unit(random) - 0.5);
+    // some overlap, some leave gaps
+    const RectangleGrid r{{x, x + width, y, y + height}, width * (0.6 + unit(random)), height * (0.6 + unit(random)), 4, 3};
+    std::vector<HeightBounds> bounds(r.size());
+    surface_->height_bounds(X, r, bounds);
+    for (int iy = 0; iy < r.ny; ++iy)
+      for (int ix = 0; ix < r.nx; ++ix) {
+        const Rectangle one = r.at(ix, iy);
+        const HeightBounds& b = bounds[r.index(ix, iy)];
+        const Fields f = evaluate(*surface_, X, {one.x_min, one.y_min, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints});
+        constexpr double kRounding = 1e-10;
+        double z_min = std::numeric_limits<double>::infinity(), z_max = -z_min;
+        bool everywhere = true;
+        for (double z : f.z) {
+          if (std::isnan(z)) {
+            everywhere = false;
+            continue;
+          }
+          ASSERT_FALSE(b.empty) << "trial " << trial;
+          ASSERT_GE(z, b.z_min - kRounding) << "trial " << trial;
+          ASSERT_LE(z, b.z_max + kRounding) << "trial " << trial;
+          z_min = std::min(z_min, z);
+          z_max = std::max(z_max, z);
+          ++hit;
+        }
+        if (everywhere && width + height < 4e-3 && z_max - z_min < 2.0 * (width + height)) {
+          ++small;
+          const double excess = wheel ? b.z_max - z_max : z_min - b.z_min;
+          if (excess > 3.0 * (width + height) + 1e-4) ++loose;
+        }
+      }
+  }
+  EXPECT_GT(hit, 2000);
+  EXPECT_GT(small, 20);
+  EXPECT_LE(loose, small / 10);
+}
+
 TEST_P(Conformance, LocatedPointsLieOnTheSurface) {
   const Grid2 g = coarse_grid();
   std::vector<Vec2> points;

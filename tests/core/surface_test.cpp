@@ -71,8 +71,13 @@ TEST(SurfaceContract, RefusesWrongSizes) {
   const std::vector<Vec2> points(2);
   std::vector<SurfacePoint> located(3);
   EXPECT_THROW(surface.locate({}, points, located), Error);
-  EXPECT_THROW(surface.height_bounds({}, {1.0, 0.0, 0.0, 1.0}), Error);
-  EXPECT_THROW(surface.height_bounds({}, {0.0, 1.0, 0.0, std::nan("")}), Error);
+  EXPECT_THROW(surface.height_bounds({}, Rectangle{1.0, 0.0, 0.0, 1.0}), Error);
+  EXPECT_THROW(surface.height_bounds({}, Rectangle{0.0, 1.0, 0.0, std::nan("")}), Error);
+  std::vector<HeightBounds> bounds(6);
+  EXPECT_NO_THROW(surface.height_bounds({}, {{0.0, 1.0, 0.0, 1.0}, 1.0, 1.0, 3, 2}, bounds));
+  EXPECT_THROW(surface.height_bounds({}, {{0.0, 1.0, 0.0, 1.0}, 1.0, 1.0, 2, 2}, bounds), Error);
+  EXPECT_THROW(surface.height_bounds({}, {{0.0, 1.0, 0.0, 1.0}, 0.0, 1.0, 3, 2}, bounds), Error);
+  EXPECT_THROW(surface.height_bounds({}, {{1.0, 0.0, 0.0, 1.0}, 1.0, 1.0, 3, 2}, bounds), Error);
 }
 
 }  // namespace
