@@ -109,7 +109,7 @@ SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
   gap_->reveal(look_below + wheel_dz);
 
   std::vector<ContactPatch> patches, near_misses;
-  for (const Region& region : find_regions(gap_->field(), wheel_dz, s.weight, look_below)) {
+  for (const Region& region : find_regions(gap_->field(), wheel_dz, s.refine ? std::nullopt : std::optional(s.weight), look_below)) {
     if (!s.refine) {
       // Guard rows give heights too.
       gap_->reveal({region.ix_min, region.iy_min, region.ix_max - region.ix_min + 1, region.iy_max - region.iy_min + 1});

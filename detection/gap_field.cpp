@@ -11,6 +11,11 @@ namespace treadmark::detection {
 
 Grid2 part_of(const Grid2& g, const IndexBox& b) { return {g.x(b.ix), g.y(b.iy), g.dx, g.dy, b.nx, b.ny}; }
 
+GapField::Tile::Tile(const IndexBox& points) : box(points), numbers_(std::make_unique_for_overwrite<double[]>(3 * points.size())) {
+  const std::size_t n = points.size();
+  rail_z = {numbers_.get(), n}, gap = {numbers_.get() + n, n}, rail_slope = {numbers_.get() + 2 * n, n};
+}
+
 void GapField::Tile::close() {
   least = std::numeric_limits<double>::infinity();
   for (const double g : gap)
@@ -27,10 +32,7 @@ IndexBox GapField::tile_box(int tx, int ty) const {
 }
 
 GapField::Tile& GapField::add_tile(int tx, int ty) {
-  auto tile = std::make_unique<Tile>();
-  tile->box = tile_box(tx, ty);
-  for (auto* array : {&tile->rail_z, &tile->gap, &tile->rail_slope}) array->resize(tile->box.size());
-  return *(tiles_[tile_index(tx, ty)] = std::move(tile));
+  return *(tiles_[tile_index(tx, ty)] = std::unique_ptr<Tile>(new Tile(tile_box(tx, ty))));
 }
 
 GapField gap_field(const BodyPair& bodies, const Grid2& grid_T) {

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <limits>
 #include <memory>
+#include <span>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
@@ -28,13 +29,18 @@ class GapField {
  public:
   struct Tile {
     IndexBox box;
-    std::vector<double> rail_z, gap, rail_slope;  ///< [m], [m], dz/dy in T [-]; row by row
+    std::span<double> rail_z, gap, rail_slope;  ///< [m], [m], dz/dy in T [-]; row by row
     double least = std::numeric_limits<double>::infinity();  ///< gap of the tile
 
     std::size_t index(int ix, int iy) const {
       return static_cast<std::size_t>(iy - box.iy) * static_cast<std::size_t>(box.nx) + static_cast<std::size_t>(ix - box.ix);
     }
     void close();  ///< after filling: finds the least gap
+
+   private:
+    friend class GapField;
+    explicit Tile(const IndexBox& points);
+    std::unique_ptr<double[]> numbers_;  // not set yet: a tile is about to be filled
   };
 
   /// Nothing known yet; tiles of 2^log_x times 2^log_y points.
@@ -67,7 +73,7 @@ class GapField {
   std::size_t tile_index(int tx, int ty) const {
     return static_cast<std::size_t>(ty) * static_cast<std::size_t>(tiles_x_) + static_cast<std::size_t>(tx);
   }
-  double value(std::vector<double> Tile::* array, int ix, int iy) const {
+  double value(std::span<double> Tile::* array, int ix, int iy) const {
     const Tile* tile = tile_of(ix, iy);
     return tile ? (tile->*array)[tile->index(ix, iy)] : std::numeric_limits<double>::quiet_NaN();
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <memory>
 
 #include "treadmark/core/parallel.hpp"
 
@@ -123,18 +124,21 @@ void GapSource::fill_patch(const Patch& patch) {
   const Grid2 part = part_of(grid_, box);
   const std::size_t n = box.size();
   const bool alone = patch.tiles.size() == 1;
-  std::vector<double> scratch(alone ? n : 3 * n);
-  const std::span<double> all(scratch);
-  const std::span<double> wheel_z = all.first(n);
+  const auto scratch = std::make_unique_for_overwrite<double[]>(alone ? 0 : 3 * n);
+  const auto array = [&](std::size_t i, std::span<double> of_tile) { return alone ? of_tile : std::span(scratch.get() + i * n, n); };
   GapField::Tile& first = *patch.tiles.front();
-  const std::span<double> rail_z = alone ? std::span<double>(first.rail_z) : all.subspan(n, n);
-  const std::span<double> slope = alone ? std::span<double>(first.rail_slope) : all.subspan(2 * n, n);
+  const std::span<double> wheel_z = array(0, first.gap), rail_z = array(1, first.rail_z), slope = array(2, first.rail_slope);
   bodies_.rail->heights({X_RT_, part}, {rail_z, {}, slope});
   if (facets_)
     facets_->heights(part, wheel_z);
   else
     bodies_.wheel->heights({X_WT_, part}, {wheel_z, {}, {}});
 
+  if (alone) {
+    for (std::size_t i = 0; i < n; ++i) first.gap[i] = first.rail_z[i] - first.gap[i];
+    first.close();
+    return;
+  }
   for (GapField::Tile* tile : patch.tiles) {
     for (int iy = 0; iy < tile->box.ny; ++iy) {
       const std::size_t to = static_cast<std::size_t>(iy) * static_cast<std::size_t>(tile->box.nx);

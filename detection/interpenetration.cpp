@@ -106,7 +106,7 @@ void weigh(const GapField& field, double wheel_dz, PenetrationWeight weight, Reg
 
 }  // namespace
 
-std::vector<Region> find_regions(const GapField& field, double wheel_dz, PenetrationWeight weight, double near_miss_gap) {
+std::vector<Region> find_regions(const GapField& field, double wheel_dz, std::optional<PenetrationWeight> weight, double near_miss_gap) {
   const Grid2& g = field.grid();
   constexpr int kMaxNearMisses = 2;
   std::vector<Region> regions;
@@ -122,7 +122,7 @@ std::vector<Region> find_regions(const GapField& field, double wheel_dz, Penetra
     r.least_gap = m.gap;
     if (m.gap < 0.0) {
       grow_box(field, wheel_dz, r);
-      weigh(field, wheel_dz, weight, r);
+      if (weight) weigh(field, wheel_dz, *weight, r);
     } else {
       if (++near_misses > kMaxNearMisses) break;
       r.x = g.x(m.ix);

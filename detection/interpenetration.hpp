@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "treadmark/detection/gap_field.hpp"
@@ -24,7 +25,8 @@ struct Region {
 
 /// All interpenetration regions, deepest first, followed by at most two near misses with a gap below near_miss_gap
 /// (Figure 3 a-e of Vollebregt's paper on 3D wheel and rail surfaces). wheel_dz: the wheel has moved by this along z of T
-/// since the field was made, so that every gap is less by it [m].
-std::vector<Region> find_regions(const GapField& field, double wheel_dz, PenetrationWeight weight, double near_miss_gap);
+/// since the field was made, so that every gap is less by it [m]. Without a weight x, y, z, inclination and weight of regions
+/// are not found out, only of near misses.
+std::vector<Region> find_regions(const GapField& field, double wheel_dz, std::optional<PenetrationWeight> weight, double near_miss_gap);
 
 }  // namespace treadmark::detection

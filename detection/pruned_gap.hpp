@@ -44,9 +44,13 @@ class PrunedGap {
   IndexBox box(int tx, int ty, int nx, int ny) const;
   void push(const Node& node);
   Node pop();
-  /// Into smaller ones, or a closer look at a tile; false where nothing but its heights is left to be found out.
-  bool refine(const Node& node);
-  void split(const Node& node);
+  /// Into smaller ones, or a closer look at a tile; nothing where only its heights are left to be found out.
+  std::vector<Node> refined(const Node& node) const;
+  std::vector<Node> parts(const Node& node) const;
+  /// What comes of the nodes goes to the frontier, or into the list of tiles to be filled.
+  void refine(const std::vector<Node>& nodes, std::vector<Node>& to_fill);
+  /// Down to one tile, always into the most promising part.
+  void dive(Node node);
   void fill(const std::vector<Node>& nodes);
 
   GapSource source_;

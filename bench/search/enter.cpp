@@ -11,12 +11,19 @@
 namespace treadmark::bench {
 namespace {
 
+enum class Window { x1, x2, fine };
+
+const char* name_of(Window window) {
+  return window == Window::x1 ? "window_x1/" : window == Window::x2 ? "window_x2/" : "grid_0.1mm/";
+}
+
 struct Contestant {
   detection::SearchMethod method;
   Scene scene;
   const char* backend;
   double resolution;
-  bool cold, doubled;
+  bool cold;
+  Window window;
   int threads;
 };
 
@@ -25,6 +32,13 @@ void double_window(Grid2& g) {
   g.y0 -= 0.5 * (g.ny - 1) * g.dy;
   g.nx = 2 * g.nx - 1;
   g.ny = 2 * g.ny - 1;
+}
+
+void refine(Grid2& g) {
+  constexpr double kStep = 1e-4;
+  g.nx = static_cast<int>(std::round((g.nx - 1) * g.dx / kStep)) + 1;
+  g.ny = static_cast<int>(std::round((g.ny - 1) * g.dy / kStep)) + 1;
+  g.dx = g.dy = kStep;
 }
 
 /// The full grid is the oracle of the other methods; it is held against itself on a grid twice as fine.
@@ -48,10 +62,14 @@ void search(benchmark::State& state, const Contestant& c) {
   const detection::BodyPair pair = bodies(c.scene, c.backend, c.resolution);
   detection::SearchSettings settings = scene(c.scene).search;
   settings.method = c.method;
-  if (c.doubled) double_window(settings.grid_T);
+  if (c.window == Window::x2) double_window(settings.grid_T);
+  if (c.window == Window::fine) refine(settings.grid_T);
   std::string reason = app::check_search(pair, settings);
   if (reason.empty() && c.method == detection::SearchMethod::full_grid) reason = check_full_grid(pair, settings);
   if (!reason.empty()) return refuse(state, reason);
+  detection::ContactSearch counted(pair, settings);
+  counted.at(0.0);
+  state.counters["points_evaluated"] = static_cast<double>(counted.points_evaluated());
   if (c.cold) {
     for (auto _ : state) benchmark::DoNotOptimize(detection::ContactSearch(pair, settings).at(0.0));
   } else {
@@ -72,10 +90,10 @@ bool enter_search(const char* name, detection::SearchMethod method, Scene scene)
   };
   for (const Backend& b : {Backend{"analytic", 0.0}, Backend{"spline", 0.5e-3}, Backend{"mesh", 0.5e-3}, Backend{"offset", 0.5e-3}})
     for (const bool cold : {true, false})
-      for (const bool doubled : {false, true})
+      for (const Window window : {Window::x1, Window::x2, Window::fine})
         for (const int threads : {1, 2}) {
-          const Contestant c{method, scene, b.name, b.resolution, cold, doubled, threads};
-          const std::string full = std::string(name) + (cold ? "/cold/" : "/warm/") + (doubled ? "window_x2/" : "window_x1/") +
+          const Contestant c{method, scene, b.name, b.resolution, cold, window, threads};
+          const std::string full = std::string(name) + (cold ? "/cold/" : "/warm/") + name_of(window) +
                                    std::to_string(threads) + (threads == 1 ? "_thread/" : "_threads/") + label(b.name, b.resolution);
           benchmark::RegisterBenchmark(full.c_str(), [c](benchmark::State& state) { search(state, c); })
               ->Unit(benchmark::kMillisecond)
