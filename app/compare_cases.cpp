@@ -40,7 +40,7 @@ struct Compared {
 Compared compared_bodies(const NaturalSurface& wheel, const NaturalSurface& rail, const CompareSettings& settings) {
   if (settings.bodies == Bodies::wheel) return {true, false};
   if (settings.bodies == Bodies::rail) return {false, true};
-  const Compared varying{!wheel.constant_profile, !rail.constant_profile};
+  const Compared varying{!wheel.constant_profile(), !rail.constant_profile()};
   if (settings.bodies == Bodies::both || (!varying.wheel && !varying.rail)) return {true, true};
   return varying;
 }

@@ -18,7 +18,7 @@ namespace treadmark::app {
 struct StoredSurface {
   std::shared_ptr<const NaturalSurface> natural;   ///< as given
   RepresentedSurface represented;                  ///< as asked for; used in the analysis
-  bool constant_profile() const { return natural->constant_profile; }
+  bool constant_profile() const { return natural->constant_profile(); }
   Body body() const { return natural->spec.body; }
 };
 

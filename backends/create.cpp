@@ -119,7 +119,7 @@ class Resampling {
                                           spec_.nominal_radius);
       }
     }
-    if (natural_.constant_profile) return spline::make_profile_surface(section(), spec_.nominal_radius);
+    if (natural_.constant_profile()) return spline::make_profile_surface(section(), spec_.nominal_radius);
     return spline::make_slice_surface(slices(), spec_.nominal_radius);
   }
 
@@ -254,7 +254,7 @@ class Resampling {
     sampling::SampleSettings s{resolution_, 0.0, region_, common, staggered};
     // along a prismatic rail nothing changes: longer steps lose nothing
     constexpr double kLongStep = 4.0;
-    if (natural_.constant_profile && spec_.body == Body::rail) s.spacing_u = kLongStep * resolution_;
+    if (natural_.constant_profile() && spec_.body == Body::rail) s.spacing_u = kLongStep * resolution_;
     // the rows of triangles begin half a step apart: begin earlier, so that the region itself is covered
     if (staggered) {
       const double step = (s.spacing_u > 0.0 ? s.spacing_u : resolution_) / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
@@ -320,7 +320,6 @@ NaturalSurface create_natural(SurfaceSpec spec) {
   check(spec);
   NaturalSurface natural;
   natural.surface = make_natural(spec, natural.note);
-  natural.constant_profile = natural.surface->constant_profile();
   natural.spec = std::move(spec);
   return natural;
 }

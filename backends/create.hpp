@@ -32,8 +32,8 @@ std::span<const std::string_view> standard_profile_names();
 struct NaturalSurface {
   SurfaceSpec spec;                        ///< what it was made from; of a file of offsets body and radius only
   std::shared_ptr<const Surface> surface;
-  bool constant_profile = false;           ///< prismatic rail or round wheel
   std::string note;                        ///< repairs worth knowing; may be empty
+  bool constant_profile() const { return surface->constant_profile(); }
 };
 
 /// Errors: Error(configuration) for a wheel without a positive nominal radius, a shape or defect that belongs to the other

@@ -41,10 +41,9 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
   last_ = now;
   drawn_ = true;
   const double elapsed = std::chrono::duration<double>(now - start_).count();
-  const double left = finished > 0 ? elapsed / static_cast<double>(finished) * static_cast<double>(total - finished) : 0.0;
-  const std::string line =
-      fmt::format("\r\x1b[K{}/{} ({:.0f} %) {}, {:.1f} s left", finished, total,
-                  100.0 * static_cast<double>(finished) / static_cast<double>(total), what, left);
+  std::string line = fmt::format("\r\x1b[K{}/{} ({:.0f} %) {}", finished, total,
+                                 100.0 * static_cast<double>(finished) / static_cast<double>(total), what);
+  if (finished > 0) line += fmt::format(", {:.1f} s left", elapsed / static_cast<double>(finished) * static_cast<double>(total - finished));
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }

@@ -100,9 +100,9 @@ TEST(CreateSurface, MeasuredShapesTakeDefectsToo) {
   const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.5e-3);
   const NaturalSurface wheel = create_natural({Body::wheel, kWheelRadius, points, one_flat()});
   EXPECT_EQ(wheel.surface->backend(), "spline");
-  EXPECT_FALSE(wheel.constant_profile);
+  EXPECT_FALSE(wheel.constant_profile());
   const NaturalSurface round = create_natural({Body::wheel, kWheelRadius, points, {}});
-  EXPECT_TRUE(round.constant_profile);
+  EXPECT_TRUE(round.constant_profile());
   // in the middle of the flat its depth is missing, seen from its own angle
   const Pose plane{Vec3::Zero(), rotation({0.0, 0.0, 0.005})};
   EXPECT_NEAR(height_at(*round.surface, plane, {0.0, 0.004}) - height_at(*wheel.surface, plane, {0.0, 0.004}), 0.3e-3, 1e-9);

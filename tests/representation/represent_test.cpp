@@ -35,7 +35,7 @@ TEST_P(EveryKind, NaturallyIsWhatItIsGivenAs) {
   EXPECT_EQ(natural.surface->backend(), kind.natural);
   EXPECT_EQ(natural.surface->facing(), kind.spec.body == Body::wheel ? Facing::down : Facing::up);
   const bool one_section = kind.natural == "analytic" || std::holds_alternative<Profile>(kind.spec.shape);
-  EXPECT_EQ(natural.constant_profile, one_section && kind.spec.defects.empty());
+  EXPECT_EQ(natural.constant_profile(), one_section && kind.spec.defects.empty());
   const Distance d = distance(*create_natural(kind.formula).surface, *natural.surface, kind.spec.body, kind.region, 4000);
   EXPECT_GT(d.points, 3500);
   EXPECT_EQ(d.missing, 0);
