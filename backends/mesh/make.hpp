@@ -36,7 +36,8 @@ struct MeshRepair {
   bool turned_inside_out = false;      ///< all triangles faced the material and were turned
 };
 
-/// A wheel or rail of triangles, by Embree with every hit recomputed in double precision, and its smooth refinement.
+/// A wheel or rail of triangles and its smooth refinement. Grids: triangles laid over tiles of lines, in double precision;
+/// single lines: Embree with every hit recomputed in double precision.
 /// repair: filled in if not null. Errors: Error(input_data) for an empty mesh, indices out of range, vertices that are not
 /// finite, edges of more than two triangles, coordinates that cannot be metres (with a hint on units), a mesh that cannot be
 /// oriented. Messages name mesh.name.
