@@ -24,7 +24,8 @@ bool BasePatch::look(int begin, int end, int first, int last) {
   if (g_.nx + 2 < kLeast || g_.ny + 2 < kLeast) return false;
   along_.resize(width_ * static_cast<std::size_t>(last - first + 4));
   across_.resize(width_ * static_cast<std::size_t>(last - first + 3));
-  const int from = std::max(begin - 3, -1), to = std::min(end - 2, g_.nx - 5);  // first columns of differences
+  // First columns of differences; beside the last column of the grid there is none but the one before.
+  const int from = std::min(std::max(begin - 3, -1), g_.nx - 5), to = std::max(from, std::min(end - 2, g_.nx - 5));
   double one[kMost + 8];
   for (int iy = std::max(first - 2, -1); iy <= std::min(last + 1, g_.ny); ++iy) {
     const double* z = base_.row(iy);
