@@ -17,7 +17,7 @@ constexpr int kLogEverything = 6;  // one task each
 
 constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
-constexpr int kTogether = 64;  // tiles
+constexpr int kTogether = 16;  // tiles
 
 // Bounds hold for real numbers; heights come with rounding of this size.
 constexpr double kRounding = 1e-10;
