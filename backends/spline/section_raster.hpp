@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 #include <vector>
 
 namespace treadmark::spline {
@@ -72,7 +73,8 @@ class SectionRaster {
   }
 
   /// One cell from a to b (parameters va < vb).
-  void cell(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, int halvings = 0) {
+  void cell(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, int halvings = 0,
+            bool beside_fold = false) {
     const double h = vb - va, rise = b.s - a.s;
     // A cubic stays within this of its ends; also leaves out cells with an end where there is no surface (NaN).
     const double reach = h * std::max(std::abs(a.ds), std::abs(b.ds));
@@ -80,16 +82,17 @@ class SectionRaster {
     // Sufficient for a monotonic cubic (Fritsch and Carlson 1980).
     const double limit = 3.0 * std::abs(rise);
     if (a.ds * rise >= 0.0 && b.ds * rise >= 0.0 && reach <= limit)
-      return piece(cell, va, a, vb, b, section_.kStep);
-    if (halvings < kMaxCellHalvings) {
+      return piece(cell, va, a, vb, b, beside_fold ? section_.kFine : section_.kStep);
+    if (halvings >= kMaxCellHalvings) return piece(cell, va, a, vb, b, section_.kFine);
+    if (a.ds * b.ds < 0.0) {
+      const auto [vm, m] = fold(cell, va, a, vb, b);
+      this->cell(cell, va, a, vm, m, halvings + 1, true);
+      this->cell(cell, vm, m, vb, b, halvings + 1, true);
+    } else {
       const double vm = 0.5 * (va + vb);
       const SectionPoint m = on_section(cell, vm, a.u + a.du * (vm - va));
-      this->cell(cell, va, a, vm, m, halvings + 1);
-      this->cell(cell, vm, m, vb, b, halvings + 1);
-    } else if (a.ds * b.ds < 0.0) {
-      fold(cell, va, a, vb, b);
-    } else {
-      piece(cell, va, a, vb, b, section_.kFine);
+      this->cell(cell, va, a, vm, m, halvings + 1, beside_fold);
+      this->cell(cell, vm, m, vb, b, halvings + 1, beside_fold);
     }
   }
 
@@ -109,19 +112,28 @@ class SectionRaster {
     return p;
   }
 
-  // Cuts at ds = 0.
-  void fold(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b) {
-    double low = va, high = vb;
+  // Where ds = 0, by regula falsi of the Illinois kind (Dowell and Jarratt 1971), now and then a bisection.
+  std::pair<double, SectionPoint> fold(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b) {
+    double low = va, high = vb, at_low = a.ds, at_high = b.ds, vm = 0.5 * (va + vb);
     SectionPoint m = a;
-    for (int i = 0; i < 60 && high - low > section_.kFine; ++i) {
-      const double vm = 0.5 * (low + high);
-      m = on_section(cell, vm, a.u + a.du * (vm - va));
-      (m.ds * a.ds > 0.0 ? low : high) = vm;
+    int stays = 0;  // the end that the last step left alone: 1 high, -1 low
+    for (int i = 0; i < 60; ++i) {
+      const double before = vm, guess = low - at_low * (high - low) / (at_high - at_low);
+      vm = i % 4 != 3 && guess > low && guess < high ? guess : 0.5 * (low + high);
+      m = on_section(cell, vm, m.u + m.du * (vm - (i == 0 ? va : before)));
+      if (m.ds == 0.0 || high - low <= section_.kFine || (i > 0 && std::abs(vm - before) <= section_.kFine)) break;
+      if (m.ds * at_low > 0.0) {
+        low = vm, at_low = m.ds;
+        if (stays == 1) at_high *= 0.5;
+        stays = 1;
+      } else {
+        high = vm, at_high = m.ds;
+        if (stays == -1) at_low *= 0.5;
+        stays = -1;
+      }
     }
-    const double vm = 0.5 * (low + high);
-    m = on_section(cell, vm, m.u);
-    piece(cell, va, a, vm, m, section_.kFine);
-    piece(cell, vm, m, vb, b, section_.kFine);
+    m.ds = 0.0;
+    return {vm, m};
   }
 
   void piece(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, double step_limit) {

@@ -251,7 +251,8 @@ void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const
 template <bool place>
 void solve_pairs(const CellCubics* cells, const SampleArrays& samples, int* pair_cell, int* pair_sample, int count, const HitArrays& hits,
                  char* redo) {
-  constexpr double kSettled = 1e-9;  // of a cell
+  constexpr double kSettled = 1e-9, kBeside = 1e-6;  // of a cell
+  constexpr int kMoreSteps = 4;
   if (count == 0) return;
   for (int i = 0; i < 3; ++i) pair_cell[count + i] = pair_cell[count - 1], pair_sample[count + i] = pair_sample[count - 1];
   for (int j = 0; j < count; j += 4) {
@@ -274,8 +275,20 @@ void solve_pairs(const CellCubics* cells, const SampleArrays& samples, int* pair
     f += (d - f * (s[1] + f * (s[2] + f * s[3]))) * inverse;
     const V step = (d - f * (s[1] + f * (s[2] + f * s[3]))) * inverse;
     f += step;
+    VMask settled = absolute(step) <= kSettled;
+    if (bits(settled) != 15) {
+      // Cells that turn much, at corners of a profile: Newton's own slope, within the cell.
+      V g = f, last = step;
+      for (int more = 0; more < kMoreSteps; ++more) {
+        last = (d - g * (s[1] + g * (s[2] + g * s[3]))) / (s[1] + g * (2.0 * s[2] + g * (3.0 * s[3])));
+        g += last;
+      }
+      const VMask rescued = (absolute(last) <= kSettled) & (absolute(g - 0.5) <= 0.5 + kBeside);
+      f = settled ? f : g;
+      settled |= rescued;
+    }
     const V height = n[0] + f * (n[1] + f * (n[2] + f * n[3]));
-    const int good = bits(absolute(step) <= kSettled);
+    const int good = bits(settled);
     V u{};
     if constexpr (place) {
       V b[4];
