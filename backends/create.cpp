@@ -159,11 +159,14 @@ class Resampling {
   }
 
   /// Offsets and the undamaged surface below them; base_spec is that surface's description.
-  offset::OffsetSample offsets(std::shared_ptr<const Surface>& base, SurfaceSpec& base_spec) {
+  offset::OffsetSample offsets(std::shared_ptr<const Surface>& base, SurfaceSpec& base_spec, const SurfaceSpec* given = nullptr) {
     const bool known = is_formula(spec_) || std::holds_alternative<Profile>(spec_.shape);
     base_spec.body = spec_.body;
     base_spec.nominal_radius = spec_.nominal_radius;
-    if (known) {
+    if (given != nullptr) {
+      base_spec = *given;
+      limit_rail();
+    } else if (known) {
       base_spec.shape = spec_.shape;
     } else {
       limit_rail();
@@ -181,7 +184,7 @@ class Resampling {
     settings.du = settings.dy = resolution_;
     limit_rail();
     settings.region_uy = {region_.u_min, region_.u_max, region_.y_min, region_.y_max};
-    if (known) narrow(settings.region_uy);
+    if (known && given == nullptr) narrow(settings.region_uy);
     // an offset that ends makes splines ring for some voxels: let it end outside
     constexpr double kBeyond = 8.0;
     const double beyond = kBeyond * resolution_ / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
@@ -397,11 +400,12 @@ SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, 
 }
 
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
-                   Sampled* sampled) {
+                   Sampled* sampled, const SurfaceSpec* given_base, const std::string& notes) {
   Resampling sampling(natural, wanted);
   std::shared_ptr<const Surface> base;
   offset::OffsetFile content;
-  content.offsets = sampling.offsets(base, content.base).offsets;
+  content.offsets = sampling.offsets(base, content.base, given_base).offsets;
+  content.notes = notes;
   if (sampled != nullptr) *sampled = sampling.sampled();
   offset::write_vdb(file, content);
 }

@@ -86,7 +86,8 @@ struct Sampled {
 /// Errors: those of represent; Error(configuration) for a file that cannot be written.
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
+/// base: below the offsets, a constant section of the same body and radius; null: the section without defects, or the median one.
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
-                   Sampled* sampled = nullptr);
+                   Sampled* sampled = nullptr, const SurfaceSpec* base = nullptr, const std::string& notes = {});
 
 }  // namespace treadmark

@@ -16,6 +16,7 @@ treadmark_require(nlohmann_json nlohmann-json3-dev 3.11)
 treadmark_require(tomlplusplus libtomlplusplus-dev 3.3)
 treadmark_require(CLI11 libcli11-dev 2.1)
 treadmark_require(HDF5 libhdf5-dev COMPONENTS C)
+treadmark_require(ZLIB zlib1g-dev)
 
 treadmark_require(embree libembree-dev 3)
 
@@ -40,6 +41,20 @@ else()
   if(NOT KISSFFT_INCLUDE_DIR)
     message(FATAL_ERROR "KISS FFT was not found: install the Debian package libkissfft-dev")
   endif()
+endif()
+
+set(TREADMARK_HAVE_CGAL OFF)
+if(TREADMARK_WITH_CGAL)
+  set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
+  set(saved_log_level "${CMAKE_MESSAGE_LOG_LEVEL}")
+  set(CMAKE_MESSAGE_LOG_LEVEL ERROR)
+  find_package(CGAL 5.5 QUIET)
+  set(CMAKE_MESSAGE_LOG_LEVEL "${saved_log_level}")
+  if(NOT CGAL_FOUND)
+    message(FATAL_ERROR "TREADMARK_WITH_CGAL is on but CGAL was not found: "
+                        "install the Debian package libcgal-dev or configure with -DTREADMARK_WITH_CGAL=OFF")
+  endif()
+  set(TREADMARK_HAVE_CGAL ON)
 endif()
 
 if(TREADMARK_BUILD_TESTS)

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -54,11 +56,41 @@ struct ConvertOptions {
   std::vector<std::string> overrides;
 };
 
+struct ScanOptions {
+  std::string surface, cloud;     ///< geometry or case file; file of points
+  std::string truth_file;         ///< "-" = stdout, empty = none
+  std::string body;               ///< "wheel", "rail" or empty
+  std::size_t points = 1'000'000;
+  double spacing_mm = 0.0;        ///< 0 = by the number of points
+  double noise_mm = 0.0, noise_lateral_mm = 0.0;
+  double outliers = 0.0, holes = 0.0, hole_size_mm = 4.0, drop_outs = 0.0;
+  double most_incidence_deg = 0.0;
+  int passes = 1;
+  double registration_mm = 0.0;
+  std::string frame = "identity", unit = "mm";
+  std::vector<double> range_mm, range_deg, range_y_mm;  ///< two numbers or none
+  double nominal_radius_mm = 0.0;
+  double scale_to_mm = 1.0;
+  std::uint64_t seed = 1;
+  std::vector<std::string> overrides;
+};
+
+struct ImportOptions {
+  std::vector<std::string> scans, outputs;
+  std::string report_folder, json_file, settings_file;   ///< empty = none; JSON "-" = stdout
+  std::string body, unit, nominal;                       ///< empty = as the settings say
+  double nominal_radius_mm = 0.0, resolution_mm = 0.0;   ///< 0 = as the settings say
+  bool list_settings = false;
+  std::vector<std::string> overrides;                    ///< table.key=value
+};
+
 // Each command returns an exit status or throws treadmark::Error.
 int run_command(const RunOptions& options, const CommonOptions& common);
 int compare_command(const CompareOptions& options, const CommonOptions& common);
 int bench_command(const BenchOptions& options, const CommonOptions& common);
 int convert_command(const ConvertOptions& options, const CommonOptions& common);
+int scan_command(const ScanOptions& options, const CommonOptions& common);
+int import_command(const ImportOptions& options, const CommonOptions& common);
 int check_command(const RunOptions& options);
 int list_command(const std::string& what);
 int schema_command();

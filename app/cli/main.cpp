@@ -5,6 +5,8 @@
 #include <iostream>
 
 #include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/import_options.hpp"
+#include "treadmark/app/cli/scan_options.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -114,6 +116,16 @@ int main(int argc, char** argv) {
   convert->add_option("--range-deg", conversion.range_deg, "Part of a wheel: from, to round it")->delimiter(',')->expected(2);
   add_overrides(*convert, conversion.overrides);
 
+  cli::ImportOptions imported;
+  CLI::App* import = program.add_subcommand("import", "From a raw scan to a surface: units, placement, cleaning, fit, with an audit");
+  cli::add_import_options(*import, imported);
+  add_overrides(*import, imported.overrides);
+
+  cli::ScanOptions scanned;
+  CLI::App* scan = program.add_subcommand("scan", "Scan a wheel or rail virtually: points with the faults of a laser scanner, and the truth about them");
+  cli::add_scan_options(*scan, scanned);
+  add_overrides(*scan, scanned.overrides);
+
   CLI::App* check = program.add_subcommand("check", "Read and validate case files and their geometry without solving");
   add_case_options(*check, options);
 
@@ -134,6 +146,8 @@ int main(int argc, char** argv) {
     measured.threads_given = threads->count() > 0;
     if (bench->parsed()) return cli::bench_command(measured, common);
     if (convert->parsed()) return cli::convert_command(conversion, common);
+    if (import->parsed()) return cli::import_command(imported, common);
+    if (scan->parsed()) return cli::scan_command(scanned, common);
     if (check->parsed()) return cli::check_command(options);
     if (list->parsed()) return cli::list_command(what);
     if (schema->parsed()) return cli::schema_command();

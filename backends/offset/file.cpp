@@ -78,6 +78,7 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
   SheetFile sheet;
   sheet.u0 = f.u0, sheet.y0 = f.y0, sheet.du = f.du, sheet.dy = f.dy;
   sheet.metadata = to_metadata(*content.offsets, content.base);
+  if (!content.notes.empty()) sheet.metadata["notes"] = content.notes;
   write_sheet(file, content.offsets->grid, sheet);
   append_trailer(file);
 }

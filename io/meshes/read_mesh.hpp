@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/triangle_mesh.hpp"
@@ -19,7 +21,8 @@ bool is_mesh_file(const std::filesystem::path& file);
 TriangleMesh read_mesh(const std::filesystem::path& file, double scale_to_mm = 1.0, const SourcePosition& asked_by = {});
 
 /// Writes by the extension of the name, in mm: .ply and .stl binary, .obj and .off as text. The file appears only when complete.
+/// comments: lines without line ends for the head of the file; .stl has room for the start of the first one only.
 /// Errors: Error(configuration) for another extension or a file that cannot be written.
-void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh);
+void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh, std::span<const std::string> comments = {});
 
 }  // namespace treadmark::io

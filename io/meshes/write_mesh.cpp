@@ -27,11 +27,19 @@ void put(std::string& out, T value) {
   out.append(raw, sizeof(T));
 }
 
-std::string ply(const TriangleMesh& mesh) {
+using Comments = std::span<const std::string>;
+
+std::string lines(Comments comments, const char* start) {
+  std::string out;
+  for (const std::string& comment : comments) out += fmt::format("{} {}\n", start, comment);
+  return out;
+}
+
+std::string ply(const TriangleMesh& mesh, Comments comments) {
   std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment millimetres\nelement vertex {}\nproperty double x\nproperty double y\n"
+      "ply\nformat binary_little_endian 1.0\ncomment millimetres\n{}element vertex {}\nproperty double x\nproperty double y\n"
       "property double z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
-      mesh.vertices.size(), mesh.triangles.size());
+      lines(comments, "comment"), mesh.vertices.size(), mesh.triangles.size());
   out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
   for (const Vec3& v : mesh.vertices)
     for (int k = 0; k < 3; ++k) put(out, kMillimetres * v[k]);
@@ -42,8 +50,9 @@ std::string ply(const TriangleMesh& mesh) {
   return out;
 }
 
-std::string stl(const TriangleMesh& mesh) {
+std::string stl(const TriangleMesh& mesh, Comments comments) {
   std::string out = "binary STL, millimetres";  // must not begin with the word solid
+  if (!comments.empty()) out += "; " + comments.front();
   out.resize(80, ' ');
   out.reserve(84 + 50 * mesh.triangles.size());
   put(out, static_cast<std::uint32_t>(mesh.triangles.size()));
@@ -60,8 +69,9 @@ std::string stl(const TriangleMesh& mesh) {
 }
 
 /// Text with all digits. OBJ counts vertices from 1 and has letters at the start of lines.
-std::string text(const TriangleMesh& mesh, bool obj) {
-  std::string out = obj ? "# millimetres\n" : fmt::format("OFF\n# millimetres\n{} {} 0\n", mesh.vertices.size(), mesh.triangles.size());
+std::string text(const TriangleMesh& mesh, bool obj, Comments comments) {
+  std::string out = obj ? "# millimetres\n" + lines(comments, "#")
+                        : fmt::format("OFF\n# millimetres\n{}{} {} 0\n", lines(comments, "#"), mesh.vertices.size(), mesh.triangles.size());
   const auto to = std::back_inserter(out);
   for (const Vec3& v : mesh.vertices)
     fmt::format_to(to, "{}{} {} {}\n", obj ? "v " : "", kMillimetres * v.x(), kMillimetres * v.y(), kMillimetres * v.z());
@@ -74,7 +84,7 @@ std::string text(const TriangleMesh& mesh, bool obj) {
 
 }  // namespace
 
-void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh) {
+void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh, std::span<const std::string> comments) {
   const auto refuse = [&](const std::string& why, const std::string& advice) {
     throw Error(ErrorKind::configuration, fmt::format("the mesh cannot be written to '{}': {}", file.string(), why), {}, advice);
   };
@@ -83,10 +93,10 @@ void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh) {
       if (v >= mesh.vertices.size()) refuse("it names vertices that it lacks", "");
   const std::string extension = profiles::lower(file.extension().string());
   std::string content;
-  if (extension == ".ply") content = ply(mesh);
-  else if (extension == ".stl") content = stl(mesh);
-  else if (extension == ".obj") content = text(mesh, true);
-  else if (extension == ".off") content = text(mesh, false);
+  if (extension == ".ply") content = ply(mesh, comments);
+  else if (extension == ".stl") content = stl(mesh, comments);
+  else if (extension == ".obj") content = text(mesh, true, comments);
+  else if (extension == ".off") content = text(mesh, false, comments);
   else refuse("unknown extension", "known are .ply, .stl, .obj and .off");
 
   // complete under another name before it appears under its own

@@ -35,13 +35,15 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
 
 }  // namespace
 
-void write_slices(const std::filesystem::path& file, const SliceSet& slices) {
+void write_slices(const std::filesystem::path& file, const SliceSet& slices, std::span<const std::string> comments) {
   check(file, slices);
   const std::filesystem::path folder = file.parent_path() / file.stem();
   const bool rail = slices.body == Body::rail;
-  std::string index = fmt::format("% {}\n\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, NACCEL\n       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
-                                  slices.name, rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH",
-                                  slices.u.size(), slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
+  std::string index = fmt::format("% {}\n", slices.name);
+  for (const std::string& comment : comments) index += fmt::format("% {}\n", comment);
+  fmt::format_to(std::back_inserter(index), "\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, NACCEL\n       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
+                 rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH",
+                 slices.u.size(), slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
   std::string text;
   for (std::size_t i = 0; i < slices.u.size(); ++i) {
     const std::string name = fmt::format("slice_{:05}.txt", i + 1);

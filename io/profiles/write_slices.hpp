@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 
 #include "treadmark/core/slices.hpp"
 
@@ -12,6 +14,7 @@ namespace treadmark::io {
 /// beside it a folder of its stem with one two-column file (y, z in mm) a slice. Positions are in mm or mrad. Without features.
 /// The slices file comes last, so that what it names is complete. Errors: Error(configuration) for an extension of the other
 /// body, fewer than four slices, features, slices nearer than 1e-6 m or rad, or a file that cannot be written.
-void write_slices(const std::filesystem::path& file, const SliceSet& slices);
+/// comments: lines put at the top of the slices file, without line ends.
+void write_slices(const std::filesystem::path& file, const SliceSet& slices, std::span<const std::string> comments = {});
 
 }  // namespace treadmark::io

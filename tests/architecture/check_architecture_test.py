@@ -17,6 +17,8 @@ CLEAN = {
     "detection/search.cpp": '#include "treadmark/core/pose.hpp"\n',
     "solvers/kalker/normal/solve.cpp": '#include "treadmark/solvers/kalker/problem.hpp"\n',
     "solvers/wheelrail/pair.cpp": '#include "treadmark/detection/search.hpp"\n#include "treadmark/solvers/kalker/problem.hpp"\n',
+    "scans/cgal/front.cpp": "#include <CGAL/a.h>\n",
+    "scans/cgal/holes.cpp": "#include <CGAL/b.h>\n",
     "app/cli/main.cpp": '#include <CLI/CLI.hpp>\n#include "treadmark/backends/create.hpp"\n',
     "app/cli/run.cpp": "#include <CLI/CLI.hpp>\n",
     "tests/io/read_test.cpp": '#include <hdf5.h>\n#include "samples.hpp"\n#include "treadmark/app/run.hpp"\n',
@@ -68,6 +70,7 @@ class Planted(unittest.TestCase):
         self.expect("io/results/a.cpp", "#include <nlohmann/json.hpp>\n", "one of them only")
         self.expect("backends/a.cpp", "#include <oneapi/tbb/parallel_for.h>\n", "one of them only")
         self.expect("io/cases/a.cpp", "#include <CLI/CLI.hpp>\n", "app/ only")
+        self.expect("backends/a.cpp", "#include <CGAL/Simple_cartesian.h>\n", "scans/cgal/ only")
 
     def test_unknown_folder(self):
         self.expect("gadgets/a.cpp", "int a;\n", "no layer")

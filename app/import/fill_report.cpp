@@ -1,0 +1,173 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/import/fill_report.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/placement/band_frame.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using scans::PointState;
+constexpr std::size_t kMostDots = 6000;
+
+/// The cells of the points as a map that begins at the least u, wherever the band itself begins.
+struct MapFrame {
+  io::BandMap empty;
+  std::size_t first_row = 0;  // of the points' cells
+};
+
+MapFrame map_frame(const ImportFindings& found) {
+  const scans::BandPoints& points = found.projection.points;
+  const scans::Band& band = found.projection.band;
+  MapFrame out;
+  out.empty.rows = points.rows;
+  out.empty.columns = points.columns;
+  out.empty.s_max = band.section.length();
+  double a_min = found.fitted.u_at(0.0) * band.radius;
+  if (band.closed) {
+    // from -180 to 180 degrees
+    const double start = -std::numbers::pi * band.radius;
+    double rows = std::floor((start - a_min) / points.cell_a + 0.5);
+    rows -= std::floor(rows / static_cast<double>(points.rows)) * static_cast<double>(points.rows);
+    out.first_row = static_cast<std::size_t>(rows) % points.rows;
+    a_min = wrap_angle((a_min + points.cell_a * (static_cast<double>(out.first_row) + 0.5)) / band.radius) * band.radius - 0.5 * points.cell_a;
+  }
+  out.empty.a_min = a_min;
+  out.empty.a_max = a_min + band.length();
+  out.empty.value.assign(points.rows * points.columns, std::numeric_limits<float>::quiet_NaN());
+  return out;
+}
+
+template <class Value>
+io::BandMap map_of(const ImportFindings& found, const MapFrame& frame, const Value& value) {
+  const scans::BandPoints& points = found.projection.points;
+  io::BandMap out = frame.empty;
+  parallel_for(points.rows, [&](std::size_t r) {
+    const std::size_t row = (r + frame.first_row) % points.rows;
+    for (std::size_t c = 0; c < points.columns; ++c) out.value[r * points.columns + c] = static_cast<float>(value(row, c));
+  });
+  return out;
+}
+
+void fill_maps(const ImportFindings& found, io::ImportReport& report) {
+  const scans::BandPoints& points = found.projection.points;
+  const MapFrame frame = map_frame(found);
+  const double cell = points.cell_a * points.cell_s;
+  const auto count = [&](std::size_t row, std::size_t column, const auto& counts) {
+    std::size_t n = 0;
+    for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) n += counts(i) ? 1 : 0;
+    return n;
+  };
+  const auto inside = [&](std::size_t i) { return points.state[i] == PointState::used || points.state[i] == PointState::held_out; };
+  report.density = map_of(found, frame, [&](std::size_t r, std::size_t c) { return static_cast<double>(count(r, c, [](std::size_t) { return true; })) / cell; });
+  report.removed_map = map_of(found, frame, [&](std::size_t r, std::size_t c) { return static_cast<double>(count(r, c, [&](std::size_t i) { return !inside(i); })) / cell; });
+  constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+  report.fitted = map_of(found, frame, [&](std::size_t r, std::size_t c) {
+    const double s = points.cell_s * (static_cast<double>(c) + 0.5);
+    if (s < found.fitted.s_min || s > found.fitted.s_max) return kNone;
+    if (!found.coverage.open.empty() && found.coverage.open[r * points.columns + c] != 0) return kNone;
+    return found.fitted.field.value(points.cell_a * (static_cast<double>(r) + 0.5), s);
+  });
+  report.residual = map_of(found, frame, [&](std::size_t r, std::size_t c) {
+    double sum = 0.0, n = 0.0;
+    for (std::size_t i = points.first(r, c); i < points.begin[r * points.columns + c + 1]; ++i)
+      if (inside(i)) {
+        sum += found.fit.residual[i];
+        n += 1.0;
+      }
+    return n > 0.0 ? sum / n : kNone;
+  });
+  report.noise_map = map_of(found, frame, [&](std::size_t r, std::size_t c) { return points.begin[r * points.columns + c + 1] > points.first(r, c) ? found.noise.at(r, c) : kNone; });
+}
+
+void fill_sections(const ImportFindings& found, io::ImportReport& report) {
+  const bool wheel = found.scan.body == Body::wheel;
+  const double radius = wheel ? found.scan.placement.nominal_radius : 0.0;
+  const auto in_profile = [&](double y, double v) { return Vec2(y, wheel ? v - radius : -v); };
+  const std::size_t stride = std::max<std::size_t>(1, found.scan.points.size() / kMostDots);
+  const auto in_section = [&](std::size_t i) {
+    const scans::Natural n = scans::natural(found.scan.body, found.scan.placement.X_CS.apply_inverse(found.scan.points[i]));
+    return in_profile(n.y, n.v);
+  };
+  for (std::size_t i = 0; i < found.scan.points.size(); i += stride) report.raw_section.push_back(in_section(i));
+  std::vector<std::uint8_t> used(found.scan.points.size(), 0);
+  const scans::BandPoints& points = found.projection.points;
+  for (std::size_t i = 0; i < points.size(); ++i)
+    if (points.state[i] == PointState::used || points.state[i] == PointState::held_out) used[points.index[i]] = 1;
+  const auto removed = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{0}));
+  const std::size_t every = std::max<std::size_t>(1, removed / kMostDots);
+  std::size_t number = 0;
+  for (std::size_t i = 0; i < used.size(); ++i)
+    if (used[i] == 0 && number++ % every == 0) report.removed_section.push_back(in_section(i));
+  const scans::Section& section = found.projection.band.section;
+  for (double s = 0.0; s <= section.length(); s += 0.25e-3) {
+    const Vec2 p = section.at(s).position;
+    report.section.push_back(in_profile(p.x(), p.y()));
+  }
+  report.nominal_section = found.scan.nominal;
+}
+
+void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
+  const scans::BandPoints& points = found.projection.points;
+  constexpr std::size_t kBins = 80;
+  report.residual_range = 6.0 * std::max(found.noise.typical, report.residual_rms);
+  report.residual_histogram.assign(kBins, 0);
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    if (points.state[i] != PointState::used && points.state[i] != PointState::held_out) continue;
+    const double r = found.fit.residual[i];
+    report.residual_max = std::max(report.residual_max, std::fabs(r));
+    const double place = 0.5 * (r / report.residual_range + 1.0) * kBins;
+    if (place >= 0.0 && place < static_cast<double>(kBins)) ++report.residual_histogram[static_cast<std::size_t>(place)];
+  }
+}
+
+}  // namespace
+
+void fill_report(const ImportFindings& found, io::ImportReport& report) {
+  const scans::Band& band = found.projection.band;
+  const auto u_of = [&](double a) { return band.closed ? wrap_angle(found.fitted.u_at(a)) : found.fitted.u_at(a); };
+  report.body = found.scan.body;
+  report.X_CS = found.scan.placement.X_CS;
+  report.nominal_radius = found.scan.body == Body::wheel ? found.scan.placement.nominal_radius : 0.0;
+  report.axis_position_error = found.scan.placement.position_error;
+  report.axis_direction_error = found.scan.placement.direction_error;
+  report.scatter = found.scan.placement.scatter;
+  report.undamaged = found.scan.placement.undamaged;
+  if (found.scan.placement.match) {
+    report.match_residual = found.scan.placement.match->residual;
+    report.match_agreeing = found.scan.placement.match->agreeing;
+    report.turned = found.scan.placement.match->turned;
+  }
+  report.gap_a = found.coverage.gap_a;
+  report.gap_s = found.coverage.gap_s;
+  report.noise = found.noise.typical;
+  report.area = found.coverage.area;
+  report.hole_area = found.coverage.hole_area;
+  report.hole_limit = found.coverage.limit;
+  for (const scans::Hole& hole : found.coverage.holes)
+    report.holes.push_back({u_of(hole.a), band.section.at(hole.s).position.x(), hole.diameter, hole.area, hole.filled});
+  for (const scans::FitLevelReport& level : found.fit.levels) report.levels.push_back({level.knot_a, level.knot_s, level.functions, level.used, level.iterations});
+  report.fitted_points = found.fit.used;
+  report.held_out_points = found.fit.held_out;
+  report.points_used = found.fit.used + found.fit.held_out;
+  report.residual_rms = found.fit.residual_rms;
+  report.held_out_rms = found.fit.held_out_rms;
+  report.held_out_error = found.fit.held_out_error;
+  for (const scans::Damage& d : found.damage) report.damage.push_back({u_of(d.a), band.section.at(d.s).position.x(), d.length, d.width, d.depth, d.volume});
+  report.y_min = band.section.at(found.fitted.s_min).position.x();
+  report.y_max = band.section.at(found.fitted.s_max).position.x();
+  report.closed = band.closed;
+  report.u_min = band.closed ? -std::numbers::pi : found.fitted.u_at(0.0);
+  report.u_max = band.closed ? std::numbers::pi : found.fitted.u_at(band.length());
+  fill_residuals(found, report);
+  fill_maps(found, report);
+  fill_sections(found, report);
+}
+
+}  // namespace treadmark::app

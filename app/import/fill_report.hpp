@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/app/import/find_place.hpp"
+#include "treadmark/scans/cleaning/coverage.hpp"
+#include "treadmark/scans/cleaning/local_noise.hpp"
+#include "treadmark/scans/fit/band_surface.hpp"
+#include "treadmark/scans/fit/damage.hpp"
+#include "treadmark/scans/fit/fit_field.hpp"
+
+namespace treadmark::app {
+
+/// What the steps of an import have found, put into the report: numbers, maps and points for pictures.
+struct ImportFindings {
+  const PlacedScan& scan;
+  const scans::Projection& projection;
+  const scans::LocalNoise& noise;
+  const scans::Coverage& coverage;
+  const scans::FitResult& fit;
+  const scans::FittedBand& fitted;
+  const std::vector<scans::Damage>& damage;
+};
+void fill_report(const ImportFindings& found, io::ImportReport& report);
+
+}  // namespace treadmark::app

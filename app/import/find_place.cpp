@@ -1,0 +1,196 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/import/find_place.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/backends/create.hpp"
+#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/scans/cgal/stray_points.hpp"
+#include "treadmark/scans/cleaning/band_points.hpp"
+#include "treadmark/scans/cleaning/pass_steps.hpp"
+#include "treadmark/scans/cleaning/thin.hpp"
+
+namespace treadmark::app {
+namespace {
+
+std::optional<Vec3> direction_of(const std::vector<double>& list) {
+  if (list.size() != 3) return std::nullopt;
+  return Vec3(list[0], list[1], list[2]).normalized();
+}
+
+/// (y, v): v is the profile's z of a wheel, -z of a rail.
+scans::Section nominal_section(Body body, const std::vector<Vec2>& nominal) {
+  std::vector<Vec2> points;
+  for (const Vec2& p : nominal) points.emplace_back(p.x(), body == Body::wheel ? p.y() : -p.y());
+  return scans::Section(points);
+}
+
+/// Marks strays among thinned points; connects lines of a scanner that are far apart before it gives up on clusters.
+std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, const scans::SurfaceElements& elements, const io::ImportSettings& settings,
+                                              io::ImportReport& report) {
+  const scans::ThinnedPoints thinned = scans::thin(points, elements.centre, elements.size);
+  scans::StraySettings how;
+  how.outlier_distance = settings.clean.stray_distance * elements.size;
+  how.least_cluster = settings.clean.stray_cluster;
+  constexpr double kMostInClusters = 0.05;
+  scans::StrayResult found;
+  const auto in_clusters = [&] { return static_cast<double>(found.cluster_points) / static_cast<double>(thinned.position.size()); };
+  for (double gap = 6.0; gap < 200.0; gap *= 3.0) {
+    found = scans::find_strays(thinned.position, how);
+    if (in_clusters() <= kMostInClusters) break;
+    how.cluster_gap = 3.0 * gap * found.spacing;
+  }
+  std::vector<std::uint8_t> keep(points.size(), 0);
+  const bool clusters_count = in_clusters() <= kMostInClusters;
+  if (!clusters_count)
+    report.warnings.push_back(fmt::format("{:.0f} % of the points lie in groups apart from the largest one; they were all kept", 100.0 * in_clusters()));
+  std::size_t outliers = 0, clusters = 0;
+  for (std::size_t v = 0; v < thinned.voxels.count(); ++v) {
+    const scans::Stray stray = found.of_point[v];
+    const bool kept = stray == scans::Stray::no || (stray == scans::Stray::cluster && !clusters_count);
+    for (const std::uint32_t i : thinned.voxels.points_of(v)) keep[i] = kept ? 1 : 0;
+    if (kept) continue;
+    (stray == scans::Stray::outlier ? outliers : clusters) += thinned.voxels.points_of(v).size();
+  }
+  report.removed.push_back({"stray points", outliers,
+                            fmt::format("mean distance to the {} nearest of the thinned points beyond {}", how.neighbours,
+                                        settings.clean.stray_distance > 0.0 ? fmt::format("{:g} times their size", settings.clean.stray_distance) : "4 times the usual one")});
+  report.removed.push_back({"stray clusters", clusters, fmt::format("{} groups with less than {:g} of the points of the largest one", clusters_count ? found.clusters : 0, settings.clean.stray_cluster)});
+  return keep;
+}
+
+scans::PlaceSettings place_settings(const PlacedScan& scan, const io::ImportSettings& settings) {
+  scans::PlaceSettings out;
+  out.body = scan.body;
+  if (!scan.nominal.empty()) out.nominal = nominal_section(scan.body, scan.nominal);
+  if (settings.placement.nominal_radius_mm > 0.0) out.radius = 1e-3 * settings.placement.nominal_radius_mm;
+  out.up = direction_of(settings.placement.up);
+  out.forward = direction_of(settings.placement.forward);
+  return out;
+}
+
+}  // namespace
+
+Body body_of(const ImportRequest& request) {
+  if (request.settings.scan.body != "auto") return request.settings.scan.body == "wheel" ? Body::wheel : Body::rail;
+  for (const auto& output : request.outputs) {
+    const std::string extension = io::profiles::lower(output.extension().string());
+    if (extension == ".slcw") return Body::wheel;
+    if (extension == ".slcs") return Body::rail;
+  }
+  throw Error(ErrorKind::configuration, "nothing says whether the scan is that of a wheel or a rail", {request.scans.front().string()}, "say --body wheel or --body rail");
+}
+
+void read_nominal(const ImportRequest& request, PlacedScan& scan) {
+  std::string name = request.settings.placement.nominal;
+  if (name == "none") return;
+  if (name == "auto") name = scan.body == Body::wheel ? "S1002" : "60E1";
+  SurfaceSpec spec;
+  spec.body = scan.body;
+  const auto& standard = standard_profile_names();
+  if (std::find(standard.begin(), standard.end(), name) != standard.end()) {
+    spec.shape = StandardProfile{name};
+  } else {
+    spec.shape = io::read_profile(name, scan.body, {}, {});
+  }
+  constexpr double kAnyRadius = 0.5;
+  spec.nominal_radius = scan.body == Body::wheel ? kAnyRadius : 0.0;
+  const NaturalSurface natural = create_natural(spec);
+  std::vector<double> y, h;
+  constexpr double kFarthest = 0.15, kStep = 0.2e-3;
+  for (double at = -kFarthest; at <= kFarthest; at += kStep) y.push_back(at);
+  h.resize(y.size());
+  HeightsOut out;
+  out.z = h;
+  sampling::section_heights(*natural.surface, scan.body, 0.0, y, out);
+  for (std::size_t k = 0; k < y.size(); ++k)
+    if (!std::isnan(h[k])) scan.nominal.emplace_back(y[k], h[k] - spec.nominal_radius);
+  scan.nominal_spec = spec;
+}
+
+PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportReport& report, StepClock& clock) {
+  const io::ImportSettings& settings = request.settings;
+  PlacedScan scan;
+  scan.body = body_of(request);
+  read_nominal(request, scan);
+  report.nominal = scan.nominal_spec ? (settings.placement.nominal == "auto" ? (scan.body == Body::wheel ? "S1002" : "60E1") : std::filesystem::path(settings.placement.nominal).filename().string()) : "none";
+  scan.points = std::move(clouds.cloud.points);
+  scan.passes = std::move(clouds.cloud.passes);
+
+  clock.begin("stray points");
+  scans::RoughPlace rough;
+  rough.elements = scans::find_elements(scan.points);
+  report.spacing = rough.elements.spacing;
+  if (settings.clean.strays) {
+    if (!scans::have_cgal())
+      throw Error(ErrorKind::configuration, "this build cannot look for stray points: it has no CGAL", {},
+                  "configure with -DTREADMARK_WITH_CGAL=ON, or say --set clean.strays=false for a clean scan");
+    scan.keep = keep_without_strays(scan.points, rough.elements, settings, report);
+  }
+
+  clock.begin("placement");
+  rough = scans::find_roughly(scan.points, scan.keep, scan.body);
+  report.spacing = rough.elements.spacing;
+  LengthUnit unit = LengthUnit::millimetre;
+  if (settings.scan.unit != "auto") {
+    unit = *length_unit(settings.scan.unit);
+    report.unit_from = "given";
+  } else if (clouds.unit) {
+    unit = *clouds.unit;
+    report.unit_from = "the file";
+  } else {
+    unit = scans::unit_by_size(scan.body, rough.size);
+    report.unit_from = fmt::format("the size of the {}", scan.body == Body::wheel ? "wheel" : "rail");
+  }
+  scans::check_unit(scan.body, rough.size, unit);
+  report.unit = symbol(unit);
+  const double factor = metres_per(unit);
+  for (Vec3& p : scan.points) p *= factor;
+  scans::scale(rough, factor);
+  report.spacing *= factor;
+  const scans::PlaceSettings how = place_settings(scan, settings);
+  scan.placement = scans::place(scan.points, scan.keep, rough, how);
+
+  if (settings.scan.pass_steps && !scan.passes.empty()) {
+    clock.begin("passes");
+    const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
+    constexpr int kRounds = 2;
+    for (int round = 0; round < kRounds; ++round) {
+      const scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section,
+                                                          {scan.body, radius, 1e-3 * settings.clean.farthest_mm, 2e-3});
+      const scans::PassSteps steps = scans::find_pass_steps(projection.points, projection.band, scan.passes);
+      if (steps.passes.empty()) break;
+      scans::apply(steps, scan.passes, scan.placement.X_CS, scan.points);
+      if (round == 0) report.pass_before = steps.before;
+      report.pass_after = steps.after;
+      for (std::size_t k = 0; k < steps.passes.size(); ++k) {
+        const scans::PassStep& step = steps.passes[k];
+        if (round == 0) report.passes.push_back({step.pass, step.points, Vec3::Zero(), Vec3::Zero()});
+        if (k < report.passes.size()) {
+          report.passes[k].shift_S += step.shift_S;
+          report.passes[k].turn_S += step.turn_S;
+        }
+        if (round == 0 && step.shared == 0) report.warnings.push_back(fmt::format("pass {} overlaps with no other and was left where it is", step.pass));
+      }
+      scan.placement = scans::place(scan.points, scan.keep, rough, how);
+    }
+  }
+  if (settings.placement.nominal_radius_mm > 0.0 && scan.body == Body::wheel) {
+    const double given = 1e-3 * settings.placement.nominal_radius_mm;
+    constexpr double kFar = 60e-3;
+    if (std::fabs(given - scan.placement.nominal_radius) > kFar)
+      throw Error(ErrorKind::input_data, fmt::format("the scanned wheel has a radius of {:.2f} mm, not {:.2f} mm", 1e3 * scan.placement.nominal_radius, 1e3 * given), {},
+                  "leave the nominal radius out, or is the unit another one?");
+    scan.placement.nominal_radius = given;
+  }
+  return scan;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <chrono>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/progress.hpp"
+#include "treadmark/io/imports/import_report.hpp"
+
+namespace treadmark::app {
+
+/// Times the steps of an import, tells the caller about them and looks for a request to stop between them.
+class StepClock {
+ public:
+  StepClock(io::ImportReport& report, const Progress& progress) : report_(report), progress_(progress) {}
+
+  /// Ends the step before and begins one.
+  void begin(const std::string& name) {
+    end();
+    if (progress_.stop_requested()) throw Error(ErrorKind::numerical, "the import was stopped before the step '" + name + "'");
+    name_ = name;
+    start_ = Clock::now();
+    if (progress_.report) progress_.report(report_.steps.size(), kSteps, name);
+  }
+  void end() {
+    if (name_.empty()) return;
+    report_.steps.push_back({name_, std::chrono::duration<double>(Clock::now() - start_).count()});
+    name_.clear();
+  }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  static constexpr std::size_t kSteps = 11;  // of a scan that becomes one surface
+
+  io::ImportReport& report_;
+  const Progress& progress_;
+  std::string name_;
+  Clock::time_point start_;
+};
+
+}  // namespace treadmark::app

@@ -1,0 +1,252 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/import/write_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/read_surface.hpp"
+#include "treadmark/backends/create.hpp"
+#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/scans/cgal/free_mesh.hpp"
+#include "treadmark/scans/cgal/plane_triangulation.hpp"
+#include "treadmark/scans/cgal/stray_points.hpp"
+#include "treadmark/scans/placement/band_frame.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using scans::natural;
+
+double radius_of(const FittedScan& fit) { return fit.scan.body == Body::wheel ? fit.scan.placement.nominal_radius : 0.0; }
+
+/// Size and digest; those of slices cover the files of the slices too.
+void describe_file(const std::filesystem::path& file, io::ImportReport::Output& out) {
+  out.bytes = std::filesystem::file_size(file);
+  out.sha256 = io::sha256_file(file);
+  if (out.kind != "slices") return;
+  std::vector<std::filesystem::path> parts;
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path() / file.stem())) parts.push_back(entry.path());
+  std::sort(parts.begin(), parts.end());
+  std::string digests = out.sha256;
+  for (const auto& part : parts) {
+    digests += io::sha256_file(part);
+    out.bytes += std::filesystem::file_size(part);
+  }
+  out.sha256 = io::sha256_hex(digests);
+}
+
+void refuse_holes(const FittedScan& fit, const std::filesystem::path& file, const char* what) {
+  if (fit.coverage.whole()) return;
+  const scans::Hole& hole = fit.coverage.holes.front();
+  const Vec2 p = fit.fitted.band.section.at(hole.s).position;
+  throw Error(ErrorKind::configuration,
+              fmt::format("{} cannot leave out a hole: one of {:.1f} mm stays open at {} = {:.4g} {}, y = {:.1f} mm", what, 1e3 * hole.diameter,
+                          fit.scan.body == Body::wheel ? "theta" : "x", fit.scan.body == Body::wheel ? fit.fitted.u_at(hole.a) * 180.0 / 3.141592653589793 : 1e3 * fit.fitted.u_at(hole.a),
+                          fit.scan.body == Body::wheel ? "degrees" : "mm", 1e3 * p.x()),
+              {file.string()},
+              fmt::format("write triangles (.ply), which keep holes, or fill it with --set clean.hole_limit_mm={:.0f}", std::ceil(1e3 * hole.diameter)));
+}
+
+SliceSet slices_of(const FittedScan& fit, const io::ImportSettings& settings) {
+  return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, 1e-6 * settings.fit.tolerance_um, fit.scan.body == Body::wheel ? "scanned wheel" : "scanned rail");
+}
+
+TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& settings) {
+  const double spacing = 1e-3 * settings.fit.resolution_mm;
+  std::vector<Vec2> nodes = scans::triangle_nodes(fit.fitted, fit.points, fit.coverage.open, spacing);
+  const bool closed = fit.fitted.band.closed;
+  const double period = closed ? fit.fitted.band.length() : 0.0;
+  double longest = 2.0 * spacing;
+  if (settings.fit.decimate_um > 0.0) {
+    std::vector<double> heights = scans::sagitta(fit.fitted, nodes);
+    // a cut across a closed band, whose nodes all stay, lets the curvature be measured from there
+    std::vector<Vec2> strip = nodes;
+    std::vector<std::size_t> origin(nodes.size());
+    for (std::size_t k = 0; k < nodes.size(); ++k) origin[k] = k;
+    if (closed)
+      for (std::size_t k = 0; k < nodes.size(); ++k)
+        if (nodes[k].x() < 0.51 * spacing) {
+          strip.emplace_back(nodes[k].x() + period, nodes[k].y());
+          origin.push_back(k);
+        }
+    heights = scans::sagitta(fit.fitted, strip);
+    std::vector<std::uint8_t> needed(nodes.size(), 0);
+    for (const std::uint32_t k : scans::decimate_plane(strip, heights, 1e-6 * settings.fit.decimate_um)) needed[origin[k]] = 1;
+    std::vector<Vec2> kept;
+    for (std::size_t k = 0; k < nodes.size(); ++k)
+      if (needed[k] != 0 || (closed && nodes[k].x() < 0.51 * spacing)) kept.push_back(nodes[k]);
+    nodes = std::move(kept);
+    longest = 1e9;
+    if (!fit.coverage.whole())
+      throw Error(ErrorKind::configuration, "nodes of a surface with open holes cannot be left out", {}, "say fit.decimate_um=0, or fill the holes");
+  }
+  TriangleMesh mesh;
+  mesh.name = "scan";
+  mesh.triangles = scans::triangulate_plane(nodes, longest, period);
+  mesh.vertices.resize(nodes.size());
+  parallel_for(nodes.size(), [&](std::size_t k) { mesh.vertices[k] = fit.fitted.point(nodes[k].x(), nodes[k].y()); });
+  // counter-clockwise in (a, s) looks along +z on a rail: into the material; outwards on a wheel
+  if (fit.scan.body == Body::rail)
+    for (auto& t : mesh.triangles) std::swap(t[1], t[2]);
+  return mesh;
+}
+
+TriangleMesh free_triangles(const FittedScan& fit, const io::ImportSettings& settings) {
+  std::vector<Vec3> points, outward;
+  const Pose X_SC = fit.scan.placement.X_CS.inverse();
+  for (std::size_t i = 0; i < fit.points.size(); ++i) {
+    if (fit.points.state[i] != scans::PointState::used && fit.points.state[i] != scans::PointState::held_out) continue;
+    const Vec3 p = X_SC.apply(fit.scan.points[fit.points.index[i]]);
+    points.push_back(p);
+    outward.push_back(scans::direction(fit.scan.body, natural(fit.scan.body, p).u, fit.fitted.band.section.at(fit.points.s[i]).normal));
+  }
+  scans::FreeMeshSettings how;
+  how.spacing = 1e-3 * settings.fit.resolution_mm;
+  how.hole_limit = fit.coverage.limit;
+  return scans::mesh_points(points, outward, how);
+}
+
+TriangleMesh triangles_of(const FittedScan& fit, const io::ImportSettings& settings) {
+  if (settings.fit.mesh == "free") return free_triangles(fit, settings);
+  if (scans::have_cgal()) return band_triangles(fit, settings);
+  // without Delaunay triangulation: a regular grid of the splines
+  if (!fit.coverage.whole() || settings.fit.decimate_um > 0.0)
+    throw Error(ErrorKind::configuration, "this build cannot triangulate a band with holes or with fewer nodes: it has no CGAL", {}, "configure with -DTREADMARK_WITH_CGAL=ON");
+  SurfaceSpec spec;
+  spec.body = fit.scan.body;
+  spec.nominal_radius = radius_of(fit);
+  spec.shape = slices_of(fit, settings);
+  return to_triangles(create_natural(std::move(spec)), {"mesh", 1e-3 * settings.fit.resolution_mm, {}});
+}
+
+void write_offset_file(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings, const std::vector<std::string>& summary) {
+  SurfaceSpec spec;
+  spec.body = fit.scan.body;
+  spec.nominal_radius = radius_of(fit);
+  spec.shape = slices_of(fit, settings);
+  SurfaceSpec base;
+  base.body = fit.scan.body;
+  base.nominal_radius = radius_of(fit);
+  if (settings.fit.base == "nominal") {
+    if (!fit.scan.nominal_spec) throw Error(ErrorKind::configuration, "there is no nominal profile to lay offsets over", {file.string()}, "say fit.base=fitted");
+    base.shape = fit.scan.nominal_spec->shape;
+  } else {
+    base.shape = scans::section_profile(fit.fitted, radius_of(fit), 1e-3 * settings.fit.resolution_mm, "section of the scan");
+  }
+  Representation wanted;
+  wanted.backend = "offset";
+  wanted.resolution = 1e-3 * settings.fit.resolution_mm;
+  constexpr double kMargin = 0.25e-3;
+  wanted.region.y_min = fit.fitted.band.section.at(fit.fitted.s_min).position.x() + kMargin;
+  wanted.region.y_max = fit.fitted.band.section.at(fit.fitted.s_max).position.x() - kMargin;
+  if (fit.scan.body == Body::rail) {
+    wanted.region.u_min = fit.fitted.u_at(0.0);
+    wanted.region.u_max = fit.fitted.u_at(fit.fitted.band.length());
+  }
+  write_offsets(file, create_natural(std::move(spec)), wanted, nullptr, &base, fmt::format("{}", fmt::join(summary, "\n")));
+}
+
+/// Distance of the surface, as anyone reads it, from the fitted one, along the section's normals, on a grid that meets no nodes.
+void compare(const std::filesystem::path& file, const FittedScan& fit, io::ImportReport::Output& out) {
+  io::SurfaceSource source;
+  source.geometry = io::GeometryFile{file, {}};
+  source.where = {file.string(), 0, 0};
+  const NaturalSurface back = read_surface(source, fit.scan.body, radius_of(fit));
+  constexpr std::size_t kStations = 400, kAcross = 101;
+  std::vector<double> worst(kStations, 0.0), square(kStations, 0.0), count(kStations, 0.0);
+  const double margin = 1.5e-3 + 1e-3 * 0.5;
+  parallel_for(kStations, [&](std::size_t i) {
+    const double length = fit.fitted.band.length();
+    const double a = fit.fitted.band.closed ? length * (static_cast<double>(i) + 0.37) / kStations : margin + (length - 2.0 * margin) * (static_cast<double>(i) + 0.37) / kStations;
+    std::vector<double> y, v, slope(kAcross), z(kAcross);
+    for (std::size_t k = 0; k < kAcross; ++k) {
+      const double s = fit.fitted.s_min + margin + (fit.fitted.s_max - fit.fitted.s_min - 2.0 * margin) * (static_cast<double>(k) + 0.41) / kAcross;
+      const auto row = std::min(fit.points.rows - 1, static_cast<std::size_t>(a / fit.points.cell_a)), column = std::min(fit.points.columns - 1, static_cast<std::size_t>(s / fit.points.cell_s));
+      if (!fit.coverage.open.empty() && fit.coverage.open[row * fit.points.columns + column] != 0) continue;
+      const Vec2 p = fit.fitted.across(a, s);
+      y.push_back(p.x());
+      v.push_back(fit.scan.body == Body::wheel ? p.y() : -p.y());
+    }
+    if (y.empty()) return;
+    z.resize(y.size());
+    slope.resize(y.size());
+    HeightsOut heights;
+    heights.z = z;
+    heights.dzdy = slope;
+    sampling::section_heights(*back.surface, fit.scan.body, fit.fitted.u_at(a), y, heights);
+    for (std::size_t k = 0; k < y.size(); ++k) {
+      if (std::isnan(z[k])) continue;
+      const double d = (z[k] - v[k]) / std::hypot(1.0, slope[k]);
+      worst[i] = std::max(worst[i], std::fabs(d));
+      square[i] += d * d;
+      count[i] += 1.0;
+    }
+  });
+  double sum = 0.0, number = 0.0;
+  for (std::size_t i = 0; i < kStations; ++i) {
+    out.height_max = std::max(out.height_max, worst[i]);
+    sum += square[i];
+    number += count[i];
+  }
+  out.height_rms = number > 0.0 ? std::sqrt(sum / number) : 0.0;
+}
+
+}  // namespace
+
+void check_outputs(const ImportRequest& request) {
+  if (request.outputs.empty()) throw Error(ErrorKind::configuration, "there is nothing to write", {}, "say -o with a file *.slcs, *.slcw, *.ply, *.stl, *.obj, *.off or *.vdb");
+  const Body body = body_of(request);
+  for (const auto& file : request.outputs) {
+    const std::string extension = io::profiles::lower(file.extension().string());
+    if (!io::is_mesh_file(file) && !io::is_slices_file(file) && !is_offset_file(file))
+      throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {file.string()},
+                  "use .slcs (rail) or .slcw (wheel) for splines, .ply, .stl, .obj or .off for triangles, .vdb for offsets");
+    if (io::is_slices_file(file) && extension != (body == Body::wheel ? ".slcw" : ".slcs"))
+      throw Error(ErrorKind::configuration, fmt::format("slices of a {} are written to a file *{}", body == Body::wheel ? "wheel" : "rail", body == Body::wheel ? ".slcw" : ".slcs"), {file.string()});
+    for (const auto& scan : request.scans)
+      if (std::filesystem::weakly_canonical(scan) == std::filesystem::weakly_canonical(file))
+        throw Error(ErrorKind::configuration, "the surface would overwrite the scan", {file.string()}, "choose another name");
+  }
+}
+
+void check_holes(const std::filesystem::path& file, const FittedScan& fit) {
+  if (io::is_slices_file(file)) refuse_holes(fit, file, "slices");
+  if (is_offset_file(file)) refuse_holes(fit, file, "offsets");
+}
+
+io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings,
+                                      const std::vector<std::string>& summary) {
+  check_holes(file, fit);
+  io::ImportReport::Output out;
+  out.file = file.filename().string();
+  if (io::is_slices_file(file)) {
+    out.kind = "slices";
+    const SliceSet slices = slices_of(fit, settings);
+    out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
+    io::write_slices(file, slices, summary);
+  } else if (io::is_mesh_file(file)) {
+    out.kind = "triangles";
+    const TriangleMesh mesh = triangles_of(fit, settings);
+    out.details = fmt::format("{} triangles over {} vertices", mesh.triangles.size(), mesh.vertices.size());
+    io::write_mesh(file, mesh, summary);
+  } else {
+    out.kind = "offsets";
+    out.details = fmt::format("over the {} section", settings.fit.base);
+    write_offset_file(file, fit, settings, summary);
+  }
+  describe_file(file, out);
+  compare(file, fit, out);
+  return out;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,130 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <optional>
+
+#include "treadmark/io/imports/import_marks.hpp"
+#include "treadmark/io/imports/import_pictures.hpp"
+#include "treadmark/io/imports/import_section.hpp"
+#include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/io/results/svg_text.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr double kHalf = 400.0;  // width of a panel beside another [px]
+constexpr double kRight = kPlotLeft + kHalf + 96.0;
+
+/// The lowest cell of a map, of a map that is nowhere below 0 the highest.
+std::optional<std::size_t> deepest_cell(const BandMap& map) {
+  std::optional<std::size_t> low, high;
+  for (std::size_t i = 0; is_drawable(map) && i < map.value.size(); ++i) {
+    const float v = map.value[i];
+    if (!std::isfinite(v)) continue;
+    if (!low || v < map.value[*low]) low = i;
+    if (!high || v > map.value[*high]) high = i;
+  }
+  return low && map.value[*low] >= 0.0f ? high : low;
+}
+
+/// Round range around values, 0 included.
+PlotRange range_of(const std::vector<Vec2>& points) {
+  double low = 0.0, high = 0.0;
+  for (const Vec2& p : points)
+    if (std::isfinite(p.y())) {
+      low = std::min(low, p.y());
+      high = std::max(high, p.y());
+    }
+  const double margin = 0.08 * (high - low);
+  return high > low ? PlotRange{low - margin, high + margin} : PlotRange{-1.0, 1.0};
+}
+
+/// The fitted distance along a through the deepest cell, under the map and with its axis of a.
+std::string draw_course(const ImportReport& report, const MapPanel& panel, double y, double& bottom) {
+  const BandMap& map = report.fitted;
+  const std::optional<std::size_t> cell = deepest_cell(map);
+  const ChartBox& above = panel.frame.box();
+  const ChartBox box{above.x, y + 12.0, above.width, 130.0};
+  bottom = y + 12.0 + 130.0 + 44.0;
+  if (!cell) {
+    const PlotFrame frame(box, {}, {});
+    return svg_text(box.x, y, "Distance along the deepest place", "start", " class=\"title\"") + frame.border() +
+           svg_text(box.x + 0.5 * box.width, y + 80.0, "no values");
+  }
+  const std::size_t column = *cell % map.columns;
+  const double step = (map.a_max - map.a_min) / static_cast<double>(map.rows);
+  const LengthUnit unit = picture_unit(map.value[*cell]);
+  std::vector<Vec2> points;
+  for (std::size_t row = 0; row < map.rows; ++row)
+    points.push_back({1e3 * (map.a_min + (static_cast<double>(row) + 0.5) * step),
+                      unit.factor * static_cast<double>(map.value[row * map.columns + column])});
+  const double s = map.s_min + (static_cast<double>(column) + 0.5) / static_cast<double>(map.columns) * (map.s_max - map.s_min);
+  const PlotFrame frame(box, panel.frame.x(), range_of(points));
+  std::string out = svg_text(
+      box.x, y, fmt::format("Distance along a through the deepest place, s = {} mm", decimals(1e3 * s, 1)), "start",
+      " class=\"title\"");
+  out += frame.axes(report.body == Body::wheel ? "along the circumference [mm]" : "x along the track [mm]",
+                    fmt::format("distance [{}]", unit.name));
+  out += frame.level(0.0, "none") + frame.level(-unit.factor * report.damage_threshold);
+  out += frame.curve(points, kNominalColour, 1.4);
+  const Vec2& deepest = points[*cell / map.columns];
+  if (frame.holds(deepest))
+    out += fmt::format("<circle class=\"deepest\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n",
+                       frame.px(deepest.x()), frame.py(deepest.y()), kRemovedColour);
+  return out + frame.border();
+}
+
+/// Section and nominal profile to the left, their distance over y to the right.
+std::string draw_profiles(const ImportReport& report, double y, double& bottom) {
+  std::string out = svg_text(kPlotLeft, y, "Section", "start", " class=\"title\"");
+  const SectionPanel section = place_section(report, kPlotLeft, y + 26.0, kHalf, 190.0, 4e-3);
+  std::vector<PlotKey> keys{{PlotKey::Kind::line, kSectionColour, "fitted"}};
+  if (!report.nominal_section.empty()) keys.push_back({PlotKey::Kind::dashes, kNominalColour, "nominal " + shortened(report.nominal, 30)});
+  out += draw_keys(keys, kPlotLeft, y + 13.0);
+  const PlotFrame& frame = section.frame;
+  out += draw_section(report, section,
+                      frame.curve(in_mm(report.section), kSectionColour, 1.6) +
+                          frame.curve(in_mm(report.nominal_section), kNominalColour, 1.4, " stroke-dasharray=\"6 3\""));
+
+  std::vector<Vec2> deviation = deviation_from_nominal(report.section, report.nominal_section, report.body);
+  double greatest = 0.0;
+  for (const Vec2& p : deviation) greatest = std::max(greatest, std::abs(p.y()));
+  const LengthUnit unit = picture_unit(greatest);
+  for (Vec2& p : deviation) p = {1e3 * p.x(), unit.factor * p.y()};
+  const PlotFrame chart({kRight, frame.box().y, kHalf, frame.box().height}, frame.x(), range_of(deviation));
+  out += svg_text(kRight, y, "Section less nominal profile", "start", " class=\"title\"");
+  out += svg_text(kRight, y + 17.0, "along the profile's normal; above 0: out of the material", "start", " class=\"remark\"");
+  if (deviation.empty()) {
+    out += svg_text(kRight + 0.5 * kHalf, frame.box().y + 0.5 * frame.box().height, "no nominal profile");
+  } else {
+    out += chart.axes("y [mm]", fmt::format("distance [{}]", unit.name));
+    out += chart.level(0.0, "none") + chart.curve(deviation, kNominalColour, 1.4);
+  }
+  bottom = section.bottom;
+  return out + chart.border();
+}
+
+}  // namespace
+
+std::string import_fitted_svg(const ImportReport& report) {
+  const MapPanel panel = place_map(report, report.fitted, kPictureTop + 20.0);
+  std::string out = draw_map(report, report.fitted, diverging_colours(report.fitted), panel,
+                             "Distance of the fitted surface from its section; above 0: out of the material", PixelRule::half);
+  out += draw_marks(report, panel);
+  const std::vector<PlotKey> keys{{PlotKey::Kind::hatch, "#8c8c8c", "no surface: holes that stay open"},
+                                  {PlotKey::Kind::box, "#7a1fa2", "holes (circles; filled ones dashed)"},
+                                  {PlotKey::Kind::box, "#111111", "damage: number and depth"}};
+  double y = panel.bottom + 6.0;
+  out += draw_keys(keys, kPlotLeft, y);
+  out += draw_course(report, panel, y + 36.0, y);
+  out += draw_profiles(report, y + 24.0, y);
+  out += draw_damage_table(report, kPlotLeft, y + 24.0, y);
+  return svg_head(kPictureWidth, y + 12.0, 12, kImportStyle) + hole_pattern() +
+         picture_heading("Fitted surface", import_heading(report)) + out + "</svg>\n";
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/imports/import_words.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include "treadmark/io/results/utf8.hpp"
+
+namespace treadmark::io {
+namespace {
+
+/// Three significant digits with the zeros at their end, so that numbers under one another look alike.
+std::string three(double value) {
+  const double size = std::abs(value);
+  if (size == 0.0) return "0";
+  if (!(size >= 1e-4 && size < 1e9)) return fmt::format("{:.3g}", value);
+  return fmt::format("{:.{}f}", value, std::max(0, 2 - static_cast<int>(std::floor(std::log10(size)))));
+}
+
+}  // namespace
+
+std::string grouped(std::size_t count) {
+  const std::string digits = std::to_string(count);
+  std::string text;
+  for (std::size_t i = 0; i < digits.size(); ++i) {
+    if (i > 0 && (digits.size() - i) % 3 == 0) text += ' ';
+    text += digits[i];
+  }
+  return text;
+}
+
+std::string percent(double part) {
+  if (!std::isfinite(part)) return "-";
+  const double value = 100.0 * part;
+  if (value == 0.0) return "0 %";
+  if (std::abs(value) < 0.001) return fmt::format("{:.1g} %", value);
+  return fmt::format("{:.{}f} %", value, std::abs(value) >= 10.0 ? 1 : std::abs(value) >= 1.0 ? 2 : 3);
+}
+
+std::string percent(std::size_t part, std::size_t whole) {
+  return whole == 0 ? "-" : percent(static_cast<double>(part) / static_cast<double>(whole));
+}
+
+std::string length_text(double metres, std::string_view micro) {
+  if (!std::isfinite(metres)) return "-";
+  const double size = std::abs(metres);
+  if (size == 0.0) return "0 mm";
+  if (size < 1e-4) return fmt::format("{} {}m", three(metres * 1e6), micro);
+  if (size < 10.0) return three(metres * 1e3) + " mm";
+  return three(metres) + " m";
+}
+
+LengthUnit picture_unit(double metres) {
+  return std::abs(metres) < 2e-4 ? LengthUnit{"\u00b5m", 1e6} : LengthUnit{"mm", 1e3};
+}
+
+std::string decimals(double value, int count) {
+  if (!std::isfinite(value)) return "-";
+  if (std::abs(value) >= 1e9) return fmt::format("{:.4g}", value);
+  std::string text = fmt::format("{:.{}f}", value, count);
+  return text.starts_with('-') && text.find_first_not_of("-0.") == std::string::npos ? text.substr(1) : text;
+}
+
+std::string place_text(const ImportReport& report, double u, std::string_view degree) {
+  if (report.body == Body::wheel) return fmt::format("{}{}", decimals(u * 180.0 / std::numbers::pi, 2), degree);
+  return decimals(u * 1e3, 1) + " mm";
+}
+
+std::string shortened(std::string_view text, std::size_t letters) {
+  std::string out;
+  std::size_t count = 0;
+  for (std::string_view rest = text; !rest.empty(); ++count) {
+    const std::size_t length = std::max<std::size_t>(1, utf8_length(rest));
+    if (count + 1 == letters && rest.size() > length) return out + "\u2026";
+    out += rest.substr(0, length);
+    rest.remove_prefix(length);
+  }
+  return out;
+}
+
+std::string_view body_name(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
+
+}  // namespace treadmark::io

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <string_view>
+
+#include "treadmark/io/imports/import_report.hpp"
+
+namespace treadmark::io {
+
+/// Numbers as the summary and the pictures of an import write them. Thread-safe.
+
+/// "1 234 567".
+std::string grouped(std::size_t count);
+
+/// "0.123 %", of nothing "-".
+std::string percent(std::size_t part, std::size_t whole);
+std::string percent(double part);
+
+/// A length [m] with three digits in um, mm or m, or "-" where it is not finite; micro is how the u of um is written.
+std::string length_text(double metres, std::string_view micro = "u");
+
+/// "mm" and "um" with what a length in metres is multiplied by; um for lengths below 0.2 mm.
+struct LengthUnit {
+  std::string name;
+  double factor = 1e3;
+};
+LengthUnit picture_unit(double metres);
+
+/// Fixed decimals without an exponent where the number is of ordinary size, "-" where it is not finite.
+std::string decimals(double value, int count);
+
+/// Place along a band: "123.45 deg" of a wheel, "1234.5 mm" of a rail.
+std::string place_text(const ImportReport& report, double u, std::string_view degree = " deg");
+
+/// The first letters of a text (UTF-8), with dots where it was cut.
+std::string shortened(std::string_view text, std::size_t letters);
+
+std::string_view body_name(Body body);
+
+}  // namespace treadmark::io

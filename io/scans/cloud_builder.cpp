@@ -1,0 +1,86 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/scans/cloud_builder.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+namespace treadmark::io::scans {
+
+CloudBuilder::CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& options, std::size_t least_bytes, Fail fail)
+    : bytes_(bytes),
+      most_points_(options.most_points),
+      least_bytes_(std::max<std::size_t>(least_bytes, 1)),
+      fail_(std::move(fail)) {
+  scan_.cloud.name = bytes.file();
+}
+
+void CloudBuilder::expect(std::uint64_t count) {
+  if (count > bytes_.left() / least_bytes_ + 1)
+    fail_(fmt::format("{} points are promised, more than the file can hold", count), "is it truncated?");
+  if (count > most_points_)
+    fail_(fmt::format("{} points, more than the {} allowed", count, most_points_), "thin out the points");
+  PointCloud& cloud = scan_.cloud;
+  cloud.points.reserve(cloud.points.size() + static_cast<std::size_t>(count));
+  if (normals_) cloud.normals.reserve(cloud.points.capacity());
+  if (passes_) cloud.passes.reserve(cloud.points.capacity());
+}
+
+void CloudBuilder::grow() {
+  PointCloud& cloud = scan_.cloud;
+  const std::size_t have = cloud.points.size();
+  if (have >= most_points_) fail_(fmt::format("more than the {} points allowed", most_points_), "thin out the points");
+  // The points so far tell how many the rest of the file has. Room that is not used costs no memory, moving costs
+  // twice.
+  constexpr std::size_t kFirst = 4096;
+  std::size_t room = have + std::max(kFirst, have / 8);
+  if (have >= kFirst) {
+    const double density = static_cast<double>(have) / static_cast<double>(bytes_.offset() + 1);
+    const double rest = 1.02 * density * static_cast<double>(bytes_.left());
+    const double most = static_cast<double>(bytes_.left() / least_bytes_ + 1);
+    room = std::max(room, have + static_cast<std::size_t>(std::min(rest, most)));
+  }
+  room = std::min(room, most_points_);
+  cloud.points.reserve(room);
+  if (normals_) cloud.normals.reserve(room);
+  if (passes_) cloud.passes.reserve(room);
+}
+
+Eigen::Vector3f CloudBuilder::unit_or_zero(const Eigen::Vector3f& normal) {
+  const Vec3 n = normal.cast<double>();
+  const double square = n.squaredNorm();
+  if (std::abs(square - 1.0) < 1e-5) return normal;  // as the file has it
+  if (!(square > 0.0 && std::isfinite(square))) return Eigen::Vector3f::Zero();
+  return (n / std::sqrt(square)).cast<float>();
+}
+
+void CloudBuilder::bad_pass(double number) const {
+  fail_(fmt::format("the pass {:g} is not a whole number from 0 to 65535", number),
+        "number the passes so, or remove or rename this column");
+  throw Error(ErrorKind::input_data, "wrong pass", {bytes_.file(), 0, 0});  // fail_ has thrown
+}
+
+Scan CloudBuilder::finish(std::string format, std::optional<LengthUnit> unit) {
+  PointCloud& cloud = scan_.cloud;
+  const auto refuse = [&](const std::string& message, const std::string& advice) {
+    throw Error(ErrorKind::input_data, message, {bytes_.file(), 0, 0}, advice);
+  };
+  if (scan_.points_in_file == 0) refuse("the file holds no points", "is it the right file?");
+  if (cloud.points.empty())
+    refuse(fmt::format("none of the {} points is finite and in use", scan_.points_in_file),
+           "was the scan exported properly?");
+  const auto is_zero = [](const Eigen::Vector3f& n) { return n.isZero(0.0f); };
+  if (!cloud.normals.empty() && std::all_of(cloud.normals.begin(), cloud.normals.end(), is_zero)) {
+    cloud.normals = {};
+    format += "; the normals are all zero and ignored";
+  }
+  scan_.format = std::move(format);
+  scan_.unit = unit;
+  bytes_.finish();
+  return std::move(scan_);
+}
+
+}  // namespace treadmark::io::scans

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstdint>
+#include <functional>
+#include <optional>
+#include <string>
+
+#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
+
+namespace treadmark::io::scans {
+
+/// Collects the points of a file and never makes room for more than the rest of the file can hold.
+class CloudBuilder {
+ public:
+  /// Knows the place in the file and throws.
+  using Fail = std::function<void(const std::string& message, const std::string& advice)>;
+
+  /// least_bytes: that a point takes in this kind of file.
+  CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& options, std::size_t least_bytes, Fail fail);
+
+  void set_content(bool normals, bool passes) {
+    normals_ = normals;
+    passes_ = passes;
+  }
+
+  void drop_passes() {
+    passes_ = false;
+    scan_.cloud.passes = {};
+  }
+
+  /// Makes room for points that the file promises from here on; refuses what it cannot hold or what is too many.
+  void expect(std::uint64_t count);
+
+  /// The normal is made a unit vector, or zero where it says nothing.
+  void add(const Vec3& point, const Eigen::Vector3f& normal = Eigen::Vector3f::Zero(), std::uint16_t pass = 0) {
+    ++scan_.points_in_file;
+    if (!point.allFinite()) {
+      ++scan_.not_finite;
+      return;
+    }
+    if (scan_.cloud.points.size() == scan_.cloud.points.capacity()) grow();
+    scan_.cloud.points.push_back(point);
+    if (normals_) scan_.cloud.normals.push_back(unit_or_zero(normal));
+    if (passes_) scan_.cloud.passes.push_back(pass);
+  }
+
+  void add_withheld() {
+    ++scan_.points_in_file;
+    ++scan_.withheld;
+  }
+
+  /// The pass that a number of the file names; fails for what is no whole number up to 65535.
+  std::uint16_t pass(double number) const {
+    if (!(number >= 0.0 && number <= 65535.0) || number != static_cast<double>(static_cast<std::uint16_t>(number)))
+      bad_pass(number);
+    return static_cast<std::uint16_t>(number);
+  }
+
+  Scan& scan() { return scan_; }
+
+  /// The result; Error(input_data) where there is no finite point.
+  Scan finish(std::string format, std::optional<LengthUnit> unit);
+
+  static Eigen::Vector3f unit_or_zero(const Eigen::Vector3f& normal);
+
+ private:
+  void grow();
+  [[noreturn]] void bad_pass(double number) const;
+
+  const ByteBlocks& bytes_;
+  std::size_t most_points_, least_bytes_;
+  Fail fail_;
+  bool normals_ = false, passes_ = false;
+  Scan scan_;
+};
+
+}  // namespace treadmark::io::scans

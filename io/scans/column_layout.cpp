@@ -1,0 +1,234 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/scans/column_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/io/scans/line_blocks.hpp"
+#include "treadmark/io/scans/number.hpp"
+#include "treadmark/io/scans/unit_words.hpp"
+
+namespace treadmark::io::scans {
+
+using profiles::printable;
+
+namespace {
+
+constexpr std::size_t kHead = 1'000'000;   ///< bytes that are looked at
+constexpr std::size_t kSampleLines = 200;  ///< lines of numbers that are looked at
+
+struct Head {
+  struct Line {
+    std::string text;
+    int number;
+  };
+  std::vector<Line> comments, words;  ///< before the points
+  std::vector<std::string> points;
+  int first_points = 0, count_line = 0;
+  UnitFinder unit;
+};
+
+bool is_count(std::string_view line) {
+  const std::vector<Field> fields = fields_of(line, ' ');
+  return fields.size() == 1 && fields[0].text.find_first_not_of("0123456789") == std::string_view::npos;
+}
+
+/// Comments may stand behind the numbers; a word with such a sign within ("1.#QNAN") is none.
+std::string_view without_comment(std::string_view line) {
+  for (std::size_t k = 1; k < line.size(); ++k) {
+    const bool sign = line[k] == '#' || line[k] == '!' || line[k] == '%' || line.substr(k).starts_with("//");
+    if (sign && std::string_view(" \t,;").find(line[k - 1]) != std::string_view::npos) return line.substr(0, k);
+  }
+  return line;
+}
+
+Head look(ByteBlocks& bytes) {
+  bytes.want(kHead);
+  const std::string_view text = bytes.window().substr(0, kHead);
+  ByteBlocks start(text, bytes.file());
+  LineBlocks lines(start);
+  Head head;
+  std::string_view line;
+  while (head.points.size() < kSampleLines && lines.next(line)) {
+    // the last line of the sample may be cut
+    if (start.left() == 0 && text.size() < bytes.left() && !head.points.empty()) break;
+    switch (kind_of_line(line)) {
+      case LineKind::empty:
+        break;
+      case LineKind::comment:
+        head.unit.look_at(comment_text(line));
+        if (head.points.empty()) head.comments.push_back({std::string(comment_text(line)), lines.number()});
+        break;
+      case LineKind::words:
+        if (!head.points.empty()) return head;  // the reader stops there with an error
+        head.words.push_back({std::string(line), lines.number()});
+        break;
+      case LineKind::numbers:
+        if (head.points.empty() && head.count_line == 0 && is_count(line)) {
+          head.count_line = lines.number();
+          break;
+        }
+        if (head.points.empty()) head.first_points = lines.number();
+        head.points.emplace_back(without_comment(line));
+    }
+  }
+  return head;
+}
+
+/// Whether the columns from `first` on are unit vectors in the sample; zero vectors say nothing.
+bool are_normals(const std::vector<std::string>& lines, const FieldStyle& style, std::size_t first) {
+  constexpr double kTolerance = 0.01;
+  bool any = false;
+  for (const std::string& line : lines) {
+    const std::vector<Field> fields = fields_of(line, style.separator);
+    double square = 0.0;
+    for (std::size_t k = first; k < first + 3; ++k) {
+      double value = 0.0;
+      if (k >= fields.size() || !parse_number(fields[k].text, style.decimal_comma, value)) return false;
+      square += value * value;
+    }
+    if (square == 0.0 || std::isnan(square)) continue;
+    if (std::abs(std::sqrt(square) - 1.0) > kTolerance) return false;
+    any = true;
+  }
+  return any;
+}
+
+/// The roles of columns without names.
+void assume_columns(ColumnLayout& layout, std::size_t columns, const std::vector<std::string>& points) {
+  layout.value.assign(columns, -1);
+  for (int k = 0; k < 3; ++k) layout.value[static_cast<std::size_t>(k)] = k;
+  if (columns == 6 && are_normals(points, layout.style, 3)) {
+    for (int k = 3; k < 6; ++k) layout.value[static_cast<std::size_t>(k)] = k;
+    layout.normals = true;
+    layout.in_words = "columns x y z nx ny nz (assumed: no names, unit vectors)";
+  } else if (columns == 3) {
+    layout.in_words = "columns x y z (assumed: no names)";
+  } else {
+    layout.in_words = fmt::format("columns x y z and {} ignored (assumed: no names)", columns - 3);
+  }
+}
+
+void take_names(ColumnLayout& layout, const ColumnNames& names) {
+  layout.value = names.value;
+  layout.normals = names.has_normals;
+  layout.pass = names.passes > 0;
+  layout.loose_pass = names.loose_pass;
+  layout.in_words = "columns";
+  constexpr std::string_view kNames[] = {"x", "y", "z", "nx", "ny", "nz", "pass"};
+  int ignored = 0;
+  for (const int v : layout.value) {
+    if (v < 0)
+      ++ignored;
+    else
+      layout.in_words.append(" ").append(kNames[v]);
+  }
+  if (ignored > 0) layout.in_words += fmt::format(" and {} ignored", ignored);
+}
+
+/// The names of a line that has as many as there are columns, cut at the separator of the numbers or at another.
+std::optional<ColumnNames> match(std::string_view line, char separator, std::size_t columns) {
+  for (const char s : {separator, ',', ';', '\t', ' '}) {
+    const std::vector<std::string> names = names_in(line, s);
+    if (names.size() != columns) continue;
+    ColumnNames found = find_names(names);
+    if (found.has_xyz) return found;
+  }
+  return std::nullopt;
+}
+
+/// The names in the lines before the points: of the last line of words that has them, else of the last such comment.
+/// with_empty: columns of the first line of points where empty ones at its end count.
+std::optional<ColumnNames> names_of(const Head& head, char separator, std::size_t columns, std::size_t with_empty,
+                                    const std::string& file) {
+  const auto check = [&](const ColumnNames& names, int line) {
+    if (names.twice)
+      throw Error(ErrorKind::input_data, "a coordinate is named twice", {file, line, 0}, "name columns x, y, z once");
+    if (names.units_differ)
+      throw Error(ErrorKind::input_data, "the columns of coordinates have different units", {file, line, 0},
+                  "write x, y and z in the same unit");
+  };
+  for (auto line = head.words.rbegin(); line != head.words.rend(); ++line)
+    for (const std::size_t number : {columns, with_empty})
+      if (const std::optional<ColumnNames> names = match(line->text, separator, number)) {
+        check(*names, line->number);
+        return names;
+      }
+  if (!head.words.empty()) {
+    const Head::Line& line = head.words.front();
+    const std::size_t found = names_in(line.text, separator).size();
+    throw Error(ErrorKind::input_data,
+                fmt::format("neither numbers nor {} names of columns with x, y and z among them, this is {}", columns,
+                            printable(line.text)),
+                {file, line.number, 1},
+                found > 1 ? fmt::format("it has {} names", found) : "put a # before it, or name the columns");
+  }
+  for (auto line = head.comments.rbegin(); line != head.comments.rend(); ++line)
+    if (const std::optional<ColumnNames> names = match(line->text, separator, columns)) {
+      check(*names, line->number);
+      return names;
+    }
+  return std::nullopt;
+}
+
+}  // namespace
+
+LineKind kind_of_line(std::string_view line) {
+  const std::size_t start = line.find_first_not_of(" \t\v\f");
+  if (start == std::string_view::npos) return LineKind::empty;
+  line.remove_prefix(start);
+  if (line.find_first_of("#!%") == 0 || line.starts_with("//")) return LineKind::comment;
+  const std::size_t end = line.find_first_of(" \t\v\f;,");
+  if (end == 0) {
+    // an empty first field; ';' before words is a comment
+    const std::size_t next = line.find_first_not_of(" \t\v\f;,");
+    if (next == std::string_view::npos || line[0] != ';') return LineKind::numbers;
+    return kind_of_line(line.substr(next)) == LineKind::numbers ? LineKind::numbers : LineKind::comment;
+  }
+  double value = 0.0;
+  return parse_number(line.substr(0, end), false, value) ? LineKind::numbers : LineKind::words;
+}
+
+std::string_view comment_text(std::string_view line) {
+  line.remove_prefix(std::min(line.find_first_not_of(" \t\v\f"), line.size()));
+  line.remove_prefix(std::min(line.find_first_not_of("#!%/;"), line.size()));
+  return line;
+}
+
+ColumnLayout find_layout(ByteBlocks& bytes) {
+  const Head head = look(bytes);
+  const std::string& file = bytes.file();
+  if (head.points.empty()) {
+    if (!head.words.empty())
+      throw Error(ErrorKind::input_data, "numbers are expected, this is " + printable(head.words.front().text),
+                  {file, head.words.front().number, 1}, "is it a file of points?");
+    throw Error(ErrorKind::input_data, "the file holds no points", {file, 0, 0}, "is it the right file?");
+  }
+  ColumnLayout layout;
+  layout.style = find_style(head.points);
+  const std::string& first = head.points.front();
+  const std::size_t columns = fields_of(first, layout.style.separator).size();
+  const auto with_empty =
+      layout.style.separator == ' '
+          ? columns
+          : 1 + static_cast<std::size_t>(std::count(first.begin(), first.end(), layout.style.separator));
+  if (columns < 3)
+    throw Error(ErrorKind::input_data, fmt::format("a point needs at least three columns, the line has {}", columns),
+                {file, head.first_points, 1}, "is it a file of points?");
+  layout.unit = head.unit.unit();
+  if (const std::optional<ColumnNames> names = names_of(head, layout.style.separator, columns, with_empty, file)) {
+    take_names(layout, *names);
+    if (names->unit) layout.unit = names->unit;  // names count more than comments
+  } else {
+    assume_columns(layout, columns, head.points);
+  }
+  layout.count_first = head.count_line > 0;
+  layout.first_points = layout.count_first ? std::min(head.count_line, head.first_points) : head.first_points;
+  layout.in_words += ", " + layout.style.in_words();
+  return layout;
+}
+
+}  // namespace treadmark::io::scans

@@ -1,0 +1,43 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "treadmark/io/scans/binary_values.hpp"
+#include "treadmark/io/scans/cloud_builder.hpp"
+#include "treadmark/io/scans/las_header.hpp"
+#include "treadmark/io/scans/parse_scan.hpp"
+
+namespace treadmark::io::scans {
+
+Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options) {
+  const LasHeader header = read_las_header(bytes);
+  CloudBuilder builder(bytes, options, header.record_length,
+                       [&](const std::string& m, const std::string& a) { bytes.fail(m, a); });
+  const std::optional<std::size_t> source_id = header.source_id();
+  builder.set_content(false, source_id.has_value());
+  builder.expect(header.count);
+  const unsigned withheld = header.withheld_bit();
+  for (std::uint64_t i = 0; i < header.count; ++i) {
+    const char* const at = bytes.need(header.record_length);
+    if ((load<std::uint8_t>(at + header.withheld_byte()) & withheld) != 0) {
+      builder.add_withheld();
+    } else {
+      Vec3 p;
+      for (std::size_t k = 0; k < 3; ++k)
+        p[static_cast<Eigen::Index>(k)] = load<std::int32_t>(at + 4 * k) * header.scale[k] + header.origin[k];
+      builder.add(p, Eigen::Vector3f::Zero(), source_id ? load<std::uint16_t>(at + *source_id) : std::uint16_t{0});
+    }
+    bytes.consume(header.record_length);
+  }
+  std::string format = fmt::format("LAS 1.{}, point data format {}", header.minor, header.format);
+  std::vector<std::uint16_t>& passes = builder.scan().cloud.passes;
+  if (std::adjacent_find(passes.begin(), passes.end(), std::not_equal_to<>()) == passes.end())
+    passes = {};
+  else
+    format += ", pass from the point source ID";
+  return builder.finish(std::move(format), header.unit);
+}
+
+}  // namespace treadmark::io::scans

@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
+
+namespace treadmark::io::scans {
+
+/// The readers behind read_scan, one a format. Errors: Error(input_data) that name the line and column or the byte.
+Scan parse_ply(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_stl(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_obj(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_off(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_columns(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options);
+
+/// The readers behind read_deviation_map.
+OffsetMap parse_map_matrix(ByteBlocks& bytes, const MapReadOptions& options);
+OffsetMap parse_esri_grid(ByteBlocks& bytes, const MapReadOptions& options);
+
+/// Behind is_deviation_map: which of the two the bytes are.
+enum class MapKind { none, matrix, esri_grid };
+MapKind sniff_map(ByteBlocks& bytes);
+
+}  // namespace treadmark::io::scans

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <string_view>
+
+#include "treadmark/core/length_unit.hpp"
+
+namespace treadmark::io::scans {
+
+/// The unit that a word names: a symbol ("mm", "um") or a name in English, British or American, any case.
+std::optional<LengthUnit> unit_of_word(std::string_view word);
+
+/// The unit that a comment states: "unit: mm", "units are in inches", "[mm]", "coordinates in metres", or a phrase that
+/// is the name of a unit and nothing more ("millimetres"). Other mentions of a unit ("5 mm spacing") count for nothing.
+std::optional<LengthUnit> unit_in_words(std::string_view text);
+
+/// The unit in the name of a column: "X [mm]", "x(mm)", "x_mm", "x mm". The name is cut to what stands before it.
+std::optional<LengthUnit> take_unit(std::string_view& name);
+
+/// Collects what several places of a file say; where they differ, the file says nothing.
+class UnitFinder {
+ public:
+  void add(std::optional<LengthUnit> unit) {
+    if (!unit) return;
+    if (unit_ && *unit_ != *unit) differ_ = true;
+    unit_ = unit;
+  }
+  void look_at(std::string_view comment) { add(unit_in_words(comment)); }
+  std::optional<LengthUnit> unit() const { return differ_ ? std::nullopt : unit_; }
+  bool differ() const { return differ_; }
+
+ private:
+  std::optional<LengthUnit> unit_;
+  bool differ_ = false;
+};
+
+}  // namespace treadmark::io::scans

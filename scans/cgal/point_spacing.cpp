@@ -1,0 +1,28 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/cgal/point_spacing.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/scans/cgal/neighbours.hpp"
+
+namespace treadmark::scans {
+
+double median(std::vector<double> values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+double median_spacing(std::span<const Vec3> points) {
+  std::vector<double> spacing(points.size());
+  for_each_neighbourhood(points, kSpacingNeighbours, [&](std::uint32_t i, std::span<const Neighbour> near) {
+    double sum = 0.0;
+    for (const Neighbour& n : near) sum += std::sqrt(n.squared_distance);
+    spacing[i] = sum / static_cast<double>(near.size());
+  });
+  return median(std::move(spacing));
+}
+
+}  // namespace treadmark::scans

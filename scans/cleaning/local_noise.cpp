@@ -1,0 +1,197 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/cleaning/local_noise.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::scans {
+namespace {
+
+constexpr double kWantedPoints = 60.0;
+constexpr int kWidestWindow = 6;
+constexpr std::size_t kMostPoints = 220;   // of the surroundings; evenly chosen from more
+constexpr int kAbsolute = 3, kBiweight = 4;
+constexpr double kTukey = 4.685, kMad = 1.4826;
+constexpr std::size_t kUnknowns = 6, kFewestSamples = 2 * kUnknowns;
+constexpr int kMostWindow = 48;
+constexpr double kMostLeverage = 0.9;
+
+struct Sample {
+  float x, y, d;
+};
+
+struct Scratch {
+  std::vector<Sample> samples;
+  std::vector<float> sizes;
+};
+
+/// Points of the cells up to window cells from one, in coordinates that run from -1 to 1; evenly chosen if there are many.
+void gather(const BandPoints& points, const Band& band, std::size_t row, int column, int window, std::vector<Sample>& samples) {
+  const auto rows = static_cast<std::ptrdiff_t>(points.rows), columns = static_cast<std::ptrdiff_t>(points.columns);
+  const double a0 = points.cell_a * (static_cast<double>(row) + 0.5), s0 = points.cell_s * (column + 0.5);
+  const double reach_a = points.cell_a * (window + 0.5), reach_s = points.cell_s * (window + 0.5);
+  samples.clear();
+  std::size_t all = 0;
+  for (int pass = 0; pass < 2; ++pass) {
+    const std::size_t stride = all / kMostPoints + 1;
+    std::size_t number = 0;
+    for (std::ptrdiff_t dr = -window; dr <= window; ++dr) {
+      std::ptrdiff_t r = static_cast<std::ptrdiff_t>(row) + dr;
+      double wrap = 0.0;
+      if (r < 0 || r >= rows) {
+        if (!band.closed) continue;
+        wrap = r < 0 ? -band.length() : band.length();
+        r = (r + rows) % rows;
+      }
+      const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, column - window)), last = static_cast<std::size_t>(std::min<std::ptrdiff_t>(columns - 1, column + window));
+      const std::size_t from = points.first(static_cast<std::size_t>(r), first), to = points.begin[static_cast<std::size_t>(r) * points.columns + last + 1];
+      if (pass == 0) {
+        all += to - from;
+        continue;
+      }
+      for (std::size_t i = from; i < to; ++i)
+        if (number++ % stride == 0)
+          samples.push_back({static_cast<float>((points.a[i] + wrap - a0) / reach_a), static_cast<float>((points.s[i] - s0) / reach_s), points.d[i]});
+    }
+  }
+}
+
+using Vec6 = Eigen::Matrix<double, 6, 1>;
+using Mat6 = Eigen::Matrix<double, 6, 6>;
+
+Vec6 terms(double x, double y) {
+  Vec6 out;
+  out << 1.0, x, y, x * x, x * y, y * y;
+  return out;
+}
+
+/// Coefficients over the window's own coordinates, the inverse of their normal matrix, and the scatter about them.
+double fit_window(Scratch& scratch, Vec6& c, Mat6& inverse, double least) {
+  std::vector<Sample>& samples = scratch.samples;
+  scratch.sizes.resize(samples.size());
+  double scale = 0.0;
+  for (int round = 0; round < kAbsolute + kBiweight; ++round) {
+    Mat6 matrix = Mat6::Zero();
+    Vec6 rhs = Vec6::Zero();
+    double sum = 0.0;
+    for (const Sample& p : samples) {
+      const Vec6 t = terms(p.x, p.y);
+      double w = 1.0;
+      if (round > 0) {
+        const double r = p.d - c.dot(t);
+        if (round < kAbsolute) {
+          w = scale / std::max(std::fabs(r), scale);
+        } else {
+          const double q = r / (kTukey * scale);
+          w = std::fabs(q) < 1.0 ? (1.0 - q * q) * (1.0 - q * q) : 0.0;
+        }
+      }
+      sum += w;
+      for (int i = 0; i < 6; ++i) {
+        rhs[i] += w * p.d * t[i];
+        for (int k = 0; k <= i; ++k) matrix(i, k) += w * t[i] * t[k];
+      }
+    }
+    // surroundings that lie on one line leave terms open: those stay small
+    matrix.diagonal().array() += 1e-7 * std::max(sum, 1.0);
+    const auto factor = matrix.selfadjointView<Eigen::Lower>().ldlt();
+    c = factor.solve(rhs);
+    if (round + 1 == kAbsolute + kBiweight) inverse = factor.solve(Mat6::Identity());
+    for (std::size_t i = 0; i < samples.size(); ++i)
+      scratch.sizes[i] = static_cast<float>(std::fabs(samples[i].d - c.dot(terms(samples[i].x, samples[i].y))));
+    const auto middle = scratch.sizes.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
+    std::nth_element(scratch.sizes.begin(), middle, scratch.sizes.end());
+    scale = std::max(kMad * static_cast<double>(*middle), least);
+  }
+  return scale * std::sqrt(static_cast<double>(samples.size()) / static_cast<double>(samples.size() - kUnknowns));
+}
+
+}  // namespace
+
+LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings& settings) {
+  LocalNoise out;
+  const std::size_t tile = LocalNoise::kTileCells;
+  out.tile_rows = (points.rows + tile - 1) / tile;
+  out.tile_columns = (points.columns + tile - 1) / tile;
+  out.sigma.assign(out.tile_rows * out.tile_columns, 0.0f);
+  std::size_t filled = 0;
+  for (std::size_t k = 0; k + 1 < points.begin.size(); ++k) filled += points.begin[k + 1] > points.begin[k] ? 1 : 0;
+  const double per_cell = static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(filled, 1));
+  out.window = std::clamp(static_cast<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
+  const auto columns = static_cast<int>(points.columns);
+  std::vector<float> of_cell(points.begin.size() - 1, -1.0f);
+  std::vector<std::size_t> outliers(points.rows, 0), spared(points.rows, 0), isolated(points.rows, 0);
+  parallel_for(points.rows, [&](std::size_t row) {
+    Scratch scratch;
+    std::vector<float> residuals;
+    for (int column = 0; column < columns; ++column) {
+      const std::size_t own = points.first(row, static_cast<std::size_t>(column)), own_end = points.begin[row * points.columns + static_cast<std::size_t>(column) + 1];
+      if (own == own_end) continue;
+      const double a0 = points.cell_a * (static_cast<double>(row) + 0.5), s0 = points.cell_s * (column + 0.5);
+      // where points are sparse the surroundings are wider
+      int window = out.window;
+      gather(points, band, row, column, window, scratch.samples);
+      while (scratch.samples.size() < kFewestSamples && window < kMostWindow) gather(points, band, row, column, window *= 2, scratch.samples);
+      if (scratch.samples.size() < kFewestSamples) {
+        for (std::size_t i = own; i < own_end; ++i) points.state[i] = PointState::outlier;
+        isolated[row] += own_end - own;
+        continue;
+      }
+      const double reach_a = points.cell_a * (window + 0.5), reach_s = points.cell_s * (window + 0.5);
+      Vec6 c;
+      Mat6 inverse;
+      const double sigma = fit_window(scratch, c, inverse, 0.1 * settings.least_noise);
+      of_cell[row * points.columns + static_cast<std::size_t>(column)] = static_cast<float>(sigma);
+      if (!(settings.outlier_factor > 0.0)) continue;
+      const double limit = settings.outlier_factor * std::max(sigma, settings.least_noise);
+      const auto beyond = static_cast<std::size_t>(std::count_if(scratch.sizes.begin(), scratch.sizes.end(), [&](float size) { return size > limit; }));
+      const bool edge = static_cast<double>(beyond) > settings.most_flagged * static_cast<double>(scratch.samples.size());
+      for (std::size_t i = own; i < own_end; ++i) {
+        const Vec6 t = terms((points.a[i] - a0) / reach_a, (points.s[i] - s0) / reach_s);
+        // a lone point draws the quadratic to itself: judged by what the others say of it (Cook and Weisberg 1982)
+        const double leverage = t.dot(inverse * t);
+        if (leverage > kMostLeverage) {
+          points.state[i] = PointState::outlier;
+          ++isolated[row];
+          continue;
+        }
+        if (!(std::fabs(points.d[i] - c.dot(t)) > limit * std::sqrt(1.0 - leverage))) continue;
+        ++(edge ? spared : outliers)[row];
+        if (!edge) points.state[i] = PointState::outlier;
+      }
+    }
+  });
+  for (std::size_t row = 0; row < points.rows; ++row) {
+    out.outliers += outliers[row];
+    out.spared += spared[row];
+    out.isolated += isolated[row];
+  }
+  // medians of tiles; tiles without any take the typical one
+  std::vector<float> all, here;
+  for (std::size_t k = 0; k < of_cell.size(); ++k)
+    if (of_cell[k] >= 0.0f) all.push_back(of_cell[k]);
+  const auto median = [](std::vector<float>& values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return static_cast<double>(*middle);
+  };
+  out.typical = all.empty() ? settings.least_noise : std::max(median(all), settings.least_noise);
+  for (std::size_t tr = 0; tr < out.tile_rows; ++tr)
+    for (std::size_t tc = 0; tc < out.tile_columns; ++tc) {
+      here.clear();
+      for (std::size_t r = tr * tile; r < std::min(points.rows, (tr + 1) * tile); ++r)
+        for (std::size_t c = tc * tile; c < std::min(points.columns, (tc + 1) * tile); ++c)
+          if (const float value = of_cell[r * points.columns + c]; value >= 0.0f) here.push_back(value);
+      constexpr std::size_t kEnough = 5;
+      out.sigma[tr * out.tile_columns + tc] =
+          static_cast<float>(here.size() >= kEnough ? std::max(median(here), settings.least_noise) : out.typical);
+    }
+  return out;
+}
+
+}  // namespace treadmark::scans

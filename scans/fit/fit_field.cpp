@@ -1,0 +1,102 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/fit/fit_field.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/fit/level_fit.hpp"
+#include "treadmark/scans/fit/significance.hpp"
+#include "treadmark/scans/random.hpp"
+
+namespace treadmark::scans {
+namespace {
+
+struct Size {
+  std::size_t halvings_a, halvings_s;
+};
+
+}  // namespace
+
+FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings, const Progress& progress) {
+  FitResult out{SplineField(band.length(), band.section.length(), band.closed), {}, {}, 0, 0, 0.0, 0.0, 0.0};
+  std::vector<float> weight(points.size(), 0.0f);
+  out.residual = points.d;
+  for (std::size_t row = 0; row < points.rows; ++row)
+    for (std::size_t column = 0; column < points.columns; ++column) {
+      const double sigma = noise.at(row, column);
+      for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
+        if (points.state[i] == PointState::held_out) points.state[i] = PointState::used;
+        if (points.state[i] != PointState::used) continue;
+        constexpr std::uint64_t kSeed = 0x74726561u;
+        if (Random(kSeed + points.index[i]).uniform() < settings.held_out) {
+          points.state[i] = PointState::held_out;
+          ++out.held_out;
+          continue;
+        }
+        weight[i] = static_cast<float>(1.0 / (sigma * sigma));
+        ++out.used;
+      }
+    }
+
+  // coarse to fine by the area of a function; along and across independently
+  const std::size_t most_a = points.halvings_a, most_s = points.halvings_s;
+  const double finest = settings.finest;
+  std::vector<Size> sizes;
+  for (std::size_t a = 0; a <= most_a; ++a)
+    for (std::size_t s = 0; s <= most_s; ++s) {
+      const double knot_a = points.cell_a * static_cast<double>(std::size_t{1} << (most_a - a)), knot_s = points.cell_s * static_cast<double>(std::size_t{1} << (most_s - s));
+      if ((a > 0 || s > 0) && (knot_a < 0.7 * finest || knot_s < 0.7 * finest)) continue;
+      sizes.push_back({a, s});
+    }
+  std::stable_sort(sizes.begin(), sizes.end(), [](const Size& x, const Size& y) {
+    const std::size_t sx = x.halvings_a + x.halvings_s, sy = y.halvings_a + y.halvings_s;
+    const auto skew = [](const Size& z) { return z.halvings_a > z.halvings_s ? z.halvings_a - z.halvings_s : z.halvings_s - z.halvings_a; };
+    return sx < sy || (sx == sy && skew(x) > skew(y));
+  });
+  for (std::size_t k = 0; k < sizes.size(); ++k) {
+    if (progress.stop_requested()) throw Error(ErrorKind::numerical, "stopped while the surface was fitted");
+    if (progress.report) progress.report(k, sizes.size(), "fitting");
+    SplineLevel level;
+    level.closed = band.closed;
+    level.intervals_a = points.rows >> (most_a - sizes[k].halvings_a);
+    level.intervals_s = points.columns >> (most_s - sizes[k].halvings_s);
+    level.knot_a = band.length() / static_cast<double>(level.intervals_a);
+    level.knot_s = band.section.length() / static_cast<double>(level.intervals_s);
+    const FunctionSums sums = sum_functions(points, out.residual, weight, level);
+    FitLevelReport report{level.knot_a, level.knot_s, level.size(), 0, 0};
+    std::vector<float> ridge;
+    if (k == 0) {
+      level.active.assign(level.size(), 1);
+      report.used = level.size();
+    } else {
+      report.used = choose_functions(sums, settings.significance, level, ridge);
+    }
+    if (report.used > 0) {
+      report.iterations = fit_level(points, out.residual, weight, ridge, level).iterations;
+      out.field.add(std::move(level));
+    }
+    out.levels.push_back(report);
+  }
+  double used = 0.0, held = 0.0, variance = 0.0;
+  for (std::size_t row = 0; row < points.rows; ++row)
+    for (std::size_t column = 0; column < points.columns; ++column)
+      for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) {
+        const double square = static_cast<double>(out.residual[i]) * out.residual[i];
+        if (points.state[i] == PointState::used) used += square;
+        if (points.state[i] == PointState::held_out) {
+          held += square;
+          variance += noise.at(row, column) * noise.at(row, column);
+        }
+      }
+  if (out.used > 0) out.residual_rms = std::sqrt(used / static_cast<double>(out.used));
+  if (out.held_out > 0) {
+    out.held_out_rms = std::sqrt(held / static_cast<double>(out.held_out));
+    out.held_out_error = std::sqrt(std::max(0.0, (held - variance) / static_cast<double>(out.held_out)));
+  }
+  return out;
+}
+
+}  // namespace treadmark::scans

@@ -1,0 +1,149 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/placement/elements.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <Eigen/Eigenvalues>
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/placement/voxels.hpp"
+
+namespace treadmark::scans {
+namespace {
+
+constexpr std::size_t kFewestPoints = 100;
+constexpr double kWantedPerVoxel = 30.0;
+constexpr std::size_t kMostVoxels = 250'000;
+constexpr std::size_t kFewestInSurroundings = 8;
+constexpr double kFlat = 0.03;      // least to middle eigenvalue
+constexpr double kBroad = 0.05;     // middle to greatest eigenvalue: no line
+constexpr double kEnoughFlat = 0.6;
+constexpr double kLeastFlat = 0.25;
+
+struct Extent {
+  Vec3 centre;
+  double radius;
+};
+
+/// Box of the middle 98 % of the points in each axis.
+Extent extent_of(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
+  const std::size_t stride = std::max<std::size_t>(1, points.size() / 200'000);
+  Extent out{Vec3::Zero(), 0.0};
+  Vec3 half = Vec3::Zero();
+  for (int axis = 0; axis < 3; ++axis) {
+    std::vector<double> values;
+    for (std::size_t i = 0; i < points.size(); i += stride)
+      if (keep.empty() || keep[i] != 0) values.push_back(points[i][axis]);
+    if (values.empty()) return out;
+    const std::size_t low = values.size() / 100, high = values.size() - 1 - low;
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(low), values.end());
+    const double least = values[low];
+    std::nth_element(values.begin(), values.begin() + static_cast<std::ptrdiff_t>(high), values.end());
+    out.centre[axis] = 0.5 * (least + values[high]);
+    half[axis] = 0.5 * (values[high] - least);
+  }
+  out.radius = half.norm();
+  return out;
+}
+
+struct Moments {
+  double count = 0.0;
+  Vec3 sum = Vec3::Zero();
+  Mat3 square = Mat3::Zero();
+};
+
+SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, const Extent& extent) {
+  std::vector<Moments> moments(voxels.count());
+  parallel_for(voxels.count(), [&](std::size_t v) {
+    Moments& m = moments[v];
+    for (const std::uint32_t i : voxels.points_of(v)) {
+      const Vec3 p = points[i] - extent.centre;
+      m.count += 1.0;
+      m.sum += p;
+      m.square += p * p.transpose();
+    }
+  });
+  SurfaceElements out;
+  out.size = voxels.size();
+  out.centre = extent.centre;
+  out.radius = extent.radius;
+  std::vector<Vec3> normal(voxels.count());
+  std::vector<float> weight(voxels.count(), 0.0f);
+  parallel_for(voxels.count(), [&](std::size_t v) {
+    Moments around;
+    voxels.neighbours(v, [&](std::size_t other) {
+      around.count += moments[other].count;
+      around.sum += moments[other].sum;
+      around.square += moments[other].square;
+    });
+    if (around.count < kFewestInSurroundings) return;
+    const Vec3 mean = around.sum / around.count;
+    Eigen::SelfAdjointEigenSolver<Mat3> eigen(around.square / around.count - mean * mean.transpose());
+    const Vec3 values = eigen.eigenvalues().cwiseMax(0.0);
+    if (!(values[1] > kBroad * values[2]) || !(values[0] < kFlat * values[1])) return;
+    normal[v] = eigen.eigenvectors().col(0);
+    weight[v] = static_cast<float>(1.0 - values[0] / (kFlat * values[1]));
+  });
+  double all = 0.0, flat = 0.0;
+  for (std::size_t v = 0; v < voxels.count(); ++v) {
+    all += moments[v].count;
+    if (!(weight[v] > 0.0f)) continue;
+    flat += moments[v].count;
+    out.position.push_back(extent.centre + moments[v].sum / moments[v].count);
+    out.normal.push_back(normal[v]);
+    out.weight.push_back(weight[v]);
+  }
+  out.flat_part = all > 0.0 ? flat / all : 0.0;
+  // a plane cuts about 1.5 cubes for each face area of a cube
+  constexpr double kCubesPerFace = 1.5;
+  if (flat > 0.0) out.spacing = voxels.size() * std::sqrt(static_cast<double>(out.position.size()) / kCubesPerFace / flat);
+  return out;
+}
+
+}  // namespace
+
+SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
+  const auto kept = keep.empty() ? points.size() : static_cast<std::size_t>(std::count_if(keep.begin(), keep.end(), [](auto k) { return k != 0; }));
+  if (kept < kFewestPoints)
+    throw Error(ErrorKind::input_data, fmt::format("{} points are too few to find a surface in them", kept), {}, "a scan has thousands of points");
+  const Extent extent = extent_of(points, keep);
+  if (!(extent.radius > 0.0)) throw Error(ErrorKind::input_data, "nearly all points of the scan lie at one place", {}, "are the columns of the file the coordinates?");
+
+  // points in a cube grow with its face: from one look to the wanted number
+  double size = extent.radius / 100.0;
+  for (int round = 0; round < 3; ++round) {
+    const Voxels look(points, extent.centre, size, keep);
+    std::size_t inside = 0;
+    std::vector<std::size_t> counts(look.count());
+    for (std::size_t v = 0; v < look.count(); ++v) inside += counts[v] = look.points_of(v).size();
+    // the cube in which the median point lies
+    std::sort(counts.begin(), counts.end());
+    std::size_t sum = 0, typical = 1;
+    for (const std::size_t c : counts) {
+      sum += c;
+      typical = c;
+      if (2 * sum >= inside) break;
+    }
+    const double by_points = std::sqrt(kWantedPerVoxel / static_cast<double>(typical));
+    const double by_voxels = std::sqrt(static_cast<double>(look.count()) / static_cast<double>(kMostVoxels));
+    const double factor = std::clamp(std::max(by_points, by_voxels), 0.1, 10.0);
+    size = std::min(size * factor, extent.radius / 5.0);
+    if (factor > 0.7 && factor < 1.4) break;
+  }
+  SurfaceElements best;
+  for (; size < extent.radius / 3.0; size *= 1.6) {
+    SurfaceElements found = elements_of(points, Voxels(points, extent.centre, size, keep), extent);
+    if (found.flat_part > best.flat_part) best = std::move(found);
+    if (best.flat_part > kEnoughFlat) break;
+  }
+  if (best.flat_part < kLeastFlat || best.position.size() < 20)
+    throw Error(ErrorKind::input_data, fmt::format("the points do not form a surface: only {:.0f} % of them lie in flat surroundings", 100.0 * best.flat_part), {},
+                "is this the right file? remove everything that is not the wheel or rail");
+  return best;
+}
+
+}  // namespace treadmark::scans

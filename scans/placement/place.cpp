@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/placement/place.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/scans/placement/band_frame.hpp"
+#include "treadmark/scans/random.hpp"
+
+namespace treadmark::scans {
+namespace {
+
+constexpr std::size_t kMostUsed = 120'000;
+
+struct Limits {
+  double least, most;
+};
+Limits limits(Body body) { return body == Body::wheel ? Limits{0.15, 0.75} : Limits{0.03, 0.22}; }
+const char* size_name(Body body) { return body == Body::wheel ? "radius" : "width of the section"; }
+
+double part_of(std::vector<double>& values, double part) {
+  const auto at = values.begin() + static_cast<std::ptrdiff_t>(part * static_cast<double>(values.size() - 1));
+  std::nth_element(values.begin(), at, values.end());
+  return *at;
+}
+
+Vec3 any_perpendicular(const Vec3& direction) {
+  return direction.cross(std::fabs(direction.x()) < 0.7 ? Vec3::UnitX() : Vec3::UnitY()).normalized();
+}
+
+Pose frame_of(Body body, const Vec3& origin, const Vec3& along, const Vec3& out) {
+  Pose pose;
+  pose.origin = origin;
+  const Vec3 z = body == Body::rail ? -out : out;
+  if (body == Body::rail)
+    pose.rotation << along, z.cross(along), z;  // x along, z into the rail, y = z x x
+  else
+    pose.rotation << along.cross(z), along, z;  // y along the axle, x = y x z
+  return pose;
+}
+
+/// Out of the head: the normals that point away from the middle of the section, summed; they cancel on both sides.
+Vec3 outwards(const RoughPlace& roughly) {
+  const Vec3 along = roughly.rough.axis.direction;
+  Vec3 middle = Vec3::Zero(), sum = Vec3::Zero();
+  for (const Vec3& p : roughly.elements.position) middle += p;
+  middle /= static_cast<double>(roughly.elements.position.size());
+  for (std::size_t i = 0; i < roughly.elements.position.size(); ++i) {
+    const Vec3& n = roughly.elements.normal[i];
+    const double away = n.dot(roughly.elements.position[i] - middle);
+    sum += (away < 0.0 ? -1.0 : 1.0) * n * std::fabs(away);
+  }
+  sum -= along * along.dot(sum);
+  return sum.norm() > 0.0 ? sum.normalized() : any_perpendicular(along);
+}
+
+/// Turns the frame round its z axis by half a turn.
+Pose turned(const Pose& X_CS) { return X_CS * Pose{Vec3::Zero(), Mat3(Eigen::DiagonalMatrix<double, 3>(-1.0, -1.0, 1.0))}; }
+
+struct Reference {
+  Vec2 shift;  ///< added to (y, v) of the measured section
+};
+
+/// Without a nominal profile. Wheel: y = 0 is 70 mm from the back of the flange (tread datum of EN 13715) and has the nominal
+/// radius. Rail: the highest point has z = 0; y = 0 is the middle of the head 14 mm below it, or of what was scanned.
+Reference own_reference(const Section& section, Body body) {
+  if (body == Body::wheel) {
+    constexpr double kDatum = 70e-3;
+    const double y = std::clamp(section.y_min() + kDatum, section.y_min(), section.y_max());
+    return {{-(section.y_min() + kDatum), -section.v_at(y)}};
+  }
+  constexpr double kBelow = 14e-3, kStep = 0.1e-3;
+  double top = -1e300;
+  for (double s = 0.0; s <= section.length(); s += kStep) top = std::max(top, section.at(s).position.y());
+  double left = section.y_max(), right = section.y_min();
+  for (double s = 0.0; s <= section.length(); s += kStep) {
+    const Vec2 p = section.at(s).position;
+    if (p.y() < top - kBelow) continue;
+    left = std::min(left, p.x());
+    right = std::max(right, p.x());
+  }
+  return {{-0.5 * (left + right), -top}};
+}
+
+}  // namespace
+
+RoughPlace find_roughly(std::span<const Vec3> points, std::span<const std::uint8_t> keep, Body body) {
+  RoughPlace out;
+  out.elements = find_elements(points, keep);
+  out.rough = body == Body::wheel ? rough_revolution(out.elements) : rough_sweep(out.elements);
+  const Axis& axis = out.rough.axis;
+  std::vector<double> values, other;
+  if (body == Body::wheel) {
+    for (const Vec3& p : out.elements.position) values.push_back((p - axis.point).cross(axis.direction).norm());
+    out.size = part_of(values, 0.95);
+  } else {
+    const Vec3 up = outwards(out), side = axis.direction.cross(up);
+    for (const Vec3& p : out.elements.position) values.push_back(p.dot(side));
+    other = values;
+    out.size = part_of(values, 0.99) - part_of(other, 0.01);
+  }
+  return out;
+}
+
+void scale(RoughPlace& roughly, double factor) {
+  for (Vec3& p : roughly.elements.position) p *= factor;
+  roughly.elements.size *= factor;
+  roughly.elements.centre *= factor;
+  roughly.elements.radius *= factor;
+  roughly.elements.spacing *= factor;
+  roughly.rough.axis.point *= factor;
+  roughly.size *= factor;
+}
+
+LengthUnit unit_by_size(Body body, double size) {
+  std::string list;
+  // an inch is the last guess: scanners rarely speak it
+  for (const LengthUnit unit : {LengthUnit::millimetre, LengthUnit::metre, LengthUnit::micrometre, LengthUnit::inch}) {
+    const double metres = size * metres_per(unit);
+    if (metres >= limits(body).least && metres <= limits(body).most) return unit;
+    list += fmt::format("{}{:.4g} m in {}", list.empty() ? "" : ", ", metres, symbol(unit));
+  }
+  throw Error(ErrorKind::input_data, fmt::format("the {} found in the scan, {:.6g}, is that of no {} in any unit: {}", size_name(body), size, body == Body::wheel ? "wheel" : "rail", list),
+              {}, "is it the right object? say the unit with --unit if it is");
+}
+
+void check_unit(Body body, double size, LengthUnit unit) {
+  const double metres = size * metres_per(unit);
+  if (metres >= limits(body).least && metres <= limits(body).most) return;
+  std::string fitting;
+  for (const LengthUnit other : kLengthUnits) {
+    const double m = size * metres_per(other);
+    if (m >= limits(body).least && m <= limits(body).most) fitting += fmt::format("{}{}", fitting.empty() ? "" : " or ", symbol(other));
+  }
+  throw Error(ErrorKind::input_data,
+              fmt::format("in {} the {} would be {:.4g} m{}", symbol(unit), size_name(body), metres, metres > limits(body).most ? ", far too large" : ", far too small"), {},
+              fitting.empty() ? "is it the right object?" : fmt::format("with --unit {} it fits", fitting));
+}
+
+Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly, const PlaceSettings& settings) {
+  const Body body = settings.body;
+  const bool wheel = body == Body::wheel;
+  std::vector<Vec3> used;
+  {
+    std::size_t kept = points.size();
+    if (!keep.empty()) kept = static_cast<std::size_t>(std::count_if(keep.begin(), keep.end(), [](auto k) { return k != 0; }));
+    const double share = static_cast<double>(kMostUsed) / static_cast<double>(std::max<std::size_t>(kept, 1));
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if ((keep.empty() || keep[i] != 0) && (share >= 1.0 || Random(i).uniform() < share)) used.push_back(points[i]);
+  }
+  const Axis& axis = roughly.rough.axis;
+  Vec3 along = axis.direction, out = wheel ? any_perpendicular(along) : outwards(roughly);
+  if (!wheel && settings.up) out = *settings.up - along * along.dot(*settings.up);
+  if (!(out.norm() > 0.1)) throw Error(ErrorKind::configuration, "the upward direction that was given runs along the rail");
+  out.normalize();
+  if (settings.forward && along.dot(*settings.forward) < 0.0) along = -along;
+  if (!settings.forward && !wheel) {
+    // the way in which the axis of the file that is nearest grows
+    Eigen::Index nearest = 0;
+    along.cwiseAbs().maxCoeff(&nearest);
+    if (along[nearest] < 0.0) along = -along;
+  }
+  const Vec3 origin = wheel ? Vec3(axis.point + axis.direction * axis.direction.dot(roughly.elements.centre - axis.point)) : roughly.elements.centre;
+  Pose X_CS = frame_of(body, origin, along, out);
+
+  Placement found;
+  RefinedAxis refined;
+  // the rail's roll changes what its section looks like from outside: placed, then looked at again
+  const int rounds = wheel ? 1 : 2;
+  for (int round = 0; round < rounds; ++round) {
+    refined = refine_axis(used, body, X_CS);
+    X_CS = refined.X_CS;
+    if (settings.nominal) {
+      const bool keep_way = settings.forward.has_value() || round > 0;
+      const SectionMatch match = match_nominal(refined.fit.section, *settings.nominal, body, keep_way);
+      if (match.turned) X_CS = turned(X_CS);
+      Pose to_new;  // from the present frame to the nominal one
+      to_new.rotation = wheel ? Mat3::Identity() : rotation_x(match.roll);
+      to_new.origin = wheel ? Vec3(0.0, match.shift.x(), 0.0) : Vec3(0.0, match.shift.x(), -match.shift.y());
+      X_CS = X_CS * to_new.inverse();
+      found.nominal_radius = wheel ? -match.shift.y() : 0.0;
+      const bool was_turned = found.match && found.match->turned;
+      found.match = match;
+      found.match->turned = match.turned || was_turned;
+    } else {
+      if (wheel && !settings.forward) {
+        // the flange is the side that reaches farther out
+        const Section& s = refined.fit.section;
+        if (s.at(0.25 * s.length()).position.y() < s.at(0.75 * s.length()).position.y()) {
+          X_CS = turned(X_CS);
+          std::vector<Vec2> mirrored;
+          for (double at = s.length(); at >= 0.0; at -= 0.5e-3) mirrored.emplace_back(-s.at(at).position.x(), s.at(at).position.y());
+          refined.fit.section = Section(mirrored);
+        }
+      }
+      const Reference reference = own_reference(refined.fit.section, body);
+      X_CS = X_CS * Pose{wheel ? Vec3(0.0, -reference.shift.x(), 0.0) : Vec3(0.0, -reference.shift.x(), reference.shift.y()), Mat3::Identity()};
+      found.nominal_radius = wheel ? settings.radius.value_or(-reference.shift.y()) : 0.0;
+    }
+  }
+  std::vector<Vec2> across;
+  across.reserve(used.size());
+  for (const Vec3& p : used) {
+    const Natural n = natural(body, X_CS.apply_inverse(p));
+    across.emplace_back(n.y, n.v);
+  }
+  constexpr double kReach = 5e-3, kKnots = 1.5e-3;
+  const SectionFit fit = fit_section(outline(across), across, kReach, kKnots);
+  found.X_CS = X_CS;
+  found.section = fit.section;
+  found.scatter = fit.scale;
+  found.undamaged = refined.undamaged;
+  found.position_error = refined.position_error;
+  found.direction_error = refined.direction_error;
+  found.iterations = refined.iterations;
+  constexpr double kMostError = 0.5e-3;
+  if (wheel && found.position_error > kMostError)
+    throw Error(ErrorKind::input_data, fmt::format("the scanned arc is too short to find the axle: its standard error is {:.2g} mm", 1e3 * found.position_error), {},
+                "scan more of the circumference");
+  return found;
+}
+
+}  // namespace treadmark::scans

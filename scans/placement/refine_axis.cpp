@@ -1,0 +1,139 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/placement/refine_axis.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <vector>
+
+#include <Eigen/Cholesky>
+#include <Eigen/Eigenvalues>
+
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/placement/band_frame.hpp"
+
+namespace treadmark::scans {
+namespace {
+
+constexpr double kTukey = 4.685;
+constexpr double kMad = 1.4826;
+constexpr std::size_t kBlock = 8192;
+constexpr int kMostRounds = 25;
+
+/// d = distance from the section along its normal, j = change of d by the four (wheel) or two (rail) motions.
+struct Residual {
+  double d = 0.0;
+  std::array<double, 4> j{};
+  double s = -1.0;  ///< < 0: not near the section
+};
+
+std::vector<Vec2> across(std::span<const Vec3> points, Body body, const Pose& X_CS) {
+  std::vector<Vec2> out(points.size());
+  for (std::size_t i = 0; i < points.size(); ++i) {
+    const Natural n = natural(body, X_CS.apply_inverse(points[i]));
+    out[i] = {n.y, n.v};
+  }
+  return out;
+}
+
+}  // namespace
+
+RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& start) {
+  RefinedAxis out;
+  out.X_CS = start;
+  const bool wheel = body == Body::wheel;
+  const Eigen::Index unknowns = wheel ? 4 : 2;
+  double reach = 20e-3;  // the rough axis smears the section
+  Section section = outline(across(points, body, out.X_CS));
+  constexpr double kKnots = 4e-3, kStrip = 2e-3, kNearest = 1e-3;
+  Eigen::Matrix4d information = Eigen::Matrix4d::Identity();
+  for (int round = 0; round < kMostRounds; ++round) {
+    out.iterations = round + 1;
+    if (round > 0 && round < 4) section = outline(across(points, body, out.X_CS));  // the first steps are large
+    out.fit = fit_section(section, across(points, body, out.X_CS), reach, kKnots, round < 4 ? 2 : 1);
+    section = out.fit.section;
+    std::vector<Residual> residuals(points.size());
+    parallel_for((points.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
+      for (std::size_t i = kBlock * block; i < std::min(points.size(), kBlock * (block + 1)); ++i) {
+        const Vec3 p = out.X_CS.apply_inverse(points[i]);
+        const Natural n = natural(body, p);
+        const auto foot = section.foot({n.y, n.v}, reach);
+        if (!foot) continue;
+        const Vec3 normal = direction(body, n.u, section.at(foot->s).normal);
+        const Vec3 turn = p.cross(normal);
+        residuals[i] = {foot->distance, wheel ? std::array{normal.x(), normal.z(), turn.x(), turn.z()} : std::array{turn.y(), turn.z(), 0.0, 0.0}, foot->s};
+      }
+    });
+    // weights
+    std::vector<double> sizes;
+    for (const Residual& r : residuals)
+      if (r.s >= 0.0) sizes.push_back(std::fabs(r.d));
+    if (sizes.empty()) break;
+    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
+    std::nth_element(sizes.begin(), middle, sizes.end());
+    const double scale = std::max(kMad * *middle, 1e-7);
+    // what is the same all along a strip of the section is the section's matter: its weighted mean is taken out
+    const auto strips = static_cast<std::size_t>(section.length() / kStrip) + 1;
+    struct Sum {
+      double w = 0.0, d = 0.0;
+      std::array<double, 4> j{};
+    };
+    std::vector<Sum> mean(strips);
+    std::vector<double> weight(residuals.size(), 0.0);
+    double used = 0.0, near = 0.0;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      const Residual& r = residuals[i];
+      if (r.s < 0.0) continue;
+      near += 1.0;
+      const double x = r.d / (kTukey * scale);
+      if (!(std::fabs(x) < 1.0)) continue;
+      weight[i] = (1.0 - x * x) * (1.0 - x * x);
+      used += 1.0;
+      Sum& sum = mean[static_cast<std::size_t>(r.s / kStrip)];
+      sum.w += weight[i];
+      sum.d += weight[i] * r.d;
+      for (std::size_t k = 0; k < 4; ++k) sum.j[k] += weight[i] * r.j[k];
+    }
+    out.undamaged = used / near;
+    Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
+    Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
+    double square = 0.0, weights = 0.0;
+    for (std::size_t i = 0; i < residuals.size(); ++i) {
+      if (!(weight[i] > 0.0)) continue;
+      const Sum& sum = mean[static_cast<std::size_t>(residuals[i].s / kStrip)];
+      Eigen::Vector4d j;
+      for (std::size_t k = 0; k < 4; ++k) j[static_cast<Eigen::Index>(k)] = residuals[i].j[k] - sum.j[k] / sum.w;
+      const double d = residuals[i].d - sum.d / sum.w;
+      matrix += weight[i] * j * j.transpose();
+      rhs += weight[i] * d * j;
+      square += weight[i] * d * d;
+      weights += weight[i];
+    }
+    information = matrix / std::max(square / weights, 1e-20);
+    // motions that the scan says nothing about stay as they are
+    Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix.topLeftCorner(unknowns, unknowns));
+    Eigen::VectorXd step = Eigen::VectorXd::Zero(4);
+    for (Eigen::Index k = 0; k < unknowns; ++k)
+      if (eigen.eigenvalues()[k] > 1e-12 * eigen.eigenvalues()[unknowns - 1])
+        step.head(unknowns) += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns)) / eigen.eigenvalues()[k];
+    const Vec3 shift = wheel ? Vec3(step[0], 0.0, step[1]) : Vec3::Zero();
+    const Vec3 turn = wheel ? Vec3(step[2], 0.0, step[3]) : Vec3(0.0, step[0], step[1]);
+    const double angle = turn.norm();
+    const Mat3 rotation = angle > 0.0 ? Mat3(Eigen::AngleAxisd(angle, turn / angle)) : Mat3::Identity();
+    out.X_CS = out.X_CS * Pose{shift, rotation};
+    reach = std::max(kNearest, std::min(reach, std::max(8.0 * scale, 5e-3)));
+    if (round > 4 && shift.norm() < 1e-8 && angle < 1e-8) break;
+  }
+  const Eigen::MatrixXd covariance = information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  if (wheel) {
+    out.position_error = std::sqrt(std::max(covariance(0, 0) + covariance(1, 1), 0.0));
+    out.direction_error = std::sqrt(std::max(covariance(2, 2) + covariance(3, 3), 0.0));
+  } else {
+    out.direction_error = std::sqrt(std::max(covariance.trace(), 0.0));
+  }
+  out.fit = fit_section(section, across(points, body, out.X_CS), 5e-3, 2e-3);
+  return out;
+}
+
+}  // namespace treadmark::scans

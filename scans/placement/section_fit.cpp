@@ -1,0 +1,219 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/placement/section_fit.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include <Eigen/Cholesky>
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::scans {
+namespace {
+
+constexpr std::size_t kFewestInStrip = 5;
+constexpr double kLayer = 6e-3;          // what one strip of one surface spans at most, in v [m]
+constexpr double kLeastShare = 0.15;     // of the fullest layer of its strip: a layer is no outlier then
+constexpr double kTukey = 4.685;
+constexpr double kMad = 1.4826;
+
+double median(std::vector<double>& values) {
+  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+  std::nth_element(values.begin(), middle, values.end());
+  return *middle;
+}
+
+struct Strip {
+  double y = 0.0, v = 0.0;
+  bool present = false;
+};
+
+/// The outermost well-filled layer of the points of a strip, at its middle.
+Strip strip_of(std::vector<Vec2>& points, double y_middle) {
+  Strip out;
+  out.y = y_middle;
+  if (points.size() < kFewestInStrip) return out;
+  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.y() > b.y() || (a.y() == b.y() && a.x() < b.x()); });
+  std::vector<std::size_t> inside(points.size());
+  std::size_t fullest = 0;
+  for (std::size_t i = 0, j = 0; i < points.size(); ++i) {
+    while (j < points.size() && points[i].y() - points[j].y() <= kLayer) ++j;
+    fullest = std::max(fullest, inside[i] = j - i);
+  }
+  if (fullest < kFewestInStrip) return out;
+  const auto enough = std::max(kFewestInStrip, static_cast<std::size_t>(kLeastShare * static_cast<double>(fullest)));
+  std::size_t first = 0;
+  while (inside[first] < enough) ++first;
+  // on to where the layer is at its fullest, so that a few points above it do not cut it short
+  while (first + 1 < points.size() && inside[first + 1] > inside[first]) ++first;
+  std::vector<double> all;
+  for (std::size_t i = first; i < first + inside[first]; ++i) all.push_back(points[i].y());
+  out.v = median(all);
+  out.present = true;
+  return out;
+}
+
+/// Cubic B-splines that are not zero at place (in knot intervals).
+std::array<double, 4> basis(double t) {
+  const double o = 1.0 - t;
+  return {o * o * o / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * o * o + 3.0 * o * o * o) / 6.0, t * t * t / 6.0};
+}
+
+}  // namespace
+
+Section outline(std::span<const Vec2> points) {
+  double y_min = 1e300, y_max = -1e300;
+  for (const Vec2& p : points) {
+    y_min = std::min(y_min, p.x());
+    y_max = std::max(y_max, p.x());
+  }
+  constexpr double kStrip = 1e-3, kWidest = 2.0;
+  const auto refuse = [](const char* why) {
+    throw Error(ErrorKind::input_data, fmt::format("the scan has no usable cross-section: {}", why), {}, "is it a wheel or rail, and is its unit right?");
+  };
+  if (!(y_max > y_min)) refuse("it is flat");
+  if (y_max - y_min > kWidest) {
+    // a few far outliers must not make it wide
+    y_min = -kWidest;
+    y_max = kWidest;
+  }
+  const auto count = static_cast<std::size_t>(std::ceil((y_max - y_min) / kStrip));
+  std::vector<std::vector<Vec2>> in_strip(count + 1);
+  for (const Vec2& p : points)
+    if (p.x() >= y_min && p.x() <= y_max) in_strip[static_cast<std::size_t>((p.x() - y_min) / kStrip)].push_back(p);
+  std::vector<Strip> strips(in_strip.size());
+  parallel_for(in_strip.size(), [&](std::size_t k) { strips[k] = strip_of(in_strip[k], y_min + kStrip * (static_cast<double>(k) + 0.5)); });
+  // pieces without steps and without gaps
+  constexpr std::size_t kLongestGap = 6;  // strips
+  const double steep = std::tan(kSteepest);
+  std::vector<Vec2> best, piece;
+  double best_reach = -1e300;
+  std::size_t last = 0;
+  constexpr std::size_t kShortest = 12;
+  const auto close = [&] {
+    if (piece.size() >= kShortest) {
+      double reach = -1e300;
+      for (const Vec2& p : piece) reach = std::max(reach, p.y());
+      if (reach > best_reach) {
+        best_reach = reach;
+        best = piece;
+      }
+    }
+    piece.clear();
+  };
+  for (std::size_t k = 0; k < strips.size(); ++k) {
+    if (!strips[k].present) continue;
+    const bool goes_on = !piece.empty() && k - last <= kLongestGap && std::fabs(strips[k].v - piece.back().y()) <= steep * (strips[k].y - piece.back().x());
+    if (!piece.empty() && !goes_on) close();
+    piece.emplace_back(strips[k].y, strips[k].v);
+    last = k;
+  }
+  close();
+  if (best.empty()) refuse("nothing in it is wider than 12 mm");
+  return Section(best);
+}
+
+SectionFit fit_section(const Section& start, std::span<const Vec2> points, double farthest, double knot_spacing, int rounds) {
+  SectionFit out;
+  out.section = start;
+  for (int round = 0; round < rounds; ++round) {
+    const double length = out.section.length();
+    const auto intervals = static_cast<std::size_t>(std::max(2.0, std::round(length / knot_spacing)));
+    const double knot = length / static_cast<double>(intervals);
+    struct Near {
+      float s, d;
+      std::uint32_t cell;
+    };
+    std::vector<Near> near(points.size());
+    parallel_for((points.size() + 4095) / 4096, [&](std::size_t block) {
+      for (std::size_t i = 4096 * block; i < std::min(points.size(), 4096 * (block + 1)); ++i) {
+        const auto foot = out.section.foot(points[i], farthest);
+        if (!foot) {
+          near[i].cell = ~0u;
+          continue;
+        }
+        const auto cell = std::min(intervals - 1, static_cast<std::size_t>(foot->s / knot));
+        near[i] = {static_cast<float>(foot->s / knot - static_cast<double>(cell)), static_cast<float>(foot->distance), static_cast<std::uint32_t>(cell)};
+      }
+    });
+    std::erase_if(near, [](const Near& n) { return n.cell == ~0u; });
+    if (near.size() < 4 * intervals) throw Error(ErrorKind::input_data, "too few points follow the cross-section of the scan", {}, "is it a wheel or rail?");
+    // medians of the strips to begin with, so that damage and outliers do not draw the spline
+    std::vector<double> level(intervals, 0.0), scale(intervals, 0.0);
+    double typical = 0.0;
+    {
+      std::vector<double> scales;
+      std::vector<std::vector<double>> d(intervals);
+      for (const Near& n : near) d[n.cell].push_back(n.d);
+      for (std::size_t k = 0; k < intervals; ++k) {
+        if (d[k].empty()) continue;
+        level[k] = median(d[k]);
+        for (double& value : d[k]) value = std::fabs(value - level[k]);
+        scale[k] = kMad * median(d[k]);
+        if (d[k].size() > 8) scales.push_back(scale[k]);
+      }
+      if (!scales.empty()) typical = median(scales);
+    }
+    const auto size = static_cast<Eigen::Index>(intervals + 3);
+    Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(size);
+    constexpr int kReweights = 6;
+    for (int again = 0; again < kReweights; ++again) {
+      Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
+      Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
+      for (const Near& n : near) {
+        const std::array<double, 4> b = basis(n.s);
+        double expected = 0.0;
+        for (std::size_t k = 0; k < 4; ++k) expected += b[k] * coefficients[static_cast<Eigen::Index>(n.cell + k)];
+        if (again == 0) expected = level[n.cell];
+        const double width = kTukey * std::max({scale[n.cell], 0.5 * typical, 1e-7});
+        const double r = (n.d - expected) / width;
+        if (!(std::fabs(r) < 1.0)) continue;
+        const double w = (1.0 - r * r) * (1.0 - r * r);
+        for (std::size_t a = 0; a < 4; ++a) {
+          const auto ia = static_cast<Eigen::Index>(n.cell + a);
+          rhs[ia] += w * b[a] * n.d;
+          for (std::size_t c = 0; c < 4; ++c) matrix(ia, static_cast<Eigen::Index>(n.cell + c)) += w * b[a] * b[c];
+        }
+      }
+      // second differences bridge strips without points
+      const double stiffness = 1e-4 * matrix.trace() / static_cast<double>(size);
+      for (Eigen::Index k = 1; k + 1 < size; ++k)
+        for (const auto& [a, x] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
+          for (const auto& [c, y] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}}) matrix(a, c) += stiffness * x * y;
+      coefficients = matrix.ldlt().solve(rhs);
+    }
+    std::vector<double> sizes;
+    double square = 0.0;
+    for (const Near& n : near) {
+      const std::array<double, 4> b = basis(n.s);
+      double expected = 0.0;
+      for (std::size_t k = 0; k < 4; ++k) expected += b[k] * coefficients[static_cast<Eigen::Index>(n.cell + k)];
+      sizes.push_back(std::fabs(n.d - expected));
+      square += sizes.back() * sizes.back();
+    }
+    out.used = near.size();
+    out.spread = std::sqrt(square / static_cast<double>(near.size()));
+    out.scale = kMad * median(sizes);
+    // the curve moves along its normals
+    std::vector<Vec2> moved;
+    const auto nodes = static_cast<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));
+    for (std::size_t k = 0; k <= nodes; ++k) {
+      const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);
+      const auto cell = std::min(intervals - 1, static_cast<std::size_t>(place));
+      const std::array<double, 4> b = basis(place - static_cast<double>(cell));
+      double d = 0.0;
+      for (std::size_t a = 0; a < 4; ++a) d += b[a] * coefficients[static_cast<Eigen::Index>(cell + a)];
+      const Section::Point at = out.section.at(place * knot);
+      const Vec2 next = at.position + d * at.normal;
+      if (moved.empty() || next.x() > moved.back().x() + 1e-7) moved.push_back(next);
+    }
+    out.section = Section(moved);
+  }
+  return out;
+}
+
+}  // namespace treadmark::scans

@@ -1,0 +1,27 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+
+#include "fuzz_scan.hpp"
+
+extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+  using namespace treadmark;
+  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  for (const std::size_t block : {std::size_t{13}, io::scans::ByteBlocks::kBlock})
+    for (const auto parser : {io::scans::parse_map_matrix, io::scans::parse_esri_grid}) {
+      try {
+        io::scans::ByteBlocks bytes(text, "fuzz", block);
+        io::scans::sniff_map(bytes);
+        io::MapReadOptions options;
+        if (size % 2 == 1) options = {Body::wheel, 0.46, {}, {}, false, {}};
+        const OffsetMap map = parser(bytes, options);
+        const Grid2& g = map.grid;
+        bool sound = g.nx >= 2 && g.ny >= 2 && g.dx > 0.0 && g.dy > 0.0 && std::isfinite(g.x(g.nx)) &&
+                     std::isfinite(g.y(g.ny)) && map.offset.size() == g.size() && g.size() <= size;
+        for (const float v : map.offset) sound = sound && (std::isnan(v) || std::abs(v) < 0.0501f);
+        if (!sound) std::abort();
+      } catch (const Error&) {
+      }
+    }
+  return 0;
+}
