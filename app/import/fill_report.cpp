@@ -151,7 +151,7 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   report.hole_area = found.coverage.hole_area;
   report.hole_limit = found.coverage.limit;
   for (const scans::Hole& hole : found.coverage.holes)
-    report.holes.push_back({u_of(hole.a), band.section.at(hole.s).position.x(), hole.diameter, hole.area, hole.filled});
+    report.holes.push_back({u_of(hole.a), band.section.at(hole.s).position.x(), hole.diameter, hole.area, hole.filled, hole.s});
   for (const scans::FitLevelReport& level : found.fit.levels) report.levels.push_back({level.knot_a, level.knot_s, level.functions, level.used, level.iterations});
   report.fitted_points = found.fit.used;
   report.held_out_points = found.fit.held_out;
@@ -159,7 +159,7 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   report.residual_rms = found.fit.residual_rms;
   report.held_out_rms = found.fit.held_out_rms;
   report.held_out_error = found.fit.held_out_error;
-  for (const scans::Damage& d : found.damage) report.damage.push_back({u_of(d.a), band.section.at(d.s).position.x(), d.length, d.width, d.depth, d.volume});
+  for (const scans::Damage& d : found.damage) report.damage.push_back({u_of(d.a), band.section.at(d.s).position.x(), d.length, d.width, d.depth, d.volume, d.s});
   report.y_min = band.section.at(found.fitted.s_min).position.x();
   report.y_max = band.section.at(found.fitted.s_max).position.x();
   report.closed = band.closed;

@@ -182,6 +182,9 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
       scan.placement = scans::place(scan.points, scan.keep, rough, how);
     }
   }
+  // files and cases must agree on a radius: one that people write down
+  constexpr double kRound = 0.01e-3;
+  if (scan.body == Body::wheel) scan.placement.nominal_radius = kRound * std::round(scan.placement.nominal_radius / kRound);
   if (settings.placement.nominal_radius_mm > 0.0 && scan.body == Body::wheel) {
     const double given = 1e-3 * settings.placement.nominal_radius_mm;
     constexpr double kFar = 60e-3;

@@ -16,11 +16,13 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
+#include "treadmark/scans/fit/section_levels.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
 namespace treadmark::app {
 namespace {
 
+constexpr double kFinest = 0.5e-3;  // knots that are worth having [m]
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The station of the band that becomes u = 0, with words for it.
@@ -59,6 +61,18 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
   const Vec3 in_S = X_CS.rotation.transpose() * direction.normalized();
   if (std::hypot(in_S.x(), in_S.z()) < 0.1) throw Error(ErrorKind::configuration, "the direction for the angular zero runs along the axle", {}, "choose one across it");
   return std::atan2(in_S.x(), in_S.z()) - wanted;
+}
+
+/// The nominal profile where there is one, as wide as the scan; else what the placement found.
+scans::Section start_section(const PlacedScan& scan) {
+  if (scan.nominal.empty()) return scan.placement.section;
+  const bool wheel = scan.body == Body::wheel;
+  std::vector<Vec2> points;
+  for (const Vec2& p : scan.nominal)
+    if (p.x() >= scan.placement.section.y_min() && p.x() <= scan.placement.section.y_max())
+      points.emplace_back(p.x(), wheel ? p.y() + scan.placement.nominal_radius : -p.y());
+  constexpr std::size_t kFewest = 20;
+  return points.size() < kFewest ? scan.placement.section : scans::Section(points);
 }
 
 /// Lines about the import that the surface file itself carries.
@@ -113,8 +127,19 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
 
   clock.begin("noise and outliers");
   const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
-  const double finest = settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(1e-3, 0.9 * report.spacing);
+  const double finest = settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(kFinest, 0.9 * report.spacing);
+  scan.placement.section = start_section(scan);
   scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section, {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
+  {
+    // the section from all points; once more projected on it, for points are judged by their distance from it
+    double moved = 0.0;
+    const scans::Section section = scans::refine_section(projection.points, projection.band, finest, &moved);
+    constexpr double kMatters = 1e-8;
+    if (moved > kMatters) {
+      scan.placement.section = section;
+      projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section, {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
+    }
+  }
   const std::size_t duplicates = scans::drop_duplicates(projection.points, scan.points);
   scans::NoiseSettings how_noise;
   how_noise.outlier_factor = settings.clean.outlier_factor;
@@ -132,6 +157,7 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   how_fit.finest = settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : 0.0;
   how_fit.significance = settings.fit.significance;
   how_fit.held_out = settings.fit.held_out;
+  how_fit.follow = settings.fit.follow;
   Progress inner;
   inner.stop = progress.stop;
   const scans::FitResult fit = scans::fit_field(projection.points, projection.band, noise, how_fit, inner);
@@ -151,7 +177,7 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   fill_report({scan, projection, noise, coverage, fit, fitted, damage}, report);
 
   clock.begin("writing");
-  const FittedScan whole{scan, fitted, projection.points, coverage};
+  const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical};
   for (const auto& file : request.outputs) check_holes(file, whole);
   const std::vector<std::string> summary = summary_lines(report);
   for (const auto& file : request.outputs) report.outputs.push_back(write_output(file, whole, settings, summary));

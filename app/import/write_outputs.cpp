@@ -58,7 +58,8 @@ void refuse_holes(const FittedScan& fit, const std::filesystem::path& file, cons
 }
 
 SliceSet slices_of(const FittedScan& fit, const io::ImportSettings& settings) {
-  return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, 1e-6 * settings.fit.tolerance_um, fit.scan.body == Body::wheel ? "scanned wheel" : "scanned rail");
+  const double tolerance = settings.fit.tolerance_um > 0.0 ? 1e-6 * settings.fit.tolerance_um : std::clamp(fit.noise / 50.0, 0.02e-6, 0.5e-6);
+  return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, tolerance, fit.scan.body == Body::wheel ? "scanned wheel" : "scanned rail");
 }
 
 TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& settings) {

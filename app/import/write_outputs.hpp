@@ -17,6 +17,7 @@ struct FittedScan {
   const scans::FittedBand& fitted;
   const scans::BandPoints& points;
   const scans::Coverage& coverage;
+  double noise = 0.0;   ///< [m]
 };
 
 /// Refuses outputs that mean nothing or cannot hold the surface, before any work. Errors: Error(configuration).

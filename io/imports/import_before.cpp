@@ -22,7 +22,8 @@ std::string import_heading(const ImportReport& report) {
 std::string import_before_svg(const ImportReport& report) {
   std::string out;
   double y = kPictureTop + 20.0;
-  const SectionPanel section = place_section(report, kPlotLeft, y + 26.0, kPictureWidth - kPlotLeft - 24.0, 360.0, 10e-3);
+  const SectionPanel section =
+      place_section(report, kPlotLeft, y + 26.0, kPictureWidth - kPlotLeft - 24.0, 360.0, 10e-3);
   out += svg_text(kPlotLeft, y, "All points, seen along the axis", "start", " class=\"title\"");
   std::vector<PlotKey> keys{{PlotKey::Kind::dot, kRawColour, "points as read"}};
   if (!report.nominal_section.empty())
@@ -33,7 +34,8 @@ std::string import_before_svg(const ImportReport& report) {
   out += draw_section(report, section,
                       frame.dots(in_mm(report.raw_section), kRawColour, 1.7) +
                           frame.curve(in_mm(report.section), kSectionColour, 1.6) +
-                          frame.curve(in_mm(report.nominal_section), kNominalColour, 1.4, " stroke-dasharray=\"6 3\""));
+                          frame.curve(in_mm(report.nominal_section), kNominalColour, 1.4, " stroke-dasharray=\"6 3\""),
+                      report.raw_section, "points");
   y = section.bottom + 24.0;
 
   const MapPanel map = place_map(report, report.density, y);

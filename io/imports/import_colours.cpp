@@ -31,8 +31,7 @@ std::array<std::uint8_t, 4> map_colour(double part, Palette palette) {
   std::array<std::uint8_t, 4> out{0, 0, 0, 255};
   if (palette == Palette::sequential) {
     const std::string text = colour(clamped);
-    for (std::size_t i = 0; i < 3; ++i)
-      std::from_chars(text.data() + 1 + 2 * i, text.data() + 3 + 2 * i, out[i], 16);
+    for (std::size_t i = 0; i < 3; ++i) std::from_chars(text.data() + 1 + 2 * i, text.data() + 3 + 2 * i, out[i], 16);
     return out;
   }
   const double position = (palette == Palette::from_white ? 0.5 + 0.5 * clamped : clamped) * (kDiverging.size() - 1);

@@ -21,8 +21,8 @@ struct MapColours {
   double low = 0.0, high = 1.0;  ///< [shown unit]
   Palette palette = Palette::sequential;
   bool below = false, above = false;  ///< values lie beyond the ends
-  std::string unit;              ///< the shown one
-  double factor = 1.0;           ///< from SI to the shown unit
+  std::string unit;                   ///< the shown one
+  double factor = 1.0;                ///< from SI to the shown unit
 };
 
 /// Colour at 0 (low) .. 1 (high): red, green, blue, opaque.

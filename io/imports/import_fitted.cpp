@@ -18,6 +18,7 @@ namespace {
 
 constexpr double kHalf = 400.0;  // width of a panel beside another [px]
 constexpr double kRight = kPlotLeft + kHalf + 96.0;
+constexpr double kNearLeft = 760.0;
 
 /// The lowest cell of a map, of a map that is nowhere below 0 the highest.
 std::optional<std::size_t> deepest_cell(const BandMap& map) {
@@ -43,39 +44,78 @@ PlotRange range_of(const std::vector<Vec2>& points) {
   return high > low ? PlotRange{low - margin, high + margin} : PlotRange{-1.0, 1.0};
 }
 
-/// The fitted distance along a through the deepest cell, under the map and with its axis of a.
-std::string draw_course(const ImportReport& report, const MapPanel& panel, double y, double& bottom) {
-  const BandMap& map = report.fitted;
+/// The fitted distance along a through the deepest cell.
+struct Course {
+  std::vector<Vec2> points;  ///< a [mm], distance [unit]
+  std::size_t deepest = 0;
+  double s = 0.0;  ///< [m]
+  LengthUnit unit;
+};
+
+std::optional<Course> course_of(const BandMap& map) {
   const std::optional<std::size_t> cell = deepest_cell(map);
-  const ChartBox& above = panel.frame.box();
-  const ChartBox box{above.x, y + 12.0, above.width, 130.0};
-  bottom = y + 12.0 + 130.0 + 44.0;
-  if (!cell) {
-    const PlotFrame frame(box, {}, {});
-    return svg_text(box.x, y, "Distance along the deepest place", "start", " class=\"title\"") + frame.border() +
-           svg_text(box.x + 0.5 * box.width, y + 80.0, "no values");
-  }
+  if (!cell) return {};
+  Course out;
   const std::size_t column = *cell % map.columns;
   const double step = (map.a_max - map.a_min) / static_cast<double>(map.rows);
-  const LengthUnit unit = picture_unit(map.value[*cell]);
-  std::vector<Vec2> points;
+  out.deepest = *cell / map.columns;
+  out.unit = picture_unit(map.value[*cell]);
+  out.s = map.s_min + (static_cast<double>(column) + 0.5) / static_cast<double>(map.columns) * (map.s_max - map.s_min);
   for (std::size_t row = 0; row < map.rows; ++row)
-    points.push_back({1e3 * (map.a_min + (static_cast<double>(row) + 0.5) * step),
-                      unit.factor * static_cast<double>(map.value[row * map.columns + column])});
-  const double s = map.s_min + (static_cast<double>(column) + 0.5) / static_cast<double>(map.columns) * (map.s_max - map.s_min);
-  const PlotFrame frame(box, panel.frame.x(), range_of(points));
-  std::string out = svg_text(
-      box.x, y, fmt::format("Distance along a through the deepest place, s = {} mm", decimals(1e3 * s, 1)), "start",
-      " class=\"title\"");
-  out += frame.axes(report.body == Body::wheel ? "along the circumference [mm]" : "x along the track [mm]",
-                    fmt::format("distance [{}]", unit.name));
-  out += frame.level(0.0, "none") + frame.level(-unit.factor * report.damage_threshold);
-  out += frame.curve(points, kNominalColour, 1.4);
-  const Vec2& deepest = points[*cell / map.columns];
+    out.points.push_back({1e3 * (map.a_min + (static_cast<double>(row) + 0.5) * step),
+                          out.unit.factor * static_cast<double>(map.value[row * map.columns + column])});
+  return out;
+}
+
+/// Grid, zero, threshold, and the course with its deepest place.
+std::string draw_curve(const Course& course, const PlotFrame& frame, const std::string& x_name,
+                       const std::string& y_name, double threshold) {
+  std::string out = frame.axes(x_name, y_name) + frame.level(0.0, "none");
+  if (threshold > 0.0) out += frame.level(-course.unit.factor * threshold);
+  out += frame.curve(course.points, kNominalColour, 1.4);
+  const Vec2& deepest = course.points[course.deepest];
   if (frame.holds(deepest))
-    out += fmt::format("<circle class=\"deepest\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"none\" stroke=\"{}\" stroke-width=\"1.5\"/>\n",
-                       frame.px(deepest.x()), frame.py(deepest.y()), kRemovedColour);
+    out += fmt::format(
+        "<circle class=\"deepest\" cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"3.5\" fill=\"none\" stroke=\"{}\" "
+        "stroke-width=\"1.5\"/>\n",
+        frame.px(deepest.x()), frame.py(deepest.y()), kRemovedColour);
   return out + frame.border();
+}
+
+/// Under the map and with its axis of a.
+std::string draw_course(const ImportReport& report, const std::optional<Course>& course, const MapPanel& panel,
+                        double y, double& bottom) {
+  const ChartBox box{panel.frame.box().x, y + 12.0, panel.frame.box().width, 130.0};
+  bottom = box.y + box.height + 44.0;
+  const std::string title = "Distance along a through the deepest place";
+  if (!course)
+    return svg_text(box.x, y, title, "start", " class=\"title\"") + PlotFrame(box, {}, {}).border() +
+           svg_text(box.x + 0.5 * box.width, y + 80.0, "no values");
+  std::string heading = fmt::format("{}, s = {} mm", title, decimals(1e3 * course->s, 1));
+  if (report.damage_threshold > 0.0) heading += "; dashed: deeper is damage";
+  const PlotFrame frame(box, panel.frame.x(), range_of(course->points));
+  return svg_text(box.x, y, heading, "start", " class=\"title\"") +
+         draw_curve(*course, frame,
+                    report.body == Body::wheel ? "along the circumference [mm]" : "x along the track [mm]",
+                    fmt::format("distance [{}]", course->unit.name), report.damage_threshold);
+}
+
+/// The same near the deepest place, beside the table of damage: as far as the largest damage is long to each side.
+std::string draw_near(const ImportReport& report, const Course& course, double y, double& bottom) {
+  const double length = report.damage.empty() ? 0.0 : report.damage.front().length;
+  const double reach = length > 0.0 && length < 10.0 ? std::max(1e3 * length, 10.0) : 50.0;
+  const double middle = course.points[course.deepest].x();
+  Course near = course;
+  std::vector<Vec2> shown;
+  for (Vec2& p : near.points) {
+    p.x() -= middle;
+    if (std::abs(p.x()) <= reach) shown.push_back(p);
+  }
+  const PlotFrame frame({kNearLeft, y + 12.0, kPictureWidth - 24.0 - kNearLeft, 120.0}, {-reach, reach},
+                        range_of(shown));
+  bottom = y + 12.0 + 120.0 + 40.0;
+  return svg_text(kNearLeft, y, fmt::format("The deepest place [{}]", course.unit.name), "start", " class=\"title\"") +
+         draw_curve(near, frame, "along a from there [mm]", "", report.damage_threshold);
 }
 
 /// Section and nominal profile to the left, their distance over y to the right.
@@ -83,7 +123,8 @@ std::string draw_profiles(const ImportReport& report, double y, double& bottom) 
   std::string out = svg_text(kPlotLeft, y, "Section", "start", " class=\"title\"");
   const SectionPanel section = place_section(report, kPlotLeft, y + 26.0, kHalf, 190.0, 4e-3);
   std::vector<PlotKey> keys{{PlotKey::Kind::line, kSectionColour, "fitted"}};
-  if (!report.nominal_section.empty()) keys.push_back({PlotKey::Kind::dashes, kNominalColour, "nominal " + shortened(report.nominal, 30)});
+  if (!report.nominal_section.empty())
+    keys.push_back({PlotKey::Kind::dashes, kNominalColour, "nominal " + shortened(report.nominal, 30)});
   out += draw_keys(keys, kPlotLeft, y + 13.0);
   const PlotFrame& frame = section.frame;
   out += draw_section(report, section,
@@ -97,7 +138,8 @@ std::string draw_profiles(const ImportReport& report, double y, double& bottom) 
   for (Vec2& p : deviation) p = {1e3 * p.x(), unit.factor * p.y()};
   const PlotFrame chart({kRight, frame.box().y, kHalf, frame.box().height}, frame.x(), range_of(deviation));
   out += svg_text(kRight, y, "Section less nominal profile", "start", " class=\"title\"");
-  out += svg_text(kRight, y + 17.0, "along the profile's normal; above 0: out of the material", "start", " class=\"remark\"");
+  out += svg_text(kRight, y + 17.0, "along the profile's normal; above 0: out of the material", "start",
+                  " class=\"remark\"");
   if (deviation.empty()) {
     out += svg_text(kRight + 0.5 * kHalf, frame.box().y + 0.5 * frame.box().height, "no nominal profile");
   } else {
@@ -112,17 +154,24 @@ std::string draw_profiles(const ImportReport& report, double y, double& bottom) 
 
 std::string import_fitted_svg(const ImportReport& report) {
   const MapPanel panel = place_map(report, report.fitted, kPictureTop + 20.0);
-  std::string out = draw_map(report, report.fitted, diverging_colours(report.fitted), panel,
-                             "Distance of the fitted surface from its section; above 0: out of the material", PixelRule::half);
+  std::string out =
+      draw_map(report, report.fitted, diverging_colours(report.fitted), panel,
+               "Distance of the fitted surface from its section; above 0: out of the material", PixelRule::half);
   out += draw_marks(report, panel);
   const std::vector<PlotKey> keys{{PlotKey::Kind::hatch, "#8c8c8c", "no surface: holes that stay open"},
                                   {PlotKey::Kind::box, "#7a1fa2", "holes (circles; filled ones dashed)"},
                                   {PlotKey::Kind::box, "#111111", "damage: number and depth"}};
   double y = panel.bottom + 6.0;
   out += draw_keys(keys, kPlotLeft, y);
-  out += draw_course(report, panel, y + 36.0, y);
+  const std::optional<Course> course = course_of(report.fitted);
+  out += draw_course(report, course, panel, y + 36.0, y);
   out += draw_profiles(report, y + 24.0, y);
-  out += draw_damage_table(report, kPlotLeft, y + 24.0, y);
+  const double top = y + 24.0;
+  out += draw_damage_table(report, kPlotLeft, top, y);
+  if (double bottom = 0.0; course) {
+    out += draw_near(report, *course, top, bottom);
+    y = std::max(y, bottom);
+  }
   return svg_head(kPictureWidth, y + 12.0, 12, kImportStyle) + hole_pattern() +
          picture_heading("Fitted surface", import_heading(report)) + out + "</svg>\n";
 }

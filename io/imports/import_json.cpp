@@ -56,8 +56,8 @@ Json frame(const ImportReport& report) {
   const Pose& X = report.X_CS;
   Json matrix = Json::array();
   for (int i = 0; i < 3; ++i)
-    matrix.push_back({exact(X.rotation(i, 0)), exact(X.rotation(i, 1)), exact(X.rotation(i, 2)),
-                      exact(kMilli * X.origin[i])});
+    matrix.push_back(
+        {exact(X.rotation(i, 0)), exact(X.rotation(i, 1)), exact(X.rotation(i, 2)), exact(kMilli * X.origin[i])});
   Json passes = Json::array();
   for (const ImportReport::Pass& pass : report.passes)
     passes.push_back({{"pass", pass.pass},
@@ -94,8 +94,10 @@ Json coverage(const ImportReport& report) {
     one["filled"] = hole.filled;
     holes.push_back(one);
   }
-  return {{"spacing_mm", number(kMilli * report.spacing)}, {"gap_a_mm", number(kMilli * report.gap_a)},
-          {"gap_s_mm", number(kMilli * report.gap_s)},     {"area_mm2", number(kMilli2 * report.area)},
+  return {{"spacing_mm", number(kMilli * report.spacing)},
+          {"gap_a_mm", number(kMilli * report.gap_a)},
+          {"gap_s_mm", number(kMilli * report.gap_s)},
+          {"area_mm2", number(kMilli2 * report.area)},
           {"hole_area_mm2", number(kMilli2 * report.hole_area)},
           {"hole_limit_mm", number(kMilli * report.hole_limit)},
           {"holes", holes}};

@@ -36,12 +36,14 @@ bool is_drawable(const BandMap& map) {
 std::optional<MapExtent> map_extent(const BandMap& map, double outside) {
   std::vector<float> known;
   if (is_drawable(map))
-    std::copy_if(map.value.begin(), map.value.end(), std::back_inserter(known), [](float v) { return std::isfinite(v); });
+    std::copy_if(map.value.begin(), map.value.end(), std::back_inserter(known),
+                 [](float v) { return std::isfinite(v); });
   if (known.empty()) return {};
   const auto [least, greatest] = std::minmax_element(known.begin(), known.end());
   MapExtent out{*least, *greatest, 0.0, 0.0};
   const auto rank = static_cast<std::size_t>(outside * static_cast<double>(known.size() - 1));
-  const auto low = known.begin() + static_cast<std::ptrdiff_t>(rank), high = known.end() - 1 - static_cast<std::ptrdiff_t>(rank);
+  const auto low = known.begin() + static_cast<std::ptrdiff_t>(rank),
+             high = known.end() - 1 - static_cast<std::ptrdiff_t>(rank);
   std::nth_element(known.begin(), low, known.end());
   out.low = *low;
   std::nth_element(known.begin(), high, known.end());

@@ -40,9 +40,9 @@ PaletteImage map_image(const BandMap& map, const MapColours& colours, PixelRule 
 
 /// A map in a picture, between kPlotLeft and kPlotLeft + kPlotWidth.
 struct MapPanel {
-  PlotFrame frame;        ///< a and s [mm]
-  double stretch = 1.0;   ///< scale of s over that of a
-  double bottom = 0.0;    ///< where the next panel may begin [px]
+  PlotFrame frame;       ///< a and s [mm]
+  double stretch = 1.0;  ///< scale of s over that of a
+  double bottom = 0.0;   ///< where the next panel may begin [px]
 };
 
 /// Place of a map below y. Its heading is at y, degrees of a wheel above the frame, mm below.

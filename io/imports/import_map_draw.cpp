@@ -22,7 +22,8 @@ constexpr double kBarWidth = 14.0;
 /// Round factors for the stretching of s.
 double round_stretch(double wanted) {
   double best = 1.0;
-  for (const double factor : {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0})
+  for (const double factor :
+       {1.0, 1.5, 2.0, 3.0, 4.0, 5.0, 6.0, 8.0, 10.0, 15.0, 20.0, 30.0, 50.0, 100.0, 200.0, 500.0})
     if (factor <= wanted * 1.001) best = factor;
   return best;
 }
@@ -61,7 +62,8 @@ std::string colour_bar(const MapColours& colours, const ChartBox& box) {
     const double value = colours.low + (colours.high - colours.low) * i / parts;
     const char* sign = i == 0 && colours.below ? "\u2264 " : i == parts && colours.above ? "\u2265 " : "";
     out += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}h4\"/>\n", right, bar.py(value));
-    out += svg_text(right + 7.0, bar.py(value) + 4.0, fmt::format("{}{:.4g}", sign, value + 0.0), "start", " class=\"number\"");
+    out += svg_text(right + 7.0, bar.py(value) + 4.0, fmt::format("{}{:.4g}", sign, value + 0.0), "start",
+                    " class=\"number\"");
   }
   return out + svg_text(right + 7.0, box.y - 9.0, colours.unit, "start", " class=\"number\"");
 }
@@ -121,8 +123,8 @@ std::string draw_map(const ImportReport& report, const BandMap& map, const MapCo
     return svg_text(box.x, box.y - 12.0, title, "start", " class=\"title\"") + frame.border() +
            svg_text(box.x + 0.5 * box.width, box.y + 0.5 * box.height + 4.0, "no values");
   std::string out = svg_text(box.x, box.y - (wheel ? 26.0 : 10.0), title, "start", " class=\"title\"");
-  out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"url(#holes)\"/>\n", box.x,
-                     box.y, box.width, box.height);
+  out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"url(#holes)\"/>\n",
+                     box.x, box.y, box.width, box.height);
   out += image_element(small_image(map, colours, rule), box);
   std::string along = wheel ? "along the circumference [mm]" : "x along the track [mm]";
   if (panel.stretch > 1.0) along += fmt::format("; s is drawn {:g} times as long as a", panel.stretch);

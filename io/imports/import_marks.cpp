@@ -76,7 +76,8 @@ ChartBox label_box(const ChartBox& mark, double width, const std::vector<ChartBo
   ChartBox best = trials[0];
   int least = -1;
   for (const ChartBox& trial : trials) {
-    int cost = static_cast<int>(std::count_if(taken.begin(), taken.end(), [&](const ChartBox& t) { return overlap(trial, t); }));
+    int cost = static_cast<int>(
+        std::count_if(taken.begin(), taken.end(), [&](const ChartBox& t) { return overlap(trial, t); }));
     if (trial.x < frame.x || trial.x + width > frame.x + frame.width) cost += 3;
     if (trial.y < frame.y || trial.y + height > frame.y + frame.height) cost += 3;
     if (least < 0 || cost < least) least = cost, best = trial;
@@ -98,7 +99,8 @@ std::string draw_holes(const ImportReport& report, const PlotFrame& frame) {
       if (!frame.holds(middle)) continue;
       const double rx = std::max(1.0, radius * per_mm_x), ry = std::max(1.0, radius * per_mm_y);
       path += fmt::format(
-          "<ellipse class=\"hole\" cx=\"{:.1f}\" cy=\"{:.1f}\" rx=\"{:.1f}\" ry=\"{:.1f}\" fill=\"none\" stroke=\"#7a1fa2\" "
+          "<ellipse class=\"hole\" cx=\"{:.1f}\" cy=\"{:.1f}\" rx=\"{:.1f}\" ry=\"{:.1f}\" fill=\"none\" "
+          "stroke=\"#7a1fa2\" "
           "stroke-width=\"1\"{}/>\n",
           frame.px(middle.x()), frame.py(middle.y()), rx, ry, hole.filled ? " stroke-dasharray=\"2 2\"" : "");
     }
@@ -131,7 +133,8 @@ std::string draw_marks(const ImportReport& report, const MapPanel& panel) {
     const ChartBox box = label_box(first[i], text_width(text, 11.0) + 6.0, taken, frame.box());
     taken.push_back(box);
     words += fmt::format(
-        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"2\" fill=\"#ffffff\" fill-opacity=\"0.85\"/>\n",
+        "<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" rx=\"2\" fill=\"#ffffff\" "
+        "fill-opacity=\"0.85\"/>\n",
         box.x, box.y, box.width, box.height);
     words += svg_text(box.x + 0.5 * box.width, box.y + 11.5, text, "middle", " class=\"number bold\"");
   }
@@ -140,18 +143,19 @@ std::string draw_marks(const ImportReport& report, const MapPanel& panel) {
 
 std::string draw_damage_table(const ImportReport& report, double x, double y, double& bottom) {
   const std::size_t count = std::min(report.damage.size(), kMostDamage);
-  std::string out = svg_text(x, y, report.damage_threshold > 0.0
-                                       ? fmt::format("Damage beyond {}, largest first", length_text(report.damage_threshold, "\u00b5"))
-                                       : std::string("Damage, largest first"),
+  std::string out = svg_text(x, y,
+                             report.damage_threshold > 0.0 ? fmt::format("Damage beyond {}, largest first",
+                                                                         length_text(report.damage_threshold, "\u00b5"))
+                                                           : std::string("Damage, largest first"),
                              "start", " class=\"title\"");
   y += kLine + 2.0;
   if (count == 0) {
     bottom = y + kLine;
     return out + svg_text(x, y, "none", "start");
   }
-  const std::array<const char*, 6> names{"", report.body == Body::wheel ? "at angle" : "at x", "y", "length \u00d7 width",
-                                         "deepest", "missing volume"};
-  const std::array<double, 6> right{12.0, 130.0, 220.0, 390.0, 500.0, 640.0};
+  const std::array<const char*, 6> names{
+      "", report.body == Body::wheel ? "at angle" : "at x", "y", "length \u00d7 width", "deepest", "missing volume"};
+  const std::array<double, 6> right{12.0, 120.0, 205.0, 360.0, 460.0, 585.0};
   const auto row = [&](const std::array<std::string, 6>& cells, const char* style) {
     for (std::size_t i = 0; i < cells.size(); ++i)
       if (!cells[i].empty()) out += svg_text(x + right[i], y, cells[i], "end", style);
@@ -161,8 +165,8 @@ std::string draw_damage_table(const ImportReport& report, double x, double y, do
   for (std::size_t i = 0; i < count; ++i) {
     const ImportReport::Damage& part = report.damage[i];
     row({std::to_string(i + 1), place_text(report, part.u, "\u00b0"), decimals(1e3 * part.y, 1) + " mm",
-         fmt::format("{} \u00d7 {} mm", decimals(1e3 * part.length, 1), decimals(1e3 * part.width, 1)), depth_text(part.depth),
-         decimals(1e9 * part.volume, 1) + " mm\u00b3"},
+         fmt::format("{} \u00d7 {} mm", decimals(1e3 * part.length, 1), decimals(1e3 * part.width, 1)),
+         depth_text(part.depth), decimals(1e9 * part.volume, 1) + " mm\u00b3"},
         " class=\"number\"");
   }
   if (report.damage.size() > count) {

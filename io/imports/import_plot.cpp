@@ -15,11 +15,11 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kBeyond = 4000.0;       // [px]; points farther from the box are not written
-constexpr double kSame = 0.25;           // [px]; points of a curve this near to each other are one
+constexpr double kBeyond = 4000.0;  // [px]; points farther from the box are not written
+constexpr double kSame = 0.25;      // [px]; points of a curve this near to each other are one
 constexpr std::size_t kMostDots = 12000;
 constexpr double kFont = 12.0;
-constexpr double kLargest = 1e9;          // of a value on an axis
+constexpr double kLargest = 1e9;  // of a value on an axis
 
 }  // namespace
 
@@ -61,7 +61,7 @@ bool PlotFrame::holds(const Vec2& p) const {
 std::string PlotFrame::axes(const std::string& x_name, const std::string& y_name, bool grid) const {
   const double bottom = box_.y + box_.height;
   std::string lines, numbers;
-  for (const double value : round_ticks(x_, std::max(3, static_cast<int>(box_.width / 55.0)))) {
+  for (const double value : round_ticks(x_, std::max(3, static_cast<int>(box_.width / 44.0)))) {
     const double at = px(value);
     if (grid) lines += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", at, box_.y, box_.height);
     lines += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v4\"/>\n", at, bottom);
@@ -126,7 +126,8 @@ std::string PlotFrame::dots(std::span<const Vec2> points, const std::string& col
   std::string path;
   std::size_t count = 0;
   for (const auto& [x, y] : places)
-    if (count++ % every == 0) path += fmt::format("M{:g} {:g}h0", 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
+    if (count++ % every == 0)
+      path += fmt::format("M{:g} {:g}h0", 0.5 * static_cast<double>(x), 0.5 * static_cast<double>(y));
   return fmt::format("<path class=\"dots\" stroke=\"{}\" stroke-width=\"{:.3g}\" d=\"{}\"/>\n", colour, diameter, path);
 }
 
@@ -147,9 +148,9 @@ std::string draw_keys(std::span<const PlotKey> keys, double x, double y) {
       out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>\n", x + 0.5 * (width = 8.0), y,
                          key.colour);
     else
-      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"10\" fill=\"{}\" stroke=\"{}\"/>\n",
-                         x, y - 5.0, width = 14.0, key.kind == PlotKey::Kind::hatch ? "url(#holes)" : "none",
-                         key.colour);
+      out +=
+          fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.0f}\" height=\"10\" fill=\"{}\" stroke=\"{}\"/>\n", x,
+                      y - 5.0, width = 14.0, key.kind == PlotKey::Kind::hatch ? "url(#holes)" : "none", key.colour);
     out += svg_text(x + width + 6.0, y + 4.0, key.name, "start");
     x += width + 6.0 + text_width(key.name, kFont) + 20.0;
   }
@@ -163,7 +164,8 @@ std::string hole_pattern() {
 }
 
 std::string picture_heading(const std::string& title, const std::string& line) {
-  return svg_text(20.0, 28.0, title, "start", " class=\"head\"") + svg_text(20.0, 47.0, line, "start", " class=\"sub\"");
+  return svg_text(20.0, 28.0, title, "start", " class=\"head\"") +
+         svg_text(20.0, 47.0, line, "start", " class=\"sub\"");
 }
 
 }  // namespace treadmark::io

@@ -28,8 +28,9 @@ std::string draw_bars(const ImportReport& report, double y, double& bottom) {
   for (int k = 0; k <= static_cast<int>(decades); ++k) {
     const double x = kBarLeft + kBarWidth * k / decades;
     out += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", x, y, height);
-    out += svg_text(x, y + height + 16.0, k < 8 ? grouped(static_cast<std::size_t>(std::llround(std::pow(10.0, k)))) : fmt::format("1e{}", k), "middle",
-                    " class=\"number\"");
+    out += svg_text(x, y + height + 16.0,
+                    k < 8 ? grouped(static_cast<std::size_t>(std::llround(std::pow(10.0, k)))) : fmt::format("1e{}", k),
+                    "middle", " class=\"number\"");
   }
   out += svg_text(kBarLeft + 0.5 * kBarWidth, y + height + 33.0, "points removed (logarithmic)");
   for (std::size_t i = 0; i < count; ++i) {
@@ -39,11 +40,12 @@ std::string draw_bars(const ImportReport& report, double y, double& bottom) {
         removed.count == 0 ? 0.0 : std::max(2.0, kBarWidth * std::log10(static_cast<double>(removed.count)) / decades);
     out += fmt::format("<g class=\"reason\"><title>{}</title>\n", xml_text(removed.reason + ": " + removed.why));
     out += svg_text(kBarLeft - 10.0, middle + 4.0, shortened(removed.reason, 40), "end");
-    out += fmt::format("<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\"/>\n", kBarLeft,
-                       middle - 7.0, width, kRemovedColour);
+    out += fmt::format("<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\"/>\n",
+                       kBarLeft, middle - 7.0, width, kRemovedColour);
     out += svg_text(kBarLeft + kBarWidth + 12.0, middle + 4.0,
-                    removed.count == 0 ? "none"
-                                       : fmt::format("{}  ({})", grouped(removed.count), percent(removed.count, report.points_read)),
+                    removed.count == 0
+                        ? "none"
+                        : fmt::format("{}  ({})", grouped(removed.count), percent(removed.count, report.points_read)),
                     "start");
     out += "</g>\n";
   }
@@ -63,13 +65,16 @@ std::string import_removed_svg(const ImportReport& report) {
   std::string out;
   double y = kPictureTop + 20.0;
   out += svg_text(kPlotLeft, y, "Removed points, seen along the axis", "start", " class=\"title\"");
-  const std::vector<PlotKey> keys{{PlotKey::Kind::dot, kRemovedColour, "removed"}, {PlotKey::Kind::dot, "#b9bdc4", "all points"}};
+  const std::vector<PlotKey> keys{{PlotKey::Kind::dot, kRemovedColour, "removed"},
+                                  {PlotKey::Kind::dot, "#b9bdc4", "all points"}};
   out += draw_keys(keys, kPlotLeft, y + 13.0);
-  const SectionPanel section = place_section(report, kPlotLeft, y + 26.0, kPictureWidth - kPlotLeft - 24.0, 360.0, 10e-3);
+  const SectionPanel section =
+      place_section(report, kPlotLeft, y + 26.0, kPictureWidth - kPlotLeft - 24.0, 360.0, 10e-3);
   const PlotFrame& frame = section.frame;
   out += draw_section(report, section,
                       frame.dots(in_mm(report.raw_section), "#b9bdc4", 1.5) +
-                          frame.dots(in_mm(report.removed_section), kRemovedColour, 2.2));
+                          frame.dots(in_mm(report.removed_section), kRemovedColour, 2.2),
+                      report.removed_section, "removed points");
 
   y = section.bottom + 24.0;
   out += svg_text(kPlotLeft, y, "Removed points by reason", "start", " class=\"title\"");
@@ -77,13 +82,15 @@ std::string import_removed_svg(const ImportReport& report) {
   out += draw_bars(report, y + 14.0, bottom);
 
   const MapPanel map = place_map(report, report.removed_map, bottom + 24.0);
-  out += draw_map(report, report.removed_map, sequential_colours(report.removed_map, "1/mm\u00b2", 1e-6, Palette::from_white), map,
+  out += draw_map(report, report.removed_map,
+                  sequential_colours(report.removed_map, "1/mm\u00b2", 1e-6, Palette::from_white), map,
                   "Removed points per mm\u00b2 over the unrolled band", PixelRule::any);
   const std::size_t kept = report.points_used;
   return svg_head(kPictureWidth, map.bottom + 8.0, 12, kImportStyle) + hole_pattern() +
          picture_heading("What was removed",
                          report.from_map ? import_heading(report)
-                                         : import_heading(report) + fmt::format("; {} used ({})", grouped(kept), percent(kept, report.points_read))) +
+                                         : import_heading(report) + fmt::format("; {} used ({})", grouped(kept),
+                                                                                percent(kept, report.points_read))) +
          out + "</svg>\n";
 }
 

@@ -53,7 +53,8 @@ std::string draw_histogram(const ImportReport& report, const ChartBox& box) {
   std::string bars;
   for (std::size_t i = 0; i < counts.size(); ++i) {
     if (counts[i] == 0) continue;
-    const double x0 = frame.px(-half + static_cast<double>(i) * bin), x1 = frame.px(-half + static_cast<double>(i + 1) * bin);
+    const double x0 = frame.px(-half + static_cast<double>(i) * bin),
+                 x1 = frame.px(-half + static_cast<double>(i + 1) * bin);
     const double y = frame.py(100.0 * static_cast<double>(counts[i]) / total);
     bars += fmt::format("M{:.1f} {:.1f}V{:.1f}H{:.1f}V{:.1f}z", x0, box.y + box.height, y, x1, box.y + box.height);
   }

@@ -15,8 +15,8 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kFarthest = 0.01;             // of the points, left out on each side where there is no curve
-constexpr std::size_t kMostCompared = 1500;    // points of the section
+constexpr double kFarthest = 0.01;           // of the points, left out on each side where there is no curve
+constexpr std::size_t kMostCompared = 1500;  // points of the section
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 bool is_finite(const Vec2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
@@ -42,8 +42,9 @@ PlotRange joined(const PlotRange& a, const PlotRange& b) {
 
 SectionPanel place_section(const ImportReport& report, double x, double y, double most_width, double most_height,
                            double margin) {
-  if (report.section.empty() && report.nominal_section.empty() && report.raw_section.empty() && report.removed_section.empty())
-    return {PlotFrame({x, y, most_width, 60.0}, {}, {}), 0, true, y + 78.0};
+  if (report.section.empty() && report.nominal_section.empty() && report.raw_section.empty() &&
+      report.removed_section.empty())
+    return {PlotFrame({x, y, most_width, 60.0}, {}, {}), true, y + 78.0};
   PlotRange ranges[2];
   for (int axis = 0; axis < 2; ++axis) {
     PlotRange& range = ranges[axis];
@@ -54,23 +55,27 @@ SectionPanel place_section(const ImportReport& report, double x, double y, doubl
   }
   const double scale = std::min(most_width / ranges[0].length(), most_height / ranges[1].length());
   // The frame has the whole width and height; what the equal scales leave is shown as well.
-  const double width = most_width, height = std::clamp(ranges[1].length() * scale, std::min(120.0, most_height), most_height);
+  const double width = most_width,
+               height = std::clamp(ranges[1].length() * scale, std::min(120.0, most_height), most_height);
   const double more[2] = {0.5 * (width / scale - ranges[0].length()), 0.5 * (height / scale - ranges[1].length())};
   for (int axis = 0; axis < 2; ++axis) ranges[axis] = {ranges[axis].low - more[axis], ranges[axis].high + more[axis]};
-  SectionPanel panel{PlotFrame({x, y, width, height}, ranges[0], ranges[1], true), 0, false, y + height + 44.0};
-  for (const SectionPoints* points : {&report.raw_section, &report.removed_section})
-    for (const Vec2& p : *points) panel.outside += panel.frame.holds(1e3 * p) ? 0 : 1;
-  return panel;
+  return {PlotFrame({x, y, width, height}, ranges[0], ranges[1], true), false, y + height + 44.0};
 }
 
-std::string draw_section(const ImportReport& report, const SectionPanel& panel, const std::string& content) {
+std::string draw_section(const ImportReport& report, const SectionPanel& panel, const std::string& content,
+                         const SectionPoints& counted, const std::string& kind) {
   const ChartBox& box = panel.frame.box();
   if (panel.empty)
-    return panel.frame.border() + svg_text(box.x + 0.5 * box.width, box.y + 0.5 * box.height + 4.0, "no points and no section");
+    return panel.frame.border() +
+           svg_text(box.x + 0.5 * box.width, box.y + 0.5 * box.height + 4.0, "no points and no section");
   std::string out = panel.frame.axes("y [mm]", report.body == Body::wheel ? "z = r - R [mm]" : "z [mm]") + content;
-  if (panel.outside > 0)
-    out += svg_text(box.x + box.width - 6.0, box.y + 15.0,
-                    fmt::format("{} of the points shown here lie outside", grouped(panel.outside)), "end", " class=\"remark\"");
+  const auto outside = static_cast<std::size_t>(
+      std::count_if(counted.begin(), counted.end(), [&](const Vec2& p) { return !panel.frame.holds(1e3 * p); }));
+  if (outside > 0)
+    out += svg_text(
+        box.x + box.width, box.y - 9.0,
+        fmt::format("{} of {} {} drawn here lie beyond the frame", grouped(outside), grouped(counted.size()), kind),
+        "end", " class=\"remark\"");
   return out + panel.frame.border();
 }
 

@@ -13,9 +13,8 @@ namespace treadmark::io {
 /// A view of the plane of the section with equal scales, y to the right and z down [mm].
 struct SectionPanel {
   PlotFrame frame;
-  std::size_t outside = 0;  ///< points of the raw section and of the removed ones that lie beyond the frame
-  bool empty = false;       ///< neither points nor curves: a low frame
-  double bottom = 0.0;      ///< where the next panel may begin [px]
+  bool empty = false;   ///< neither points nor curves: a low frame
+  double bottom = 0.0;  ///< where the next panel may begin [px]
 };
 
 /// Place of a view in a box of at most this width and height, its upper left corner at (x, y). It shows the curves and
@@ -23,8 +22,10 @@ struct SectionPanel {
 SectionPanel place_section(const ImportReport& report, double x, double y, double most_width, double most_height,
                            double margin);
 
-/// Axes of a view with what is in front of them and its border; an empty one says so.
-std::string draw_section(const ImportReport& report, const SectionPanel& panel, const std::string& content);
+/// Axes of a view with what is in front of them and its border; an empty one says so. Above it is said how
+/// many of the points of a kind lie beyond it.
+std::string draw_section(const ImportReport& report, const SectionPanel& panel, const std::string& content,
+                         const SectionPoints& counted = {}, const std::string& kind = "");
 
 /// In millimetres, as the panel's axes.
 std::vector<Vec2> in_mm(const SectionPoints& points);

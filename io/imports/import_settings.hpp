@@ -38,8 +38,9 @@ struct ImportSettings {
     double resolution_mm = 0.5;             ///< of the surface's points
     double finest_mm = 0.0;                 ///< smallest distance of knots; 0 = from the data
     double significance = 1.0;              ///< > 1 smooths more
+    bool follow = true;                     ///< lower the significance while points held out are met better
     double held_out = 0.02;                 ///< part of the points that judge the fit
-    double tolerance_um = 0.5;              ///< changes along the band below this need no slice of their own
+    double tolerance_um = 0.0;              ///< changes along the band below this need no slice of their own; 0 = by the noise, at most 0.5
     std::string base = "fitted";            ///< of offsets: fitted or nominal section
     std::string mesh = "band";              ///< band: Delaunay over the band; free: advancing front through the points
     double decimate_um = 0.0;               ///< leave out nodes of triangles that are not needed to this tolerance; 0 = keep all

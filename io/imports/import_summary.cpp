@@ -68,14 +68,15 @@ void add_inputs(Page& page, const ImportReport& report) {
     if (input.not_finite > 0) text += fmt::format(" and {} without numbers", grouped(input.not_finite));
     page.row(input.file, text + ", sha256 " + input.sha256.substr(0, 16) + (input.sha256.size() > 16 ? "..." : ""));
   }
-  if (report.inputs.size() > kMostInputs) page.line(fmt::format("  and {} more files", report.inputs.size() - kMostInputs));
+  if (report.inputs.size() > kMostInputs)
+    page.line(fmt::format("  and {} more files", report.inputs.size() - kMostInputs));
 }
 
 void add_points(Page& page, const ImportReport& report) {
   page.heading("points");
   const auto row = [&](const std::string& name, std::size_t count, const std::string& why) {
-    const std::string head = fmt::format("  {:<{}}{:>14}{:>10}", one_line(name), kLabel, grouped(count),
-                                         percent(count, report.points_read));
+    const std::string head =
+        fmt::format("  {:<{}}{:>14}{:>10}", one_line(name), kLabel, grouped(count), percent(count, report.points_read));
     page.wrap(why.empty() ? head : head + "  ", why, kLabel + 28);
   };
   row("read", report.points_read, "");
@@ -87,21 +88,24 @@ void add_points(Page& page, const ImportReport& report) {
 void add_placement(Page& page, const ImportReport& report) {
   page.heading("placed");
   const Vec3 origin = 1e3 * report.X_CS.origin;
-  page.row("origin in the cloud", fmt::format("{}, {}, {} mm", decimals(origin.x(), 3), decimals(origin.y(), 3), decimals(origin.z(), 3)));
+  page.row("origin in the cloud",
+           fmt::format("{}, {}, {} mm", decimals(origin.x(), 3), decimals(origin.y(), 3), decimals(origin.z(), 3)));
   if (report.body == Body::wheel) {
     page.row("nominal radius", decimals(1e3 * report.nominal_radius, 3) + " mm");
     page.row("axis known to", fmt::format("{} and {} mrad (standard errors), from {} of the points",
-                                          length_text(report.axis_position_error), decimals(1e3 * report.axis_direction_error, 4),
-                                          percent(report.undamaged)));
+                                          length_text(report.axis_position_error),
+                                          decimals(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
   } else {
-    page.row("direction known to", fmt::format("{} mrad (standard error), from {} of the points",
-                                               decimals(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
+    page.row("direction known to",
+             fmt::format("{} mrad (standard error), from {} of the points",
+                         decimals(1e3 * report.axis_direction_error, 4), percent(report.undamaged)));
   }
   page.row("scatter about section", length_text(report.scatter));
   page.row("nominal profile", report.nominal.empty() || report.nominal == "none"
                                   ? std::string("none")
-                                  : fmt::format("{}; {} of the section agrees, within {}{}", report.nominal, percent(report.match_agreeing),
-                                                length_text(report.match_residual), report.turned ? "; it was turned round" : ""));
+                                  : fmt::format("{}; {} of the section agrees, within {}{}", report.nominal,
+                                                percent(report.match_agreeing), length_text(report.match_residual),
+                                                report.turned ? "; it was turned round" : ""));
   if (!report.zero.empty()) page.row("zero", report.zero);
   if (report.passes.size() > 1)
     page.row("passes", fmt::format("{}, {} apart before and {} after they were joined (rms)", report.passes.size(),
@@ -115,18 +119,19 @@ std::string extent_text(const ImportReport& report) {
 }
 
 void add_holes(Page& page, const ImportReport& report) {
-  const auto filled = static_cast<std::size_t>(
-      std::count_if(report.holes.begin(), report.holes.end(), [](const ImportReport::Hole& hole) { return hole.filled; }));
+  const auto filled = static_cast<std::size_t>(std::count_if(
+      report.holes.begin(), report.holes.end(), [](const ImportReport::Hole& hole) { return hole.filled; }));
   page.row("holes", report.holes.empty()
                         ? std::string("none")
-                        : fmt::format("{}: {} filled, {} left open (limit {}); {} of {} cm2", report.holes.size(), filled,
-                                      report.holes.size() - filled, length_text(report.hole_limit),
+                        : fmt::format("{}: {} filled, {} left open (limit {}); {} of {} cm2", report.holes.size(),
+                                      filled, report.holes.size() - filled, length_text(report.hole_limit),
                                       percent(report.area > 0.0 ? report.hole_area / report.area : std::nan("")),
                                       decimals(1e4 * report.area, 1)));
   for (std::size_t i = 0; i < std::min(report.holes.size(), kMostHoles); ++i) {
     const ImportReport::Hole& hole = report.holes[i];
-    page.row("", fmt::format("at {}, y {} mm: {} across, {} mm2, {}", place_text(report, hole.u), decimals(1e3 * hole.y, 1),
-                             length_text(hole.diameter), decimals(1e6 * hole.area, 1), hole.filled ? "filled" : "open"));
+    page.row("",
+             fmt::format("at {}, y {} mm: {} across, {} mm2, {}", place_text(report, hole.u), decimals(1e3 * hole.y, 1),
+                         length_text(hole.diameter), decimals(1e6 * hole.area, 1), hole.filled ? "filled" : "open"));
   }
 }
 
@@ -134,8 +139,8 @@ void add_fit(Page& page, const ImportReport& report) {
   page.heading("fitted");
   page.row("extent", extent_text(report));
   if (!report.from_map) {
-    page.row("distance of points", fmt::format("{} (along {}, across {})", length_text(report.spacing), length_text(report.gap_a),
-                                               length_text(report.gap_s)));
+    page.row("distance of points", fmt::format("{} (along {}, across {})", length_text(report.spacing),
+                                               length_text(report.gap_a), length_text(report.gap_s)));
     page.row("noise", length_text(report.noise));
   }
   if (!report.levels.empty()) {
@@ -146,8 +151,9 @@ void add_fit(Page& page, const ImportReport& report) {
   page.row("residuals", fmt::format("{} rms, {} largest, of {} points", length_text(report.residual_rms),
                                     length_text(report.residual_max), grouped(report.fitted_points)));
   if (report.held_out_points > 0)
-    page.row("points held out", fmt::format("{} of {} points; error of the surface {}", length_text(report.held_out_rms),
-                                            grouped(report.held_out_points), length_text(report.held_out_error)));
+    page.row("points held out",
+             fmt::format("{} of {} points; error of the surface {}", length_text(report.held_out_rms),
+                         grouped(report.held_out_points), length_text(report.held_out_error)));
   add_holes(page, report);
 }
 
@@ -155,15 +161,17 @@ void add_damage(Page& page, const ImportReport& report) {
   page.heading(fmt::format("damage beyond {}: {}", length_text(report.damage_threshold),
                            report.damage.empty() ? std::string("none") : std::to_string(report.damage.size())));
   if (report.damage.empty()) return;
-  page.line(fmt::format("  {:>3}{:>14}{:>12}{:>12}{:>12}{:>14}{:>16}", "", report.body == Body::wheel ? "at angle" : "at x", "y",
-                        "length", "width", "depth", "volume"));
+  page.line(fmt::format("  {:>3}{:>14}{:>12}{:>12}{:>12}{:>14}{:>16}", "",
+                        report.body == Body::wheel ? "at angle" : "at x", "y", "length", "width", "depth", "volume"));
   for (std::size_t i = 0; i < std::min(report.damage.size(), kMostDamage); ++i) {
     const ImportReport::Damage& part = report.damage[i];
     page.line(fmt::format("  {:>3}{:>14}{:>12}{:>12}{:>12}{:>14}{:>16}", i + 1, place_text(report, part.u),
                           decimals(1e3 * part.y, 1) + " mm", decimals(1e3 * part.length, 1) + " mm",
-                          decimals(1e3 * part.width, 1) + " mm", length_text(part.depth), decimals(1e9 * part.volume, 1) + " mm3"));
+                          decimals(1e3 * part.width, 1) + " mm", length_text(part.depth),
+                          decimals(1e9 * part.volume, 1) + " mm3"));
   }
-  if (report.damage.size() > kMostDamage) page.line(fmt::format("  and {} smaller ones", report.damage.size() - kMostDamage));
+  if (report.damage.size() > kMostDamage)
+    page.line(fmt::format("  and {} smaller ones", report.damage.size() - kMostDamage));
 }
 
 void add_outputs(Page& page, const ImportReport& report) {
@@ -172,8 +180,8 @@ void add_outputs(Page& page, const ImportReport& report) {
   for (const ImportReport::Output& output : report.outputs)
     page.row(output.file, fmt::format("{}{}; {} kB; within {} of the fitted surface ({} rms)", output.kind,
                                       output.details.empty() ? "" : ": " + output.details,
-                                      decimals(1e-3 * static_cast<double>(output.bytes), 1), length_text(output.height_max),
-                                      length_text(output.height_rms)));
+                                      decimals(1e-3 * static_cast<double>(output.bytes), 1),
+                                      length_text(output.height_max), length_text(output.height_rms)));
 }
 
 }  // namespace

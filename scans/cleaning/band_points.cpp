@@ -120,7 +120,7 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
 
   BandPoints& band = out.points;
   // whole numbers of coarse cells: four or more round a wheel, so that rows four apart never meet (see fit/)
-  const auto halvings = [&](double coarse) { return static_cast<std::size_t>(std::clamp(std::floor(std::log2(coarse / settings.finest) + 1e-9), 0.0, 8.0)); };
+  const auto halvings = [&](double coarse) { return static_cast<std::size_t>(std::clamp(std::floor(std::log2(coarse / settings.finest) + 0.3), 0.0, 8.0)); };
   double coarse_rows = std::max(1.0, std::round(ends.a_max - ends.a_min > 0.0 ? (ends.a_max - ends.a_min) / kCoarseA : 1.0));
   if (ends.closed) coarse_rows = std::max(4.0, 4.0 * std::round(coarse_rows / 4.0));
   const double coarse_columns = std::max(1.0, std::round(section.length() / kCoarseS));

@@ -20,6 +20,7 @@ constexpr double kTukey = 4.685, kMad = 1.4826;
 constexpr std::size_t kUnknowns = 6, kFewestSamples = 2 * kUnknowns;
 constexpr int kMostWindow = 48;
 constexpr double kMostLeverage = 0.9;
+constexpr double kCalm = 3.5;   // standard deviations
 
 struct Sample {
   float x, y, d;
@@ -101,12 +102,17 @@ double fit_window(Scratch& scratch, Vec6& c, Mat6& inverse, double least) {
     matrix.diagonal().array() += 1e-7 * std::max(sum, 1.0);
     const auto factor = matrix.selfadjointView<Eigen::Lower>().ldlt();
     c = factor.solve(rhs);
-    if (round + 1 == kAbsolute + kBiweight) inverse = factor.solve(Mat6::Identity());
     for (std::size_t i = 0; i < samples.size(); ++i)
       scratch.sizes[i] = static_cast<float>(std::fabs(samples[i].d - c.dot(terms(samples[i].x, samples[i].y))));
     const auto middle = scratch.sizes.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
     std::nth_element(scratch.sizes.begin(), middle, scratch.sizes.end());
     scale = std::max(kMad * static_cast<double>(*middle), least);
+    // nothing stands out: weights would change next to nothing
+    const bool clean = round == 0 && *std::max_element(middle, scratch.sizes.end()) < kCalm * scale;
+    if (clean || round + 1 == kAbsolute + kBiweight) {
+      inverse = factor.solve(Mat6::Identity());
+      break;
+    }
   }
   return scale * std::sqrt(static_cast<double>(samples.size()) / static_cast<double>(samples.size() - kUnknowns));
 }
@@ -148,7 +154,7 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
       const double sigma = fit_window(scratch, c, inverse, 0.1 * settings.least_noise);
       of_cell[row * points.columns + static_cast<std::size_t>(column)] = static_cast<float>(sigma);
       if (!(settings.outlier_factor > 0.0)) continue;
-      const double limit = settings.outlier_factor * std::max(sigma, settings.least_noise);
+      const double limit = std::max(settings.outlier_factor * sigma, settings.least_outlier);
       const auto beyond = static_cast<std::size_t>(std::count_if(scratch.sizes.begin(), scratch.sizes.end(), [&](float size) { return size > limit; }));
       const bool edge = static_cast<double>(beyond) > settings.most_flagged * static_cast<double>(scratch.samples.size());
       for (std::size_t i = own; i < own_end; ++i) {

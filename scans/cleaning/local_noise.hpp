@@ -11,6 +11,7 @@ namespace treadmark::scans {
 
 struct NoiseSettings {
   double outlier_factor = 4.5;   ///< points farther from their surroundings than this many standard deviations are outliers; 0 = none are
+  double least_outlier = 10e-6;  ///< nothing nearer to its surroundings is an outlier, however little noise there is [m]
   double least_noise = 0.1e-6;   ///< standard deviations below count as this [m]
   double most_flagged = 0.2;     ///< where more of the surroundings would be outliers they are an edge or a step, and stay
 };

@@ -14,6 +14,8 @@
 namespace treadmark::scans {
 namespace {
 
+constexpr std::size_t kFewestHeldOut = 200;
+
 struct Size {
   std::size_t halvings_a, halvings_s;
 };
@@ -56,29 +58,57 @@ FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& nois
     const auto skew = [](const Size& z) { return z.halvings_a > z.halvings_s ? z.halvings_a - z.halvings_s : z.halvings_s - z.halvings_a; };
     return sx < sy || (sx == sy && skew(x) > skew(y));
   });
-  for (std::size_t k = 0; k < sizes.size(); ++k) {
-    if (progress.stop_requested()) throw Error(ErrorKind::numerical, "stopped while the surface was fitted");
-    if (progress.report) progress.report(k, sizes.size(), "fitting");
-    SplineLevel level;
-    level.closed = band.closed;
-    level.intervals_a = points.rows >> (most_a - sizes[k].halvings_a);
-    level.intervals_s = points.columns >> (most_s - sizes[k].halvings_s);
-    level.knot_a = band.length() / static_cast<double>(level.intervals_a);
-    level.knot_s = band.section.length() / static_cast<double>(level.intervals_s);
-    const FunctionSums sums = sum_functions(points, out.residual, weight, level);
-    FitLevelReport report{level.knot_a, level.knot_s, level.size(), 0, 0};
-    std::vector<float> ridge;
-    if (k == 0) {
-      level.active.assign(level.size(), 1);
-      report.used = level.size();
-    } else {
-      report.used = choose_functions(sums, settings.significance, level, ridge);
+  const auto sweep = [&](double factor, bool first) {
+    for (std::size_t k = 0; k < sizes.size(); ++k) {
+      if (progress.stop_requested()) throw Error(ErrorKind::numerical, "stopped while the surface was fitted");
+      if (progress.report) progress.report(k, sizes.size(), "fitting");
+      SplineLevel level;
+      level.closed = band.closed;
+      level.intervals_a = points.rows >> (most_a - sizes[k].halvings_a);
+      level.intervals_s = points.columns >> (most_s - sizes[k].halvings_s);
+      level.knot_a = band.length() / static_cast<double>(level.intervals_a);
+      level.knot_s = band.section.length() / static_cast<double>(level.intervals_s);
+      const FunctionSums sums = sum_functions(points, out.residual, weight, level);
+      FitLevelReport report{level.knot_a, level.knot_s, factor, level.size(), 0, 0};
+      std::vector<float> ridge;
+      if (first && k == 0) {
+        level.active.assign(level.size(), 1);
+        report.used = level.size();
+      } else {
+        report.used = choose_functions(sums, factor, level, ridge);
+      }
+      if (report.used > 0) {
+        report.iterations = fit_level(points, out.residual, weight, ridge, level).iterations;
+        out.field.add(std::move(level));
+      }
+      out.levels.push_back(report);
     }
-    if (report.used > 0) {
-      report.iterations = fit_level(points, out.residual, weight, ridge, level).iterations;
-      out.field.add(std::move(level));
+  };
+  const auto held_out_square = [&] {
+    double sum = 0.0;
+    for (std::size_t i = 0; i < points.size(); ++i)
+      if (points.state[i] == PointState::held_out) sum += static_cast<double>(out.residual[i]) * out.residual[i];
+    return sum;
+  };
+  sweep(settings.significance, true);
+  // what looks like noise to small surroundings may be a rough surface: follow it as long as the points that were held out agree
+  double factor = settings.significance, best = held_out_square();
+  constexpr double kFiner = 1.0 / 3.0, kBetter = 0.98;
+  constexpr int kMostSweeps = 5;
+  for (int again = 0; settings.follow && out.held_out >= kFewestHeldOut && again < kMostSweeps; ++again) {
+    factor *= kFiner;
+    const std::size_t levels_before = out.field.levels().size(), reports_before = out.levels.size();
+    const std::vector<float> residual_before = out.residual;
+    sweep(factor, false);
+    const double square = held_out_square();
+    if (square < kBetter * best) {
+      best = square;
+      continue;
     }
-    out.levels.push_back(report);
+    out.field.drop_from(levels_before);
+    out.levels.resize(reports_before);
+    out.residual = residual_before;
+    break;
   }
   double used = 0.0, held = 0.0, variance = 0.0;
   for (std::size_t row = 0; row < points.rows; ++row)

@@ -15,14 +15,16 @@
 namespace treadmark::scans {
 
 struct FitSettings {
-  double finest = 0.0;            ///< smallest distance of knots [m]; 0 = 1 mm, or as far apart as the points are
+  double finest = 0.0;            ///< smallest distance of knots [m]; 0 = 0.5 mm, or as far apart as the points are
   double significance = 1.0;      ///< < 1 follows the points more closely, > 1 smooths more
+  bool follow = true;             ///< lowers the significance step by step while points held out are met better (cross-validation)
   double held_out = 0.02;         ///< part of the points that the fit does not see
 };
 
 /// What a fit leaves over.
 struct FitLevelReport {
   double knot_a = 0.0, knot_s = 0.0;   ///< [m]
+  double significance = 1.0;           ///< at which functions were chosen
   std::size_t functions = 0, used = 0; ///< of the level; those that stood out of the noise
   int iterations = 0;
 };

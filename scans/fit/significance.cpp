@@ -10,13 +10,16 @@ namespace treadmark::scans {
 namespace {
 
 constexpr double kFewestPoints = 1.5;  // sum of a function over the points: fewer cannot hold it
-constexpr double kAlone = 16.0;        // square of a normal number that 6e-5 of all exceed
 
 struct Window {
   std::size_t along, across;  // half widths
 };
-constexpr std::array<Window, 6> kWindows{{{1, 1}, {7, 0}, {0, 7}, {4, 1}, {1, 4}, {7, 7}}};
-constexpr double kDeviations = 5.0;
+constexpr std::array<Window, 7> kWindows{{{0, 0}, {1, 1}, {7, 0}, {0, 7}, {4, 1}, {1, 4}, {7, 7}}};
+constexpr double kRare = 3.0;          // a level picks out noise in less than about one of exp(3) cases
+constexpr double kWorthwhile = 4.0;    // square that a function amid others needs itself
+
+/// A sum of squares of n normal numbers exceeds this with a probability below exp(-x) (Laurent and Massart 2000).
+double bound(double n, double x) { return n + 2.0 * std::sqrt(n * x) + 2.0 * x; }
 
 /// Sums over windows of a grid; rows wrap round if closed.
 std::vector<double> box_sums(const std::vector<double>& values, std::size_t rows, std::size_t columns, const Window& w, bool closed) {
@@ -60,15 +63,15 @@ std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLeve
     present[f] = 1.0;
   }
   std::vector<std::uint8_t> chosen(level.size(), 0);
-  const double f2 = factor * factor;
-  for (std::size_t f = 0; f < level.size(); ++f) chosen[f] = square[f] > kAlone * f2 ? 1 : 0;
+  const double f2 = factor * factor, rare = std::log(static_cast<double>(level.size())) + kRare;
   for (const Window& w : kWindows) {
     const std::vector<double> sum = box_sums(square, rows, columns, w, level.closed), count = box_sums(present, rows, columns, w, level.closed);
     for (std::size_t f = 0; f < level.size(); ++f) {
-      if (present[f] == 0.0 || count[f] < 3.0) continue;
-      // neighbouring functions overlap: about half of them are independent; the variance of a squared normal number is 2
-      const double independent = 0.5 * count[f];
-      if (sum[f] / count[f] > f2 * (1.0 + kDeviations * std::sqrt(2.0 / independent)) && square[f] > f2 * 1.0) chosen[f] = 1;
+      if (present[f] == 0.0) continue;
+      // neighbouring functions overlap, so that their squares rise together: as if there were a quarter of them, four times each
+      constexpr double kTogether = 4.0;
+      const double alike = std::min(kTogether, count[f]), independent = count[f] / alike;
+      if (sum[f] > f2 * alike * bound(independent, rare) && square[f] > f2 * kWorthwhile) chosen[f] = 1;
     }
   }
   // variance of coefficients around a function: what the squares have beyond 1, in units of the functions that are well seen

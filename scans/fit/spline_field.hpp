@@ -40,6 +40,7 @@ class SplineField {
   bool closed() const { return closed_; }
   const std::vector<SplineLevel>& levels() const { return levels_; }
   void add(SplineLevel level) { levels_.push_back(std::move(level)); }
+  void drop_from(std::size_t first) { levels_.erase(levels_.begin() + static_cast<std::ptrdiff_t>(first), levels_.end()); }
 
   /// a counts from the start of the band; clamped (open) or wrapped (closed). Safe from any thread.
   double value(double a, double s) const;

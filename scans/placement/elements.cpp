@@ -21,7 +21,7 @@ constexpr std::size_t kMostVoxels = 250'000;
 constexpr std::size_t kFewestInSurroundings = 8;
 constexpr double kFlat = 0.03;      // least to middle eigenvalue
 constexpr double kBroad = 0.05;     // middle to greatest eigenvalue: no line
-constexpr double kEnoughFlat = 0.6;
+constexpr double kEnoughFlat = 0.85;
 constexpr double kLeastFlat = 0.25;
 
 struct Extent {

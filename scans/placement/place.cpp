@@ -10,11 +10,14 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
+#include "treadmark/scans/placement/circle_axis.hpp"
+#include "treadmark/scans/placement/voxels.hpp"
 #include "treadmark/scans/random.hpp"
 
 namespace treadmark::scans {
 namespace {
 
+constexpr double kSurelyFlat = 0.8;
 constexpr std::size_t kMostUsed = 120'000;
 
 struct Limits {
@@ -62,6 +65,18 @@ Vec3 outwards(const RoughPlace& roughly) {
 /// Turns the frame round its z axis by half a turn.
 Pose turned(const Pose& X_CS) { return X_CS * Pose{Vec3::Zero(), Mat3(Eigen::DiagonalMatrix<double, 3>(-1.0, -1.0, 1.0))}; }
 
+/// Where few points have flat surroundings: by normals or by circles, whichever gathers the radii better.
+RoughAxis sparse_revolution(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const SurfaceElements& elements) {
+  const std::optional<RoughAxis> circles = circle_axis(points, keep, elements);
+  try {
+    const RoughAxis normals = rough_revolution(elements);
+    if (!circles || radius_scatter(points, normals.axis, elements.radius) < radius_scatter(points, circles->axis, elements.radius)) return normals;
+  } catch (const Error&) {
+    if (!circles) throw;
+  }
+  return *circles;
+}
+
 struct Reference {
   Vec2 shift;  ///< added to (y, v) of the measured section
 };
@@ -92,11 +107,19 @@ Reference own_reference(const Section& section, Body body) {
 RoughPlace find_roughly(std::span<const Vec3> points, std::span<const std::uint8_t> keep, Body body) {
   RoughPlace out;
   out.elements = find_elements(points, keep);
-  out.rough = body == Body::wheel ? rough_revolution(out.elements) : rough_sweep(out.elements);
+  if (body == Body::rail) {
+    out.rough = rough_sweep(out.elements);
+  } else if (out.elements.flat_part > kSurelyFlat) {
+    out.rough = rough_revolution(out.elements);
+  } else {
+    out.rough = sparse_revolution(points, keep, out.elements);
+  }
   const Axis& axis = out.rough.axis;
   std::vector<double> values, other;
   if (body == Body::wheel) {
-    for (const Vec3& p : out.elements.position) values.push_back((p - axis.point).cross(axis.direction).norm());
+    // of points, for elements may be few
+    for (std::size_t i = 0; i < points.size(); i += 1 + points.size() / 100'000)
+      if (keep.empty() || keep[i] != 0) values.push_back((points[i] - axis.point).cross(axis.direction).norm());
     out.size = part_of(values, 0.95);
   } else {
     const Vec3 up = outwards(out), side = axis.direction.cross(up);
@@ -147,11 +170,21 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   const bool wheel = body == Body::wheel;
   std::vector<Vec3> used;
   {
-    std::size_t kept = points.size();
-    if (!keep.empty()) kept = static_cast<std::size_t>(std::count_if(keep.begin(), keep.end(), [](auto k) { return k != 0; }));
+    // evenly spread: parts that were scanned more densely, as a damage often is, must not count more
+    const Voxels voxels(points, roughly.elements.centre, roughly.elements.size, keep);
+    std::vector<std::size_t> counts(voxels.count());
+    std::size_t kept = 0;
+    for (std::size_t v = 0; v < voxels.count(); ++v) kept += counts[v] = voxels.points_of(v).size();
+    const auto quarter = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 4);
+    std::nth_element(counts.begin(), quarter, counts.end());
+    const std::size_t most = *quarter;
     const double share = static_cast<double>(kMostUsed) / static_cast<double>(std::max<std::size_t>(kept, 1));
-    for (std::size_t i = 0; i < points.size(); ++i)
-      if ((keep.empty() || keep[i] != 0) && (share >= 1.0 || Random(i).uniform() < share)) used.push_back(points[i]);
+    for (std::size_t v = 0; v < voxels.count(); ++v) {
+      const auto inside = voxels.points_of(v);
+      const std::size_t stride = (inside.size() + most - 1) / most;
+      for (std::size_t k = 0; k < inside.size(); k += stride)
+        if (share >= 1.0 || Random(inside[k]).uniform() < share) used.push_back(points[inside[k]]);
+    }
   }
   const Axis& axis = roughly.rough.axis;
   Vec3 along = axis.direction, out = wheel ? any_perpendicular(along) : outwards(roughly);
@@ -209,7 +242,7 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
     const Natural n = natural(body, X_CS.apply_inverse(p));
     across.emplace_back(n.y, n.v);
   }
-  constexpr double kReach = 5e-3, kKnots = 1.5e-3;
+  constexpr double kReach = 5e-3, kKnots = 4e-3;
   const SectionFit fit = fit_section(outline(across), across, kReach, kKnots);
   found.X_CS = X_CS;
   found.section = fit.section;

@@ -44,8 +44,9 @@ io::BandMap make_map(std::size_t rows, std::size_t columns, double a_max, double
   io::BandMap map{rows, columns, 0.0, a_max, 0.0, s_max, {}};
   for (std::size_t i = 0; i < rows; ++i)
     for (std::size_t k = 0; k < columns; ++k)
-      map.value.push_back(static_cast<float>(value((static_cast<double>(i) + 0.5) * a_max / static_cast<double>(rows),
-                                                   (static_cast<double>(k) + 0.5) * s_max / static_cast<double>(columns))));
+      map.value.push_back(
+          static_cast<float>(value((static_cast<double>(i) + 0.5) * a_max / static_cast<double>(rows),
+                                   (static_cast<double>(k) + 0.5) * s_max / static_cast<double>(columns))));
   return map;
 }
 
@@ -81,7 +82,8 @@ void add_pictures(io::ImportReport& report) {
   const double a_max = 2.0 * kPi * kRadius;
   const auto nan = std::numeric_limits<double>::quiet_NaN();
   report.density = make_map(1445, 70, a_max, kWidth, [&](double a, double s) {
-    return in_hole(a, s) ? nan : 4e6 * (1.0 + 0.3 * std::sin(8.0 * a)) * (s > 0.1 ? 0.4 : 1.0) * (0.8 + 0.4 * random.next());
+    return in_hole(a, s) ? nan
+                         : 4e6 * (1.0 + 0.3 * std::sin(8.0 * a)) * (s > 0.1 ? 0.4 : 1.0) * (0.8 + 0.4 * random.next());
   });
   report.removed_map = make_map(1445, 70, a_max, kWidth, [&](double a, double s) {
     if (in_hole(a, s)) return nan;
@@ -91,7 +93,8 @@ void add_pictures(io::ImportReport& report) {
   report.residual = make_map(1445, 70, a_max, kWidth,
                              [&](double a, double s) { return in_hole(a, s) ? nan : 0.5 * kNoise * random.normal(); });
   report.noise_map = make_map(290, 28, a_max, kWidth, [&](double a, double s) {
-    return in_hole(a, s) ? nan : kNoise * (1.0 + 0.2 * std::cos(2.0 * a) + (s > 0.1 ? 0.6 : 0.0) + 0.1 * random.normal());
+    return in_hole(a, s) ? nan
+                         : kNoise * (1.0 + 0.2 * std::cos(2.0 * a) + (s > 0.1 ? 0.6 : 0.0) + 0.1 * random.normal());
   });
   report.residual_range = 4.0 * kNoise;
   report.residual_histogram.assign(80, 0);
@@ -115,7 +118,8 @@ io::ImportReport sample_report() {
   report.points_used = 1571000;
   report.removed = {{"not finite", 3, "coordinates that are no numbers"},
                     {"far from the band", 17200, "farther than 25 mm from the section or beyond its ends"},
-                    {"stray points", 9100, "farther than 4.5 standard deviations (0.157 mm) from a quadratic through their 24 neighbours"},
+                    {"stray points", 9100,
+                     "farther than 4.5 standard deviations (0.157 mm) from a quadratic through their 24 neighbours"},
                     {"stray clusters", 2200, "fewer than 200 points, farther than 3 mm from all others"},
                     {"edges of shadows", 497, "within 0.4 mm of a hole whose rim is bent"},
                     {"thinned", 0, "closer than 0.05 mm to another"}};
@@ -158,8 +162,9 @@ io::ImportReport sample_report() {
   report.y_max = 0.06;
   report.u_max = 2.0 * kPi;
   report.closed = true;
-  report.outputs = {{"wheel.slices", "slices", std::string(64, 'c'), 1234567, "412 slices of 301 points", 3.1e-6, 0.4e-6},
-                    {"wheel.stl", "triangles", std::string(64, 'd'), 23456789, "469 134 triangles", 5.2e-6, 1.1e-6}};
+  report.outputs = {
+      {"wheel.slices", "slices", std::string(64, 'c'), 1234567, "412 slices of 301 points", 3.1e-6, 0.4e-6},
+      {"wheel.stl", "triangles", std::string(64, 'd'), 23456789, "469 134 triangles", 5.2e-6, 1.1e-6}};
   report.steps = {{"read", 1.5}, {"place", 2.25}, {"read", 0.25}};
   report.settings_toml = "[scan]\nunit = \"mm\"\n";
   add_pictures(report);
@@ -180,7 +185,8 @@ io::ImportReport sample_map_report() {
   report.y_min = -0.036;
   report.y_max = 0.036;
   for (int i = 0; i <= 60; ++i) report.section.push_back({-0.036 + 0.0012 * i, 0.012 * std::pow(i / 30.0 - 1.0, 4.0)});
-  report.fitted = make_map(300, 40, 0.6, 0.076, [](double a, double s) { return -5e-5 * std::sin(40.0 * a) * std::cos(30.0 * s); });
+  report.fitted =
+      make_map(300, 40, 0.6, 0.076, [](double a, double s) { return -5e-5 * std::sin(40.0 * a) * std::cos(30.0 * s); });
   return report;
 }
 
