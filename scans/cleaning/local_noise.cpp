@@ -21,6 +21,7 @@ constexpr std::size_t kUnknowns = 6, kFewestSamples = 2 * kUnknowns;
 constexpr int kMostWindow = 48;
 constexpr double kMostLeverage = 0.9;
 constexpr double kCalm = 3.5;   // standard deviations
+constexpr std::size_t kMany = 48;
 
 struct Sample {
   float x, y, d;
@@ -107,8 +108,8 @@ double fit_window(Scratch& scratch, Vec6& c, Mat6& inverse, double least) {
     const auto middle = scratch.sizes.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
     std::nth_element(scratch.sizes.begin(), middle, scratch.sizes.end());
     scale = std::max(kMad * static_cast<double>(*middle), least);
-    // nothing stands out: weights would change next to nothing
-    const bool clean = round == 0 && *std::max_element(middle, scratch.sizes.end()) < kCalm * scale;
+    // nothing stands out of many: weights would change next to nothing; among few a wild point hides behind the scatter that it makes
+    const bool clean = round == 0 && samples.size() >= kMany && *std::max_element(middle, scratch.sizes.end()) < kCalm * scale;
     if (clean || round + 1 == kAbsolute + kBiweight) {
       inverse = factor.solve(Mat6::Identity());
       break;

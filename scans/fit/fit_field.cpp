@@ -20,6 +20,33 @@ struct Size {
   std::size_t halvings_a, halvings_s;
 };
 
+/// Correlation of the residuals of points next to each other (in blocks of 2 x 2 cells): 0 when only noise is left.
+double neighbour_correlation(const BandPoints& points, const std::vector<float>& residual) {
+  constexpr std::size_t kSide = 2;
+  std::vector<double> together(points.rows, 0.0), alone(points.rows, 0.0);
+  parallel_for((points.rows + kSide - 1) / kSide, [&](std::size_t block) {
+    for (std::size_t column = 0; column < points.columns; column += kSide) {
+      double sum = 0.0, square = 0.0, n = 0.0;
+      for (std::size_t row = kSide * block; row < std::min(points.rows, kSide * (block + 1)); ++row)
+        for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + std::min(points.columns, column + kSide)]; ++i) {
+          if (points.state[i] != PointState::used) continue;
+          sum += residual[i];
+          square += static_cast<double>(residual[i]) * residual[i];
+          n += 1.0;
+        }
+      if (n < 2.0) continue;
+      together[kSide * block] += sum * sum - square;
+      alone[kSide * block] += (n - 1.0) * square;
+    }
+  });
+  double a = 0.0, b = 0.0;
+  for (std::size_t k = 0; k < points.rows; ++k) {
+    a += together[k];
+    b += alone[k];
+  }
+  return b > 0.0 ? a / b : 0.0;
+}
+
 }  // namespace
 
 FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings, const Progress& progress) {
@@ -95,7 +122,8 @@ FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& nois
   double factor = settings.significance, best = held_out_square();
   constexpr double kFiner = 1.0 / 3.0, kBetter = 0.98;
   constexpr int kMostSweeps = 5;
-  for (int again = 0; settings.follow && out.held_out >= kFewestHeldOut && again < kMostSweeps; ++again) {
+  constexpr double kUnrelated = 0.02;
+  for (int again = 0; settings.follow && out.held_out >= kFewestHeldOut && again < kMostSweeps && neighbour_correlation(points, out.residual) > kUnrelated; ++again) {
     factor *= kFiner;
     const std::size_t levels_before = out.field.levels().size(), reports_before = out.levels.size();
     const std::vector<float> residual_before = out.residual;

@@ -79,7 +79,7 @@ std::size_t choose_functions(const FunctionSums& sums, double factor, SplineLeve
   for (std::size_t f = 0; f < level.size(); ++f)
     if (present[f] > 0.0) excess[f] = std::max(square[f] - 1.0, 0.0);
   constexpr Window kAround{2, 2};
-  constexpr double kLenient = 0.1;  // overlapping functions need larger coefficients than each alone
+  constexpr double kLenient = 0.5;  // overlapping functions need larger coefficients than each alone
   const std::vector<double> signal = box_sums(excess, rows, columns, kAround, level.closed), seen = box_sums(sums.wbb, rows, columns, kAround, level.closed);
   const std::vector<double> number_around = box_sums(present, rows, columns, kAround, level.closed);
   ridge.assign(level.size(), 0.0f);

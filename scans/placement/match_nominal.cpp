@@ -149,6 +149,11 @@ SectionMatch match_nominal(const Section& measured, const Section& nominal, Body
   out.agreeing = agreeing / static_cast<double>(points.size());
   const double shorter = std::min(measured.length(), nominal.length());
   out.overlap = near * (measured.length() / static_cast<double>(points.size())) / shorter;
+  out.beside = 1.0 - near / static_cast<double>(points.size());
+  constexpr double kMostBeside = 0.3;
+  if (out.beside > kMostBeside && near >= 10.0)
+    throw Error(ErrorKind::input_data, fmt::format("{:.0f} % of the scanned section lie more than 5 mm beside the nominal profile", 100.0 * out.beside), {},
+                "is it the right object, body and unit? choose another nominal profile, or none");
   if (near < 10.0 || out.overlap < 0.4 || out.residual > kAlike)
     throw Error(ErrorKind::input_data,
                 fmt::format("the scanned section does not look like the nominal profile: over {:.0f} % of it they lie {:.1f} mm apart (robust deviation)",

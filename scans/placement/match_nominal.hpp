@@ -14,6 +14,7 @@ struct SectionMatch {
   Vec2 shift = Vec2::Zero();   ///< wheel: (dy, -radius), so that the v of the nominal section is the profile's z
   double residual = 0.0;       ///< robust standard deviation of the distances where both agree [m]
   double agreeing = 0.0;       ///< part of the measured section that does
+  double beside = 0.0;         ///< part of the measured section that is nowhere near the nominal one
   double overlap = 0.0;        ///< part of the shorter one that the other covers
 };
 

@@ -198,9 +198,9 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
     out.used = near.size();
     out.spread = std::sqrt(square / static_cast<double>(near.size()));
     out.scale = kMad * median(sizes);
-    // the curve moves along its normals
-    std::vector<Vec2> moved;
+    // the curve moves along its normals; what would fold at badly known ends is left out, from the middle on
     const auto nodes = static_cast<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));
+    std::vector<Vec2> all(nodes + 1);
     for (std::size_t k = 0; k <= nodes; ++k) {
       const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);
       const auto cell = std::min(intervals - 1, static_cast<std::size_t>(place));
@@ -208,9 +208,15 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
       double d = 0.0;
       for (std::size_t a = 0; a < 4; ++a) d += b[a] * coefficients[static_cast<Eigen::Index>(cell + a)];
       const Section::Point at = out.section.at(place * knot);
-      const Vec2 next = at.position + d * at.normal;
-      if (moved.empty() || next.x() > moved.back().x() + 1e-7) moved.push_back(next);
+      all[k] = at.position + std::clamp(d, -farthest, farthest) * at.normal;
     }
+    constexpr double kApart = 1e-7;
+    std::vector<Vec2> moved;
+    for (std::size_t k = nodes / 2 + 1; k-- > 0;)
+      if (moved.empty() || all[k].x() < moved.back().x() - kApart) moved.push_back(all[k]);
+    std::reverse(moved.begin(), moved.end());
+    for (std::size_t k = nodes / 2 + 1; k <= nodes; ++k)
+      if (all[k].x() > moved.back().x() + kApart) moved.push_back(all[k]);
     out.section = Section(moved);
   }
   return out;
