@@ -9,6 +9,7 @@ namespace treadmark::scans {
 namespace {
 
 constexpr double kNever = 1e15;
+constexpr double kUsual = 0.8;   // part of the length; the rest may be holes
 
 /// Squared distances along one line of cells: min over q of f(q) + (step (p - q))^2, by the lower envelope of parabolas
 /// (Felzenszwalb and Huttenlocher 2012).
@@ -46,7 +47,7 @@ void distances(std::vector<double>& f, double step, std::vector<std::size_t>& v,
   }
 }
 
-/// The gap that 95 % of the length of all lines do not exceed.
+/// The gap that most of the length of all lines do not exceed.
 double usual_gap(const std::vector<std::size_t>& runs, double cell) {
   std::vector<std::size_t> sorted = runs;
   std::sort(sorted.begin(), sorted.end());
@@ -54,7 +55,7 @@ double usual_gap(const std::vector<std::size_t>& runs, double cell) {
   for (const std::size_t r : sorted) all += static_cast<double>(r);
   for (const std::size_t r : sorted) {
     sum += static_cast<double>(r);
-    if (sum >= 0.95 * all) return cell * static_cast<double>(r);
+    if (sum >= kUsual * all) return cell * static_cast<double>(r);
   }
   return cell;
 }

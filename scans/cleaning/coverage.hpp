@@ -19,7 +19,7 @@ struct Hole {
 
 /// What part of a band the points cover.
 struct Coverage {
-  double gap_a = 0.0, gap_s = 0.0;        ///< usual distance of points along a and along s: 95 % of the band has no wider one [m]
+  double gap_a = 0.0, gap_s = 0.0;        ///< usual distance of points along a and along s: four fifths of the band have no wider one [m]
   double limit = 0.0;                     ///< diameter up to which holes are filled [m]
   std::vector<Hole> holes;                ///< largest first
   double area = 0.0;                      ///< of the band with all holes [m^2]

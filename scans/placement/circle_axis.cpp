@@ -66,8 +66,13 @@ double radius_scatter(std::span<const Vec3> points, const Axis& axis, double ext
 std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const SurfaceElements& elements) {
   // one point a cube, so that dense parts do not count more
   const Voxels voxels(points, elements.centre, elements.radius / 80.0, keep);
+  std::vector<double> counts;
+  for (std::size_t v = 0; v < voxels.count(); ++v) counts.push_back(static_cast<double>(voxels.points_of(v).size()));
+  // nor outliers, which have nearly empty cubes of their own
+  const double fewest = counts.empty() ? 0.0 : 0.2 * median_of(counts);
   std::vector<Vec3> thinned;
-  for (std::size_t v = 0; v < voxels.count(); ++v) thinned.push_back(points[voxels.points_of(v).front()]);
+  for (std::size_t v = 0; v < voxels.count(); ++v)
+    if (static_cast<double>(voxels.points_of(v).size()) >= fewest) thinned.push_back(points[voxels.points_of(v).front()]);
   std::erase_if(thinned, [&](const Vec3& p) { return (p - elements.centre).norm() > 1.5 * elements.radius; });
   if (thinned.size() < 10 * kFewest) return std::nullopt;
   Vec3 mean = Vec3::Zero();

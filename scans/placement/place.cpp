@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <vector>
 
 #include <fmt/format.h>
@@ -75,6 +76,20 @@ RoughAxis sparse_revolution(std::span<const Vec3> points, std::span<const std::u
     if (!circles) throw;
   }
   return *circles;
+}
+
+/// Angle about the axle that most of the points take up, on either side of where they are on average.
+double arc_of(std::span<const Vec3> points, const Pose& X_CS) {
+  std::vector<double> u;
+  Vec2 mean = Vec2::Zero();
+  for (const Vec3& p : points) {
+    u.push_back(natural(Body::wheel, X_CS.apply_inverse(p)).u);
+    mean += Vec2(std::sin(u.back()), std::cos(u.back()));
+  }
+  const double middle = std::atan2(mean.x(), mean.y());
+  for (double& angle : u) angle = wrap_angle(angle - middle);
+  const double high = part_of(u, 0.98);
+  return high - part_of(u, 0.02);
 }
 
 struct Reference {
@@ -251,7 +266,10 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   found.position_error = refined.position_error;
   found.direction_error = refined.direction_error;
   found.iterations = refined.iterations;
-  constexpr double kMostError = 0.5e-3;
+  constexpr double kMostError = 0.5e-3, kShortestArc = 0.3;
+  if (const double arc = wheel ? arc_of(used, X_CS) : kShortestArc; arc < kShortestArc)
+    throw Error(ErrorKind::input_data, fmt::format("the scanned arc of {:.0f} degrees is too short to find the axle", arc * 180.0 / std::numbers::pi), {},
+                "scan more of the circumference");
   if (wheel && found.position_error > kMostError)
     throw Error(ErrorKind::input_data, fmt::format("the scanned arc is too short to find the axle: its standard error is {:.2g} mm", 1e3 * found.position_error), {},
                 "scan more of the circumference");

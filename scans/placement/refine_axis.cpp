@@ -48,6 +48,7 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
   Section section = outline(across(points, body, out.X_CS));
   constexpr double kKnots = 4e-3, kStrip = 2e-3, kNearest = 1e-3;
   Eigen::Matrix4d information = Eigen::Matrix4d::Identity();
+  double shifting = 0.0, turning = 0.0;  // sizes of the last few steps, unless settled
   for (int round = 0; round < kMostRounds; ++round) {
     out.iterations = round + 1;
     if (round > 0 && round < 4) section = outline(across(points, body, out.X_CS));  // the first steps are large
@@ -123,14 +124,20 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     const Mat3 rotation = angle > 0.0 ? Mat3(Eigen::AngleAxisd(angle, turn / angle)) : Mat3::Identity();
     out.X_CS = out.X_CS * Pose{shift, rotation};
     reach = std::max(kNearest, std::min(reach, std::max(8.0 * scale, 5e-3)));
-    if (round > 4 && shift.norm() < 1e-8 && angle < 1e-8) break;
+    const bool settled = round > 4 && shift.norm() < 1e-8 && angle < 1e-8;
+    shifting = settled ? 0.0 : std::max(0.5 * shifting, shift.norm());
+    turning = settled ? 0.0 : std::max(0.5 * turning, angle);
+    if (settled) break;
   }
+  // what still moves, as on short arcs, may be as far from its end as it would get in as many rounds again
+  shifting *= out.iterations;
+  turning *= out.iterations;
   const Eigen::MatrixXd covariance = information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   if (wheel) {
-    out.position_error = std::sqrt(std::max(covariance(0, 0) + covariance(1, 1), 0.0));
-    out.direction_error = std::sqrt(std::max(covariance(2, 2) + covariance(3, 3), 0.0));
+    out.position_error = std::hypot(std::sqrt(std::max(covariance(0, 0) + covariance(1, 1), 0.0)), shifting);
+    out.direction_error = std::hypot(std::sqrt(std::max(covariance(2, 2) + covariance(3, 3), 0.0)), turning);
   } else {
-    out.direction_error = std::sqrt(std::max(covariance.trace(), 0.0));
+    out.direction_error = std::hypot(std::sqrt(std::max(covariance.trace(), 0.0)), turning);
   }
   out.fit = fit_section(section, across(points, body, out.X_CS), 5e-3, 2e-3);
   return out;

@@ -13,7 +13,7 @@ struct RefinedAxis {
   Pose X_CS;                 ///< the surface frame in the cloud's; the origin along y (rail: the whole origin but its direction) as before
   SectionFit fit;            ///< section about the refined axis
   double undamaged = 0.0;    ///< part of the points that followed the section and fixed the axis
-  double position_error = 0.0;   ///< standard errors of the axis from the points' scatter: wheel only [m]
+  double position_error = 0.0;   ///< standard errors of the axis from the points' scatter, and how far it may still be on its way: wheel only [m]
   double direction_error = 0.0;  ///< [rad]
   int iterations = 0;
 };

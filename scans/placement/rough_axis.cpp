@@ -125,7 +125,11 @@ RoughAxis rough_revolution(const SurfaceElements& elements) {
     if (!(sum > 0.0)) refuse("its normals have no common axis");
     const auto next = solve(matrix / sum);
     if (!next) refuse("its normals are all parallel");
-    if (next->second < kWellKnown * 1e-2) refuse("its axis is not determined, as that of a plane or a sphere");
+    // normals that hardly turn about the axis, as all those of a plane along it, meet it nowhere
+    const Mat3 about = Mat3::Identity() - next->direction * next->direction.transpose();
+    const Mat3 turning = about * (matrix.bottomRightCorner<3, 3>() / sum) * about + next->direction * next->direction.transpose();
+    if (next->second < kWellKnown * 1e-2 || Eigen::SelfAdjointEigenSolver<Mat3>(turning).eigenvalues()[0] < kWellKnown)
+      refuse("its axis is not determined, as that of a plane or a sphere");
     const double change = std::min((next->direction - axis.direction).norm(), (next->direction + axis.direction).norm());
     axis = *next;
     std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(count / 2), sizes.end());

@@ -22,7 +22,7 @@ tests::SimpleCloud wheel_cloud(std::uint64_t seed) {
 }
 tests::SimpleCloud rail_cloud(std::uint64_t seed) {
   const auto rail = create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
-  return tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35.8e-3, 35.8e-3, 250, 100, 20e-6, 0.005, tests::some_frame(seed), seed);
+  return tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35.5e-3, 35.5e-3, 600, 60, 20e-6, 0.005, tests::some_frame(seed), seed);
 }
 Placement placed(const tests::SimpleCloud& cloud, const PlaceSettings& settings) {
   return place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, settings.body), settings);

@@ -55,9 +55,11 @@ TEST(Place, WheelWithAFlatInAnyFrame) {
     EXPECT_LT(error.position, 3e-6);
     EXPECT_LT(std::fabs(error.y), 3e-6);
     EXPECT_LT(std::fabs(placed.nominal_radius - kRadius), 3e-6);
-    EXPECT_NEAR(placed.scatter, 30e-6, 3e-6);
-    EXPECT_LT(error.angle, 5.0 * placed.direction_error);
-    EXPECT_LT(error.position, 5.0 * placed.position_error);
+    // the flat, 5 % of the points, and splines with knots 4 mm apart count as scatter too
+    EXPECT_GT(placed.scatter, 29e-6);
+    EXPECT_LT(placed.scatter, 36e-6);
+    EXPECT_LT(placed.position_error, 2e-6);
+    EXPECT_LT(placed.direction_error, 8e-6);
     ASSERT_TRUE(placed.match);
     EXPECT_NEAR(placed.section.v_at(0.0), kRadius, 10e-6);
   }
@@ -77,7 +79,8 @@ TEST(Place, RailWithASquatInAnyFrame) {
     EXPECT_LT((turn - Mat3::Identity()).norm(), 100e-6);
     EXPECT_LT(std::fabs(y_error.y()), 20e-6);
     EXPECT_LT(std::fabs(y_error.z()), 10e-6);
-    EXPECT_NEAR(placed.scatter, 20e-6, 3e-6);
+    EXPECT_GT(placed.scatter, 19e-6);
+    EXPECT_LT(placed.scatter, 27e-6);
     EXPECT_EQ(placed.nominal_radius, 0.0);
   }
 }
@@ -108,33 +111,43 @@ TEST(Place, LeavesOutWhatIsNotKept) {
     keep.push_back(0);
   }
   const Placement placed = place(cloud.points_C, keep, find_roughly(cloud.points_C, keep, Body::wheel), with_nominal(Body::wheel));
-  EXPECT_LT(axle_error(placed.X_CS, cloud.X_CS).position, 5e-6);
+  EXPECT_LT(axle_error(placed.X_CS, cloud.X_CS).position, 10e-6);
 }
 
-TEST(Place, HalfAWheelScannedInLinesFarApart) {
+TEST(Place, WheelScannedInLinesFarApart) {
   // profiles 30 mm apart round the wheel, which leave few planes: found by circles where the normals fail
   const auto wheel = flat_wheel();
-  Random random(8);
-  const auto dense = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 96, 260, 30e-6, 0.0, tests::some_frame(7), 8);
-  const Placement placed = place(dense.points_C, {}, find_roughly(dense.points_C, {}, Body::wheel), with_nominal(Body::wheel));
-  const AxleError error = axle_error(placed.X_CS, dense.X_CS);
+  const auto sparse = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 96, 260, 30e-6, 0.0, tests::some_frame(7), 8);
+  const Placement placed = place(sparse.points_C, {}, find_roughly(sparse.points_C, {}, Body::wheel), with_nominal(Body::wheel));
+  const AxleError error = axle_error(placed.X_CS, sparse.X_CS);
   EXPECT_LT(error.angle, 20e-6);
   EXPECT_LT(error.position, 6e-6);
   EXPECT_LT(std::fabs(placed.nominal_radius - kRadius), 6e-6);
 }
 
-TEST(Place, RefusesAnArcTooShortForTheAxle) {
-  const auto wheel = flat_wheel();
-  const auto of = [&](double arc) {
-    const auto cloud = tests::simple_cloud(*wheel, Body::wheel, 2.0 - 0.5 * arc, 2.0 + 0.5 * arc, -69e-3, 60e-3, 200, 120, 100e-6, 0.0, tests::some_frame(5), 5);
-    return tests::error_of([&] { place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, Body::wheel), with_nominal(Body::wheel)); });
+TEST(Place, ShortArcsAreRefusedOrKnownToBeUncertain) {
+  const auto wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
+  const PlaceSettings settings = with_nominal(Body::wheel);
+  const auto cloud_of = [&](double arc) {
+    return tests::simple_cloud(*wheel, Body::wheel, 2.0 - 0.5 * arc, 2.0 + 0.5 * arc, -69e-3, 60e-3, 200, 80, 30e-6, 0.0, tests::some_frame(5), 5);
   };
-  EXPECT_FALSE(of(kPi / 4.0));
-  for (const double arc : {0.03, 0.06}) {
-    const auto error = of(arc);
+  for (const double arc : {0.015, 0.03, 0.06, 0.12, 0.25}) {
+    const auto cloud = cloud_of(arc);
+    const auto error = tests::error_of([&] { place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, Body::wheel), settings); });
     ASSERT_TRUE(error) << arc;
     EXPECT_EQ(error->kind(), ErrorKind::input_data);
     EXPECT_FALSE(error->advice().empty());
+    if (arc > 0.2) {
+      EXPECT_THAT(error->message(), HasSubstr("too short to find the axle"));
+    }
+  }
+  for (const double arc : {0.5, 0.8, 1.5}) {
+    const auto cloud = cloud_of(arc);
+    const Placement placed = place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, Body::wheel), settings);
+    const AxleError error = axle_error(placed.X_CS, cloud.X_CS);
+    EXPECT_LT(error.position, 4.0 * placed.position_error) << arc;
+    EXPECT_LT(error.position, 0.5e-3) << arc;
+    EXPECT_LT(error.angle, 5.0 * placed.direction_error) << arc;
   }
 }
 

@@ -38,9 +38,11 @@ TEST(RefineAxis, BringsAWheelBackFromThreeMillimetresAndMilliradians) {
     const RefinedAxis found = refine_axis(points, Body::wheel, start);
     const Vec3 axle = found.X_CS.rotation.col(1), apart = X.origin - found.X_CS.origin;
     const double angle = axle.cross(X.rotation.col(1)).norm(), distance = (apart - axle * axle.dot(apart)).norm();
-    // four deviations of what it says itself, which is what the noise allows: sigma sqrt(2 / n) / sin of the slopes and so on
-    EXPECT_LT(angle, 4.0 * found.direction_error + 1e-7);
-    EXPECT_LT(distance, 4.0 * found.position_error + 1e-8);
+    // four deviations of what it says itself; the shallowest damage, of one side only, looks like noise: about 3 % of the points of
+    // one quarter of the wheel pull by 60 um
+    const double bias = damaged > 0.0 ? 2e-6 : 0.0;
+    EXPECT_LT(angle, 4.0 * found.direction_error + bias / 0.06);
+    EXPECT_LT(distance, 4.0 * found.position_error + bias);
     EXPECT_LT(found.direction_error, 10e-6);
     EXPECT_LT(found.position_error, 1e-6);
     EXPECT_GT(found.position_error, 30e-6 / std::sqrt(30'000.0));

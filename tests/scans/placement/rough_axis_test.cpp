@@ -35,8 +35,8 @@ TEST(RoughAxis, OfAWheelWithAFifthOfForeignElements) {
     const Pose X = tests::some_frame(10 + seed);
     const RoughAxis found = rough_revolution(tests::flanged_elements(Body::wheel, 2.0 * kPi, 0.2, 3e-3, X, seed));
     const auto error = tests::axis_error(found.axis, X.origin, X.rotation.col(1));
-    EXPECT_LT(error.angle, 8e-4) << seed;
-    EXPECT_LT(error.distance, 0.5e-3) << seed;
+    EXPECT_LT(error.angle, 1.5e-3) << seed;
+    EXPECT_LT(error.distance, 0.8e-3) << seed;
     EXPECT_NEAR(found.inliers, 0.8, 0.04);
   }
 }
