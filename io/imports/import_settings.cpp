@@ -205,6 +205,7 @@ void set_import_setting(ImportSettings& settings, const std::string& assignment)
   }
   try {
     const toml::table parsed = toml::parse("value = " + value);
+    if (parsed.size() != 1) fail(fmt::format("'{}.{}' takes one value", table, name), {});
     set(settings, *found, *parsed.get("value"), {});
   } catch (const toml::parse_error&) {
     fail(fmt::format("the value in '{}' cannot be read", assignment), {}, "write it as in TOML");

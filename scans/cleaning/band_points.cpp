@@ -55,10 +55,12 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
     if (count[k] >= enough) present.push_back(k);
   std::vector<double> gaps;
   for (std::size_t k = 1; k < present.size(); ++k) gaps.push_back(row * static_cast<double>(present[k] - present[k - 1]));
+  if (wheel) gaps.push_back(row * static_cast<double>(present.front() + rows - present.back()));
+  std::sort(gaps.begin(), gaps.end());
+  if (wheel) gaps.pop_back();  // the widest may be where an arc is open
   double typical = kRow;
   if (!gaps.empty()) {
-    // by length: half of the band has smaller gaps
-    std::sort(gaps.begin(), gaps.end());
+    // by length: nine tenths of the band have no wider gaps
     double sum = 0.0, all = 0.0;
     for (const double g : gaps) all += g;
     for (const double g : gaps) {

@@ -98,21 +98,28 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
 
   // squared distances to the nearest present cell; gaps up to the usual ones do not count as distance
   const double scale_a = out.gap_a > 2.0 * out.gap_s ? out.gap_s / out.gap_a : 1.0, scale_s = out.gap_s > 2.0 * out.gap_a ? out.gap_a / out.gap_s : 1.0;
-  std::vector<double> square(rows * columns), line, result, z;
-  std::vector<std::size_t> v;
-  for (std::size_t r = 0; r < rows; ++r) {
-    line.assign(columns, 0.0);
-    for (std::size_t c = 0; c < columns; ++c) line[c] = present[r * columns + c] != 0 ? 0.0 : kNever;
-    distances(line, scale_s * points.cell_s, v, z, result);
-    std::copy(result.begin(), result.end(), square.begin() + static_cast<std::ptrdiff_t>(r * columns));
-  }
   const std::size_t around = band.closed ? std::min<std::size_t>(rows, 256) : 0;
-  for (std::size_t c = 0; c < columns; ++c) {
-    line.resize(rows + 2 * around);
-    for (std::size_t r = 0; r < line.size(); ++r) line[r] = square[((r + rows - around) % rows) * columns + c];
-    distances(line, scale_a * points.cell_a, v, z, result);
-    for (std::size_t r = 0; r < rows; ++r) square[r * columns + c] = result[r + around];
-  }
+  const auto transform = [&](double step_a, double step_s) {
+    std::vector<double> squares(rows * columns), line, result, z;
+    std::vector<std::size_t> v;
+    for (std::size_t r = 0; r < rows; ++r) {
+      line.assign(columns, 0.0);
+      for (std::size_t c = 0; c < columns; ++c) line[c] = present[r * columns + c] != 0 ? 0.0 : kNever;
+      distances(line, step_s, v, z, result);
+      std::copy(result.begin(), result.end(), squares.begin() + static_cast<std::ptrdiff_t>(r * columns));
+    }
+    for (std::size_t c = 0; c < columns; ++c) {
+      line.resize(rows + 2 * around);
+      for (std::size_t r = 0; r < line.size(); ++r) line[r] = squares[((r + rows - around) % rows) * columns + c];
+      distances(line, step_a, v, z, result);
+      for (std::size_t r = 0; r < rows; ++r) squares[r * columns + c] = result[r + around];
+    }
+    return squares;
+  };
+  const std::vector<double> square = transform(scale_a * points.cell_a, scale_s * points.cell_s);
+  // how wide a hole is counts in true lengths
+  const std::vector<double> unscaled = scale_a < 1.0 || scale_s < 1.0 ? transform(points.cell_a, points.cell_s) : std::vector<double>{};
+  const std::vector<double>& width = unscaled.empty() ? square : unscaled;
   const double usual = std::min(out.gap_a, out.gap_s);
   const auto covered = [&](std::size_t cell) { return std::sqrt(square[cell]) <= 1.01 * std::max(usual, std::min(points.cell_a, points.cell_s)); };
 
@@ -146,8 +153,8 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
         stack.pop_back();
         members.push_back(cell);
         const std::size_t r = cell / columns, c = cell % columns;
-        if (square[cell] > widest) {
-          widest = square[cell];
+        if (width[cell] > widest) {
+          widest = width[cell];
           hole.a = points.cell_a * (static_cast<double>(r) + 0.5);
           hole.s = points.cell_s * (static_cast<double>(c) + 0.5);
         }

@@ -12,7 +12,7 @@ namespace treadmark::scans {
 
 struct Hole {
   double a = 0.0, s = 0.0;     ///< where it is widest, a counts from the band's a_min [m]
-  double diameter = 0.0;       ///< of the largest circle in it [m]; where points come in lines, beyond the lines' distance
+  double diameter = 0.0;       ///< of the largest circle without points in it [m]
   double area = 0.0;           ///< [m^2]
   bool filled = false;         ///< not wider than the limit
 };

@@ -23,6 +23,7 @@ constexpr double kFlat = 0.03;      // least to middle eigenvalue
 constexpr double kBroad = 0.05;     // middle to greatest eigenvalue: no line
 constexpr double kEnoughFlat = 0.85;
 constexpr double kLeastFlat = 0.25;
+constexpr double kClearGain = 0.08;
 
 struct Extent {
   Vec3 centre;
@@ -137,7 +138,8 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
   SurfaceElements best;
   for (; size < extent.radius / 3.0; size *= 1.6) {
     SurfaceElements found = elements_of(points, Voxels(points, extent.centre, size, keep), extent);
-    if (found.flat_part > best.flat_part) best = std::move(found);
+    // larger cubes blur the normals: only for a clear gain
+    if (found.flat_part > best.flat_part + kClearGain) best = std::move(found);
     if (best.flat_part > kEnoughFlat) break;
   }
   if (best.flat_part < kLeastFlat || best.position.size() < 20)

@@ -128,7 +128,9 @@ RoughAxis rough_revolution(const SurfaceElements& elements) {
     // normals that hardly turn about the axis, as all those of a plane along it, meet it nowhere
     const Mat3 about = Mat3::Identity() - next->direction * next->direction.transpose();
     const Mat3 turning = about * (matrix.bottomRightCorner<3, 3>() / sum) * about + next->direction * next->direction.transpose();
-    if (next->second < kWellKnown * 1e-2 || Eigen::SelfAdjointEigenSolver<Mat3>(turning).eigenvalues()[0] < kWellKnown)
+    // and those of a sphere miss no axis by more than the best one
+    constexpr double kNoBetter = 4.0;
+    if (next->second < std::max(kWellKnown * 1e-2, kNoBetter * next->least) || Eigen::SelfAdjointEigenSolver<Mat3>(turning).eigenvalues()[0] < kWellKnown)
       refuse("its axis is not determined, as that of a plane or a sphere");
     const double change = std::min((next->direction - axis.direction).norm(), (next->direction + axis.direction).norm());
     axis = *next;

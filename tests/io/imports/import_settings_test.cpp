@@ -213,7 +213,7 @@ TEST(ImportSettings, WrongTypesAndRangesAreRefusedAtTheirPlace) {
   expect_error("[placement]\nup = [1.0, 2.0]\n", 2, 6, "three numbers");
   expect_error("[placement]\nup = 1.0\n", 2, 6, "three numbers");
   expect_error("[placement]\nup = [0, 0.0, 0]\n", 2, 6, "zero");
-  expect_error("[placement]\nup = [1.0, \"x\", 2.0]\n", 2, 12, "number");
+  expect_error("[placement]\nup = [1.0, \"x\", 2.0]\n", 2, 6, "number");
   for (const char* value : {"0.6", "abc", "", "[1]", "nan", "1 2"}) expect_refused(std::string("fit.held_out=") + value, "fit.held_out");
   expect_refused("scan.body=sleeper", "sleeper", "auto, wheel, rail");
   expect_refused("scan.body=", "text");

