@@ -11,16 +11,20 @@ namespace treadmark {
 /// Units that coordinates in files of other programs come in.
 enum class LengthUnit { metre, millimetre, micrometre, inch };
 
-inline constexpr std::array<LengthUnit, 4> kLengthUnits{LengthUnit::metre, LengthUnit::millimetre, LengthUnit::micrometre,
-                                                        LengthUnit::inch};
+inline constexpr std::array<LengthUnit, 4> kLengthUnits{LengthUnit::metre, LengthUnit::millimetre,
+                                                        LengthUnit::micrometre, LengthUnit::inch};
 
 /// Metres in one of the unit.
 constexpr double metres_per(LengthUnit unit) {
   switch (unit) {
-    case LengthUnit::metre: return 1.0;
-    case LengthUnit::millimetre: return 1e-3;
-    case LengthUnit::micrometre: return 1e-6;
-    case LengthUnit::inch: return 25.4e-3;
+    case LengthUnit::metre:
+      return 1.0;
+    case LengthUnit::millimetre:
+      return 1e-3;
+    case LengthUnit::micrometre:
+      return 1e-6;
+    case LengthUnit::inch:
+      return 25.4e-3;
   }
   return 1.0;
 }
@@ -28,10 +32,14 @@ constexpr double metres_per(LengthUnit unit) {
 /// "m", "mm", "um", "in".
 constexpr std::string_view symbol(LengthUnit unit) {
   switch (unit) {
-    case LengthUnit::metre: return "m";
-    case LengthUnit::millimetre: return "mm";
-    case LengthUnit::micrometre: return "um";
-    case LengthUnit::inch: return "in";
+    case LengthUnit::metre:
+      return "m";
+    case LengthUnit::millimetre:
+      return "mm";
+    case LengthUnit::micrometre:
+      return "um";
+    case LengthUnit::inch:
+      return "in";
   }
   return "m";
 }

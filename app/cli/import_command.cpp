@@ -36,7 +36,9 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
     ProgressLine line(common.quiet);
     Progress progress;
     progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+      line.update(finished, total, what);
+    };
     report = app::import_scan(request, progress);
   }
   if (!options.report_folder.empty()) io::write_import_report(options.report_folder, report);

@@ -36,7 +36,9 @@ MapFrame map_frame(const ImportFindings& found) {
     double rows = std::floor((start - a_min) / points.cell_a + 0.5);
     rows -= std::floor(rows / static_cast<double>(points.rows)) * static_cast<double>(points.rows);
     out.first_row = static_cast<std::size_t>(rows) % points.rows;
-    a_min = wrap_angle((a_min + points.cell_a * (static_cast<double>(out.first_row) + 0.5)) / band.radius) * band.radius - 0.5 * points.cell_a;
+    a_min =
+        wrap_angle((a_min + points.cell_a * (static_cast<double>(out.first_row) + 0.5)) / band.radius) * band.radius -
+        0.5 * points.cell_a;
   }
   out.empty.a_min = a_min;
   out.empty.a_max = a_min + band.length();
@@ -50,7 +52,8 @@ io::BandMap map_of(const ImportFindings& found, const MapFrame& frame, const Val
   io::BandMap out = frame.empty;
   parallel_for(points.rows, [&](std::size_t r) {
     const std::size_t row = (r + frame.first_row) % points.rows;
-    for (std::size_t c = 0; c < points.columns; ++c) out.value[r * points.columns + c] = static_cast<float>(value(row, c));
+    for (std::size_t c = 0; c < points.columns; ++c)
+      out.value[r * points.columns + c] = static_cast<float>(value(row, c));
   });
   return out;
 }
@@ -61,12 +64,19 @@ void fill_maps(const ImportFindings& found, io::ImportReport& report) {
   const double cell = points.cell_a * points.cell_s;
   const auto count = [&](std::size_t row, std::size_t column, const auto& counts) {
     std::size_t n = 0;
-    for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i) n += counts(i) ? 1 : 0;
+    for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + column + 1]; ++i)
+      n += counts(i) ? 1 : 0;
     return n;
   };
-  const auto inside = [&](std::size_t i) { return points.state[i] == PointState::used || points.state[i] == PointState::held_out; };
-  report.density = map_of(found, frame, [&](std::size_t r, std::size_t c) { return static_cast<double>(count(r, c, [](std::size_t) { return true; })) / cell; });
-  report.removed_map = map_of(found, frame, [&](std::size_t r, std::size_t c) { return static_cast<double>(count(r, c, [&](std::size_t i) { return !inside(i); })) / cell; });
+  const auto inside = [&](std::size_t i) {
+    return points.state[i] == PointState::used || points.state[i] == PointState::held_out;
+  };
+  report.density = map_of(found, frame, [&](std::size_t r, std::size_t c) {
+    return static_cast<double>(count(r, c, [](std::size_t) { return true; })) / cell;
+  });
+  report.removed_map = map_of(found, frame, [&](std::size_t r, std::size_t c) {
+    return static_cast<double>(count(r, c, [&](std::size_t i) { return !inside(i); })) / cell;
+  });
   constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
   report.fitted = map_of(found, frame, [&](std::size_t r, std::size_t c) {
     const double s = points.cell_s * (static_cast<double>(c) + 0.5);
@@ -83,7 +93,9 @@ void fill_maps(const ImportFindings& found, io::ImportReport& report) {
       }
     return n > 0.0 ? sum / n : kNone;
   });
-  report.noise_map = map_of(found, frame, [&](std::size_t r, std::size_t c) { return points.begin[r * points.columns + c + 1] > points.first(r, c) ? found.noise.at(r, c) : kNone; });
+  report.noise_map = map_of(found, frame, [&](std::size_t r, std::size_t c) {
+    return points.begin[r * points.columns + c + 1] > points.first(r, c) ? found.noise.at(r, c) : kNone;
+  });
 }
 
 void fill_sections(const ImportFindings& found, io::ImportReport& report) {
@@ -92,7 +104,8 @@ void fill_sections(const ImportFindings& found, io::ImportReport& report) {
   const auto in_profile = [&](double y, double v) { return Vec2(y, wheel ? v - radius : -v); };
   const std::size_t stride = std::max<std::size_t>(1, found.scan.points.size() / kMostDots);
   const auto in_section = [&](std::size_t i) {
-    const scans::Natural n = scans::natural(found.scan.body, found.scan.placement.X_CS.apply_inverse(found.scan.points[i]));
+    const scans::Natural n =
+        scans::natural(found.scan.body, found.scan.placement.X_CS.apply_inverse(found.scan.points[i]));
     return in_profile(n.y, n.v);
   };
   for (std::size_t i = 0; i < found.scan.points.size(); i += stride) report.raw_section.push_back(in_section(i));
@@ -123,7 +136,8 @@ void fill_residuals(const ImportFindings& found, io::ImportReport& report) {
     const double r = found.fit.residual[i];
     report.residual_max = std::max(report.residual_max, std::fabs(r));
     const double place = 0.5 * (r / report.residual_range + 1.0) * kBins;
-    if (place >= 0.0 && place < static_cast<double>(kBins)) ++report.residual_histogram[static_cast<std::size_t>(place)];
+    if (place >= 0.0 && place < static_cast<double>(kBins))
+      ++report.residual_histogram[static_cast<std::size_t>(place)];
   }
 }
 
@@ -151,15 +165,18 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   report.hole_area = found.coverage.hole_area;
   report.hole_limit = found.coverage.limit;
   for (const scans::Hole& hole : found.coverage.holes)
-    report.holes.push_back({u_of(hole.a), band.section.at(hole.s).position.x(), hole.diameter, hole.area, hole.filled, hole.s});
-  for (const scans::FitLevelReport& level : found.fit.levels) report.levels.push_back({level.knot_a, level.knot_s, level.functions, level.used, level.iterations});
+    report.holes.push_back(
+        {u_of(hole.a), band.section.at(hole.s).position.x(), hole.diameter, hole.area, hole.filled, hole.s});
+  for (const scans::FitLevelReport& level : found.fit.levels)
+    report.levels.push_back({level.knot_a, level.knot_s, level.functions, level.used, level.iterations});
   report.fitted_points = found.fit.used;
   report.held_out_points = found.fit.held_out;
   report.points_used = found.fit.used + found.fit.held_out;
   report.residual_rms = found.fit.residual_rms;
   report.held_out_rms = found.fit.held_out_rms;
   report.held_out_error = found.fit.held_out_error;
-  for (const scans::Damage& d : found.damage) report.damage.push_back({u_of(d.a), band.section.at(d.s).position.x(), d.length, d.width, d.depth, d.volume, d.s});
+  for (const scans::Damage& d : found.damage)
+    report.damage.push_back({u_of(d.a), band.section.at(d.s).position.x(), d.length, d.width, d.depth, d.volume, d.s});
   report.y_min = band.section.at(found.fitted.s_min).position.x();
   report.y_max = band.section.at(found.fitted.s_max).position.x();
   report.closed = band.closed;

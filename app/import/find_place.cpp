@@ -33,15 +33,17 @@ scans::Section nominal_section(Body body, const std::vector<Vec2>& nominal) {
 }
 
 /// Marks strays among thinned points; connects lines of a scanner that are far apart before it gives up on clusters.
-std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, const scans::SurfaceElements& elements, const io::ImportSettings& settings,
-                                              io::ImportReport& report) {
+std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, const scans::SurfaceElements& elements,
+                                              const io::ImportSettings& settings, io::ImportReport& report) {
   const scans::ThinnedPoints thinned = scans::thin(points, elements.centre, elements.size);
   scans::StraySettings how;
   how.outlier_distance = settings.clean.stray_distance * elements.size;
   how.least_cluster = settings.clean.stray_cluster;
   constexpr double kMostInClusters = 0.05;
   scans::StrayResult found;
-  const auto in_clusters = [&] { return static_cast<double>(found.cluster_points) / static_cast<double>(thinned.position.size()); };
+  const auto in_clusters = [&] {
+    return static_cast<double>(found.cluster_points) / static_cast<double>(thinned.position.size());
+  };
   for (double gap = 6.0; gap < 200.0; gap *= 3.0) {
     found = scans::find_strays(thinned.position, how);
     if (in_clusters() <= kMostInClusters) break;
@@ -50,7 +52,8 @@ std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, c
   std::vector<std::uint8_t> keep(points.size(), 0);
   const bool clusters_count = in_clusters() <= kMostInClusters;
   if (!clusters_count)
-    report.warnings.push_back(fmt::format("{:.0f} % of the points lie in groups apart from the largest one; they were all kept", 100.0 * in_clusters()));
+    report.warnings.push_back(fmt::format(
+        "{:.0f} % of the points lie in groups apart from the largest one; they were all kept", 100.0 * in_clusters()));
   std::size_t outliers = 0, clusters = 0;
   for (std::size_t v = 0; v < thinned.voxels.count(); ++v) {
     const scans::Stray stray = found.of_point[v];
@@ -59,10 +62,15 @@ std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, c
     if (kept) continue;
     (stray == scans::Stray::outlier ? outliers : clusters) += thinned.voxels.points_of(v).size();
   }
-  report.removed.push_back({"stray points", outliers,
-                            fmt::format("mean distance to the {} nearest of the thinned points beyond {}", how.neighbours,
-                                        settings.clean.stray_distance > 0.0 ? fmt::format("{:g} times their size", settings.clean.stray_distance) : "4 times the usual one")});
-  report.removed.push_back({"stray clusters", clusters, fmt::format("{} groups with less than {:g} of the points of the largest one", clusters_count ? found.clusters : 0, settings.clean.stray_cluster)});
+  report.removed.push_back(
+      {"stray points", outliers,
+       fmt::format("mean distance to the {} nearest of the thinned points beyond {}", how.neighbours,
+                   settings.clean.stray_distance > 0.0
+                       ? fmt::format("{:g} times their size", settings.clean.stray_distance)
+                       : "4 times the usual one")});
+  report.removed.push_back({"stray clusters", clusters,
+                            fmt::format("{} groups with less than {:g} of the points of the largest one",
+                                        clusters_count ? found.clusters : 0, settings.clean.stray_cluster)});
   return keep;
 }
 
@@ -85,7 +93,8 @@ Body body_of(const ImportRequest& request) {
     if (extension == ".slcw") return Body::wheel;
     if (extension == ".slcs") return Body::rail;
   }
-  throw Error(ErrorKind::configuration, "nothing says whether the scan is that of a wheel or a rail", {request.scans.front().string()}, "say --body wheel or --body rail");
+  throw Error(ErrorKind::configuration, "nothing says whether the scan is that of a wheel or a rail",
+              {request.scans.front().string()}, "say --body wheel or --body rail");
 }
 
 void read_nominal(const ImportRequest& request, PlacedScan& scan) {
@@ -120,7 +129,10 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   PlacedScan scan;
   scan.body = body_of(request);
   read_nominal(request, scan);
-  report.nominal = scan.nominal_spec ? (settings.placement.nominal == "auto" ? (scan.body == Body::wheel ? "S1002" : "60E1") : std::filesystem::path(settings.placement.nominal).filename().string()) : "none";
+  report.nominal = scan.nominal_spec ? (settings.placement.nominal == "auto"
+                                            ? (scan.body == Body::wheel ? "S1002" : "60E1")
+                                            : std::filesystem::path(settings.placement.nominal).filename().string())
+                                     : "none";
   scan.points = std::move(clouds.cloud.points);
   scan.passes = std::move(clouds.cloud.passes);
 
@@ -163,8 +175,9 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
     const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
     constexpr int kRounds = 2;
     for (int round = 0; round < kRounds; ++round) {
-      const scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section,
-                                                          {scan.body, radius, 1e-3 * settings.clean.farthest_mm, 2e-3});
+      const scans::Projection projection =
+          scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section,
+                         {scan.body, radius, 1e-3 * settings.clean.farthest_mm, 2e-3});
       const scans::PassSteps steps = scans::find_pass_steps(projection.points, projection.band, scan.passes);
       if (steps.passes.empty()) break;
       scans::apply(steps, scan.passes, scan.placement.X_CS, scan.points);
@@ -177,20 +190,24 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
           report.passes[k].shift_S += step.shift_S;
           report.passes[k].turn_S += step.turn_S;
         }
-        if (round == 0 && step.shared == 0) report.warnings.push_back(fmt::format("pass {} overlaps with no other and was left where it is", step.pass));
+        if (round == 0 && step.shared == 0)
+          report.warnings.push_back(fmt::format("pass {} overlaps with no other and was left where it is", step.pass));
       }
       scan.placement = scans::place(scan.points, scan.keep, rough, how);
     }
   }
   // files and cases must agree on a radius: one that people write down
   constexpr double kRound = 0.01e-3;
-  if (scan.body == Body::wheel) scan.placement.nominal_radius = kRound * std::round(scan.placement.nominal_radius / kRound);
+  if (scan.body == Body::wheel)
+    scan.placement.nominal_radius = kRound * std::round(scan.placement.nominal_radius / kRound);
   if (settings.placement.nominal_radius_mm > 0.0 && scan.body == Body::wheel) {
     const double given = 1e-3 * settings.placement.nominal_radius_mm;
     constexpr double kFar = 60e-3;
     if (std::fabs(given - scan.placement.nominal_radius) > kFar)
-      throw Error(ErrorKind::input_data, fmt::format("the scanned wheel has a radius of {:.2f} mm, not {:.2f} mm", 1e3 * scan.placement.nominal_radius, 1e3 * given), {},
-                  "leave the nominal radius out, or is the unit another one?");
+      throw Error(ErrorKind::input_data,
+                  fmt::format("the scanned wheel has a radius of {:.2f} mm, not {:.2f} mm",
+                              1e3 * scan.placement.nominal_radius, 1e3 * given),
+                  {}, "leave the nominal radius out, or is the unit another one?");
     scan.placement.nominal_radius = given;
   }
   return scan;

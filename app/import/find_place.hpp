@@ -12,11 +12,11 @@ namespace treadmark::app {
 /// A scan whose wheel or rail has been found.
 struct PlacedScan {
   Body body = Body::rail;
-  std::vector<Vec3> points;               ///< [m], in the cloud's frame; passes aligned
+  std::vector<Vec3> points;  ///< [m], in the cloud's frame; passes aligned
   std::vector<std::uint16_t> passes;
-  std::vector<std::uint8_t> keep;         ///< 0 = stray
+  std::vector<std::uint8_t> keep;  ///< 0 = stray
   scans::Placement placement;
-  std::vector<Vec2> nominal;              ///< (y, z) of the nominal profile; empty: none
+  std::vector<Vec2> nominal;                ///< (y, z) of the nominal profile; empty: none
   std::optional<SurfaceSpec> nominal_spec;  ///< without a radius
 };
 

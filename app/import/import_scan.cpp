@@ -26,13 +26,16 @@ constexpr double kFinest = 0.5e-3;  // knots that are worth having [m]
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 /// The station of the band that becomes u = 0, with words for it.
-double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vector<scans::Damage>& damage, const io::ImportSettings& settings, io::ImportReport& report) {
+double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vector<scans::Damage>& damage,
+               const io::ImportSettings& settings, io::ImportReport& report) {
   const bool wheel = scan.body == Body::wheel;
   const double wanted = wheel ? kDegree * settings.placement.zero_deg : 1e-3 * settings.placement.zero_mm;
-  const std::string at = wheel ? fmt::format("theta = {:g} degrees", settings.placement.zero_deg) : fmt::format("x = {:g} mm", settings.placement.zero_mm);
+  const std::string at = wheel ? fmt::format("theta = {:g} degrees", settings.placement.zero_deg)
+                               : fmt::format("x = {:g} mm", settings.placement.zero_mm);
   std::string zero = settings.placement.zero;
   if (zero == "defect" && damage.empty()) {
-    report.warnings.push_back("no damage stands out; positions along the " + std::string(wheel ? "wheel" : "rail") + " are counted from the axes of the scan");
+    report.warnings.push_back("no damage stands out; positions along the " + std::string(wheel ? "wheel" : "rail") +
+                              " are counted from the axes of the scan");
     zero = "scan";
   }
   if (zero == "defect") {
@@ -41,14 +44,17 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
   }
   const Pose& X_CS = scan.placement.X_CS;
   if (!wheel) {
-    if (zero == "direction") throw Error(ErrorKind::configuration, "a rail has no angular zero", {}, "say placement.zero=scan or defect");
+    if (zero == "direction")
+      throw Error(ErrorKind::configuration, "a rail has no angular zero", {}, "say placement.zero=scan or defect");
     report.zero = fmt::format("the place nearest the origin of the scan is at {}", at);
     return X_CS.apply_inverse(Vec3::Zero()).x() - wanted;
   }
   Vec3 direction;
   if (zero == "direction") {
     const auto& list = settings.placement.zero_direction;
-    if (list.size() != 3) throw Error(ErrorKind::configuration, "placement.zero=direction needs placement.zero_direction", {}, "give a list of three numbers in the scan's frame");
+    if (list.size() != 3)
+      throw Error(ErrorKind::configuration, "placement.zero=direction needs placement.zero_direction", {},
+                  "give a list of three numbers in the scan's frame");
     direction = {list[0], list[1], list[2]};
     report.zero = fmt::format("the direction ({:g}, {:g}, {:g}) of the scan is at {}", list[0], list[1], list[2], at);
   } else {
@@ -59,7 +65,9 @@ double zero_of(const PlacedScan& scan, const scans::Band& band, const std::vecto
     report.zero = fmt::format("the {} axis of the scan is at {}", "xyz"[axis], at);
   }
   const Vec3 in_S = X_CS.rotation.transpose() * direction.normalized();
-  if (std::hypot(in_S.x(), in_S.z()) < 0.1) throw Error(ErrorKind::configuration, "the direction for the angular zero runs along the axle", {}, "choose one across it");
+  if (std::hypot(in_S.x(), in_S.z()) < 0.1)
+    throw Error(ErrorKind::configuration, "the direction for the angular zero runs along the axle", {},
+                "choose one across it");
   return std::atan2(in_S.x(), in_S.z()) - wanted;
 }
 
@@ -78,10 +86,12 @@ scans::Section start_section(const PlacedScan& scan) {
 /// Lines about the import that the surface file itself carries.
 std::vector<std::string> summary_lines(const io::ImportReport& report) {
   std::vector<std::string> out;
-  out.push_back(fmt::format("scanned {}, imported by Treadmark {}", report.body == Body::wheel ? "wheel" : "rail", report.version));
+  out.push_back(fmt::format("scanned {}, imported by Treadmark {}", report.body == Body::wheel ? "wheel" : "rail",
+                            report.version));
   for (const auto& input : report.inputs) out.push_back(fmt::format("from {} (SHA-256 {})", input.file, input.sha256));
   out.push_back(fmt::format("unit of the scan: {} (from {}); this file: millimetres", report.unit, report.unit_from));
-  out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; fit error on points held out {:.3g} um", report.points_read, report.points_used, 1e6 * report.noise, 1e6 * report.held_out_error));
+  out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; fit error on points held out {:.3g} um",
+                            report.points_read, report.points_used, 1e6 * report.noise, 1e6 * report.held_out_error));
   if (report.body == Body::wheel) out.push_back(fmt::format("nominal radius: {:.4f} mm", 1e3 * report.nominal_radius));
   out.push_back(fmt::format("{}; holes up to {:.1f} mm filled", report.zero, 1e3 * report.hole_limit));
   for (std::string& line : out)
@@ -90,14 +100,20 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
   return out;
 }
 
-void note_removed(const scans::Projection& projection, std::size_t duplicates, const scans::LocalNoise& noise, const io::ImportSettings& settings, io::ImportReport& report) {
-  report.removed.push_back({"beside the section", projection.beyond_section, "past its ends, or where it is too steep to be seen from outside"});
-  report.removed.push_back({"far from the section", projection.far_off, fmt::format("farther than {:g} mm from it", settings.clean.farthest_mm)});
+void note_removed(const scans::Projection& projection, std::size_t duplicates, const scans::LocalNoise& noise,
+                  const io::ImportSettings& settings, io::ImportReport& report) {
+  report.removed.push_back({"beside the section", projection.beyond_section,
+                            "past its ends, or where it is too steep to be seen from outside"});
+  report.removed.push_back({"far from the section", projection.far_off,
+                            fmt::format("farther than {:g} mm from it", settings.clean.farthest_mm)});
   report.removed.push_back({"past the ends", projection.beyond_length, "where hardly any points are"});
   report.removed.push_back({"duplicates", duplicates, "at the very place of another point"});
   report.removed.push_back({"isolated", noise.isolated, "hardly any others around them"});
-  report.removed.push_back({"outliers", noise.outliers, fmt::format("farther than {:g} local standard deviations (usually {:.3g} mm) from a quadratic through the points around", settings.clean.outlier_factor,
-                                                                    1e3 * settings.clean.outlier_factor * noise.typical)});
+  report.removed.push_back(
+      {"outliers", noise.outliers,
+       fmt::format(
+           "farther than {:g} local standard deviations (usually {:.3g} mm) from a quadratic through the points around",
+           settings.clean.outlier_factor, 1e3 * settings.clean.outlier_factor * noise.typical)});
 }
 
 }  // namespace
@@ -127,9 +143,11 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
 
   clock.begin("noise and outliers");
   const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
-  const double finest = settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(kFinest, 0.9 * report.spacing);
+  const double finest =
+      settings.fit.finest_mm > 0.0 ? 1e-3 * settings.fit.finest_mm : std::max(kFinest, 0.9 * report.spacing);
   scan.placement.section = start_section(scan);
-  scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section, {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
+  scans::Projection projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, scan.placement.section,
+                                                {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
   {
     // the section from all points; once more projected on it, for points are judged by their distance from it
     double moved = 0.0;
@@ -137,7 +155,8 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
     constexpr double kMatters = 1e-8;
     if (moved > kMatters) {
       scan.placement.section = section;
-      projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section, {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
+      projection = scans::project(scan.points, scan.keep, scan.placement.X_CS, section,
+                                  {scan.body, radius, 1e-3 * settings.clean.farthest_mm, finest});
     }
   }
   const std::size_t duplicates = scans::drop_duplicates(projection.points, scan.points);
@@ -148,9 +167,11 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   note_removed(projection, duplicates, noise, settings, report);
 
   clock.begin("holes");
-  const scans::Coverage coverage = scans::find_coverage(projection.points, projection.band, {1e-3 * settings.clean.hole_limit_mm, settings.clean.least_filled});
+  const scans::Coverage coverage = scans::find_coverage(
+      projection.points, projection.band, {1e-3 * settings.clean.hole_limit_mm, settings.clean.least_filled});
   if (coverage.last_column <= coverage.first_column + 8)
-    throw Error(ErrorKind::input_data, "no part of the running band is covered by points along enough of its length", {request.scans.front().string()}, "lower clean.least_filled, or scan more of it");
+    throw Error(ErrorKind::input_data, "no part of the running band is covered by points along enough of its length",
+                {request.scans.front().string()}, "lower clean.least_filled, or scan more of it");
 
   clock.begin("fit");
   scans::FitSettings how_fit;
@@ -163,10 +184,13 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   const scans::FitResult fit = scans::fit_field(projection.points, projection.band, noise, how_fit, inner);
 
   clock.begin("damage");
-  const double s_min = projection.points.cell_s * static_cast<double>(coverage.first_column), s_max = projection.points.cell_s * static_cast<double>(coverage.last_column);
+  const double s_min = projection.points.cell_s * static_cast<double>(coverage.first_column),
+               s_max = projection.points.cell_s * static_cast<double>(coverage.last_column);
   constexpr double kLeastDamage = 20e-6;
-  report.damage_threshold = settings.damage.threshold_mm > 0.0 ? 1e-3 * settings.damage.threshold_mm : std::max(kLeastDamage, 1.5 * noise.typical);
-  const std::vector<scans::Damage> damage = scans::find_damage(projection.band, fit.field, s_min, s_max, report.damage_threshold);
+  report.damage_threshold = settings.damage.threshold_mm > 0.0 ? 1e-3 * settings.damage.threshold_mm
+                                                               : std::max(kLeastDamage, 1.5 * noise.typical);
+  const std::vector<scans::Damage> damage =
+      scans::find_damage(projection.band, fit.field, s_min, s_max, report.damage_threshold);
   const double u_zero = zero_of(scan, projection.band, damage, settings, report);
   const scans::FittedBand fitted{projection.band, fit.field, s_min, s_max, u_zero};
   // the surface's own frame has its zero there

@@ -12,15 +12,15 @@
 namespace treadmark::app {
 
 struct ImportRequest {
-  std::vector<std::filesystem::path> scans;     ///< several files are several passes; or one gridded map of deviations
-  std::vector<std::filesystem::path> outputs;   ///< .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset)
+  std::vector<std::filesystem::path> scans;    ///< several files are several passes; or one gridded map of deviations
+  std::vector<std::filesystem::path> outputs;  ///< .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset)
   io::ImportSettings settings;
 };
 
-/// From the points of a scanner to surfaces: reads, removes what does not belong to the wheel or rail, places, aligns passes,
-/// cleans, fits, writes, and keeps account of all of it. The same input and settings give the same files for any number of threads.
-/// Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for outputs that cannot hold the surface;
-/// Error(numerical) when stopped. Nothing is written then.
+/// From the points of a scanner to surfaces: reads, removes what does not belong to the wheel or rail, places, aligns
+/// passes, cleans, fits, writes, and keeps account of all of it. The same input and settings give the same files for
+/// any number of threads. Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for
+/// outputs that cannot hold the surface; Error(numerical) when stopped. Nothing is written then.
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress = {});
 
 }  // namespace treadmark::app

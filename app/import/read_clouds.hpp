@@ -14,8 +14,8 @@
 namespace treadmark::app {
 
 struct Clouds {
-  PointCloud cloud;                  ///< of all files, in their unit; passes filled where there are several
-  std::optional<LengthUnit> unit;    ///< if the files say it, all the same
+  PointCloud cloud;                ///< of all files, in their unit; passes filled where there are several
+  std::optional<LengthUnit> unit;  ///< if the files say it, all the same
 };
 
 /// Reads all files into one cloud. Fills inputs, points_read and what was not finite into the report.

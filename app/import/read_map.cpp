@@ -20,9 +20,12 @@ PlacedScan read_map(const ImportRequest& request, io::ImportReport& report) {
   const bool wheel = scan.body == Body::wheel;
   read_nominal(request, scan);
   const SourcePosition where{request.scans.front().string()};
-  if (scan.nominal.empty()) throw Error(ErrorKind::configuration, "a map of deviations needs the profile that they deviate from", where, "say --nominal");
+  if (scan.nominal.empty())
+    throw Error(ErrorKind::configuration, "a map of deviations needs the profile that they deviate from", where,
+                "say --nominal");
   const double radius = 1e-3 * settings.placement.nominal_radius_mm;
-  if (wheel && !(radius > 0.0)) throw Error(ErrorKind::configuration, "a map of a wheel needs its nominal radius", where, "say --nominal-radius");
+  if (wheel && !(radius > 0.0))
+    throw Error(ErrorKind::configuration, "a map of a wheel needs its nominal radius", where, "say --nominal-radius");
   io::MapReadOptions how;
   how.body = scan.body;
   how.nominal_radius = radius;
@@ -44,7 +47,8 @@ PlacedScan read_map(const ImportRequest& request, io::ImportReport& report) {
   std::size_t missing = 0, beside = 0;
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix) {
-      const double value = map.offset[static_cast<std::size_t>(ix) + static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(iy)];
+      const double value =
+          map.offset[static_cast<std::size_t>(ix) + static_cast<std::size_t>(g.nx) * static_cast<std::size_t>(iy)];
       const double u = g.x0 + g.dx * ix, y = g.y0 + g.dy * iy;
       if (std::isnan(value)) {
         ++missing;
@@ -60,9 +64,12 @@ PlacedScan read_map(const ImportRequest& request, io::ImportReport& report) {
     }
   report.spacing = std::sqrt(g.dx * (wheel ? radius : 1.0) * g.dy);
   report.points_read = map.offset.size();
-  report.inputs.push_back({request.scans.front().filename().string(), io::sha256_file(request.scans.front()), fmt::format("map of {} x {} deviations", g.nx, g.ny), map.offset.size(), missing});
+  report.inputs.push_back({request.scans.front().filename().string(), io::sha256_file(request.scans.front()),
+                           fmt::format("map of {} x {} deviations", g.nx, g.ny), map.offset.size(), missing});
   if (missing > 0) report.removed.push_back({"no data", missing, "empty values of the map"});
-  if (beside > 0) report.removed.push_back({"beside the profile", beside, "at lateral positions that the nominal profile does not have"});
+  if (beside > 0)
+    report.removed.push_back(
+        {"beside the profile", beside, "at lateral positions that the nominal profile does not have"});
   return scan;
 }
 

@@ -19,7 +19,8 @@ class StepClock {
   /// Ends the step before and begins one.
   void begin(const std::string& name) {
     end();
-    if (progress_.stop_requested()) throw Error(ErrorKind::numerical, "the import was stopped before the step '" + name + "'");
+    if (progress_.stop_requested())
+      throw Error(ErrorKind::numerical, "the import was stopped before the step '" + name + "'");
     name_ = name;
     start_ = Clock::now();
     if (progress_.report) progress_.report(report_.steps.size(), kSteps, name);

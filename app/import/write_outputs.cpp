@@ -27,7 +27,9 @@ namespace {
 
 using scans::natural;
 
-double radius_of(const FittedScan& fit) { return fit.scan.body == Body::wheel ? fit.scan.placement.nominal_radius : 0.0; }
+double radius_of(const FittedScan& fit) {
+  return fit.scan.body == Body::wheel ? fit.scan.placement.nominal_radius : 0.0;
+}
 
 /// Size and digest; those of slices cover the files of the slices too.
 void describe_file(const std::filesystem::path& file, io::ImportReport::Output& out) {
@@ -35,7 +37,8 @@ void describe_file(const std::filesystem::path& file, io::ImportReport::Output& 
   out.sha256 = io::sha256_file(file);
   if (out.kind != "slices") return;
   std::vector<std::filesystem::path> parts;
-  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path() / file.stem())) parts.push_back(entry.path());
+  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path() / file.stem()))
+    parts.push_back(entry.path());
   std::sort(parts.begin(), parts.end());
   std::string digests = out.sha256;
   for (const auto& part : parts) {
@@ -50,16 +53,21 @@ void refuse_holes(const FittedScan& fit, const std::filesystem::path& file, cons
   const scans::Hole& hole = fit.coverage.holes.front();
   const Vec2 p = fit.fitted.band.section.at(hole.s).position;
   throw Error(ErrorKind::configuration,
-              fmt::format("{} cannot leave out a hole: one of {:.1f} mm stays open at {} = {:.4g} {}, y = {:.1f} mm", what, 1e3 * hole.diameter,
-                          fit.scan.body == Body::wheel ? "theta" : "x", fit.scan.body == Body::wheel ? fit.fitted.u_at(hole.a) * 180.0 / 3.141592653589793 : 1e3 * fit.fitted.u_at(hole.a),
+              fmt::format("{} cannot leave out a hole: one of {:.1f} mm stays open at {} = {:.4g} {}, y = {:.1f} mm",
+                          what, 1e3 * hole.diameter, fit.scan.body == Body::wheel ? "theta" : "x",
+                          fit.scan.body == Body::wheel ? fit.fitted.u_at(hole.a) * 180.0 / 3.141592653589793
+                                                       : 1e3 * fit.fitted.u_at(hole.a),
                           fit.scan.body == Body::wheel ? "degrees" : "mm", 1e3 * p.x()),
               {file.string()},
-              fmt::format("write triangles (.ply), which keep holes, or fill it with --set clean.hole_limit_mm={:.0f}", std::ceil(1e3 * hole.diameter)));
+              fmt::format("write triangles (.ply), which keep holes, or fill it with --set clean.hole_limit_mm={:.0f}",
+                          std::ceil(1e3 * hole.diameter)));
 }
 
 SliceSet slices_of(const FittedScan& fit, const io::ImportSettings& settings) {
-  const double tolerance = settings.fit.tolerance_um > 0.0 ? 1e-6 * settings.fit.tolerance_um : std::clamp(fit.noise / 50.0, 0.02e-6, 0.5e-6);
-  return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, tolerance, fit.scan.body == Body::wheel ? "scanned wheel" : "scanned rail");
+  const double tolerance = settings.fit.tolerance_um > 0.0 ? 1e-6 * settings.fit.tolerance_um
+                                                           : std::clamp(fit.noise / 50.0, 0.02e-6, 0.5e-6);
+  return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, tolerance,
+                          fit.scan.body == Body::wheel ? "scanned wheel" : "scanned rail");
 }
 
 TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& settings) {
@@ -82,14 +90,16 @@ TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& set
         }
     heights = scans::sagitta(fit.fitted, strip);
     std::vector<std::uint8_t> needed(nodes.size(), 0);
-    for (const std::uint32_t k : scans::decimate_plane(strip, heights, 1e-6 * settings.fit.decimate_um)) needed[origin[k]] = 1;
+    for (const std::uint32_t k : scans::decimate_plane(strip, heights, 1e-6 * settings.fit.decimate_um))
+      needed[origin[k]] = 1;
     std::vector<Vec2> kept;
     for (std::size_t k = 0; k < nodes.size(); ++k)
       if (needed[k] != 0 || (closed && nodes[k].x() < 0.51 * spacing)) kept.push_back(nodes[k]);
     nodes = std::move(kept);
     longest = 1e9;
     if (!fit.coverage.whole())
-      throw Error(ErrorKind::configuration, "nodes of a surface with open holes cannot be left out", {}, "say fit.decimate_um=0, or fill the holes");
+      throw Error(ErrorKind::configuration, "nodes of a surface with open holes cannot be left out", {},
+                  "say fit.decimate_um=0, or fill the holes");
   }
   TriangleMesh mesh;
   mesh.name = "scan";
@@ -109,7 +119,8 @@ TriangleMesh free_triangles(const FittedScan& fit, const io::ImportSettings& set
     if (fit.points.state[i] != scans::PointState::used && fit.points.state[i] != scans::PointState::held_out) continue;
     const Vec3 p = X_SC.apply(fit.scan.points[fit.points.index[i]]);
     points.push_back(p);
-    outward.push_back(scans::direction(fit.scan.body, natural(fit.scan.body, p).u, fit.fitted.band.section.at(fit.points.s[i]).normal));
+    outward.push_back(scans::direction(fit.scan.body, natural(fit.scan.body, p).u,
+                                       fit.fitted.band.section.at(fit.points.s[i]).normal));
   }
   scans::FreeMeshSettings how;
   how.spacing = 1e-3 * settings.fit.resolution_mm;
@@ -122,7 +133,9 @@ TriangleMesh triangles_of(const FittedScan& fit, const io::ImportSettings& setti
   if (scans::have_cgal()) return band_triangles(fit, settings);
   // without Delaunay triangulation: a regular grid of the splines
   if (!fit.coverage.whole() || settings.fit.decimate_um > 0.0)
-    throw Error(ErrorKind::configuration, "this build cannot triangulate a band with holes or with fewer nodes: it has no CGAL", {}, "configure with -DTREADMARK_WITH_CGAL=ON");
+    throw Error(ErrorKind::configuration,
+                "this build cannot triangulate a band with holes or with fewer nodes: it has no CGAL", {},
+                "configure with -DTREADMARK_WITH_CGAL=ON");
   SurfaceSpec spec;
   spec.body = fit.scan.body;
   spec.nominal_radius = radius_of(fit);
@@ -130,7 +143,8 @@ TriangleMesh triangles_of(const FittedScan& fit, const io::ImportSettings& setti
   return to_triangles(create_natural(std::move(spec)), {"mesh", 1e-3 * settings.fit.resolution_mm, {}});
 }
 
-void write_offset_file(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings, const std::vector<std::string>& summary) {
+void write_offset_file(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings,
+                       const std::vector<std::string>& summary) {
   SurfaceSpec spec;
   spec.body = fit.scan.body;
   spec.nominal_radius = radius_of(fit);
@@ -139,10 +153,13 @@ void write_offset_file(const std::filesystem::path& file, const FittedScan& fit,
   base.body = fit.scan.body;
   base.nominal_radius = radius_of(fit);
   if (settings.fit.base == "nominal") {
-    if (!fit.scan.nominal_spec) throw Error(ErrorKind::configuration, "there is no nominal profile to lay offsets over", {file.string()}, "say fit.base=fitted");
+    if (!fit.scan.nominal_spec)
+      throw Error(ErrorKind::configuration, "there is no nominal profile to lay offsets over", {file.string()},
+                  "say fit.base=fitted");
     base.shape = fit.scan.nominal_spec->shape;
   } else {
-    base.shape = scans::section_profile(fit.fitted, radius_of(fit), 1e-3 * settings.fit.resolution_mm, "section of the scan");
+    base.shape =
+        scans::section_profile(fit.fitted, radius_of(fit), 1e-3 * settings.fit.resolution_mm, "section of the scan");
   }
   Representation wanted;
   wanted.backend = "offset";
@@ -154,10 +171,12 @@ void write_offset_file(const std::filesystem::path& file, const FittedScan& fit,
     wanted.region.u_min = fit.fitted.u_at(0.0);
     wanted.region.u_max = fit.fitted.u_at(fit.fitted.band.length());
   }
-  write_offsets(file, create_natural(std::move(spec)), wanted, nullptr, &base, fmt::format("{}", fmt::join(summary, "\n")));
+  write_offsets(file, create_natural(std::move(spec)), wanted, nullptr, &base,
+                fmt::format("{}", fmt::join(summary, "\n")));
 }
 
-/// Distance of the surface, as anyone reads it, from the fitted one, along the section's normals, on a grid that meets no nodes.
+/// Distance of the surface, as anyone reads it, from the fitted one, along the section's normals, on a grid that meets
+/// no nodes.
 void compare(const std::filesystem::path& file, const FittedScan& fit, io::ImportReport::Output& out) {
   io::SurfaceSource source;
   source.geometry = io::GeometryFile{file, {}};
@@ -168,11 +187,15 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, io::Impor
   const double margin = 1.5e-3 + 1e-3 * 0.5;
   parallel_for(kStations, [&](std::size_t i) {
     const double length = fit.fitted.band.length();
-    const double a = fit.fitted.band.closed ? length * (static_cast<double>(i) + 0.37) / kStations : margin + (length - 2.0 * margin) * (static_cast<double>(i) + 0.37) / kStations;
+    const double a = fit.fitted.band.closed
+                         ? length * (static_cast<double>(i) + 0.37) / kStations
+                         : margin + (length - 2.0 * margin) * (static_cast<double>(i) + 0.37) / kStations;
     std::vector<double> y, v, slope(kAcross), z(kAcross);
     for (std::size_t k = 0; k < kAcross; ++k) {
-      const double s = fit.fitted.s_min + margin + (fit.fitted.s_max - fit.fitted.s_min - 2.0 * margin) * (static_cast<double>(k) + 0.41) / kAcross;
-      const auto row = std::min(fit.points.rows - 1, static_cast<std::size_t>(a / fit.points.cell_a)), column = std::min(fit.points.columns - 1, static_cast<std::size_t>(s / fit.points.cell_s));
+      const double s = fit.fitted.s_min + margin +
+                       (fit.fitted.s_max - fit.fitted.s_min - 2.0 * margin) * (static_cast<double>(k) + 0.41) / kAcross;
+      const auto row = std::min(fit.points.rows - 1, static_cast<std::size_t>(a / fit.points.cell_a)),
+                 column = std::min(fit.points.columns - 1, static_cast<std::size_t>(s / fit.points.cell_s));
       if (!fit.coverage.open.empty() && fit.coverage.open[row * fit.points.columns + column] != 0) continue;
       const Vec2 p = fit.fitted.across(a, s);
       y.push_back(p.x());
@@ -205,18 +228,25 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, io::Impor
 }  // namespace
 
 void check_outputs(const ImportRequest& request) {
-  if (request.outputs.empty()) throw Error(ErrorKind::configuration, "there is nothing to write", {}, "say -o with a file *.slcs, *.slcw, *.ply, *.stl, *.obj, *.off or *.vdb");
+  if (request.outputs.empty())
+    throw Error(ErrorKind::configuration, "there is nothing to write", {},
+                "say -o with a file *.slcs, *.slcw, *.ply, *.stl, *.obj, *.off or *.vdb");
   const Body body = body_of(request);
   for (const auto& file : request.outputs) {
     const std::string extension = io::profiles::lower(file.extension().string());
     if (!io::is_mesh_file(file) && !io::is_slices_file(file) && !is_offset_file(file))
-      throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {file.string()},
-                  "use .slcs (rail) or .slcw (wheel) for splines, .ply, .stl, .obj or .off for triangles, .vdb for offsets");
+      throw Error(
+          ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {file.string()},
+          "use .slcs (rail) or .slcw (wheel) for splines, .ply, .stl, .obj or .off for triangles, .vdb for offsets");
     if (io::is_slices_file(file) && extension != (body == Body::wheel ? ".slcw" : ".slcs"))
-      throw Error(ErrorKind::configuration, fmt::format("slices of a {} are written to a file *{}", body == Body::wheel ? "wheel" : "rail", body == Body::wheel ? ".slcw" : ".slcs"), {file.string()});
+      throw Error(ErrorKind::configuration,
+                  fmt::format("slices of a {} are written to a file *{}", body == Body::wheel ? "wheel" : "rail",
+                              body == Body::wheel ? ".slcw" : ".slcs"),
+                  {file.string()});
     for (const auto& scan : request.scans)
       if (std::filesystem::weakly_canonical(scan) == std::filesystem::weakly_canonical(file))
-        throw Error(ErrorKind::configuration, "the surface would overwrite the scan", {file.string()}, "choose another name");
+        throw Error(ErrorKind::configuration, "the surface would overwrite the scan", {file.string()},
+                    "choose another name");
   }
 }
 
@@ -225,8 +255,8 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit) {
   if (is_offset_file(file)) refuse_holes(fit, file, "offsets");
 }
 
-io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings,
-                                      const std::vector<std::string>& summary) {
+io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit,
+                                      const io::ImportSettings& settings, const std::vector<std::string>& summary) {
   check_holes(file, fit);
   io::ImportReport::Output out;
   out.file = file.filename().string();

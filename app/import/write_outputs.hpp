@@ -17,7 +17,7 @@ struct FittedScan {
   const scans::FittedBand& fitted;
   const scans::BandPoints& points;
   const scans::Coverage& coverage;
-  double noise = 0.0;   ///< [m]
+  double noise = 0.0;  ///< [m]
 };
 
 /// Refuses outputs that mean nothing or cannot hold the surface, before any work. Errors: Error(configuration).
@@ -28,7 +28,7 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit);
 
 /// Writes one surface, reads it back and compares it with the fitted one. summary: lines that go into the file.
 /// Errors: those of check_holes, writers and CGAL.
-io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit, const io::ImportSettings& settings,
-                                      const std::vector<std::string>& summary);
+io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit,
+                                      const io::ImportSettings& settings, const std::vector<std::string>& summary);
 
 }  // namespace treadmark::app

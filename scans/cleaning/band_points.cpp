@@ -16,7 +16,7 @@ namespace treadmark::scans {
 namespace {
 
 constexpr std::size_t kBlock = 16384;
-constexpr double kRow = 2e-3;              // rows in which the ends are looked for [m]
+constexpr double kRow = 2e-3;  // rows in which the ends are looked for [m]
 constexpr std::size_t kFewestPoints = 1000;
 // cells of the coarsest splines; fine ones are these halved again and again (see fit/)
 constexpr double kCoarseA = 64e-3, kCoarseS = 16e-3;
@@ -37,7 +37,8 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
       most = std::max(most, static_cast<double>(a[i]));
     }
   const bool wheel = body == Body::wheel;
-  const double start = wheel ? -std::numbers::pi * radius : least, length = wheel ? 2.0 * std::numbers::pi * radius : most - least;
+  const double start = wheel ? -std::numbers::pi * radius : least,
+               length = wheel ? 2.0 * std::numbers::pi * radius : most - least;
   const auto rows = static_cast<std::size_t>(std::max(1.0, std::ceil(length / kRow)));
   const double row = length / static_cast<double>(rows);
   std::vector<std::size_t> count(rows, 0);
@@ -54,7 +55,8 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
   for (std::size_t k = 0; k < rows; ++k)
     if (count[k] >= enough) present.push_back(k);
   std::vector<double> gaps;
-  for (std::size_t k = 1; k < present.size(); ++k) gaps.push_back(row * static_cast<double>(present[k] - present[k - 1]));
+  for (std::size_t k = 1; k < present.size(); ++k)
+    gaps.push_back(row * static_cast<double>(present[k] - present[k - 1]));
   if (wheel) gaps.push_back(row * static_cast<double>(present.front() + rows - present.back()));
   std::sort(gaps.begin(), gaps.end());
   if (wheel) gaps.pop_back();  // the widest may be where an arc is open
@@ -69,7 +71,9 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
       if (sum >= 0.9 * all) break;
     }
   }
-  if (!wheel) return {start + row * static_cast<double>(present.front()), start + row * static_cast<double>(present.back() + 1), false};
+  if (!wheel)
+    return {start + row * static_cast<double>(present.front()), start + row * static_cast<double>(present.back() + 1),
+            false};
   // the widest gap round the wheel
   double widest = row * static_cast<double>(present.front() + rows - present.back());
   std::size_t from = present.back(), to = present.front() + rows;
@@ -89,8 +93,8 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
 
 }  // namespace
 
-Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const Pose& X_CS, const Section& section,
-                   const ProjectSettings& settings) {
+Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const Pose& X_CS,
+                   const Section& section, const ProjectSettings& settings) {
   const bool wheel = settings.body == Body::wheel;
   std::vector<float> a(points.size()), s(points.size()), d(points.size());
   std::vector<std::uint8_t> what(points.size(), kNotKept);
@@ -100,7 +104,8 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
       const Natural n = natural(settings.body, X_CS.apply_inverse(points[i]));
       const auto foot = section.foot({n.y, n.v}, settings.farthest);
       if (!foot) {
-        const bool beside = n.y < section.y_min() || n.y > section.y_max() || std::fabs(n.v - section.v_at(n.y)) < settings.farthest;
+        const bool beside =
+            n.y < section.y_min() || n.y > section.y_max() || std::fabs(n.v - section.v_at(n.y)) < settings.farthest;
         what[i] = beside ? kBeyond : kFar;
         continue;
       }
@@ -114,7 +119,8 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
   out.band = {settings.body, wheel ? settings.radius : 1.0, section, 0.0, 0.0, false};
   const auto on = static_cast<std::size_t>(std::count(what.begin(), what.end(), kOn));
   if (on < kFewestPoints)
-    throw Error(ErrorKind::input_data, fmt::format("only {} points lie on the running band", on), {}, "is it the right object? a band needs thousands of points");
+    throw Error(ErrorKind::input_data, fmt::format("only {} points lie on the running band", on), {},
+                "is it the right object? a band needs thousands of points");
   const Ends ends = ends_of(a, what, settings.body, settings.radius);
   out.band.a_min = ends.a_min;
   out.band.a_max = ends.a_max;
@@ -122,8 +128,11 @@ Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> k
 
   BandPoints& band = out.points;
   // whole numbers of coarse cells: four or more round a wheel, so that rows four apart never meet (see fit/)
-  const auto halvings = [&](double coarse) { return static_cast<std::size_t>(std::clamp(std::floor(std::log2(coarse / settings.finest) + 0.3), 0.0, 8.0)); };
-  double coarse_rows = std::max(1.0, std::round(ends.a_max - ends.a_min > 0.0 ? (ends.a_max - ends.a_min) / kCoarseA : 1.0));
+  const auto halvings = [&](double coarse) {
+    return static_cast<std::size_t>(std::clamp(std::floor(std::log2(coarse / settings.finest) + 0.3), 0.0, 8.0));
+  };
+  double coarse_rows =
+      std::max(1.0, std::round(ends.a_max - ends.a_min > 0.0 ? (ends.a_max - ends.a_min) / kCoarseA : 1.0));
   if (ends.closed) coarse_rows = std::max(4.0, 4.0 * std::round(coarse_rows / 4.0));
   const double coarse_columns = std::max(1.0, std::round(section.length() / kCoarseS));
   band.halvings_a = halvings(kCoarseA);

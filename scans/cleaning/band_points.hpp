@@ -12,14 +12,14 @@
 
 namespace treadmark::scans {
 
-/// The unrolled running band of a wheel or rail: a along the track or circumference (radius times theta) [m], s along the
-/// section [m]. d is the distance from the section along its normal, > 0 out of the material.
+/// The unrolled running band of a wheel or rail: a along the track or circumference (radius times theta) [m], s along
+/// the section [m]. d is the distance from the section along its normal, > 0 out of the material.
 struct Band {
   Body body = Body::rail;
-  double radius = 1.0;           ///< wheel: nominal radius, which turns angles into lengths; rail: 1
+  double radius = 1.0;  ///< wheel: nominal radius, which turns angles into lengths; rail: 1
   Section section;
   double a_min = 0.0, a_max = 0.0;
-  bool closed = false;           ///< a wheel all round: a_max is a_min again
+  bool closed = false;  ///< a wheel all round: a_max is a_min again
 
   double length() const { return a_max - a_min; }
 };
@@ -28,13 +28,14 @@ enum class PointState : std::uint8_t { used, held_out, outlier, off_band };
 
 /// Points on a band, sorted into even cells: row after row of equal a, in a row by s.
 struct BandPoints {
-  std::vector<float> a, s, d;            ///< a counts from the band's a_min
-  std::vector<std::uint32_t> index;      ///< in the cloud
+  std::vector<float> a, s, d;        ///< a counts from the band's a_min
+  std::vector<std::uint32_t> index;  ///< in the cloud
   std::vector<PointState> state;
-  std::size_t rows = 0, columns = 0;     ///< cells along a, along s
+  std::size_t rows = 0, columns = 0;  ///< cells along a, along s
   double cell_a = 0.0, cell_s = 0.0;
-  std::size_t halvings_a = 0, halvings_s = 0;   ///< of the coarsest intervals that splines begin with (fit/) down to cells
-  std::vector<std::uint32_t> begin;      ///< of cell row * columns + column; one more at the end
+  std::size_t halvings_a = 0,
+              halvings_s = 0;        ///< of the coarsest intervals that splines begin with (fit/) down to cells
+  std::vector<std::uint32_t> begin;  ///< of cell row * columns + column; one more at the end
 
   std::size_t size() const { return d.size(); }
   std::size_t first(std::size_t row, std::size_t column) const { return begin[row * columns + column]; }
@@ -52,14 +53,14 @@ struct Projection {
 struct ProjectSettings {
   Body body = Body::rail;
   double radius = 1.0;
-  double farthest = 8e-3;          ///< from the section, more than any damage is deep [m]
-  double finest = 1e-3;            ///< size that cells come near to [m]
+  double farthest = 8e-3;  ///< from the section, more than any damage is deep [m]
+  double finest = 1e-3;    ///< size that cells come near to [m]
 };
 
-/// points: [m] in the cloud's frame; keep: flags or empty. The ends of the band are where the points end; a wheel is closed
-/// unless they leave out more of the circumference than its lines are apart.
-/// Errors: Error(input_data) if fewer than 1000 points lie on the band.
-Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const Pose& X_CS, const Section& section,
-                   const ProjectSettings& settings);
+/// points: [m] in the cloud's frame; keep: flags or empty. The ends of the band are where the points end; a wheel is
+/// closed unless they leave out more of the circumference than its lines are apart. Errors: Error(input_data) if fewer
+/// than 1000 points lie on the band.
+Projection project(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const Pose& X_CS,
+                   const Section& section, const ProjectSettings& settings);
 
 }  // namespace treadmark::scans

@@ -9,11 +9,12 @@ namespace treadmark::scans {
 namespace {
 
 constexpr double kNever = 1e15;
-constexpr double kUsual = 0.8;   // part of the length; the rest may be holes
+constexpr double kUsual = 0.8;  // part of the length; the rest may be holes
 
 /// Squared distances along one line of cells: min over q of f(q) + (step (p - q))^2, by the lower envelope of parabolas
 /// (Felzenszwalb and Huttenlocher 2012).
-void distances(std::vector<double>& f, double step, std::vector<std::size_t>& v, std::vector<double>& z, std::vector<double>& out) {
+void distances(std::vector<double>& f, double step, std::vector<std::size_t>& v, std::vector<double>& z,
+               std::vector<double>& out) {
   const std::size_t n = f.size();
   v.assign(n, 0);
   z.assign(n + 1, 0.0);
@@ -97,7 +98,8 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
   out.limit = settings.hole_limit > 0.0 ? settings.hole_limit : std::max(kLimit, 2.0 * std::max(out.gap_a, out.gap_s));
 
   // squared distances to the nearest present cell; gaps up to the usual ones do not count as distance
-  const double scale_a = out.gap_a > 2.0 * out.gap_s ? out.gap_s / out.gap_a : 1.0, scale_s = out.gap_s > 2.0 * out.gap_a ? out.gap_a / out.gap_s : 1.0;
+  const double scale_a = out.gap_a > 2.0 * out.gap_s ? out.gap_s / out.gap_a : 1.0,
+               scale_s = out.gap_s > 2.0 * out.gap_a ? out.gap_a / out.gap_s : 1.0;
   const std::size_t around = band.closed ? std::min<std::size_t>(rows, 256) : 0;
   const auto transform = [&](double step_a, double step_s) {
     std::vector<double> squares(rows * columns), line, result, z;
@@ -118,10 +120,13 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
   };
   const std::vector<double> square = transform(scale_a * points.cell_a, scale_s * points.cell_s);
   // how wide a hole is counts in true lengths
-  const std::vector<double> unscaled = scale_a < 1.0 || scale_s < 1.0 ? transform(points.cell_a, points.cell_s) : std::vector<double>{};
+  const std::vector<double> unscaled =
+      scale_a < 1.0 || scale_s < 1.0 ? transform(points.cell_a, points.cell_s) : std::vector<double>{};
   const std::vector<double>& width = unscaled.empty() ? square : unscaled;
   const double usual = std::min(out.gap_a, out.gap_s);
-  const auto covered = [&](std::size_t cell) { return std::sqrt(square[cell]) <= 1.01 * std::max(usual, std::min(points.cell_a, points.cell_s)); };
+  const auto covered = [&](std::size_t cell) {
+    return std::sqrt(square[cell]) <= 1.01 * std::max(usual, std::min(points.cell_a, points.cell_s));
+  };
 
   // the usable width
   std::vector<double> part(columns, 0.0);
@@ -162,7 +167,9 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
           for (int dc = -1; dc <= 1; ++dc) {
             auto nr = static_cast<std::ptrdiff_t>(r) + dr;
             const auto nc = static_cast<std::ptrdiff_t>(c) + dc;
-            if (nc < static_cast<std::ptrdiff_t>(out.first_column) || nc >= static_cast<std::ptrdiff_t>(out.last_column)) continue;
+            if (nc < static_cast<std::ptrdiff_t>(out.first_column) ||
+                nc >= static_cast<std::ptrdiff_t>(out.last_column))
+              continue;
             if (nr < 0 || nr >= static_cast<std::ptrdiff_t>(rows)) {
               if (!band.closed) continue;
               nr = (nr + static_cast<std::ptrdiff_t>(rows)) % static_cast<std::ptrdiff_t>(rows);
@@ -182,7 +189,8 @@ Coverage find_coverage(const BandPoints& points, const Band& band, const Coverag
       if (out.open.empty()) out.open.assign(rows * columns, 0);
       for (const std::size_t cell : members) out.open[cell] = 1;
     }
-  std::stable_sort(out.holes.begin(), out.holes.end(), [](const Hole& x, const Hole& y) { return x.diameter > y.diameter; });
+  std::stable_sort(out.holes.begin(), out.holes.end(),
+                   [](const Hole& x, const Hole& y) { return x.diameter > y.diameter; });
   return out;
 }
 

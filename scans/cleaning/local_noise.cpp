@@ -14,13 +14,13 @@ namespace {
 
 constexpr double kWantedPoints = 60.0;
 constexpr int kWidestWindow = 6;
-constexpr std::size_t kMostPoints = 220;   // of the surroundings; evenly chosen from more
+constexpr std::size_t kMostPoints = 220;  // of the surroundings; evenly chosen from more
 constexpr int kAbsolute = 3, kBiweight = 4;
 constexpr double kTukey = 4.685, kMad = 1.4826;
 constexpr std::size_t kUnknowns = 6, kFewestSamples = 2 * kUnknowns;
 constexpr int kMostWindow = 48;
 constexpr double kMostLeverage = 0.9;
-constexpr double kCalm = 3.5;   // standard deviations
+constexpr double kCalm = 3.5;  // standard deviations
 constexpr std::size_t kMany = 48;
 
 struct Sample {
@@ -32,8 +32,10 @@ struct Scratch {
   std::vector<float> sizes;
 };
 
-/// Points of the cells up to window cells from one, in coordinates that run from -1 to 1; evenly chosen if there are many.
-void gather(const BandPoints& points, const Band& band, std::size_t row, int column, int window, std::vector<Sample>& samples) {
+/// Points of the cells up to window cells from one, in coordinates that run from -1 to 1; evenly chosen if there are
+/// many.
+void gather(const BandPoints& points, const Band& band, std::size_t row, int column, int window,
+            std::vector<Sample>& samples) {
   const auto rows = static_cast<std::ptrdiff_t>(points.rows), columns = static_cast<std::ptrdiff_t>(points.columns);
   const double a0 = points.cell_a * (static_cast<double>(row) + 0.5), s0 = points.cell_s * (column + 0.5);
   const double reach_a = points.cell_a * (window + 0.5), reach_s = points.cell_s * (window + 0.5);
@@ -50,15 +52,18 @@ void gather(const BandPoints& points, const Band& band, std::size_t row, int col
         wrap = r < 0 ? -band.length() : band.length();
         r = (r + rows) % rows;
       }
-      const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, column - window)), last = static_cast<std::size_t>(std::min<std::ptrdiff_t>(columns - 1, column + window));
-      const std::size_t from = points.first(static_cast<std::size_t>(r), first), to = points.begin[static_cast<std::size_t>(r) * points.columns + last + 1];
+      const auto first = static_cast<std::size_t>(std::max<std::ptrdiff_t>(0, column - window)),
+                 last = static_cast<std::size_t>(std::min<std::ptrdiff_t>(columns - 1, column + window));
+      const std::size_t from = points.first(static_cast<std::size_t>(r), first),
+                        to = points.begin[static_cast<std::size_t>(r) * points.columns + last + 1];
       if (pass == 0) {
         all += to - from;
         continue;
       }
       for (std::size_t i = from; i < to; ++i)
         if (number++ % stride == 0)
-          samples.push_back({static_cast<float>((points.a[i] + wrap - a0) / reach_a), static_cast<float>((points.s[i] - s0) / reach_s), points.d[i]});
+          samples.push_back({static_cast<float>((points.a[i] + wrap - a0) / reach_a),
+                             static_cast<float>((points.s[i] - s0) / reach_s), points.d[i]});
     }
   }
 }
@@ -108,8 +113,10 @@ double fit_window(Scratch& scratch, Vec6& c, Mat6& inverse, double least) {
     const auto middle = scratch.sizes.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
     std::nth_element(scratch.sizes.begin(), middle, scratch.sizes.end());
     scale = std::max(kMad * static_cast<double>(*middle), least);
-    // nothing stands out of many: weights would change next to nothing; among few a wild point hides behind the scatter that it makes
-    const bool clean = round == 0 && samples.size() >= kMany && *std::max_element(middle, scratch.sizes.end()) < kCalm * scale;
+    // nothing stands out of many: weights would change next to nothing; among few a wild point hides behind the scatter
+    // that it makes
+    const bool clean =
+        round == 0 && samples.size() >= kMany && *std::max_element(middle, scratch.sizes.end()) < kCalm * scale;
     if (clean || round + 1 == kAbsolute + kBiweight) {
       inverse = factor.solve(Mat6::Identity());
       break;
@@ -129,7 +136,8 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
   std::size_t filled = 0;
   for (std::size_t k = 0; k + 1 < points.begin.size(); ++k) filled += points.begin[k + 1] > points.begin[k] ? 1 : 0;
   const double per_cell = static_cast<double>(points.size()) / static_cast<double>(std::max<std::size_t>(filled, 1));
-  out.window = std::clamp(static_cast<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
+  out.window =
+      std::clamp(static_cast<int>(std::ceil(0.5 * (std::sqrt(kWantedPoints / per_cell) - 1.0))), 1, kWidestWindow);
   const auto columns = static_cast<int>(points.columns);
   std::vector<float> of_cell(points.begin.size() - 1, -1.0f);
   std::vector<std::size_t> outliers(points.rows, 0), spared(points.rows, 0), isolated(points.rows, 0);
@@ -137,13 +145,15 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
     Scratch scratch;
     std::vector<float> residuals;
     for (int column = 0; column < columns; ++column) {
-      const std::size_t own = points.first(row, static_cast<std::size_t>(column)), own_end = points.begin[row * points.columns + static_cast<std::size_t>(column) + 1];
+      const std::size_t own = points.first(row, static_cast<std::size_t>(column)),
+                        own_end = points.begin[row * points.columns + static_cast<std::size_t>(column) + 1];
       if (own == own_end) continue;
       const double a0 = points.cell_a * (static_cast<double>(row) + 0.5), s0 = points.cell_s * (column + 0.5);
       // where points are sparse the surroundings are wider
       int window = out.window;
       gather(points, band, row, column, window, scratch.samples);
-      while (scratch.samples.size() < kFewestSamples && window < kMostWindow) gather(points, band, row, column, window *= 2, scratch.samples);
+      while (scratch.samples.size() < kFewestSamples && window < kMostWindow)
+        gather(points, band, row, column, window *= 2, scratch.samples);
       if (scratch.samples.size() < kFewestSamples) {
         for (std::size_t i = own; i < own_end; ++i) points.state[i] = PointState::outlier;
         isolated[row] += own_end - own;
@@ -156,8 +166,10 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
       of_cell[row * points.columns + static_cast<std::size_t>(column)] = static_cast<float>(sigma);
       if (!(settings.outlier_factor > 0.0)) continue;
       const double limit = std::max(settings.outlier_factor * sigma, settings.least_outlier);
-      const auto beyond = static_cast<std::size_t>(std::count_if(scratch.sizes.begin(), scratch.sizes.end(), [&](float size) { return size > limit; }));
-      const bool edge = static_cast<double>(beyond) > settings.most_flagged * static_cast<double>(scratch.samples.size());
+      const auto beyond = static_cast<std::size_t>(
+          std::count_if(scratch.sizes.begin(), scratch.sizes.end(), [&](float size) { return size > limit; }));
+      const bool edge =
+          static_cast<double>(beyond) > settings.most_flagged * static_cast<double>(scratch.samples.size());
       for (std::size_t i = own; i < own_end; ++i) {
         const Vec6 t = terms((points.a[i] - a0) / reach_a, (points.s[i] - s0) / reach_s);
         // a lone point draws the quadratic to itself: judged by what the others say of it (Cook and Weisberg 1982)

@@ -14,7 +14,7 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kCell = 4e-3;              // cells in which passes are compared [m]
+constexpr double kCell = 4e-3;  // cells in which passes are compared [m]
 constexpr std::size_t kFewestInCell = 5;
 constexpr double kTukey = 4.685, kMad = 1.4826;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
@@ -23,7 +23,7 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 struct Level {
   std::size_t pass;  // number in the list of passes
   double d;
-  Vec6 change;       // of d by shift and turn about the middle of the pass
+  Vec6 change;  // of d by shift and turn about the middle of the pass
 };
 
 double median_of(std::vector<float>& values) {
@@ -62,7 +62,8 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
   // cells of a few of the points' cells
   const auto stride_a = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kCell / points.cell_a)));
   const auto stride_s = std::max<std::size_t>(1, static_cast<std::size_t>(std::lround(kCell / points.cell_s)));
-  const std::size_t rows = (points.rows + stride_a - 1) / stride_a, columns = (points.columns + stride_s - 1) / stride_s;
+  const std::size_t rows = (points.rows + stride_a - 1) / stride_a,
+                    columns = (points.columns + stride_s - 1) / stride_s;
   std::vector<std::vector<Level>> levels(rows * columns);
   parallel_for(rows, [&](std::size_t row) {
     std::vector<std::vector<float>> d(out.passes.size());
@@ -70,15 +71,18 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
       for (auto& list : d) list.clear();
       for (std::size_t r = row * stride_a; r < std::min(points.rows, (row + 1) * stride_a); ++r) {
         const std::size_t last = std::min(points.columns, (column + 1) * stride_s);
-        for (std::size_t i = points.first(r, column * stride_s); i < points.begin[r * points.columns + last]; ++i) d[pass_of[i]].push_back(points.d[i]);
+        for (std::size_t i = points.first(r, column * stride_s); i < points.begin[r * points.columns + last]; ++i)
+          d[pass_of[i]].push_back(points.d[i]);
       }
-      const auto seen = std::count_if(d.begin(), d.end(), [](const auto& list) { return list.size() >= kFewestInCell; });
+      const auto seen =
+          std::count_if(d.begin(), d.end(), [](const auto& list) { return list.size() >= kFewestInCell; });
       if (seen < 2) continue;
       const double a = points.cell_a * static_cast<double>(stride_a) * (static_cast<double>(row) + 0.5);
       const double s = points.cell_s * static_cast<double>(stride_s) * (static_cast<double>(column) + 0.5);
       const Section::Point at = band.section.at(s);
       const double u = (band.a_min + a) / band.radius;
-      const Vec3 p = from_natural(band.body, {u, at.position.x(), at.position.y()}), n = direction(band.body, u, at.normal);
+      const Vec3 p = from_natural(band.body, {u, at.position.x(), at.position.y()}),
+                 n = direction(band.body, u, at.normal);
       for (std::size_t k = 0; k < d.size(); ++k) {
         if (d[k].size() < kFewestInCell) continue;
         Level level{k, median_of(d[k]), {}};
@@ -137,7 +141,8 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
         const auto at_k = static_cast<Eigen::Index>(6 * cell[k].pass);
         rhs.segment<6>(at_k) -= w * r[k] * cell[k].change;
         for (std::size_t m = 0; m < cell.size(); ++m)
-          matrix.block<6, 6>(at_k, static_cast<Eigen::Index>(6 * cell[m].pass)) += w * ((k == m ? 1.0 : 0.0) - share) * cell[k].change * cell[m].change.transpose();
+          matrix.block<6, 6>(at_k, static_cast<Eigen::Index>(6 * cell[m].pass)) +=
+              w * ((k == m ? 1.0 : 0.0) - share) * cell[k].change * cell[m].change.transpose();
       }
     }
     // 1 mm of shift and 1 mm at 0.1 m of turn weigh alike; what no overlap determines stays
@@ -149,7 +154,8 @@ PassSteps find_pass_steps(const BandPoints& points, const Band& band, std::span<
     Eigen::VectorXd step = Eigen::VectorXd::Zero(size);
     constexpr double kDetermined = 1e-4;
     for (Eigen::Index k = 0; k < size; ++k)
-      if (eigen.eigenvalues()[k] > kDetermined * eigen.eigenvalues()[size - 1]) step += eigen.eigenvectors().col(k) * (turned[k] / eigen.eigenvalues()[k]);
+      if (eigen.eigenvalues()[k] > kDetermined * eigen.eigenvalues()[size - 1])
+        step += eigen.eigenvectors().col(k) * (turned[k] / eigen.eigenvalues()[k]);
     step = unit.asDiagonal() * step;
     motion += step;
     if (step.norm() < 1e-9) break;
@@ -176,7 +182,8 @@ void apply(const PassSteps& steps, std::span<const std::uint16_t> passes, const 
   }
   constexpr std::size_t kBlock = 65536;
   parallel_for((points.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
-    for (std::size_t i = kBlock * block; i < std::min(points.size(), kBlock * (block + 1)); ++i) points[i] = motion[passes[i]].apply(points[i]);
+    for (std::size_t i = kBlock * block; i < std::min(points.size(), kBlock * (block + 1)); ++i)
+      points[i] = motion[passes[i]].apply(points[i]);
   });
 }
 

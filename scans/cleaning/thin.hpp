@@ -11,10 +11,11 @@
 
 namespace treadmark::scans {
 
-/// Points thinned to one a cube, for algorithms that cost much a point. What is found of a cube holds for all its points.
+/// Points thinned to one a cube, for algorithms that cost much a point. What is found of a cube holds for all its
+/// points.
 struct ThinnedPoints {
   Voxels voxels;
-  std::vector<Vec3> position;   ///< mean of the cube's points
+  std::vector<Vec3> position;  ///< mean of the cube's points
 };
 
 ThinnedPoints thin(std::span<const Vec3> points, const Vec3& origin, double size);

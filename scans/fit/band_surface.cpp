@@ -35,7 +35,8 @@ Profile ordered(Body body, std::vector<double> y, std::vector<double> z, std::st
 std::vector<double> nodes_across(const FittedBand& fitted, double spacing) {
   const auto steps = static_cast<std::size_t>(std::max(4.0, std::ceil((fitted.s_max - fitted.s_min) / spacing)));
   std::vector<double> out(steps + 1);
-  for (std::size_t k = 0; k <= steps; ++k) out[k] = fitted.s_min + (fitted.s_max - fitted.s_min) * static_cast<double>(k) / static_cast<double>(steps);
+  for (std::size_t k = 0; k <= steps; ++k)
+    out[k] = fitted.s_min + (fitted.s_max - fitted.s_min) * static_cast<double>(k) / static_cast<double>(steps);
   return out;
 }
 
@@ -68,7 +69,9 @@ SliceSet to_slices(const FittedBand& fitted, double spacing, double tolerance, s
     if (k == count && band.closed) break;
     // fine steps on both sides of a station that needs them
     double step = kFarthest;
-    for (const double beside : {a - 0.5 * finest, a + 0.5 * finest}) step = std::min(step, fitted.field.finest_knot_a(band.closed ? beside : std::clamp(beside, 0.0, band.length()), tolerance));
+    for (const double beside : {a - 0.5 * finest, a + 0.5 * finest})
+      step = std::min(
+          step, fitted.field.finest_knot_a(band.closed ? beside : std::clamp(beside, 0.0, band.length()), tolerance));
     const auto stride = static_cast<std::size_t>(std::max(1.0, std::floor(step / finest + 1e-6)));
     std::size_t power = 1;
     while (2 * power <= stride) power *= 2;
@@ -121,7 +124,8 @@ Profile section_profile(const FittedBand& fitted, double nominal_radius, double 
   return ordered(fitted.band.body, std::move(y), std::move(z), std::move(name));
 }
 
-std::vector<Vec2> triangle_nodes(const FittedBand& fitted, const BandPoints& points, std::span<const std::uint8_t> open, double spacing) {
+std::vector<Vec2> triangle_nodes(const FittedBand& fitted, const BandPoints& points, std::span<const std::uint8_t> open,
+                                 double spacing) {
   // rows along a; every second column half a step further, sides of triangles a little below spacing
   const double side = 0.866 * spacing;
   const double length = fitted.band.length(), width = fitted.s_max - fitted.s_min;
@@ -131,7 +135,8 @@ std::vector<Vec2> triangle_nodes(const FittedBand& fitted, const BandPoints& poi
   std::vector<Vec2> out;
   const auto add = [&](double a, double s) {
     if (!open.empty()) {
-      const auto row = std::min(points.rows - 1, static_cast<std::size_t>(a / points.cell_a)), column = std::min(points.columns - 1, static_cast<std::size_t>(s / points.cell_s));
+      const auto row = std::min(points.rows - 1, static_cast<std::size_t>(a / points.cell_a)),
+                 column = std::min(points.columns - 1, static_cast<std::size_t>(s / points.cell_s));
       if (open[row * points.columns + column] != 0) return;
     }
     out.emplace_back(a, s);
@@ -140,7 +145,8 @@ std::vector<Vec2> triangle_nodes(const FittedBand& fitted, const BandPoints& poi
     const double s = fitted.s_min + width * static_cast<double>(j) / static_cast<double>(across);
     const bool odd = j % 2 == 1;
     if (odd && !fitted.band.closed) add(0.0, s);
-    for (std::size_t i = 0; i < along + (fitted.band.closed || odd ? 0 : 1); ++i) add(step * (static_cast<double>(i) + (odd ? 0.5 : 0.0)), s);
+    for (std::size_t i = 0; i < along + (fitted.band.closed || odd ? 0 : 1); ++i)
+      add(step * (static_cast<double>(i) + (odd ? 0.5 : 0.0)), s);
     if (odd && !fitted.band.closed) add(length, s);
   }
   return out;

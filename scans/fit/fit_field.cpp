@@ -28,7 +28,8 @@ double neighbour_correlation(const BandPoints& points, const std::vector<float>&
     for (std::size_t column = 0; column < points.columns; column += kSide) {
       double sum = 0.0, square = 0.0, n = 0.0;
       for (std::size_t row = kSide * block; row < std::min(points.rows, kSide * (block + 1)); ++row)
-        for (std::size_t i = points.first(row, column); i < points.begin[row * points.columns + std::min(points.columns, column + kSide)]; ++i) {
+        for (std::size_t i = points.first(row, column);
+             i < points.begin[row * points.columns + std::min(points.columns, column + kSide)]; ++i) {
           if (points.state[i] != PointState::used) continue;
           sum += residual[i];
           square += static_cast<double>(residual[i]) * residual[i];
@@ -49,7 +50,8 @@ double neighbour_correlation(const BandPoints& points, const std::vector<float>&
 
 }  // namespace
 
-FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings, const Progress& progress) {
+FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& noise, const FitSettings& settings,
+                    const Progress& progress) {
   FitResult out{SplineField(band.length(), band.section.length(), band.closed), {}, {}, 0, 0, 0.0, 0.0, 0.0};
   std::vector<float> weight(points.size(), 0.0f);
   out.residual = points.d;
@@ -76,13 +78,16 @@ FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& nois
   std::vector<Size> sizes;
   for (std::size_t a = 0; a <= most_a; ++a)
     for (std::size_t s = 0; s <= most_s; ++s) {
-      const double knot_a = points.cell_a * static_cast<double>(std::size_t{1} << (most_a - a)), knot_s = points.cell_s * static_cast<double>(std::size_t{1} << (most_s - s));
+      const double knot_a = points.cell_a * static_cast<double>(std::size_t{1} << (most_a - a)),
+                   knot_s = points.cell_s * static_cast<double>(std::size_t{1} << (most_s - s));
       if ((a > 0 || s > 0) && (knot_a < 0.7 * finest || knot_s < 0.7 * finest)) continue;
       sizes.push_back({a, s});
     }
   std::stable_sort(sizes.begin(), sizes.end(), [](const Size& x, const Size& y) {
     const std::size_t sx = x.halvings_a + x.halvings_s, sy = y.halvings_a + y.halvings_s;
-    const auto skew = [](const Size& z) { return z.halvings_a > z.halvings_s ? z.halvings_a - z.halvings_s : z.halvings_s - z.halvings_a; };
+    const auto skew = [](const Size& z) {
+      return z.halvings_a > z.halvings_s ? z.halvings_a - z.halvings_s : z.halvings_s - z.halvings_a;
+    };
     return sx < sy || (sx == sy && skew(x) > skew(y));
   });
   const auto sweep = [&](double factor, bool first) {
@@ -118,12 +123,15 @@ FitResult fit_field(BandPoints& points, const Band& band, const LocalNoise& nois
     return sum;
   };
   sweep(settings.significance, true);
-  // what looks like noise to small surroundings may be a rough surface: follow it as long as the points that were held out agree
+  // what looks like noise to small surroundings may be a rough surface: follow it as long as the points that were held
+  // out agree
   double factor = settings.significance, best = held_out_square();
   constexpr double kFiner = 1.0 / 3.0, kBetter = 0.98;
   constexpr int kMostSweeps = 5;
   constexpr double kUnrelated = 0.02;
-  for (int again = 0; settings.follow && out.held_out >= kFewestHeldOut && again < kMostSweeps && neighbour_correlation(points, out.residual) > kUnrelated; ++again) {
+  for (int again = 0; settings.follow && out.held_out >= kFewestHeldOut && again < kMostSweeps &&
+                      neighbour_correlation(points, out.residual) > kUnrelated;
+       ++again) {
     factor *= kFiner;
     const std::size_t levels_before = out.field.levels().size(), reports_before = out.levels.size();
     const std::vector<float> residual_before = out.residual;

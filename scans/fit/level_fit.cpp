@@ -11,7 +11,8 @@
 namespace treadmark::scans {
 namespace {
 
-// Rows of intervals four apart share no function, so that every fourth can be summed at once and the order of sums is fixed.
+// Rows of intervals four apart share no function, so that every fourth can be summed at once and the order of sums is
+// fixed.
 constexpr std::size_t kColours = 4;
 constexpr float kClip = 4.0f;         // standard deviations
 constexpr std::size_t kStencil = 49;  // functions that overlap with one: 7 x 7
@@ -19,17 +20,21 @@ constexpr std::size_t kStencil = 49;  // functions that overlap with one: 7 x 7
 struct Geometry {
   std::size_t cells_a, cells_s;  // of the points, in one interval
 
-  Geometry(const BandPoints& points, const SplineLevel& level) : cells_a(points.rows / level.intervals_a), cells_s(points.columns / level.intervals_s) {}
+  Geometry(const BandPoints& points, const SplineLevel& level)
+      : cells_a(points.rows / level.intervals_a), cells_s(points.columns / level.intervals_s) {}
 };
 
 /// Calls visit(i, t_a, t_s) for the points of an interval.
 template <class Visit>
-void visit_points(const BandPoints& points, const SplineLevel& level, const Geometry& g, std::size_t ia, std::size_t is, const Visit& visit) {
+void visit_points(const BandPoints& points, const SplineLevel& level, const Geometry& g, std::size_t ia, std::size_t is,
+                  const Visit& visit) {
   const double a0 = level.knot_a * static_cast<double>(ia), s0 = level.knot_s * static_cast<double>(is);
   for (std::size_t r = ia * g.cells_a; r < (ia + 1) * g.cells_a; ++r) {
-    const std::size_t from = points.begin[r * points.columns + is * g.cells_s], to = points.begin[r * points.columns + (is + 1) * g.cells_s];
+    const std::size_t from = points.begin[r * points.columns + is * g.cells_s],
+                      to = points.begin[r * points.columns + (is + 1) * g.cells_s];
     for (std::size_t i = from; i < to; ++i)
-      visit(i, std::clamp((points.a[i] - a0) / level.knot_a, 0.0, 1.0), std::clamp((points.s[i] - s0) / level.knot_s, 0.0, 1.0));
+      visit(i, std::clamp((points.a[i] - a0) / level.knot_a, 0.0, 1.0),
+            std::clamp((points.s[i] - s0) / level.knot_s, 0.0, 1.0));
   }
 }
 
@@ -96,9 +101,11 @@ class NormalEquations {
     double trace = 0.0;
     for (std::size_t f = 0; f < functions_.size(); ++f) trace += matrix_[kStencil * f + kStencil / 2];
     constexpr double kLeastRidge = 1e-5;
-    const auto least = static_cast<float>(kLeastRidge * trace / static_cast<double>(std::max<std::size_t>(functions_.size(), 1)));
+    const auto least =
+        static_cast<float>(kLeastRidge * trace / static_cast<double>(std::max<std::size_t>(functions_.size(), 1)));
     for (std::size_t f = 0; f < functions_.size(); ++f)
-      matrix_[kStencil * f + kStencil / 2] += std::max(ridge.empty() ? 0.0f : ridge[functions_[f]], ridge.empty() ? least : 1e-3f * least);
+      matrix_[kStencil * f + kStencil / 2] +=
+          std::max(ridge.empty() ? 0.0f : ridge[functions_[f]], ridge.empty() ? least : 1e-3f * least);
   }
 
   LevelSolution solve(std::vector<double>& x) const {
@@ -155,10 +162,12 @@ class NormalEquations {
     return sum;
   }
 
-  void scatter(std::size_t ia, std::size_t is, const std::array<double, 136>& total, const std::array<double, 16>& right) {
+  void scatter(std::size_t ia, std::size_t is, const std::array<double, 136>& total,
+               const std::array<double, 16>& right) {
     std::array<std::int32_t, 16> at;
     for (std::size_t i = 0; i < 4; ++i)
-      for (std::size_t k = 0; k < 4; ++k) at[4 * i + k] = number_[level_.function_a(ia, i) * level_.functions_s() + is + k];
+      for (std::size_t k = 0; k < 4; ++k)
+        at[4 * i + k] = number_[level_.function_a(ia, i) * level_.functions_s() + is + k];
     for (std::size_t m = 0; m < 16; ++m) {
       if (at[m] < 0) continue;
       rhs_[static_cast<std::size_t>(at[m])] += right[m];
@@ -166,17 +175,20 @@ class NormalEquations {
         if (at[n] < 0) continue;
         const std::size_t high = std::max(m, n), low = std::min(m, n);
         const std::size_t place = (n / 4 + 3 - m / 4) * 7 + (n % 4 + 3 - m % 4);
-        matrix_[kStencil * static_cast<std::size_t>(at[m]) + place] += static_cast<float>(total[high * (high + 1) / 2 + low]);
+        matrix_[kStencil * static_cast<std::size_t>(at[m]) + place] +=
+            static_cast<float>(total[high * (high + 1) / 2 + low]);
       }
     }
   }
 
   void apply(const std::vector<double>& x, std::vector<double>& y) const {
-    const auto across = static_cast<std::ptrdiff_t>(level_.functions_s()), along = static_cast<std::ptrdiff_t>(level_.functions_a());
+    const auto across = static_cast<std::ptrdiff_t>(level_.functions_s()),
+               along = static_cast<std::ptrdiff_t>(level_.functions_a());
     constexpr std::size_t kBlock = 2048;
     parallel_for((functions_.size() + kBlock - 1) / kBlock, [&](std::size_t block) {
       for (std::size_t f = kBlock * block; f < std::min(functions_.size(), kBlock * (block + 1)); ++f) {
-        const auto ja = static_cast<std::ptrdiff_t>(functions_[f]) / across, js = static_cast<std::ptrdiff_t>(functions_[f]) % across;
+        const auto ja = static_cast<std::ptrdiff_t>(functions_[f]) / across,
+                   js = static_cast<std::ptrdiff_t>(functions_[f]) % across;
         const float* row = matrix_.data() + kStencil * f;
         double sum = 0.0;
         for (std::ptrdiff_t da = -3; da <= 3; ++da) {
@@ -185,7 +197,8 @@ class NormalEquations {
             if (!level_.closed) continue;
             ka = (ka + 2 * along) % along;
           }
-          const std::ptrdiff_t from = std::max<std::ptrdiff_t>(-3, -js), to = std::min<std::ptrdiff_t>(3, across - 1 - js);
+          const std::ptrdiff_t from = std::max<std::ptrdiff_t>(-3, -js),
+                               to = std::min<std::ptrdiff_t>(3, across - 1 - js);
           for (std::ptrdiff_t ds = from; ds <= to; ++ds)
             if (const std::int32_t other = number_[static_cast<std::size_t>(ka * across + js + ds)]; other >= 0)
               sum += row[(da + 3) * 7 + ds + 3] * x[static_cast<std::size_t>(other)];
@@ -204,7 +217,8 @@ class NormalEquations {
 
 }  // namespace
 
-FunctionSums sum_functions(const BandPoints& points, std::span<const float> residual, std::span<const float> weight, const SplineLevel& level) {
+FunctionSums sum_functions(const BandPoints& points, std::span<const float> residual, std::span<const float> weight,
+                           const SplineLevel& level) {
   FunctionSums out;
   for (auto* sums : {&out.wbr, &out.wbb, &out.points}) sums->assign(level.size(), 0.0);
   const Geometry g(points, level);
@@ -234,8 +248,8 @@ FunctionSums sum_functions(const BandPoints& points, std::span<const float> resi
   return out;
 }
 
-LevelSolution fit_level(const BandPoints& points, std::span<float> residual, std::span<const float> weight, std::span<const float> ridge,
-                        SplineLevel& level) {
+LevelSolution fit_level(const BandPoints& points, std::span<float> residual, std::span<const float> weight,
+                        std::span<const float> ridge, SplineLevel& level) {
   const NormalEquations equations(points, residual, weight, ridge, level);
   std::vector<double> x;
   const LevelSolution out = equations.solve(x);
@@ -247,7 +261,8 @@ LevelSolution fit_level(const BandPoints& points, std::span<float> residual, std
     for (std::size_t is = 0; is < level.intervals_s; ++is) {
       if (!equations.touches_active(ia, is)) continue;
       std::array<float, 16> c;
-      for (std::size_t m = 0; m < 16; ++m) c[m] = level.coefficient[level.function_a(ia, m / 4) * level.functions_s() + is + m % 4];
+      for (std::size_t m = 0; m < 16; ++m)
+        c[m] = level.coefficient[level.function_a(ia, m / 4) * level.functions_s() + is + m % 4];
       visit_points(points, level, g, ia, is, [&](std::size_t i, double ta, double ts) {
         const std::array<float, 16> b = products(ta, ts);
         float sum = 0.0f;

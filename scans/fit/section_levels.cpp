@@ -15,9 +15,9 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kStrip = 0.25e-3;    // [m]
-constexpr double kBlock = 16e-3;      // along the band, in which points are evened out [m]
-constexpr double kCoarsest = 32e-3;   // knots [m]
+constexpr double kStrip = 0.25e-3;   // [m]
+constexpr double kBlock = 16e-3;     // along the band, in which points are evened out [m]
+constexpr double kCoarsest = 32e-3;  // knots [m]
 constexpr double kTukey = 4.685, kMad = 1.4826;
 
 struct Strip {
@@ -75,7 +75,8 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
   const auto each_point = [&](const auto& visit) {
     for (std::size_t row = 0; row < points.rows; ++row)
       for (std::size_t i = points.first(row, 0); i < points.begin[(row + 1) * points.columns]; ++i)
-        if (points.state[i] != PointState::off_band) visit(row / block_rows, std::min(count - 1, static_cast<std::size_t>(points.s[i] / kStrip)), i);
+        if (points.state[i] != PointState::off_band)
+          visit(row / block_rows, std::min(count - 1, static_cast<std::size_t>(points.s[i] / kStrip)), i);
   };
   each_point([&](std::size_t block, std::size_t strip, std::size_t) { ++in_block[block * count + strip]; });
   std::vector<std::uint32_t> usual(count, 0), counts;
@@ -91,7 +92,8 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
   std::vector<std::uint32_t> number(in_block.size(), 0);
   each_point([&](std::size_t block, std::size_t strip, std::size_t i) {
     const std::size_t cell = block * count + strip;
-    if (number[cell]++ % (in_block[cell] / (2 * usual[strip]) + 1) == 0) inside[strip].push_back({points.s[i], points.d[i], 0.0});
+    if (number[cell]++ % (in_block[cell] / (2 * usual[strip]) + 1) == 0)
+      inside[strip].push_back({points.s[i], points.d[i], 0.0});
   });
   std::vector<Strip> strips(count);
   parallel_for(count, [&](std::size_t k) { strips[k] = strip_of(inside[k]); });
@@ -102,7 +104,8 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
   std::vector<double> residual(count);
   for (std::size_t k = 0; k < count; ++k) residual[k] = strips[k].d;
   auto intervals = static_cast<std::size_t>(std::max(1.0, std::round(length / kCoarsest)));
-  // beside the noise of the points there is what they are off in company along the whole band, which no number of them averages out
+  // beside the noise of the points there is what they are off in company along the whole band, which no number of them
+  // averages out
   constexpr double kSystematic = 0.05e-6;
   for (; length / static_cast<double>(intervals) > 0.7 * std::max(finest, 4.0 * kStrip); intervals *= 2) {
     const double knot = length / static_cast<double>(intervals);
@@ -114,14 +117,16 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
         if (!(strips[k].weight > 0.0)) continue;
         const double at = std::clamp(strips[k].s / knot, 0.0, static_cast<double>(intervals));
         const auto interval = std::min(intervals - 1, static_cast<std::size_t>(at));
-        body(k, static_cast<Eigen::Index>(interval), cubic_basis(at - static_cast<double>(interval)), 1.0 / (1.0 / strips[k].weight + kSystematic * kSystematic));
+        body(k, static_cast<Eigen::Index>(interval), cubic_basis(at - static_cast<double>(interval)),
+             1.0 / (1.0 / strips[k].weight + kSystematic * kSystematic));
       }
     };
     each([&](std::size_t k, Eigen::Index first, const std::array<double, 4>& b, double w) {
       for (Eigen::Index i = 0; i < 4; ++i) {
         wbr[first + i] += w * b[static_cast<std::size_t>(i)] * residual[k];
         wbb[first + i] += w * b[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(i)];
-        for (Eigen::Index j = 0; j < 4; ++j) matrix(first + i, first + j) += w * b[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
+        for (Eigen::Index j = 0; j < 4; ++j)
+          matrix(first + i, first + j) += w * b[static_cast<std::size_t>(i)] * b[static_cast<std::size_t>(j)];
       }
     });
     // chosen: beyond what the largest of so many normal numbers reaches, with its neighbours
@@ -133,7 +138,8 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
       chosen += 1.0;
       signal += wbr[f] * wbr[f] / wbb[f] - 1.0;
       seen += wbb[f];
-      for (Eigen::Index g = std::max<Eigen::Index>(0, f - 2); g <= std::min(size - 1, f + 2); ++g) active[static_cast<std::size_t>(g)] = true;
+      for (Eigen::Index g = std::max<Eigen::Index>(0, f - 2); g <= std::min(size - 1, f + 2); ++g)
+        active[static_cast<std::size_t>(g)] = true;
     }
     if (chosen == 0.0) continue;
     const double ridge = 0.01 * seen / signal;

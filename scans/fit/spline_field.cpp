@@ -49,7 +49,8 @@ double SplineField::finest_knot_a(double a, double tolerance) const {
     const Place pa = place(a, level.knot_a, level.intervals_a);
     for (std::size_t i = 0; i < 4 && level.knot_a < finest; ++i) {
       const float* row = level.coefficient.data() + level.function_a(pa.interval, i) * level.functions_s();
-      if (std::any_of(row, row + level.functions_s(), [&](float c) { return std::fabs(c) > tolerance; })) finest = level.knot_a;
+      if (std::any_of(row, row + level.functions_s(), [&](float c) { return std::fabs(c) > tolerance; }))
+        finest = level.knot_a;
     }
   }
   return finest;

@@ -9,8 +9,8 @@
 
 namespace treadmark::scans {
 
-/// Where a point lies on a wheel or rail: u round the wheel [rad] or along the rail [m], y across, v out of the material (the
-/// radius, or -z).
+/// Where a point lies on a wheel or rail: u round the wheel [rad] or along the rail [m], y across, v out of the
+/// material (the radius, or -z).
 struct Natural {
   double u = 0.0, y = 0.0, v = 0.0;
 };

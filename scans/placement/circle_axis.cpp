@@ -15,7 +15,7 @@ namespace treadmark::scans {
 namespace {
 
 constexpr std::size_t kStrips = 24, kFewest = 12;
-constexpr double kFlat = 0.25;     // least to middle variance of a wheel's points
+constexpr double kFlat = 0.25;  // least to middle variance of a wheel's points
 constexpr int kRounds = 12;
 
 double median_of(std::vector<double>& values) {
@@ -63,7 +63,8 @@ double radius_scatter(std::span<const Vec3> points, const Axis& axis, double ext
   return scatters.empty() ? extent : median_of(scatters);
 }
 
-std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const SurfaceElements& elements) {
+std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<const std::uint8_t> keep,
+                                     const SurfaceElements& elements) {
   // one point a cube, so that dense parts do not count more
   const Voxels voxels(points, elements.centre, elements.radius / 80.0, keep);
   std::vector<double> counts;
@@ -72,7 +73,8 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
   const double fewest = counts.empty() ? 0.0 : 0.2 * median_of(counts);
   std::vector<Vec3> thinned;
   for (std::size_t v = 0; v < voxels.count(); ++v)
-    if (static_cast<double>(voxels.points_of(v).size()) >= fewest) thinned.push_back(points[voxels.points_of(v).front()]);
+    if (static_cast<double>(voxels.points_of(v).size()) >= fewest)
+      thinned.push_back(points[voxels.points_of(v).front()]);
   std::erase_if(thinned, [&](const Vec3& p) { return (p - elements.centre).norm() > 1.5 * elements.radius; });
   if (thinned.size() < 10 * kFewest) return std::nullopt;
   Vec3 mean = Vec3::Zero();
@@ -132,7 +134,9 @@ std::optional<RoughAxis> circle_axis(std::span<const Vec3> points, std::span<con
         break;
       }
       std::vector<double> off;
-      const auto distance = [&](const Vec3& c) { return std::hypot(c.x() - line(0, 0) - c.z() * line(1, 0), c.y() - line(0, 1) - c.z() * line(1, 1)); };
+      const auto distance = [&](const Vec3& c) {
+        return std::hypot(c.x() - line(0, 0) - c.z() * line(1, 0), c.y() - line(0, 1) - c.z() * line(1, 1));
+      };
       for (const Vec3& c : centres) off.push_back(distance(c));
       const double limit = 4.0 * median_of(off) + 1e-9 * elements.radius;
       std::erase_if(centres, [&](const Vec3& c) { return distance(c) > limit; });

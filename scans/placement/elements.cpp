@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -19,8 +19,8 @@ constexpr std::size_t kFewestPoints = 100;
 constexpr double kWantedPerVoxel = 30.0;
 constexpr std::size_t kMostVoxels = 250'000;
 constexpr std::size_t kFewestInSurroundings = 8;
-constexpr double kFlat = 0.03;      // least to middle eigenvalue
-constexpr double kBroad = 0.05;     // middle to greatest eigenvalue: no line
+constexpr double kFlat = 0.03;   // least to middle eigenvalue
+constexpr double kBroad = 0.05;  // middle to greatest eigenvalue: no line
 constexpr double kEnoughFlat = 0.85;
 constexpr double kLeastFlat = 0.25;
 constexpr double kClearGain = 0.08;
@@ -101,18 +101,24 @@ SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, 
   out.flat_part = all > 0.0 ? flat / all : 0.0;
   // a plane cuts about 1.5 cubes for each face area of a cube
   constexpr double kCubesPerFace = 1.5;
-  if (flat > 0.0) out.spacing = voxels.size() * std::sqrt(static_cast<double>(out.position.size()) / kCubesPerFace / flat);
+  if (flat > 0.0)
+    out.spacing = voxels.size() * std::sqrt(static_cast<double>(out.position.size()) / kCubesPerFace / flat);
   return out;
 }
 
 }  // namespace
 
 SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std::uint8_t> keep) {
-  const auto kept = keep.empty() ? points.size() : static_cast<std::size_t>(std::count_if(keep.begin(), keep.end(), [](auto k) { return k != 0; }));
+  const auto kept =
+      keep.empty() ? points.size()
+                   : static_cast<std::size_t>(std::count_if(keep.begin(), keep.end(), [](auto k) { return k != 0; }));
   if (kept < kFewestPoints)
-    throw Error(ErrorKind::input_data, fmt::format("{} points are too few to find a surface in them", kept), {}, "a scan has thousands of points");
+    throw Error(ErrorKind::input_data, fmt::format("{} points are too few to find a surface in them", kept), {},
+                "a scan has thousands of points");
   const Extent extent = extent_of(points, keep);
-  if (!(extent.radius > 0.0)) throw Error(ErrorKind::input_data, "nearly all points of the scan lie at one place", {}, "are the columns of the file the coordinates?");
+  if (!(extent.radius > 0.0))
+    throw Error(ErrorKind::input_data, "nearly all points of the scan lie at one place", {},
+                "are the columns of the file the coordinates?");
 
   // points in a cube grow with its face: from one look to the wanted number
   double size = extent.radius / 100.0;
@@ -143,8 +149,10 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
     if (best.flat_part > kEnoughFlat) break;
   }
   if (best.flat_part < kLeastFlat || best.position.size() < 20)
-    throw Error(ErrorKind::input_data, fmt::format("the points do not form a surface: only {:.0f} % of them lie in flat surroundings", 100.0 * best.flat_part), {},
-                "is this the right file? remove everything that is not the wheel or rail");
+    throw Error(ErrorKind::input_data,
+                fmt::format("the points do not form a surface: only {:.0f} % of them lie in flat surroundings",
+                            100.0 * best.flat_part),
+                {}, "is this the right file? remove everything that is not the wheel or rail");
   return best;
 }
 

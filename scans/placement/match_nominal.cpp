@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -18,8 +18,8 @@ namespace {
 constexpr double kTukey = 4.685;
 constexpr double kMad = 1.4826;
 constexpr double kLeastOverlap = 0.5;
-constexpr double kCoarseStep = 2e-3;   // of the lateral positions that are tried [m]
-constexpr double kAlike = 4e-3;        // sections that differ more at their better half are of other things [m]
+constexpr double kCoarseStep = 2e-3;  // of the lateral positions that are tried [m]
+constexpr double kAlike = 4e-3;       // sections that differ more at their better half are of other things [m]
 
 double median_of(std::vector<double>& values) {
   const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
@@ -54,7 +54,8 @@ Trial try_shifts(const std::vector<Vec2>& points, const Section& nominal) {
     if (overlap < kLeastOverlap * shorter) continue;
     apart.clear();
     for (const Vec2& p : points)
-      if (const double y = p.x() + dy; y > nominal.y_min() && y < nominal.y_max()) apart.push_back(nominal.v_at(y) - p.y());
+      if (const double y = p.x() + dy; y > nominal.y_min() && y < nominal.y_max())
+        apart.push_back(nominal.v_at(y) - p.y());
     if (apart.size() < 10) continue;
     const double level = median_of(apart);
     rest = apart;
@@ -62,13 +63,16 @@ Trial try_shifts(const std::vector<Vec2>& points, const Section& nominal) {
     // the better half decides on a worn profile; the mean over the rest settles which of similar places is meant
     double mean = 0.0;
     for (const double r : rest) mean += std::min(r, 10e-3);
-    const double score = (median_of(rest) + 0.3 * mean / static_cast<double>(rest.size())) * std::pow(shorter / overlap, 2);
+    const double score =
+        (median_of(rest) + 0.3 * mean / static_cast<double>(rest.size())) * std::pow(shorter / overlap, 2);
     if (score < best.score) best = {score, level, dy};
   }
   return best;
 }
 
-Vec2 rolled(double roll, const Vec2& p) { return {std::cos(roll) * p.x() + std::sin(roll) * p.y(), -std::sin(roll) * p.x() + std::cos(roll) * p.y()}; }
+Vec2 rolled(double roll, const Vec2& p) {
+  return {std::cos(roll) * p.x() + std::sin(roll) * p.y(), -std::sin(roll) * p.x() + std::cos(roll) * p.y()};
+}
 
 }  // namespace
 
@@ -103,7 +107,8 @@ SectionMatch match_nominal(const Section& measured, const Section& nominal, Body
   for (const Start& s : starts)
     if (s.trial.score < (s.turned && !best->turned ? kClearlyBetter : 1.0) * best->trial.score) best = &s;
   if (!(best->trial.score < 1e299))
-    throw Error(ErrorKind::input_data, "the scanned section and the nominal profile do not overlap", {}, "choose another nominal profile, or none");
+    throw Error(ErrorKind::input_data, "the scanned section and the nominal profile do not overlap", {},
+                "choose another nominal profile, or none");
 
   SectionMatch out;
   out.turned = best->turned;
@@ -152,11 +157,14 @@ SectionMatch match_nominal(const Section& measured, const Section& nominal, Body
   out.beside = 1.0 - near / static_cast<double>(points.size());
   constexpr double kMostBeside = 0.3;
   if (out.beside > kMostBeside && near >= 10.0)
-    throw Error(ErrorKind::input_data, fmt::format("{:.0f} % of the scanned section lie more than 5 mm beside the nominal profile", 100.0 * out.beside), {},
-                "is it the right object, body and unit? choose another nominal profile, or none");
+    throw Error(ErrorKind::input_data,
+                fmt::format("{:.0f} % of the scanned section lie more than 5 mm beside the nominal profile",
+                            100.0 * out.beside),
+                {}, "is it the right object, body and unit? choose another nominal profile, or none");
   if (near < 10.0 || out.overlap < 0.4 || out.residual > kAlike)
     throw Error(ErrorKind::input_data,
-                fmt::format("the scanned section does not look like the nominal profile: over {:.0f} % of it they lie {:.1f} mm apart (robust deviation)",
+                fmt::format("the scanned section does not look like the nominal profile: over {:.0f} % of it they lie "
+                            "{:.1f} mm apart (robust deviation)",
                             100.0 * out.overlap, 1e3 * out.residual),
                 {}, "is it the right object, body and unit? choose another nominal profile, or none");
   return out;

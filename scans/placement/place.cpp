@@ -64,14 +64,19 @@ Vec3 outwards(const RoughPlace& roughly) {
 }
 
 /// Turns the frame round its z axis by half a turn.
-Pose turned(const Pose& X_CS) { return X_CS * Pose{Vec3::Zero(), Mat3(Eigen::DiagonalMatrix<double, 3>(-1.0, -1.0, 1.0))}; }
+Pose turned(const Pose& X_CS) {
+  return X_CS * Pose{Vec3::Zero(), Mat3(Eigen::DiagonalMatrix<double, 3>(-1.0, -1.0, 1.0))};
+}
 
 /// Where few points have flat surroundings: by normals or by circles, whichever gathers the radii better.
-RoughAxis sparse_revolution(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const SurfaceElements& elements) {
+RoughAxis sparse_revolution(std::span<const Vec3> points, std::span<const std::uint8_t> keep,
+                            const SurfaceElements& elements) {
   const std::optional<RoughAxis> circles = circle_axis(points, keep, elements);
   try {
     const RoughAxis normals = rough_revolution(elements);
-    if (!circles || radius_scatter(points, normals.axis, elements.radius) < radius_scatter(points, circles->axis, elements.radius)) return normals;
+    if (!circles ||
+        radius_scatter(points, normals.axis, elements.radius) < radius_scatter(points, circles->axis, elements.radius))
+      return normals;
   } catch (const Error&) {
     if (!circles) throw;
   }
@@ -96,8 +101,9 @@ struct Reference {
   Vec2 shift;  ///< added to (y, v) of the measured section
 };
 
-/// Without a nominal profile. Wheel: y = 0 is 70 mm from the back of the flange (tread datum of EN 13715) and has the nominal
-/// radius. Rail: the highest point has z = 0; y = 0 is the middle of the head 14 mm below it, or of what was scanned.
+/// Without a nominal profile. Wheel: y = 0 is 70 mm from the back of the flange (tread datum of EN 13715) and has the
+/// nominal radius. Rail: the highest point has z = 0; y = 0 is the middle of the head 14 mm below it, or of what was
+/// scanned.
 Reference own_reference(const Section& section, Body body) {
   if (body == Body::wheel) {
     constexpr double kDatum = 70e-3;
@@ -163,7 +169,9 @@ LengthUnit unit_by_size(Body body, double size) {
     if (metres >= limits(body).least && metres <= limits(body).most) return unit;
     list += fmt::format("{}{:.4g} m in {}", list.empty() ? "" : ", ", metres, symbol(unit));
   }
-  throw Error(ErrorKind::input_data, fmt::format("the {} found in the scan, {:.6g}, is that of no {} in any unit: {}", size_name(body), size, body == Body::wheel ? "wheel" : "rail", list),
+  throw Error(ErrorKind::input_data,
+              fmt::format("the {} found in the scan, {:.6g}, is that of no {} in any unit: {}", size_name(body), size,
+                          body == Body::wheel ? "wheel" : "rail", list),
               {}, "is it the right object? say the unit with --unit if it is");
 }
 
@@ -173,14 +181,17 @@ void check_unit(Body body, double size, LengthUnit unit) {
   std::string fitting;
   for (const LengthUnit other : kLengthUnits) {
     const double m = size * metres_per(other);
-    if (m >= limits(body).least && m <= limits(body).most) fitting += fmt::format("{}{}", fitting.empty() ? "" : " or ", symbol(other));
+    if (m >= limits(body).least && m <= limits(body).most)
+      fitting += fmt::format("{}{}", fitting.empty() ? "" : " or ", symbol(other));
   }
   throw Error(ErrorKind::input_data,
-              fmt::format("in {} the {} would be {:.4g} m{}", symbol(unit), size_name(body), metres, metres > limits(body).most ? ", far too large" : ", far too small"), {},
-              fitting.empty() ? "is it the right object?" : fmt::format("with --unit {} it fits", fitting));
+              fmt::format("in {} the {} would be {:.4g} m{}", symbol(unit), size_name(body), metres,
+                          metres > limits(body).most ? ", far too large" : ", far too small"),
+              {}, fitting.empty() ? "is it the right object?" : fmt::format("with --unit {} it fits", fitting));
 }
 
-Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly, const PlaceSettings& settings) {
+Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,
+                const PlaceSettings& settings) {
   const Body body = settings.body;
   const bool wheel = body == Body::wheel;
   std::vector<Vec3> used;
@@ -204,7 +215,8 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   const Axis& axis = roughly.rough.axis;
   Vec3 along = axis.direction, out = wheel ? any_perpendicular(along) : outwards(roughly);
   if (!wheel && settings.up) out = *settings.up - along * along.dot(*settings.up);
-  if (!(out.norm() > 0.1)) throw Error(ErrorKind::configuration, "the upward direction that was given runs along the rail");
+  if (!(out.norm() > 0.1))
+    throw Error(ErrorKind::configuration, "the upward direction that was given runs along the rail");
   out.normalize();
   if (settings.forward && along.dot(*settings.forward) < 0.0) along = -along;
   if (!settings.forward && !wheel) {
@@ -213,7 +225,9 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
     along.cwiseAbs().maxCoeff(&nearest);
     if (along[nearest] < 0.0) along = -along;
   }
-  const Vec3 origin = wheel ? Vec3(axis.point + axis.direction * axis.direction.dot(roughly.elements.centre - axis.point)) : roughly.elements.centre;
+  const Vec3 origin = wheel
+                          ? Vec3(axis.point + axis.direction * axis.direction.dot(roughly.elements.centre - axis.point))
+                          : roughly.elements.centre;
   Pose X_CS = frame_of(body, origin, along, out);
 
   Placement found;
@@ -242,12 +256,15 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
         if (s.at(0.25 * s.length()).position.y() < s.at(0.75 * s.length()).position.y()) {
           X_CS = turned(X_CS);
           std::vector<Vec2> mirrored;
-          for (double at = s.length(); at >= 0.0; at -= 0.5e-3) mirrored.emplace_back(-s.at(at).position.x(), s.at(at).position.y());
+          for (double at = s.length(); at >= 0.0; at -= 0.5e-3)
+            mirrored.emplace_back(-s.at(at).position.x(), s.at(at).position.y());
           refined.fit.section = Section(mirrored);
         }
       }
       const Reference reference = own_reference(refined.fit.section, body);
-      X_CS = X_CS * Pose{wheel ? Vec3(0.0, -reference.shift.x(), 0.0) : Vec3(0.0, -reference.shift.x(), reference.shift.y()), Mat3::Identity()};
+      X_CS = X_CS *
+             Pose{wheel ? Vec3(0.0, -reference.shift.x(), 0.0) : Vec3(0.0, -reference.shift.x(), reference.shift.y()),
+                  Mat3::Identity()};
       found.nominal_radius = wheel ? settings.radius.value_or(-reference.shift.y()) : 0.0;
     }
   }
@@ -268,11 +285,15 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
   found.iterations = refined.iterations;
   constexpr double kMostError = 0.5e-3, kShortestArc = 0.3;
   if (const double arc = wheel ? arc_of(used, X_CS) : kShortestArc; arc < kShortestArc)
-    throw Error(ErrorKind::input_data, fmt::format("the scanned arc of {:.0f} degrees is too short to find the axle", arc * 180.0 / std::numbers::pi), {},
-                "scan more of the circumference");
+    throw Error(
+        ErrorKind::input_data,
+        fmt::format("the scanned arc of {:.0f} degrees is too short to find the axle", arc * 180.0 / std::numbers::pi),
+        {}, "scan more of the circumference");
   if (wheel && found.position_error > kMostError)
-    throw Error(ErrorKind::input_data, fmt::format("the scanned arc is too short to find the axle: its standard error is {:.2g} mm", 1e3 * found.position_error), {},
-                "scan more of the circumference");
+    throw Error(ErrorKind::input_data,
+                fmt::format("the scanned arc is too short to find the axle: its standard error is {:.2g} mm",
+                            1e3 * found.position_error),
+                {}, "scan more of the circumference");
   return found;
 }
 

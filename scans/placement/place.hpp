@@ -19,7 +19,7 @@ namespace treadmark::scans {
 struct RoughPlace {
   SurfaceElements elements;
   RoughAxis rough;
-  double size = 0.0;      ///< radius of a wheel, width of a rail's section
+  double size = 0.0;  ///< radius of a wheel, width of a rail's section
 };
 
 /// Errors: those of find_elements and of the rough axes.
@@ -29,15 +29,17 @@ RoughPlace find_roughly(std::span<const Vec3> points, std::span<const std::uint8
 /// Errors: Error(input_data) that lists the size in every unit if none fits.
 LengthUnit unit_by_size(Body body, double size);
 
-/// Errors: Error(input_data) if the size in that unit is not that of a wheel or rail; the advice names the unit that would be.
+/// Errors: Error(input_data) if the size in that unit is not that of a wheel or rail; the advice names the unit that
+/// would be.
 void check_unit(Body body, double size, LengthUnit unit);
 
 struct PlaceSettings {
   Body body = Body::rail;
-  std::optional<Section> nominal;     ///< (y, z) of a wheel, (y, -z) of a rail's profile; none: the scan's own features
-  std::optional<double> radius;       ///< wheel: nominal radius that is expected [m]
-  std::optional<Vec3> up;             ///< rail: in the cloud's frame, roughly out of the head
-  std::optional<Vec3> forward;        ///< rail: roughly +x; wheel: roughly +y (from the flange to the field side); in the cloud's frame
+  std::optional<Section> nominal;  ///< (y, z) of a wheel, (y, -z) of a rail's profile; none: the scan's own features
+  std::optional<double> radius;    ///< wheel: nominal radius that is expected [m]
+  std::optional<Vec3> up;          ///< rail: in the cloud's frame, roughly out of the head
+  std::optional<Vec3>
+      forward;  ///< rail: roughly +x; wheel: roughly +y (from the flange to the field side); in the cloud's frame
 };
 
 /// A wheel or rail found in a scan.
@@ -54,7 +56,8 @@ struct Placement {
 
 /// points: [m]; roughly: of the same points in metres too. Deterministic.
 /// Errors: those of refine_axis and match_nominal; Error(input_data) for an arc too short to find an axle from.
-Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly, const PlaceSettings& settings);
+Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const RoughPlace& roughly,
+                const PlaceSettings& settings);
 
 /// The same place in another unit: lengths times factor.
 void scale(RoughPlace& roughly, double factor);

@@ -63,7 +63,10 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
         if (!foot) continue;
         const Vec3 normal = direction(body, n.u, section.at(foot->s).normal);
         const Vec3 turn = p.cross(normal);
-        residuals[i] = {foot->distance, wheel ? std::array{normal.x(), normal.z(), turn.x(), turn.z()} : std::array{turn.y(), turn.z(), 0.0, 0.0}, foot->s};
+        residuals[i] = {
+            foot->distance,
+            wheel ? std::array{normal.x(), normal.z(), turn.x(), turn.z()} : std::array{turn.y(), turn.z(), 0.0, 0.0},
+            foot->s};
       }
     });
     // weights
@@ -117,7 +120,8 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     Eigen::VectorXd step = Eigen::VectorXd::Zero(4);
     for (Eigen::Index k = 0; k < unknowns; ++k)
       if (eigen.eigenvalues()[k] > 1e-12 * eigen.eigenvalues()[unknowns - 1])
-        step.head(unknowns) += eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns)) / eigen.eigenvalues()[k];
+        step.head(unknowns) +=
+            eigen.eigenvectors().col(k) * eigen.eigenvectors().col(k).dot(rhs.head(unknowns)) / eigen.eigenvalues()[k];
     const Vec3 shift = wheel ? Vec3(step[0], 0.0, step[1]) : Vec3::Zero();
     const Vec3 turn = wheel ? Vec3(step[2], 0.0, step[3]) : Vec3(0.0, step[0], step[1]);
     const double angle = turn.norm();
@@ -132,7 +136,8 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
   // what still moves, as on short arcs, may be as far from its end as it would get in as many rounds again
   shifting *= out.iterations;
   turning *= out.iterations;
-  const Eigen::MatrixXd covariance = information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
+  const Eigen::MatrixXd covariance =
+      information.topLeftCorner(unknowns, unknowns).ldlt().solve(Eigen::MatrixXd::Identity(unknowns, unknowns));
   if (wheel) {
     out.position_error = std::hypot(std::sqrt(std::max(covariance(0, 0) + covariance(1, 1), 0.0)), shifting);
     out.direction_error = std::hypot(std::sqrt(std::max(covariance(2, 2) + covariance(3, 3), 0.0)), turning);

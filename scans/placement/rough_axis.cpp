@@ -7,8 +7,8 @@
 #include <optional>
 #include <vector>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/scans/random.hpp"
@@ -22,9 +22,9 @@ using Vec6 = Eigen::Matrix<double, 6, 1>;
 constexpr std::size_t kMostElements = 40'000;
 constexpr std::size_t kScored = 2'000;
 constexpr int kSamples = 400;
-constexpr double kNear = 0.02;        // distance of a normal from the axis over the radius of the scan, in samples
-constexpr double kEnough = 0.4;       // part of the elements that must agree
-constexpr double kWellKnown = 1e-4;   // how far the second best axis must be from fitting, relative
+constexpr double kNear = 0.02;       // distance of a normal from the axis over the radius of the scan, in samples
+constexpr double kEnough = 0.4;      // part of the elements that must agree
+constexpr double kWellKnown = 1e-4;  // how far the second best axis must be from fitting, relative
 
 /// Normals as lines in coordinates in which the scan has radius 1.
 struct Lines {
@@ -53,7 +53,8 @@ struct LineSolution {
 
 /// min |direction . (p x n) + moment . n|^2 over unit directions; the moment is eliminated.
 std::optional<LineSolution> solve(const Mat6& normal_matrix) {
-  const Mat3 mm = normal_matrix.topLeftCorner<3, 3>(), mn = normal_matrix.topRightCorner<3, 3>(), nn = normal_matrix.bottomRightCorner<3, 3>();
+  const Mat3 mm = normal_matrix.topLeftCorner<3, 3>(), mn = normal_matrix.topRightCorner<3, 3>(),
+             nn = normal_matrix.bottomRightCorner<3, 3>();
   Eigen::SelfAdjointEigenSolver<Mat3> of_nn(nn);
   const double greatest = of_nn.eigenvalues()[2];
   if (!(greatest > 0.0)) return std::nullopt;
@@ -73,7 +74,9 @@ std::optional<LineSolution> solve(const Mat6& normal_matrix) {
   return out;
 }
 
-double residual(const Vec6& line, const LineSolution& axis) { return axis.direction.dot(line.head<3>()) + axis.moment.dot(line.tail<3>()); }
+double residual(const Vec6& line, const LineSolution& axis) {
+  return axis.direction.dot(line.head<3>()) + axis.moment.dot(line.tail<3>());
+}
 
 }  // namespace
 
@@ -101,8 +104,9 @@ RoughAxis rough_revolution(const SurfaceElements& elements) {
     }
   }
   const auto refuse = [&](const char* why) {
-    throw Error(ErrorKind::input_data, fmt::format("the scan is no wheel: {}", why), {},
-                "a wheel must be scanned along enough of its circumference; is it a rail, or is something else in the scan?");
+    throw Error(
+        ErrorKind::input_data, fmt::format("the scan is no wheel: {}", why), {},
+        "a wheel must be scanned along enough of its circumference; is it a rail, or is something else in the scan?");
   };
   if (!best) refuse("its normals have no common axis");
   LineSolution axis = *best;
@@ -127,12 +131,15 @@ RoughAxis rough_revolution(const SurfaceElements& elements) {
     if (!next) refuse("its normals are all parallel");
     // normals that hardly turn about the axis, as all those of a plane along it, meet it nowhere
     const Mat3 about = Mat3::Identity() - next->direction * next->direction.transpose();
-    const Mat3 turning = about * (matrix.bottomRightCorner<3, 3>() / sum) * about + next->direction * next->direction.transpose();
+    const Mat3 turning =
+        about * (matrix.bottomRightCorner<3, 3>() / sum) * about + next->direction * next->direction.transpose();
     // and those of a sphere miss no axis by more than the best one
     constexpr double kNoBetter = 4.0;
-    if (next->second < std::max(kWellKnown * 1e-2, kNoBetter * next->least) || Eigen::SelfAdjointEigenSolver<Mat3>(turning).eigenvalues()[0] < kWellKnown)
+    if (next->second < std::max(kWellKnown * 1e-2, kNoBetter * next->least) ||
+        Eigen::SelfAdjointEigenSolver<Mat3>(turning).eigenvalues()[0] < kWellKnown)
       refuse("its axis is not determined, as that of a plane or a sphere");
-    const double change = std::min((next->direction - axis.direction).norm(), (next->direction + axis.direction).norm());
+    const double change =
+        std::min((next->direction - axis.direction).norm(), (next->direction + axis.direction).norm());
     axis = *next;
     std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(count / 2), sizes.end());
     scale = std::clamp(1.4826 * sizes[count / 2], 1e-4, kNear);
@@ -152,7 +159,8 @@ RoughAxis rough_sweep(const SurfaceElements& elements) {
   const std::size_t stride = std::max<std::size_t>(1, elements.position.size() / kMostElements);
   constexpr double kNearAngle = 0.1, kLeastScale = 1e-4;
   const auto refuse = [&](const char* why) {
-    throw Error(ErrorKind::input_data, fmt::format("the scan is no rail: {}", why), {}, "is it a wheel, or is something else in the scan?");
+    throw Error(ErrorKind::input_data, fmt::format("the scan is no rail: {}", why), {},
+                "is it a wheel, or is something else in the scan?");
   };
   // directions of pairs of normals, scored by how many normals are perpendicular to them
   Random random(1);

@@ -14,8 +14,9 @@ struct Axis {
 
 struct RoughAxis {
   Axis axis;
-  double inliers = 0.0;   ///< part of the elements that agree
-  double residual = 0.0;  ///< rms of those: distance of normals from the axis [unit], or angle to its normal plane [rad]
+  double inliers = 0.0;  ///< part of the elements that agree
+  double residual =
+      0.0;  ///< rms of those: distance of normals from the axis [unit], or angle to its normal plane [rad]
 };
 
 /// Axis of revolution that most normals meet: robust version of Pottmann and Randrup (1998), random samples first, then

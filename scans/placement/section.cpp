@@ -61,7 +61,9 @@ Section::Section(std::span<const Vec2> points) {
       double length = 0.0;
       for (const double g : {-0.5773502691896257, 0.5773502691896257}) {
         const double x = part * (k + 0.5 + 0.5 * g);
-        length += 0.5 * part * std::hypot(spline(y[i - 1], y[i], ddy[i - 1], ddy[i], h, x).d1, spline(v[i - 1], v[i], ddv[i - 1], ddv[i], h, x).d1);
+        length += 0.5 * part *
+                  std::hypot(spline(y[i - 1], y[i], ddy[i - 1], ddy[i], h, x).d1,
+                             spline(v[i - 1], v[i], ddv[i - 1], ddv[i], h, x).d1);
       }
       arc.push_back(arc.back() + length);
       at.push_back(t[i - 1] + part * (k + 1));

@@ -20,8 +20,8 @@ class Section {
   explicit Section(std::span<const Vec2> points);
 
   struct Point {
-    Vec2 position;  ///< (y, v)
-    Vec2 normal;    ///< unit, out of the material
+    Vec2 position;           ///< (y, v)
+    Vec2 normal;             ///< unit, out of the material
     double curvature = 0.0;  ///< [1/m], > 0 where the material is convex
   };
   Point at(double s) const;

@@ -6,8 +6,8 @@
 #include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
 #include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -16,8 +16,8 @@ namespace treadmark::scans {
 namespace {
 
 constexpr std::size_t kFewestInStrip = 5;
-constexpr double kLayer = 6e-3;          // what one strip of one surface spans at most, in v [m]
-constexpr double kLeastShare = 0.15;     // of the fullest layer of its strip: a layer is no outlier then
+constexpr double kLayer = 6e-3;       // what one strip of one surface spans at most, in v [m]
+constexpr double kLeastShare = 0.15;  // of the fullest layer of its strip: a layer is no outlier then
 constexpr double kTukey = 4.685;
 constexpr double kMad = 1.4826;
 
@@ -37,7 +37,8 @@ Strip strip_of(std::vector<Vec2>& points, double y_middle) {
   Strip out;
   out.y = y_middle;
   if (points.size() < kFewestInStrip) return out;
-  std::sort(points.begin(), points.end(), [](const Vec2& a, const Vec2& b) { return a.y() > b.y() || (a.y() == b.y() && a.x() < b.x()); });
+  std::sort(points.begin(), points.end(),
+            [](const Vec2& a, const Vec2& b) { return a.y() > b.y() || (a.y() == b.y() && a.x() < b.x()); });
   std::vector<std::size_t> inside(points.size());
   std::size_t fullest = 0;
   for (std::size_t i = 0, j = 0; i < points.size(); ++i) {
@@ -60,7 +61,8 @@ Strip strip_of(std::vector<Vec2>& points, double y_middle) {
 /// Cubic B-splines that are not zero at place (in knot intervals).
 std::array<double, 4> basis(double t) {
   const double o = 1.0 - t;
-  return {o * o * o / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * o * o + 3.0 * o * o * o) / 6.0, t * t * t / 6.0};
+  return {o * o * o / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * o * o + 3.0 * o * o * o) / 6.0,
+          t * t * t / 6.0};
 }
 
 }  // namespace
@@ -73,7 +75,8 @@ Section outline(std::span<const Vec2> points) {
   }
   constexpr double kStrip = 1e-3, kWidest = 2.0;
   const auto refuse = [](const char* why) {
-    throw Error(ErrorKind::input_data, fmt::format("the scan has no usable cross-section: {}", why), {}, "is it a wheel or rail, and is its unit right?");
+    throw Error(ErrorKind::input_data, fmt::format("the scan has no usable cross-section: {}", why), {},
+                "is it a wheel or rail, and is its unit right?");
   };
   if (!(y_max > y_min)) refuse("it is flat");
   if (y_max - y_min > kWidest) {
@@ -86,7 +89,9 @@ Section outline(std::span<const Vec2> points) {
   for (const Vec2& p : points)
     if (p.x() >= y_min && p.x() <= y_max) in_strip[static_cast<std::size_t>((p.x() - y_min) / kStrip)].push_back(p);
   std::vector<Strip> strips(in_strip.size());
-  parallel_for(in_strip.size(), [&](std::size_t k) { strips[k] = strip_of(in_strip[k], y_min + kStrip * (static_cast<double>(k) + 0.5)); });
+  parallel_for(in_strip.size(), [&](std::size_t k) {
+    strips[k] = strip_of(in_strip[k], y_min + kStrip * (static_cast<double>(k) + 0.5));
+  });
   // pieces without steps and without gaps
   constexpr std::size_t kLongestGap = 6;  // strips
   const double steep = std::tan(kSteepest);
@@ -107,7 +112,8 @@ Section outline(std::span<const Vec2> points) {
   };
   for (std::size_t k = 0; k < strips.size(); ++k) {
     if (!strips[k].present) continue;
-    const bool goes_on = !piece.empty() && k - last <= kLongestGap && std::fabs(strips[k].v - piece.back().y()) <= steep * (strips[k].y - piece.back().x());
+    const bool goes_on = !piece.empty() && k - last <= kLongestGap &&
+                         std::fabs(strips[k].v - piece.back().y()) <= steep * (strips[k].y - piece.back().x());
     if (!piece.empty() && !goes_on) close();
     piece.emplace_back(strips[k].y, strips[k].v);
     last = k;
@@ -117,7 +123,8 @@ Section outline(std::span<const Vec2> points) {
   return Section(best);
 }
 
-SectionFit fit_section(const Section& start, std::span<const Vec2> points, double farthest, double knot_spacing, int rounds) {
+SectionFit fit_section(const Section& start, std::span<const Vec2> points, double farthest, double knot_spacing,
+                       int rounds) {
   SectionFit out;
   out.section = start;
   for (int round = 0; round < rounds; ++round) {
@@ -137,11 +144,14 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
           continue;
         }
         const auto cell = std::min(intervals - 1, static_cast<std::size_t>(foot->s / knot));
-        near[i] = {static_cast<float>(foot->s / knot - static_cast<double>(cell)), static_cast<float>(foot->distance), static_cast<std::uint32_t>(cell)};
+        near[i] = {static_cast<float>(foot->s / knot - static_cast<double>(cell)), static_cast<float>(foot->distance),
+                   static_cast<std::uint32_t>(cell)};
       }
     });
     std::erase_if(near, [](const Near& n) { return n.cell == ~0u; });
-    if (near.size() < 4 * intervals) throw Error(ErrorKind::input_data, "too few points follow the cross-section of the scan", {}, "is it a wheel or rail?");
+    if (near.size() < 4 * intervals)
+      throw Error(ErrorKind::input_data, "too few points follow the cross-section of the scan", {},
+                  "is it a wheel or rail?");
     // medians of the strips to begin with, so that damage and outliers do not draw the spline
     std::vector<double> level(intervals, 0.0), scale(intervals, 0.0);
     double typical = 0.0;
@@ -183,7 +193,8 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
       const double stiffness = 1e-4 * matrix.trace() / static_cast<double>(size);
       for (Eigen::Index k = 1; k + 1 < size; ++k)
         for (const auto& [a, x] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
-          for (const auto& [c, y] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}}) matrix(a, c) += stiffness * x * y;
+          for (const auto& [c, y] : {std::pair{k - 1, 1.0}, std::pair{k, -2.0}, std::pair{k + 1, 1.0}})
+            matrix(a, c) += stiffness * x * y;
       coefficients = matrix.ldlt().solve(rhs);
     }
     std::vector<double> sizes;

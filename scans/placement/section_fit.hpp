@@ -18,13 +18,13 @@ Section outline(std::span<const Vec2> points);
 
 struct SectionFit {
   Section section;
-  double scale = 0.0;      ///< robust standard deviation of the distances of the points from it [m]
-  double spread = 0.0;     ///< of all points near it, damage included: rms [m]
+  double scale = 0.0;   ///< robust standard deviation of the distances of the points from it [m]
+  double spread = 0.0;  ///< of all points near it, damage included: rms [m]
   std::size_t used = 0;
 };
 
-/// Draws the section to where most of the points lie: robust splines of the distances along the normals (Tukey's weights, knots
-/// about knot_spacing apart), repeated in rounds. farthest: points beyond do not count [m].
+/// Draws the section to where most of the points lie: robust splines of the distances along the normals (Tukey's
+/// weights, knots about knot_spacing apart), repeated in rounds. farthest: points beyond do not count [m].
 SectionFit fit_section(const Section& start, std::span<const Vec2> points, double farthest, double knot_spacing,
                        int rounds = 4);
 

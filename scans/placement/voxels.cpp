@@ -31,7 +31,8 @@ void sort_by_key(std::vector<std::pair<std::uint64_t, std::uint32_t>>& entries) 
 
 }  // namespace
 
-Voxels::Voxels(std::span<const Vec3> points, const Vec3& origin, double size, std::span<const std::uint8_t> keep) : size_(size) {
+Voxels::Voxels(std::span<const Vec3> points, const Vec3& origin, double size, std::span<const std::uint8_t> keep)
+    : size_(size) {
   std::vector<std::pair<std::uint64_t, std::uint32_t>> entries;
   entries.reserve(points.size());
   for (std::size_t i = 0; i < points.size(); ++i) {

@@ -13,8 +13,8 @@ namespace treadmark::scans {
 /// Points sorted into cubes of one size; only cubes that hold points are kept, in the order of their keys.
 class Voxels {
  public:
-  /// origin, size: any unit. Points more than 2^20 cubes away from the origin are left out, as are those that are not kept
-  /// (keep: one flag a point, or empty).
+  /// origin, size: any unit. Points more than 2^20 cubes away from the origin are left out, as are those that are not
+  /// kept (keep: one flag a point, or empty).
   Voxels(std::span<const Vec3> points, const Vec3& origin, double size, std::span<const std::uint8_t> keep = {});
 
   double size() const { return size_; }
@@ -30,7 +30,8 @@ class Voxels {
       for (int dy = -1; dy <= 1; ++dy) {
         // three cubes in a row along x have successive keys
         const std::int64_t middle = static_cast<std::int64_t>(keys_[voxel]) + dy * kRow + dz * kLayer;
-        for (std::size_t k = first_not_below(static_cast<std::uint64_t>(middle - 1)); k < keys_.size() && keys_[k] <= static_cast<std::uint64_t>(middle + 1); ++k)
+        for (std::size_t k = first_not_below(static_cast<std::uint64_t>(middle - 1));
+             k < keys_.size() && keys_[k] <= static_cast<std::uint64_t>(middle + 1); ++k)
           visit(k);
       }
   }

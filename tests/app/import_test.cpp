@@ -85,13 +85,17 @@ class ImportCommand : public ::testing::Test {
     out << file.rdbuf();
     return out.str();
   }
-  static Vec3 vector(const Json& list) { return Vec3(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()); }
+  static Vec3 vector(const Json& list) {
+    return Vec3(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
+  }
 
   /// Root mean square distance of an imported surface from the formula, natural heights over the running band.
-  static double height_error(const fs::path& file, const SurfaceSpec& truth, double y_min, double y_max, double u_min, double u_max, double truth_u = 0.0) {
+  static double height_error(const fs::path& file, const SurfaceSpec& truth, double y_min, double y_max, double u_min,
+                             double u_max, double truth_u = 0.0) {
     io::SurfaceSource source;
     source.geometry = io::GeometryFile{file, {}};
-    const NaturalSurface found = read_surface(source, truth.body, truth.nominal_radius), formula = create_natural(truth);
+    const NaturalSurface found = read_surface(source, truth.body, truth.nominal_radius),
+                         formula = create_natural(truth);
     double sum = 0.0, n = 0.0;
     std::vector<double> y, a, b;
     for (double at = y_min; at <= y_max; at += 0.77e-3) y.push_back(at);
@@ -114,16 +118,23 @@ class ImportCommand : public ::testing::Test {
   }
 
   static SurfaceSpec wheel() {
-    return {Body::wheel, 0.3, StandardProfile{"S1002"}, {.flats = {{.length = 0.12, .depth = 0.9e-3, .y_center = 5e-3, .width = 60e-3}}}};
+    return {Body::wheel,
+            0.3,
+            StandardProfile{"S1002"},
+            {.flats = {{.length = 0.12, .depth = 0.9e-3, .y_center = 5e-3, .width = 60e-3}}}};
   }
-  static SurfaceSpec rail() { return {Body::rail, 0.0, StandardProfile{"60E1"}, {.squats = {{.length = 40e-3, .width = 30e-3, .depth = 0.4e-3}}}}; }
+  static SurfaceSpec rail() {
+    return {Body::rail, 0.0, StandardProfile{"60E1"}, {.squats = {{.length = 40e-3, .width = 30e-3, .depth = 0.4e-3}}}};
+  }
 
   treadmark::testing::SampleInput input;
 };
 
 TEST_F(ImportCommand, WheelWithAFlatFromADirtyScanInEveryBackend) {
-  scan("wheel.ply", {"--body", "wheel", "--points", "400000", "--noise-mm", "0.03", "--outliers", "0.01", "--holes", "0.02", "--frame", "random", "--seed", "11"});
-  const auto r = import({path("wheel.ply"), "-o", path("found.slcw"), "-o", path("found.ply"), "-o", path("found.vdb"), "--resolution", "1.5", "--report", path("audit"), "--json", path("found.json")});
+  scan("wheel.ply", {"--body", "wheel", "--points", "400000", "--noise-mm", "0.03", "--outliers", "0.01", "--holes",
+                     "0.02", "--frame", "random", "--seed", "11"});
+  const auto r = import({path("wheel.ply"), "-o", path("found.slcw"), "-o", path("found.ply"), "-o", path("found.vdb"),
+                         "--resolution", "1.5", "--report", path("audit"), "--json", path("found.json")});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("unit of the file: mm"));
   const Json found = json("found.json"), truth = json("wheel.ply.json")["surface_in_cloud"];
@@ -155,15 +166,18 @@ TEST_F(ImportCommand, WheelWithAFlatFromADirtyScanInEveryBackend) {
   std::ifstream schema_file(fs::path(TREADMARK_SOURCE_DIR) / "docs" / "import.schema.json");
   const Json schema = Json::parse(schema_file);
   EXPECT_EQ(treadmark::testing::first_violation(found, schema, schema), "");
-  for (const char* file : {"report.json", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg", "fitted.svg", "residual.svg"})
+  for (const char* file : {"report.json", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg",
+                           "fitted.svg", "residual.svg"})
     EXPECT_TRUE(fs::exists(fs::path(path("audit")) / file)) << file;
   EXPECT_THAT(bytes("found.slcw"), HasSubstr("SHA-256")) << "the surface carries a summary";
   EXPECT_THAT(bytes("found.ply").substr(0, 2000), HasSubstr("comment from wheel.ply"));
 }
 
 TEST_F(ImportCommand, RailFromThreePassesInMetres) {
-  scan("rail.xyz", {"--body", "rail", "--range-mm", "-100,100", "--points", "150000", "--noise-mm", "0.02", "--outliers", "0.01", "--passes", "3", "--registration-mm", "0.15", "--unit", "m",
-                    "--frame", "random", "--seed", "5"});
+  scan("rail.xyz",
+       {"--body",     "rail",   "--range-mm", "-100,100", "--points",          "150000", "--noise-mm", "0.02",
+        "--outliers", "0.01",   "--passes",   "3",        "--registration-mm", "0.15",   "--unit",     "m",
+        "--frame",    "random", "--seed",     "5"});
   const auto r = import({path("rail.xyz"), "-o", path("found.slcs"), "--json", path("found.json")});
   ASSERT_EQ(r.status, 0) << r.err;
   const Json found = json("found.json");
@@ -179,10 +193,12 @@ TEST_F(ImportCommand, RailFromThreePassesInMetres) {
 }
 
 TEST_F(ImportCommand, TheSameInputGivesTheSameBytes) {
-  scan("wheel.ply", {"--body", "wheel", "--range-deg", "-40,40", "--points", "60000", "--noise-mm", "0.03", "--outliers", "0.01", "--frame", "random"});
+  scan("wheel.ply", {"--body", "wheel", "--range-deg", "-40,40", "--points", "60000", "--noise-mm", "0.03",
+                     "--outliers", "0.01", "--frame", "random"});
   for (const char* threads : {"1", "2"}) {
     const std::string n = threads;
-    const auto r = import({path("wheel.ply"), "-o", path("same" + n + ".ply"), "--body", "wheel", "--resolution", "1", "--report", path("audit" + n), "--threads", n});
+    const auto r = import({path("wheel.ply"), "-o", path("same" + n + ".ply"), "--body", "wheel", "--resolution", "1",
+                           "--report", path("audit" + n), "--threads", n});
     ASSERT_EQ(r.status, 0) << r.err;
   }
   EXPECT_EQ(bytes("same1.ply"), bytes("same2.ply"));
@@ -202,12 +218,14 @@ TEST_F(ImportCommand, MapOfDeviationsOverTheNominalProfile) {
     map << '\n';
   }
   map.close();
-  const auto r = import({path("map.csv"), "--body", "rail", "-o", path("found.slcs"), "--set", "placement.zero=scan", "--json", path("found.json")});
+  const auto r = import({path("map.csv"), "--body", "rail", "-o", path("found.slcs"), "--set", "placement.zero=scan",
+                         "--json", path("found.json")});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(json("found.json")["from_map"].get<bool>());
   io::SurfaceSource source;
   source.geometry = io::GeometryFile{path("found.slcs"), {}};
-  const NaturalSurface found = read_surface(source, Body::rail, 0.0), nominal = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
+  const NaturalSurface found = read_surface(source, Body::rail, 0.0),
+                       nominal = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
   for (const double x : {30.0, 52.0, 60.0, 71.0})
     for (const double y : {-9.0, 0.0, 6.0}) {
       std::vector<double> at{1e-3 * y}, a(1), b(1);
@@ -238,17 +256,24 @@ TEST_F(ImportCommand, RefusesWhatIsNoWheelOrRail) {
     std::vector<std::string> arguments;
     const char* words;
   };
-  for (const Refusal& refusal : {Refusal{{path("random.xyz"), "-o", path("x.slcw")}, "do not form a surface"}, Refusal{{path("rail.ply"), "-o", path("x.slcw")}, "rail.ply"},
-                                 Refusal{{path("wheel.ply"), "-o", path("x.slcs")}, "wheel.ply"}, Refusal{{path("wheel.ply"), "-o", path("x.slcw"), "--unit", "m"}, "with --unit mm it fits"},
-                                 Refusal{{path("missing.ply"), "-o", path("x.slcw")}, "does not exist"}}) {
+  for (const Refusal& refusal :
+       {Refusal{{path("random.xyz"), "-o", path("x.slcw")}, "do not form a surface"},
+        Refusal{{path("rail.ply"), "-o", path("x.slcw")}, "rail.ply"},
+        Refusal{{path("wheel.ply"), "-o", path("x.slcs")}, "wheel.ply"},
+        Refusal{{path("wheel.ply"), "-o", path("x.slcw"), "--unit", "m"}, "with --unit mm it fits"},
+        Refusal{{path("missing.ply"), "-o", path("x.slcw")}, "does not exist"}}) {
     const auto r = import(refusal.arguments);
     EXPECT_EQ(r.status, 3) << refusal.words << r.err;
     EXPECT_THAT(r.err, HasSubstr(refusal.words));
     EXPECT_FALSE(fs::exists(path("x.slcw")) || fs::exists(path("x.slcs")));
   }
-  for (const Refusal& refusal : {Refusal{{path("wheel.ply")}, "nothing to write"}, Refusal{{path("wheel.ply"), "-o", path("x.foo"), "--body", "wheel"}, "cannot be written"},
-                                 Refusal{{path("wheel.ply"), "-o", path("x.ply")}, "--body"}, Refusal{{path("wheel.ply"), "-o", path("wheel.ply"), "--body", "wheel"}, "overwrite"},
-                                 Refusal{{path("wheel.ply"), "-o", path("x.slcw"), "--set", "fit.finst_mm=1"}, "fit.finest_mm"}, Refusal{{}, "no scan"}}) {
+  for (const Refusal& refusal :
+       {Refusal{{path("wheel.ply")}, "nothing to write"},
+        Refusal{{path("wheel.ply"), "-o", path("x.foo"), "--body", "wheel"}, "cannot be written"},
+        Refusal{{path("wheel.ply"), "-o", path("x.ply")}, "--body"},
+        Refusal{{path("wheel.ply"), "-o", path("wheel.ply"), "--body", "wheel"}, "overwrite"},
+        Refusal{{path("wheel.ply"), "-o", path("x.slcw"), "--set", "fit.finst_mm=1"}, "fit.finest_mm"},
+        Refusal{{}, "no scan"}}) {
     const auto r = import(refusal.arguments);
     EXPECT_EQ(r.status, 2) << refusal.words << r.err;
     EXPECT_THAT(r.err, HasSubstr(refusal.words));
@@ -256,7 +281,8 @@ TEST_F(ImportCommand, RefusesWhatIsNoWheelOrRail) {
 }
 
 TEST_F(ImportCommand, HolesBeyondTheLimitStayOpenInTrianglesAndAreRefusedElsewhere) {
-  scan("rail.ply", {"--body", "rail", "--range-mm", "-50,50", "--points", "40000", "--holes", "0.1", "--hole-size-mm", "24", "--seed", "3"});
+  scan("rail.ply", {"--body", "rail", "--range-mm", "-50,50", "--points", "40000", "--holes", "0.1", "--hole-size-mm",
+                    "24", "--seed", "3"});
   const auto refused = import({path("rail.ply"), "-o", path("found.slcs")});
   EXPECT_EQ(refused.status, 2);
   EXPECT_THAT(refused.err, HasSubstr("cannot leave out a hole"));

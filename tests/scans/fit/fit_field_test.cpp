@@ -24,11 +24,15 @@ struct Fitted {
 };
 
 std::shared_ptr<const Surface> wheel_with_flat() {
-  return create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {.flats = {{.length = 0.16, .depth = 1.4e-3, .theta_center = 0.7}}}});
+  return create_surface({Body::wheel,
+                         kRadius,
+                         StandardProfile{"S1002"},
+                         {.flats = {{.length = 0.16, .depth = 1.4e-3, .theta_center = 0.7}}}});
 }
 
 Fitted fitted(const Surface& wheel, int stations, double noise_in, double outliers, const FitSettings& settings = {}) {
-  const auto cloud = tests::simple_cloud(wheel, Body::wheel, -kPi, kPi, -60e-3, 60e-3, stations, 200, noise_in, outliers, Pose{}, 1);
+  const auto cloud =
+      tests::simple_cloud(wheel, Body::wheel, -kPi, kPi, -60e-3, 60e-3, stations, 200, noise_in, outliers, Pose{}, 1);
   auto nominal = tests::nominal_points("S1002", Body::wheel);
   std::erase_if(nominal, [](const Vec2& p) { return p.x() < -60e-3 || p.x() > 60e-3; });
   for (Vec2& p : nominal) p.y() += kRadius;
@@ -46,7 +50,8 @@ TrueError true_error(const Surface& wheel, const Fitted& f) {
   double sum = 0.0, most = 0.0, count = 0.0, flat = 0.0, flats = 0.0;
   Random random(7);
   for (int k = 0; k < 8000; ++k) {
-    const double a = f.projection.band.length() * random.uniform(), s = f.projection.band.section.length() * (0.02 + 0.96 * random.uniform());
+    const double a = f.projection.band.length() * random.uniform(),
+                 s = f.projection.band.section.length() * (0.02 + 0.96 * random.uniform());
     const double u = (f.projection.band.a_min + a) / kRadius;
     const auto at = f.projection.band.section.at(s);
     const Vec2 p = at.position + f.fit.field.value(a, s) * at.normal;

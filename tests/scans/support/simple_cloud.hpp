@@ -24,17 +24,19 @@ struct SimpleCloud {
   Pose X_CS;
 };
 
-/// Points of a surface at random stations of [u_min, u_max] and on a grid of y, moved along their normals by noise; outliers:
-/// part of the points that lie anywhere within 0.2 m of where they should.
-inline SimpleCloud simple_cloud(const Surface& surface, Body body, double u_min, double u_max, double y_min, double y_max, int stations, int across,
-                                double noise, double outliers, const Pose& X_CS, std::uint64_t seed = 1) {
+/// Points of a surface at random stations of [u_min, u_max] and on a grid of y, moved along their normals by noise;
+/// outliers: part of the points that lie anywhere within 0.2 m of where they should.
+inline SimpleCloud simple_cloud(const Surface& surface, Body body, double u_min, double u_max, double y_min,
+                                double y_max, int stations, int across, double noise, double outliers, const Pose& X_CS,
+                                std::uint64_t seed = 1) {
   SimpleCloud out;
   out.X_CS = X_CS;
   Random random(seed);
   std::vector<double> y(static_cast<std::size_t>(across)), h(y.size()), slope(y.size());
   for (int i = 0; i < stations; ++i) {
     const double u = u_min + (u_max - u_min) * random.uniform();
-    for (int k = 0; k < across; ++k) y[static_cast<std::size_t>(k)] = y_min + (y_max - y_min) * (k + random.uniform()) / across;
+    for (int k = 0; k < across; ++k)
+      y[static_cast<std::size_t>(k)] = y_min + (y_max - y_min) * (k + random.uniform()) / across;
     HeightsOut heights;
     heights.z = h;
     heights.dzdy = slope;
@@ -46,7 +48,8 @@ inline SimpleCloud simple_cloud(const Surface& surface, Body body, double u_min,
       const double sign = body == Body::rail ? -1.0 : 1.0;
       const double yy = y[k] - sign * off * slope[k] / n, hh = h[k] + sign * off / n;
       Vec3 p = body == Body::rail ? Vec3(u, yy, hh) : Vec3(hh * std::sin(u), yy, hh * std::cos(u));
-      if (random.uniform() < outliers) p += 0.4 * Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
+      if (random.uniform() < outliers)
+        p += 0.4 * Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5);
       out.points_S.push_back(p);
       out.points_C.push_back(X_CS.apply(p));
     }
@@ -58,7 +61,8 @@ inline Pose some_frame(std::uint64_t seed) {
   Random random(seed);
   const Vec3 axis = Vec3(gaussian(random), gaussian(random), gaussian(random)).normalized();
   const double angle = 2.0 * std::numbers::pi * random.uniform();
-  return {Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5), Mat3(Eigen::AngleAxisd(angle, axis))};
+  return {Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5),
+          Mat3(Eigen::AngleAxisd(angle, axis))};
 }
 
 /// A nominal profile as a section: v = z of a wheel, -z of a rail.
