@@ -61,7 +61,7 @@ std::size_t active_count(const SparseOffsets& offsets);
 struct OffsetFile {
   std::shared_ptr<const SparseOffsets> offsets;
   SurfaceSpec base;  ///< without defects
-  std::string notes;  ///< for people: kept in the file as its entry 'notes'; not read back
+  std::string notes{};  ///< for people: kept in the file as its entry 'notes'; not read back
 };
 /// Errors: Error(input_data) for a file that is missing, empty, damaged, not VDB, or not written for this purpose;
 /// Error(configuration) for a base that is not a constant section, or a file that cannot be written.

@@ -12,8 +12,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 #include "treadmark/scans/placement/circle_axis.hpp"
-#include "treadmark/scans/placement/voxels.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/scans/placement/even_sample.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -194,24 +193,8 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
                 const PlaceSettings& settings) {
   const Body body = settings.body;
   const bool wheel = body == Body::wheel;
-  std::vector<Vec3> used;
-  {
-    // evenly spread: parts that were scanned more densely, as a damage often is, must not count more
-    const Voxels voxels(points, roughly.elements.centre, roughly.elements.size, keep);
-    std::vector<std::size_t> counts(voxels.count());
-    std::size_t kept = 0;
-    for (std::size_t v = 0; v < voxels.count(); ++v) kept += counts[v] = voxels.points_of(v).size();
-    const auto quarter = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 4);
-    std::nth_element(counts.begin(), quarter, counts.end());
-    const std::size_t most = *quarter;
-    const double share = static_cast<double>(kMostUsed) / static_cast<double>(std::max<std::size_t>(kept, 1));
-    for (std::size_t v = 0; v < voxels.count(); ++v) {
-      const auto inside = voxels.points_of(v);
-      const std::size_t stride = (inside.size() + most - 1) / most;
-      for (std::size_t k = 0; k < inside.size(); k += stride)
-        if (share >= 1.0 || Random(inside[k]).uniform() < share) used.push_back(points[inside[k]]);
-    }
-  }
+  const std::vector<Vec3> used =
+      even_sample(points, keep, roughly.elements.centre, roughly.elements.size, kMostUsed);
   const Axis& axis = roughly.rough.axis;
   Vec3 along = axis.direction, out = wheel ? any_perpendicular(along) : outwards(roughly);
   if (!wheel && settings.up) out = *settings.up - along * along.dot(*settings.up);
