@@ -102,7 +102,8 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     out.undamaged = used / near;
     Eigen::Matrix4d matrix = Eigen::Matrix4d::Zero();
     Eigen::Vector4d rhs = Eigen::Vector4d::Zero();
-    double square = 0.0, weights = 0.0;
+    Eigen::Matrix4d plain = Eigen::Matrix4d::Zero();
+    double square = 0.0, slope = 0.0, number = 0.0;
     for (std::size_t i = 0; i < residuals.size(); ++i) {
       if (!(weight[i] > 0.0)) continue;
       const Sum& sum = mean[static_cast<std::size_t>(residuals[i].s / kStrip)];
@@ -111,10 +112,14 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
       const double d = residuals[i].d - sum.d / sum.w;
       matrix += weight[i] * j * j.transpose();
       rhs += weight[i] * d * j;
-      square += weight[i] * d * d;
-      weights += weight[i];
+      plain += j * j.transpose();
+      square += weight[i] * weight[i] * d * d;
+      const double x = residuals[i].d / (kTukey * scale);
+      slope += (1.0 - x * x) * (1.0 - 5.0 * x * x);
+      number += 1.0;
     }
-    information = matrix / std::max(square / weights, 1e-20);
+    // covariance of an M-estimate (Huber 1981): n sum(psi^2) / sum(psi')^2 times the inverse of the plain normal matrix
+    information = plain * (slope * slope) / std::max(number * square, 1e-30);
     // motions that the scan says nothing about stay as they are
     Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(matrix.topLeftCorner(unknowns, unknowns));
     Eigen::VectorXd step = Eigen::VectorXd::Zero(4);
