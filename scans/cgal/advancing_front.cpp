@@ -8,7 +8,7 @@
 #include <algorithm>
 #include <iterator>
 
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 

@@ -9,7 +9,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/fit/level_fit.hpp"
 #include "treadmark/scans/fit/significance.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "treadmark/scans/placement/voxels.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 

@@ -11,7 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 namespace {

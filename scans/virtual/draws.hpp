@@ -8,7 +8,7 @@
 #include <numbers>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans::scanner {
 

@@ -13,7 +13,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 namespace {

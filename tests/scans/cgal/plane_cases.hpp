@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 

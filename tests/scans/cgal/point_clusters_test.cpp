@@ -6,7 +6,7 @@
 
 #include <limits>
 
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 namespace {

@@ -9,7 +9,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/sampling/natural_view.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/scans/random.hpp"
+#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans::tests {
 

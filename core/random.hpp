@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-namespace treadmark::scans {
+namespace treadmark {
 
 /// The same numbers everywhere (splitmix64, Steele et al. 2014); those of the standard library differ between machines.
 class Random {
@@ -24,4 +24,4 @@ class Random {
   std::uint64_t state_;
 };
 
-}  // namespace treadmark::scans
+}  // namespace treadmark
