@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/backends/create.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
@@ -118,7 +118,7 @@ void read_nominal(const ImportRequest& request, PlacedScan& scan) {
   h.resize(y.size());
   HeightsOut out;
   out.z = h;
-  sampling::section_heights(*natural.surface, scan.body, 0.0, y, out);
+  section_heights(*natural.surface, scan.body, 0.0, y, out);
   for (std::size_t k = 0; k < y.size(); ++k)
     if (!std::isnan(h[k])) scan.nominal.emplace_back(y[k], h[k] - spec.nominal_radius);
   scan.nominal_spec = spec;
@@ -137,18 +137,15 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   scan.passes = std::move(clouds.cloud.passes);
 
   clock.begin("stray points");
-  scans::RoughPlace rough;
-  rough.elements = scans::find_elements(scan.points);
-  report.spacing = rough.elements.spacing;
   if (settings.clean.strays) {
     if (!scans::have_cgal())
       throw Error(ErrorKind::configuration, "this build cannot look for stray points: it has no CGAL", {},
                   "configure with -DTREADMARK_WITH_CGAL=ON, or say --set clean.strays=false for a clean scan");
-    scan.keep = keep_without_strays(scan.points, rough.elements, settings, report);
+    scan.keep = keep_without_strays(scan.points, scans::find_elements(scan.points), settings, report);
   }
 
   clock.begin("placement");
-  rough = scans::find_roughly(scan.points, scan.keep, scan.body);
+  scans::RoughPlace rough = scans::find_roughly(scan.points, scan.keep, scan.body);
   report.spacing = rough.elements.spacing;
   LengthUnit unit = LengthUnit::millimetre;
   if (settings.scan.unit != "auto") {

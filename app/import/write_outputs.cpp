@@ -9,7 +9,7 @@
 
 #include "treadmark/app/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -77,7 +77,6 @@ TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& set
   const double period = closed ? fit.fitted.band.length() : 0.0;
   double longest = 2.0 * spacing;
   if (settings.fit.decimate_um > 0.0) {
-    std::vector<double> heights = scans::sagitta(fit.fitted, nodes);
     // a cut across a closed band, whose nodes all stay, lets the curvature be measured from there
     std::vector<Vec2> strip = nodes;
     std::vector<std::size_t> origin(nodes.size());
@@ -88,7 +87,7 @@ TriangleMesh band_triangles(const FittedScan& fit, const io::ImportSettings& set
           strip.emplace_back(nodes[k].x() + period, nodes[k].y());
           origin.push_back(k);
         }
-    heights = scans::sagitta(fit.fitted, strip);
+    const std::vector<double> heights = scans::sagitta(fit.fitted, strip);
     std::vector<std::uint8_t> needed(nodes.size(), 0);
     for (const std::uint32_t k : scans::decimate_plane(strip, heights, 1e-6 * settings.fit.decimate_um))
       needed[origin[k]] = 1;
@@ -207,7 +206,7 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, io::Impor
     HeightsOut heights;
     heights.z = z;
     heights.dzdy = slope;
-    sampling::section_heights(*back.surface, fit.scan.body, fit.fitted.u_at(a), y, heights);
+    section_heights(*back.surface, fit.scan.body, fit.fitted.u_at(a), y, heights);
     for (std::size_t k = 0; k < y.size(); ++k) {
       if (std::isnan(z[k])) continue;
       const double d = (z[k] - v[k]) / std::hypot(1.0, slope[k]);

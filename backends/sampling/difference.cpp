@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/core/parallel.hpp"
 

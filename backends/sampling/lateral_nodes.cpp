@@ -7,7 +7,7 @@
 #include <cstddef>
 #include <limits>
 
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::sampling {

@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 

@@ -79,7 +79,4 @@ void apply_table(Case& target, const CaseTable& table, const std::filesystem::pa
 /// "rail.corrugations.0.waves.1.phase_deg").
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder);
 
-/// The known key that an unknown one was probably meant to be; empty when nothing is near.
-std::string nearest_key(std::string_view path, std::span<const std::string> known);
-
 }  // namespace treadmark::io

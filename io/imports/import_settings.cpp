@@ -14,6 +14,7 @@
 #include <toml++/toml.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/cases/nearest_key.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -167,32 +168,10 @@ void set(ImportSettings& settings, const Key& key, const toml::node& node, const
   }
 }
 
-/// Number of letters that must change to make one word of the other (Levenshtein 1966).
-std::size_t difference(std::string_view a, std::string_view b) {
-  std::vector<std::size_t> row(b.size() + 1);
-  for (std::size_t k = 0; k <= b.size(); ++k) row[k] = k;
-  for (std::size_t i = 1; i <= a.size(); ++i) {
-    std::size_t diagonal = row[0];
-    row[0] = i;
-    for (std::size_t k = 1; k <= b.size(); ++k) {
-      const std::size_t up = row[k];
-      row[k] = std::min({row[k] + 1, row[k - 1] + 1, diagonal + (a[i - 1] == b[k - 1] ? 0 : 1)});
-      diagonal = up;
-    }
-  }
-  return row[b.size()];
-}
-
 [[noreturn]] void unknown(const std::string& name, const SourcePosition& where) {
-  std::string nearest;
-  std::size_t least = 4;
-  for (const Key& key : keys()) {
-    const std::string full = key.table + '.' + key.name;
-    if (const std::size_t d = difference(name, full); d < least) {
-      least = d;
-      nearest = full;
-    }
-  }
+  std::vector<std::string> known;
+  for (const Key& key : keys()) known.push_back(key.table + '.' + key.name);
+  const std::string nearest = nearest_key(name, known);
   fail(fmt::format("there is no setting '{}'", name), where,
        nearest.empty() ? "treadmark import --list-settings shows all" : fmt::format("did you mean '{}'?", nearest));
 }

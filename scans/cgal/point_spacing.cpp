@@ -5,15 +5,12 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/median.hpp"
 #include "treadmark/scans/cgal/neighbours.hpp"
 
 namespace treadmark::scans {
 
-double median(std::vector<double> values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
+double median(std::vector<double> values) { return median_of(values); }
 
 double median_spacing(std::span<const Vec3> points) {
   std::vector<double> spacing(points.size());
@@ -22,7 +19,7 @@ double median_spacing(std::span<const Vec3> points) {
     for (const Neighbour& n : near) sum += std::sqrt(n.squared_distance);
     spacing[i] = sum / static_cast<double>(near.size());
   });
-  return median(std::move(spacing));
+  return median_of(spacing);
 }
 
 }  // namespace treadmark::scans

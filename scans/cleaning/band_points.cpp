@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
@@ -48,8 +49,7 @@ Ends ends_of(const std::vector<float>& a, const std::vector<std::uint8_t>& what,
   for (const std::size_t c : count)
     if (c > 0) filled.push_back(c);
   if (filled.empty()) return {0.0, 0.0, false};
-  std::nth_element(filled.begin(), filled.begin() + static_cast<std::ptrdiff_t>(filled.size() / 2), filled.end());
-  const std::size_t enough = std::max<std::size_t>(1, filled[filled.size() / 2] / 10);
+  const std::size_t enough = std::max<std::size_t>(1, median_of(filled) / 10);
   // runs of rows with nothing between two lines of the scanner are no ends
   std::vector<std::size_t> present;
   for (std::size_t k = 0; k < rows; ++k)

@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::scans {
@@ -194,11 +195,7 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
   std::vector<float> all, here;
   for (std::size_t k = 0; k < of_cell.size(); ++k)
     if (of_cell[k] >= 0.0f) all.push_back(of_cell[k]);
-  const auto median = [](std::vector<float>& values) {
-    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-    std::nth_element(values.begin(), middle, values.end());
-    return static_cast<double>(*middle);
-  };
+  const auto median = [](std::vector<float>& values) { return static_cast<double>(median_of(values)); };
   out.typical = all.empty() ? settings.least_noise : std::max(median(all), settings.least_noise);
   for (std::size_t tr = 0; tr < out.tile_rows; ++tr)
     for (std::size_t tc = 0; tc < out.tile_columns; ++tc) {

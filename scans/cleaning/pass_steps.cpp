@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
@@ -25,12 +26,6 @@ struct Level {
   double d;
   Vec6 change;  // of d by shift and turn about the middle of the pass
 };
-
-double median_of(std::vector<float>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 }  // namespace
 

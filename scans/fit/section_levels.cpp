@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/fit/spline_field.hpp"
 
@@ -31,14 +32,9 @@ Strip strip_of(std::vector<Strip>& inside) {
   if (inside.size() < kFewest) return out;
   std::vector<double> sizes;
   for (const Strip& p : inside) sizes.push_back(p.d);
-  const auto median = [&] {
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    return *middle;
-  };
-  double level = median();
+  double level = median_of(sizes);
   for (std::size_t k = 0; k < sizes.size(); ++k) sizes[k] = std::fabs(inside[k].d - level);
-  const double scale = std::max(kMad * median(), 1e-8);
+  const double scale = std::max(kMad * median_of(sizes), 1e-8);
   for (int round = 0; round < 10; ++round) {
     double w_sum = 0.0, d_sum = 0.0, s_sum = 0.0, square = 0.0, slope = 0.0;
     for (const Strip& p : inside) {
@@ -85,9 +81,7 @@ Section refine_section(const BandPoints& points, const Band& band, double finest
     for (std::size_t b = 0; b < blocks; ++b)
       if (in_block[b * count + k] > 0) counts.push_back(in_block[b * count + k]);
     if (counts.empty()) continue;
-    const auto middle = counts.begin() + static_cast<std::ptrdiff_t>(counts.size() / 2);
-    std::nth_element(counts.begin(), middle, counts.end());
-    usual[k] = *middle;
+    usual[k] = median_of(counts);
   }
   std::vector<std::uint32_t> number(in_block.size(), 0);
   each_point([&](std::size_t block, std::size_t strip, std::size_t i) {

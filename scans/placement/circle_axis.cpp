@@ -9,6 +9,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/median.hpp"
 #include "treadmark/scans/placement/voxels.hpp"
 
 namespace treadmark::scans {
@@ -17,12 +18,6 @@ namespace {
 constexpr std::size_t kStrips = 24, kFewest = 12;
 constexpr double kFlat = 0.25;  // least to middle variance of a wheel's points
 constexpr int kRounds = 12;
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct Basis {
   Vec3 e1, e2;

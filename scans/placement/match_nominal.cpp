@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::scans {
@@ -20,12 +21,6 @@ constexpr double kMad = 1.4826;
 constexpr double kLeastOverlap = 0.5;
 constexpr double kCoarseStep = 2e-3;  // of the lateral positions that are tried [m]
 constexpr double kAlike = 4e-3;       // sections that differ more at their better half are of other things [m]
-
-double median_of(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 std::vector<Vec2> nodes_of(const Section& section) {
   constexpr double kStep = 0.5e-3;

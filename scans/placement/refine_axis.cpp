@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 
@@ -74,9 +75,7 @@ RefinedAxis refine_axis(std::span<const Vec3> points, Body body, const Pose& sta
     for (const Residual& r : residuals)
       if (r.s >= 0.0) sizes.push_back(std::fabs(r.d));
     if (sizes.empty()) break;
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    const double scale = std::max(kMad * *middle, 1e-7);
+    const double scale = std::max(kMad * median_of(sizes), 1e-7);
     // what is the same all along a strip of the section is the section's matter: its weighted mean is taken out
     const auto strips = static_cast<std::size_t>(section.length() / kStrip) + 1;
     struct Sum {

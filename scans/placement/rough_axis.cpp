@@ -11,6 +11,7 @@
 #include <Eigen/Eigenvalues>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
@@ -141,8 +142,7 @@ RoughAxis rough_revolution(const SurfaceElements& elements) {
     const double change =
         std::min((next->direction - axis.direction).norm(), (next->direction + axis.direction).norm());
     axis = *next;
-    std::nth_element(sizes.begin(), sizes.begin() + static_cast<std::ptrdiff_t>(count / 2), sizes.end());
-    scale = std::clamp(1.4826 * sizes[count / 2], 1e-4, kNear);
+    scale = std::clamp(1.4826 * median_of(sizes), 1e-4, kNear);
     if (change < 1e-9 && round > 5) break;
   }
   RoughAxis out;
@@ -205,9 +205,7 @@ RoughAxis rough_sweep(const SurfaceElements& elements) {
     direction = eigen.eigenvectors().col(0);
     inliers /= used;
     square = std::sqrt(square / std::max(1.0, inliers * used));
-    const auto middle = sizes.begin() + static_cast<std::ptrdiff_t>(sizes.size() / 2);
-    std::nth_element(sizes.begin(), middle, sizes.end());
-    scale = std::clamp(1.4826 * *middle, kLeastScale, kNearAngle);
+    scale = std::clamp(1.4826 * median_of(sizes), kLeastScale, kNearAngle);
   }
   if (second < 1e-3) refuse("its normals are all parallel, so that its direction is not determined");
   if (inliers < kEnough || square > kNearAngle) refuse("its surface follows no common direction");

@@ -10,7 +10,9 @@
 #include <Eigen/Cholesky>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/placement/cubic_basis.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -20,12 +22,6 @@ constexpr double kLayer = 6e-3;       // what one strip of one surface spans at 
 constexpr double kLeastShare = 0.15;  // of the fullest layer of its strip: a layer is no outlier then
 constexpr double kTukey = 4.685;
 constexpr double kMad = 1.4826;
-
-double median(std::vector<double>& values) {
-  const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
-  std::nth_element(values.begin(), middle, values.end());
-  return *middle;
-}
 
 struct Strip {
   double y = 0.0, v = 0.0;
@@ -53,16 +49,9 @@ Strip strip_of(std::vector<Vec2>& points, double y_middle) {
   while (first + 1 < points.size() && inside[first + 1] > inside[first]) ++first;
   std::vector<double> all;
   for (std::size_t i = first; i < first + inside[first]; ++i) all.push_back(points[i].y());
-  out.v = median(all);
+  out.v = median_of(all);
   out.present = true;
   return out;
-}
-
-/// Cubic B-splines that are not zero at place (in knot intervals).
-std::array<double, 4> basis(double t) {
-  const double o = 1.0 - t;
-  return {o * o * o / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * o * o + 3.0 * o * o * o) / 6.0,
-          t * t * t / 6.0};
 }
 
 }  // namespace
@@ -161,12 +150,12 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
       for (const Near& n : near) d[n.cell].push_back(n.d);
       for (std::size_t k = 0; k < intervals; ++k) {
         if (d[k].empty()) continue;
-        level[k] = median(d[k]);
+        level[k] = median_of(d[k]);
         for (double& value : d[k]) value = std::fabs(value - level[k]);
-        scale[k] = kMad * median(d[k]);
+        scale[k] = kMad * median_of(d[k]);
         if (d[k].size() > 8) scales.push_back(scale[k]);
       }
-      if (!scales.empty()) typical = median(scales);
+      if (!scales.empty()) typical = median_of(scales);
     }
     const auto size = static_cast<Eigen::Index>(intervals + 3);
     Eigen::VectorXd coefficients = Eigen::VectorXd::Zero(size);
@@ -175,7 +164,7 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
       Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(size, size);
       Eigen::VectorXd rhs = Eigen::VectorXd::Zero(size);
       for (const Near& n : near) {
-        const std::array<double, 4> b = basis(n.s);
+        const std::array<double, 4> b = cubic_basis(n.s);
         double expected = 0.0;
         for (std::size_t k = 0; k < 4; ++k) expected += b[k] * coefficients[static_cast<Eigen::Index>(n.cell + k)];
         if (again == 0) expected = level[n.cell];
@@ -200,7 +189,7 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
     std::vector<double> sizes;
     double square = 0.0;
     for (const Near& n : near) {
-      const std::array<double, 4> b = basis(n.s);
+      const std::array<double, 4> b = cubic_basis(n.s);
       double expected = 0.0;
       for (std::size_t k = 0; k < 4; ++k) expected += b[k] * coefficients[static_cast<Eigen::Index>(n.cell + k)];
       sizes.push_back(std::fabs(n.d - expected));
@@ -208,14 +197,14 @@ SectionFit fit_section(const Section& start, std::span<const Vec2> points, doubl
     }
     out.used = near.size();
     out.spread = std::sqrt(square / static_cast<double>(near.size()));
-    out.scale = kMad * median(sizes);
+    out.scale = kMad * median_of(sizes);
     // the curve moves along its normals; what would fold at badly known ends is left out, from the middle on
     const auto nodes = static_cast<std::size_t>(std::ceil(2.0 * static_cast<double>(intervals)));
     std::vector<Vec2> all(nodes + 1);
     for (std::size_t k = 0; k <= nodes; ++k) {
       const double place = static_cast<double>(k) * static_cast<double>(intervals) / static_cast<double>(nodes);
       const auto cell = std::min(intervals - 1, static_cast<std::size_t>(place));
-      const std::array<double, 4> b = basis(place - static_cast<double>(cell));
+      const std::array<double, 4> b = cubic_basis(place - static_cast<double>(cell));
       double d = 0.0;
       for (std::size_t a = 0; a < 4; ++a) d += b[a] * coefficients[static_cast<Eigen::Index>(cell + a)];
       const Section::Point at = out.section.at(place * knot);

@@ -118,7 +118,7 @@ class Look {
     const std::vector<double>&y = station.y(), &h = station.h(), &arc = station.arc();
     std::vector<double> z(y.size()), dzdx(y.size()), dzdy(y.size());
     heights_along(surface_, body_, u, y, {z, dzdx, dzdy});
-    const Pose X_SP = plane_at(body_, u);
+    const Pose X_SP = natural_plane(body_, u);
     for (std::size_t k = 0; k < y.size(); ++k) {
       const double before = k > 0 ? arc[k] - arc[k - 1] : 0.0, after = k + 1 < y.size() ? arc[k + 1] - arc[k] : 0.0;
       const double l = 0.5 * (before + after);

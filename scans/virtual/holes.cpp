@@ -55,7 +55,7 @@ Holes::Hole Holes::draw(const Patch& patch, Body body, double size, double large
   const double diameter = size * draws.uniform(kLeastSize, kGreatestSize), aspect = draws.uniform(kLeastAspect, 1.0);
   const double shrink = std::min(1.0, std::sqrt(largest_area / (kCircle * diameter * diameter)));
   const double a = 0.5 * shrink * diameter / std::sqrt(aspect), b = a * aspect, angle = draws.uniform(0.0, std::numbers::pi);
-  const Vec3 along = plane_at(body, patch.u).rotation.col(0), across = patch.normal_S.cross(along);
+  const Vec3 along = natural_plane(body, patch.u).rotation.col(0), across = patch.normal_S.cross(along);
   constexpr double kLeastAcross = 1e-6;
   const Vec3 v = across.norm() > kLeastAcross ? across.normalized() : patch.normal_S.unitOrthogonal(), u = v.cross(patch.normal_S);
   Hole hole;

@@ -78,7 +78,7 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
   std::vector<double> z(y.size()), dzdx(need_normals ? y.size() : 0), dzdy(dzdx.size());
   heights_along(job.surface, settings.body, u, y, {z, dzdx, dzdy});
 
-  const Pose X_SP = plane_at(settings.body, u), X_CP = job.X_CS * X_SP;
+  const Pose X_SP = natural_plane(settings.body, u), X_CP = job.X_CS * X_SP;
   const double least_cosine = settings.most_incidence > 0.0 ? std::cos(settings.most_incidence) : -1.0;
   DropOuts drop_outs(settings.drop_outs, Draws(seed, Purpose::drop_outs, job.pass_number, line));
   Draws noise(seed, Purpose::noise, job.pass_number, line), spoilt(seed, Purpose::outliers, job.pass_number, line);

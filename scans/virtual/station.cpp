@@ -17,23 +17,8 @@ constexpr double kMostPieces = 1e7;
 
 }  // namespace
 
-Pose plane_at(Body body, double u) {
-  Pose X;
-  if (body == Body::rail) {
-    X.origin.x() = u;
-    return X;
-  }
-  const double s = std::sin(u), c = std::cos(u);
-  X.rotation.col(0) = Vec3(c, 0.0, -s);
-  X.rotation.col(1) = Vec3::UnitY();
-  X.rotation.col(2) = Vec3(s, 0.0, c);
-  return X;
-}
-
 void heights_along(const Surface& surface, Body body, double u, std::span<const double> y, const HeightsOut& out) {
-  std::vector<Vec2> points(y.size());
-  for (std::size_t i = 0; i < y.size(); ++i) points[i] = {0.0, y[i]};
-  surface.heights_at(plane_at(body, u), points, out);
+  section_heights(surface, body, u, y, out);
   if (body == Body::wheel)
     for (double& r : out.z)
       if (r <= 0.0) r = std::numeric_limits<double>::quiet_NaN();

@@ -6,14 +6,11 @@
 #include <span>
 #include <vector>
 
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/profile.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::scans::scanner {
-
-/// The plane over which a surface is seen at station u: z of a rail over (x - u, y), the radius of a wheel over y at theta = u
-/// (x along the circumference).
-Pose plane_at(Body body, double u);
 
 /// Heights z or radii r along one station, NaN where there is no surface (the far side of a wheel is none); slopes may be empty.
 void heights_along(const Surface& surface, Body body, double u, std::span<const double> y, const HeightsOut& out);

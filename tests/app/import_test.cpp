@@ -14,7 +14,7 @@
 
 #include "treadmark/app/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/length_unit.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/tests/app/program.hpp"
@@ -105,9 +105,9 @@ class ImportCommand : public ::testing::Test {
       const double u = u_min + (u_max - u_min) * (k + 0.4) / 200.0;
       HeightsOut out;
       out.z = a;
-      sampling::section_heights(*found.surface, truth.body, u, y, out);
+      section_heights(*found.surface, truth.body, u, y, out);
       out.z = b;
-      sampling::section_heights(*formula.surface, truth.body, u + truth_u, y, out);
+      section_heights(*formula.surface, truth.body, u + truth_u, y, out);
       for (std::size_t i = 0; i < y.size(); ++i) {
         EXPECT_FALSE(std::isnan(a[i])) << "u " << u << " y " << y[i];
         sum += (a[i] - b[i]) * (a[i] - b[i]);
@@ -231,9 +231,9 @@ TEST_F(ImportCommand, MapOfDeviationsOverTheNominalProfile) {
       std::vector<double> at{1e-3 * y}, a(1), b(1);
       HeightsOut out;
       out.z = a;
-      sampling::section_heights(*found.surface, Body::rail, 1e-3 * x, at, out);
+      section_heights(*found.surface, Body::rail, 1e-3 * x, at, out);
       out.z = b;
-      sampling::section_heights(*nominal.surface, Body::rail, 0.0, at, out);
+      section_heights(*nominal.surface, Body::rail, 0.0, at, out);
       EXPECT_NEAR(a[0] - b[0], 0.3e-3 * std::exp(-((x - 60.0) * (x - 60.0) + y * y) / 200.0), 2e-6) << x << ' ' << y;
     }
 }

@@ -9,7 +9,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 

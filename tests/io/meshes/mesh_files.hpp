@@ -14,6 +14,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/meshes/parse_mesh.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::io::testing {
 
@@ -170,28 +171,6 @@ inline std::string replaced(std::string text, const std::string& what, const std
   return at == std::string::npos ? text : text.replace(at, what.size(), by);
 }
 
-/// A folder that is removed with its content at the end of a test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "treadmark_meshes_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code code;
-    std::filesystem::remove_all(path_, code);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-  const std::filesystem::path& path() const { return path_; }
-  std::filesystem::path write(const std::string& name, const std::string& content) const {
-    std::ofstream(path_ / name, std::ios::binary) << content;
-    return path_ / name;
-  }
-
- private:
-  std::filesystem::path path_;
-};
+using treadmark::testing::TemporaryFolder;
 
 }  // namespace treadmark::io::testing

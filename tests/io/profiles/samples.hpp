@@ -13,6 +13,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::testing {
 
@@ -77,31 +78,5 @@ Error error_of(Call call) {
     EXPECT_EQ(caught.kind(), treadmark::ErrorKind::input_data) << caught.what();        \
   } while (false)
 
-/// A folder that is removed with its content at the end of a test.
-class TemporaryFolder {
- public:
-  TemporaryFolder() {
-    std::string pattern = (std::filesystem::temp_directory_path() / "treadmark_profiles_XXXXXX").string();
-    if (mkdtemp(pattern.data()) == nullptr) ADD_FAILURE() << "no temporary folder";
-    path_ = pattern;
-  }
-  ~TemporaryFolder() {
-    std::error_code code;
-    std::filesystem::remove_all(path_, code);
-  }
-  TemporaryFolder(const TemporaryFolder&) = delete;
-  TemporaryFolder& operator=(const TemporaryFolder&) = delete;
-
-  std::filesystem::path write(const std::string& name, const std::string& content) const {
-    const std::filesystem::path file = path_ / name;
-    std::filesystem::create_directories(file.parent_path());
-    std::ofstream(file, std::ios::binary) << content;
-    return file;
-  }
-  const std::filesystem::path& path() const { return path_; }
-
- private:
-  std::filesystem::path path_;
-};
 
 }  // namespace treadmark::testing

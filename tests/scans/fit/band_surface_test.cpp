@@ -66,7 +66,7 @@ double worst(const FittedBand& fitted, const SliceSet& slices, double a_min, dou
     heights.z = h;
     heights.dzdy = slope;
     const double u = body == Body::wheel ? wrap_angle(fitted.u_at(a)) : fitted.u_at(a);
-    sampling::section_heights(*surface, body, u, y, heights);
+    section_heights(*surface, body, u, y, heights);
     EXPECT_FALSE(std::isnan(h[0])) << "a " << a << " s " << s;
     const double off = (body == Body::wheel ? h[0] - p.y() : -h[0] - p.y()) / std::hypot(1.0, slope[0]);
     most = std::max(most, std::fabs(off));

@@ -59,7 +59,7 @@ TrueError true_error(const Surface& wheel, const Fitted& f) {
     HeightsOut heights;
     heights.z = h;
     heights.dzdy = slope;
-    sampling::section_heights(wheel, Body::wheel, u, y, heights);
+    section_heights(wheel, Body::wheel, u, y, heights);
     const double error = (p.y() - h[0]) / std::hypot(1.0, slope[0]);
     sum += error * error;
     count += 1.0;

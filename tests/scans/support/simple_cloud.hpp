@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/backends/create.hpp"
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/core/random.hpp"
 
@@ -40,7 +40,7 @@ inline SimpleCloud simple_cloud(const Surface& surface, Body body, double u_min,
     HeightsOut heights;
     heights.z = h;
     heights.dzdy = slope;
-    sampling::section_heights(surface, body, u, y, heights);
+    section_heights(surface, body, u, y, heights);
     for (std::size_t k = 0; k < y.size(); ++k) {
       if (std::isnan(h[k])) continue;
       const double off = noise * gaussian(random), n = std::hypot(1.0, slope[k]);
@@ -74,7 +74,7 @@ inline std::vector<Vec2> nominal_points(const char* name, Body body) {
   h.resize(y.size());
   HeightsOut out;
   out.z = h;
-  sampling::section_heights(*surface, body, 0.0, y, out);
+  section_heights(*surface, body, 0.0, y, out);
   std::vector<Vec2> points;
   for (std::size_t k = 0; k < y.size(); ++k)
     if (!std::isnan(h[k])) points.emplace_back(y[k], body == Body::wheel ? h[k] - radius : -h[k]);

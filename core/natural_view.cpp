@@ -1,11 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/backends/sampling/natural_view.hpp"
+#include "treadmark/core/natural_view.hpp"
 
 #include <cmath>
 #include <vector>
 
-namespace treadmark::sampling {
+namespace treadmark {
 
 Pose natural_plane(Body body, double u) {
   Pose X;
@@ -26,4 +26,4 @@ void section_heights(const Surface& surface, Body body, double u, std::span<cons
   surface.heights_at(natural_plane(body, u), points, out);
 }
 
-}  // namespace treadmark::sampling
+}  // namespace treadmark
