@@ -113,6 +113,9 @@ void fill_sections(const ImportFindings& found, io::ImportReport& report) {
   const scans::BandPoints& points = found.projection.points;
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points.state[i] == PointState::used || points.state[i] == PointState::held_out) used[points.index[i]] = 1;
+  if (found.sections != nullptr)
+    for (const auto& section : found.sections->points)
+      for (const std::uint32_t i : section) used[i] = 1;
   const auto removed = static_cast<std::size_t>(std::count(used.begin(), used.end(), std::uint8_t{0}));
   const std::size_t every = std::max<std::size_t>(1, removed / kMostDots);
   std::size_t number = 0;
@@ -172,6 +175,20 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
   report.fitted_points = found.fit.used;
   report.held_out_points = found.fit.held_out;
   report.points_used = found.fit.used + found.fit.held_out;
+  if (found.sections != nullptr) {
+    const scans::MeasuredSections& kept = *found.sections;
+    io::ImportReport::Sections sections;
+    sections.count = kept.u.size();
+    const auto [fewest, most] = std::minmax_element(kept.points.begin(), kept.points.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    sections.fewest_points = fewest->size();
+    sections.most_points = most->size();
+    sections.least_gap = kept.least_gap;
+    sections.widest_gap = kept.widest_gap;
+    sections.spread = kept.spread;
+    report.sections = sections;
+    report.points_used = 0;
+    for (const auto& points : kept.points) report.points_used += points.size();
+  }
   report.residual_rms = found.fit.residual_rms;
   report.held_out_rms = found.fit.held_out_rms;
   report.held_out_error = found.fit.held_out_error;

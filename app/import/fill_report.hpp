@@ -8,6 +8,7 @@
 #include "treadmark/scans/fit/band_surface.hpp"
 #include "treadmark/scans/fit/damage.hpp"
 #include "treadmark/scans/fit/fit_field.hpp"
+#include "treadmark/scans/sections/find_sections.hpp"
 
 namespace treadmark::app {
 
@@ -20,6 +21,7 @@ struct ImportFindings {
   const scans::FitResult& fit;
   const scans::FittedBand& fitted;
   const std::vector<scans::Damage>& damage;
+  const scans::MeasuredSections* sections = nullptr;  ///< that were kept
 };
 void fill_report(const ImportFindings& found, io::ImportReport& report);
 

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/import/check_settings.hpp"
 #include "treadmark/app/import/fill_report.hpp"
 #include "treadmark/app/import/find_place.hpp"
 #include "treadmark/app/import/read_map.hpp"
@@ -83,6 +84,18 @@ scans::Section start_section(const PlacedScan& scan) {
   return points.size() < kFewest ? scan.placement.section : scans::Section(points);
 }
 
+/// The sections in which the points lie, if they are to be kept. Errors: Error(configuration) if they shall be and are not there.
+std::optional<scans::MeasuredSections> sections_to_keep(const PlacedScan& scan, const io::ImportSettings& settings) {
+  if (settings.fit.sections == "fit" || scan.points.empty()) return std::nullopt;
+  std::optional<scans::MeasuredSections> found =
+      scans::find_sections(scan.points, scan.keep, scan.placement.X_CS, scan.body, scan.placement.nominal_radius);
+  if (settings.fit.sections == "keep" && !found)
+    throw Error(ErrorKind::configuration, "the points do not lie in cross-sections that could be kept", {},
+                "say fit.sections=fit");
+  if (settings.fit.sections == "auto" && found && !found->regular) return std::nullopt;
+  return found;
+}
+
 /// Lines about the import that the surface file itself carries.
 std::vector<std::string> summary_lines(const io::ImportReport& report) {
   std::vector<std::string> out;
@@ -92,6 +105,9 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
   out.push_back(fmt::format("unit of the scan: {} (from {}); this file: millimetres", report.unit, report.unit_from));
   out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; fit error on points held out {:.3g} um",
                             report.points_read, report.points_used, 1e6 * report.noise, 1e6 * report.held_out_error));
+  if (report.sections)
+    out.push_back(fmt::format("the {} sections are the scan's own points: smooth them where they are used (smoothing_lambda_mm3, SMOOTH)",
+                              report.sections->count));
   if (report.body == Body::wheel) out.push_back(fmt::format("nominal radius: {:.4f} mm", 1e3 * report.nominal_radius));
   out.push_back(fmt::format("{}; holes up to {:.1f} mm filled", report.zero, 1e3 * report.hole_limit));
   for (std::string& line : out)
@@ -121,6 +137,7 @@ void note_removed(const scans::Projection& projection, std::size_t duplicates, c
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress) {
   if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to read");
   check_outputs(request);
+  check_settings(request.settings, body_of(request));
   const io::ImportSettings& settings = request.settings;
   io::ImportReport report;
   report.version = version();
@@ -141,6 +158,7 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
     throw Error(error.kind(), error.message(), {request.scans.front().string()}, error.advice());
   }
 
+  const std::optional<scans::MeasuredSections> sections = sections_to_keep(scan, settings);
   clock.begin("noise and outliers");
   const double radius = scan.body == Body::wheel ? scan.placement.nominal_radius : 1.0;
   const double finest =
@@ -161,10 +179,10 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   }
   const std::size_t duplicates = scans::drop_duplicates(projection.points, scan.points);
   scans::NoiseSettings how_noise;
-  how_noise.outlier_factor = settings.clean.outlier_factor;
+  how_noise.outlier_factor = sections ? 0.0 : settings.clean.outlier_factor;
   how_noise.most_flagged = settings.clean.edge_share;
   const scans::LocalNoise noise = scans::find_noise(projection.points, projection.band, how_noise);
-  note_removed(projection, duplicates, noise, settings, report);
+  if (!sections) note_removed(projection, duplicates, noise, settings, report);
 
   clock.begin("holes");
   const scans::Coverage coverage = scans::find_coverage(
@@ -198,10 +216,19 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
     scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3::Zero(), rotation_y(u_zero)};
   else
     scan.placement.X_CS = scan.placement.X_CS * Pose{Vec3(u_zero, 0.0, 0.0), Mat3::Identity()};
-  fill_report({scan, projection, noise, coverage, fit, fitted, damage}, report);
+  fill_report({scan, projection, noise, coverage, fit, fitted, damage, sections ? &*sections : nullptr}, report);
 
   clock.begin("writing");
-  const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical};
+  std::optional<SliceSet> kept;
+  if (sections) {
+    report.sections->smoothing = 1e-9 * settings.fit.smoothing_lambda_mm3;
+    scans::MeasuredSections from_zero = *sections;
+    for (double& u : from_zero.u) u -= u_zero;
+    kept = scans::sections_to_slices(from_zero, scan.points, scan.placement.X_CS, scan.body, scan.placement.nominal_radius,
+                                     settings.fit.sections_along == "approximate",
+                                     scan.body == Body::wheel ? "measured wheel" : "measured rail");
+  }
+  const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr};
   for (const auto& file : request.outputs) check_holes(file, whole);
   const std::vector<std::string> summary = summary_lines(report);
   for (const auto& file : request.outputs) report.outputs.push_back(write_output(file, whole, settings, summary));

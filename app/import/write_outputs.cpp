@@ -63,7 +63,15 @@ void refuse_holes(const FittedScan& fit, const std::filesystem::path& file, cons
                           std::ceil(1e3 * hole.diameter)));
 }
 
+/// What triangles and offsets of measured sections are made of.
+SliceSet smoothed_sections(const SliceSet& sections, const io::ImportSettings& settings) {
+  SliceSet out = sections;
+  for (Profile& profile : out.profiles) profile.smoothing.strength = 1e-9 * settings.fit.smoothing_lambda_mm3;
+  return out;
+}
+
 SliceSet slices_of(const FittedScan& fit, const io::ImportSettings& settings) {
+  if (fit.sections != nullptr) return smoothed_sections(*fit.sections, settings);
   const double tolerance = settings.fit.tolerance_um > 0.0 ? 1e-6 * settings.fit.tolerance_um
                                                            : std::clamp(fit.noise / 50.0, 0.02e-6, 0.5e-6);
   return scans::to_slices(fit.fitted, 1e-3 * settings.fit.resolution_mm, tolerance,
@@ -129,8 +137,11 @@ TriangleMesh free_triangles(const FittedScan& fit, const io::ImportSettings& set
 
 TriangleMesh triangles_of(const FittedScan& fit, const io::ImportSettings& settings) {
   if (settings.fit.mesh == "free") return free_triangles(fit, settings);
-  if (scans::have_cgal()) return band_triangles(fit, settings);
-  // without Delaunay triangulation: a regular grid of the splines
+  if (fit.sections == nullptr && scans::have_cgal()) return band_triangles(fit, settings);
+  // measured sections, or no Delaunay triangulation: a regular grid of the splines
+  if (fit.sections != nullptr && settings.fit.decimate_um > 0.0)
+    throw Error(ErrorKind::configuration, "nodes of triangles of measured sections cannot be left out", {},
+                "say fit.decimate_um=0, or fit.sections=fit");
   if (!fit.coverage.whole() || settings.fit.decimate_um > 0.0)
     throw Error(ErrorKind::configuration,
                 "this build cannot triangulate a band with holes or with fewer nodes: it has no CGAL", {},
@@ -176,7 +187,8 @@ void write_offset_file(const std::filesystem::path& file, const FittedScan& fit,
 
 /// Distance of the surface, as anyone reads it, from the fitted one, along the section's normals, on a grid that meets
 /// no nodes.
-void compare(const std::filesystem::path& file, const FittedScan& fit, io::ImportReport::Output& out) {
+void compare(const std::filesystem::path& file, const FittedScan& fit, const std::optional<NaturalSurface>& sections,
+             io::ImportReport::Output& out) {
   io::SurfaceSource source;
   source.geometry = io::GeometryFile{file, {}};
   source.where = {file.string(), 0, 0};
@@ -201,6 +213,11 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, io::Impor
       v.push_back(fit.scan.body == Body::wheel ? p.y() : -p.y());
     }
     if (y.empty()) return;
+    if (sections) {
+      HeightsOut wanted;
+      wanted.z = v;
+      section_heights(*sections->surface, fit.scan.body, fit.fitted.u_at(a), y, wanted);
+    }
     z.resize(y.size());
     slope.resize(y.size());
     HeightsOut heights;
@@ -208,7 +225,7 @@ void compare(const std::filesystem::path& file, const FittedScan& fit, io::Impor
     heights.dzdy = slope;
     section_heights(*back.surface, fit.scan.body, fit.fitted.u_at(a), y, heights);
     for (std::size_t k = 0; k < y.size(); ++k) {
-      if (std::isnan(z[k])) continue;
+      if (std::isnan(z[k]) || std::isnan(v[k])) continue;
       const double d = (z[k] - v[k]) / std::hypot(1.0, slope[k]);
       worst[i] = std::max(worst[i], std::fabs(d));
       square[i] += d * d;
@@ -261,7 +278,7 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const F
   out.file = file.filename().string();
   if (io::is_slices_file(file)) {
     out.kind = "slices";
-    const SliceSet slices = slices_of(fit, settings);
+    const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings);
     out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
     io::write_slices(file, slices, summary);
   } else if (io::is_mesh_file(file)) {
@@ -275,7 +292,15 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const F
     write_offset_file(file, fit, settings, summary);
   }
   describe_file(file, out);
-  compare(file, fit, out);
+  std::optional<NaturalSurface> sections;
+  if (fit.sections != nullptr) {
+    SurfaceSpec spec;
+    spec.body = fit.scan.body;
+    spec.nominal_radius = radius_of(fit);
+    spec.shape = out.kind == "slices" ? *fit.sections : smoothed_sections(*fit.sections, settings);
+    sections = create_natural(std::move(spec));
+  }
+  compare(file, fit, sections, out);
   return out;
 }
 

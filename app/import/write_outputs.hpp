@@ -18,6 +18,7 @@ struct FittedScan {
   const scans::BandPoints& points;
   const scans::Coverage& coverage;
   double noise = 0.0;  ///< [m]
+  const SliceSet* sections = nullptr;  ///< measured ones that are the surface; not smoothed
 };
 
 /// Refuses outputs that mean nothing or cannot hold the surface, before any work. Errors: Error(configuration).

@@ -111,7 +111,17 @@ Json fit(const ImportReport& report) {
                       {"functions", level.functions},
                       {"used", level.used},
                       {"iterations", level.iterations}});
-  return {{"levels", levels},
+  Json sections;
+  if (report.sections)
+    sections = {{"count", report.sections->count},
+                {"fewest_points", report.sections->fewest_points},
+                {"most_points", report.sections->most_points},
+                {"least_gap_mm", number(kMilli * report.sections->least_gap)},
+                {"widest_gap_mm", number(kMilli * report.sections->widest_gap)},
+                {"spread_mm", number(kMilli * report.sections->spread)},
+                {"smoothing_lambda_mm3", number(kMilli3 * report.sections->smoothing)}};
+  return {{"kept_sections", sections},
+          {"levels", levels},
           {"fitted_points", report.fitted_points},
           {"held_out_points", report.held_out_points},
           {"held_out_rms_mm", number(kMilli * report.held_out_rms)},

@@ -5,6 +5,7 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -92,6 +93,13 @@ struct ImportReport {
   double noise = 0.0;                    ///< standard deviation of the points [m]
   double area = 0.0, hole_area = 0.0, hole_limit = 0.0;
   std::vector<Hole> holes;               ///< largest first
+  // points in cross-sections that became slices as they are; the fit below then serves pictures, damage and zero alone
+  struct Sections {
+    std::size_t count = 0, fewest_points = 0, most_points = 0;
+    double least_gap = 0.0, widest_gap = 0.0, spread = 0.0;   ///< between them; of their points along the band [m]
+    double smoothing = 0.0;              ///< lambda, of triangles and offsets made of them [m^3]
+  };
+  std::optional<Sections> sections;
   // fit
   std::vector<Level> levels;
   std::size_t fitted_points = 0, held_out_points = 0;

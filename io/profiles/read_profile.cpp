@@ -136,12 +136,17 @@ Profile simpack_profile(std::string_view text, const std::string& file, Body bod
   return finish(std::move(points), body, content.inversion, options);
 }
 
-Profile column_profile(profiles::ColumnContent&& content, Body body, const ProfileOptions& options) {
-  RawPoints& points = content.points;
+RawPoints column_points(profiles::ColumnContent&& content, const ProfileOptions& options) {
+  RawPoints points = std::move(content.points);
   filter(points, kNearDistance_mm / options.scale, options);
   shift(points.y, content.offset_y);
   shift(points.z, content.offset_z);
   if (options.mirror_y == 1) negate(points.y);
+  return points;
+}
+
+Profile column_profile(profiles::ColumnContent&& content, Body body, const ProfileOptions& options) {
+  RawPoints points = column_points(std::move(content), options);
   if (options.mirror_z == 1 || (options.mirror_z == 0 && profiles::z_points_up(points, body))) negate(points.z);
   scale(points, options.scale);
   return finish(std::move(points), body, false, options);
@@ -151,6 +156,19 @@ std::optional<Body> body_of(const std::string& extension) {
   if (extension == ".prr" || extension == ".ban") return Body::rail;
   if (extension == ".prw" || extension == ".whl") return Body::wheel;
   return std::nullopt;
+}
+
+void check_file(const std::filesystem::path& file, Body body, const SourcePosition& referenced_from) {
+  const std::string extension = profiles::lower(file.extension().string());
+  const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
+  if (extension == ".slcs" || extension == ".slcw")
+    throw Error(ErrorKind::configuration,
+                fmt::format("a single profile is expected, '{}' is a set of slices", file.string()), where);
+  if (const std::optional<Body> named = body_of(extension); named && *named != body)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the extension of '{}' stands for a {}, a {} profile is expected", file.string(),
+                            *named == Body::rail ? "rail" : "wheel", body == Body::rail ? "rail" : "wheel"),
+                where, "exchange the files");
 }
 
 }  // namespace
@@ -176,18 +194,21 @@ Profile parse_profile(std::string_view text, const std::string& file, ProfileFor
   return column_profile(profiles::parse_two_column(text, file), body, options);
 }
 
+std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body body, const ProfileOptions& options,
+                                      const SourcePosition& referenced_from) {
+  check_file(file, body, referenced_from);
+  check_options(options, file.string());
+  const ProfileFormat format = profile_format(file);
+  if (format == ProfileFormat::simpack) return std::nullopt;
+  const std::string text = profiles::read_text(file, "profile", referenced_from);
+  profiles::ColumnContent content = format == ProfileFormat::miniprof ? profiles::parse_miniprof(text, file.string())
+                                                                      : profiles::parse_two_column(text, file.string());
+  return profiles::z_points_up(column_points(std::move(content), options), body);
+}
+
 Profile read_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                      const SourcePosition& referenced_from) {
-  const std::string extension = profiles::lower(file.extension().string());
-  const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
-  if (extension == ".slcs" || extension == ".slcw")
-    throw Error(ErrorKind::configuration,
-                fmt::format("a single profile is expected, '{}' is a set of slices", file.string()), where);
-  if (const std::optional<Body> named = body_of(extension); named && *named != body)
-    throw Error(ErrorKind::configuration,
-                fmt::format("the extension of '{}' stands for a {}, a {} profile is expected", file.string(),
-                            *named == Body::rail ? "rail" : "wheel", body == Body::rail ? "rail" : "wheel"),
-                where, "exchange the files");
+  check_file(file, body, referenced_from);
   return parse_profile(profiles::read_text(file, "profile", referenced_from), file.string(), profile_format(file),
                        body, options);
 }

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <string>
+#include <optional>
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
@@ -40,5 +41,10 @@ Profile read_profile(const std::filesystem::path& file, Body body, const Profile
 /// The same from text in memory; `file` is only used for messages and the name of the profile.
 Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,
                       const ProfileOptions& options);
+
+/// Whether options.mirror_z = 0 would turn the file over, judged by the shape of its section; none: a format that says
+/// itself. Throws as read_profile for a missing or broken file.
+std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body body, const ProfileOptions& options,
+                                      const SourcePosition& referenced_from = {});
 
 }  // namespace treadmark::io

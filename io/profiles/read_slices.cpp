@@ -169,6 +169,44 @@ void fit_to_profile(std::vector<double>& row, const Profile& profile, const Sour
   }
 }
 
+/// What the slices file itself says: a set without profiles, and where they are.
+struct SliceList {
+  SliceSet set;
+  std::vector<SliceEntry> entries;
+};
+
+SliceList read_list(std::string_view text, const std::string& file, Body body) {
+  RecordReader in(text, file);
+  const Header header = read_header(in);
+  SliceList out;
+  out.entries = read_entries(in, header);
+  if (body == Body::wheel) check_angles(out.entries);
+  read_feature_numbers(in, header.kinks, header.features, "kink");
+  read_feature_numbers(in, header.accelerations, header.features, "acceleration");
+  out.set.body = body;
+  out.set.name = file;
+  out.set.approximate_u = header.approximate;
+  out.set.features = read_features(in, header, out.entries);
+  if (in.more()) in.fail("there are data after the last record", "do NSLC and NFEAT count all of them?");
+  return out;
+}
+
+SliceSet load_profiles(SliceList&& list, Body body, const SliceLoader& load) {
+  SliceSet set = std::move(list.set);
+  std::size_t points = 0;
+  for (std::size_t i = 0; i < list.entries.size(); ++i) {
+    const SliceEntry& entry = list.entries[i];
+    set.u.push_back(body == Body::rail ? 1e-3 * entry.u : entry.u);
+    set.profiles.push_back(load(entry.name, entry.where_name));
+    points += set.profiles.back().y.size();
+    if (points > kMostPointsOfAllSlices)
+      throw Error(ErrorKind::input_data, "the slices have more than 50 million points together", entry.where_name,
+                  "thin out the points");
+    if (!set.features.empty()) fit_to_profile(set.features[i], set.profiles.back(), entry.where_features);
+  }
+  return set;
+}
+
 }  // namespace
 
 bool is_slices_file(const std::filesystem::path& file) {
@@ -177,31 +215,7 @@ bool is_slices_file(const std::filesystem::path& file) {
 }
 
 SliceSet parse_slices(std::string_view text, const std::string& file, Body body, const SliceLoader& load) {
-  RecordReader in(text, file);
-  const Header header = read_header(in);
-  std::vector<SliceEntry> entries = read_entries(in, header);
-  if (body == Body::wheel) check_angles(entries);
-  read_feature_numbers(in, header.kinks, header.features, "kink");
-  read_feature_numbers(in, header.accelerations, header.features, "acceleration");
-
-  SliceSet set;
-  set.body = body;
-  set.name = file;
-  set.approximate_u = header.approximate;
-  set.features = read_features(in, header, entries);
-  if (in.more()) in.fail("there are data after the last record", "do NSLC and NFEAT count all of them?");
-
-  std::size_t points = 0;
-  for (std::size_t i = 0; i < entries.size(); ++i) {
-    set.u.push_back(body == Body::rail ? 1e-3 * entries[i].u : entries[i].u);
-    set.profiles.push_back(load(entries[i].name, entries[i].where_name));
-    points += set.profiles.back().y.size();
-    if (points > kMostPointsOfAllSlices)
-      throw Error(ErrorKind::input_data, "the slices have more than 50 million points together",
-                  entries[i].where_name, "thin out the points");
-    if (!set.features.empty()) fit_to_profile(set.features[i], set.profiles.back(), entries[i].where_features);
-  }
-  return set;
+  return load_profiles(read_list(text, file, body), body, load);
 }
 
 SliceSet read_slices(const std::filesystem::path& file, Body body, const ProfileOptions& options,
@@ -214,8 +228,19 @@ SliceSet read_slices(const std::filesystem::path& file, Body body, const Profile
                 referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from, "exchange the files");
   const std::string text = profiles::read_text(file, "slices", referenced_from);
   const std::filesystem::path folder = profiles::portable_path(file.string()).parent_path();
-  return parse_slices(text, file.string(), body, [&](const std::string& name, const SourcePosition& where) {
-    return read_profile(folder / profiles::portable_path(name), body, options, where);
+  SliceList list = read_list(text, file.string(), body);
+  ProfileOptions how = options;
+  if (options.mirror_z == 0) {
+    // all slices the same way up: damage can make some of them look otherwise
+    std::size_t up = 0, down = 0, own = 0;
+    for (const SliceEntry& entry : list.entries) {
+      const auto turned = looks_upside_down(folder / profiles::portable_path(entry.name), body, options, entry.where_name);
+      ++(!turned ? own : *turned ? up : down);
+    }
+    how.mirror_z = own > 0 ? 0 : up > down ? 1 : -1;
+  }
+  return load_profiles(std::move(list), body, [&](const std::string& name, const SourcePosition& where) {
+    return read_profile(folder / profiles::portable_path(name), body, how, where);
   });
 }
 

@@ -20,6 +20,7 @@
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -289,6 +290,117 @@ TEST_F(ImportCommand, HolesBeyondTheLimitStayOpenInTrianglesAndAreRefusedElsewhe
   EXPECT_THAT(refused.err, HasSubstr("clean.hole_limit_mm="));
   EXPECT_EQ(import({path("rail.ply"), "--body", "rail", "-o", path("found.ply")}).status, 0);
   EXPECT_EQ(import({path("rail.ply"), "-o", path("found.slcs"), "--set", "clean.hole_limit_mm=40"}).status, 0);
+}
+
+/// Sections of the flat wheel at 1 degree, rough by 3 um, as a gauge writes them; outside mm, in a turned frame.
+void write_sections(const fs::path& file, const SurfaceSpec& spec, double rough) {
+  const NaturalSurface wheel = create_natural(spec);
+  std::ofstream out(file);
+  out.precision(9);
+  std::vector<double> y, r;
+  for (int mm = 30; mm >= -30; --mm) y.push_back(1e-3 * mm);
+  r.resize(y.size());
+  const Mat3 turn(Eigen::AngleAxisd(0.7, Vec3(1, 2, 3).normalized()));
+  int k = 0;
+  for (int degree = 0; degree < 360; ++degree) {
+    const double u = wrap_angle(kPi / 180.0 * degree);
+    HeightsOut heights;
+    heights.z = r;
+    section_heights(*wheel.surface, Body::wheel, u, y, heights);
+    for (std::size_t i = 0; i < y.size(); ++i) {
+      const double at = r[i] + rough * ((k++ * 7 % 11) / 5.0 - 1.0);
+      const Vec3 p = 1e3 * (turn * Vec3(at * std::sin(u), y[i], at * std::cos(u)) + Vec3(0.1, 0.2, 0.3));
+      out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+    }
+  }
+}
+
+TEST_F(ImportCommand, SectionsThatSomebodyResampledStayAsTheyAre) {
+  write_sections(input.folder() / "gauge.xyz", wheel(), 3e-6);
+  const auto r = import({path("gauge.xyz"), "-o", path("kept.slcw"), "-o", path("kept.vdb"), "--json", path("kept.json"), "--set",
+                         "clean.strays=false"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("360 of 61 points"));
+  const Json kept = json("kept.json");
+  EXPECT_EQ(kept["fit"]["kept_sections"]["count"], 360);
+  EXPECT_EQ(kept["points_used"], 360 * 61);
+  EXPECT_NEAR(kept["fit"]["kept_sections"]["least_gap_mm"].get<double>(), 300.0 * kPi / 180.0, 0.01);
+  EXPECT_LT(kept["outputs"][0]["height_max_um"].get<double>(), 1e-3);
+  io::SurfaceSource source;
+  source.geometry = io::GeometryFile{path("kept.slcw"), {}};
+  const NaturalSurface back = read_surface(source, Body::wheel, 0.3);
+  const auto& slices = std::get<SliceSet>(back.spec.shape);
+  EXPECT_EQ(slices.u.size(), 360u);
+  EXPECT_EQ(slices.profiles.front().y.size(), 61u);
+  EXPECT_TRUE(slices.approximate_u);
+  // fitted if that is wanted, and other settings that have no meaning are refused
+  const auto fitted = import({path("gauge.xyz"), "-o", path("fit.slcw"), "--json", path("fit.json"), "--set", "fit.sections=fit",
+                              "--set", "clean.strays=false"});
+  ASSERT_EQ(fitted.status, 0) << fitted.err;
+  EXPECT_TRUE(json("fit.json")["fit"]["kept_sections"].is_null());
+  scan("lines.xyz", {"--body", "wheel", "--points", "60000"});
+  const auto none = import({path("lines.xyz"), "-o", path("no.slcw"), "--set", "fit.sections=keep"});
+  EXPECT_EQ(none.status, 0) << none.err;
+  const auto up = import({path("lines.xyz"), "-o", path("no.slcw"), "--set", "placement.up=[0,0,1]"});
+  EXPECT_EQ(up.status, 2);
+  EXPECT_THAT(up.err, HasSubstr("placement.up would be ignored"));
+}
+
+TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
+  TREADMARK_REQUIRE_SHARED();
+  const fs::path folder = *shared / "data/contact_examples";
+  io::SurfaceSource source;
+  source.geometry = io::GeometryFile{folder / "S1002_flat.slcw", {}};
+  const NaturalSurface wheel = read_surface(source, Body::wheel, 0.49);
+  const auto& slices = std::get<SliceSet>(wheel.spec.shape);
+  const Mat3 turn(Eigen::AngleAxisd(2.1, Vec3(3, -1, 2).normalized()));
+  {
+    std::ofstream out(path("flat.xyz"));
+    out.precision(9);
+    for (std::size_t k = 0; k < slices.u.size(); ++k)
+      for (std::size_t i = 0; i < slices.profiles[k].y.size(); ++i) {
+        const double r = 0.49 + slices.profiles[k].z[i], u = slices.u[k];
+        const Vec3 p = 1e3 * (turn * Vec3(r * std::sin(u), slices.profiles[k].y[i], r * std::cos(u)) + Vec3(0.5, -0.2, 0.1));
+        out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
+      }
+  }
+  const Vec3 zero = turn * Vec3::UnitZ();
+  std::ostringstream direction;
+  direction.precision(12);
+  direction << "placement.zero_direction=[" << zero.x() << ", " << zero.y() << ", " << zero.z() << "]";
+  const auto r = import({path("flat.xyz"), "-o", path("flat.slcw"), "--set", "placement.zero=direction", "--set", direction.str(),
+                         "--json", path("flat.json")});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_NEAR(json("flat.json")["frame"]["nominal_radius_mm"].get<double>(), 490.0, 0.03);
+  const auto results = [&](const std::string& wheel_file, const std::string& name) {
+    std::ifstream in(folder / "wheelflat.inp");
+    std::ostringstream text;
+    text << in.rdbuf();
+    std::string all = text.str();
+    const auto replace = [&](const std::string& what, const std::string& by) {
+      const std::size_t at = all.find(what);
+      ASSERT_NE(at, std::string::npos);
+      all.replace(at, what.size(), by);
+    };
+    replace("S1002_flat.slcw", wheel_file);
+    replace("r300_wide.prr", (folder / "r300_wide.prr").string());
+    input.write(name + ".inp", all);
+    const auto run = run_program({"run", path(name + ".inp"), "--json", path(name + ".json")});
+    EXPECT_EQ(run.status, 0) << run.err;
+    return json(name + ".json");
+  };
+  const Json direct = results((folder / "S1002_flat.slcw").string(), "direct"), imported = results("flat.slcw", "imported");
+  ASSERT_EQ(direct["cases"].size(), imported["cases"].size());
+  for (std::size_t k = 0; k < direct["cases"].size(); ++k) {
+    const Json &a = direct["cases"][k]["patches"], &b = imported["cases"][k]["patches"];
+    ASSERT_EQ(a.size(), b.size());
+    for (std::size_t i = 0; i < a.size(); ++i) {
+      for (const char* what : {"pmax_MPa", "fn_N"})
+        EXPECT_NEAR(b[i][what].get<double>() / a[i][what].get<double>(), 1.0, 2e-3) << what << " case " << k;
+      for (const char* what : {"x_tr_mm", "y_tr_mm"})
+        EXPECT_NEAR(b[i]["reference"][what].get<double>(), a[i]["reference"][what].get<double>(), 0.02) << what << " case " << k;
+    }
+  }
 }
 
 TEST_F(ImportCommand, ListsSettingsThatItReadsBack) {

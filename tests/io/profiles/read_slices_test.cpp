@@ -85,6 +85,34 @@ TEST(ReadSlices, PassesNamesWithTheirPlaces) {
   EXPECT_EQ(places[3].to_string(), "set.slcs:8:7");
 }
 
+TEST(ReadSlices, TurnsAllSlicesOverOrNone) {
+  // the section of one slice lies lower in its middle than at its ends, as within a flat
+  const testing::TemporaryFolder folder;
+  const std::vector<testing::Point> whole = testing::wheel_points();
+  std::vector<testing::Point> flat = whole;
+  for (auto& p : flat) p.z -= 5.0 * std::exp(-p.y * p.y / 200.0);
+  const auto write = [&](const std::string& name, const std::string& what) { folder.write(name, what); };
+  const auto negative = [](std::vector<testing::Point> points) {
+    for (auto& p : points) p.z = -p.z;
+    return points;
+  };
+  write("whole.txt", testing::columns(whole));
+  write("flat.txt", testing::columns(flat));
+  write("whole_up.txt", testing::columns(negative(whole)));
+  write("flat_up.txt", testing::columns(negative(flat)));
+  EXPECT_EQ(looks_upside_down(folder.path() / "whole.txt", Body::wheel, {}), false);
+  EXPECT_EQ(looks_upside_down(folder.path() / "flat.txt", Body::wheel, {}), true);
+  for (const std::string end : {"", "_up"}) {
+    std::string list = "0 0.1\n5\n0 0 0\n1\n";
+    for (int k = 0; k < 5; ++k) list += std::to_string(k) + " '" + (k == 2 ? "flat" : "whole") + end + ".txt'\n";
+    write("set.slcw", list);
+    const SliceSet set = read_slices(folder.path() / "set.slcw", Body::wheel, {});
+    for (std::size_t k = 0; k < 5; ++k)
+      for (std::size_t i = 0; i < whole.size(); ++i)
+        EXPECT_NEAR(1e3 * set.profiles[k].z[i], k == 2 ? flat[i].z : whole[i].z, 1e-5) << end << k;
+  }
+}
+
 TEST(ReadSlices, ReadsFeatures) {
   const SliceSet set = parse(text("0 1", kFour, "3 0 0", "0 0. 10 1e6\n10 -1 0 30\n20 0 12 -1\n30 5 6 40.0000001\n"));
   ASSERT_EQ(set.features.size(), 4u);
