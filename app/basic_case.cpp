@@ -27,6 +27,8 @@ kalker::HertzShape hertz_shape(const io::BasicCase& input, const io::HertzInput&
       return kalker::hertz_line_from_curvature(h.a1, h.bb, load, material);
     case io::HertzInput::Given::line_semi_axis:
       return kalker::hertz_line_from_semi_axis(h.aa, h.bb, load, material);
+    case io::HertzInput::Given::semi_double_elliptic:
+      break;
   }
   return {};
 }
@@ -39,6 +41,12 @@ kalker::NormalModel normal_model(io::NormalModelInput model) {
       return kalker::NormalModel::elliptic;
     case io::NormalModelInput::parabolic:
       return kalker::NormalModel::parabolic;
+    case io::NormalModelInput::semi_double_elliptic:
+      return kalker::NormalModel::semi_double_elliptic;
+    case io::NormalModelInput::kpec:
+      return kalker::NormalModel::kpec;
+    case io::NormalModelInput::analyn:
+      return kalker::NormalModel::analyn;
   }
   return kalker::NormalModel::full;
 }
@@ -49,6 +57,8 @@ kalker::Regime regime(io::RegimeInput input) {
       return kalker::Regime::frictionless;
     case io::RegimeInput::shift:
       return kalker::Regime::shift;
+    case io::RegimeInput::transient:
+      return kalker::Regime::transient;
     case io::RegimeInput::steady:
       return kalker::Regime::steady;
   }

@@ -12,6 +12,7 @@ double FrictionLaw::at(double w) const {
   const auto ratio = [w](double half_velocity) { return half_velocity > 0.0 ? w / half_velocity : 0.0; };
   const double r1 = ratio(half_velocity_1), r2 = ratio(half_velocity_2);
   switch (kind) {
+    case Kind::temperature:  // by the caller, who knows the temperature
     case Kind::coulomb:
       return kinetic;
     case Kind::linear:

@@ -10,6 +10,22 @@ struct Material {
   double poisson_1 = 0.28, poisson_2 = 0.28;              ///< nu [-]
   /// Elastic interface (third body) layer: tangential flexibility h3/G3 [m/Pa], 0 = none.
   double layer_flexibility = 0.0;
+  /// Shear stress at which the layer yields [Pa], 0 = never, and its change per distance of plastic shear [Pa/m].
+  double layer_yield = 0.0, layer_hardening = 0.0;
+  /// Thin compressible sheet: normal flexibility [m/Pa], 0 = none.
+  double sheet_flexibility = 0.0;
+  /// Standard linear solid: ratio of the delayed to the immediate compliance, 0 = elastic, and relaxation time [s].
+  double creep_ratio_1 = 0.0, creep_ratio_2 = 0.0;
+  double relaxation_time_1 = 0.0, relaxation_time_2 = 0.0;
+};
+
+/// Heat in the surfaces: bulk temperature [deg C], heat capacity [J/(kg K)], conductivity [W/(m K)], density [kg/m^3].
+struct ThermalProperties {
+  double bulk_temperature = 0.0, heat_capacity = 450.0, conductivity = 50.0, density = 7850.0;
+};
+struct Thermal {
+  ThermalProperties body_1, body_2;
+  double plastic_fraction = 1.0;   ///< of plastic work that becomes heat
 };
 
 /// The pair of half-spaces seen as one (Kalker 1990): displacement difference u = u_1 - u_2 = (1/G) C p.

@@ -92,11 +92,51 @@ struct DiscretisationInput {
 struct SolverInput {
   double eps = 1e-5;
   int max_gs = 999, max_in = 100, max_nr = 30, max_out = 1;
+  enum class Method { automatic, sweeps };
+  Method method = Method::automatic;
+  /// Falling friction: slip speeds to start from: none, the rolling velocity, those of the case before.
+  enum class FirstSlip { below, above, last };
+  FirstSlip first_slip = FirstSlip::last;
 };
 
-enum class RegimeInput { none, shift, steady };
-enum class NormalModelInput { full, elliptic, parabolic };
-enum class TangentialModelInput { full, fastsim };
+enum class RegimeInput { none, shift, transient, steady };
+enum class NormalModelInput { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
+enum class TangentialModelInput { full, fastsim, fastsim_one_flexibility, fastrip };
+
+/// What a case takes over from the one before it in its sequence.
+enum class HistoryInput { start, keep_going, normal_only, same_instant };
+
+/// Where influence coefficients come from.
+struct InfluenceInput {
+  enum class Kind { constant, bilinear, angle_corrected, table };
+  Kind kind = Kind::constant;
+  std::vector<double> position, inclination;   ///< angle_corrected: [m], [rad]
+  int variant = 4;
+  bool linear = true;                          ///< one straight line through the inclinations
+  std::filesystem::path file;                  ///< table: resolved against the folder of the case file
+};
+
+/// Restricts where contact can be.
+struct PlanformInput {
+  enum class Kind { free, quadratic, two_rectangles, sub_patches };
+  Kind kind = Kind::free;
+  /// quadratic: b1 .. b6, no contact where b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6 >= 0 (SI: [1/m^2], [1/m], [-]; any scale)
+  /// two_rectangles, sub_patches: x low, x high, y low, y high of each [m]
+  std::vector<double> coefficients;
+  std::vector<double> coupling;                ///< sub_patches: count x count, symmetric, 1 on the diagonal
+};
+
+/// Points at which stresses below the surface are wanted.
+struct SubsurfaceInput {
+  struct Block {
+    bool at_elements = true;                   ///< x, y: element centres, else free points
+    std::vector<int> columns, rows;            ///< at_elements: indices from 0; empty = all
+    std::vector<double> x, y;                  ///< free points [m]
+    std::vector<double> z;                     ///< depth > 0 in body 1, < 0 in body 2 [m]
+  };
+  std::vector<Block> blocks;
+  bool full_tensor = false;                    ///< in text files
+};
 
 /// One wheel on one rail (module 1).
 struct WheelRailCase {
@@ -115,12 +155,14 @@ struct WheelRailCase {
 
 /// Hertzian geometry (IPOTCN < 0): what is given and the grid that follows from it.
 struct HertzInput {
-  enum class Given { curvatures, curvature_and_ratio, semi_axes, line_curvature, line_semi_axis };
+  enum class Given { curvatures, curvature_and_ratio, semi_axes, line_curvature, line_semi_axis, semi_double_elliptic };
   Given given = Given::curvatures;
   double a1 = 0.0, b1 = 0.0;      ///< curvatures A, B [1/m]
   double aa = 0.0, bb = 0.0;      ///< semi-axes [m]; line contact: bb = half width
   double aob = 0.0;               ///< a/b
   double scale = 1.0;             ///< potential contact over the ellipse
+  /// semi_double_elliptic: half widths towards -y and +y [m]; 0 = bb both
+  double bb_negative = 0.0, bb_positive = 0.0;
 };
 
 /// Undeformed distance given by formula (IBASE 1..3) or per element (9).
@@ -161,11 +203,20 @@ struct BasicCase {
   Material material;
   FrictionLaw friction;
   SolverInput solver;
+  HistoryInput history = HistoryInput::start;
+  InfluenceInput influence;
+  PlanformInput planform;
+  double fastsim_flexibility = 0.0;            ///< fastsim_one_flexibility: L [m/Pa]
+  std::vector<FrictionLaw> friction_of_row;    ///< empty, or one for each row
+  std::vector<double> extra_slip_x, extra_slip_y;  ///< empty, or one for each element [-]; shift: [m]
+  std::optional<Thermal> thermal;
+  SubsurfaceInput subsurface;
 };
 
 struct Case {
   int number = 0;               ///< counts from 1 in the file
   SourcePosition where;         ///< first line of the case
+  int sequence = 0;             ///< cases of one sequence follow each other in time
   std::variant<WheelRailCase, BasicCase> content;
 };
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -10,6 +11,7 @@
 #include "treadmark/core/friction.hpp"
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/material.hpp"
+#include "treadmark/core/numerical_influence.hpp"
 #include "treadmark/core/report.hpp"
 
 namespace treadmark::kalker {
@@ -17,17 +19,19 @@ namespace treadmark::kalker {
 /// One contact patch on a regular grid of constant-traction elements in the contact plane (x rolling, y lateral, n into body 1).
 /// Tractions and forces act on body 1 (the rail); slip and creepage are body 1 minus body 2. See core/README.md.
 
-enum class ElementState : std::uint8_t { exterior = 0, adhesion = 1, slip = 2 };
+/// plastic: the interface layer shears plastically without slip
+enum class ElementState : std::uint8_t { exterior = 0, adhesion = 1, slip = 2, plastic = 3 };
 
-/// Pressure distribution: solved, or assumed from the Hertz ellipse of the problem.
-enum class NormalModel { full, elliptic, parabolic };
+/// Pressure distribution: solved; assumed from the Hertz ellipse of the problem; approximated from the gap at a given approach.
+enum class NormalModel { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
 
-enum class TangentialModel { full, fastsim };
+enum class TangentialModel { full, fastsim, fastsim_one_flexibility, fastrip };
 
 /// Which tangential problem is solved.
 enum class Regime {
   frictionless,  ///< normal problem only
-  shift,         ///< one finite shift from an unloaded state; creepages are lengths and an angle
+  shift,         ///< a finite shift; creepages are lengths and an angle; starts where the history ends
+  transient,     ///< a step of rolling from where the history ends
   steady,        ///< steady rolling
 };
 
@@ -38,7 +42,7 @@ struct Creepage {
 };
 
 struct Rolling {
-  double chi = 0.0;        ///< rolling direction: 0 or pi [rad]
+  double chi = 0.0;        ///< rolling direction [rad]; steady: 0 or pi
   double velocity = 30.0;  ///< V [m/s]
   double step = 0.0;       ///< dq [m]; steady rolling is discretised with dq = dx whatever is given
   double spin_offset_factor = 1.0 / 6.0;  ///< share of dq by which the spin centre is shifted for rolling
@@ -47,6 +51,26 @@ struct Rolling {
 /// FASTSIM with slope reduction (Spiryagin et al. 2013).
 struct FastsimSettings {
   double k0 = 1.0, alpha = 1.0, beta = 1.0;
+  double flexibility = 0.0;   ///< fastsim_one_flexibility: L [m/Pa]
+};
+
+/// Where coefficients of influence come from.
+struct InfluenceSettings {
+  enum class Kind { constant, bilinear, angle_corrected, table };
+  Kind kind = Kind::constant;
+  /// angle_corrected: inclination of the surface [rad] at positions along y [m] (Vollebregt 2018)
+  std::vector<double> position, inclination;
+  int variant = 4;
+  bool linear = true;                    ///< one straight line through the table, else the table row by row
+  std::shared_ptr<const NumericalInfluence> table;   ///< table: numerical coefficients
+};
+
+/// What is carried from one case to the next.
+enum class HistoryUse {
+  start,         ///< nothing: the bodies come together from rest
+  keep_going,    ///< the last solution is the previous instant
+  normal_only,   ///< of the last solution only the normal part
+  same_instant,  ///< the previous instant stays what it was: the case is solved again
 };
 
 /// Hertz ellipse known beforehand: h = A x^2 + B y^2.
@@ -57,10 +81,16 @@ struct HertzShape {
 };
 
 struct SolverSettings {
+  enum class Method { automatic, sweeps };
   double eps = 1e-5;        ///< relative accuracy of tractions
   int max_iterations = 999; ///< inner iterations per solve
   int max_outer = 100;      ///< active-set corrections, friction iterations
   int max_force = 30;       ///< iterations on a prescribed tangential force
+  int max_coupling = 30;    ///< rounds of normal and tangential problem for dissimilar bodies; 1: the tangential tractions do not act on the normal problem
+  Method method = Method::automatic;
+  /// Falling friction: slip speeds that the iteration starts from. below: none, above: the rolling velocity, last: those of the last solution.
+  enum class FirstSlip { below, above, last };
+  FirstSlip first_slip = FirstSlip::last;
 };
 
 /// Parts of a patch that lie apart: elastic influence across is scaled, so that patches come together without a jump.
@@ -93,6 +123,13 @@ struct ContactProblem {
   std::optional<HertzShape> hertz;   ///< needed by the elliptic and parabolic models; start value otherwise
 
   SolverSettings settings;
+
+  InfluenceSettings influence;
+  HistoryUse history = HistoryUse::start;
+  std::vector<FrictionLaw> friction_of_row;      ///< empty, or a law for each row of elements
+  /// Added to the rigid slip of elements, relative as slip is (shift: [m]); empty or grid.size().
+  std::span<const double> extra_slip_x, extra_slip_y;
+  std::optional<Thermal> thermal;                ///< surface temperatures are computed; steady rolling
 };
 
 struct ContactSolution {
@@ -105,6 +142,9 @@ struct ContactSolution {
   std::vector<double> slip_x, slip_y;              ///< relative slip s (shift: slip distance [m]); exterior elements 0
   std::vector<double> friction;                    ///< mu per element
   std::vector<ElementState> state;
+  /// With a plastic layer, else empty: plastic shear distance u_pl [m] and yield stress [Pa].
+  std::vector<double> plastic_x, plastic_y, yield_stress;
+  std::vector<double> temperature_1, temperature_2;   ///< of the surfaces [deg C]; empty unless asked for
 
   double approach = 0.0;                           ///< [m]
   Creepage creepage;                               ///< as used or found
@@ -114,7 +154,8 @@ struct ContactSolution {
   double max_pressure = 0.0;                       ///< [Pa]
   double elastic_energy = 0.0;                     ///< [J]
   double frictional_power = 0.0;                   ///< [W], negative = dissipated (shift: work [J])
-  int elements_contact = 0, elements_adhesion = 0, elements_slip = 0;
+  int elements_contact = 0, elements_adhesion = 0, elements_slip = 0;  ///< slip: with plastic ones
+  double max_temperature_1 = 0.0, max_temperature_2 = 0.0;             ///< [deg C]
 };
 
 /// Sum of forces, moments, energy, power and counts from the fields of a solution.

@@ -1,0 +1,39 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+
+#include "treadmark/core/material.hpp"
+
+namespace treadmark::kalker {
+
+struct InfluenceSettings;
+
+/// Displacement differences in x, y, n (first letter) by tractions in x, y, n (second letter): u = (1/G) C p, C in [m].
+struct InfluenceBlock {
+  double xx = 0.0, xy = 0.0, xn = 0.0;
+  double yx = 0.0, yy = 0.0, yn = 0.0;
+  double nx = 0.0, ny = 0.0, nn = 0.0;
+};
+
+/// Influence coefficients of one loaded element, a function of where the displacement is looked at. Immutable.
+class InfluenceKernel {
+ public:
+  virtual ~InfluenceKernel() = default;
+
+  /// Coefficients at (X, Y) [m], the observation point minus the centre of the loaded element. Thread-safe.
+  virtual InfluenceBlock at(double X, double Y) const = 0;
+  /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y: as for equal half-spaces.
+  virtual bool symmetric() const = 0;
+  /// Whether tangential tractions move surfaces normally and the other way round.
+  virtual bool coupled() const = 0;
+};
+
+/// The kernel for elements of dx by dy [m] of a pair of bodies. velocity: of rolling [m/s], direction along +x (chi = 0) or -x;
+/// both matter for viscoelastic bodies only. Errors: Error(configuration) for combinations without meaning (viscoelastic with
+/// different Poisson's ratios, a table for other steps or ...).
+std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material, const InfluenceSettings& settings, double dx,
+                                                             double dy, double velocity, double chi);
+
+}  // namespace treadmark::kalker
