@@ -3,8 +3,10 @@
 #include "treadmark/app/basic_case.hpp"
 
 #include <chrono>
+#include <limits>
 
 #include "treadmark/app/gap_formula.hpp"
+#include "treadmark/app/planform.hpp"
 #include "treadmark/app/patch_result.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
@@ -33,24 +35,6 @@ kalker::HertzShape hertz_shape(const io::BasicCase& input, const io::HertzInput&
   return {};
 }
 
-kalker::NormalModel normal_model(io::NormalModelInput model) {
-  switch (model) {
-    case io::NormalModelInput::full:
-      return kalker::NormalModel::full;
-    case io::NormalModelInput::elliptic:
-      return kalker::NormalModel::elliptic;
-    case io::NormalModelInput::parabolic:
-      return kalker::NormalModel::parabolic;
-    case io::NormalModelInput::semi_double_elliptic:
-      return kalker::NormalModel::semi_double_elliptic;
-    case io::NormalModelInput::kpec:
-      return kalker::NormalModel::kpec;
-    case io::NormalModelInput::analyn:
-      return kalker::NormalModel::analyn;
-  }
-  return kalker::NormalModel::full;
-}
-
 kalker::Regime regime(io::RegimeInput input) {
   switch (input) {
     case io::RegimeInput::none:
@@ -65,26 +49,59 @@ kalker::Regime regime(io::RegimeInput input) {
   return kalker::Regime::frictionless;
 }
 
+kalker::HistoryUse history(io::HistoryInput input) {
+  switch (input) {
+    case io::HistoryInput::start:
+      return kalker::HistoryUse::start;
+    case io::HistoryInput::keep_going:
+      return kalker::HistoryUse::keep_going;
+    case io::HistoryInput::normal_only:
+      return kalker::HistoryUse::normal_only;
+    case io::HistoryInput::same_instant:
+      return kalker::HistoryUse::same_instant;
+  }
+  return kalker::HistoryUse::start;
+}
+
+kalker::InfluenceSettings influence(const io::InfluenceInput& input) {
+  kalker::InfluenceSettings out;
+  using From = io::InfluenceInput::Kind;
+  using To = kalker::InfluenceSettings::Kind;
+  out.kind = input.kind == From::bilinear ? To::bilinear : input.kind == From::angle_corrected ? To::angle_corrected
+             : input.kind == From::table  ? To::table
+                                          : To::constant;
+  out.position = input.position;
+  out.inclination = input.inclination;
+  out.variant = input.variant;
+  out.linear = input.linear;
+  return out;
+}
+
 double timed(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-}  // namespace
-
-io::CaseResult solve_basic_case(const io::BasicCase& input) {
-  kalker::ContactProblem p;
+/// The problem of a case; the gap is kept beside it.
+struct PosedProblem {
+  kalker::ContactProblem problem;
   std::vector<double> gap;
+};
+
+PosedProblem pose(const io::BasicCase& input) {
+  PosedProblem out;
+  kalker::ContactProblem& p = out.problem;
   if (const auto* h = std::get_if<io::HertzInput>(&input.geometry)) {
     p.hertz = hertz_shape(input, *h);
     p.grid = kalker::hertz_grid(*p.hertz, input.mx, input.my, h->scale);
-    gap = kalker::hertz_gap(*p.hertz, p.grid);
+    out.gap = kalker::hertz_gap(*p.hertz, p.grid);
   } else {
     p.grid = {input.x0, input.y0, input.dx, input.dy, input.mx, input.my};
-    gap = gap_of_formula(std::get<io::GapInput>(input.geometry), p.grid);
+    out.gap = gap_of_formula(std::get<io::GapInput>(input.geometry), p.grid);
   }
-  p.gap = gap;
+  restrict_contact(input.planform, p.grid, out.gap, p.sub_patches);
+  p.gap = out.gap;
   p.material = input.material;
   p.friction = input.friction;
   p.force_prescribed = input.normal_force_prescribed;
@@ -95,23 +112,35 @@ io::CaseResult solve_basic_case(const io::BasicCase& input) {
   p.rolling = {input.chi, input.velocity, input.dq, input.spin_offset_factor};
   p.fx_relative = input.fx_relative;
   p.fy_relative = input.fy_relative;
-  p.normal_model = normal_model(input.normal_model);
-  p.tangential_model = input.tangential_model == io::TangentialModelInput::fastsim ? kalker::TangentialModel::fastsim
-                                                                                    : kalker::TangentialModel::full;
-  p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta};
+  p.normal_model = to_normal_model(input.normal_model);
+  p.tangential_model = to_tangential_model(input.tangential_model);
+  p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
   p.settings = to_solver_settings(input.solver);
+  p.influence = influence(input.influence);
+  p.history = history(input.history);
+  p.friction_of_row = input.friction_of_row;
+  p.extra_slip_x = input.extra_slip_x;
+  p.extra_slip_y = input.extra_slip_y;
+  p.thermal = input.thermal;
+  return out;
+}
 
-  kalker::ContactSolver solver;
+}  // namespace
+
+io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
+  PosedProblem posed = pose(input);
+  const kalker::ContactProblem& p = posed.problem;
   kalker::ContactSolution solution;
   io::CaseResult result;
-  result.normal_s = timed([&] { solution = solver.solve_normal(p); });
+  result.normal_s = timed([&] { solution = solver_.solve_normal(p); });
   result.normal_solves = 1;
   result.status = solution.status;
+  result.tangential_s = timed([&] { solver_.solve_tangential(p, solution); });
   if (solution.status == Status::no_contact) {
+    result.status = Status::no_contact;
     result.message = "the bodies do not touch";
     return result;
   }
-  result.tangential_s = timed([&] { solver.solve_tangential(p, solution); });
   result.tangential_solves = p.regime == kalker::Regime::frictionless ? 0 : 1;
   for (const Report* report : {&solution.normal, &solution.tangential})
     if (report->status != Status::ok) {
@@ -120,9 +149,10 @@ io::CaseResult solve_basic_case(const io::BasicCase& input) {
       break;
     }
 
-  io::PatchResult r = patch_result(solution, p.grid, gap, input.material, input.friction);
-  r.shift = input.regime != io::RegimeInput::steady;  // without rolling there is work, not power
-  r.has_rolling = input.regime == io::RegimeInput::steady;
+  io::PatchResult r = patch_result(solution, p.grid, posed.gap, input.material, input.friction);
+  const bool rolling = input.regime == io::RegimeInput::steady || input.regime == io::RegimeInput::transient;
+  r.shift = !rolling;  // without rolling there is work, not power
+  r.has_rolling = rolling;
   r.chi = input.chi;
   r.dq = solution.rolling_step;
   r.velocity = input.velocity;
@@ -131,6 +161,12 @@ io::CaseResult solve_basic_case(const io::BasicCase& input) {
   r.phi = solution.creepage.phi;
   result.patches.push_back(std::move(r));
   return result;
+}
+
+bool starts_anew(const io::BasicCase& input) {
+  if (input.history == io::HistoryInput::start) return true;
+  const bool needs_previous = input.regime == io::RegimeInput::shift || input.regime == io::RegimeInput::transient;
+  return !needs_previous && input.history != io::HistoryInput::same_instant;
 }
 
 }  // namespace treadmark::app

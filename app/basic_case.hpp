@@ -4,11 +4,21 @@
 
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/solvers/kalker/contact_solver.hpp"
 
 namespace treadmark::app {
 
-/// Solves one patch of given geometry. Lack of contact or of convergence is a status of the result.
-/// Errors: Error(configuration) for inconsistent input.
-io::CaseResult solve_basic_case(const io::BasicCase& input);
+/// Basic contact cases that follow each other in time.
+class BasicSequence {
+ public:
+  /// Errors: Error for input that makes no sense. Non-convergence is a status.
+  io::CaseResult solve(const io::BasicCase& input);
+
+ private:
+  kalker::ContactSolver solver_;
+};
+
+/// Whether a case does not depend on the ones before it.
+bool starts_anew(const io::BasicCase& input);
 
 }  // namespace treadmark::app

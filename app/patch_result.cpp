@@ -10,7 +10,48 @@ kalker::SolverSettings to_solver_settings(const io::SolverInput& input) {
   s.max_iterations = input.max_gs;
   s.max_outer = input.max_in;
   s.max_force = input.max_nr;
+  s.max_coupling = input.max_out;
+  if (input.method == io::SolverInput::Method::sweeps) s.method = kalker::SolverSettings::Method::sweeps;
+  using From = io::SolverInput::FirstSlip;
+  using To = kalker::SolverSettings::FirstSlip;
+  s.first_slip = input.first_slip == From::below ? To::below : input.first_slip == From::above ? To::above : To::last;
   return s;
+}
+
+kalker::NormalModel to_normal_model(io::NormalModelInput model) {
+  using From = io::NormalModelInput;
+  using To = kalker::NormalModel;
+  switch (model) {
+    case From::full:
+      return To::full;
+    case From::elliptic:
+      return To::elliptic;
+    case From::parabolic:
+      return To::parabolic;
+    case From::semi_double_elliptic:
+      return To::semi_double_elliptic;
+    case From::kpec:
+      return To::kpec;
+    case From::analyn:
+      return To::analyn;
+  }
+  return To::full;
+}
+
+kalker::TangentialModel to_tangential_model(io::TangentialModelInput model) {
+  using From = io::TangentialModelInput;
+  using To = kalker::TangentialModel;
+  switch (model) {
+    case From::full:
+      return To::full;
+    case From::fastsim:
+      return To::fastsim;
+    case From::fastsim_one_flexibility:
+      return To::fastsim_one_flexibility;
+    case From::fastrip:
+      return To::fastrip;
+  }
+  return To::full;
 }
 
 io::PatchResult patch_result(const kalker::ContactSolution& c, const Grid2& grid, const std::vector<double>& gap,

@@ -58,6 +58,25 @@ class SolverPool {
   std::map<std::pair<const Surface*, const Surface*>, std::vector<std::unique_ptr<wheelrail::Pair>>> idle_;
 };
 
+/// Indices of cases that are solved one after the other. Those of different groups do not depend on each other.
+std::vector<std::vector<std::size_t>> groups_in_time(const io::CaseFile& file) {
+  std::vector<std::vector<std::size_t>> groups;
+  std::map<int, std::size_t> open;   // group of the last basic case, by sequence
+  for (std::size_t i = 0; i < file.cases.size(); ++i) {
+    const auto* basic = std::get_if<io::BasicCase>(&file.cases[i].content);
+    if (basic != nullptr) {
+      const auto before = open.find(file.cases[i].sequence);
+      if (before != open.end() && !starts_anew(*basic)) {
+        groups[before->second].push_back(i);
+        continue;
+      }
+      open[file.cases[i].sequence] = groups.size();
+    }
+    groups.push_back({i});
+  }
+  return groups;
+}
+
 }  // namespace
 
 io::RunResult run_cases(const io::CaseFile& file, const Progress& progress) {
@@ -80,8 +99,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   std::mutex progress_mutex;
   std::size_t finished = 0;
   SolverPool pool;
-  parallel_for(file.cases.size(), [&](std::size_t i) {
-    if (progress.stop_requested()) return;
+  const auto solve_case = [&](std::size_t i, BasicSequence& sequence) {
     const auto case_start = Clock::now();
     const io::Case& c = file.cases[i];
     io::CaseResult result;
@@ -91,7 +109,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles)));
         pool.give_back(std::move(lease));
       } else {
-        result = solve_basic_case(std::get<io::BasicCase>(c.content));
+        result = sequence.solve(std::get<io::BasicCase>(c.content));
       }
     } catch (const Error& e) {
       if (e.kind() != ErrorKind::numerical) {
@@ -108,6 +126,14 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
     if (progress.report) {
       const std::lock_guard lock(progress_mutex);
       progress.report(++finished, file.cases.size(), "case " + std::to_string(c.number));
+    }
+  };
+  const auto groups = groups_in_time(file);
+  parallel_for(groups.size(), [&](std::size_t g) {
+    BasicSequence sequence;
+    for (const std::size_t i : groups[g]) {
+      if (progress.stop_requested() || errors[groups[g].front()]) return;
+      solve_case(i, sequence);
     }
   });
   for (const auto& error : errors)

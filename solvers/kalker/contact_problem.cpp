@@ -14,7 +14,7 @@ double at(const std::vector<double>& field, std::size_t i) { return i < field.si
 /// Simplified theory and assumed pressures have no displacement field that belongs to the tractions.
 bool has_elastic_energy(const ContactProblem& problem) {
   const bool assumed = problem.normal_model != NormalModel::full;
-  const bool simplified = problem.regime != Regime::frictionless && problem.tangential_model == TangentialModel::fastsim;
+  const bool simplified = problem.regime != Regime::frictionless && problem.tangential_model != TangentialModel::full;
   return !assumed && !simplified;
 }
 
@@ -29,7 +29,7 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
     for (int ix = 0; ix < grid.nx; ++ix) {
       const std::size_t i = grid.index(ix, iy);
       if (i >= solution.state.size() || solution.state[i] == ElementState::exterior) continue;
-      ++(solution.state[i] == ElementState::slip ? solution.elements_slip : solution.elements_adhesion);
+      ++(solution.state[i] == ElementState::adhesion ? solution.elements_adhesion : solution.elements_slip);
       const double x = grid.x(ix), y = grid.y(iy);
       const double pn = solution.pressure[i], px = at(solution.traction_x, i), py = at(solution.traction_y, i);
       fn += pn;
@@ -52,7 +52,9 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
   solution.moment_y = my * area;
   solution.moment_n = mn * area;
   solution.elastic_energy = has_elastic_energy(problem) ? 0.5 * energy * area : 0.0;
-  solution.frictional_power = power * area * (problem.regime == Regime::steady ? problem.rolling.velocity : 1.0);
+  const bool rolling = problem.regime == Regime::steady || problem.regime == Regime::transient;
+  // with a plastic layer the tangential solver has counted its shear too
+  if (solution.yield_stress.empty()) solution.frictional_power = power * area * (rolling ? problem.rolling.velocity : 1.0);
 
   // A moment below the accuracy of the tractions is zero; the lever is that of the contact's own size.
   const double lever = std::sqrt(solution.elements_contact * area);

@@ -2,6 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 
+#include <algorithm>
+#include <cmath>
+#include <optional>
+#include <string>
+
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
@@ -10,10 +15,57 @@
 
 namespace treadmark::kalker {
 
+namespace {
+
+/// Normal and tangential problem agree when tractions change by no more than this many eps.
+constexpr double kAgreement = 5.0;
+
+void empty_tangential_fields(const ContactProblem& problem, ContactSolution& solution) {
+  for (auto* field : {&solution.traction_x, &solution.traction_y, &solution.displacement_x, &solution.displacement_y,
+                      &solution.slip_x, &solution.slip_y})
+    field->assign(problem.grid.size(), 0.0);
+  solution.friction.assign(problem.grid.size(), problem.friction.static_friction());
+  solution.creepage = problem.creepage;
+}
+
+/// Change of all tractions relative to their size.
+double relative_change(const ContactSolution& before, const ContactSolution& after) {
+  double change = 0.0, size = 0.0;
+  for (const auto field : {&ContactSolution::pressure, &ContactSolution::traction_x, &ContactSolution::traction_y}) {
+    const auto &a = before.*field, &b = after.*field;
+    for (std::size_t i = 0; i < b.size(); ++i) {
+      const double d = b[i] - (a.empty() ? 0.0 : a[i]);
+      change += d * d;
+      size += b[i] * b[i];
+    }
+  }
+  return size > 0.0 ? std::sqrt(change / size) : 0.0;
+}
+
+}  // namespace
+
+class ContactSolver::State {
+ public:
+  ContactHistory previous, last;
+  NormalStart normal;
+  std::vector<NormalStart> sub_patches;
+  std::optional<TangentialStart> tangential;
+};
+
 struct ContactSolver::Workspace {
   NormalSolver normal;
   SubPatchSolver sub_patches;
   TangentialSolver tangential;
+  ContactHistory previous, last;   ///< the instant before the last one, and the last one
+
+  void solve_normal(const ContactProblem& problem, ContactSolution& solution) {
+    if (problem.sub_patches.count > 1)
+      sub_patches.solve(problem, solution);
+    else
+      normal.solve(problem, solution);
+  }
+  void choose_previous(const ContactProblem& problem);
+  void solve_in_turns(const ContactProblem& problem, ContactSolution& solution);
 };
 
 ContactSolver::ContactSolver() : workspace_(std::make_unique<Workspace>()) {}
@@ -25,14 +77,92 @@ void ContactSolver::reset() {
   workspace_->normal.reset();
   workspace_->sub_patches.reset();
   workspace_->tangential.reset();
+  workspace_->previous = workspace_->last = {};
+}
+
+std::shared_ptr<const ContactSolver::State> ContactSolver::save() const {
+  const Workspace& w = *workspace_;
+  auto state = std::make_shared<State>();
+  state->previous = w.previous;
+  state->last = w.last;
+  state->normal = w.normal.start();
+  state->sub_patches = w.sub_patches.start();
+  state->tangential = w.tangential.start();
+  return state;
+}
+
+void ContactSolver::restore(const std::shared_ptr<const State>& state) {
+  if (!state) return reset();
+  Workspace& w = *workspace_;
+  w.previous = state->previous;
+  w.last = state->last;
+  w.normal.start_from(state->normal);
+  w.sub_patches.start_from(state->sub_patches);
+  w.tangential.start_from(state->tangential);
+}
+
+const ContactHistory& ContactSolver::history() const { return workspace_->last; }
+
+void ContactSolver::continue_from(ContactHistory instant) { workspace_->last = std::move(instant); }
+
+void ContactSolver::Workspace::choose_previous(const ContactProblem& problem) {
+  switch (problem.history) {
+    case HistoryUse::start:
+      previous = {};
+      break;
+    case HistoryUse::keep_going:
+      previous = last;
+      break;
+    case HistoryUse::normal_only:
+      previous = last;
+      for (auto* field : {&previous.traction_x, &previous.traction_y, &previous.plastic_x, &previous.plastic_y})
+        std::fill(field->begin(), field->end(), 0.0);
+      previous.friction.clear();
+      previous.yield_stress.clear();
+      break;
+    case HistoryUse::same_instant:
+      break;
+  }
+  if (problem.regime == Regime::shift || problem.regime == Regime::transient)
+    previous = on_grid(previous, problem.grid, problem.friction.static_friction(), problem.material.layer_yield);
+}
+
+/// The tangential tractions push the surfaces apart or together, the pressures move them tangentially.
+void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, ContactSolution& solution) {
+  ContactProblem moved = problem;
+  std::vector<double> gap;
+  double change = 0.0;
+  for (int round = 1;; ++round) {
+    const ContactSolution before = solution;
+    if (round > 1) {
+      const std::vector<double> by_traction = tangential.normal_displacement(problem, solution);
+      gap.assign(problem.gap.begin(), problem.gap.end());
+      for (std::size_t i = 0; i < gap.size(); ++i) gap[i] += by_traction[i];
+      moved.gap = gap;
+      solve_normal(moved, solution);
+      for (std::size_t i = 0; i < gap.size(); ++i) solution.displacement_n[i] += by_traction[i];
+      if (solution.status == Status::no_contact) return empty_tangential_fields(problem, solution);
+      solution.traction_x = before.traction_x;  // of the last round, until the new ones are there
+      solution.traction_y = before.traction_y;
+    }
+    tangential.solve(problem, solution, previous);
+    if (problem.settings.max_coupling <= 1) return;
+    if (round > 1) {
+      change = relative_change(before, solution);
+      if (change <= kAgreement * problem.settings.eps) return;
+    }
+    if (round >= problem.settings.max_coupling) break;
+  }
+  if (solution.tangential.status == Status::ok) {
+    solution.tangential.status = Status::not_converged;
+    solution.tangential.message = "normal and tangential problem still change each other by " + std::to_string(change) + " after " +
+                                  std::to_string(problem.settings.max_coupling) + " rounds";
+  }
 }
 
 ContactSolution ContactSolver::solve_normal(const ContactProblem& problem) {
   ContactSolution solution;
-  if (problem.sub_patches.count > 1)
-    workspace_->sub_patches.solve(problem, solution);
-  else
-    workspace_->normal.solve(problem, solution);
+  workspace_->solve_normal(problem, solution);
   accumulate_totals(problem, solution);
   return solution;
 }
@@ -41,21 +171,23 @@ void ContactSolver::solve_tangential(const ContactProblem& problem, ContactSolut
   if (solution.pressure.size() != problem.grid.size())
     throw Error(ErrorKind::configuration, "the tangential problem needs the normal solution of the same grid", {},
                 "call solve_normal first");
-  if (problem.regime == Regime::frictionless) return;
-  if (solution.status == Status::no_contact) {
-    for (auto* field : {&solution.traction_x, &solution.traction_y, &solution.displacement_x, &solution.displacement_y,
-                        &solution.slip_x, &solution.slip_y})
-      field->assign(problem.grid.size(), 0.0);
-    solution.friction.assign(problem.grid.size(), problem.friction.static_friction());
-    solution.creepage = problem.creepage;
-    return;
+  workspace_->choose_previous(problem);
+  if (problem.regime != Regime::frictionless) {
+    if (solution.status == Status::no_contact) {
+      empty_tangential_fields(problem, solution);
+    } else {
+      if (problem.tangential_model != TangentialModel::full)
+        solve_fastsim(problem, solution);
+      else if (workspace_->tangential.couples(problem))
+        workspace_->solve_in_turns(problem, solution);
+      else
+        workspace_->tangential.solve(problem, solution, workspace_->previous);
+      if (solution.status != Status::no_contact)
+        solution.status = solution.normal.status != Status::ok ? solution.normal.status : solution.tangential.status;
+      accumulate_totals(problem, solution);
+    }
   }
-  if (problem.tangential_model == TangentialModel::fastsim)
-    solve_fastsim(problem, solution);
-  else
-    workspace_->tangential.solve(problem, solution);
-  solution.status = solution.normal.status != Status::ok ? solution.normal.status : solution.tangential.status;
-  accumulate_totals(problem, solution);
+  workspace_->last = history_of(problem, solution);
 }
 
 ContactSolution ContactSolver::solve(const ContactProblem& problem) {

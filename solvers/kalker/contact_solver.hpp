@@ -4,13 +4,16 @@
 
 #include <memory>
 
+#include "treadmark/solvers/kalker/contact_history.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
 
-/// Solves one-patch contact problems: normal problem first, then the tangential one (Kalker 1990).
+/// Solves one-patch contact problems: normal and tangential problem (Kalker 1990), one after the other, or in turns until they
+/// agree where each acts on the other (dissimilar bodies; Panagiotopoulos 1975).
 /// Keeps influence coefficients, FFT plans and the last solution, so that a sequence of similar problems is solved fast:
-/// the last solution is the start value whenever the grid indices line up. Not thread-safe; use one per thread.
+/// the last solution is the start value whenever the grid indices line up. Keeps the history of shifts and transient rolling.
+/// Not thread-safe; use one per thread.
 class ContactSolver {
  public:
   ContactSolver();
@@ -18,18 +21,30 @@ class ContactSolver {
   ContactSolver(ContactSolver&&) noexcept;
   ContactSolver& operator=(ContactSolver&&) noexcept;
 
-  /// Normal problem only: tractions, creepage and slip of the solution stay empty.
+  /// Normal problem only: tractions, creepage and slip of the solution stay empty. Does not touch the history.
   /// Errors: Error(configuration) for inconsistent input. A problem without contact gives Status::no_contact.
   ContactSolution solve_normal(const ContactProblem& problem);
 
-  /// Adds the tangential solution of the problem's regime to a normal solution of the same problem.
+  /// Adds the tangential solution of the problem's regime to a normal solution of the same problem; problem.history says from
+  /// which instant it goes on. What comes out is the last instant from then on. For dissimilar bodies the normal solution changes too.
+  /// Errors: Error(configuration), also for a grid that does not line up with that of the previous instant.
   void solve_tangential(const ContactProblem& problem, ContactSolution& solution);
 
   /// Both.
   ContactSolution solve(const ContactProblem& problem);
 
-  /// Forgets the last solution (not the coefficients).
+  /// Forgets the last solution and the history (not the coefficients).
   void reset();
+
+  /// Everything on which the following solutions depend, to the last bit: opaque, cheap to copy, independent of the solver.
+  class State;
+  std::shared_ptr<const State> save() const;
+  void restore(const std::shared_ptr<const State>& state);
+
+  /// The last instant.
+  const ContactHistory& history() const;
+  /// Goes on from an instant that was computed elsewhere.
+  void continue_from(ContactHistory instant);
 
  private:
   struct Workspace;

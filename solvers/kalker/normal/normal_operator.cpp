@@ -26,23 +26,24 @@ Spectrum reciprocal(const Spectrum& spectrum, double transform_size) {
 
 }  // namespace
 
-const NormalOperator& NormalOperatorCache::get(int nx, int ny, double dx, double dy, double shear_modulus,
-                                               double poisson) {
-  if (!table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson ||
-      shear_modulus_ != shear_modulus) {
-    operators_.clear();
-    if (!table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson)
-      table_.emplace(Component::nn, dx, dy, poisson);
-    shear_modulus_ = shear_modulus;
-  }
+const NormalOperator& NormalOperatorCache::get(int nx, int ny, double dx, double dy, double shear_modulus, double poisson,
+                                               const std::shared_ptr<const InfluenceKernel>& kernel, double sheet) {
+  const bool other_elements = !table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson;
+  if (other_elements || shear_modulus_ != shear_modulus || kernel_ != kernel || sheet_ != sheet) operators_.clear();
+  if (other_elements) table_.emplace(Component::nn, dx, dy, poisson);
+  shear_modulus_ = shear_modulus;
+  kernel_ = kernel;
+  sheet_ = sheet;
   if (const auto known = operators_.find({nx, ny}); known != operators_.end()) return *known->second;
   if (operators_.size() >= kMaxOperators) operators_.clear();
 
   auto made = std::make_unique<NormalOperator>(NormalOperator{ToeplitzTransform(nx, ny), {}, {}});
-  const int reach_x = made->transform.padded_nx() / 2, reach_y = made->transform.padded_ny() / 2;
-  table_->grow(reach_x + 1, reach_y + 1);
-  made->influence = made->transform.wrapped_kernel_spectrum(
-      [&](int dix, int diy) { return (*table_)(dix, diy) / shear_modulus; });
+  if (!kernel) table_->grow(made->transform.padded_nx() / 2 + 1, made->transform.padded_ny() / 2 + 1);
+  made->influence = made->transform.wrapped_kernel_spectrum([&](int dix, int diy) {
+    const double c = kernel ? kernel->at(dix * dx, diy * dy).nn : (*table_)(dix, diy);
+    return c / shear_modulus + (dix == 0 && diy == 0 ? sheet : 0.0);
+  });
+  // of kernels that are not symmetric the even part
   made->preconditioner =
       reciprocal(made->influence, static_cast<double>(made->transform.padded_nx()) * made->transform.padded_ny());
   return *(operators_[{nx, ny}] = std::move(made));

@@ -6,6 +6,7 @@
 #include <memory>
 #include <utility>
 
+#include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence_table.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
 
@@ -31,11 +32,15 @@ class NormalOperatorCache {
   /// Sizes of boxes are rounded up to few values, so that operators are met again.
   static int rounded_up(int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; }
 
-  const NormalOperator& get(int nx, int ny, double dx, double dy, double shear_modulus, double poisson);
+  /// kernel: none for constant elements on half-spaces; the same if it is the same object. sheet: flexibility of a thin layer
+  /// between the bodies [m/Pa].
+  const NormalOperator& get(int nx, int ny, double dx, double dy, double shear_modulus, double poisson,
+                            const std::shared_ptr<const InfluenceKernel>& kernel = {}, double sheet = 0.0);
 
  private:
   std::optional<InfluenceTable> table_;
-  double shear_modulus_ = 0.0;
+  double shear_modulus_ = 0.0, sheet_ = 0.0;
+  std::shared_ptr<const InfluenceKernel> kernel_;
   std::map<std::pair<int, int>, std::unique_ptr<NormalOperator>> operators_;
 };
 

@@ -7,6 +7,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
 #include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
 #include "treadmark/solvers/kalker/normal/element_box.hpp"
@@ -100,6 +101,7 @@ void paste(const Grid2& grid, std::span<double> field, const ElementBox& box, co
 }  // namespace
 
 struct NormalSolver::Workspace {
+  KernelStore kernels;
   NormalOperatorCache operators;
   BoundConstrainedCg cg;
   std::vector<double> gap;  ///< without NaN
@@ -177,8 +179,10 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   std::vector<double>& pressure = solution.pressure;
   if (!take_last(grid, pressure)) first_pressure(problem, material, pressure);
 
+  const std::shared_ptr<const InfluenceKernel> kernel = kernels.get(problem).unusual();
   const auto op = [&](const ElementBox& box) -> const NormalOperator& {
-    return operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson);
+    return operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson, kernel,
+                         problem.material.sheet_flexibility);
   };
   ElementBox box = rounded(bounding_box(grid, [&](std::size_t i) { return pressure[i] > 0.0; }), grid);
   cg.iterations = cg.products = 0;
@@ -282,6 +286,13 @@ NormalSolver::NormalSolver(NormalSolver&&) noexcept = default;
 NormalSolver& NormalSolver::operator=(NormalSolver&&) noexcept = default;
 
 void NormalSolver::reset() { workspace_->last_pressure.clear(); }
+
+NormalStart NormalSolver::start() const { return {workspace_->last_grid, workspace_->last_pressure}; }
+
+void NormalSolver::start_from(NormalStart start) {
+  workspace_->last_grid = start.grid;
+  workspace_->last_pressure = std::move(start.pressure);
+}
 
 void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   check(problem);

@@ -3,10 +3,17 @@
 #pragma once
 
 #include <memory>
+#include <vector>
 
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
+
+/// Start values for the next problem: the last pressures on their grid [Pa]; empty = none.
+struct NormalStart {
+  Grid2 grid;
+  std::vector<double> pressure;
+};
 
 /// Frictionless normal contact of one patch: pressures p >= 0 with p e = 0 for the deformed distance
 /// e = h - approach + u_n >= 0, for a prescribed force or approach (Kalker 1990; method in README.md of this folder).
@@ -29,6 +36,9 @@ class NormalSolver {
 
   /// Forgets the last pressures (not the coefficients).
   void reset();
+  /// What the next problem starts from, to be saved and restored.
+  NormalStart start() const;
+  void start_from(NormalStart start);
 
  private:
   struct Workspace;

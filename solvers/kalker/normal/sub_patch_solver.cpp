@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 
@@ -28,6 +29,7 @@ void check(const ContactProblem& problem) {
 }  // namespace
 
 struct SubPatchSolver::Workspace {
+  KernelStore kernels;
   NormalOperatorCache operators;
   std::vector<NormalSolver> solvers;
 };
@@ -36,6 +38,17 @@ SubPatchSolver::SubPatchSolver() : workspace_(std::make_unique<Workspace>()) {}
 SubPatchSolver::~SubPatchSolver() = default;
 SubPatchSolver::SubPatchSolver(SubPatchSolver&&) noexcept = default;
 SubPatchSolver& SubPatchSolver::operator=(SubPatchSolver&&) noexcept = default;
+
+std::vector<NormalStart> SubPatchSolver::start() const {
+  std::vector<NormalStart> out;
+  for (const NormalSolver& solver : workspace_->solvers) out.push_back(solver.start());
+  return out;
+}
+
+void SubPatchSolver::start_from(std::vector<NormalStart> start) {
+  workspace_->solvers.resize(start.size());
+  for (std::size_t k = 0; k < start.size(); ++k) workspace_->solvers[k].start_from(std::move(start[k]));
+}
 
 void SubPatchSolver::reset() {
   for (NormalSolver& solver : workspace_->solvers) solver.reset();
@@ -50,7 +63,8 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
   while (workspace_->solvers.size() < count) workspace_->solvers.emplace_back();
   const CombinedMaterial material = combine(problem.material);
   const NormalOperator& op =
-      workspace_->operators.get(grid.nx, grid.ny, grid.dx, grid.dy, material.shear_modulus, material.poisson);
+      workspace_->operators.get(grid.nx, grid.ny, grid.dx, grid.dy, material.shear_modulus, material.poisson,
+                                workspace_->kernels.get(problem).unusual(), problem.material.sheet_flexibility);
 
   // Displacement by each part alone, everywhere.
   std::vector<ContactSolution> parts(count);

@@ -5,6 +5,7 @@
 #include <memory>
 
 #include "treadmark/solvers/kalker/contact_problem.hpp"
+#include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 
 namespace treadmark::kalker {
 
@@ -22,6 +23,9 @@ class SubPatchSolver {
   /// Errors: Error(configuration) for a prescribed force, wrong sizes or factors outside 0 .. 1.
   void solve(const ContactProblem& problem, ContactSolution& solution);
   void reset();
+  /// What the next problem starts from, part by part, to be saved and restored.
+  std::vector<NormalStart> start() const;
+  void start_from(std::vector<NormalStart> start);
 
  private:
   struct Workspace;

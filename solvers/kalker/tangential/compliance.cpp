@@ -17,24 +17,25 @@ std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_
 }  // namespace
 
 Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx, key.ny) {
+  tabulate();
   const int px = transform_.padded_nx(), py = transform_.padded_ny();
-  const int tx = px / 2 + 1, ty = py / 2 + 1;
-  const double g = key.shear_modulus;
-  table_.resize(product(tx, ty));
-  for (int iy = 0; iy < ty; ++iy)
-    for (int ix = 0; ix < tx; ++ix) {
-      const auto coefficient = [&](Component c) {
-        return influence(c, ix * key.dx, iy * key.dy, key.dx, key.dy, key.poisson) / g;
-      };
-      table_[product(iy, tx) + static_cast<std::size_t>(ix)] = {coefficient(Component::xx), coefficient(Component::xy),
-                                                                coefficient(Component::yy)};
+  // What is even and odd in both directions: all of a symmetric kernel, and a fair stand-in for others in the preconditioner.
+  const ComplianceKernel even = [this](int dix, int diy) -> ComplianceBlock {
+    if (symmetric()) {
+      const Entry e = at(dix, diy);
+      return {e.xx, e.xy, e.yy};
     }
-  table_[0].xx += key.layer;
-  table_[0].yy += key.layer;
-
-  const ComplianceKernel kernel = [this](int dix, int diy) { return at(dix, diy); };
-  symbol_ = ring_symbol(kernel, RealFft2d(px, py, key.ny));
-  inverse_.emplace(key.nx, key.ny, kernel);
+    const Entry a = wide_at(dix, diy), b = wide_at(-dix, diy), c = wide_at(dix, -diy), d = wide_at(-dix, -diy);
+    return {0.25 * (a.xx + b.xx + c.xx + d.xx), 0.125 * (a.xy - b.xy - c.xy + d.xy + a.yx - b.yx - c.yx + d.yx),
+            0.25 * (a.yy + b.yy + c.yy + d.yy)};
+  };
+  if (symmetric()) {
+    symbol_ = ring_symbol(even, RealFft2d(px, py, key.ny));
+  } else {
+    for (double Entry::*member : {&Entry::xx, &Entry::xy, &Entry::yx, &Entry::yy})
+      spectra_.push_back(transform_.kernel_spectrum([&](int dix, int diy) { return at(dix, diy).*member; }));
+  }
+  inverse_.emplace(key.nx, key.ny, even);
   step_.resize(static_cast<std::size_t>(px / 2 + 1));
   for (std::size_t k = 0; k < step_.size(); ++k)
     step_[k] = 1.0 - std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(k) / px);
@@ -42,36 +43,82 @@ Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx,
   spectrum_y_.resize(transform_.spectrum_size());
 }
 
-Compliance::Block Compliance::at(int dix, int diy) const {
+void Compliance::tabulate() {
+  const int tx = transform_.padded_nx() / 2 + 1, ty = transform_.padded_ny() / 2 + 1;
+  const double g = key_.shear_modulus;
+  const auto entry = [&](int ix, int iy) -> Entry {
+    const double x = ix * key_.dx, y = iy * key_.dy;
+    if (key_.kernel != nullptr) {
+      const InfluenceBlock b = key_.kernel->at(x, y);
+      return {b.xx / g, b.xy / g, b.yx / g, b.yy / g};
+    }
+    const auto coefficient = [&](Component c) { return influence(c, x, y, key_.dx, key_.dy, key_.poisson) / g; };
+    const double xy = coefficient(Component::xy);
+    return {coefficient(Component::xx), xy, xy, coefficient(Component::yy)};
+  };
+  const int first_x = symmetric() ? 0 : 1 - tx, first_y = symmetric() ? 0 : 1 - ty;
+  table_.reserve(product(tx - first_x, ty - first_y));
+  for (int iy = first_y; iy < ty; ++iy)
+    for (int ix = first_x; ix < tx; ++ix) {
+      table_.push_back(entry(ix, iy));
+      if (ix != 0 || iy != 0) continue;
+      table_.back().xx += key_.layer;
+      table_.back().yy += key_.layer;
+    }
+}
+
+Compliance::Entry Compliance::wide_at(int dix, int diy) const {
+  const int tx = transform_.padded_nx() / 2 + 1, ty = transform_.padded_ny() / 2 + 1;
+  return table_[product(diy + ty - 1, 2 * tx - 1) + static_cast<std::size_t>(dix + tx - 1)];
+}
+
+Compliance::Entry Compliance::at(int dix, int diy) const {
+  if (!symmetric()) return wide_at(dix, diy);
   const int tx = transform_.padded_nx() / 2 + 1;
-  Block b = table_[product(std::abs(diy), tx) + static_cast<std::size_t>(std::abs(dix))];
-  if ((dix < 0) != (diy < 0)) b.xy = -b.xy;
-  return b;
+  Entry e = table_[product(std::abs(diy), tx) + static_cast<std::size_t>(std::abs(dix))];
+  if ((dix < 0) != (diy < 0)) {
+    e.xy = -e.xy;
+    e.yx = -e.yx;
+  }
+  return e;
+}
+
+template <class Multiply>
+void Compliance::multiply(Transport transport, const Multiply& at) {
+  const std::size_t width = step_.size();
+  if (transport == Transport::none) {
+    for (std::size_t k = 0; k < spectrum_x_.size(); ++k) at(k, spectrum_x_[k], spectrum_y_[k]);
+    return;
+  }
+  const double sign = transport == Transport::forward ? 1.0 : -1.0;
+  for (std::size_t row = 0; row < spectrum_x_.size(); row += width)
+    for (std::size_t kx = 0; kx < width; ++kx) {
+      const std::size_t k = row + kx;
+      at(k, spectrum_x_[k], spectrum_y_[k]);
+      const double c = step_[kx].real(), s = sign * step_[kx].imag();
+      const std::complex<double> sx = spectrum_x_[k], sy = spectrum_y_[k];
+      spectrum_x_[k] = {sx.real() * c - sx.imag() * s, sx.real() * s + sx.imag() * c};
+      spectrum_y_[k] = {sy.real() * c - sy.imag() * s, sy.real() * s + sy.imag() * c};
+    }
 }
 
 void Compliance::apply(Transport transport, std::span<const double> px, std::span<const double> py,
                        std::span<double> ux, std::span<double> uy) {
   transform_.forward(px, spectrum_x_);
   transform_.forward(py, spectrum_y_);
-  if (transport == Transport::none) {
-    for (std::size_t k = 0; k < symbol_.size(); ++k) {
-      const std::complex<double> x = spectrum_x_[k], y = spectrum_y_[k];
+  if (symmetric()) {
+    multiply(transport, [this](std::size_t k, std::complex<double>& x, std::complex<double>& y) {
       const Block& b = symbol_[k];
-      spectrum_x_[k] = b.xx * x + b.xy * y;
-      spectrum_y_[k] = b.xy * x + b.yy * y;
-    }
+      const std::complex<double> ux_k = b.xx * x + b.xy * y;
+      y = b.xy * x + b.yy * y;
+      x = ux_k;
+    });
   } else {
-    const double sign = transport == Transport::forward ? 1.0 : -1.0;
-    for (std::size_t row = 0; row < symbol_.size(); row += step_.size())
-      for (std::size_t kx = 0; kx < step_.size(); ++kx) {
-        const std::size_t k = row + kx;
-        const Block& b = symbol_[k];
-        const double c = step_[kx].real(), s = sign * step_[kx].imag();
-        const std::complex<double> x = spectrum_x_[k], y = spectrum_y_[k];
-        const std::complex<double> sx = b.xx * x + b.xy * y, sy = b.xy * x + b.yy * y;
-        spectrum_x_[k] = {sx.real() * c - sx.imag() * s, sx.real() * s + sx.imag() * c};
-        spectrum_y_[k] = {sy.real() * c - sy.imag() * s, sy.real() * s + sy.imag() * c};
-      }
+    multiply(transport, [this](std::size_t k, std::complex<double>& x, std::complex<double>& y) {
+      const std::complex<double> ux_k = spectra_[0][k] * x + spectra_[1][k] * y;
+      y = spectra_[2][k] * x + spectra_[3][k] * y;
+      x = ux_k;
+    });
   }
   transform_.inverse(spectrum_x_, ux);
   transform_.inverse(spectrum_y_, uy);

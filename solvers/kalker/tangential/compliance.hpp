@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
 
+#include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
 #include "treadmark/solvers/kalker/tangential/inverse_compliance.hpp"
 
@@ -18,12 +20,13 @@ enum class Transport {
   backward,  ///< rolling in -x
 };
 
-/// What determines the coefficients of a box of elements.
+/// What determines the coefficients of a box of elements. Kernels are the same if they are the same object.
 struct ComplianceKey {
   int nx = 0, ny = 0;         ///< elements of the box
   double dx = 0.0, dy = 0.0;  ///< [m]
   double poisson = 0.0, shear_modulus = 0.0;
   double layer = 0.0;         ///< flexibility of a thin elastic layer [m/Pa]
+  std::shared_ptr<const InfluenceKernel> kernel;   ///< none: constant elements on half-spaces
   friend bool operator==(const ComplianceKey&, const ComplianceKey&) = default;
 };
 
@@ -44,15 +47,25 @@ class Compliance {
   /// Approximately the p with B p = u.
   InverseCompliance& inverse() { return *inverse_; }
 
-  using Block = ComplianceBlock;
+  struct Entry {
+    double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;   ///< displacement by traction
+  };
   /// Coefficients at an offset "observation minus source", |dix| <= nx, |diy| < ny [m/Pa].
-  Block at(int dix, int diy) const;
+  Entry at(int dix, int diy) const;
 
  private:
+  using Block = ComplianceBlock;
+  bool symmetric() const { return key_.kernel == nullptr || key_.kernel->symmetric(); }
+  void tabulate();
+  Entry wide_at(int dix, int diy) const;
+  template <class Multiply>
+  void multiply(Transport transport, const Multiply& at) ;
+
   ComplianceKey key_;
   ToeplitzTransform transform_;
-  std::vector<Block> table_;                  ///< offsets 0..padded_nx/2, 0..padded_ny/2
-  std::vector<Block> symbol_;
+  std::vector<Entry> table_;                  ///< offsets 0..padded_nx/2, 0..padded_ny/2; all signs unless symmetric
+  std::vector<Block> symbol_;                 ///< symmetric kernels
+  std::vector<Spectrum> spectra_;             ///< others: xx, xy, yx, yy
   std::vector<std::complex<double>> step_;    ///< 1 - exp(2 pi i k / padded_nx)
   Spectrum spectrum_x_, spectrum_y_;
   std::optional<InverseCompliance> inverse_;

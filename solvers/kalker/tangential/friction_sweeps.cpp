@@ -75,7 +75,7 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
       double sx = problem.rigid_slip[i], sy = problem.rigid_slip[n + i];
       const int cell = static_cast<int>(patch_.cell[i]), ix = cell % nx, iy = cell / nx;
       for (int jy = 0; jy < ny; ++jy) {
-        const Compliance::Block* b =
+        const Compliance::Entry* b =
             &table_[static_cast<std::size_t>((iy - jy + ny - 1) * (2 * nx + 1) + nx - ix - 1)];
         const std::size_t first = static_cast<std::size_t>(jy * width_);
         // Source columns -1 to nx, offsets ix + 1 down to ix - nx.
@@ -83,7 +83,7 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
           const double x = nodes_x_[first + static_cast<std::size_t>(jx + 1)];
           const double y = nodes_y_[first + static_cast<std::size_t>(jx + 1)];
           sx += b->xx * x + b->xy * y;
-          sy += b->xy * x + b->yy * y;
+          sy += b->yx * x + b->yy * y;
         }
       }
       // Elements that move with this one: those behind it in adhesion, i.e. strictly inside their bounds.
@@ -95,10 +95,10 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
           ++last;
           ++distance;
         }
-      const Compliance::Block own = compliance_.at(0, 0);
+      const Compliance::Entry own = compliance_.at(0, 0);
       std::array<double, 2> k{own.xx, own.yy};
       if (rolling_) {
-        const Compliance::Block other = compliance_.at(distance, 0);
+        const Compliance::Entry other = compliance_.at(-behind * distance, 0);
         k[0] -= other.xx;
         k[1] -= other.yy;
       }

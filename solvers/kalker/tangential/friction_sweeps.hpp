@@ -25,7 +25,7 @@ class FrictionSweeps {
   bool rolling_;
   int width_;                        ///< columns of the node array: the box and one column on either side
   std::vector<double> nodes_x_, nodes_y_;
-  std::vector<Compliance::Block> table_;
+  std::vector<Compliance::Entry> table_;
 };
 
 /// Argument of the minimum of q.K q/2 + c.q over |q| <= bound, K = diag(k): a traction with slip K q + c.

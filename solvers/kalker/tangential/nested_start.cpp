@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/tangential/nested_start.hpp"
 
-#include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
+#include <array>
 
 namespace treadmark::kalker {
 
@@ -14,8 +14,8 @@ constexpr int kCoarseSweeps = 8;
 
 }  // namespace
 
-Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<const double> bound,
-                    const Creepage& creepage, double spin_offset_factor, ComplianceCache& cache) {
+Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<const double> bound, const Field2& known_slip,
+                    ComplianceCache& cache) {
   const std::size_t n = patch.cell.size();
   Field2 start(2 * n);
   if (patch.size() < kSmallPatch) return start;
@@ -35,9 +35,13 @@ Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<cons
   };
   std::vector<double> coarse_bound(coarse.size());
   std::vector<ElementState> state(coarse.size(), ElementState::exterior);
+  std::vector<std::array<double, 3>> slip(coarse.size());  // sum of both components, number
   for (std::size_t i = 0; i < n; ++i) {
     coarse_bound[parent(i)] += bound[i] / (2.0 * ratio_y);
     state[parent(i)] = ElementState::adhesion;
+    slip[parent(i)][0] += known_slip[i];
+    slip[parent(i)][1] += known_slip[n + i];
+    slip[parent(i)][2] += 1.0;
   }
 
   const Patch coarse_patch = make_patch(coarse, patch.transport, state);
@@ -46,20 +50,26 @@ Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<cons
   coarse_key.ny = coarse_patch.box_ny;
   coarse_key.dx = coarse.dx;
   coarse_key.dy = coarse.dy;
+  coarse_key.kernel = nullptr;  // made for other elements; for a start half-spaces will do
   FrictionProblem problem;
-  problem.rigid_slip = rigid_slip(coarse_patch, creepage, spin_offset_factor);
-  problem.bound.resize(coarse_patch.cell.size());
-  for (int i = 0; i < coarse_patch.size(); ++i)
-    problem.bound[static_cast<std::size_t>(i)] = coarse_bound[coarse_patch.grid_index(i)];
+  const std::size_t m = coarse_patch.cell.size();
+  problem.rigid_slip.resize(2 * m);
+  problem.bound.resize(m);
+  const double step = patch.transport == Transport::none ? 1.0 : 2.0;  // steady rolling: an element's length
+  for (std::size_t i = 0; i < m; ++i) {
+    const std::size_t at = coarse_patch.grid_index(static_cast<int>(i));
+    problem.bound[i] = coarse_bound[at];
+    problem.rigid_slip[i] = step * slip[at][0] / slip[at][2];
+    problem.rigid_slip[m + i] = step * slip[at][1] / slip[at][2];
+  }
   FrictionState solution;
-  solution.traction = nested_start(coarse_patch, coarse_key, problem.bound, creepage, spin_offset_factor, cache);
+  solution.traction = nested_start(coarse_patch, coarse_key, problem.bound, problem.rigid_slip, cache);
   PatchOperator matrix(coarse_patch, cache.get(coarse_key));
   problem.matrix = &matrix;
   FrictionSolve().run(problem, solution, kAccuracy, kCoarseSweeps);
 
   // The share of the bound is what carries over best: it keeps slip elements slipping.
   std::vector<double> share_x(coarse.size()), share_y(coarse.size());
-  const std::size_t m = coarse_patch.cell.size();
   for (std::size_t i = 0; i < m; ++i) {
     if (!(problem.bound[i] > 0.0)) continue;
     const std::size_t at = coarse_patch.grid_index(static_cast<int>(i));

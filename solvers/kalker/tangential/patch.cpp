@@ -54,7 +54,7 @@ PatchOperator::PatchOperator(const Patch& patch, Compliance& compliance) : patch
   in_y_ = in_x_;
   out_x_ = in_x_;
   out_y_ = in_x_;
-  const Compliance::Block own = compliance.at(0, 0), ahead = compliance.at(1, 0);
+  const Compliance::Entry own = compliance.at(0, 0), ahead = compliance.at(patch.transport == Transport::backward ? -1 : 1, 0);
   diagonal_ = 0.5 * (own.xx + own.yy);
   if (patch.transport != Transport::none) diagonal_ -= 0.5 * (ahead.xx + ahead.yy);
 }

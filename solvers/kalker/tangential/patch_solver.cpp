@@ -7,8 +7,6 @@
 #include <numeric>
 
 #include "treadmark/solvers/kalker/tangential/nested_start.hpp"
-#include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
-#include "treadmark/solvers/kalker/tangential/slip_friction.hpp"
 
 namespace treadmark::kalker {
 
@@ -24,34 +22,52 @@ constexpr double kSmallestRelaxation = 0.02;
 
 }  // namespace
 
-ComplianceKey compliance_key(const Patch& patch, const Material& material) {
+ComplianceKey compliance_key(const Patch& patch, const Material& material, std::shared_ptr<const InfluenceKernel> kernel) {
   const CombinedMaterial combined = combine(material);
   return {patch.box_nx,     patch.box_ny,           patch.grid.dx,
           patch.grid.dy,    combined.poisson,       combined.shear_modulus,
-          material.layer_flexibility};
+          material.layer_flexibility, std::move(kernel)};
 }
 
-PatchSolver::PatchSolver(const ContactProblem& problem, const Patch& patch, std::vector<double> pressure,
-                         ComplianceCache& cache)
+PatchSolver::PatchSolver(const ContactProblem& problem, const Patch& patch, PatchConditions conditions, ComplianceCache& cache)
     : input_(problem),
       patch_(patch),
-      pressure_(std::move(pressure)),
+      conditions_(std::move(conditions)),
+      laws_(friction_of(problem)),
+      layer_(problem.material, patch),
       cache_(cache),
-      key_(compliance_key(patch, problem.material)),
+      key_(compliance_key(patch, problem.material, conditions_.kernel)),
       matrix_(patch, cache.get(key_)) {
   problem_.matrix = &matrix_;
-  friction_.assign(pressure_.size(), problem.friction.static_friction());
-  slip_speed_.assign(pressure_.size(), 0.0);
+  if (!conditions_.yield_before.empty()) layer_.start_from(conditions_.yield_before);
+  const std::size_t n = conditions_.pressure.size();
+  friction_.resize(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    friction_[i] = laws_.at(patch_, i).static_friction();
+    static_bound_ += friction_[i] * std::max(conditions_.pressure[i], 0.0);
+  }
+  slip_speed_.assign(n, 0.0);
   set_bound();
 }
 
-double PatchSolver::time_step() const {
-  return patch_.transport == Transport::none ? 1.0 : patch_.grid.dx / input_.rolling.velocity;
+std::vector<double> PatchSolver::friction_bound() const {
+  std::vector<double> out(friction_.size());
+  for (std::size_t i = 0; i < out.size(); ++i) out[i] = friction_[i] * std::max(conditions_.pressure[i], 0.0);
+  return out;
 }
 
-void PatchSolver::set_bound() {
-  problem_.bound.resize(pressure_.size());
-  for (std::size_t i = 0; i < pressure_.size(); ++i) problem_.bound[i] = friction_[i] * std::max(pressure_[i], 0.0);
+std::vector<double> PatchSolver::slip_distance() const {
+  std::vector<double> out(slip_speed_);
+  for (double& s : out) s *= time_step();
+  return out;
+}
+
+void PatchSolver::set_bound() { problem_.bound = layer_.bound(friction_bound(), slip_distance()); }
+
+InterfaceLayer::Shear PatchSolver::layer_shear() const {
+  std::vector<double> distance = new_slip_speed();
+  for (double& s : distance) s *= time_step();
+  return layer_.divide(friction_bound(), distance);
 }
 
 void PatchSolver::start_from(Field2 traction, std::vector<double> slip_speed) {
@@ -69,7 +85,7 @@ bool PatchSolver::solve_at_fixed_friction(double eps) {
 }
 
 std::vector<double> PatchSolver::new_slip_speed() const {
-  const std::size_t n = pressure_.size();
+  const std::size_t n = friction_.size();
   std::vector<double> speed(n);
   for (std::size_t i = 0; i < n; ++i)
     if (state_.slipping[i]) speed[i] = std::hypot(state_.slip[i], state_.slip[n + i]) / time_step();
@@ -77,12 +93,21 @@ std::vector<double> PatchSolver::new_slip_speed() const {
 }
 
 bool PatchSolver::solve(const Creepage& creepage, double eps) {
-  const bool coulomb = input_.friction.kind == FrictionLaw::Kind::coulomb;
-  if (!coulomb) {
-    friction_ = friction_of_slip(patch_, input_.friction, slip_speed_, time_step());
+  const bool fixed = laws_.constant() && !layer_.hardens();
+  const auto adapt = [&] {
+    if (!laws_.constant()) {
+      std::vector<double> speed = slip_speed_;
+      if (layer_.plastic()) {
+        // what the layer shears does not slide
+        const InterfaceLayer::Shear shear = layer_.divide(friction_bound(), slip_distance());
+        for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::max(0.0, speed[i] - shear.distance[i] / time_step());
+      }
+      friction_ = friction_of_slip(patch_, laws_, speed, time_step(), conditions_.friction_before);
+    }
     set_bound();
-  }
-  problem_.rigid_slip = rigid_slip(patch_, creepage, input_.rolling.spin_offset_factor);
+  };
+  if (!fixed) adapt();
+  problem_.rigid_slip = conditions_.known_slip.at(creepage);
   if (started_) {
     const double dx = creepage.xi - creepage_.xi, dy = creepage.eta - creepage_.eta;
     for (std::size_t k = 0; k < predicted_[0].size(); ++k) state_.traction[k] += dx * predicted_[0][k];
@@ -91,14 +116,12 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
     state_.update(problem_);
     started_ = state_.violation <= kUsefulStart * rms(problem_.bound);
   }
-  if (!started_)
-    state_.traction =
-        nested_start(patch_, key_, problem_.bound, creepage, input_.rolling.spin_offset_factor, cache_);
+  if (!started_) state_.traction = nested_start(patch_, key_, problem_.bound, problem_.rigid_slip, cache_);
   started_ = true;
   creepage_ = creepage;
   predicted_ = {};
   friction_unsettled_ = false;
-  if (coulomb) return solve_at_fixed_friction(eps);
+  if (fixed) return solve_at_fixed_friction(eps);
 
   // Slip speeds and coefficients of friction by relaxed substitution.
   double relaxation = 1.0, last_change = 0.0;
@@ -115,38 +138,31 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
     last_change = size;
     for (std::size_t i = 0; i < speed.size(); ++i) slip_speed_[i] += (converged ? 1.0 : relaxation) * change[i];
     if (converged) return true;
-    friction_ = friction_of_slip(patch_, input_.friction, slip_speed_, time_step());
-    set_bound();
+    adapt();
   }
   friction_unsettled_ = true;
   return false;
 }
 
 std::array<double, 2> PatchSolver::relative_force() const {
-  const std::size_t n = pressure_.size();
-  const double scale =
-      input_.friction.static_friction() * std::accumulate(pressure_.begin(), pressure_.end(), 0.0);
+  const std::size_t n = friction_.size();
   const auto middle = state_.traction.begin() + static_cast<std::ptrdiff_t>(n);
-  return {std::accumulate(state_.traction.begin(), middle, 0.0) / scale,
-          std::accumulate(middle, state_.traction.end(), 0.0) / scale};
+  return {std::accumulate(state_.traction.begin(), middle, 0.0) / static_bound_,
+          std::accumulate(middle, state_.traction.end(), 0.0) / static_bound_};
 }
 
 std::array<double, 2> PatchSolver::relative_stiffness(int component) {
-  const std::size_t n = pressure_.size();
-  Creepage unit;
-  (component == 0 ? unit.xi : unit.eta) = 1.0;
+  const std::size_t n = friction_.size();
   const auto c = static_cast<std::size_t>(component);
-  predicted_[c] = friction_solve_.newton().sensitivity(problem_, state_, rigid_slip(patch_, unit, 0.0),
+  predicted_[c] = friction_solve_.newton().sensitivity(problem_, state_, conditions_.known_slip.per_unit(component),
                                                        kSensitivityAccuracy, kSensitivityIterations);
-  const double scale =
-      input_.friction.static_friction() * std::accumulate(pressure_.begin(), pressure_.end(), 0.0);
   const auto middle = predicted_[c].begin() + static_cast<std::ptrdiff_t>(n);
-  return {std::accumulate(predicted_[c].begin(), middle, 0.0) / scale,
-          std::accumulate(middle, predicted_[c].end(), 0.0) / scale};
+  return {std::accumulate(predicted_[c].begin(), middle, 0.0) / static_bound_,
+          std::accumulate(middle, predicted_[c].end(), 0.0) / static_bound_};
 }
 
 void PatchSolver::slide(std::array<double, 2> direction) {
-  const std::size_t n = pressure_.size();
+  const std::size_t n = friction_.size();
   state_.traction.resize(2 * n);
   for (std::size_t i = 0; i < n; ++i) {
     state_.traction[i] = problem_.bound[i] * direction[0];

@@ -7,17 +7,31 @@
 
 #include "treadmark/solvers/kalker/tangential/compliance_cache.hpp"
 #include "treadmark/solvers/kalker/tangential/friction_solve.hpp"
+#include "treadmark/solvers/kalker/tangential/interface_layer.hpp"
+#include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
+#include "treadmark/solvers/kalker/tangential/slip_friction.hpp"
 
 namespace treadmark::kalker {
+
+/// What a patch has to go by, per element of the patch.
+struct PatchConditions {
+  std::vector<double> pressure;          ///< [Pa]
+  KnownSlip known_slip;
+  std::vector<double> friction_before;   ///< transient: coefficients of the material a step ago; else empty
+  std::vector<double> yield_before;      ///< likewise the yield stress of the layer [Pa]
+  std::shared_ptr<const InfluenceKernel> kernel;   ///< none: constant elements on half-spaces
+};
 
 /// The friction problem of one patch at creepages that may change from call to call; starts from the last solution.
 class PatchSolver {
  public:
-  /// All must outlive the solver. pressure: per element of the patch [Pa].
-  PatchSolver(const ContactProblem& problem, const Patch& patch, std::vector<double> pressure, ComplianceCache& cache);
+  /// problem, patch and cache must outlive the solver.
+  PatchSolver(const ContactProblem& problem, const Patch& patch, PatchConditions conditions, ComplianceCache& cache);
 
-  /// Start values: tractions [Pa] and slip speeds [m/s], the latter for friction that depends on them.
+  /// Start values: tractions [Pa] and slip speeds [m/s], the latter for friction that depends on them. Plastic shear counts as slip.
   void start_from(Field2 traction, std::vector<double> slip_speed);
+  /// Slip speed of all elements to start from [m/s].
+  void set_slip_speed(double speed) { slip_speed_.assign(slip_speed_.size(), speed); }
 
   /// Tractions for given creepages to a relative accuracy eps, with friction that fits the slip. False if the accuracy was
   /// not reached.
@@ -36,6 +50,9 @@ class PatchSolver {
   const std::vector<double>& friction() const { return friction_; }
   const std::vector<double>& bound() const { return problem_.bound; }
   const std::vector<double>& slip_speed() const { return slip_speed_; }
+  const RollingStep& step() const { return conditions_.known_slip.step; }
+  /// Plastic shear of the layer in this step.
+  InterfaceLayer::Shear layer_shear() const;
   /// Violation of the conditions relative to the bound, both rms.
   double residual() const;
   int steps() const { return steps_; }
@@ -47,11 +64,16 @@ class PatchSolver {
   void set_bound();
   bool solve_at_fixed_friction(double eps);
   std::vector<double> new_slip_speed() const;
-  double time_step() const;
+  std::vector<double> friction_bound() const;
+  std::vector<double> slip_distance() const;
+  double time_step() const { return step().time; }
 
   const ContactProblem& input_;
   const Patch& patch_;
-  std::vector<double> pressure_;
+  PatchConditions conditions_;
+  FrictionOfPatch laws_;
+  InterfaceLayer layer_;
+  double static_bound_ = 0.0;         ///< sum of static friction times pressure
   ComplianceCache& cache_;
   ComplianceKey key_;
   PatchOperator matrix_;
@@ -65,7 +87,7 @@ class PatchSolver {
   int steps_ = 0, sweeps_ = 0;
 };
 
-/// Coefficients that a patch needs.
-ComplianceKey compliance_key(const Patch& patch, const Material& material);
+/// Coefficients that a patch needs. kernel: none for constant elements on half-spaces.
+ComplianceKey compliance_key(const Patch& patch, const Material& material, std::shared_ptr<const InfluenceKernel> kernel = {});
 
 }  // namespace treadmark::kalker

@@ -12,16 +12,31 @@ constexpr double kNoMemory = 1e-12;  ///< shorter memory distances [m] count as 
 
 }  // namespace
 
-std::vector<double> friction_of_slip(const Patch& patch, const FrictionLaw& law, std::span<const double> slip_speed,
-                                     double time_step) {
+bool FrictionOfPatch::constant() const {
+  const auto depends = [](const FrictionLaw& law) {
+    return law.kind != FrictionLaw::Kind::coulomb && law.kind != FrictionLaw::Kind::temperature;
+  };
+  return rows.empty() ? !depends(*all) : std::none_of(rows.begin(), rows.end(), depends);
+}
+
+FrictionOfPatch friction_of(const ContactProblem& problem) { return {&problem.friction, problem.friction_of_row}; }
+
+std::vector<double> friction_of_slip(const Patch& patch, const FrictionOfPatch& laws, std::span<const double> slip_speed,
+                                     double time_step, std::span<const double> before) {
   std::vector<double> mu(slip_speed.size());
-  const bool rolling = patch.transport != Transport::none;
+  const bool steady = patch.transport != Transport::none;
   for (std::size_t i = 0; i < mu.size(); ++i) {
+    const FrictionLaw& law = laws.at(patch, i);
+    if (law.kind == FrictionLaw::Kind::coulomb) {
+      mu[i] = law.kinetic;
+      continue;
+    }
     const double distance = time_step * std::max(slip_speed[i], law.memory_velocity);
     const double kept = law.memory_distance > kNoMemory ? law.memory_distance / (law.memory_distance + distance) : 0.0;
-    const double before =
-        rolling && patch.ahead[i] >= 0 ? mu[static_cast<std::size_t>(patch.ahead[i])] : law.static_friction();
-    mu[i] = kept * before + (1.0 - kept) * law.at(slip_speed[i]);
+    double last = law.static_friction();
+    if (!before.empty()) last = before[i];
+    else if (steady && patch.ahead[i] >= 0) last = mu[static_cast<std::size_t>(patch.ahead[i])];
+    mu[i] = kept * last + (1.0 - kept) * law.at(slip_speed[i]);
   }
   return mu;
 }

@@ -11,30 +11,17 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/tangential/patch_solver.hpp"
-#include "treadmark/solvers/kalker/tangential/prescribed_force.hpp"
+#include "treadmark/solvers/kalker/tangential/creepage_search.hpp"
+#include "treadmark/solvers/kalker/tangential/previous_instant.hpp"
 
 namespace treadmark::kalker {
 
 namespace {
 
-constexpr double kEqualMaterials = 1e-6;     ///< |K| below this has no influence
-constexpr double kAngleTolerance = 1e-6;     ///< of the rolling direction [rad]
 constexpr double kAlignment = 1e-6;          ///< of two grids, in elements
-/// Forces closer to the friction limit than this cannot be told from full sliding.
-constexpr double kFullSliding = 1.0 - 1e-9;
 
 [[noreturn]] void refuse(const std::string& message, const std::string& advice) {
   throw Error(ErrorKind::configuration, message, {}, advice);
-}
-
-Transport transport_of(const ContactProblem& problem) {
-  if (problem.regime == Regime::shift) return Transport::none;
-  const double chi = std::remainder(problem.rolling.chi, 2.0 * std::numbers::pi);
-  if (std::abs(chi) < kAngleTolerance) return Transport::forward;
-  if (std::abs(std::abs(chi) - std::numbers::pi) < kAngleTolerance) return Transport::backward;
-  refuse("steady rolling in direction " + std::to_string(problem.rolling.chi) + " rad is not supported",
-         "turn the contact frame so that chi is 0 or pi");
 }
 
 void check(const ContactProblem& problem, const ContactSolution& solution) {
@@ -49,28 +36,21 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
     refuse("element states do not fit the contact grid", "solve the normal problem first");
   const CombinedMaterial combined = combine(problem.material);
   if (!(combined.shear_modulus > 0.0)) refuse("the shear modulus must be positive", "check the material");
-  if (std::abs(combined.difference) > kEqualMaterials)
-    refuse("elastically dissimilar bodies (K = " + std::to_string(combined.difference) +
-               ") couple the normal and tangential problems, which is not supported",
-           "use bodies with equal (1 - 2 nu)/G, so that K = 0");
   const Creepage& c = problem.creepage;
   for (const double value : {c.xi, c.eta, c.phi, c.spin_x, c.spin_y, problem.fx_relative.value_or(0.0),
                              problem.fy_relative.value_or(0.0)})
     if (!std::isfinite(value)) refuse("a creepage, spin centre or tangential force is not finite", "check the input");
-  if (problem.regime == Regime::steady && !(problem.rolling.velocity > 0.0))
-    refuse("the rolling velocity must be positive", "give its magnitude; the direction is chi");
+  if (problem.extra_slip_x.size() != problem.extra_slip_y.size() ||
+      (!problem.extra_slip_x.empty() && problem.extra_slip_x.size() != grid.size()))
+    refuse("the given slip does not have two values for each of " + std::to_string(grid.size()) + " elements",
+           "give one pair each, or none");
+  if (!problem.friction_of_row.empty() && problem.friction_of_row.size() != static_cast<std::size_t>(grid.ny))
+    refuse("there are " + std::to_string(problem.friction_of_row.size()) + " friction laws for " + std::to_string(grid.ny) +
+               " rows",
+           "give one for each row, or one for all");
   if (!(problem.friction.static_friction() >= 0.0))
     refuse("the coefficient of friction is negative", "check the friction law");
 }
-
-/// What the next problem may start from.
-struct LastSolution {
-  Grid2 grid;
-  Transport transport = Transport::none;
-  std::vector<double> traction_x, traction_y, bound, slip_speed;
-  Creepage creepage;
-  bool force_prescribed = false;
-};
 
 /// Index offset of `to` in `from`, if their elements line up.
 std::optional<std::array<int, 2>> offset_between(const Grid2& from, const Grid2& to) {
@@ -83,22 +63,20 @@ std::optional<std::array<int, 2>> offset_between(const Grid2& from, const Grid2&
   return std::array<int, 2>{static_cast<int>(std::lround(ox)), static_cast<int>(std::lround(oy))};
 }
 
-/// Accuracy of tractions on the way to a prescribed force: at first, in relation to the deviation that is left, and by
-/// how much it is tightened.
-constexpr double kRoughest = 1e-3, kRoughness = 30.0, kRefinement = 0.01;
-
 }  // namespace
 
 struct TangentialSolver::Workspace {
   ComplianceCache cache;
-  std::optional<LastSolution> last;
+  KernelStore kernels;
+  OperatorStore operators;
+  std::optional<TangentialStart> last;
 
   bool start(const ContactProblem& problem, const Patch& patch, PatchSolver& solver) const;
   void store(const ContactProblem& problem, const Patch& patch, const PatchSolver& solver, const Creepage& creepage);
 };
 
 bool TangentialSolver::Workspace::start(const ContactProblem& problem, const Patch& patch, PatchSolver& solver) const {
-  if (!last || last->transport != patch.transport) return false;
+  if (!last || last->steady != (patch.transport != Transport::none) || last->forward != (patch.transport != Transport::backward)) return false;
   const auto offset = offset_between(last->grid, problem.grid);
   if (!offset) return false;
   const std::size_t n = patch.cell.size();
@@ -124,7 +102,8 @@ void TangentialSolver::Workspace::store(const ContactProblem& problem, const Pat
                                         const Creepage& creepage) {
   if (!last) last.emplace();
   last->grid = problem.grid;
-  last->transport = patch.transport;
+  last->steady = patch.transport != Transport::none;
+  last->forward = patch.transport != Transport::backward;
   last->creepage = creepage;
   last->force_prescribed = problem.fx_relative || problem.fy_relative;
   for (auto* field : {&last->traction_x, &last->traction_y, &last->bound, &last->slip_speed})
@@ -141,90 +120,71 @@ void TangentialSolver::Workspace::store(const ContactProblem& problem, const Pat
 
 namespace {
 
-struct Outcome {
-  Creepage creepage;
-  Status status = Status::ok;
-  std::string message;
-};
-
-/// Creepages by which the prescribed forces arise; the others stay as given.
-Outcome solve_for_force(const ContactProblem& problem, PatchSolver& solver, const std::optional<Creepage>& estimate) {
-  Outcome outcome;
-  outcome.creepage = problem.creepage;
-  const double fx = problem.fx_relative.value_or(0.0), fy = problem.fy_relative.value_or(0.0);
-  const double size = std::hypot(fx, fy);
-  double total = 0.0;
-  for (const double bound : solver.bound()) total += bound;
-  if (size > 0.0 && (size >= kFullSliding || !(total > 0.0))) {
-    solver.slide({fx / size, fy / size});
-    outcome.status = Status::not_converged;
-    outcome.message = "the prescribed tangential force reaches the limit of friction: the contact slides, at a creepage "
-                      "that is not determined";
-    return outcome;
-  }
-  if (!(total > 0.0)) {
-    outcome.status = solver.solve(outcome.creepage, problem.settings.eps) ? Status::ok : Status::not_converged;
-    return outcome;
-  }
-
-  // The unknowns in the order of the search.
-  std::vector<int> unknown;
-  if (problem.fx_relative) unknown.push_back(0);
-  if (problem.fy_relative) unknown.push_back(1);
-  const auto component = [](Creepage& c, int k) -> double& { return k == 0 ? c.xi : c.eta; };
-  Creepage start = problem.creepage;
-  for (const int k : unknown) {
-    component(start, k) = 0.0;
-    if (estimate) component(start, k) = k == 0 ? estimate->xi : estimate->eta;
-  }
-  ForceSearchSettings settings;
-  settings.count = static_cast<int>(unknown.size());
-  settings.tolerance = problem.settings.eps;
-  settings.max_iterations = problem.settings.max_force;
-  settings.exact_derivatives = problem.friction.kind == FrictionLaw::Kind::coulomb;
-  for (std::size_t k = 0; k < unknown.size(); ++k) {
-    settings.target[k] = unknown[k] == 0 ? fx : fy;
-    settings.start[k] = component(start, unknown[k]);
-  }
-  bool solved = true;
-  double eps = std::max(kRoughest, settings.tolerance);
-  const auto evaluate = [&](std::array<double, 2> values) {
-    for (std::size_t k = 0; k < unknown.size(); ++k) component(outcome.creepage, unknown[k]) = values[k];
-    ForceSample sample;
-    double worst = 0.0;
-    const auto measure = [&] {
-      solved = solver.solve(outcome.creepage, eps);
-      const std::array<double, 2> force = solver.relative_force();
-      worst = 0.0;
-      for (std::size_t k = 0; k < unknown.size(); ++k) {
-        sample.force[k] = force[static_cast<std::size_t>(unknown[k])];
-        worst = std::max(worst, std::abs(sample.force[k] - settings.target[k]));
-      }
-    };
-    measure();
-    // Far from the target rough tractions will do.
-    while (eps > problem.settings.eps && worst < kRoughness * eps) {
-      eps = std::max(problem.settings.eps, kRefinement * eps);
-      measure();
-    }
-    sample.sliding = solver.sliding();
-    if (worst > settings.tolerance)
-      for (std::size_t column = 0; column < unknown.size(); ++column) {
-        const std::array<double, 2> d = solver.relative_stiffness(unknown[column]);
-        for (std::size_t k = 0; k < unknown.size(); ++k)
-          sample.derivative[k][column] = d[static_cast<std::size_t>(unknown[k])];
-      }
-    return sample;
+/// Plastic shear of the layer, the distances of before included.
+void write_layer(const ContactProblem& problem, const Patch& patch, const PatchSolver& solver, const ContactHistory& previous,
+                 ContactSolution& solution) {
+  const std::size_t size = problem.grid.size(), n = patch.cell.size();
+  const InterfaceLayer::Shear shear = solver.layer_shear();
+  const FrictionState& state = solver.state();
+  const RollingStep& step = solver.step();
+  solution.yield_stress.assign(size, problem.material.layer_yield);
+  const bool steady = step.transport != Transport::none;
+  const auto before = [&](const std::vector<double>& field) {
+    if (steady || field.empty()) return std::vector<double>(size, 0.0);
+    return step.rolling ? carried(problem.grid, field, step.shift_x, step.shift_y, 0.0) : field;
   };
-  const ForceSearchResult found = find_creepage(settings, evaluate);
-  if (!found.converged) {
-    outcome.status = Status::not_converged;
-    outcome.message = "the prescribed tangential force is missed by " + std::to_string(found.residual) +
-                      " of the friction limit after " + std::to_string(found.iterations) + " iterations";
-  } else if (!solved) {
-    outcome.status = Status::not_converged;
+  solution.plastic_x = before(previous.plastic_x);
+  solution.plastic_y = before(previous.plastic_y);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = patch.grid_index(static_cast<int>(i));
+    if (steady && patch.ahead[i] >= 0) {
+      const std::size_t from = patch.grid_index(patch.ahead[i]);
+      solution.plastic_x[at] = solution.plastic_x[from];
+      solution.plastic_y[at] = solution.plastic_y[from];
+    }
+    solution.yield_stress[at] = shear.yield[i];
+    const double distance = std::hypot(state.slip[i], state.slip[n + i]);
+    if (!state.slipping[i] || !(distance > 0.0) || !(shear.distance[i] > 0.0)) continue;
+    // the layer shears along the traction, against what is left of the slip
+    const double share = shear.distance[i] / distance;
+    solution.plastic_x[at] -= share * state.slip[i];
+    solution.plastic_y[at] -= share * state.slip[n + i];
+    solution.slip_x[at] *= 1.0 - share;
+    solution.slip_y[at] *= 1.0 - share;
+    if (shear.only[i]) solution.state[at] = ElementState::plastic;
   }
-  return outcome;
+}
+
+/// Fields on the problem's grid.
+void write_patch(const ContactProblem& problem, const Patch& patch, PatchSolver& solver, const ContactHistory& previous,
+                 ContactSolution& solution) {
+  const std::size_t n = patch.cell.size();
+  const FrictionState& state = solver.state();
+  const double distance = solver.step().distance;
+  double dissipated = 0.0;
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = patch.grid_index(static_cast<int>(i));
+    solution.traction_x[at] = state.traction[i];
+    solution.traction_y[at] = state.traction[n + i];
+    solution.slip_x[at] = state.slip[i] / distance;
+    solution.slip_y[at] = state.slip[n + i] / distance;
+    solution.friction[at] = solver.friction()[i];
+    solution.state[at] = state.slipping[i] ? ElementState::slip : ElementState::adhesion;
+    dissipated += state.traction[i] * state.slip[i] + state.traction[n + i] * state.slip[n + i];
+  }
+  solution.frictional_power = dissipated * problem.grid.cell_area() / solver.step().time;
+  if (problem.material.layer_yield > 0.0) write_layer(problem, patch, solver, previous, solution);
+  std::vector<double> ux(solver.matrix().compliance().size()), uy(ux.size());
+  solver.matrix().displacement_of_box(state.traction, ux, uy);
+  for (int by = 0; by < patch.box_ny; ++by)
+    for (int bx = 0; bx < patch.box_nx; ++bx) {
+      const int ix = patch.box_x + bx, iy = patch.box_y + by;
+      if (ix >= problem.grid.nx || iy >= problem.grid.ny) continue;
+      const std::size_t from =
+          static_cast<std::size_t>(bx) + static_cast<std::size_t>(patch.box_nx) * static_cast<std::size_t>(by);
+      solution.displacement_x[problem.grid.index(ix, iy)] = ux[from];
+      solution.displacement_y[problem.grid.index(ix, iy)] = uy[from];
+    }
 }
 
 }  // namespace
@@ -236,7 +196,18 @@ TangentialSolver& TangentialSolver::operator=(TangentialSolver&&) noexcept = def
 
 void TangentialSolver::reset() { workspace_->last.reset(); }
 
-void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
+std::optional<TangentialStart> TangentialSolver::start() const { return workspace_->last; }
+void TangentialSolver::start_from(std::optional<TangentialStart> start) { workspace_->last = std::move(start); }
+
+std::vector<double> TangentialSolver::normal_displacement(const ContactProblem& problem, const ContactSolution& solution) {
+  const KernelChoice kernel = workspace_->kernels.get(problem);
+  if (!kernel.coupled || solution.traction_x.empty()) return {};
+  return displacement_by_traction(problem, kernel, solution.traction_x, solution.traction_y, workspace_->operators);
+}
+
+bool TangentialSolver::couples(const ContactProblem& problem) { return workspace_->kernels.get(problem).coupled; }
+
+void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous) {
   solution.tangential = {};
   if (problem.regime == Regime::frictionless) return;
   check(problem, solution);
@@ -250,30 +221,30 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     for (std::size_t i = 0; i < size; ++i)
       if (solution.pressure[i] > 0.0) solution.state[i] = ElementState::adhesion;
   }
+  for (const double p : solution.pressure)
+    if (!std::isfinite(p)) refuse("a pressure is not finite", "solve the normal problem first");
   solution.creepage = problem.creepage;
-  const Transport transport = transport_of(problem);
-  const double step = transport == Transport::none ? 1.0 : problem.grid.dx;
-  solution.rolling_step = transport == Transport::none ? 0.0 : step;
+  const RollingStep step = rolling_step(problem);
+  solution.rolling_step = step.rolling ? step.distance : 0.0;
 
-  const Patch patch = make_patch(problem.grid, transport, solution.state);
-  const std::size_t n = patch.cell.size();
-  if (n == 0) {
+  const Patch patch = make_patch(problem.grid, step.transport, solution.state);
+  if (patch.size() == 0) {
     solution.tangential.status = Status::no_contact;
     return;
   }
-  std::vector<double> pressure(n);
-  for (std::size_t i = 0; i < n; ++i) {
-    pressure[i] = solution.pressure[patch.grid_index(static_cast<int>(i))];
-    if (!std::isfinite(pressure[i])) refuse("a pressure is not finite", "solve the normal problem first");
-  }
-  PatchSolver solver(problem, patch, std::move(pressure), workspace_->cache);
+  const KernelChoice kernel = workspace_->kernels.get(problem);
+  PatchSolver solver(problem, patch,
+                     patch_conditions(problem, patch, step, kernel, solution.pressure, previous, workspace_->operators),
+                     workspace_->cache);
   const bool warm = workspace_->start(problem, patch, solver);
+  if (problem.settings.first_slip != SolverSettings::FirstSlip::last)
+    solver.set_slip_speed(problem.settings.first_slip == SolverSettings::FirstSlip::above ? problem.rolling.velocity : 0.0);
 
-  Outcome outcome;
+  CreepageSearch outcome;
   if (problem.fx_relative || problem.fy_relative) {
     std::optional<Creepage> estimate;
     if (warm && workspace_->last->force_prescribed) estimate = workspace_->last->creepage;
-    outcome = solve_for_force(problem, solver, estimate);
+    outcome = search_creepage(problem, solver, estimate);
   } else {
     outcome.creepage = problem.creepage;
     if (!solver.solve(problem.creepage, problem.settings.eps)) outcome.status = Status::not_converged;
@@ -288,30 +259,12 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
                   std::to_string(solver.sweeps()) + " sweeps";
   workspace_->store(problem, patch, solver, outcome.creepage);
 
-  // Fields on the problem's grid.
   solution.creepage = outcome.creepage;
   solution.tangential = {outcome.status, solver.steps() + solver.sweeps(), solver.residual(), outcome.message};
-  const FrictionState& state = solver.state();
-  for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t at = patch.grid_index(static_cast<int>(i));
-    solution.traction_x[at] = state.traction[i];
-    solution.traction_y[at] = state.traction[n + i];
-    solution.slip_x[at] = state.slip[i] / step;
-    solution.slip_y[at] = state.slip[n + i] / step;
-    solution.friction[at] = solver.friction()[i];
-    solution.state[at] = state.slipping[i] ? ElementState::slip : ElementState::adhesion;
-  }
-  std::vector<double> ux(solver.matrix().compliance().size()), uy(ux.size());
-  solver.matrix().displacement_of_box(state.traction, ux, uy);
-  for (int by = 0; by < patch.box_ny; ++by)
-    for (int bx = 0; bx < patch.box_nx; ++bx) {
-      const int ix = patch.box_x + bx, iy = patch.box_y + by;
-      if (ix >= problem.grid.nx || iy >= problem.grid.ny) continue;
-      const std::size_t from =
-          static_cast<std::size_t>(bx) + static_cast<std::size_t>(patch.box_nx) * static_cast<std::size_t>(by);
-      solution.displacement_x[problem.grid.index(ix, iy)] = ux[from];
-      solution.displacement_y[problem.grid.index(ix, iy)] = uy[from];
-    }
+  write_patch(problem, patch, solver, previous, solution);
+  if (kernel.coupled)
+    add_displacement_by_pressure(problem, kernel, solution.pressure, workspace_->operators, solution.displacement_x,
+                                 solution.displacement_y);
 }
 
 }  // namespace treadmark::kalker

@@ -3,10 +3,21 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 
+#include "treadmark/solvers/kalker/contact_history.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
+
+/// Start values for the next problem: the last solution on its grid.
+struct TangentialStart {
+  Grid2 grid;
+  bool steady = false, forward = true;
+  std::vector<double> traction_x, traction_y, bound, slip_speed;
+  Creepage creepage;
+  bool force_prescribed = false;
+};
 
 /// Tangential problem of one patch with given pressures: tractions, slip, division into adhesion and slip areas, and the
 /// creepages that belong to prescribed forces (Kalker 1990; method in README.md of this folder).
@@ -20,17 +31,26 @@ class TangentialSolver {
   TangentialSolver(TangentialSolver&&) noexcept;
   TangentialSolver& operator=(TangentialSolver&&) noexcept;
 
-  /// In: problem.grid, material, friction, regime shift or steady, creepage, rolling, settings; solution.pressure and
+  /// In: problem.grid, material, friction, regime shift, transient or steady, creepage, rolling, settings; solution.pressure and
   /// solution.state (not exterior = in contact; an empty state: where the pressure is positive).
   /// Out: traction_x/y, displacement_x/y (elements of the contact area's bounding box, else 0), slip_x/y, friction, state,
   /// creepage, rolling_step and the report `tangential`: residual is the rms violation of the friction conditions
   /// relative to the rms friction bound. A solution that misses the accuracy has Status::not_converged.
-  /// Errors: Error(configuration) for inconsistent sizes, elastically dissimilar bodies (K <> 0), directions of rolling
-  /// other than 0 and pi, steps or velocities that are not positive.
-  void solve(const ContactProblem& problem, ContactSolution& solution);
+  /// previous: the instant before, on the problem's grid or empty. frictional_power is that of slip and plastic shear.
+  /// Errors: Error(configuration) for inconsistent sizes, directions of steady rolling other than 0 and pi, steps or
+  /// velocities that are not positive.
+  void solve(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous = {});
+
+  /// Whether tangential tractions and normal displacements have to do with each other (dissimilar bodies, curved contact).
+  bool couples(const ContactProblem& problem);
+  /// Normal displacement of all elements by the tangential tractions of a solution [m]; empty if there is none.
+  std::vector<double> normal_displacement(const ContactProblem& problem, const ContactSolution& solution);
 
   /// Forgets the last tractions (not the coefficients).
   void reset();
+  /// What the next problem starts from, to be saved and restored.
+  std::optional<TangentialStart> start() const;
+  void start_from(std::optional<TangentialStart> start);
 
  private:
   struct Workspace;

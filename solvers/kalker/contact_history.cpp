@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/contact_history.hpp"
+
+#include <cmath>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/contact_problem.hpp"
+
+namespace treadmark::kalker {
+
+namespace {
+
+constexpr double kLinedUp = 1e-4;  ///< of grids, in elements
+
+/// A field or, if there is none, the same value everywhere.
+std::vector<double> filled(const std::vector<double>& field, std::size_t size, double value) {
+  return field.empty() ? std::vector<double>(size, value) : field;
+}
+
+}  // namespace
+
+ContactHistory history_of(const ContactProblem& problem, const ContactSolution& solution) {
+  const std::size_t n = problem.grid.size();
+  ContactHistory out;
+  out.grid = problem.grid;
+  out.pressure = filled(solution.pressure, n, 0.0);
+  out.traction_x = filled(solution.traction_x, n, 0.0);
+  out.traction_y = filled(solution.traction_y, n, 0.0);
+  out.friction = filled(solution.friction, n, problem.friction.static_friction());
+  out.plastic_x = solution.plastic_x;
+  out.plastic_y = solution.plastic_y;
+  out.yield_stress = solution.yield_stress;
+  return out;
+}
+
+ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double static_friction, double first_yield_stress) {
+  if (history.empty() || history.grid == grid) return history;
+  const Grid2& from = history.grid;
+  const double ox = (grid.x0 - from.x0) / grid.dx, oy = (grid.y0 - from.y0) / grid.dy;
+  const auto differ = [](double a, double b) { return std::fabs(a - b) > kLinedUp * b; };
+  if (differ(from.dx, grid.dx) || differ(from.dy, grid.dy))
+    throw Error(ErrorKind::configuration, "a history cannot be carried to elements of another size", {},
+                "keep the steps dx and dy, or start without history");
+  if (std::fabs(ox - std::round(ox)) > kLinedUp || std::fabs(oy - std::round(oy)) > kLinedUp)
+    throw Error(ErrorKind::configuration, "a history cannot be carried to a grid that is not displaced by whole elements", {},
+                "move the grid by multiples of dx and dy, or start without history");
+  const long sx = std::lround(ox), sy = std::lround(oy);
+  const auto moved = [&](const std::vector<double>& field, double outside) {
+    if (field.empty()) return field;
+    std::vector<double> out(grid.size(), outside);
+    for (int iy = 0; iy < grid.ny; ++iy)
+      for (int ix = 0; ix < grid.nx; ++ix) {
+        const long jx = ix + sx, jy = iy + sy;
+        if (jx < 0 || jy < 0 || jx >= from.nx || jy >= from.ny) continue;
+        out[grid.index(ix, iy)] = field[from.index(static_cast<int>(jx), static_cast<int>(jy))];
+      }
+    return out;
+  };
+  ContactHistory out;
+  out.grid = grid;
+  out.pressure = moved(history.pressure, 0.0);
+  out.traction_x = moved(history.traction_x, 0.0);
+  out.traction_y = moved(history.traction_y, 0.0);
+  out.friction = moved(history.friction, static_friction);
+  out.plastic_x = moved(history.plastic_x, 0.0);
+  out.plastic_y = moved(history.plastic_y, 0.0);
+  out.yield_stress = moved(history.yield_stress, first_yield_stress);
+  return out;
+}
+
+std::vector<double> carried(const Grid2& grid, const std::vector<double>& field, double dx, double dy, double outside) {
+  constexpr double kRound = 1e-9;  // of an element: a step of whole elements shall not blend neighbours
+  const double ox = dx / grid.dx, oy = dy / grid.dy;
+  const double fx = std::floor(ox + kRound), fy = std::floor(oy + kRound);
+  const double tx = std::fmax(0.0, ox - fx) > kRound ? ox - fx : 0.0, ty = std::fmax(0.0, oy - fy) > kRound ? oy - fy : 0.0;
+  const auto at = [&](long ix, long iy) {
+    return ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny ? outside
+                                                             : field[grid.index(static_cast<int>(ix), static_cast<int>(iy))];
+  };
+  std::vector<double> out(grid.size());
+  for (int iy = 0; iy < grid.ny; ++iy)
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const long jx = ix + static_cast<long>(fx), jy = iy + static_cast<long>(fy);
+      double value = (1.0 - ty) * at(jx, jy);
+      if (tx > 0.0) value += (1.0 - ty) * tx * (at(jx + 1, jy) - at(jx, jy));
+      if (ty > 0.0) value += ty * ((1.0 - tx) * at(jx, jy + 1) + (tx > 0.0 ? tx * at(jx + 1, jy + 1) : 0.0));
+      out[grid.index(ix, iy)] = value;
+    }
+  return out;
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,52 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
+
+#include <cmath>
+
+namespace treadmark::kalker {
+
+namespace {
+
+constexpr std::size_t kMostKernels = 8;
+constexpr double kEqualBodies = 1e-6;  ///< |K| below this has no influence
+
+bool viscoelastic(const Material& m) { return m.creep_ratio_1 != 0.0 || m.creep_ratio_2 != 0.0; }
+
+std::vector<double> all_numbers(const ContactProblem& p) {
+  const Material& m = p.material;
+  std::vector<double> out{static_cast<double>(p.influence.kind), p.grid.dx, p.grid.dy, m.shear_modulus_1, m.shear_modulus_2,
+                          m.poisson_1, m.poisson_2};
+  if (viscoelastic(m))
+    out.insert(out.end(), {m.creep_ratio_1, m.creep_ratio_2, m.relaxation_time_1, m.relaxation_time_2, p.rolling.velocity, p.rolling.chi});
+  if (p.influence.kind == InfluenceSettings::Kind::angle_corrected) {
+    out.push_back(p.influence.variant);
+    out.push_back(p.influence.linear ? 1.0 : 0.0);
+    out.insert(out.end(), p.influence.position.begin(), p.influence.position.end());
+    out.insert(out.end(), p.influence.inclination.begin(), p.influence.inclination.end());
+  }
+  return out;
+}
+
+}  // namespace
+
+KernelChoice KernelStore::get(const ContactProblem& problem) {
+  const std::vector<double> numbers = all_numbers(problem);
+  for (auto it = entries_.begin(); it != entries_.end(); ++it)
+    if (it->numbers == numbers && it->table == problem.influence.table) {
+      entries_.splice(entries_.begin(), entries_, it);
+      return entries_.front().choice;
+    }
+  KernelChoice choice;
+  choice.kernel = make_influence_kernel(problem.material, problem.influence, problem.grid.dx, problem.grid.dy,
+                                        problem.rolling.velocity, problem.rolling.chi);
+  choice.standard = problem.influence.kind == InfluenceSettings::Kind::constant && !viscoelastic(problem.material);
+  choice.coupled = choice.standard || problem.influence.kind == InfluenceSettings::Kind::bilinear
+                       ? std::fabs(combine(problem.material).difference) > kEqualBodies
+                       : choice.kernel->coupled();
+  entries_.push_front({numbers, problem.influence.table, choice});
+  if (entries_.size() > kMostKernels) entries_.pop_back();
+  return choice;
+}
+
+}  // namespace treadmark::kalker
