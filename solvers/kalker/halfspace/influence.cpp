@@ -32,20 +32,20 @@ double distance_integral(double X, double Y, double dx, double dy) {
 
 }  // namespace
 
-double influence(Component component, double X, double Y, double dx, double dy, double poisson) {
-  if (component == Component::xy) return -poisson * std::numbers::inv_pi * distance_integral(X, Y, dx, dy);
-  X = std::abs(X);
-  Y = std::abs(Y);
-  const double x1 = X - 0.5 * dx, x2 = X + 0.5 * dx, y1 = Y - 0.5 * dy, y2 = Y + 0.5 * dy;
+UncoupledCoefficients influence(double X, double Y, double dx, double dy, double poisson) {
+  const double x1 = std::abs(X) - 0.5 * dx, x2 = std::abs(X) + 0.5 * dx, y1 = std::abs(Y) - 0.5 * dy, y2 = std::abs(Y) + 0.5 * dy;
   const double across = log_integral(x1, x2, y1, y2);  // of y ln(x + r)
   const double along = log_integral(y1, y2, x1, x2);   // of x ln(y + r)
-  switch (component) {
-    case Component::nn: return (1.0 - poisson) * std::numbers::inv_pi * (across + along);
-    case Component::xx: return std::numbers::inv_pi * (across + (1.0 - poisson) * along);
-    case Component::yy: return std::numbers::inv_pi * (along + (1.0 - poisson) * across);
-    case Component::xy: break;
-  }
-  return 0.0;
+  return {.nn = (1.0 - poisson) * std::numbers::inv_pi * (across + along),
+          .xx = std::numbers::inv_pi * (across + (1.0 - poisson) * along),
+          .yy = std::numbers::inv_pi * (along + (1.0 - poisson) * across),
+          .xy = -poisson * std::numbers::inv_pi * distance_integral(X, Y, dx, dy)};
+}
+
+double influence(Component component, double X, double Y, double dx, double dy, double poisson) {
+  if (component == Component::xy) return -poisson * std::numbers::inv_pi * distance_integral(X, Y, dx, dy);
+  const UncoupledCoefficients all = influence(X, Y, dx, dy, poisson);
+  return component == Component::nn ? all.nn : component == Component::xx ? all.xx : all.yy;
 }
 
 }  // namespace treadmark::kalker

@@ -11,7 +11,14 @@ enum class Component { nn, xx, yy, xy };
 /// Influence coefficient C [m] of a rectangle dx by dy [m] under uniform traction: displacement difference
 /// u = (1/G) C p of the pair of half-spaces at (X, Y) [m] relative to the centre of the loaded rectangle
 /// (Boussinesq-Cerruti potentials integrated over the rectangle, Kalker 1990). G and poisson are the combined
-/// constants of treadmark::combine. Accurate to about 1e-13 relative to the coefficient itself at any distance.
+/// constants of treadmark::combine. Accurate relative to the coefficient itself to about 1e-16 times the distance in elements,
+/// and never worse than 1e-14 within a hundred elements.
 double influence(Component component, double X, double Y, double dx, double dy, double poisson);
+
+/// The four coefficients at once, bit by bit the same values.
+struct UncoupledCoefficients {
+  double nn = 0.0, xx = 0.0, yy = 0.0, xy = 0.0;
+};
+UncoupledCoefficients influence(double X, double Y, double dx, double dy, double poisson);
 
 }  // namespace treadmark::kalker

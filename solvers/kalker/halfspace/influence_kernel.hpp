@@ -24,7 +24,8 @@ class InfluenceKernel {
 
   /// Coefficients at (X, Y) [m], the observation point minus the centre of the loaded element. Thread-safe.
   virtual InfluenceBlock at(double X, double Y) const = 0;
-  /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y: as for equal half-spaces.
+  /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y, xn and nx odd in X and even in Y, yn and ny the other way round:
+  /// as for half-spaces.
   virtual bool symmetric() const = 0;
   /// Whether tangential tractions move surfaces normally and the other way round.
   virtual bool coupled() const = 0;
