@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "treadmark/solvers/kalker/contact_history.hpp"
+#include "treadmark/solvers/kalker/history/contact_history.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {

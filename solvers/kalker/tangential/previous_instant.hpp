@@ -5,7 +5,7 @@
 #include <list>
 #include <span>
 
-#include "treadmark/solvers/kalker/contact_history.hpp"
+#include "treadmark/solvers/kalker/history/contact_history.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence_operator.hpp"
 #include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/tangential/patch_solver.hpp"

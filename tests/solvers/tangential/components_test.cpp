@@ -54,7 +54,7 @@ TEST(Gmres, SolvesANonsymmetricSystem) {
 TEST(Compliance, ProductsAreSumsOverElements) {
   for (const Transport transport : {Transport::none, Transport::forward, Transport::backward})
     for (const int ny : {1, 5}) {
-      const ComplianceKey key{8, ny, 1e-3, 0.7e-3, 0.3, 80e9, 2e-15};
+      const ComplianceKey key{8, ny, 1e-3, 0.7e-3, 0.3, 80e9, 2e-15, nullptr};
       Compliance compliance(key);
       std::mt19937 generator(5);
       std::uniform_real_distribution<double> unit(-1.0, 1.0);
@@ -113,12 +113,18 @@ TEST(Sweeps, ReachTheSolutionOfNewtonsMethod) {
   for (const Transport transport : {Transport::none, Transport::forward, Transport::backward}) {
     Case c = wheel_case(12);
     const Patch patch = make_patch(c.problem.grid, transport, c.solution.state);
-    Compliance compliance({patch.box_nx, patch.box_ny, c.problem.grid.dx, c.problem.grid.dy, 0.28, 82e9, 0.0});
+    Compliance compliance({patch.box_nx, patch.box_ny, c.problem.grid.dx, c.problem.grid.dy, 0.28, 82e9, 0.0, nullptr});
     PatchOperator matrix(patch, compliance);
     FrictionProblem problem;
     problem.matrix = &matrix;
     const double length = transport == Transport::none ? 5e-3 : 1.0;
-    problem.rigid_slip = rigid_slip(patch, {-6e-4 * length, 3e-4 * length, 0.2 * length, 0.0, 0.0}, 1.0 / 6.0);
+    RollingStep step;
+    step.transport = transport;
+    if (transport != Transport::none) {
+      step.distance = c.problem.grid.dx;
+      step.shift_x = transport == Transport::forward ? step.distance : -step.distance;
+    }
+    problem.rigid_slip = rigid_slip(patch, step, {-6e-4 * length, 3e-4 * length, 0.2 * length, 0.0, 0.0}, 1.0 / 6.0);
     for (int i = 0; i < patch.size(); ++i) problem.bound.push_back(0.3 * c.solution.pressure[patch.grid_index(i)]);
     FrictionState newton;
     newton.traction.assign(2 * problem.bound.size(), 0.0);

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/kalker/contact_history.hpp"
+#include "treadmark/solvers/kalker/history/contact_history.hpp"
 
 #include <cmath>
 
