@@ -99,6 +99,7 @@ struct SolverInput {
   FirstSlip first_slip = FirstSlip::last;
 };
 
+/// Tangential problem; transient and shift go on from where the history ends.
 enum class RegimeInput { none, shift, transient, steady };
 enum class NormalModelInput { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
 enum class TangentialModelInput { full, fastsim, fastsim_one_flexibility, fastrip };
@@ -134,8 +135,17 @@ struct SubsurfaceInput {
     std::vector<double> x, y;                  ///< free points [m]
     std::vector<double> z;                     ///< depth > 0 in body 1, < 0 in body 2 [m]
   };
-  std::vector<Block> blocks;
+  std::vector<Block> blocks;                   ///< empty = no stresses are wanted
+  bool text_table = false;                     ///< .subs text file
   bool full_tensor = false;                    ///< in text files
+};
+
+/// Friction that differs from place to place of a wheel on a rail; between the positions laws are interpolated.
+struct FrictionVariation {
+  enum class Kind { none, inclination, along_track };
+  Kind kind = Kind::none;
+  std::vector<double> positions;               ///< increasing: inclination of the rail's surface [rad], or s along the track [m]
+  std::vector<FrictionLaw> laws;               ///< one for each position, of one kind
 };
 
 /// One wheel on one rail (module 1).
@@ -149,8 +159,14 @@ struct WheelRailCase {
   RegimeInput regime = RegimeInput::steady;
   DiscretisationInput discretisation;
   Material material;
-  FrictionLaw friction;
+  FrictionLaw friction;                    ///< of a variation the first law
+  FrictionVariation friction_variation;
   SolverInput solver;
+  NormalModelInput normal_model = NormalModelInput::full;              ///< full, kpec or analyn
+  TangentialModelInput tangential_model = TangentialModelInput::full;
+  double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
+  double fastsim_flexibility = 0.0;        ///< fastsim_one_flexibility: L [m/Pa]
+  InfluenceInput influence;                ///< constant or bilinear
 };
 
 /// Hertzian geometry (IPOTCN < 0): what is given and the grid that follows from it.
@@ -217,6 +233,7 @@ struct Case {
   int number = 0;               ///< counts from 1 in the file
   SourcePosition where;         ///< first line of the case
   int sequence = 0;             ///< cases of one sequence follow each other in time
+  int element_table = 0;        ///< .mat text table of elements: 0 none, 1 those in contact, 2 all
   std::variant<WheelRailCase, BasicCase> content;
 };
 

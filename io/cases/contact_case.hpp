@@ -15,27 +15,43 @@ namespace treadmark::io {
 
 /// Values of one sequence of cases that later cases may keep, already in SI units.
 struct ContactSequence {
-  bool started = false;
+  int number = 0;                        ///< in the order in which the sequences appear in the file
+  bool started = false;                  ///< a case has been read
+  bool has_history = false;              ///< a case has been read that is to be computed
   int previous_normal = -1;              ///< N digit of the previous case
-  bool tangential_history = false;       ///< a case with P = 0 has been run: previous tractions are not zero
   SolverInput solver;
   int max_elements = 20000;
-  FrictionLaw friction;
-  int friction_law = 0;                  ///< L digit that was read last
+
+  struct Friction {
+    int law = 0;                         ///< L digit
+    int variation = 0;                   ///< V digit it was read with
+    std::vector<double> positions;       ///< V = 1, 2: [rad], [m]
+    std::vector<FrictionLaw> laws{{}};   ///< V = 0: one
+  } friction;
+
   bool has_material = false;
   SourcePosition material_where;
-  Material material;                     ///< without layer
+  Material material;                     ///< elastic constants only
+  std::optional<double> sheet_flexibility;
+  struct Viscoelastic {
+    double creep_ratio_1 = 0.0, creep_ratio_2 = 0.0, relaxation_time_1 = 0.0, relaxation_time_2 = 0.0;
+  };
+  std::optional<Viscoelastic> viscoelastic;
   struct Layer {
-    bool given = false;
     double flexibility = 0.0;            ///< [m/Pa]
-    bool elastic = true;
-    double yield = 0.0;                  ///< TAU_C0 as written [MPa]
+    double yield = 0.0, hardening = 0.0; ///< [Pa], [Pa/m]; yield 0 = elastic
+    double written_yield = 0.0;          ///< TAU_C0 [MPa]
     SourcePosition where;
-  } layer;
+  };
+  std::optional<Layer> layer;
   struct Simplified {
-    bool given = false;
     double k0 = 1.0, alpha = 1.0, beta = 1.0;
-  } simplified;
+  };
+  std::optional<Simplified> simplified;
+  std::optional<double> simplified_flexibility;
+  InfluenceInput influence;
+  std::optional<Thermal> thermal;
+  SubsurfaceInput subsurface;
   bool has_damping = false;
 
   WheelRailCase wheel_rail;
@@ -47,8 +63,10 @@ struct ContactSequence {
   bool has_rolling = false;
   HertzInput hertz;
   std::optional<GapInput> gap;
+  PlanformInput planform;
   long gap_elements = 0;                 ///< elements that a per-element gap belongs to
-  bool has_extra_slip = false;
+  /// Extra rigid slip as written: [-], with a shift [mm].
+  std::vector<double> extra_slip_x, extra_slip_y;
 };
 
 /// One case while it is read: the digits, the kept values and what turned out to be unsupported.
@@ -70,14 +88,30 @@ struct ContactReader {
   void note(std::string message);        ///< once per file
 
   void read_solver();
-  void read_friction(long sets, bool with_position);
+  /// sets: friction laws that follow, with their positions if V = 1, 2.
+  void read_friction(long sets);
   void read_rolling();
+  void read_influence();
   void read_material();
   void read_damping();
   void read_heat();
   void read_subsurface();
+
+  /// What the case uses of the kept values; Error where something was never given.
   Material effective_material();
+  void put_simplified_theory(TangentialModelInput& model, double& k0, double& alpha, double& beta, double& flexibility) const;
+  std::optional<Thermal> effective_heat() const;
+  SubsurfaceInput effective_subsurface() const;
+  HistoryInput history() const;
+  [[noreturn]] void fail_at(const ControlWord& word, std::string_view keyword, std::string message, std::string advice = {}) const;
 };
+
+/// A file name of the input, with / or \\, relative to folder.
+std::filesystem::path resolve_name(const std::filesystem::path& folder, std::string name);
+
+/// Potential contact area, undeformed distance and planform of a basic case.
+void read_potential_contact(ContactReader& reader);
+void read_gap(ContactReader& reader);
 
 /// The body of one case after its control words.
 WheelRailCase read_wheel_rail(ContactReader& reader);

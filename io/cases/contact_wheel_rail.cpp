@@ -17,11 +17,6 @@ namespace {
 constexpr double kMillimetre = 1e-3;
 constexpr double kPerMillimetre = 1e3;
 
-std::filesystem::path resolve(const std::filesystem::path& folder, std::string name) {
-  std::replace(name.begin(), name.end(), '\\', '/');
-  return (folder / name).lexically_normal();
-}
-
 /// 'file' MIRRORY SCALE SMOOTH [MIRRORZ [PRFOPT]] and the lines that PRFOPT announces.
 SurfaceSource read_profile(ContactReader& r, std::string_view body) {
   ContactText& text = r.text;
@@ -31,7 +26,7 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
   const std::string name = text.quoted("the file name");
   const SourcePosition where = text.where();
   if (name.empty()) text.fail(fmt::format("the {} profile has no file name", body));
-  source.file = resolve(r.folder, name);
+  source.file = resolve_name(r.folder, name);
 
   const long mirror_y = text.integer("MIRRORY");
   if (mirror_y < -1 || mirror_y > 1) text.fail("MIRRORY must be -1, 0 or 1");
@@ -213,6 +208,20 @@ void read_wheelset(ContactReader& r) {
   }
 }
 
+void put_friction(ContactReader& r, WheelRailCase& c) {
+  const ContactSequence::Friction& f = r.kept.friction;
+  const int variation = (*r.model)["VARFRC"];
+  using Kind = FrictionVariation::Kind;
+  if (f.law == 6 && (*r.model)["FRCLAW"] == 1)
+    r.refuse(r.model->where("FRCLAW"), "L (FRCLAW) = 1 keeps the temperature-dependent friction (L = 6), which is not supported");
+  c.friction = f.laws.front();
+  c.friction_variation = {};
+  if (variation == 0) return;
+  if (f.variation != variation)
+    r.fail_at(*r.model, "FRCLAW", fmt::format("keeps the friction law, but none for V (VARFRC) = {} has been given", variation));
+  c.friction_variation = {variation == 1 ? Kind::inclination : Kind::along_track, f.positions, f.laws};
+}
+
 }  // namespace
 
 WheelRailCase read_wheel_rail(ContactReader& r) {
@@ -228,10 +237,13 @@ WheelRailCase read_wheel_rail(ContactReader& r) {
       sets = text.integer("NVF");
       if (sets < 1) text.fail("NVF must be positive");
     }
-    r.read_friction(sets, model["VARFRC"] != 0);
+    r.read_friction(sets);
   }
   if (model["INFLCF"] == 9) throw r.refusals.front();
-  if (model["INFLCF"] >= 2) r.read_material();
+  if (model["INFLCF"] >= 2) {
+    r.read_influence();
+    r.read_material();
+  }
   r.read_damping();
   r.read_heat();
   if (model["DISCNS"] >= 2) {
@@ -253,11 +265,18 @@ WheelRailCase read_wheel_rail(ContactReader& r) {
   WheelRailCase c = r.kept.wheel_rail;
   c.side = problem["CONFIG"] % 4 == 0 ? Side::left : Side::right;
   c.vertical_force_prescribed = problem["NORM"] == 1;
-  c.regime = problem["TANG"] == 0 ? RegimeInput::none : problem["TANG"] == 1 ? RegimeInput::shift : RegimeInput::steady;
+  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient, RegimeInput::steady};
+  c.regime = kRegimes[problem["TANG"]];
   c.material = r.effective_material();
-  if (r.kept.friction_law == 6 && model["FRCLAW"] == 1)
-    r.refuse(model.where("FRCLAW"), "L (FRCLAW) = 1 keeps the temperature-dependent friction (L = 6), which is not supported");
-  c.friction = r.kept.friction;
+  put_friction(r, c);
+  c.normal_model = problem["BOUND"] == 5   ? NormalModelInput::kpec
+                   : problem["BOUND"] == 6 ? NormalModelInput::analyn
+                                           : NormalModelInput::full;
+  r.put_simplified_theory(c.tangential_model, c.fastsim_k0, c.fastsim_alpha, c.fastsim_beta, c.fastsim_flexibility);
+  c.influence = r.kept.influence;
+  if (model["INFLCF"] <= 1 && c.influence.kind == InfluenceInput::Kind::angle_corrected)
+    r.refuse(model.where("INFLCF"), fmt::format("C (INFLCF) = {} keeps angle-corrected influence coefficients, which are not supported",
+                                                model["INFLCF"]));
   c.solver = r.kept.solver;
   DiscretisationInput& d = c.discretisation;
   const int method = r.kept.discretisation_method;

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/profiles/sha256.hpp"
@@ -36,6 +37,30 @@ void check_first_case(const ContactReader& r) {
   if (model["DISCNS"] <= 1)
     throw Error(ErrorKind::configuration, fmt::format("D (DISCNS) = {} in the first case: there is no discretisation to keep",
                                                       model["DISCNS"]), model.where("DISCNS"), "use D = 2");
+}
+
+/// The digit that a contradiction is about.
+SourcePosition where_of(const ContactReader& r, CaseSetting setting) {
+  const bool rail = r.module == 1;
+  switch (setting) {
+    case CaseSetting::regime: return r.problem->where("TANG");
+    case CaseSetting::normal_model: return r.problem->where("BOUND");
+    case CaseSetting::load: return r.problem->where("NORM");
+    case CaseSetting::subsurface: return r.problem->where("STRESS");
+    case CaseSetting::friction: return r.model->where("FRCLAW");
+    case CaseSetting::influence: return r.model->where("INFLCF");
+    case CaseSetting::material: return r.model->where("MATER");
+    case CaseSetting::geometry: return r.model->where(rail ? "ZTRACK" : "RZNORM");
+    case CaseSetting::extra_slip: return r.model->where(rail ? "EWHEEL" : "EXRHS");
+    case CaseSetting::heat: return r.run->where("HEAT");
+    case CaseSetting::elastic_constants: return r.kept.material_where;
+    case CaseSetting::layer: return r.kept.layer->where;
+  }
+  return {};
+}
+
+void refuse_contradictions(ContactReader& r, const Case& c) {
+  for (const Contradiction& one : contradictions(c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
 }
 
 }  // namespace
@@ -69,7 +94,9 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
       element = text.optional_integer().value_or(1);
       patch = text.optional_integer().value_or(1);
     }
-    ContactSequence& kept = sequences[{module, element, patch}];
+    const auto [place, fresh] = sequences.try_emplace({module, element, patch});
+    ContactSequence& kept = place->second;
+    if (fresh) kept.number = static_cast<int>(sequences.size()) - 1;
     ContactReader reader{text, kept, folder, static_cast<int>(module), {}, {}, {}, 0, 0, {}, result.notes, {}};
     reader.read_control_words();
     if (!module_line) where = reader.problem->where(module == 1 ? "CONFIG" : "PVTIME");
@@ -79,12 +106,16 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     next.number = ++number;
     where.column = 1;
     next.where = where;
+    next.sequence = kept.number;
+    next.element_table = (*reader.run)["MATFIL"];
     if (module == 1) next.content = read_wheel_rail(reader);
     else next.content = read_basic(reader);
     kept.started = true;
 
     const int ending = (*reader.run)["RETURN"];
     if (ending <= 1) {
+      kept.has_history = true;
+      refuse_contradictions(reader, next);
       if (!reader.refusals.empty()) throw first_refusal(reader.refusals);
       result.cases.push_back(std::move(next));
     }

@@ -2,17 +2,19 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cases/validate_case.hpp"
 
-#include <cmath>
+#include <algorithm>
+#include <functional>
 #include <utility>
 
 #include <fmt/format.h>
+
+#include "treadmark/io/cases/combination_rules.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
 constexpr long kMostElements = 4000000;
-constexpr double kDissimilar = 1e-4;
 
 class Checker {
  public:
@@ -40,15 +42,13 @@ class Checker {
     }
   }
 
-  void material(const Material& m, RegimeInput regime) const {
-    const double difference = combine(m).difference;
-    require(regime == RegimeInput::none || std::abs(difference) < kDissimilar,
-            fmt::format("dissimilar materials (K = {:.3g}) couple the normal and the tangential problem, which is not supported",
-                        difference), "case.regime = \"none\" is possible");
-  }
-
   void friction(const FrictionLaw& f) const {
-    if (f.kind == FrictionLaw::Kind::coulomb) {
+    constexpr double kSmallestFriction = 1e-4;
+    if (f.kind == FrictionLaw::Kind::temperature) {
+      require(f.temperature_range > 0.0, "friction.temperature_range_K must be positive");
+      require(f.kinetic + f.temperature_change >= kSmallestFriction, "friction.temperature_change leaves no friction at high temperature");
+    }
+    if (f.kind == FrictionLaw::Kind::coulomb || f.kind == FrictionLaw::Kind::temperature) {
       require(f.amplitude_1 == 0.0 && f.amplitude_2 == 0.0, "friction amplitudes belong to a falling law",
               "give friction.law = \"linear\", \"rational\" or \"exponential\"");
       return;
@@ -60,14 +60,32 @@ class Checker {
   void wheel_rail(const WheelRailCase& c) const {
     surface(c.rail, Body::rail, 0.0);
     surface(c.wheel, Body::wheel, c.wheelset.nominal_radius);
-    require(c.regime != RegimeInput::shift, "case.regime = \"shift\" is not supported for a wheel on a rail",
+    require(c.regime == RegimeInput::none || c.regime == RegimeInput::steady,
+            fmt::format("case.regime = \"{}\" is not supported for a wheel on a rail", c.regime == RegimeInput::shift ? "shift" : "transient"),
             "\"none\" and \"steady\" are");
     require(!c.vertical_force_prescribed || c.vertical_force > 0.0, "the vertical load is missing",
             "give wheelset.vertical_force_N or wheelset.z_mm");
     const DiscretisationInput& d = c.discretisation;
     require(d.separation >= d.combination, "discretisation.separation_mm must not be less than combination_mm");
-    material(c.material, c.regime);
+    require(c.influence.kind == InfluenceInput::Kind::constant || c.influence.kind == InfluenceInput::Kind::bilinear,
+            "influence.kind must be \"constant\" or \"bilinear\" for a wheel on a rail");
+    require(c.tangential_model != TangentialModelInput::fastsim_one_flexibility || c.fastsim_flexibility > 0.0,
+            "solver.fastsim_flexibility_mm_per_MPa is missing");
     friction(c.friction);
+    require(c.friction.kind != FrictionLaw::Kind::temperature, "friction.law = \"temperature\" is not supported for a wheel on a rail");
+    friction_variation(c.friction_variation);
+  }
+
+  void friction_variation(const FrictionVariation& v) const {
+    if (v.kind == FrictionVariation::Kind::none) return;
+    const auto& at = v.positions;
+    require(!at.empty() && at.size() == v.laws.size(), "a variation of friction needs at least one set");
+    require(std::adjacent_find(at.begin(), at.end(), std::greater_equal<>()) == at.end(), "the positions of friction sets must increase");
+    for (const FrictionLaw& law : v.laws) {
+      require(law.kind == v.laws.front().kind, "all friction sets must have the same law");
+      friction(law);
+      require(law.kind != FrictionLaw::Kind::temperature, "law = \"temperature\" is not supported for a wheel on a rail");
+    }
   }
 
   void hertz(const HertzInput& h) const {
@@ -80,7 +98,10 @@ class Checker {
     else positive(h.aa, "semi_axis_x_mm");
     if (h.given == Given::curvatures) positive(h.b1, "curvature_y_per_m");
     else if (h.given == Given::curvature_and_ratio) positive(h.aob, "axis_ratio");
-    else positive(h.bb, "semi_axis_y_mm");
+    else if (h.given == Given::semi_double_elliptic) {
+      positive(h.bb_negative, "semi_axis_y_negative_mm");
+      positive(h.bb_positive, "semi_axis_y_positive_mm");
+    } else positive(h.bb, "semi_axis_y_mm");
   }
 
   void gap(const GapInput& g, const BasicCase& c) const {
@@ -115,14 +136,16 @@ class Checker {
     require(!c.normal_force_prescribed || c.normal_force > 0.0, "the normal load is missing",
             "give patch.normal_force_N or patch.approach_mm");
     require(!c.fy_relative || c.fx_relative, "patch.force_y_relative needs patch.force_x_relative");
-    require(c.normal_model == NormalModelInput::full || std::holds_alternative<HertzInput>(c.geometry),
-            "patch.normal_model: elliptic and parabolic pressures need [patch.hertz]");
-    if (c.regime == RegimeInput::steady) {
+    if (c.regime == RegimeInput::steady || c.regime == RegimeInput::transient) {
       require(c.dq > 0.0, "patch.rolling_step_mm is missing");
       require(c.velocity > 0.0, "patch.velocity_m_s is missing");
     }
-    material(c.material, c.regime);
     friction(c.friction);
+    for (const FrictionLaw& law : c.friction_of_row) friction(law);
+  }
+
+  void combinations(const Case& c) const {
+    for (const Contradiction& one : contradictions(c)) require(false, one.message, one.advice);
   }
 
  private:
@@ -136,6 +159,7 @@ void validate_case(const Case& c) {
   const Checker check(c);
   if (const auto* rail = std::get_if<WheelRailCase>(&c.content)) check.wheel_rail(*rail);
   else check.basic(std::get<BasicCase>(c.content));
+  check.combinations(c);
 }
 
 }  // namespace treadmark::io

@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/contact_case.hpp"
+
+namespace treadmark::io {
+
+std::filesystem::path resolve_name(const std::filesystem::path& folder, std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return (folder / name).lexically_normal();
+}
+
+void ContactReader::refuse(const SourcePosition& where, std::string message, std::string advice) {
+  refusals.emplace_back(ErrorKind::configuration, std::move(message), where, std::move(advice));
+}
+
+void ContactReader::note(std::string message) {
+  if (std::find(notes.begin(), notes.end(), message) == notes.end()) notes.push_back(std::move(message));
+}
+
+void ContactReader::fail_at(const ControlWord& word, std::string_view keyword, std::string message, std::string advice) const {
+  const DigitValue& d = word.described(keyword);
+  throw Error(ErrorKind::configuration, fmt::format("{} ({}) = {} {}", d.letter, d.keyword, word[keyword], message), word.where(keyword),
+              std::move(advice));
+}
+
+void ContactReader::read_control_words() {
+  using Keywords = std::vector<std::string_view>;
+  const bool rail = module == 1;
+  problem.emplace(text, module, rail ? "CPBTNFS" : "PBTNFS",
+                  rail ? Keywords{"CONFIG", "PVTIME", "BOUND", "TANG", "NORM", "FORCE", "STRESS"}
+                       : Keywords{"PVTIME", "BOUND", "TANG", "NORM", "FORCE", "STRESS"});
+  model.emplace(text, module, "VLDCMZE",
+                rail ? Keywords{"VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER", "ZTRACK", "EWHEEL"}
+                     : Keywords{"VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER", "RZNORM", "EXRHS"});
+  damping = weight = 0;
+  if (const auto second = text.optional_integer()) {
+    damping_where = text.where();
+    if (*second < 0) text.fail("the second integer of the line VLDCMZE must not be negative");
+    damping = *second % 10;
+    weight = *second / 10;
+    if (weight > 2)
+      text.fail(fmt::format("the weight of the contact reference (second integer of the line VLDCMZE / 10) is {}, but only "
+                            "0, 1 (linear) and 2 (quadratic) exist", weight));
+  }
+  run.emplace(text, module, "XHGIAOWR",
+              Keywords{"XFLOW", "HEAT", "GAUSEI", "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"});
+  if ((*run)["XFLOW"] >= 1) {
+    text.begin_record("the debug line PSFLCIN");
+    text.integer("PSFLCIN");
+    text.optional_integer();
+  }
+
+  for (const ControlWord* word : {&*problem, &*model, &*run})
+    for (const std::string_view keyword : word->keywords()) {
+      const DigitValue& d = word->described(keyword);
+      if (d.support == DigitSupport::no)
+        refuse(word->where(keyword),
+               fmt::format("{} ({}) = {}, {}, is not supported", d.letter, d.keyword, (*word)[keyword], d.meaning),
+               keyword == "EXRHS" ? "give the extra rigid slip of every element with E = 9" : "");
+    }
+  if (damping >= 2)
+    refuse(damping_where, fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported", damping));
+  if (damping == 1 && kept.has_damping) refuse(damping_where, "M2 = 1, keep damping, is not supported");
+
+  if (!kept.started && (*problem)["PVTIME"] != 2)
+    note(fmt::format("P (PVTIME) = {} of the first case at {} is taken as 2: there is nothing to continue",
+                     (*problem)["PVTIME"], problem->where("PVTIME").to_string()));
+  const int solver = (*run)["GAUSEI"];
+  if (solver >= 2)
+    note(fmt::format("G (GAUSEI) = {}, {}: {}", solver, run->described("GAUSEI").meaning,
+                     solver == 3 || solver == 5 ? "read, but the solver and its relaxation are Treadmark's own"
+                                                : "its relaxation (OMEGAH, OMEGAS, OMGSLP) is read without effect"));
+  if ((*run)["IESTIM"] > 0) note("I (IESTIM) > 0: initial estimates are not needed and ignored");
+}
+
+void ContactReader::read_solver() {
+  const int method = (*run)["GAUSEI"];
+  if (method == 1) return;
+  text.begin_record("the line MAXGS");
+  SolverInput& s = kept.solver;
+  const auto count = [&](std::string_view name) {
+    const long value = text.integer(name);
+    if (value < 0 || value > 1000000000) text.fail(fmt::format("{} = {} is not a number of iterations", name, value));
+    return static_cast<int>(value);
+  };
+  s.max_gs = count("MAXGS");
+  s.max_in = count("MAXIN");
+  s.max_nr = count("MAXNR");
+  s.max_out = count("MAXOUT");
+  s.eps = text.real("EPS");
+  if (!(s.eps > 0.0)) text.fail("EPS must be positive");
+  if (const auto elements = text.optional_integer())
+    kept.max_elements = static_cast<int>(std::clamp(*elements, 100L, 1000000L));
+
+  s.method = method == 2 ? SolverInput::Method::sweeps : SolverInput::Method::automatic;
+  s.first_slip = SolverInput::FirstSlip::last;
+  if (method >= 2 && method <= 4) {
+    text.begin_record(method == 4 ? "the line INISLP" : "the line OMEGAH");
+    if (method != 4)
+      for (const auto name : {"OMEGAH", "OMEGAS"}) text.real(name);
+    const long first = text.integer("INISLP");
+    if (method != 3 && first != 0) s.first_slip = first > 0 ? SolverInput::FirstSlip::below : SolverInput::FirstSlip::above;
+    text.real("OMGSLP");
+  } else if (method == 5) {
+    text.begin_record("the line FDECAY");
+    for (const auto name : {"FDECAY", "BETATH"}) text.real(name);
+    text.integer("KDOWFB");
+    for (const auto name : {"D_IFC", "D_LIN", "D_CNS", "D_SLP", "POW_S"}) text.real(name);
+  }
+}
+
+HistoryInput ContactReader::history() const {
+  constexpr HistoryInput kByDigit[] = {HistoryInput::keep_going, HistoryInput::normal_only, HistoryInput::start, HistoryInput::same_instant};
+  return kept.has_history ? kByDigit[(*problem)["PVTIME"]] : HistoryInput::start;
+}
+
+}  // namespace treadmark::io
