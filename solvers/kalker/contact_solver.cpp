@@ -50,7 +50,7 @@ void ContactSolver::solve_tangential(const ContactProblem& problem, ContactSolut
     solution.creepage = problem.creepage;
     return;
   }
-  if (problem.tangential_model == TangentialModel::fastsim)
+  if (problem.tangential_model != TangentialModel::full)
     solve_fastsim(problem, solution);
   else
     workspace_->tangential.solve(problem, solution);
