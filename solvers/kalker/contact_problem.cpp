@@ -13,7 +13,8 @@ double at(const std::vector<double>& field, std::size_t i) { return i < field.si
 
 /// Simplified theory and assumed pressures have no displacement field that belongs to the tractions.
 bool has_elastic_energy(const ContactProblem& problem) {
-  const bool assumed = problem.normal_model != NormalModel::full;
+  const NormalModel normal = problem.normal_model;
+  const bool assumed = normal == NormalModel::elliptic || normal == NormalModel::parabolic || normal == NormalModel::semi_double_elliptic;
   const bool simplified = problem.regime != Regime::frictionless && problem.tangential_model != TangentialModel::full;
   return !assumed && !simplified;
 }

@@ -77,6 +77,8 @@ enum class HistoryUse {
 struct HertzShape {
   double curvature_x = 0.0, curvature_y = 0.0;   ///< A, B [1/m]
   double semi_axis_x = 0.0, semi_axis_y = 0.0;   ///< a, b [m]
+  /// Semi-double-elliptic: semi-axes of the half ellipses towards -y and +y, b is their mean; else 0.
+  double semi_axis_y_minus = 0.0, semi_axis_y_plus = 0.0;
   double approach = 0.0, force = 0.0;            ///< [m], [N]
 };
 

@@ -10,6 +10,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
+#include "treadmark/solvers/kalker/fastsim/strip_theory.hpp"
 
 namespace treadmark::kalker {
 
@@ -35,6 +36,9 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
   if (!(problem.fastsim.k0 > 0.0) || !(problem.fastsim.alpha > 0.0 && problem.fastsim.alpha <= 1.0) ||
       !(problem.fastsim.beta >= 0.0))
     refuse("the slope reduction needs k0 > 0, 0 < alpha <= 1, beta >= 0");
+  const double flexibility = problem.fastsim.flexibility;
+  if (problem.tangential_model == TangentialModel::fastsim_one_flexibility && !(flexibility > 0.0 && std::isfinite(flexibility)))
+    refuse("the one flexibility is " + std::to_string(flexibility) + " m/Pa", "it must be positive");
 }
 
 /// Traction row by row, from the leading edge backwards: what the material brings along from the element ahead, changed
@@ -53,6 +57,7 @@ class Sweep {
   Vec2 run(const Creepage& creepage, bool blended);
 
  private:
+  void row(int iy, const Creepage& creepage, double mu, const Flexibilities& flex);
   void element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex, Vec2& u);
 
   const ContactProblem& problem_;
@@ -72,21 +77,24 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
   solution_.friction.assign(grid.size(), mu);
   solution_.state.assign(grid.size(), ElementState::exterior);
 
-  Vec2 sum = Vec2::Zero();
-  for (int iy = 0; iy < grid.ny; ++iy) {
-    Vec2 u = Vec2::Zero();
-    for (int step = 0; step < grid.nx; ++step) {
-      const int ix = sign_ > 0.0 ? grid.nx - 1 - step : step;
-      const std::size_t i = grid.index(ix, iy);
-      if (!(solution_.pressure[i] > 0.0)) {
-        u.setZero();
-        continue;
-      }
+  for (int iy = 0; iy < grid.ny; ++iy) row(iy, creepage, mu, flex);
+  if (problem_.tangential_model == TangentialModel::fastrip && mu * normal_force_ > 0.0)
+    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_), solution_);
+  const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
+  return Vec2(sum(solution_.traction_x), sum(solution_.traction_y)) * grid.cell_area();
+}
+
+void Sweep::row(int iy, const Creepage& creepage, double mu, const Flexibilities& flex) {
+  const Grid2& grid = problem_.grid;
+  Vec2 u = Vec2::Zero();
+  for (int step = 0; step < grid.nx; ++step) {
+    const int ix = sign_ > 0.0 ? grid.nx - 1 - step : step;
+    const std::size_t i = grid.index(ix, iy);
+    if (solution_.pressure[i] > 0.0)
       element(i, grid.x(ix), grid.y(iy), creepage, mu, flex, u);
-      sum += Vec2(solution_.traction_x[i], solution_.traction_y[i]);
-    }
+    else
+      u.setZero();
   }
-  return sum * grid.cell_area();
 }
 
 void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,

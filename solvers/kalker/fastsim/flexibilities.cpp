@@ -35,8 +35,11 @@ EquivalentEllipse equivalent_ellipse(const Grid2& grid, std::span<const double> 
   return {c * ratio, c / ratio};
 }
 
-Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creepage, double mu, double normal_force,
-                            const EquivalentEllipse& equivalent, bool blended) {
+namespace {
+
+/// Chosen so that small creepage gives the forces of the linear theory (Kalker 1990).
+Flexibilities of_linear_theory(const ContactProblem& problem, const Creepage& creepage, double bound,
+                               const EquivalentEllipse& equivalent, bool blended) {
   const CombinedMaterial material = combine(problem.material);
   const double g = material.shear_modulus;
   const bool hertzian = problem.hertz && problem.hertz->semi_axis_x > 0.0 && problem.hertz->semi_axis_y > 0.0;
@@ -46,7 +49,6 @@ Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creep
   double l1 = 8.0 * a / (3.0 * c.c11 * g), l2 = 8.0 * a / (3.0 * c.c22 * g), l3 = pi * a * std::sqrt(a / b) / (4.0 * c.c23 * g);
 
   const double xi = creepage.xi, eta = creepage.eta, phi = creepage.phi;
-  const double bound = mu * normal_force;
   if (blended && (xi != 0.0 || eta != 0.0 || phi != 0.0) && bound > 0.0) {
     const double spin = phi * (pi * a * a / 4.0) / (8.0 * a / 3.0);
     const double single = (xi * xi + eta * eta + spin * spin) / (xi * xi / l1 + eta * eta / l2 + spin * spin / l3);
@@ -55,15 +57,31 @@ Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creep
         1.0, std::sqrt((xi * xi + eta * eta) / (squared(xi_full) + squared(eta_full))) / 3.0);
     for (double* l : {&l1, &l2, &l3}) *l = (1.0 - weight) * *l + weight * single;
   }
+  return {l1, l2, l1 / l3, l2 / l3, 1.0};
+}
 
-  Flexibilities result{l1, l2, l1 / l3, l2 / l3, 1.0};
+/// Less slope at small creepage, after Spiryagin et al. (2013).
+double reduced_slope(const ContactProblem& problem, const Creepage& creepage, double bound, const EquivalentEllipse& equivalent) {
   const FastsimSettings& s = problem.fastsim;
-  const double with_spin = eta + equivalent.a * phi;
-  const double lateral = std::abs(eta) >= std::abs(with_spin) ? eta : with_spin;
+  const CombinedMaterial material = combine(problem.material);
+  const double with_spin = creepage.eta + equivalent.a * creepage.phi;
+  const double lateral = std::abs(creepage.eta) >= std::abs(with_spin) ? creepage.eta : with_spin;
   const double c11 = kalker_coefficients(equivalent.a, equivalent.b, material.poisson).c11;
-  const double e =
-      bound > 0.0 ? g * pi * equivalent.a * equivalent.b * s.k0 * c11 * std::hypot(xi, lateral) / (4.0 * bound) : 0.0;
-  result.slope = s.k0 * (s.alpha + (1.0 - s.alpha) / (1.0 + s.beta * e));
+  const double e = bound > 0.0 ? material.shear_modulus * pi * equivalent.a * equivalent.b * s.k0 * c11 *
+                                     std::hypot(creepage.xi, lateral) / (4.0 * bound)
+                               : 0.0;
+  return s.k0 * (s.alpha + (1.0 - s.alpha) / (1.0 + s.beta * e));
+}
+
+}  // namespace
+
+Flexibilities flexibilities(const ContactProblem& problem, const Creepage& creepage, double mu, double normal_force,
+                            const EquivalentEllipse& equivalent, bool blended) {
+  const double bound = mu * normal_force, one = problem.fastsim.flexibility;
+  Flexibilities result = problem.tangential_model == TangentialModel::fastsim_one_flexibility
+                             ? Flexibilities{one, one, 1.0, 1.0, 1.0}
+                             : of_linear_theory(problem, creepage, bound, equivalent, blended);
+  result.slope = reduced_slope(problem, creepage, bound, equivalent);
   return result;
 }
 

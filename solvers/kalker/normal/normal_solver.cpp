@@ -8,11 +8,13 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
+#include "treadmark/solvers/kalker/normal/assumed_pressure.hpp"
 #include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
 #include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
 #include "treadmark/solvers/kalker/normal/element_box.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
+#include "treadmark/solvers/kalker/normal/virtual_penetration.hpp"
 
 namespace treadmark::kalker {
 
@@ -255,31 +257,6 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   last_pressure = pressure;
 }
 
-namespace {
-
-/// Pressures assumed from the Hertz ellipse; the displacement is that of the undeformed contact area.
-void assume_pressure(const ContactProblem& problem, ContactSolution& solution) {
-  if (!problem.hertz || !(problem.hertz->semi_axis_x > 0.0) || !(problem.hertz->semi_axis_y > 0.0))
-    refuse("an assumed pressure distribution needs a Hertz ellipse", "set problem.hertz with positive semi-axes");
-  const HertzShape& hertz = *problem.hertz;
-  const auto pressure = problem.normal_model == NormalModel::elliptic ? hertz_pressure : parabolic_pressure;
-  const Grid2& grid = problem.grid;
-  bool any = false;
-  for (int iy = 0; iy < grid.ny; ++iy)
-    for (int ix = 0; ix < grid.nx; ++ix) {
-      const std::size_t i = grid.index(ix, iy);
-      const double x = grid.x(ix), y = grid.y(iy);
-      solution.pressure[i] = pressure(hertz, x, y);
-      if (!(solution.pressure[i] > 0.0)) continue;
-      solution.displacement_n[i] = hertz.approach - hertz.curvature_x * x * x - hertz.curvature_y * y * y;
-      any = true;
-    }
-  solution.approach = hertz.approach;
-  if (!any) solution.status = solution.normal.status = Status::no_contact;
-}
-
-}  // namespace
-
 NormalSolver::NormalSolver() : workspace_(std::make_unique<Workspace>()) {}
 NormalSolver::~NormalSolver() = default;
 NormalSolver::NormalSolver(NormalSolver&&) noexcept = default;
@@ -301,10 +278,13 @@ void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solutio
   solution.pressure.assign(n, 0.0);
   solution.displacement_n.assign(n, 0.0);
   solution.state.assign(n, ElementState::exterior);
+  const CombinedMaterial material = combine(problem.material);
   if (problem.normal_model == NormalModel::full)
-    workspace_->solve_full(problem, combine(problem.material), solution);
+    workspace_->solve_full(problem, material, solution);
+  else if (problem.normal_model == NormalModel::kpec || problem.normal_model == NormalModel::analyn)
+    solve_virtual_penetration(problem, material, workspace_->operators, solution);
   else
-    assume_pressure(problem, solution);
+    assume_pressure(problem, material, workspace_->operators, solution);
 
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -30,7 +30,8 @@ class NormalSolver {
   /// Out: pressure, displacement_n (in the box of elements that interpenetrate, else 0), state (adhesion = in contact),
   /// approach, force_n, max_pressure, status and the report `normal`, whose residual is the estimated error of the
   /// pressures relative to their rms; settings.eps is the accuracy asked for. The other fields are emptied.
-  /// normal_model elliptic or parabolic: pressures from problem.hertz, about the origin of the grid's axes.
+  /// normal_model elliptic, parabolic or semi_double_elliptic: pressures from problem.hertz, about the origin of the grid's
+  /// axes; kpec, analyn: approximate ones at a prescribed approach (virtual_penetration.hpp).
   /// No element in contact: Status::no_contact. Errors: Error(configuration) for inconsistent input.
   void solve(const ContactProblem& problem, ContactSolution& solution);
 

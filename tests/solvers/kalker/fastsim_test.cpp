@@ -103,6 +103,37 @@ TEST(Fastsim, FollowsLinearTheoryForSmallCreepage) {
   EXPECT_NEAR(force_at(c, {0, 0, phi}).y() / (-g * std::pow(ab, 1.5) * k.c23 * phi), 1.0, kLinear);
 }
 
+TEST(Fastsim, OneFlexibilityIntegratesTheRigidSlip) {
+  // Without slip the springs' traction grows from the leading edge: p_x = -xi (a_j - x)/L, p_y = -phi (a_j^2 - x^2)/(2 L).
+  Case c = rolling(200);
+  c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
+  const double l = c.problem.fastsim.flexibility = 2.5e-14, a = 6e-3, b = 4e-3;
+  constexpr double kLinear = 0.01;
+  EXPECT_NEAR(force_at(c, {1e-7, 0, 0}).x() / (-8.0 / 3.0 * a * a * b * 1e-7 / l), 1.0, kLinear);
+  EXPECT_NEAR(force_at(c, {0, 1e-7, 0}).y() / (-8.0 / 3.0 * a * a * b * 1e-7 / l), 1.0, kLinear);
+  EXPECT_NEAR(force_at(c, {0, 0, 1e-5}).y() / (-std::acos(-1.0) / 4.0 * a * a * a * b * 1e-5 / l), 1.0, kLinear);
+}
+
+TEST(Fastsim, OneFlexibilityEqualsThreeUnderLongitudinalCreepage) {
+  Case three = rolling(44), one = rolling(44);
+  const KalkerCoefficients k = kalker_coefficients(6e-3, 4e-3, kSteel.poisson);
+  one.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
+  one.problem.fastsim.flexibility = 8.0 * 6e-3 / (3.0 * k.c11 * kSteel.shear_modulus);
+  for (const double xi : {1e-5, 5e-4, 3e-3}) {
+    const Vec2 f = force_at(three, {xi, 0, 0}), g = force_at(one, {xi, 0, 0});
+    EXPECT_NEAR(f.x(), g.x(), 1e-9 * f.norm());
+  }
+}
+
+TEST(Fastsim, RefusesAFlexibilityThatIsNotPositive) {
+  Case c = rolling(10);
+  c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
+  for (const double flexibility : {0.0, -1e-14, std::nan("")}) {
+    c.problem.fastsim.flexibility = flexibility;
+    EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
+  }
+}
+
 TEST(Fastsim, SaturatesAtTheFrictionBoundAgainstTheSlip) {
   Case c = rolling(44);
   const double bound = 0.3 * [&] {

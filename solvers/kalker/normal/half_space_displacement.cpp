@@ -1,0 +1,22 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/normal/half_space_displacement.hpp"
+
+namespace treadmark::kalker {
+
+void half_space_displacement(NormalOperatorCache& operators, const CombinedMaterial& material, const Grid2& grid,
+                             const ElementBox& box, std::span<const double> pressure, std::span<double> displacement) {
+  // Beyond the box, possibly beyond the grid, there are no pressures; the size is one that transforms like.
+  const int nx = NormalOperatorCache::rounded_up(box.nx()), ny = NormalOperatorCache::rounded_up(box.ny());
+  AlignedVector<double> field(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  const auto local = [&](int ix, int iy) {
+    return static_cast<std::size_t>(ix - box.x0) + static_cast<std::size_t>(nx) * static_cast<std::size_t>(iy - box.y0);
+  };
+  for (int iy = box.y0; iy < box.y1; ++iy)
+    for (int ix = box.x0; ix < box.x1; ++ix) field[local(ix, iy)] = pressure[grid.index(ix, iy)];
+  operators.get(nx, ny, grid.dx, grid.dy, material.shear_modulus, material.poisson).displacement(field, field);
+  for (int iy = box.y0; iy < box.y1; ++iy)
+    for (int ix = box.x0; ix < box.x1; ++ix) displacement[grid.index(ix, iy)] = field[local(ix, iy)];
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,166 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <numbers>
+
+#include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/tests/solvers/kalker/owned_problem.hpp"
+
+namespace treadmark::kalker {
+namespace {
+
+using testing::hertzian;
+using testing::OwnedProblem;
+
+/// The reference program's example "fastsim": 8 x 4 mm, 82 kN, lateral creepage and spin; what it prints.
+struct Reference {
+  const char* name;
+  int n;  ///< elements each way over 1.1 times the ellipse
+  NormalModel normal;
+  TangentialModel tangential;
+  double force_y, moment_n, power;  ///< [N], [N m], [W]
+  int adhesion;
+  double tolerance = 6e-4;  ///< four digits
+  int elements = 0;         ///< that adhesion may differ by
+};
+
+constexpr Reference kReferences[] = {
+    {"full theory", 44, NormalModel::full, TangentialModel::full, -14940.0, -48.21, -540.4, 356},
+    {"parabolic", 44, NormalModel::parabolic, TangentialModel::fastsim, -15050.0, -39.00, -509.3, 738},
+    {"elliptic", 44, NormalModel::elliptic, TangentialModel::fastsim, -14800.0, -48.29, -694.4, 618},
+    // Here tractions at the leading edge are bounded by friction, those of the reference are not; and the force is that of
+    // the pressures at element centres.
+    {"FaStrip", 44, NormalModel::elliptic, TangentialModel::fastrip, -15830.0, -48.16, -614.0, 626, 6e-3, 2},
+    {"parabolic, fine", 220, NormalModel::parabolic, TangentialModel::fastsim, -15640.0, -37.98, -560.8, 18424},
+    {"elliptic, fine", 220, NormalModel::elliptic, TangentialModel::fastsim, -14650.0, -45.30, -737.3, 16572},
+    {"FaStrip, fine", 220, NormalModel::elliptic, TangentialModel::fastrip, -15850.0, -47.57, -668.1, 15866, 1.5e-3, 2},
+};
+
+OwnedProblem reference_problem(const Reference& reference) {
+  const HertzShape shape = hertz_from_semi_axes(8e-3, 4e-3, {true, 82e3}, combine(Material{}));
+  OwnedProblem owned = hertzian(shape, hertz_grid(shape, reference.n, reference.n, 1.1));
+  owned.problem.hertz = shape;
+  owned.problem.normal_model = reference.normal;
+  owned.problem.tangential_model = reference.tangential;
+  owned.problem.regime = Regime::steady;
+  owned.problem.creepage = {0.0, -6.25e-4, 0.625};
+  return owned;
+}
+
+void expect_reference(const ContactSolution& solution, const Reference& reference, double sign) {
+  EXPECT_EQ(solution.status, Status::ok);
+  EXPECT_NEAR(solution.force_y / reference.force_y, 1.0, reference.tolerance);
+  EXPECT_NEAR(sign * solution.moment_n / reference.moment_n, 1.0, reference.tolerance);
+  EXPECT_NEAR(solution.frictional_power / reference.power, 1.0, reference.tolerance);
+  EXPECT_NEAR(solution.elements_adhesion, reference.adhesion, reference.elements);
+}
+
+TEST(SimplifiedTheories, ReproduceTheReferenceExample) {
+  for (const Reference& reference : kReferences) {
+    SCOPED_TRACE(reference.name);
+    ContactSolver solver;
+    expect_reference(solver.solve(reference_problem(reference).problem), reference, 1.0);
+  }
+}
+
+TEST(SimplifiedTheories, ReversedRollingIsTheMirrorImage) {
+  // The example's last case; rolling and spin reversed give the same lateral force and the opposite moment.
+  for (const Reference& reference : kReferences) {
+    SCOPED_TRACE(reference.name);
+    OwnedProblem owned = reference_problem(reference);
+    owned.problem.rolling.chi = std::numbers::pi;
+    owned.problem.creepage.phi = -0.625;
+    ContactSolver solver;
+    expect_reference(solver.solve(owned.problem), reference, -1.0);
+  }
+}
+
+/// Hertzian contact of 6 x 4 mm on a grid that the grid's origin is not the middle of.
+OwnedProblem rolling(TangentialModel model, const Creepage& creepage, double shift_x = 0.0, double shift_y = 0.0) {
+  const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 80e3}, combine(Material{}));
+  const Grid2 grid = hertz_grid(shape, 40, 40, 1.1);
+  OwnedProblem owned = hertzian(shape, grid);
+  owned.problem.grid.x0 += shift_x;
+  owned.problem.grid.y0 += shift_y;
+  owned.problem.tangential_model = model;
+  owned.problem.fastsim.flexibility = 3e-14;
+  owned.problem.regime = Regime::steady;
+  owned.problem.creepage = creepage;
+  owned.problem.creepage.spin_x += shift_x;
+  owned.problem.creepage.spin_y += shift_y;
+  return owned;
+}
+
+constexpr TangentialModel kSimplified[] = {TangentialModel::fastsim, TangentialModel::fastsim_one_flexibility,
+                                           TangentialModel::fastrip};
+
+TEST(SimplifiedTheories, DoNotDependOnWhereTheOriginIs) {
+  const Creepage creepage{4e-4, -3e-4, 0.3, 0.0, 0.0};
+  for (const TangentialModel model : kSimplified) {
+    ContactSolver solver;
+    const ContactSolution at_origin = solver.solve(rolling(model, creepage).problem);
+    const ContactSolution apart = solver.solve(rolling(model, creepage, 0.05, -0.02).problem);
+    EXPECT_NEAR(at_origin.force_x, apart.force_x, 1e-6 * at_origin.force_n);
+    EXPECT_NEAR(at_origin.force_y, apart.force_y, 1e-6 * at_origin.force_n);
+    EXPECT_NEAR(at_origin.frictional_power, apart.frictional_power, 1e-5 * std::abs(apart.frictional_power));
+  }
+}
+
+TEST(SimplifiedTheories, MirrorAcrossTheTrack) {
+  for (const TangentialModel model : kSimplified) {
+    ContactSolver solver;
+    const ContactSolution one = solver.solve(rolling(model, {4e-4, -3e-4, 0.3}).problem);
+    const ContactSolution other = solver.solve(rolling(model, {4e-4, 3e-4, -0.3}).problem);
+    EXPECT_NEAR(one.force_x, other.force_x, 1e-6 * one.force_n);
+    EXPECT_NEAR(one.force_y, -other.force_y, 1e-6 * one.force_n);
+    EXPECT_NEAR(one.moment_n, -other.moment_n, 1e-6 * std::abs(one.moment_n));
+    EXPECT_EQ(one.elements_slip, other.elements_slip);
+  }
+}
+
+TEST(SimplifiedTheories, HaveTheirTractionsBoundedByFriction) {
+  for (const TangentialModel model : kSimplified)
+    for (const Creepage& creepage : {Creepage{1e-3, -5e-4, 0.4}, Creepage{0.0, 0.0, 0.8}, Creepage{0.0, 2e-4, 0.9}}) {
+      ContactSolver solver;
+      const OwnedProblem owned = rolling(model, creepage);
+      const ContactSolution solution = solver.solve(owned.problem);
+      for (std::size_t i = 0; i < solution.pressure.size(); ++i) {
+        const double bound = 0.3 * solution.pressure[i], size = std::hypot(solution.traction_x[i], solution.traction_y[i]);
+        ASSERT_LE(size, bound * (1.0 + 1e-12));
+        if (solution.state[i] == ElementState::slip) {
+          ASSERT_NEAR(size, bound, 1e-9 * bound);
+        }
+      }
+      EXPECT_LT(solution.frictional_power, 0.0);
+      EXPECT_EQ(solution.elastic_energy, 0.0);
+    }
+}
+
+TEST(SimplifiedTheories, SlideWithTheFrictionBound) {
+  for (const TangentialModel model : kSimplified) {
+    ContactSolver solver;
+    const ContactSolution solution = solver.solve(rolling(model, {0.03, -0.04, 0.0}).problem);
+    const double bound = 0.3 * solution.force_n;
+    EXPECT_NEAR(solution.force_x, -0.6 * bound, 1e-2 * bound);
+    EXPECT_NEAR(solution.force_y, 0.8 * bound, 1e-2 * bound);
+    EXPECT_NEAR(std::hypot(solution.force_x, solution.force_y), bound, 1e-4 * bound);
+  }
+}
+
+TEST(SimplifiedTheories, FindCreepageForPrescribedForces) {
+  for (const TangentialModel model : kSimplified) {
+    ContactSolver solver;
+    OwnedProblem owned = rolling(model, {0.0, 0.0, 0.1});
+    owned.problem.fx_relative = -0.4;
+    owned.problem.fy_relative = 0.3;
+    const ContactSolution solution = solver.solve(owned.problem);
+    ASSERT_EQ(solution.status, Status::ok) << solution.tangential.message;
+    EXPECT_NEAR(solution.force_x / (0.3 * solution.force_n), -0.4, 1e-4);
+    EXPECT_NEAR(solution.force_y / (0.3 * solution.force_n), 0.3, 1e-4);
+  }
+}
+
+}  // namespace
+}  // namespace treadmark::kalker
