@@ -67,11 +67,20 @@ double coupling_integral(double X, double Y, double dx, double dy) {
   return std::copysign(unit * (logarithms(scaled) + angles(scaled)), X);
 }
 
-ConstantElements::ConstantElements(double dx, double dy, double poisson, double difference)
-    : dx_(dx), dy_(dy), poisson_(poisson), difference_(std::abs(difference) < kSmallestDifference ? 0.0 : difference) {
+double significant_difference(double difference) {
+  constexpr double kSmallest = 1e-6;
+  return std::abs(difference) < kSmallest ? 0.0 : difference;
+}
+
+void check_element_size(double dx, double dy) {
   if (!(dx > 0.0 && dy > 0.0 && std::isfinite(dx) && std::isfinite(dy)))
     throw Error(ErrorKind::configuration,
                 "elements must have positive sizes, not " + std::to_string(dx) + " m x " + std::to_string(dy) + " m");
+}
+
+ConstantElements::ConstantElements(double dx, double dy, double poisson, double difference)
+    : dx_(dx), dy_(dy), poisson_(poisson), difference_(significant_difference(difference)) {
+  check_element_size(dx, dy);
 }
 
 InfluenceBlock ConstantElements::at(double X, double Y) const {

@@ -6,10 +6,13 @@
 
 namespace treadmark::kalker {
 
-/// Smallest |K| of treadmark::combine at which normal and tangential displacements are taken as coupled.
-inline constexpr double kSmallestDifference = 1e-6;
+/// K of treadmark::combine where it is large enough to couple normal and tangential displacements (|K| >= 1e-6), else 0.
+double significant_difference(double difference);
 
-/// Elements dx by dy [m] under uniform traction on elastic half-spaces (Boussinesq-Cerruti, Kalker 1990 sec. 5.2), at any point:
+/// Errors: Error(configuration) unless both sizes [m] are positive and finite.
+void check_element_size(double dx, double dy);
+
+/// Elements dx by dy [m] under uniform traction on elastic half-spaces (Boussinesq-Cerruti, Kalker 1990), at any point:
 /// influence() together with the coefficients of dissimilar bodies, C_xn = -C_nx and C_yn = -C_ny, proportional to K = difference.
 /// The latter are accurate to about 1e-14 relative to the coefficient at any distance.
 class ConstantElements final : public InfluenceKernel {

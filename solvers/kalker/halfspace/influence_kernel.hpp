@@ -17,6 +17,9 @@ struct InfluenceBlock {
   double nx = 0.0, ny = 0.0, nn = 0.0;
 };
 
+/// The coefficients of a symmetric kernel (see InfluenceKernel) where X, Y or both have the other sign.
+InfluenceBlock mirrored(const InfluenceBlock& block, bool in_x, bool in_y);
+
 /// Influence coefficients of one loaded element, a function of where the displacement is looked at. Immutable.
 class InfluenceKernel {
  public:
@@ -27,13 +30,16 @@ class InfluenceKernel {
   /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y, xn and nx odd in X and even in Y, yn and ny the other way round:
   /// as for half-spaces.
   virtual bool symmetric() const = 0;
+  /// The same for Y alone.
+  virtual bool symmetric_in_y() const { return symmetric(); }
   /// Whether tangential tractions move surfaces normally and the other way round.
   virtual bool coupled() const = 0;
 };
 
-/// The kernel for elements of dx by dy [m] of a pair of bodies. velocity: of rolling [m/s], direction along +x (chi = 0) or -x;
-/// both matter for viscoelastic bodies only. Errors: Error(configuration) for combinations without meaning (viscoelastic with
-/// different Poisson's ratios, a table for other steps or ...).
+/// The kernel for elements of dx by dy [m] of a pair of bodies; flexibilities of layers and sheets are not in it. velocity: of rolling
+/// [m/s], direction along +x (chi = 0) or -x (chi = pi); both matter for viscoelastic bodies only.
+/// Errors: Error(configuration) for combinations without meaning (viscoelastic bodies with K != 0, other directions or other than
+/// half-space coefficients; a table for other steps; a variant that does not exist) and for inclinations row by row.
 std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material, const InfluenceSettings& settings, double dx,
                                                              double dy, double velocity, double chi);
 

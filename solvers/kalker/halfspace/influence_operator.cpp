@@ -16,22 +16,6 @@ constexpr std::array kCoefficients{&InfluenceBlock::xx, &InfluenceBlock::xy, &In
                                    &InfluenceBlock::yx, &InfluenceBlock::yy, &InfluenceBlock::yn,
                                    &InfluenceBlock::nx, &InfluenceBlock::ny, &InfluenceBlock::nn};
 
-/// Symmetric kernels change the sign of what has exactly one x (or y) among its two directions when X (or Y) does.
-void mirror(InfluenceBlock& block, bool in_x, bool in_y) {
-  if (in_x != in_y) {
-    block.xy = -block.xy;
-    block.yx = -block.yx;
-  }
-  if (in_x) {
-    block.xn = -block.xn;
-    block.nx = -block.nx;
-  }
-  if (in_y) {
-    block.yn = -block.yn;
-    block.ny = -block.ny;
-  }
-}
-
 /// sum += field * factor. On plain numbers, see multiply().
 void add_product(Spectrum& sum, const Spectrum& field, const Spectrum& factor) {
   double* __restrict s = reinterpret_cast<double*>(sum.data());
@@ -56,7 +40,7 @@ InfluenceOperator::InfluenceOperator(int nx, int ny, double dx, double dy, doubl
                                      std::shared_ptr<const InfluenceKernel> kernel, double shift_x, double shift_y)
     : dx_(dx), dy_(dy), shear_modulus_(shear_modulus), shift_x_(shift_x), shift_y_(shift_y),
       kernel_(checked(std::move(kernel), dx, dy, shear_modulus)), transform_(nx, ny),
-      fold_x_(kernel_->symmetric() && shift_x == 0.0), fold_y_(kernel_->symmetric() && shift_y == 0.0),
+      fold_x_(kernel_->symmetric() && shift_x == 0.0), fold_y_(kernel_->symmetric_in_y() && shift_y == 0.0),
       field_1_(transform_.spectrum_size()), field_2_(transform_.spectrum_size()), sum_(transform_.spectrum_size()) {}
 
 void InfluenceOperator::make_table() {
@@ -72,9 +56,8 @@ InfluenceBlock InfluenceOperator::at(int dix, int diy) {
   if (table_.empty()) make_table();
   const int columns = fold_x_ ? nx() : 2 * nx() - 1;
   const int column = fold_x_ ? std::abs(dix) : dix + nx() - 1, row = fold_y_ ? std::abs(diy) : diy + ny() - 1;
-  InfluenceBlock block = table_[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
-  mirror(block, fold_x_ && dix < 0, fold_y_ && diy < 0);
-  return block;
+  const auto index = static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column);
+  return mirrored(table_[index], fold_x_ && dix < 0, fold_y_ && diy < 0);
 }
 
 const Spectrum& InfluenceOperator::spectrum(Coefficient coefficient) {
