@@ -23,7 +23,7 @@ bool has_elastic_energy(const ContactProblem& problem) {
 
 void accumulate_totals(const ContactProblem& problem, ContactSolution& solution) {
   const Grid2& grid = problem.grid;
-  double fn = 0.0, fx = 0.0, fy = 0.0, mx = 0.0, my = 0.0, mn = 0.0, energy = 0.0, power = 0.0;
+  double fn = 0.0, fx = 0.0, ft = 0.0, fy = 0.0, mx = 0.0, my = 0.0, mn = 0.0, energy = 0.0, power = 0.0;
   solution.max_pressure = 0.0;
   solution.elements_adhesion = solution.elements_slip = 0;
   for (int iy = 0; iy < grid.ny; ++iy)
@@ -36,6 +36,7 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
       fn += pn;
       fx += px;
       fy += py;
+      ft += std::hypot(px, py);
       mx += pn * y;
       my -= pn * x;
       mn += py * x - px * y;
@@ -57,10 +58,11 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
   // with a plastic layer the tangential solver has counted its shear too
   if (solution.yield_stress.empty()) solution.frictional_power = power * area * (rolling ? problem.rolling.velocity : 1.0);
 
-  // A moment below the accuracy of the tractions is zero; the lever is that of the contact's own size.
-  const double lever = std::sqrt(solution.elements_contact * area);
-  const double negligible = 0.5 * problem.settings.eps * solution.force_n * problem.friction.static_friction() * lever;
-  if (std::abs(solution.moment_n) < negligible) solution.moment_n = 0.0;
+  // Components below the accuracy of the tractions are zero; the lever is that of the contact's own size.
+  const double negligible = 0.5 * problem.settings.eps * ft * area, lever = std::sqrt(solution.elements_contact * area);
+  for (double* force : {&solution.force_x, &solution.force_y})
+    if (std::abs(*force) < negligible) *force = 0.0;
+  if (std::abs(solution.moment_n) < negligible * lever) solution.moment_n = 0.0;
 }
 
 }  // namespace treadmark::kalker

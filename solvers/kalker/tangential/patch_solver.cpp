@@ -123,21 +123,23 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
   friction_unsettled_ = false;
   if (fixed) return solve_at_fixed_friction(eps);
 
-  // Slip speeds and coefficients of friction by relaxed substitution.
-  double relaxation = 1.0, last_change = 0.0;
+  // Slip speeds and coefficients of friction by relaxed substitution: shorter steps when changes reverse, longer ones when they go on
+  // in the same direction, as where a solution gives way to another one.
+  double relaxation = 1.0;
+  std::vector<double> last;
   for (int round = 0; round < std::max(1, input_.settings.max_outer); ++round) {
     if (!solve_at_fixed_friction(eps)) return false;
     const std::vector<double> speed = new_slip_speed();
     std::vector<double> change(speed.size());
     for (std::size_t i = 0; i < speed.size(); ++i) change[i] = speed[i] - slip_speed_[i];
-    const double size = rms(change);
-    const bool converged = size <= kSlipAccuracy * eps * rms(speed);
-    if (round > 0)
-      relaxation = size > 0.9 * last_change ? std::max(0.5 * relaxation, kSmallestRelaxation)
-                                            : std::min(1.1 * relaxation, 1.0);
-    last_change = size;
+    const bool converged = rms(change) <= kSlipAccuracy * eps * rms(speed);
+    if (!last.empty()) {
+      const double along = std::inner_product(change.begin(), change.end(), last.begin(), 0.0);
+      relaxation = along < 0.0 ? std::max(0.5 * relaxation, kSmallestRelaxation) : std::min(1.3 * relaxation, 1.0);
+    }
     for (std::size_t i = 0; i < speed.size(); ++i) slip_speed_[i] += (converged ? 1.0 : relaxation) * change[i];
     if (converged) return true;
+    last = std::move(change);
     adapt();
   }
   friction_unsettled_ = true;
