@@ -19,7 +19,7 @@ struct FieldColumn {
   std::vector<double> PatchFields::*values;
 };
 
-inline constexpr std::array<FieldColumn, 10> kFieldColumns{{
+inline constexpr std::array<FieldColumn, 15> kFieldColumns{{
     {"gap", "m", "m", "undeformed distance, NaN where a surface is missing", &PatchFields::gap},
     {"pressure", "Pa", "Pa", "normal pressure", &PatchFields::pressure},
     {"traction_x", "Pa", "Pa", "longitudinal traction on the rail", &PatchFields::traction_x},
@@ -30,6 +30,11 @@ inline constexpr std::array<FieldColumn, 10> kFieldColumns{{
     {"slip_x", "1", "m", "longitudinal slip, rail minus wheel, over the rolling speed", &PatchFields::slip_x},
     {"slip_s", "1", "m", "lateral slip, rail minus wheel, over the rolling speed", &PatchFields::slip_s},
     {"friction", "1", "1", "coefficient of friction", &PatchFields::friction},
+    {"plastic_x", "m", "m", "longitudinal plastic shear of the interface layer", &PatchFields::plastic_x},
+    {"plastic_s", "m", "m", "lateral plastic shear of the interface layer", &PatchFields::plastic_s},
+    {"yield_stress", "Pa", "Pa", "shear stress at which the interface layer yields", &PatchFields::yield_stress},
+    {"temperature_1", "degC", "degC", "surface temperature of the rail", &PatchFields::temperature_1},
+    {"temperature_2", "degC", "degC", "surface temperature of the wheel", &PatchFields::temperature_2},
 }};
 
 /// Throws Error(configuration) unless every field of the patch is empty or has one value per element.

@@ -10,6 +10,7 @@
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/report.hpp"
 #include "treadmark/core/surface_difference.hpp"
+#include "treadmark/io/results/subsurface_block.hpp"
 
 namespace treadmark::io {
 
@@ -23,7 +24,10 @@ struct PatchFields {
   std::vector<double> displacement_n, displacement_x, displacement_s;  ///< [m]
   std::vector<double> slip_x, slip_s;              ///< relative slip [-] (shift: [m])
   std::vector<double> friction;
-  std::vector<std::uint8_t> state;                 ///< 0 exterior, 1 adhesion, 2 slip
+  std::vector<std::uint8_t> state;                 ///< 0 exterior, 1 adhesion, 2 slip, 3 plastic
+  std::vector<double> plastic_x, plastic_s;        ///< plastic shear of the interface layer [m]; empty without
+  std::vector<double> yield_stress;                ///< of the interface layer [Pa]; empty without
+  std::vector<double> temperature_1, temperature_2;  ///< of the surfaces of rail and wheel [deg C]; empty unless computed
 };
 
 struct PatchResult {
@@ -42,7 +46,9 @@ struct PatchResult {
   double frictional_power = 0.0;                   ///< [W], negative = dissipated; shift: work [J]
   double approach = 0.0, pmax = 0.0;               ///< [m], [Pa]
   int npot = 0, ncon = 0, nadh = 0, nslip = 0;
+  std::optional<double> max_temperature_1, max_temperature_2;  ///< in contact, rail and wheel [deg C]
   PatchFields fields;
+  std::vector<SubsurfaceBlock> subsurface;         ///< in the axes of the patch
 };
 
 struct CaseResult {

@@ -6,7 +6,6 @@
 #include <hdf5.h>
 
 #include <algorithm>
-#include <array>
 #include <string>
 #include <string_view>
 #include <utility>
@@ -14,6 +13,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
+#include "treadmark/io/results/subsurface_table.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -125,16 +125,24 @@ Handle make_group(hid_t parent, const std::string& name) {
   return {H5Gcreate2(parent, name.c_str(), H5P_DEFAULT, H5P_DEFAULT, H5P_DEFAULT), H5Gclose, name};
 }
 
-/// A dataset [ny, nx], or [nx] when ny = 0.
-void write_dataset(hid_t group, const std::string& name, hid_t type, const void* data, int ny, int nx,
+/// Whole layers of two dimensions, cut to keep chunks below 3 MiB.
+std::vector<hsize_t> chunk_size(const std::vector<hsize_t>& size) {
+  std::vector<hsize_t> chunk = size;
+  const hsize_t largest = size.size() == 2 ? kMaxChunk : kMaxChunk / 4;
+  for (hsize_t& length : chunk) length = std::min(length, largest);
+  if (size.size() > 2) chunk[0] = 1;
+  return chunk;
+}
+
+/// A dataset of any number of dimensions; those of two and more are compressed.
+void write_dataset(hid_t group, const std::string& name, hid_t type, const void* data, const std::vector<hsize_t>& size,
                    const std::string& unit, const std::string& meaning) {
-  const int rank = ny == 0 ? 1 : 2;
-  std::array<hsize_t, 2> size{static_cast<hsize_t>(ny), static_cast<hsize_t>(nx)};
-  if (rank == 1) size[0] = size[1];
+  const int rank = static_cast<int>(size.size());
   const Handle space(H5Screate_simple(rank, size.data(), nullptr), H5Sclose, name);
   const Handle creation(H5Pcreate(H5P_DATASET_CREATE), H5Pclose, name);
-  if (rank == 2 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
-    const std::array<hsize_t, 2> chunk{std::min(size[0], kMaxChunk), std::min(size[1], kMaxChunk)};
+  const bool empty = std::find(size.begin(), size.end(), 0u) != size.end();
+  if (rank >= 2 && !empty && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    const std::vector<hsize_t> chunk = chunk_size(size);
     if (H5Pset_chunk(creation, rank, chunk.data()) < 0 || H5Pset_shuffle(creation) < 0 ||
         H5Pset_deflate(creation, kDeflateLevel) < 0)
       fail(name);
@@ -153,17 +161,35 @@ void write_fields(hid_t group, const PatchResult& patch) {
   std::vector<double> x, s;
   for (int ix = 0; ix < grid.nx; ++ix) x.push_back(grid.x(ix));
   for (int iy = 0; iy < grid.ny; ++iy) s.push_back(grid.y(iy));
-  write_dataset(group, "x", H5T_NATIVE_DOUBLE, x.data(), 0, grid.nx, "m", "element centres along the columns");
-  write_dataset(group, "s", H5T_NATIVE_DOUBLE, s.data(), 0, grid.ny, "m", "element centres along the rows");
+  const std::vector<hsize_t> size{s.size(), x.size()};
+  write_dataset(group, "x", H5T_NATIVE_DOUBLE, x.data(), {x.size()}, "m", "element centres along the columns");
+  write_dataset(group, "s", H5T_NATIVE_DOUBLE, s.data(), {s.size()}, "m", "element centres along the rows");
   for (const FieldColumn& column : kFieldColumns) {
     const std::vector<double>& values = fields.*column.values;
     if (values.empty()) continue;
-    write_dataset(group, std::string(column.name), H5T_NATIVE_DOUBLE, values.data(), grid.ny, grid.nx,
+    write_dataset(group, std::string(column.name), H5T_NATIVE_DOUBLE, values.data(), size,
                   std::string(patch.shift ? column.unit_shift : column.unit), std::string(column.meaning));
   }
   if (!fields.state.empty())
-    write_dataset(group, "state", H5T_NATIVE_UINT8, fields.state.data(), grid.ny, grid.nx, "1",
-                  "0 exterior, 1 adhesion, 2 slip");
+    write_dataset(group, "state", H5T_NATIVE_UINT8, fields.state.data(), size, "1",
+                  "0 exterior, 1 adhesion, 2 slip, 3 plastic");
+}
+
+void write_subsurface(hid_t patch_group, const std::vector<SubsurfaceBlock>& blocks) {
+  if (blocks.empty()) return;
+  const Handle parent = make_group(patch_group, "subsurface");
+  int number = 0;
+  for (const SubsurfaceBlock& block : blocks) {
+    const Handle group = make_group(parent, fmt::format("block{}", ++number));
+    for (const SubsurfaceColumn& column : kSubsurfaceColumns) {
+      const std::vector<double> values = column_values(block, column);
+      std::vector<hsize_t> size;
+      for (const int length : {block.nz, block.ny, block.nx}) size.push_back(static_cast<hsize_t>(length));
+      if (column.components > 1) size.push_back(static_cast<hsize_t>(column.components));
+      write_dataset(group, std::string(column.name), H5T_NATIVE_DOUBLE, values.data(), size, std::string(column.unit),
+                    std::string(column.meaning));
+    }
+  }
 }
 
 void write_patch(hid_t group, const PatchResult& patch) {
@@ -204,6 +230,7 @@ void write_patch(hid_t group, const PatchResult& patch) {
     add(group, "s_rail", patch.s_rail);
   }
   write_fields(group, patch);
+  write_subsurface(group, patch.subsurface);
 }
 
 void write_case(hid_t group, const CaseResult& result) {
@@ -225,6 +252,7 @@ void write_case(hid_t group, const CaseResult& result) {
   for (const PatchResult& patch : result.patches) {
     ++number;
     check_field_sizes(patch.fields, result.number, number);
+    check_blocks(patch.subsurface, fmt::format("case {}, patch {}: ", result.number, number));
     const Handle patch_group = make_group(group, fmt::format("patch_{}", number));
     write_patch(patch_group, patch);
   }

@@ -74,6 +74,9 @@ Json patch_json(const PatchResult& patch) {
   out["approach_mm"] = number(patch.approach * kMilli);
   out["pmax_MPa"] = number(patch.pmax * kMega);
 
+  if (patch.max_temperature_1) out["max_temperature_1_C"] = number(*patch.max_temperature_1);
+  if (patch.max_temperature_2) out["max_temperature_2_C"] = number(*patch.max_temperature_2);
+
   out["elements"] = {{"npot", patch.npot}, {"ncon", patch.ncon}, {"nadh", patch.nadh}, {"nslip", patch.nslip}};
   const Grid2& grid = patch.fields.grid;
   out["grid"] = {{"mx", grid.nx},

@@ -4,35 +4,16 @@
 
 #include <fmt/format.h>
 
-#include <bit>
-#include <cstdint>
-#include <span>
+#include <utility>
 
 #include "treadmark/io/results/atomic_file.hpp"
-#include "treadmark/io/results/base64.hpp"
 #include "treadmark/io/results/field_table.hpp"
+#include "treadmark/io/results/subsurface_table.hpp"
+#include "treadmark/io/results/subsurface_vtk.hpp"
+#include "treadmark/io/results/vtk_xml.hpp"
 
 namespace treadmark::io {
 namespace {
-
-constexpr const char* kByteOrder = std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian";
-
-template <class T>
-constexpr const char* type_name() {
-  if constexpr (std::is_same_v<T, double>) return "Float64";
-  if constexpr (std::is_same_v<T, float>) return "Float32";
-  return "UInt8";
-}
-
-/// A DataArray element with its values as base64, preceded by their size in bytes.
-template <class T>
-std::string data_array(const std::string& name, const std::vector<T>& values, int components) {
-  const std::uint64_t size = values.size() * sizeof(T);
-  return fmt::format(
-      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}{}</DataArray>\n",
-      type_name<T>(), name, components, to_base64(std::as_bytes(std::span(&size, 1))),
-      to_base64(std::as_bytes(std::span(values))));
-}
 
 /// Corners of the elements in track axes, (nx + 1) (ny + 1) points.
 std::vector<double> corner_points(const PatchFields& fields) {
@@ -74,43 +55,62 @@ std::string patch_to_vts(const PatchResult& patch, int case_number, int patch_nu
     const std::vector<double>& values = fields.*column.values;
     if (values.empty()) continue;
     const std::string_view unit = patch.shift ? column.unit_shift : column.unit;
-    cells += data_array(unit == "1" ? std::string(column.name) : fmt::format("{}_{}", column.name, unit),
+    cells += vtk_data_array(unit == "1" ? std::string(column.name) : fmt::format("{}_{}", column.name, unit),
                         as_float(values), 1);
   }
-  if (!fields.pressure.empty()) cells += data_array("traction_on_rail_Pa", traction_vectors(fields), 3);
-  if (!fields.state.empty()) cells += data_array("state", fields.state, 1);
+  if (!fields.pressure.empty()) cells += vtk_data_array("traction_on_rail_Pa", traction_vectors(fields), 3);
+  if (!fields.state.empty()) cells += vtk_data_array("state", fields.state, 1);
 
-  return fmt::format(R"(<?xml version="1.0"?>
-<VTKFile type="StructuredGrid" version="1.0" byte_order="{}" header_type="UInt64">
-  <StructuredGrid WholeExtent="{}">
-    <Piece Extent="{}">
-      <CellData>
-{}      </CellData>
-      <Points>
-{}      </Points>
-    </Piece>
-  </StructuredGrid>
-</VTKFile>
-)",
-                     kByteOrder, extent, extent, cells, data_array("points_m", corner_points(fields), 3));
+  return vtk_structured_grid(extent, "CellData", cells, vtk_data_array("points_m", corner_points(fields), 3));
 }
+
+namespace {
+
+/// Files of a folder and what the collection says of them.
+class VtkFiles {
+ public:
+  explicit VtkFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
+
+  void add(int case_number, int part, const std::string& name, const std::string& text) {
+    write_text_file(folder_ / name, text);
+    written.push_back(folder_ / name);
+    entries += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", case_number, part, name);
+  }
+
+  std::vector<std::filesystem::path> written;
+  std::string entries;
+
+ private:
+  std::filesystem::path folder_;
+};
+
+/// Parts of a case: its patches, then their blocks of points.
+void write_case(VtkFiles& files, const CaseResult& result, const std::string& stem) {
+  int part = 0, number = 0;
+  for (const PatchResult& patch : result.patches) {
+    ++number;
+    if (patch.fields.grid.size() != 0)
+      files.add(result.number, part, fmt::format("{}_case{:04}_patch{}.vts", stem, result.number, number),
+                patch_to_vts(patch, result.number, number));
+    ++part;
+  }
+  number = 0;
+  for (const PatchResult& patch : result.patches) {
+    check_blocks(patch.subsurface, fmt::format("case {}, patch {}: ", result.number, ++number));
+    int block_number = 0;
+    for (const SubsurfaceBlock& block : patch.subsurface)
+      files.add(result.number, part++,
+                fmt::format("{}_case{:04}_patch{}_block{}.vts", stem, result.number, number, ++block_number),
+                block_to_vts(block, patch.fields.X_TC));
+  }
+}
+
+}  // namespace
 
 std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder, const RunResult& run,
                                              const std::string& stem) {
-  std::vector<std::filesystem::path> written;
-  std::string entries;
-  for (const CaseResult& result : run.cases) {
-    int number = 0;
-    for (const PatchResult& patch : result.patches) {
-      ++number;
-      if (patch.fields.grid.size() == 0) continue;
-      const std::string name = fmt::format("{}_case{:04}_patch{}.vts", stem, result.number, number);
-      write_text_file(folder / name, patch_to_vts(patch, result.number, number));
-      written.push_back(folder / name);
-      entries += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", result.number,
-                             number - 1, name);
-    }
-  }
+  VtkFiles files(folder);
+  for (const CaseResult& result : run.cases) write_case(files, result, stem);
   const std::filesystem::path collection = folder / (stem + ".pvd");
   write_text_file(collection, fmt::format(R"(<?xml version="1.0"?>
 <VTKFile type="Collection" version="1.0" byte_order="{}" header_type="UInt64">
@@ -118,9 +118,9 @@ std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder
 {}  </Collection>
 </VTKFile>
 )",
-                                          kByteOrder, entries));
-  written.push_back(collection);
-  return written;
+                                          vtk_byte_order(), files.entries));
+  files.written.push_back(collection);
+  return files.written;
 }
 
 }  // namespace treadmark::io

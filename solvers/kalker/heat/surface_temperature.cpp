@@ -27,7 +27,8 @@ void check_size(std::size_t size, const ContactProblem& problem, const char* nam
 }
 
 void check_problem(const ContactProblem& problem, const ContactSolution& solution) {
-  if (problem.regime != Regime::steady) refuse("the regime is not steady rolling", "choose steady rolling or leave heat out");
+  if (problem.regime != Regime::steady)
+    refuse("the regime is not steady rolling", "choose steady rolling or leave heat out");
   if (!(problem.rolling.velocity > 0.0) || !std::isfinite(problem.rolling.velocity))
     refuse("the rolling velocity is " + std::to_string(problem.rolling.velocity) + " m/s", "give a positive one");
   if (std::abs(std::sin(problem.rolling.chi)) > 1e-6)
@@ -85,7 +86,8 @@ Shares shares(const Thermal& thermal, double velocity, bool quirks) {
 
 }  // namespace
 
-std::vector<double> frictional_heat(const ContactProblem& problem, const ContactSolution& solution, double plastic_fraction) {
+std::vector<double> frictional_heat(const ContactProblem& problem, const ContactSolution& solution,
+                                    double plastic_fraction) {
   check_problem(problem, solution);
   const Grid2& grid = problem.grid;
   const bool layer = !solution.plastic_x.empty() || !solution.plastic_y.empty();
@@ -113,8 +115,8 @@ std::vector<double> frictional_heat(const ContactProblem& problem, const Contact
 
 namespace {
 
-/// Sum over the elements passed of flux times the difference of roots of distance, at every element of a row: the surface
-/// temperature by a flux on a moving half-space (Carslaw and Jaeger 1959), but for a factor.
+/// Sum over the elements passed of flux times the difference of roots of distance, at every element of a row: the
+/// surface temperature by a flux on a moving half-space (Carslaw and Jaeger 1959), but for a factor.
 void add_frictional_rise(const Row& row, const std::vector<double>& flux, const std::vector<double>& roots, double own,
                          const Shares& s, SurfaceTemperatures& out) {
   for (int k = 0; k < row.size(); ++k) {
@@ -129,8 +131,8 @@ void add_frictional_rise(const Row& row, const std::vector<double>& flux, const 
 }
 
 /// Bulk temperatures before the contact, one temperature in it, relaxation behind it.
-void set_conduction(const Row& row, const std::vector<ElementState>& state, double dx, double offset_behind, const Shares& s,
-                    SurfaceTemperatures& out) {
+void set_conduction(const Row& row, const std::vector<ElementState>& state, double dx, double offset_behind,
+                    const Shares& s, SurfaceTemperatures& out) {
   int first = row.size(), last = -1;
   for (int k = 0; k < row.size(); ++k)
     if (state[row[k]] != ElementState::exterior) first = std::min(first, k), last = k;

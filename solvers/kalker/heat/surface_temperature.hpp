@@ -26,7 +26,8 @@ struct SurfaceTemperatures {
 
 /// Heat flux [W/m^2] that friction, and plastic shear of an interface layer by its share, produce in each element of a
 /// solution of steady rolling; size problem.grid.size().
-std::vector<double> frictional_heat(const ContactProblem& problem, const ContactSolution& solution, double plastic_fraction);
+std::vector<double> frictional_heat(const ContactProblem& problem, const ContactSolution& solution,
+                                    double plastic_fraction);
 
 /// Surface temperatures in steady rolling along +-x (Ertz and Knothe 2002): material enters each row with the bulk
 /// temperatures, heat flows normal to the surface only (large Peclet number). In the contact the surfaces share one
@@ -38,6 +39,7 @@ SurfaceTemperatures surface_temperatures(const ContactProblem& problem, const Co
                                          const HeatOptions& options = {});
 
 /// Puts the temperatures into the solution.
-void add_surface_temperatures(const ContactProblem& problem, ContactSolution& solution, const HeatOptions& options = {});
+void add_surface_temperatures(const ContactProblem& problem, ContactSolution& solution,
+                              const HeatOptions& options = {});
 
 }  // namespace treadmark::kalker

@@ -14,8 +14,9 @@ HalfSpaceBody body_at(const Material& material, double z) {
                                      : HalfSpaceBody{false, material.shear_modulus_1, material.poisson_1};
   if (!(body.shear_modulus > 0.0) || !(body.poisson > -1.0) || !(body.poisson <= 0.5))
     throw Error(ErrorKind::configuration,
-                std::string("stresses below the surface: body ") + (body.mirrored ? "2" : "1") + " has the shear modulus " +
-                    std::to_string(body.shear_modulus) + " Pa and Poisson's ratio " + std::to_string(body.poisson),
+                std::string("stresses below the surface: body ") + (body.mirrored ? "2" : "1") +
+                    " has the shear modulus " + std::to_string(body.shear_modulus) + " Pa and Poisson's ratio " +
+                    std::to_string(body.poisson),
                 {}, "a shear modulus is positive, Poisson's ratio above -1 and at most 0.5");
   return body;
 }

@@ -60,16 +60,20 @@ Potentials exchanged(const Potentials& p) {
 }
 
 FieldParts exchanged(const FieldParts& f) {
-  return {f[u_y], f[u_x], f[u_z], f[u_yy], f[u_yx], f[u_yz], f[u_xy], f[u_xx], f[u_xz], f[u_zy], f[u_zx], f[u_zz], f[dilatation]};
+  return {f[u_y],  f[u_x],  f[u_z],  f[u_yy], f[u_yx], f[u_yz],      f[u_xy],
+          f[u_xx], f[u_xz], f[u_zy], f[u_zx], f[u_zz], f[dilatation]};
 }
 
 }  // namespace
 
 FieldParts half_space_field(SurfaceLoad load, const Potentials& potentials, double z, double poisson) {
   switch (load) {
-    case SurfaceLoad::x: return field_of_x(potentials, z, poisson);
-    case SurfaceLoad::y: return exchanged(field_of_x(exchanged(potentials), z, poisson));
-    case SurfaceLoad::normal: break;
+    case SurfaceLoad::x:
+      return field_of_x(potentials, z, poisson);
+    case SurfaceLoad::y:
+      return exchanged(field_of_x(exchanged(potentials), z, poisson));
+    case SurfaceLoad::normal:
+      break;
   }
   return normal_field(potentials, z, poisson);
 }

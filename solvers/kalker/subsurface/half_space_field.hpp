@@ -11,10 +11,18 @@ namespace treadmark::kalker {
 
 /// What is computed of the field in a half-space, times 4 pi G; u_xy = d u_x / d y.
 enum FieldPart : std::size_t {
-  u_x, u_y, u_z,
-  u_xx, u_xy, u_xz,
-  u_yx, u_yy, u_yz,
-  u_zx, u_zy, u_zz,
+  u_x,
+  u_y,
+  u_z,
+  u_xx,
+  u_xy,
+  u_xz,
+  u_yx,
+  u_yy,
+  u_yz,
+  u_zx,
+  u_zy,
+  u_zz,
   dilatation,  ///< div u / (1 - 2 nu), which exists for incompressible bodies too
   kFieldPartCount
 };

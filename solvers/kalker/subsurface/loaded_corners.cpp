@@ -17,9 +17,12 @@ constexpr double kLeastDistance = 1e-10;  // of an element's size
 
 std::span<const double> field_of(const SurfaceTractions& tractions, SurfaceLoad load) {
   switch (load) {
-    case SurfaceLoad::x: return tractions.traction_x;
-    case SurfaceLoad::y: return tractions.traction_y;
-    case SurfaceLoad::normal: break;
+    case SurfaceLoad::x:
+      return tractions.traction_x;
+    case SurfaceLoad::y:
+      return tractions.traction_y;
+    case SurfaceLoad::normal:
+      break;
   }
   return tractions.pressure;
 }
@@ -31,7 +34,8 @@ void check_field(std::span<const double> field, const Grid2& grid, const char* n
                                               std::to_string(field.size()) + " values on a grid of " +
                                               std::to_string(grid.size()) + " elements");
   if (!std::all_of(field.begin(), field.end(), [](double value) { return std::isfinite(value); }))
-    throw Error(ErrorKind::configuration, std::string("stresses below the surface: ") + name + " has values that are not finite");
+    throw Error(ErrorKind::configuration,
+                std::string("stresses below the surface: ") + name + " has values that are not finite");
 }
 
 /// Traction of element (ix, iy), 0 outside the grid.

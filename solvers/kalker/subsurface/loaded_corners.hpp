@@ -13,8 +13,8 @@ namespace treadmark::kalker {
 /// A corner that elements share, with the signed sum of their tractions (by SurfaceLoad): a sum over elements of double
 /// differences over corners is a sum over corners of potentials times weights, at a quarter of the cost.
 struct LoadedCorner {
-  double x = 0.0, y = 0.0;                       ///< [m]
-  std::array<double, kSurfaceLoads> weight{};    ///< [Pa]
+  double x = 0.0, y = 0.0;                     ///< [m]
+  std::array<double, kSurfaceLoads> weight{};  ///< [Pa]
 };
 
 /// The corners whose weights are not all zero, row by row.

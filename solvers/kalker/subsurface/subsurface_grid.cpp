@@ -20,8 +20,8 @@ class PartTables {
     const double least = least_distance(grid);
     parallel_for(static_cast<std::size_t>(2 * ny_), [&](std::size_t row) {
       for (int ix = 0; ix < 2 * nx_; ++ix)
-        corners_[row * row_size() + static_cast<std::size_t>(ix)] = corner_potentials(
-            (ix - nx_ + 0.5) * grid.dx, (static_cast<int>(row) - ny_ + 0.5) * grid.dy, depth, least);
+        corners_[row * row_size() + static_cast<std::size_t>(ix)] =
+            corner_potentials((ix - nx_ + 0.5) * grid.dx, (static_cast<int>(row) - ny_ + 0.5) * grid.dy, depth, least);
     });
   }
 
@@ -58,7 +58,8 @@ class PartTables {
 };
 
 /// The spectra of those tractions that are not zero everywhere; others are empty.
-std::array<Spectrum, kSurfaceLoads> traction_spectra(const ToeplitzTransform& transform, const SurfaceTractions& tractions) {
+std::array<Spectrum, kSurfaceLoads> traction_spectra(const ToeplitzTransform& transform,
+                                                     const SurfaceTractions& tractions) {
   std::array<Spectrum, kSurfaceLoads> spectra;
   std::vector<double> field(transform.size());
   for (std::size_t k = 0; k < kSurfaceLoads; ++k) {
@@ -87,8 +88,7 @@ PartFields fields_at_depth(const ToeplitzTransform& transform, const Grid2& grid
     const double sign = body.traction_sign(load);
     tables.set_load(load);
     parallel_for(kFieldPartCount, [&](std::size_t part) {
-      Spectrum product =
-          transform.kernel_spectrum([&](int dix, int diy) { return sign * tables(part, dix, diy); });
+      Spectrum product = transform.kernel_spectrum([&](int dix, int diy) { return sign * tables(part, dix, diy); });
       multiply(product, loads[k]);
       for (std::size_t i = 0; i < product.size(); ++i) sums[part][i] += product[i];
     });

@@ -13,7 +13,8 @@ namespace {
 
 using LoadPotentials = std::array<Potentials, kSurfaceLoads>;
 
-LoadPotentials summed_potentials(const std::vector<LoadedCorner>& corners, const Vec3& point, double depth, double least) {
+LoadPotentials summed_potentials(const std::vector<LoadedCorner>& corners, const Vec3& point, double depth,
+                                 double least) {
   LoadPotentials sums{};
   for (const LoadedCorner& corner : corners) {
     const Potentials values = corner_potentials(point.x() - corner.x, point.y() - corner.y, depth, least);
@@ -23,7 +24,8 @@ LoadPotentials summed_potentials(const std::vector<LoadedCorner>& corners, const
   return sums;
 }
 
-SubsurfacePoint stress_at(const std::vector<LoadedCorner>& corners, const Material& material, const Vec3& point, double least) {
+SubsurfacePoint stress_at(const std::vector<LoadedCorner>& corners, const Material& material, const Vec3& point,
+                          double least) {
   const HalfSpaceBody body = body_at(material, point.z());
   const double depth = body.depth(point.z());
   const LoadPotentials potentials = summed_potentials(corners, point, depth, least);

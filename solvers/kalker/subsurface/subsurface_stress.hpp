@@ -26,13 +26,13 @@ SurfaceTractions surface_tractions(const Grid2& grid, const ContactSolution& sol
 /// Stresses at points [m] in the axes of the patch (x, y in the contact plane, z into body 1): z >= 0 lies in body 1,
 /// z < 0 in body 2, each a half-space with its own constants under the tractions that act on it (Kalker 1990, ch. 5).
 ///
-/// At the surface, z = 0, results are limits from within body 1 in the interior of elements. On a border between elements,
-/// where tractions jump, bounded quantities are the mean over the sides; stresses that are infinite there (they grow like
-/// the logarithm of the distance) are those at 1e-10 of an element's size.
+/// At the surface, z = 0, results are limits from within body 1 in the interior of elements. On a border between
+/// elements, where tractions jump, bounded quantities are the mean over the sides; stresses that are infinite there
+/// (they grow like the logarithm of the distance) are those at 1e-10 of an element's size.
 ///
-/// One result a point, in their order. Cost: points times elements with tractions. Uses all threads; results do not depend
-/// on their number. Errors: Error(configuration) for fields that do not match the grid, values that are not finite, and
-/// elastic constants without meaning.
+/// One result a point, in their order. Cost: points times elements with tractions. Uses all threads; results do not
+/// depend on their number. Errors: Error(configuration) for fields that do not match the grid, values that are not
+/// finite, and elastic constants without meaning.
 std::vector<SubsurfacePoint> subsurface_stress(const SurfaceTractions& tractions, const Material& material,
                                                std::span<const Vec3> points);
 

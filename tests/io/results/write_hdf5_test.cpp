@@ -8,6 +8,7 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 
 namespace treadmark {
@@ -137,6 +138,46 @@ TEST_F(WriteHdf5, BrokenFieldsLeaveTheOldFileAlone) {
   }
   EXPECT_EQ(testing::read_text(path_), before);
   EXPECT_EQ(folder_.count_files(), 1u);
+}
+
+TEST(WriteHdf5File, KeepsLayersTemperaturesAndBlocksBelowTheSurface) {
+  const testing::TemporaryFolder folder;
+  const std::filesystem::path path = folder.path() / "more.h5";
+  io::RunResult run = testing::sample_run();
+  io::PatchResult& patch = run.cases[0].patches[0];
+  patch.subsurface = {testing::sample_block(3, 2, 4), testing::sample_block(1, 1, 1)};
+  const std::size_t n = patch.fields.grid.size();
+  for (auto* field : {&patch.fields.plastic_x, &patch.fields.plastic_s, &patch.fields.yield_stress, &patch.fields.temperature_1,
+                      &patch.fields.temperature_2})
+    for (std::size_t i = 0; i < n; ++i) field->push_back(static_cast<double>(i) / 7.0);
+  io::write_hdf5(path, run);
+  const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
+  for (const char* name : {"plastic_x", "plastic_s", "yield_stress", "temperature_1", "temperature_2"})
+    EXPECT_EQ(read_dataset(file, (std::string("/case_0001/patch_1/") + name).c_str()).values, patch.fields.plastic_x);
+  EXPECT_EQ(text_attribute(file, "/case_0001/patch_1/temperature_2", "unit"), "degC");
+  EXPECT_EQ(H5Lexists(file, "/case_0001/patch_2/temperature_1", H5P_DEFAULT), 0);
+  EXPECT_EQ(H5Lexists(file, "/case_0001/patch_2/subsurface", H5P_DEFAULT), 0);
+
+  const std::string block = "/case_0001/patch_1/subsurface/block1/";
+  const Dataset stress = read_dataset(file, (block + "stress").c_str());
+  EXPECT_EQ(stress.shape, (std::vector<hsize_t>{4, 2, 3, 9}));
+  const Dataset tresca = read_dataset(file, (block + "tresca").c_str()), n_place = read_dataset(file, (block + "n").c_str());
+  EXPECT_EQ(tresca.shape, (std::vector<hsize_t>{4, 2, 3}));
+  const Dataset principal = read_dataset(file, (block + "principal").c_str());
+  for (std::size_t i = 0; i < 24; ++i) {
+    const io::SubsurfaceValue& v = patch.subsurface[0].values[i];
+    for (std::size_t k = 0; k < 9; ++k)
+      EXPECT_EQ(stress.values[9 * i + k], v.stress(static_cast<Eigen::Index>(k / 3), static_cast<Eigen::Index>(k % 3)));
+    EXPECT_EQ(tresca.values[i], v.tresca);
+    EXPECT_EQ(n_place.values[i], v.point.z());
+    EXPECT_EQ(principal.values[3 * i + 1], v.principal[1]);
+  }
+  EXPECT_EQ(text_attribute(file, (block + "von_mises").c_str(), "unit"), "Pa");
+  EXPECT_GT(H5Lexists(file, "/case_0001/patch_1/subsurface/block2", H5P_DEFAULT), 0);
+  H5Fclose(file);
+
+  patch.subsurface[1].nx = 2;
+  EXPECT_THROW(io::write_hdf5(path, run), Error);
 }
 
 TEST(WriteHdf5File, AnEmptyRunIsAValidFile) {

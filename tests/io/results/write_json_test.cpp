@@ -71,6 +71,18 @@ TEST(WriteJson, ShiftCasesGiveLengthsAndWork) {
   EXPECT_EQ(patch["frictional_work_J"], -2.75e-6);
 }
 
+TEST(WriteJson, TemperaturesAppearWhereTheyWereComputed) {
+  io::RunResult run = testing::sample_run();
+  run.cases[0].patches[1].max_temperature_1 = 166.8;
+  run.cases[0].patches[1].max_temperature_2 = 90.85;
+  const json document = json::parse(io::to_json(run));
+  EXPECT_FALSE(document["cases"][0]["patches"][0].contains("max_temperature_1_C"));
+  EXPECT_EQ(document["cases"][0]["patches"][1]["max_temperature_1_C"], 166.8);
+  EXPECT_EQ(document["cases"][0]["patches"][1]["max_temperature_2_C"], 90.85);
+  const json schema = json::parse(std::ifstream(std::string(TREADMARK_SOURCE_DIR) + "/docs/result.schema.json"));
+  EXPECT_EQ(testing::first_violation(document, schema, schema), "");
+}
+
 TEST(WriteJson, NumbersThatAreNotFiniteBecomeNull) {
   const std::string text = io::to_json(testing::sample_run());
   EXPECT_EQ(text.find("nan"), std::string::npos);

@@ -12,6 +12,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/base64.hpp"
+#include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 
@@ -123,6 +124,38 @@ TEST(WriteVtk, TheCollectionNamesEveryPatchFile) {
   EXPECT_EQ(sets[1]->attributes.at("file"), "flat_case0001_patch2.vts");
   EXPECT_EQ(sets[1]->attributes.at("part"), "1");
   EXPECT_EQ(sets[2]->attributes.at("timestep"), "2");
+}
+
+TEST(WriteVtk, PointsBelowTheSurfaceLieInTrackAxes) {
+  const testing::TemporaryFolder folder;
+  io::RunResult run = testing::sample_run();
+  io::PatchResult& patch = run.cases[0].patches[1];
+  patch.subsurface = {testing::sample_block(3, 2, 4)};
+  const auto written = io::write_vtk(folder.path(), run, "flat");
+  ASSERT_EQ(written.size(), 5u);
+  const testing::XmlElement collection = testing::read_xml(testing::read_text(written.back()));
+  EXPECT_EQ(collection.find("DataSet", "file", "flat_case0001_patch2_block1.vts").at(0)->attributes.at("part"), "2");
+
+  const testing::XmlElement root = testing::read_xml(testing::read_text(folder.path() / "flat_case0001_patch2_block1.vts"));
+  EXPECT_EQ(root.find("Piece").at(0)->attributes.at("Extent"), "0 2 0 1 0 3");
+  const auto points = values<double>(*root.find("DataArray", "Name", "points_m").at(0));
+  const auto stress = values<float>(*root.find("DataArray", "Name", "stress_Pa").at(0));
+  const auto mises = values<float>(*root.find("DataArray", "Name", "von_mises_Pa").at(0));
+  ASSERT_EQ(points.size(), 3u * 24u);
+  ASSERT_EQ(stress.size(), 9u * 24u);
+  const std::size_t i = 17;
+  const io::SubsurfaceValue& v = patch.subsurface[0].values[i];
+  EXPECT_NEAR(points[3 * i + 1], patch.y_tr + std::cos(patch.angle) * v.point.y() - std::sin(patch.angle) * v.point.z(), kRounding);
+  EXPECT_NEAR(points[3 * i + 2], patch.z_tr + std::sin(patch.angle) * v.point.y() + std::cos(patch.angle) * v.point.z(), kRounding);
+  // Turned about x: the component along x and the sum of the normal stresses stay, yz follows by hand.
+  const double scale = v.stress.norm(), c = std::cos(patch.angle), s = std::sin(patch.angle);
+  const double yz = c * s * (v.stress(1, 1) - v.stress(2, 2)) + (c * c - s * s) * v.stress(1, 2);
+  EXPECT_NEAR(stress[9 * i], v.stress(0, 0), kSinglePrecision * scale);
+  EXPECT_NEAR(stress[9 * i] + stress[9 * i + 4] + stress[9 * i + 8], v.stress.trace(), 4 * kSinglePrecision * scale);
+  EXPECT_NEAR(stress[9 * i + 5], yz, 2 * kSinglePrecision * scale);
+  EXPECT_NEAR(mises[i], v.von_mises, kSinglePrecision * v.von_mises);
+  patch.subsurface[0].values.pop_back();
+  EXPECT_THROW(io::write_vtk(folder.path(), run, "flat"), Error);
 }
 
 TEST(WriteVtk, RefusesFieldsThatDoNotMatchTheirGrid) {

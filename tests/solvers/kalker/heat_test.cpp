@@ -36,7 +36,8 @@ struct Row {
     problem.rolling = {chi, 20.0, 0.0, 0.0};
     problem.thermal = Thermal{rail, wheel, 1.0};
     const auto size = static_cast<std::size_t>(n);
-    for (auto* field : {&solution.traction_x, &solution.traction_y, &solution.slip_x, &solution.slip_y}) field->assign(size, 0.0);
+    for (auto* field : {&solution.traction_x, &solution.traction_y, &solution.slip_x, &solution.slip_y})
+      field->assign(size, 0.0);
     solution.state.assign(size, ElementState::exterior);
   }
   /// Elements [first, last] slide with a heat flux q [W/m^2].
@@ -57,11 +58,13 @@ TEST(SurfaceTemperature, UniformSlidingHeatsLikeABandSource) {
     Row row(100, dx, chi, kSteel, kSteel);
     row.slide(30, 59, q);
     const SurfaceTemperatures t = surface_temperatures(row.problem, row.solution);
-    // Carslaw and Jaeger 1959, section 2.9: T = 2 q / b (sqrt(t) - sqrt(t - t0)) / sqrt(pi), half the heat to each body.
+    // Carslaw and Jaeger 1959, section 2.9: T = 2 q / b (sqrt(t) - sqrt(t - t0)) / sqrt(pi), half the heat to each
+    // body.
     const double factor = 2 * q / (2 * effusivity(kSteel) * std::sqrt(kPi * row.problem.rolling.velocity));
     for (int i = 0; i < 100; ++i) {
       const double passed = chi == 0.0 ? (59 - i + 0.5) * dx : (i - 30 + 0.5) * dx, length = 30 * dx;
-      const double exact = passed < 0 ? 0.0 : factor * (std::sqrt(passed) - (passed > length ? std::sqrt(passed - length) : 0.0));
+      const double exact =
+          passed < 0 ? 0.0 : factor * (std::sqrt(passed) - (passed > length ? std::sqrt(passed - length) : 0.0));
       EXPECT_NEAR(t.body_1[static_cast<std::size_t>(i)], exact, 1e-10 * factor) << i;
       EXPECT_NEAR(t.body_2[static_cast<std::size_t>(i)], exact, 1e-10 * factor) << i;
     }
@@ -74,7 +77,8 @@ TEST(SurfaceTemperature, AnEllipticalSourceConvergesToTheExactMaximum) {
   const auto error = [&](int n, bool quirks) {
     Row row(n, 2 * a / n, kPi, kSteel, kSteel);
     for (int i = 0; i < n; ++i) row.slide(i, i, q * std::sqrt(1.0 - std::pow((2.0 * i + 1.0) / n - 1.0, 2)));
-    const double exact = 2.18830 * q * std::sqrt(a) / (2 * effusivity(kSteel) * std::sqrt(kPi * row.problem.rolling.velocity));
+    const double exact =
+        2.18830 * q * std::sqrt(a) / (2 * effusivity(kSteel) * std::sqrt(kPi * row.problem.rolling.velocity));
     return std::abs(surface_temperatures(row.problem, row.solution, {quirks}).max_1 / exact - 1.0);
   };
   EXPECT_LT(error(50, false), 2e-3);
@@ -85,7 +89,8 @@ TEST(SurfaceTemperature, AnEllipticalSourceConvergesToTheExactMaximum) {
 /// Heat that has flowed into both bodies per area of surface, from what is left of it far behind the contact.
 double heat_far_behind(const Row& row, const SurfaceTemperatures& t, double centre) {
   const std::size_t i = row.problem.grid.size() - 1;
-  const double root = std::sqrt(kPi * row.problem.rolling.velocity * (row.problem.grid.x(static_cast<int>(i)) - centre));
+  const double root =
+      std::sqrt(kPi * row.problem.rolling.velocity * (row.problem.grid.x(static_cast<int>(i)) - centre));
   const Thermal& thermal = *row.problem.thermal;
   return root * (effusivity(thermal.body_1) * (t.body_1[i] - thermal.body_1.bulk_temperature) +
                  effusivity(thermal.body_2) * (t.body_2[i] - thermal.body_2.bulk_temperature));
@@ -129,7 +134,8 @@ TEST(SurfaceTemperature, ConductionRelaxesAsTheExchangedHeatDemands) {
     EXPECT_NEAR(t.max_2, common, 1e-9);
     // In contact body 1 takes the flux q = b1 b2 / (b1 + b2) dT / sqrt(pi t); what it leaves behind, by quadrature.
     for (const int behind : {1, 5, 25}) {
-      const double passed = length + (behind - 0.5) * dx, flux = b1 * b2 / (b1 + b2) * difference * std::sqrt(velocity / kPi);
+      const double passed = length + (behind - 0.5) * dx,
+                   flux = b1 * b2 / (b1 + b2) * difference * std::sqrt(velocity / kPi);
       double integral = 0.0;
       const int n = 20000;
       for (int k = 0; k < n; ++k) {  // s = length u^2 takes the singularity at the leading edge away

@@ -9,47 +9,21 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "treadmark/core/error.hpp"
-#include "treadmark/core/parallel.hpp"
-#include "treadmark/core/random.hpp"
-#include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/tests/solvers/kalker/subsurface_load.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::kalker {
 namespace {
 
+using testing::at;
+using testing::kDissimilar;
+using testing::Load;
+using testing::one_element;
+using testing::patch;
+
 constexpr double kPi = std::numbers::pi;
-const Material kDissimilar{23e9, 82e9, 0.31, 0.26};
-
-/// Tractions that own their fields.
-struct Load {
-  Grid2 grid;
-  std::vector<double> pn, px, py;
-  SurfaceTractions view() const { return {grid, pn, px, py}; }
-};
-
-Load one_element(double size, double pn, double px, double py) { return {{0.0, 0.0, size, size, 1, 1}, {pn}, {px}, {py}}; }
-
-/// Smooth tractions of an ellipse, without symmetry.
-Load patch(int nx, int ny) {
-  const double dx = 8e-3 / nx, dy = 6e-3 / ny;
-  Load load{{-4e-3 + 0.5 * dx, -3e-3 + 0.5 * dy, dx, dy, nx, ny}, {}, {}, {}};
-  for (int iy = 0; iy < ny; ++iy)
-    for (int ix = 0; ix < nx; ++ix) {
-      const double x = load.grid.x(ix) / 3.5e-3, y = load.grid.y(iy) / 2.5e-3;
-      const double p = 1e9 * std::sqrt(std::max(0.0, 1.0 - x * x - y * y));
-      load.pn.push_back(p);
-      load.px.push_back(0.2 * p * (1.0 + 0.5 * x));
-      load.py.push_back(0.1 * p * (y - 0.3));
-    }
-  return load;
-}
-
-SubsurfacePoint at(const Load& load, const Material& material, const Vec3& point) {
-  return subsurface_stress(load.view(), material, std::span(&point, 1)).front();
-}
 
 /// Johnson 1985, eq. (3.19, 3.20) in cylindrical coordinates: unit force along z.
 Mat3 boussinesq(const Vec3& p, double nu) {
@@ -57,7 +31,8 @@ Mat3 boussinesq(const Vec3& p, double nu) {
   const double radial = c * ((1 - 2 * nu) * (1 / r2 - z / (rho * r2)) - 3 * z * r2 / std::pow(rho, 5));
   const double hoop = -c * (1 - 2 * nu) * (1 / r2 - z / (rho * r2) - z / std::pow(rho, 3));
   const Vec3 er(p.x() / std::sqrt(r2), p.y() / std::sqrt(r2), 0.0), et(-er.y(), er.x(), 0.0), ez(0.0, 0.0, 1.0);
-  const double axial = -3 * c * std::pow(z, 3) / std::pow(rho, 5), shear = -3 * c * std::sqrt(r2) * z * z / std::pow(rho, 5);
+  const double axial = -3 * c * std::pow(z, 3) / std::pow(rho, 5),
+               shear = -3 * c * std::sqrt(r2) * z * z / std::pow(rho, 5);
   return radial * er * er.transpose() + hoop * et * et.transpose() + axial * ez * ez.transpose() +
          shear * (er * ez.transpose() + ez * er.transpose());
 }
@@ -76,7 +51,8 @@ Mat3 cerruti(const Vec3& p, double nu) {
   return c * out;
 }
 
-const std::vector<Vec3> kDirections{{0.6, 0.3, 0.7}, {-0.5, 0.8, 0.2}, {-0.1, -0.9, 0.05}, {0.9, -0.2, 0.4}, {0.02, 0.01, 1.0}};
+const std::vector<Vec3> kDirections{
+    {0.6, 0.3, 0.7}, {-0.5, 0.8, 0.2}, {-0.1, -0.9, 0.05}, {0.9, -0.2, 0.4}, {0.02, 0.01, 1.0}};
 
 TEST(Subsurface, FarFromAnElementItIsAPointLoad) {
   const double size = 1e-3, distance = 0.3, nu = kDissimilar.poisson_1;
@@ -150,12 +126,14 @@ TEST(Subsurface, GreatestShearBelowASphereLiesAtHalfTheRadius) {
 TEST(Subsurface, StressesAreInEquilibrium) {
   const Load load = patch(9, 7);
   const double h = 2e-6;
-  for (const Vec3& point : {Vec3(1e-3, 0.5e-3, 1e-3), Vec3(-2e-3, 1e-3, 0.4e-3), Vec3(0.3e-3, -2e-3, -1.5e-3), Vec3(5e-3, 1e-3, -0.3e-3)}) {
+  for (const Vec3& point :
+       {Vec3(1e-3, 0.5e-3, 1e-3), Vec3(-2e-3, 1e-3, 0.4e-3), Vec3(0.3e-3, -2e-3, -1.5e-3), Vec3(5e-3, 1e-3, -0.3e-3)}) {
     Vec3 divergence = Vec3::Zero();
     double scale = 0.0;
     for (int k = 0; k < 3; ++k) {
       const Vec3 step = h * Vec3::Unit(k);
-      const Mat3 slope = (at(load, kDissimilar, point + step).stress - at(load, kDissimilar, point - step).stress) / (2 * h);
+      const Mat3 slope =
+          (at(load, kDissimilar, point + step).stress - at(load, kDissimilar, point - step).stress) / (2 * h);
       divergence += slope.col(k);
       scale = std::max(scale, slope.norm());
     }
@@ -166,12 +144,15 @@ TEST(Subsurface, StressesAreInEquilibrium) {
 TEST(Subsurface, GradientsAreThoseOfTheDisplacementsAndHookesLawHolds) {
   const Load load = patch(9, 7);
   const double h = 2e-6;
-  for (const Vec3& point : {Vec3(1e-3, 0.5e-3, 1e-3), Vec3(-2e-3, 1e-3, 0.4e-3), Vec3(0.3e-3, -2e-3, -1.5e-3), Vec3(5e-3, 1e-3, -0.3e-3)}) {
+  for (const Vec3& point :
+       {Vec3(1e-3, 0.5e-3, 1e-3), Vec3(-2e-3, 1e-3, 0.4e-3), Vec3(0.3e-3, -2e-3, -1.5e-3), Vec3(5e-3, 1e-3, -0.3e-3)}) {
     const SubsurfacePoint here = at(load, kDissimilar, point);
     Mat3 numerical;
     for (int k = 0; k < 3; ++k) {
       const Vec3 step = h * Vec3::Unit(k);
-      numerical.col(k) = (at(load, kDissimilar, point + step).displacement - at(load, kDissimilar, point - step).displacement) / (2 * h);
+      numerical.col(k) =
+          (at(load, kDissimilar, point + step).displacement - at(load, kDissimilar, point - step).displacement) /
+          (2 * h);
     }
     EXPECT_LT((numerical - here.gradient).norm(), 1e-5 * here.gradient.norm());
 
@@ -210,7 +191,9 @@ TEST(Subsurface, SurfaceDisplacementsAreThoseOfTheContactProblem) {
     return at(load, kDissimilar, point).displacement - at(load, kDissimilar, below).displacement;
   };
   for (const Vec3& point : {Vec3(0, 0, 0), Vec3(dx, 0, 0), Vec3(-3 * dx, 2 * dy, 0), Vec3(0.1 * dx, -0.3 * dy, 0)}) {
-    const auto coefficient = [&](Component c) { return influence(c, point.x(), point.y(), dx, dy, combined.poisson) / combined.shear_modulus; };
+    const auto coefficient = [&](Component c) {
+      return influence(c, point.x(), point.y(), dx, dy, combined.poisson) / combined.shear_modulus;
+    };
     Load load{{0, 0, dx, dy, 1, 1}, {1.0}, {0.0}, {0.0}};
     EXPECT_NEAR(difference(load, point).z() / coefficient(Component::nn), 1.0, 1e-10);
     load.pn = {0.0}, load.px = {1.0};
@@ -230,14 +213,16 @@ TEST(Subsurface, ApproachOfTheReferenceExample) {
   const double approach_mm = cases.at(0).at("patches").at(0).at("approach_mm");
   const Material material{1e6, 1e6, 0.28, 0.28};
   const Load load{{0, 0, 1e-3, 1e-3, 1, 1}, {1e6}, {}, {}};
-  const double rail = at(load, material, {0, 0, 0}).displacement.z(), wheel = at(load, material, {0, 0, -1e-15}).displacement.z();
+  const double rail = at(load, material, {0, 0, 0}).displacement.z(),
+               wheel = at(load, material, {0, 0, -1e-15}).displacement.z();
   EXPECT_NEAR(1e3 * (rail - wheel), approach_mm, 6e-7);
   EXPECT_NEAR(rail, -wheel, 1e-12 * rail);
 }
 
 TEST(Subsurface, BodyTwoMirrorsBodyOne) {
   Load load = patch(9, 7);
-  const Material swapped{kDissimilar.shear_modulus_2, kDissimilar.shear_modulus_1, kDissimilar.poisson_2, kDissimilar.poisson_1};
+  const Material swapped{kDissimilar.shear_modulus_2, kDissimilar.shear_modulus_1, kDissimilar.poisson_2,
+                         kDissimilar.poisson_1};
   Load opposite = load;
   for (double& p : opposite.px) p = -p;
   for (double& p : opposite.py) p = -p;
@@ -255,7 +240,8 @@ TEST(Subsurface, BodyTwoMirrorsBodyOne) {
 TEST(Subsurface, InvariantsAgreeWithTheStress) {
   const SubsurfacePoint point = at(patch(9, 7), kDissimilar, {0.7e-3, -0.4e-3, 0.9e-3});
   const Mat3& s = point.stress;
-  const double squares = std::pow(s(0, 0) - s(1, 1), 2) + std::pow(s(1, 1) - s(2, 2), 2) + std::pow(s(2, 2) - s(0, 0), 2);
+  const double squares =
+      std::pow(s(0, 0) - s(1, 1), 2) + std::pow(s(1, 1) - s(2, 2), 2) + std::pow(s(2, 2) - s(0, 0), 2);
   const double shears = s(0, 1) * s(0, 1) + s(1, 2) * s(1, 2) + s(0, 2) * s(0, 2);
   EXPECT_NEAR(point.von_mises, std::sqrt(0.5 * squares + 3 * shears), 1e-12 * point.von_mises);
   EXPECT_GE(point.principal[0], point.principal[1]);
@@ -286,81 +272,12 @@ TEST(Subsurface, BordersOfElementsAtTheSurfaceHaveTheMeanOfTheSides) {
 TEST(Subsurface, AnIncompressibleBodyKeepsItsVolume) {
   const Material rubber{1e6, 1e6, 0.5, 0.5};
   const Load load = one_element(1e-3, 1e4, 2e3, 0.0);
-  const SubsurfacePoint surface = at(load, rubber, {0.1e-3, 0.2e-3, 0.0}), below = at(load, rubber, {0.1e-3, 0.2e-3, 0.4e-3});
+  const SubsurfacePoint surface = at(load, rubber, {0.1e-3, 0.2e-3, 0.0}),
+                        below = at(load, rubber, {0.1e-3, 0.2e-3, 0.4e-3});
   EXPECT_NEAR(surface.stress(2, 2), -1e4, 1e-6);
   EXPECT_NEAR(surface.stress(0, 2), -2e3, 1e-6);
   EXPECT_NEAR(below.gradient.trace(), 0.0, 1e-14);
   EXPECT_LT(below.hydrostatic, -1e3);
-}
-
-void expect_grid_agrees(const Load& load, const std::vector<double>& depths) {
-  const auto fast = subsurface_stress_on_grid(load.view(), kDissimilar, depths);
-  std::vector<double> x, y;
-  for (int ix = 0; ix < load.grid.nx; ++ix) x.push_back(load.grid.x(ix));
-  for (int iy = 0; iy < load.grid.ny; ++iy) y.push_back(load.grid.y(iy));
-  const auto direct = subsurface_stress(load.view(), kDissimilar, block_of_points(x, y, depths));
-  ASSERT_EQ(fast.size(), direct.size());
-  double stress = 0, displacement = 0, gradient = 0, difference_s = 0, difference_u = 0, difference_g = 0;
-  for (std::size_t i = 0; i < fast.size(); ++i) {
-    ASSERT_EQ(fast[i].point, direct[i].point);
-    stress = std::max(stress, direct[i].stress.norm());
-    displacement = std::max(displacement, direct[i].displacement.norm());
-    gradient = std::max(gradient, direct[i].gradient.norm());
-    difference_s = std::max(difference_s, (fast[i].stress - direct[i].stress).norm());
-    difference_u = std::max(difference_u, (fast[i].displacement - direct[i].displacement).norm());
-    difference_g = std::max(difference_g, (fast[i].gradient - direct[i].gradient).norm());
-  }
-  EXPECT_LT(difference_s, 1e-10 * stress);
-  EXPECT_LT(difference_u, 1e-10 * displacement);
-  EXPECT_LT(difference_g, 1e-10 * gradient);
-}
-
-TEST(Subsurface, TransformsAgreeWithTheSum) {
-  Load load = patch(14, 9);
-  Random random(7);
-  for (auto* field : {&load.pn, &load.px, &load.py})
-    for (double& p : *field) p = 1e9 * random.uniform();
-  expect_grid_agrees(load, {0.0, 0.3e-3, 5e-3, -0.8e-3});
-  load = patch(11, 1);
-  load.py.clear();
-  expect_grid_agrees(load, {1e-3, -2e-3});
-}
-
-TEST(Subsurface, ResultsDoNotDependOnThreads) {
-  const Load load = patch(12, 9);
-  const std::vector<double> depths{0.4e-3, -1e-3};
-  const std::vector<Vec3> points = block_of_points(depths, depths, depths);
-  const auto solve = [&](int threads) {
-    const ThreadLimit limit(threads);
-    auto all = subsurface_stress_on_grid(load.view(), kDissimilar, depths);
-    const auto more = subsurface_stress(load.view(), kDissimilar, points);
-    all.insert(all.end(), more.begin(), more.end());
-    return all;
-  };
-  const auto one = solve(1), four = solve(4);
-  for (std::size_t i = 0; i < one.size(); ++i) {
-    EXPECT_EQ(one[i].stress, four[i].stress);
-    EXPECT_EQ(one[i].displacement, four[i].displacement);
-  }
-}
-
-TEST(Subsurface, RefusesWhatHasNoMeaning) {
-  const Load good = patch(5, 4);
-  const std::vector<Vec3> points{{0, 0, 1e-3}};
-  Load bad = good;
-  bad.px.pop_back();
-  EXPECT_THROW(subsurface_stress(bad.view(), kDissimilar, points), Error);
-  bad = good;
-  bad.pn[3] = std::nan("");
-  EXPECT_THROW(subsurface_stress(bad.view(), kDissimilar, points), Error);
-  EXPECT_THROW(subsurface_stress_on_grid(bad.view(), kDissimilar, std::vector<double>{1e-3}), Error);
-  EXPECT_THROW(subsurface_stress_on_grid(good.view(), kDissimilar, std::vector<double>{std::nan("")}), Error);
-  EXPECT_THROW(subsurface_stress(good.view(), kDissimilar, std::vector<Vec3>{{0, std::nan(""), 0}}), Error);
-  Material material = kDissimilar;
-  material.poisson_1 = 0.6;
-  EXPECT_THROW(subsurface_stress(good.view(), material, points), Error);
-  EXPECT_NO_THROW(subsurface_stress(good.view(), material, std::vector<Vec3>{{0, 0, -1e-3}}));
-  EXPECT_TRUE(subsurface_stress(good.view(), kDissimilar, {}).empty());
 }
 
 }  // namespace

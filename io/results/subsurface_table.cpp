@@ -1,0 +1,59 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/subsurface_table.hpp"
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::io {
+namespace {
+
+void append(const Vec3& vector, std::vector<double>& out) { out.insert(out.end(), vector.data(), vector.data() + 3); }
+
+}  // namespace
+
+const std::array<SubsurfaceColumn, 9> kSubsurfaceColumns{{
+    {"x", "m", "place of the point, longitudinal", 1,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.x()); }},
+    {"s", "m", "place of the point, lateral", 1,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.y()); }},
+    {"n", "m", "place of the point, depth: negative in the wheel", 1,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.z()); }},
+    {"displacement", "m", "of the body that has the point: x, s, n", 3,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { append(v.displacement, out); }},
+    {"stress", "Pa", "tensor by rows: xx xs xn sx ss sn nx ns nn, tension positive", 9,
+     [](const SubsurfaceValue& v, std::vector<double>& out) {
+       for (int row = 0; row < 3; ++row) append(v.stress.row(row), out);
+     }},
+    {"hydrostatic", "Pa", "mean of the normal stresses", 1,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.hydrostatic); }},
+    {"von_mises", "Pa", "equivalent stress of von Mises", 1,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.von_mises); }},
+    {"tresca", "Pa", "greatest minus least principal stress", 1,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.tresca); }},
+    {"principal", "Pa", "principal stresses, the greatest first", 3,
+     [](const SubsurfaceValue& v, std::vector<double>& out) { append(v.principal, out); }},
+}};
+
+std::vector<double> column_values(const SubsurfaceBlock& block, const SubsurfaceColumn& column) {
+  std::vector<double> out;
+  out.reserve(block.values.size() * static_cast<std::size_t>(column.components));
+  for (const SubsurfaceValue& value : block.values) column.append(value, out);
+  return out;
+}
+
+void check_blocks(std::span<const SubsurfaceBlock> blocks, const std::string& where) {
+  int number = 0;
+  for (const SubsurfaceBlock& block : blocks) {
+    ++number;
+    const bool positive = block.nx > 0 && block.ny > 0 && block.nz > 0;
+    const auto length = [](int n) { return static_cast<std::size_t>(n); };
+    if (positive && block.values.size() == length(block.nx) * length(block.ny) * length(block.nz)) continue;
+    throw Error(ErrorKind::configuration,
+                fmt::format("{}block {} of points below the surface has {} values for {} by {} by {} points", where,
+                            number, block.values.size(), block.nx, block.ny, block.nz));
+  }
+}
+
+}  // namespace treadmark::io
