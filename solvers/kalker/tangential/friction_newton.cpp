@@ -14,7 +14,7 @@ enum Kind : char { kFixed, kAdhesion, kSlip };
 constexpr double kShortestStep = 1.0 / 32.0;
 constexpr double kSufficientDecrease = 1e-4;
 constexpr double kReliableReduction = 0.3;  ///< of the violation: the step is trusted as a measure of the error
-constexpr double kLoosestInner = 0.1, kTightestInner = 1e-4;  ///< relative accuracy of linear solutions
+constexpr double kLoosestInner = 0.1, kTightestInner = 0.02;  ///< relative accuracy of linear solutions
 constexpr double kRoundOff = 1e-13;
 
 }  // namespace

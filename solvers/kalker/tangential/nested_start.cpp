@@ -70,15 +70,31 @@ Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<cons
 
   // The share of the bound is what carries over best: it keeps slip elements slipping.
   std::vector<double> share_x(coarse.size()), share_y(coarse.size());
+  std::vector<char> in_contact(coarse.size(), 0);
   for (std::size_t i = 0; i < m; ++i) {
     if (!(problem.bound[i] > 0.0)) continue;
     const std::size_t at = coarse_patch.grid_index(static_cast<int>(i));
+    in_contact[at] = 1;
     share_x[at] = solution.traction[i] / problem.bound[i];
     share_y[at] = solution.traction[m + i] / problem.bound[i];
   }
+  // Linear between the middles of coarse elements in contact; slip stays slip where all around slip.
   for (std::size_t i = 0; i < n; ++i) {
-    start[i] = share_x[parent(i)] * bound[i];
-    start[n + i] = share_y[parent(i)] * bound[i];
+    const int fx = patch.column[i] - patch.box_x, fy = patch.row[i] - patch.box_y;
+    const int cx = fx / 2, cy = fy / ratio_y;
+    const int sx = fx % 2 == 0 ? -1 : 1, sy = ratio_y == 1 ? 0 : fy % 2 == 0 ? -1 : 1;
+    double x = 0.0, y = 0.0, total = 0.0;
+    for (const int jy : {0, sy})
+      for (const int jx : {0, sx}) {
+        const int ix = cx + jx, iy = cy + jy;
+        if (ix < 0 || iy < 0 || ix >= coarse.nx || iy >= coarse.ny || !in_contact[coarse.index(ix, iy)]) continue;
+        const double weight = (jx == 0 ? 0.75 : 0.25) * (jy == 0 ? 0.75 : 0.25);
+        x += weight * share_x[coarse.index(ix, iy)];
+        y += weight * share_y[coarse.index(ix, iy)];
+        total += weight;
+      }
+    start[i] = x / total * bound[i];
+    start[n + i] = y / total * bound[i];
   }
   return start;
 }
