@@ -25,4 +25,10 @@ double FrictionLaw::at(double w) const {
   return kinetic;
 }
 
+double FrictionLaw::at_temperature(double temperature) const {
+  const double share = temperature_range > 0.0 ? (temperature - reference_temperature) / temperature_range
+                                               : temperature > reference_temperature ? 1.0 : 0.0;
+  return kinetic + temperature_change * std::clamp(share, 0.0, 1.0);
+}
+
 }  // namespace treadmark

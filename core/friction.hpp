@@ -25,6 +25,8 @@ struct FrictionLaw {
   double static_friction() const { return kinetic + amplitude_1 + amplitude_2; }
   /// Stationary friction at slip velocity w >= 0 [m/s].
   double at(double slip_velocity) const;
+  /// Kind::temperature: friction where the surface of body 1 has this temperature [deg C].
+  double at_temperature(double temperature) const;
 };
 
 }  // namespace treadmark

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <memory>
 #include <optional>
@@ -132,6 +133,13 @@ struct ContactProblem {
   /// Added to the rigid slip of elements, relative as slip is (shift: [m]); empty or grid.size().
   std::span<const double> extra_slip_x, extra_slip_y;
   std::optional<Thermal> thermal;                ///< surface temperatures are computed; steady rolling
+  bool sensitivities = false;                    ///< derivatives of forces are computed
+};
+
+/// Derivatives of the forces on body 1 at the solution, adhesion and slip areas staying as they are.
+struct Sensitivities {
+  std::array<std::array<double, 2>, 3> by_creepage{};   ///< of (F_x, F_y) by xi, eta [N], phi [N m]; shift: [N/m], [N/m], [N/rad]
+  std::array<double, 3> by_approach{};                  ///< of (F_n, F_x, F_y) by the approach [N/m]
 };
 
 struct ContactSolution {
@@ -158,6 +166,7 @@ struct ContactSolution {
   double frictional_power = 0.0;                   ///< [W], negative = dissipated (shift: work [J])
   int elements_contact = 0, elements_adhesion = 0, elements_slip = 0;  ///< slip: with plastic ones
   double max_temperature_1 = 0.0, max_temperature_2 = 0.0;             ///< [deg C]
+  std::optional<Sensitivities> sensitivities;
 };
 
 /// Sum of forces, moments, energy, power and counts from the fields of a solution.

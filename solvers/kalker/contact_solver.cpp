@@ -9,6 +9,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
+#include "treadmark/solvers/kalker/heat/surface_temperature.hpp"
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 #include "treadmark/solvers/kalker/normal/sub_patch_solver.hpp"
 #include "treadmark/solvers/kalker/tangential/tangential_solver.hpp"
@@ -19,6 +20,8 @@ namespace {
 
 /// Normal and tangential problem agree when tractions change by no more than this many eps.
 constexpr double kAgreement = 5.0;
+/// Relative change of temperatures at which friction fits them.
+constexpr double kSameTemperature = 1e-5;
 
 void empty_tangential_fields(const ContactProblem& problem, ContactSolution& solution) {
   for (auto* field : {&solution.traction_x, &solution.traction_y, &solution.displacement_x, &solution.displacement_y,
@@ -65,6 +68,8 @@ struct ContactSolver::Workspace {
       normal.solve(problem, solution);
   }
   void choose_previous(const ContactProblem& problem);
+  void solve_once(const ContactProblem& problem, ContactSolution& solution);
+  void solve_warm(const ContactProblem& problem, ContactSolution& solution);
   void solve_in_turns(const ContactProblem& problem, ContactSolution& solution);
 };
 
@@ -160,6 +165,48 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
   }
 }
 
+void ContactSolver::Workspace::solve_once(const ContactProblem& problem, ContactSolution& solution) {
+  if (problem.tangential_model != TangentialModel::full)
+    solve_fastsim(problem, solution);
+  else if (tangential.couples(problem))
+    solve_in_turns(problem, solution);
+  else
+    tangential.solve(problem, solution, previous);
+}
+
+/// With surface temperatures, in turns with friction that depends on them.
+void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, ContactSolution& solution) {
+  const HeatOptions heat{problem.thermal && problem.thermal->reference_quirks};
+  if (problem.friction.kind != FrictionLaw::Kind::temperature || !problem.thermal) {
+    solve_once(problem, solution);
+    if (problem.thermal) add_surface_temperatures(problem, solution, heat);
+    return;
+  }
+  std::vector<double> temperature(problem.grid.size(), problem.thermal->body_1.bulk_temperature);
+  double relaxation = 1.0, last_change = 0.0;
+  for (int round = 1;; ++round) {
+    solution.temperature_1 = temperature;
+    solve_once(problem, solution);
+    if (solution.status == Status::no_contact || solution.tangential.status != Status::ok) return;
+    add_surface_temperatures(problem, solution, heat);
+    double change = 0.0, size = 0.0;
+    for (std::size_t i = 0; i < temperature.size(); ++i) {
+      const double d = solution.temperature_1[i] - temperature[i];
+      change += d * d;
+      size += solution.temperature_1[i] * solution.temperature_1[i];
+    }
+    if (change <= kSameTemperature * kSameTemperature * size) return;
+    if (round >= problem.settings.max_outer) {
+      solution.tangential.status = Status::not_converged;
+      solution.tangential.message = "friction and temperature did not come to terms in " + std::to_string(round) + " rounds";
+      return;
+    }
+    if (round > 1 && change > 0.8 * last_change) relaxation = std::max(0.05, 0.5 * relaxation);
+    last_change = change;
+    for (std::size_t i = 0; i < temperature.size(); ++i) temperature[i] += relaxation * (solution.temperature_1[i] - temperature[i]);
+  }
+}
+
 ContactSolution ContactSolver::solve_normal(const ContactProblem& problem) {
   ContactSolution solution;
   workspace_->solve_normal(problem, solution);
@@ -176,15 +223,19 @@ void ContactSolver::solve_tangential(const ContactProblem& problem, ContactSolut
     if (solution.status == Status::no_contact) {
       empty_tangential_fields(problem, solution);
     } else {
-      if (problem.tangential_model != TangentialModel::full)
-        solve_fastsim(problem, solution);
-      else if (workspace_->tangential.couples(problem))
-        workspace_->solve_in_turns(problem, solution);
-      else
-        workspace_->tangential.solve(problem, solution, workspace_->previous);
+      workspace_->solve_warm(problem, solution);
       if (solution.status != Status::no_contact)
         solution.status = solution.normal.status != Status::ok ? solution.normal.status : solution.tangential.status;
       accumulate_totals(problem, solution);
+    }
+  }
+  if (problem.sensitivities && problem.tangential_model == TangentialModel::full && solution.elements_contact > 0) {
+    const std::vector<double> by_approach = workspace_->normal.pressure_by_approach(problem, solution);
+    if (problem.regime != Regime::frictionless) {
+      solution.sensitivities = workspace_->tangential.sensitivities(problem, solution, workspace_->previous, by_approach);
+    } else {
+      solution.sensitivities.emplace();
+      for (const double p : by_approach) solution.sensitivities->by_approach[0] += p * problem.grid.cell_area();
     }
   }
   workspace_->last = history_of(problem, solution);

@@ -11,6 +11,7 @@
 #include "treadmark/solvers/kalker/normal/assumed_pressure.hpp"
 #include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
 #include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
+#include "treadmark/solvers/kalker/normal/contact_stiffness.hpp"
 #include "treadmark/solvers/kalker/normal/element_box.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
@@ -269,6 +270,22 @@ NormalStart NormalSolver::start() const { return {workspace_->last_grid, workspa
 void NormalSolver::start_from(NormalStart start) {
   workspace_->last_grid = start.grid;
   workspace_->last_pressure = std::move(start.pressure);
+}
+
+std::vector<double> NormalSolver::pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution) {
+  const Grid2& grid = problem.grid;
+  if (solution.pressure.size() != grid.size()) refuse("the pressures belong to another grid", "solve the problem first");
+  std::vector<double> out(grid.size(), 0.0), inside(grid.size(), 0.0);
+  for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = solution.pressure[i] > 0.0 ? 1.0 : 0.0;
+  const ElementBox whole = bounding_box(grid, [&](std::size_t i) { return inside[i] > 0.0; });
+  if (whole.empty()) return out;
+  const ElementBox box = rounded(whole, grid);
+  const CombinedMaterial material = combine(problem.material);
+  const NormalOperator& op = workspace_->operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson,
+                                                       workspace_->kernels.get(problem).unusual(), problem.material.sheet_flexibility);
+  constexpr double kAccuracy = 1e-8;
+  paste(grid, out, box, pressure_of_unit_approach(op, cut(grid, inside, box), kAccuracy));
+  return out;
 }
 
 void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solution) {

@@ -35,6 +35,10 @@ class NormalSolver {
   /// No element in contact: Status::no_contact. Errors: Error(configuration) for inconsistent input.
   void solve(const ContactProblem& problem, ContactSolution& solution);
 
+  /// Change of the pressures with the approach [Pa/m], the contact area staying as it is: their sum times the cell area is the normal
+  /// stiffness. Errors: Error(configuration) for a solution of another grid.
+  std::vector<double> pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution);
+
   /// Forgets the last pressures (not the coefficients).
   void reset();
   /// What the next problem starts from, to be saved and restored.

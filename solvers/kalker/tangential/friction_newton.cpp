@@ -196,11 +196,27 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
 }
 
 Field2 FrictionNewton::sensitivity(const FrictionProblem& problem, const FrictionState& state,
-                                   const Field2& rigid_slip_change, double tolerance, int max_inner) {
+                                   const Field2& rigid_slip_change, std::span<const double> bound_change, double tolerance,
+                                   int max_inner) {
   linearise(problem, state);
   Field2 rhs(rigid_slip_change), change(rhs.size());
+  const std::size_t n = problem.bound.size();
+  Field2 known;
+  if (!bound_change.empty()) {
+    // slip elements follow their bound; what that does to the slip belongs to the right-hand side
+    known.assign(2 * n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+      if (kind_[i] != kSlip) continue;
+      known[i] = bound_change[i] * state.direction[i];
+      known[n + i] = bound_change[i] * state.direction[n + i];
+    }
+    Field2 caused(2 * n);
+    problem.matrix->slip(known, caused);
+    for (std::size_t k = 0; k < 2 * n; ++k) rhs[k] += caused[k];
+  }
   for (double& value : rhs) value = -value;
   solve_linear(problem, rhs, change, tolerance, max_inner);
+  for (std::size_t k = 0; k < known.size(); ++k) change[k] += known[k];
   return change;
 }
 

@@ -26,9 +26,10 @@ class FrictionNewton {
   /// state: start tractions in, solution out (updated).
   NewtonResult solve(const FrictionProblem& problem, FrictionState& state, const NewtonSettings& settings);
 
-  /// Change of tractions due to a small change of the rigid slip, with adhesion and slip areas as in the state.
+  /// Change of tractions due to a small change of the rigid slip and of the bound (empty: none), with adhesion and slip areas as in
+  /// the state.
   Field2 sensitivity(const FrictionProblem& problem, const FrictionState& state, const Field2& rigid_slip_change,
-                     double tolerance, int max_inner);
+                     std::span<const double> bound_change, double tolerance, int max_inner);
 
  private:
   /// The linear system of a step, for the present state.

@@ -18,6 +18,8 @@ constexpr double kUsefulStart = 0.1;
 constexpr double kSlipAccuracy = 10.0;
 constexpr double kSensitivityAccuracy = 0.03;
 constexpr int kSensitivityIterations = 60;
+constexpr double kExactSensitivity = 1e-6;
+constexpr int kExactIterations = 200;
 constexpr double kSmallestRelaxation = 0.02;
 
 }  // namespace
@@ -102,7 +104,7 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
         const InterfaceLayer::Shear shear = layer_.divide(friction_bound(), slip_distance());
         for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::max(0.0, speed[i] - shear.distance[i] / time_step());
       }
-      friction_ = friction_of_slip(patch_, laws_, speed, time_step(), conditions_.friction_before);
+      friction_ = friction_of_slip(patch_, laws_, speed, time_step(), conditions_.friction_before, conditions_.temperature);
     }
     set_bound();
   };
@@ -156,11 +158,31 @@ std::array<double, 2> PatchSolver::relative_force() const {
 std::array<double, 2> PatchSolver::relative_stiffness(int component) {
   const std::size_t n = friction_.size();
   const auto c = static_cast<std::size_t>(component);
-  predicted_[c] = friction_solve_.newton().sensitivity(problem_, state_, conditions_.known_slip.per_unit(component),
+  predicted_[c] = friction_solve_.newton().sensitivity(problem_, state_, conditions_.known_slip.per_unit(component), {},
                                                        kSensitivityAccuracy, kSensitivityIterations);
   const auto middle = predicted_[c].begin() + static_cast<std::ptrdiff_t>(n);
   return {std::accumulate(predicted_[c].begin(), middle, 0.0) / static_bound_,
           std::accumulate(middle, predicted_[c].end(), 0.0) / static_bound_};
+}
+
+void PatchSolver::take(const Creepage& creepage, Field2 traction, std::vector<double> friction) {
+  friction_ = std::move(friction);
+  set_bound();
+  creepage_ = creepage;
+  problem_.rigid_slip = conditions_.known_slip.at(creepage);
+  state_.traction = std::move(traction);
+  state_.update(problem_);
+  started_ = true;
+}
+
+Field2 PatchSolver::change_by_creepage(const Creepage& unit) {
+  return friction_solve_.newton().sensitivity(problem_, state_, conditions_.known_slip.rigid(unit), {}, kExactSensitivity, kExactIterations);
+}
+
+Field2 PatchSolver::change_by_pressure(std::span<const double> more) {
+  std::vector<double> bound(more.size());
+  for (std::size_t i = 0; i < bound.size(); ++i) bound[i] = friction_[i] * more[i];
+  return friction_solve_.newton().sensitivity(problem_, state_, Field2(2 * more.size(), 0.0), bound, kExactSensitivity, kExactIterations);
 }
 
 void PatchSolver::slide(std::array<double, 2> direction) {

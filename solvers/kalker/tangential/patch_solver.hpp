@@ -18,6 +18,7 @@ struct PatchConditions {
   std::vector<double> pressure;          ///< [Pa]
   KnownSlip known_slip;
   std::vector<double> friction_before;   ///< transient: coefficients of the material a step ago; else empty
+  std::vector<double> temperature;       ///< of body 1's surface [deg C], for friction that depends on it; else empty
   std::vector<double> yield_before;      ///< likewise the yield stress of the layer [Pa]
   std::shared_ptr<const InfluenceKernel> kernel;   ///< none: constant elements on half-spaces
 };
@@ -41,6 +42,12 @@ class PatchSolver {
   std::array<double, 2> relative_force() const;
   /// Change of relative_force per unit of creepage xi (component 0) or eta (1), at unchanged friction coefficients.
   std::array<double, 2> relative_stiffness(int component);
+  /// Takes tractions and friction coefficients of a solution over, per element of the patch.
+  void take(const Creepage& creepage, Field2 traction, std::vector<double> friction);
+  /// Change of tractions with creepage [Pa per unit], and with pressures that grow everywhere in proportion to `more` [Pa]: both by
+  /// the linearised system, accurate to a share of 1e-6.
+  Field2 change_by_creepage(const Creepage& unit);
+  Field2 change_by_pressure(std::span<const double> more);
   /// Every element slides against a given direction.
   void slide(std::array<double, 2> direction);
   bool sliding() const;

@@ -22,11 +22,10 @@ struct KnownSlip {
   Field2 other;                ///< independent of creepage [m]: previous displacements, pressures of dissimilar bodies, given slip; empty: 0
 
   Field2 at(const Creepage& creepage) const;
+  /// The part that is proportional to creepage.
+  Field2 rigid(const Creepage& creepage) const;
   /// Change per unit of xi (component 0) or eta (1).
   Field2 per_unit(int component) const;
-
- private:
-  Field2 rigid(const Creepage& creepage) const;
 };
 
 }  // namespace treadmark::kalker

@@ -14,7 +14,7 @@ constexpr double kNoMemory = 1e-12;  ///< shorter memory distances [m] count as 
 
 bool FrictionOfPatch::constant() const {
   const auto depends = [](const FrictionLaw& law) {
-    return law.kind != FrictionLaw::Kind::coulomb && law.kind != FrictionLaw::Kind::temperature;
+    return law.kind != FrictionLaw::Kind::coulomb;
   };
   return rows.empty() ? !depends(*all) : std::none_of(rows.begin(), rows.end(), depends);
 }
@@ -22,7 +22,8 @@ bool FrictionOfPatch::constant() const {
 FrictionOfPatch friction_of(const ContactProblem& problem) { return {&problem.friction, problem.friction_of_row}; }
 
 std::vector<double> friction_of_slip(const Patch& patch, const FrictionOfPatch& laws, std::span<const double> slip_speed,
-                                     double time_step, std::span<const double> before) {
+                                     double time_step, std::span<const double> before,
+                                     std::span<const double> temperature) {
   std::vector<double> mu(slip_speed.size());
   const bool steady = patch.transport != Transport::none;
   for (std::size_t i = 0; i < mu.size(); ++i) {
@@ -36,7 +37,8 @@ std::vector<double> friction_of_slip(const Patch& patch, const FrictionOfPatch& 
     double last = law.static_friction();
     if (!before.empty()) last = before[i];
     else if (steady && patch.ahead[i] >= 0) last = mu[static_cast<std::size_t>(patch.ahead[i])];
-    mu[i] = kept * last + (1.0 - kept) * law.at(slip_speed[i]);
+    const bool warm = law.kind == FrictionLaw::Kind::temperature && !temperature.empty();
+    mu[i] = kept * last + (1.0 - kept) * (warm ? law.at_temperature(temperature[i]) : law.at(slip_speed[i]));
   }
   return mu;
 }

@@ -233,9 +233,10 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     return;
   }
   const KernelChoice kernel = workspace_->kernels.get(problem);
-  PatchSolver solver(problem, patch,
-                     patch_conditions(problem, patch, step, kernel, solution.pressure, previous, workspace_->operators),
-                     workspace_->cache);
+  PatchConditions conditions = patch_conditions(problem, patch, step, kernel, solution.pressure, previous, workspace_->operators);
+  for (int i = 0; i < patch.size() && !solution.temperature_1.empty(); ++i)
+    conditions.temperature.push_back(solution.temperature_1[patch.grid_index(i)]);
+  PatchSolver solver(problem, patch, std::move(conditions), workspace_->cache);
   const bool warm = workspace_->start(problem, patch, solver);
   if (problem.settings.first_slip != SolverSettings::FirstSlip::last)
     solver.set_slip_speed(problem.settings.first_slip == SolverSettings::FirstSlip::above ? problem.rolling.velocity : 0.0);
@@ -265,6 +266,52 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
   if (kernel.coupled)
     add_displacement_by_pressure(problem, kernel, solution.pressure, workspace_->operators, solution.displacement_x,
                                  solution.displacement_y);
+}
+
+Sensitivities TangentialSolver::sensitivities(const ContactProblem& problem, const ContactSolution& solution, const ContactHistory& previous,
+                                              std::span<const double> pressure_by_approach) {
+  if (solution.traction_x.size() != problem.grid.size() || pressure_by_approach.size() != problem.grid.size())
+    refuse("sensitivities need the solution of the same problem", "solve it first");
+  const RollingStep step = rolling_step(problem);
+  const Patch patch = make_patch(problem.grid, step.transport, solution.state);
+  const std::size_t n = patch.cell.size();
+  Sensitivities out;
+  if (n == 0) return out;
+  PatchSolver solver(problem, patch,
+                     patch_conditions(problem, patch, step, workspace_->kernels.get(problem), solution.pressure, previous, workspace_->operators),
+                     workspace_->cache);
+  Field2 traction(2 * n);
+  std::vector<double> friction(n), more_pressure(n);
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::size_t at = patch.grid_index(static_cast<int>(i));
+    traction[i] = solution.traction_x[at];
+    traction[n + i] = solution.traction_y[at];
+    friction[i] = solution.friction[at];
+    more_pressure[i] = pressure_by_approach[at];
+  }
+  solver.take(solution.creepage, std::move(traction), std::move(friction));
+  const double area = problem.grid.cell_area();
+  const auto sums = [&](const Field2& change) {
+    std::array<double, 2> sum{};
+    for (std::size_t i = 0; i < n; ++i) {
+      sum[0] += change[i] * area;
+      sum[1] += change[n + i] * area;
+    }
+    return sum;
+  };
+  Creepage unit;
+  for (int k = 0; k < 3; ++k) {
+    unit = {};
+    unit.spin_x = solution.creepage.spin_x;
+    unit.spin_y = solution.creepage.spin_y;
+    (k == 0 ? unit.xi : k == 1 ? unit.eta : unit.phi) = 1.0;
+    out.by_creepage[static_cast<std::size_t>(k)] = sums(solver.change_by_creepage(unit));
+  }
+  const std::array<double, 2> tangential = sums(solver.change_by_pressure(more_pressure));
+  for (const double p : more_pressure) out.by_approach[0] += p * area;
+  out.by_approach[1] = tangential[0];
+  out.by_approach[2] = tangential[1];
+  return out;
 }
 
 }  // namespace treadmark::kalker

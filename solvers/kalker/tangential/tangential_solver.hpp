@@ -39,7 +39,13 @@ class TangentialSolver {
   /// previous: the instant before, on the problem's grid or empty. frictional_power is that of slip and plastic shear.
   /// Errors: Error(configuration) for inconsistent sizes, directions of steady rolling other than 0 and pi, steps or
   /// velocities that are not positive.
+  /// solution.temperature_1, if it is there, decides on friction that depends on temperature.
   void solve(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous = {});
+
+  /// Change of the last solution's forces with the creepages and the approach. pressure_by_approach: per element [Pa/m].
+  /// Errors: Error(configuration) without a solution of this problem.
+  Sensitivities sensitivities(const ContactProblem& problem, const ContactSolution& solution, const ContactHistory& previous,
+                              std::span<const double> pressure_by_approach);
 
   /// Whether tangential tractions and normal displacements have to do with each other (dissimilar bodies, curved contact).
   bool couples(const ContactProblem& problem);
