@@ -28,7 +28,7 @@ struct UnitEnding {
 };
 // Longer endings first.
 constexpr UnitEnding kUnits[] = {
-    {"_mm_per_MPa", 1e-9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
+    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
     {"_mm3", 1e-9},        {"_um", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
     {"_N", 1.0},
 };
@@ -200,6 +200,9 @@ std::span<const CaseKey> case_keys() {
     add_shape_keys(list);
     add_defect_keys(list);
     add_patch_keys(list);
+    add_patch_geometry_keys(list);
+    add_heat_keys(list);
+    add_subsurface_keys(list);
     return std::move(list.keys);
   }();
   return keys;

@@ -91,7 +91,7 @@ class ContactWriter {
     if (table) add("nvf", std::to_string(sets));
     const int law = digit("FRCLAW");
     for (int i = 0; i < sets; ++i) {
-      const std::string position = table ? (digit("VARFRC") == 1 ? "-20d " : "15.0 ") : "";
+      const std::string position = table ? (std::to_string(10 * i - 20) + (digit("VARFRC") == 1 ? "d " : " ")) : "";
       add("friction", position + (law == 0 ? "0.3 0.3" : law == 6 ? "0.3 20. -0.1 100." : "0.2 0.1 100. 0.05 200."));
     }
     if (law != 0) add("memory", "0.003 1.0");
