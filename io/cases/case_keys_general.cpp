@@ -53,7 +53,9 @@ void add_solver(KeyList& list) {
                  [](auto& c) -> int& { return c.solver.max_in; });
   shared_integer(list, "solver.max_force_iterations", "iterations on prescribed total forces",
                  [](auto& c) -> int& { return c.solver.max_nr; });
-  shared_integer(list, "solver.max_outer_iterations", "alternations of the normal and the tangential problem",
+  shared_integer(list, "solver.max_outer_iterations",
+                 "alternations of the normal and the tangential problem of dissimilar bodies; 1: tangential tractions do not act on the "
+                 "normal problem",
                  [](auto& c) -> int& { return c.solver.max_out; });
   using Method = SolverInput::Method;
   shared_choice<Method>(list, "solver.method", {{"automatic", Method::automatic}, {"sweeps", Method::sweeps}},

@@ -28,7 +28,7 @@ void add_elastic(KeyList& list) {
   shared_number(list, "material.rail_poisson_ratio", kPoisson, "Poisson's ratio of the rail (body 1)", nu1);
   shared_number(list, "material.wheel_poisson_ratio", kPoisson, "Poisson's ratio of the wheel (body 2)", nu2);
   shared_number(list, "material.layer_flexibility_mm_per_MPa", kNotNegative,
-                "thickness over shear modulus of an elastic interface layer; 0 = no layer",
+                "thickness over shear modulus of an interface layer: its elastic tangential flexibility",
                 [](auto& c) -> double& { return c.material.layer_flexibility; });
 }
 
@@ -50,7 +50,7 @@ void add_beyond_elastic(KeyList& list) {
     list.number<B>("material.rail_" + name, kNotNegative, doc + " of body 1", [rail](B& c) -> double& { return c.material.*rail; });
     list.number<B>("material.wheel_" + name, kNotNegative, doc + " of body 2", [wheel](B& c) -> double& { return c.material.*wheel; });
   };
-  pair("creep_ratio", "viscoelastic (standard linear solid): delayed over immediate compliance; 0 = elastic;", &Material::creep_ratio_1,
+  pair("creep_ratio", "viscoelastic (standard linear solid, 0 = elastic): delayed over immediate compliance", &Material::creep_ratio_1,
        &Material::creep_ratio_2);
   pair("relaxation_time_s", "viscoelastic: relaxation time", &Material::relaxation_time_1, &Material::relaxation_time_2);
 }

@@ -212,16 +212,16 @@ TEST(ContactExtraSlip, IsReadKeptAndDropped) {
 
 TEST(ContactPlanform, InSiUnits) {
   const auto plan = [](const char* kind, const char* lines) {
-    return only(basic().set("NORM", 0).line("ibase", "1 " + std::string(kind)).line("gap", std::string("0.001 0 0.001 0 0 0\n ") + lines)).planform;
+    return only(basic().set("NORM", 0).line("ibase", "1 " + std::string(kind)).line("gap", std::string("0.001 0 0.001 0 0 0") + lines)).planform;
   };
   using Kind = PlanformInput::Kind;
   EXPECT_EQ(plan("1", "").kind, Kind::free);
-  EXPECT_THAT(plan("2", "1 2 3 4 5 6").coefficients,
+  EXPECT_THAT(plan("2", "\n 1 2 3 4 5 6").coefficients,
               ElementsAre(DoubleEq(1e6), DoubleEq(2e6), DoubleEq(3e6), DoubleEq(4e3), DoubleEq(5e3), DoubleEq(6.0)));
-  const PlanformInput two = plan("3", "0 1 2 3\n 4 5 6 7");
+  const PlanformInput two = plan("3", "\n 0 1 2 3\n 4 5 6 7");
   EXPECT_EQ(two.kind, Kind::two_rectangles);
   EXPECT_THAT(two.coefficients, ElementsAre(0, 1e-3, DoubleEq(2e-3), DoubleEq(3e-3), DoubleEq(4e-3), DoubleEq(5e-3), DoubleEq(6e-3), DoubleEq(7e-3)));
-  const PlanformInput sub = plan("4", "3\n 0 1 0 1\n 0 1 2 3\n 0 1 4 5\n 0.1 0.2\n 0.3");
+  const PlanformInput sub = plan("4", "\n 3\n 0 1 0 1\n 0 1 2 3\n 0 1 4 5\n 0.1 0.2\n 0.3");
   EXPECT_EQ(sub.kind, Kind::sub_patches);
   EXPECT_EQ(sub.coefficients.size(), 12u);
   EXPECT_THAT(sub.coupling, ElementsAre(1.0, 0.1, 0.2, 0.1, 1.0, 0.3, 0.2, 0.3, 1.0));

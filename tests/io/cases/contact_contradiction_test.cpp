@@ -66,7 +66,7 @@ INSTANTIATE_TEST_SUITE_P(
         Contradictory{basic().set("HEAT", 3).set("TANG", 2), "test.inp:4:4: surface temperatures need steady rolling"},
         Contradictory{basic().set("FRCLAW", 6), "test.inp:3:4: friction that depends on the temperature needs the thermal data"},
         Contradictory{basic().line("ibase", "1 4").line("gap", "0.001 0 0.001 0 0 0\n 2\n 0 1 0 1\n 0 1 2 3\n 0.1"), "sub-patches need a prescribed approach"},
-        Contradictory{basic().set("STRESS", 3).line("block", "9\n 1 1 1\n 0.\n 0.\n 1.\n 2\n 1 1 4\n 1 1 2\n 1 0. 1.\n 0\n"), "test.inp:2:8: subsurface points lie outside the 3 x 2 elements"}));
+        Contradictory{basic().set("STRESS", 3).line("block", "9\n 1 1 1\n 0.\n 0.\n 1.\n 2\n 1 1 4\n 1 1 2\n 1 0. 1.\n 0"), "test.inp:2:8: subsurface points lie outside the 3 x 2 elements"}));
 
 TEST(ContactContradiction, WhatGoesTogetherIsAccepted) {
   for (const ContactWriter& good :
@@ -110,7 +110,7 @@ TEST_P(WrongBasicValue, IsNamedWithItsPlace) {
   int line = 0, column = 0;
   EXPECT_EQ(std::sscanf(message.c_str(), "test.inp:%d:%d:", &line, &column), 2) << message;
   EXPECT_GT(line, 4);
-  EXPECT_GT(column, 2);
+  EXPECT_GT(column, 1);
 }
 INSTANTIATE_TEST_SUITE_P(
     Lines, WrongBasicValue,

@@ -137,7 +137,8 @@ class ContactWriter {
   }
 
   template <class Add>
-  static void subsurface(Add add) {
+  void subsurface(Add add) const {
+    if (lines_.contains("block")) return add("block", "");
     for (const char* block : {"1\n 2 0.0 0.5", "2\n 1 1 2\n 1 1 2\n 1 0.1 0.1", "3\n 2 1\n 1 2\n 1\n 1 0.1 0.1", "5\n 2\n 0.0 1.0",
                               "6\n 1 1 2\n 1 1 2\n 1\n 0.5", "7\n 1 1\n 1\n 1\n 2\n 0.0 1.0", "9\n 2 1 2\n 0.0 1.0\n 0.0\n 0.0\n 1.0", "0"})
       add("block", block);
