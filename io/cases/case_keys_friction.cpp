@@ -17,7 +17,8 @@ const std::vector<std::pair<std::string, Kind>> kLaws{{"coulomb", Kind::coulomb}
 
 void add_one_law(KeyList& list) {
   shared_choice<Kind>(list, "friction.law", kLaws,
-                      "constant friction, friction that falls with the slip velocity, or that depends on the surface temperature (patch only)",
+                      "constant friction, friction that falls with the slip velocity, or that depends on the surface temperature (patch "
+                      "only)",
                       [](auto& c) -> Kind& { return c.friction.kind; });
   shared_number(list, "friction.coefficient", kFriction, "coefficient of friction; of falling laws the limit at high slip velocity",
                 [](auto& c) -> double& { return c.friction.kinetic; });
@@ -53,7 +54,8 @@ std::vector<ElementKey<Element>> law_keys(Law law) {
                                              if (word == v.text()) law(e).kind = value;
                                          }}};
   const auto add = [&](const std::string& name, KeyLimits limits, double FrictionLaw::*member) {
-    keys.push_back(element_number<Element>(name, limits, "as friction." + name, [law, member](Element& e) -> double& { return law(e).*member; }));
+    const auto place = [law, member](Element& e) -> double& { return law(e).*member; };
+    keys.push_back(element_number<Element>(name, limits, "as friction." + name, place));
   };
   add("coefficient", kFriction, &FrictionLaw::kinetic);
   keys.back().info.required = true;
@@ -127,11 +129,11 @@ void add_friction_keys(KeyList& list) {
   add_one_law(list);
   add_rows(list);
   using Variation = FrictionVariation::Kind;
-  auto angle = element_angle<FrictionSet>("inclination", "inclination of the rail's surface, increasing from set to set", &FrictionSet::position);
-  add_variation(list, "by_inclination", Variation::inclination, "friction that varies with the inclination of the rail's surface, interpolated",
-                std::move(angle));
-  auto along = required(element_number<FrictionSet>("s_mm", kAnyNumber, "position along the track, increasing from set to set", &FrictionSet::position));
-  add_variation(list, "along_track", Variation::along_track, "friction that varies along the track, interpolated", {along});
+  const std::string order = ", increasing from set to set";
+  add_variation(list, "by_inclination", Variation::inclination, "friction that varies with the inclination of the rail, interpolated",
+                element_angle<FrictionSet>("inclination", "inclination of the rail's surface" + order, &FrictionSet::position));
+  add_variation(list, "along_track", Variation::along_track, "friction that varies along the track, interpolated",
+                {required(element_number<FrictionSet>("s_mm", kAnyNumber, "position along the track" + order, &FrictionSet::position))});
 }
 
 }  // namespace treadmark::io

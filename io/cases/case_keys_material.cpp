@@ -58,7 +58,10 @@ void add_beyond_elastic(KeyList& list) {
 void add_influence(KeyList& list) {
   using Kind = InfluenceInput::Kind;
   shared_choice<Kind>(list, "influence.kind",
-                      {{"constant", Kind::constant}, {"bilinear", Kind::bilinear}, {"angle_corrected", Kind::angle_corrected}, {"table", Kind::table}},
+                      {{"constant", Kind::constant},
+                       {"bilinear", Kind::bilinear},
+                       {"angle_corrected", Kind::angle_corrected},
+                       {"table", Kind::table}},
                       "influence coefficients: half-space with constant or bilinear tractions on an element; patch only: corrected for "
                       "the inclination of the surface, or numerical ones from a file",
                       [](auto& c) -> Kind& { return c.influence.kind; });
@@ -73,7 +76,9 @@ void add_influence(KeyList& list) {
   list.choice<B, bool>("influence.inclination_fit", {{"line", true}, {"table", false}},
                        "angle_corrected: one straight line through the inclinations, or the table as it is",
                        [](B& c) -> bool& { return c.influence.linear; });
-  list.integer<B>("influence.variant", 1, 4, "angle_corrected: 1 columns rotated, 2 same without the rolling direction, 3 rows rotated, 4 halves",
+  list.integer<B>("influence.variant", 1, 4,
+                  "angle_corrected: what is turned by the difference of inclinations: 1 tractions, 2 the same but for their effect in x, 3 "
+                  "displacements, 4 half of it each",
                   [](B& c) -> int& { return c.influence.variant; });
   KeyInfo file = key_info("influence.file", KeyType::path, "table: file of numerical influence coefficients, relative to the case file");
   file.scope = KeyScope::patch;

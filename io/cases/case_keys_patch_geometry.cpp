@@ -85,13 +85,17 @@ void add_geometry(KeyList& list) {
 void add_planform(KeyList& list) {
   using Kind = PlanformInput::Kind;
   list.choice<B, Kind>("patch.planform.kind",
-                       {{"free", Kind::free}, {"quadratic", Kind::quadratic}, {"two_rectangles", Kind::two_rectangles}, {"sub_patches", Kind::sub_patches}},
+                       {{"free", Kind::free},
+                        {"quadratic", Kind::quadratic},
+                        {"two_rectangles", Kind::two_rectangles},
+                        {"sub_patches", Kind::sub_patches}},
                        "where contact can be: anywhere, where a quadratic is negative, in two rectangles, or in rectangles with scaled "
                        "influence on each other",
                        [](B& c) -> Kind& { return c.planform.kind; });
   for (const auto& [name, doc] : {std::pair<std::string, std::string>{"coefficients_si", "quadratic: b1 ... b6 in SI units, see below"},
                                   {"rectangles_mm", "x low, x high, y low, y high of each rectangle, one after the other"}}) {
-    KeyInfo& info = list.number_list<B>("patch.planform." + name, doc, [](B& c) -> std::vector<double>& { return c.planform.coefficients; });
+    KeyInfo& info = list.number_list<B>("patch.planform." + name, doc,
+                                        [](B& c) -> std::vector<double>& { return c.planform.coefficients; });
     info.group = "patch planform";
     info.alternative = name;
   }

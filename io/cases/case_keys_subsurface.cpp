@@ -50,11 +50,12 @@ void add_subsurface_keys(KeyList& list) {
       element_lengths("x_mm", "free points instead: their x; with y_mm a grid", &Block::x, true),
       element_lengths("y_mm", "free points instead: their y", &Block::y, true),
       required(element_lengths("z_mm", "depths, positive in body 1, negative in body 2", &Block::z, false))};
-  KeyInfo blocks = key_info("subsurface.blocks", KeyType::table_list, "points at which displacements and stresses below the surface are computed");
+  KeyInfo blocks = key_info("subsurface.blocks", KeyType::table_list, "grids of points at which stresses below the surface are computed");
   blocks.scope = KeyScope::patch;
   add_list<Block, BasicCase>(list, std::move(blocks), std::move(keys), [](BasicCase& c, bool) { return &c.subsurface.blocks; });
 
-  KeyInfo table = key_info("subsurface.text_table", KeyType::choice, "text table of them (.subs): none, stress invariants, or all stresses too");
+  KeyInfo table = key_info("subsurface.text_table", KeyType::choice,
+                           "text table of them (.subs): none, stress invariants, or all stresses too");
   table.scope = KeyScope::patch;
   table.choices = {"none", "invariants", "tensor"};
   table.default_text = "\"none\"";

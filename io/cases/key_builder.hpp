@@ -144,10 +144,14 @@ template <class Content>
 void add_simplified_theory(KeyList& list, const std::string& prefix) {
   using T = TangentialModelInput;
   list.choice<Content, T>(prefix + "tangential_model",
-                          {{"full", T::full}, {"fastsim", T::fastsim}, {"fastsim_one_flexibility", T::fastsim_one_flexibility}, {"fastrip", T::fastrip}},
+                          {{"full", T::full},
+                           {"fastsim", T::fastsim},
+                           {"fastsim_one_flexibility", T::fastsim_one_flexibility},
+                           {"fastrip", T::fastrip}},
                           "tractions: exact theory, FASTSIM with three flexibilities or with one, or FaStrip",
                           [](Content& c) -> T& { return c.tangential_model; });
-  list.number<Content>(prefix + "fastsim_k0", kPositive, "FASTSIM: initial slope reduction", [](Content& c) -> double& { return c.fastsim_k0; });
+  list.number<Content>(prefix + "fastsim_k0", kPositive, "FASTSIM: initial slope reduction",
+                       [](Content& c) -> double& { return c.fastsim_k0; });
   list.number<Content>(prefix + "fastsim_alpha", kNotNegative, "FASTSIM: slope at large creepage over the initial one",
                        [](Content& c) -> double& { return c.fastsim_alpha; });
   list.number<Content>(prefix + "fastsim_beta", kNotNegative, "FASTSIM: rate of the slope reduction",

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <map>
 #include <optional>
-#include <set>
 #include <utility>
 
 #include <fmt/format.h>
@@ -81,14 +80,6 @@ void expand_entry(const CaseEntry& cases, const CaseValue& entry, const Case& de
   }
 }
 
-/// The first case of a sequence has nothing to continue.
-void settle_history(std::vector<Case>& cases) {
-  std::set<int> begun;
-  for (Case& c : cases)
-    if (auto* basic = std::get_if<BasicCase>(&c.content); begun.insert(c.sequence).second && basic != nullptr)
-      basic->history = HistoryInput::start;
-}
-
 }  // namespace
 
 CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
@@ -131,7 +122,7 @@ CaseFile parse_case_text(std::string_view text, const std::filesystem::path& nam
     for (const CaseOverride& change : changes) apply_assignment(c, change, folder);
     validate_case(c);
   }
-  settle_history(result.cases);
+  settle_sequences(result.cases);
   return result;
 }
 
@@ -143,7 +134,7 @@ void apply_overrides(CaseFile& target, std::span<const std::string> overrides) {
     for (const CaseOverride& change : changes) apply_assignment(c, change, target.path.parent_path());
     validate_case(c);
   }
-  settle_history(changed);
+  settle_sequences(changed);
   target.cases = std::move(changed);
 }
 
