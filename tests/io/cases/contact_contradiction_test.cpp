@@ -96,7 +96,7 @@ TEST(ContactContradiction, GridOfACaseThatContinues) {
     return basic().set("TANG", 2).str() + keeping().set("PVTIME", 0).set("TANG", 2).set("DISCNS", 2).line("potcon", grid).str();
   };
   EXPECT_EQ(error_of(second("4 3 0.5 -2.0 1. 1.")), "no error");   // two columns and a row further
-  EXPECT_THAT(error_of(second("3 2 -1.25 -1.0 1. 1.")), ::testing::HasSubstr("test.inp:17:5: a case that continues the previous one needs elements"));
+  EXPECT_THAT(error_of(second("3 2 -1.25 -1.0 1. 1.")), ::testing::HasSubstr("test.inp:16:5: a case that continues the previous one needs elements"));
   EXPECT_THAT(error_of(second("3 2 -1.5 -1.0 1. 0.5")), ::testing::HasSubstr("elements of the same size, moved by whole elements"));
   const std::string fine = "3 2 -1.5 -1.0 1. 0.5";
   EXPECT_EQ(error_of(basic().str() + keeping().set("DISCNS", 2).set("PVTIME", 0).line("potcon", fine).str()), "no error");   // steady rolling
