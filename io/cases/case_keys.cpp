@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cmath>
 #include <map>
 #include <numbers>
 #include <set>
@@ -19,8 +18,6 @@ namespace treadmark::io {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-constexpr std::size_t kLongestText = 4096;
-constexpr std::size_t kLongestShown = 64;
 
 struct UnitEnding {
   std::string_view ending;
@@ -28,34 +25,13 @@ struct UnitEnding {
 };
 // Longer endings first.
 constexpr UnitEnding kUnits[] = {
-    {"_mm_per_MPa", 1e-9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
+    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
     {"_mm3", 1e-9},        {"_um", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
     {"_N", 1.0},
 };
 
-std::string_view plain(KeyType type) {
-  switch (type) {
-    case KeyType::number: return "a number";
-    case KeyType::integer: return "an integer";
-    case KeyType::flag: return "true or false";
-    case KeyType::text:
-    case KeyType::path: return "text";
-    case KeyType::choice: return "one word";
-    case KeyType::number_list: return "a list of numbers";
-    case KeyType::table_list: return "a list of tables";
-  }
-  return "a value";
-}
-
 [[noreturn]] void fail(std::string message, const SourcePosition& where, std::string advice = {}) {
   throw Error(ErrorKind::configuration, std::move(message), where, std::move(advice));
-}
-
-void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
-  if (!std::isfinite(value)) fail(fmt::format("{} must be finite", key.path), where);
-  if (key.above && !(value > *key.above)) fail(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
-  if (key.at_least && value < *key.at_least) fail(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
-  if (key.at_most && value > *key.at_most) fail(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
 }
 
 [[noreturn]] void unknown_key(std::string_view path, std::span<const std::string> known, const SourcePosition& where) {
@@ -126,23 +102,6 @@ void check_exclusive(const KeyInfo& key, const SourcePosition& where, std::map<s
     fail(fmt::format("{} and {} exclude each other", other->second.key->path, key.path), where, "give one of them");
 }
 
-void check_elements(const KeyInfo& list, const CaseTable& entries, const SourcePosition& where, bool complete) {
-  std::vector<std::string> known;
-  for (const KeyInfo& element : list.elements) known.push_back(element.path);
-  std::map<std::string, Chosen> groups;
-  for (const CaseEntry& entry : entries) {
-    const auto found = std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
-    if (found == list.elements.end()) unknown_key(entry.key, known, entry.key_where);
-    check_value(*found, entry.value);
-    check_exclusive(*found, entry.key_where, groups);
-  }
-  for (const KeyInfo& element : list.elements) {
-    const bool given = std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
-    if (complete && element.required && !given)
-      fail(fmt::format("{} of {} is missing", element.path, list.path), where);
-  }
-}
-
 void check_scope(const Case& c, const KeyInfo& key, const SourcePosition& where) {
   const bool patch = std::holds_alternative<BasicCase>(c.content);
   if (key.scope == KeyScope::wheel_rail && patch)
@@ -200,6 +159,9 @@ std::span<const CaseKey> case_keys() {
     add_shape_keys(list);
     add_defect_keys(list);
     add_patch_keys(list);
+    add_patch_geometry_keys(list);
+    add_heat_keys(list);
+    add_subsurface_keys(list);
     return std::move(list.keys);
   }();
   return keys;
@@ -211,54 +173,20 @@ double unit_of_key(std::string_view path) {
   return 1.0;
 }
 
-void check_value(const KeyInfo& key, const CaseValue& value) {
-  const auto wrong = [&] { fail(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where); };
-  const bool integer = std::holds_alternative<std::int64_t>(value.data);
-  const bool number = integer || std::holds_alternative<double>(value.data);
-  const bool text = std::holds_alternative<std::string>(value.data);
-  switch (key.type) {
-    case KeyType::number:
-      if (!number) wrong();
-      check_range(key, value.number(), value.where);
-      return;
-    case KeyType::integer:
-      if (!integer) wrong();
-      check_range(key, value.number(), value.where);
-      return;
-    case KeyType::flag:
-      if (!std::holds_alternative<bool>(value.data)) wrong();
-      return;
-    case KeyType::path:
-    case KeyType::text:
-      if (!text) wrong();
-      if (value.text().empty()) fail(fmt::format("{} must not be empty", key.path), value.where);
-      if (value.text().size() > kLongestText) fail(fmt::format("{} is too long", key.path), value.where);
-      if (key.matches != nullptr && !key.matches(value.text()))
-        fail(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown), key.pattern), value.where);
-      return;
-    case KeyType::choice:
-      if (!text) wrong();
-      if (std::find(key.choices.begin(), key.choices.end(), value.text()) == key.choices.end()) {
-        std::string choices;
-        for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
-        fail(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices), value.where);
-      }
-      return;
-    case KeyType::number_list:
-      if (!value.is_list()) wrong();
-      for (const CaseValue& one : value.list()) {
-        if (!std::holds_alternative<std::int64_t>(one.data) && !std::holds_alternative<double>(one.data))
-          fail(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where);
-        check_range(key, one.number(), one.where);
-      }
-      return;
-    case KeyType::table_list:
-      if (!value.is_list()) wrong();
-      for (const CaseValue& one : value.list()) {
-        if (!one.is_table()) fail(fmt::format("{} must be a list of tables, found {} in it", key.path, one.kind()), one.where);
-        check_elements(key, one.table(), one.where, true);
-      }
-      return;
+void check_elements(const KeyInfo& list, const CaseTable& entries, const SourcePosition& where, bool complete) {
+  std::vector<std::string> known;
+  for (const KeyInfo& element : list.elements) known.push_back(element.path);
+  std::map<std::string, Chosen> groups;
+  for (const CaseEntry& entry : entries) {
+    const auto found = std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
+    if (found == list.elements.end()) unknown_key(entry.key, known, entry.key_where);
+    check_value(*found, entry.value);
+    check_exclusive(*found, entry.key_where, groups);
+  }
+  for (const KeyInfo& element : list.elements) {
+    const bool given = std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
+    if (complete && element.required && !given)
+      fail(fmt::format("{} of {} is missing", element.path, list.path), where);
   }
 }
 

@@ -70,6 +70,8 @@ double unit_of_key(std::string_view path);
 
 /// Type and range; throws Error (configuration) at the value.
 void check_value(const KeyInfo& key, const CaseValue& value);
+/// The same for one table of a list; complete: all required keys must be there.
+void check_elements(const KeyInfo& list, const CaseTable& entries, const SourcePosition& where, bool complete);
 
 /// Applies the entries of one layer of a case file (defaults, one [[cases]] entry): checks names, types, ranges and
 /// exclusions first, so that a Case is changed only when everything is right.

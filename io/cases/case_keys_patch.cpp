@@ -8,15 +8,6 @@ namespace {
 
 using B = BasicCase;
 
-HertzInput& hertz(B& c) {
-  if (!std::holds_alternative<HertzInput>(c.geometry)) c.geometry = HertzInput{};
-  return std::get<HertzInput>(c.geometry);
-}
-GapInput& gap(B& c) {
-  if (!std::holds_alternative<GapInput>(c.geometry)) c.geometry = GapInput{};
-  return std::get<GapInput>(c.geometry);
-}
-
 void add_load(KeyList& list) {
   const auto vertical = [&](const std::string& name, KeyLimits limits, const std::string& doc, double B::*member, bool force) {
     list.number<B>("patch." + name, limits, doc, [member](B& c) -> double& { return c.*member; });
@@ -82,65 +73,29 @@ void add_rolling(KeyList& list) {
   list.number<B>("patch.spin_offset_factor", kNotNegative, "share of the rolling step by which the spin centre is moved",
                  [](B& c) -> double& { return c.spin_offset_factor; });
   using N = NormalModelInput;
-  list.choice<B, N>("patch.normal_model", {{"full", N::full}, {"elliptic", N::elliptic}, {"parabolic", N::parabolic}},
-                    "pressure: solved, or the Hertzian ellipsoid or a paraboloid ([patch.hertz] only)",
+  list.choice<B, N>("patch.normal_model", {{"full", N::full},
+                     {"elliptic", N::elliptic},
+                     {"parabolic", N::parabolic},
+                     {"semi_double_elliptic", N::semi_double_elliptic},
+                     {"kpec", N::kpec},
+                     {"analyn", N::analyn}},
+                    "pressure: solved; the Hertzian ellipsoid, a paraboloid or two half ellipsoids ([patch.hertz] only); or a fast "
+                    "approximation (KPEC, ANALYN) at a given approach",
                     [](B& c) -> N& { return c.normal_model; });
-  using T = TangentialModelInput;
-  list.choice<B, T>("patch.tangential_model", {{"full", T::full}, {"fastsim", T::fastsim}}, "tractions: exact or simplified theory",
-                    [](B& c) -> T& { return c.tangential_model; });
-  list.number<B>("patch.fastsim_k0", kPositive, "FASTSIM: initial slope reduction", [](B& c) -> double& { return c.fastsim_k0; });
-  list.number<B>("patch.fastsim_alpha", kNotNegative, "FASTSIM: slope at large creepage over the initial one",
-                 [](B& c) -> double& { return c.fastsim_alpha; });
-  list.number<B>("patch.fastsim_beta", kNotNegative, "FASTSIM: rate of the slope reduction",
-                 [](B& c) -> double& { return c.fastsim_beta; });
+  add_simplified_theory<B>(list, "patch.");
 }
 
-void add_geometry(KeyList& list) {
-  constexpr double kMost = 4e6;
-  list.integer<B>("patch.mx", 1, kMost, "elements in x", [](B& c) -> int& { return c.mx; }).default_text.clear();
-  list.integer<B>("patch.my", 1, kMost, "elements in y", [](B& c) -> int& { return c.my; }).default_text.clear();
-  list.number<B>("patch.x0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)", [](B& c) -> double& { return c.x0; });
-  list.number<B>("patch.y0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)", [](B& c) -> double& { return c.y0; });
-  list.number<B>("patch.dx_mm", kPositive, "element size in x ([patch.gap] only)", [](B& c) -> double& { return c.dx; })
-      .default_text.clear();
-  list.number<B>("patch.dy_mm", kPositive, "element size in y ([patch.gap] only)", [](B& c) -> double& { return c.dy; })
-      .default_text.clear();
-
-  using Given = HertzInput::Given;
-  list.choice<B, Given>("patch.hertz.given",
-                        {{"curvatures", Given::curvatures},
-                         {"curvature_and_ratio", Given::curvature_and_ratio},
-                         {"semi_axes", Given::semi_axes},
-                         {"line_curvature", Given::line_curvature},
-                         {"line_semi_axis", Given::line_semi_axis}},
-                        "Hertzian contact: what describes it (the grid follows from it, mx, my and scale)",
-                        [](B& c) -> Given& { return hertz(c).given; });
-  const auto hertz_number = [&](const std::string& name, const std::string& doc, double HertzInput::*member) {
-    KeyInfo& info = list.number<B>("patch.hertz." + name, kPositive, doc, [member](B& c) -> double& { return hertz(c).*member; });
-    if (info.default_text == "0") info.default_text.clear();
+void add_extra_slip(KeyList& list) {
+  // As creepages and shifts: relative velocities in rolling, distances in a shift.
+  const auto component = [&](const std::string& name, const std::string& axis, const std::string& doc, std::vector<double> B::*member) {
+    KeyInfo& info = list.number_list<B>("patch." + name, doc, [member](B& c) -> std::vector<double>& { return c.*member; });
+    info.group = "patch extra " + axis;
+    info.alternative = name;
   };
-  hertz_number("curvature_x_per_m", "A = 1/(2 R_x), all but semi-axes cases", &HertzInput::a1);
-  hertz_number("curvature_y_per_m", "B = 1/(2 R_y), \"curvatures\"", &HertzInput::b1);
-  hertz_number("semi_axis_x_mm", "a, \"semi_axes\" and \"line_semi_axis\"", &HertzInput::aa);
-  hertz_number("semi_axis_y_mm", "b, \"semi_axes\"; half width of a line contact", &HertzInput::bb);
-  hertz_number("axis_ratio", "a/b, \"curvature_and_ratio\"", &HertzInput::aob);
-  hertz_number("scale", "potential contact area over the ellipse", &HertzInput::scale);
-
-  using Kind = GapInput::Kind;
-  list.choice<B, Kind>("patch.gap.kind",
-                       {{"quadratic", Kind::quadratic},
-                        {"circular", Kind::circular},
-                        {"sinusoidal", Kind::sinusoidal},
-                        {"per_element", Kind::per_element}},
-                       "undeformed distance by formula or for every element", [](B& c) -> Kind& { return gap(c).kind; });
-  KeyInfo coefficients = key_info("patch.gap.coefficients_si", KeyType::number_list,
-                                  "coefficients of the undeformed distance in SI units, see below");
-  coefficients.scope = KeyScope::patch;
-  list.add(coefficients).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    auto& target = gap(content_of<B>(c)).coefficients;
-    target.clear();
-    for (const CaseValue& one : v.list()) target.push_back(one.number());
-  };
+  component("extra_slip_x", "x", "rigid slip in x added to every element (x fastest), relative to the rolling velocity", &B::extra_slip_x);
+  component("extra_shift_x_mm", "x", "the same as a distance (regime = \"shift\")", &B::extra_slip_x);
+  component("extra_slip_y", "y", "rigid slip in y added to every element", &B::extra_slip_y);
+  component("extra_shift_y_mm", "y", "the same as a distance (regime = \"shift\")", &B::extra_slip_y);
 }
 
 }  // namespace
@@ -148,7 +103,7 @@ void add_geometry(KeyList& list) {
 void add_patch_keys(KeyList& list) {
   add_load(list);
   add_rolling(list);
-  add_geometry(list);
+  add_extra_slip(list);
 }
 
 }  // namespace treadmark::io

@@ -91,7 +91,8 @@ struct DiscretisationInput {
 /// Numbers of the solver lines (G digit).
 struct SolverInput {
   double eps = 1e-5;
-  int max_gs = 999, max_in = 100, max_nr = 30, max_out = 1;
+  int max_gs = 999, max_in = 100, max_nr = 30;
+  int max_out = 30;             ///< dissimilar bodies; 1: tangential tractions do not act on the normal problem
   enum class Method { automatic, sweeps };
   Method method = Method::automatic;
   /// Falling friction: slip speeds to start from: none, the rolling velocity, those of the case before.

@@ -78,8 +78,8 @@ class Rules {
               "semi-double-elliptic pressure (SDEC) and semi-double-elliptic geometry need each other",
               "B = 4 and IPOTCN = -6 in .inp, normal_model and hertz.given = \"semi_double_elliptic\" in .toml");
     const bool approximate = c.normal_model == Model::kpec || c.normal_model == Model::analyn;
-    refuse_if(approximate && c.normal_force_prescribed, CaseSetting::load,
-              fmt::format("{} needs a prescribed approach, but the normal force is given", c.normal_model == Model::kpec ? "KPEC" : "ANALYN"),
+    const std::string name = c.normal_model == Model::kpec ? "KPEC" : "ANALYN";
+    refuse_if(approximate && c.normal_force_prescribed, CaseSetting::load, name + " needs a prescribed approach, but the normal force is given",
               "N = 0 in .inp, patch.approach_mm in .toml");
   }
 
@@ -140,9 +140,11 @@ class Rules {
     const PlanformInput& p = c.planform;
     using Kind = PlanformInput::Kind;
     if (p.kind == Kind::free) return;
-    refuse_if(std::holds_alternative<HertzInput>(c.geometry), CaseSetting::geometry, "a restricted planform and Hertzian geometry exclude each other");
+    refuse_if(std::holds_alternative<HertzInput>(c.geometry), CaseSetting::geometry,
+              "a restricted planform and Hertzian geometry exclude each other");
     const std::size_t count = p.coefficients.size();
-    refuse_if(p.kind == Kind::quadratic && count != 6, CaseSetting::geometry, fmt::format("a quadratic planform has {} coefficients, it needs 6", count));
+    refuse_if(p.kind == Kind::quadratic && count != 6, CaseSetting::geometry,
+              fmt::format("a quadratic planform has {} coefficients, it needs 6", count));
     if (p.kind == Kind::quadratic) return;
     refuse_if(p.kind == Kind::two_rectangles ? count != 8 : count == 0 || count % 4 != 0, CaseSetting::geometry,
               fmt::format("the rectangles of the planform have {} values, each needs 4 and two_rectangles two of them", count));
@@ -189,11 +191,31 @@ class Rules {
       points += (b.at_elements ? share(b.columns.size(), c.mx) * share(b.rows.size(), c.my)
                                : static_cast<double>(b.x.size()) * static_cast<double>(b.y.size())) * static_cast<double>(b.z.size());
     }
-    refuse_if(points > kMostPoints, CaseSetting::subsurface, fmt::format("{:.0f} subsurface points are more than {:.0f}", points, kMostPoints));
+    refuse_if(points > kMostPoints, CaseSetting::subsurface,
+              fmt::format("{:.0f} subsurface points are more than {:.0f}", points, kMostPoints));
   }
 };
 
+/// Steps equal, origins a whole number of steps apart.
+bool same_raster(double a0, double a_step, double b0, double b_step) {
+  constexpr double kTolerance = 1e-3;   // of a step
+  const double steps = (b0 - a0) / a_step;
+  return std::abs(b_step - a_step) < kTolerance * a_step && std::abs(steps - std::round(steps)) < kTolerance;
+}
+
 }  // namespace
+
+std::vector<Contradiction> contradictions(const Case& previous, const Case& next) {
+  const auto *a = std::get_if<BasicCase>(&previous.content), *b = std::get_if<BasicCase>(&next.content);
+  if (a == nullptr || b == nullptr) return {};
+  const bool continues = b->history == HistoryInput::keep_going || b->history == HistoryInput::same_instant;
+  const bool depends = b->regime == RegimeInput::shift || b->regime == RegimeInput::transient;
+  // The grid of Hertzian geometry is not known before it is solved.
+  const bool known = a->dx > 0.0 && a->dy > 0.0 && b->dx > 0.0 && b->dy > 0.0;
+  if (!continues || !depends || !known || (same_raster(a->x0, a->dx, b->x0, b->dx) && same_raster(a->y0, a->dy, b->y0, b->dy))) return {};
+  return {{CaseSetting::grid, "a case that continues the previous one needs elements of the same size, moved by whole elements",
+           "start anew (P = 2 in .inp, case.history = \"start\" in .toml)"}};
+}
 
 std::vector<Contradiction> contradictions(const Case& c) {
   Rules rules;

@@ -115,8 +115,9 @@ void ContactReader::read_solver() {
 }
 
 HistoryInput ContactReader::history() const {
-  constexpr HistoryInput kByDigit[] = {HistoryInput::keep_going, HistoryInput::normal_only, HistoryInput::start, HistoryInput::same_instant};
-  return kept.has_history ? kByDigit[(*problem)["PVTIME"]] : HistoryInput::start;
+  using H = HistoryInput;
+  constexpr H kByDigit[] = {H::keep_going, H::normal_only, H::start, H::same_instant};
+  return kept.has_history ? kByDigit[(*problem)["PVTIME"]] : H::start;
 }
 
 }  // namespace treadmark::io

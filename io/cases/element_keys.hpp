@@ -20,14 +20,15 @@ struct ElementKey {
   std::function<void(Element&, std::string_view rest, const CaseEntry&)> set_nested = {};
 };
 
-template <class Element>
-ElementKey<Element> element_number(std::string name, KeyLimits limits, std::string doc, double Element::*member) {
+/// place: a member of Element, or Element& -> double&.
+template <class Element, class Place>
+ElementKey<Element> element_number(std::string name, KeyLimits limits, std::string doc, Place place) {
   KeyInfo info = key_info(name, KeyType::number, std::move(doc));
   info.above = limits.above;
   info.at_least = limits.at_least;
   info.at_most = limits.at_most;
   const double unit = unit_of_key(name);
-  return {std::move(info), [member, unit](Element& e, const CaseValue& v) { e.*member = v.number() * unit; }};
+  return {std::move(info), [place, unit](Element& e, const CaseValue& v) { std::invoke(place, e) = v.number() * unit; }};
 }
 
 template <class Element>
@@ -98,17 +99,17 @@ ElementKey<Element> element_list(std::string name, std::string doc, std::vector<
 }
 
 /// Adds a key for a list of tables; elements(c, create) is the vector in the case or nullptr, made ready for a new list if create.
-template <class Element, class Elements>
+template <class Element, class Content = WheelRailCase, class Elements>
 void add_list(KeyList& list, KeyInfo info, std::vector<ElementKey<Element>> keys, Elements elements) {
   for (const auto& key : keys) info.elements.push_back(key.info);
   const std::string path = info.path;
   CaseKey& added = list.add(std::move(info));
   added.set = [keys, elements](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::vector<Element> fresh = make_elements(keys, v);
-    *elements(content_of<WheelRailCase>(c), true) = std::move(fresh);
+    *elements(content_of<Content>(c), true) = std::move(fresh);
   };
   added.set_element = [keys, elements, path](Case& c, std::size_t index, const CaseTable& entries, const SourcePosition& where) {
-    change_element(keys, elements(content_of<WheelRailCase>(c), false), path, index, entries, where);
+    change_element(keys, elements(content_of<Content>(c), false), path, index, entries, where);
   };
 }
 

@@ -41,6 +41,13 @@ constexpr KeyScope scope_of() {
   return std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail : KeyScope::patch;
 }
 
+/// The numbers of a list that has been checked, in SI units.
+inline std::vector<double> numbers_of(const CaseValue& list, double unit) {
+  std::vector<double> numbers;
+  for (const CaseValue& one : list.list()) numbers.push_back(one.number() * unit);
+  return numbers;
+}
+
 /// A list of keys under construction.
 class KeyList {
  public:
@@ -69,6 +76,18 @@ class KeyList {
     key.get = [place, unit](const Case& c) {
       Content copy = std::get<Content>(c.content);
       return place(copy) / unit;
+    };
+    return key.info;
+  }
+
+  /// place: Content& -> std::vector<double>&.
+  template <class Content, class Place>
+  KeyInfo& number_list(std::string path, std::string doc, Place place) {
+    KeyInfo info = key_info(path, KeyType::number_list, std::move(doc));
+    info.scope = scope_of<Content>();
+    CaseKey& key = add(std::move(info));
+    key.set = [place, unit = unit_of_key(path)](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      place(content_of<Content>(c)) = numbers_of(v, unit);
     };
     return key.info;
   }
@@ -120,11 +139,37 @@ class KeyList {
   }
 };
 
+/// tangential_model and the fastsim_... keys under prefix.
+template <class Content>
+void add_simplified_theory(KeyList& list, const std::string& prefix) {
+  using T = TangentialModelInput;
+  list.choice<Content, T>(prefix + "tangential_model",
+                          {{"full", T::full},
+                           {"fastsim", T::fastsim},
+                           {"fastsim_one_flexibility", T::fastsim_one_flexibility},
+                           {"fastrip", T::fastrip}},
+                          "tractions: exact theory, FASTSIM with three flexibilities or with one, or FaStrip",
+                          [](Content& c) -> T& { return c.tangential_model; });
+  list.number<Content>(prefix + "fastsim_k0", kPositive, "FASTSIM: initial slope reduction",
+                       [](Content& c) -> double& { return c.fastsim_k0; });
+  list.number<Content>(prefix + "fastsim_alpha", kNotNegative, "FASTSIM: slope at large creepage over the initial one",
+                       [](Content& c) -> double& { return c.fastsim_alpha; });
+  list.number<Content>(prefix + "fastsim_beta", kNotNegative, "FASTSIM: rate of the slope reduction",
+                       [](Content& c) -> double& { return c.fastsim_beta; });
+  list.number<Content>(prefix + "fastsim_flexibility_mm_per_MPa", kPositive, "flexibility of \"fastsim_one_flexibility\"",
+                       [](Content& c) -> double& { return c.fastsim_flexibility; });
+}
+
 /// Keys by subject; see the .cpp of the same name.
 void add_general_keys(KeyList& list);
+void add_material_keys(KeyList& list);
+void add_friction_keys(KeyList& list);
 void add_shape_keys(KeyList& list);
 void add_defect_keys(KeyList& list);
 void add_wheel_rail_keys(KeyList& list);
 void add_patch_keys(KeyList& list);
+void add_patch_geometry_keys(KeyList& list);
+void add_heat_keys(KeyList& list);
+void add_subsurface_keys(KeyList& list);
 
 }  // namespace treadmark::io

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cases/read_inp.hpp"
 
+#include <algorithm>
 #include <map>
 #include <tuple>
 #include <utility>
@@ -52,6 +53,7 @@ SourcePosition where_of(const ContactReader& r, CaseSetting setting) {
     case CaseSetting::material: return r.model->where("MATER");
     case CaseSetting::geometry: return r.model->where(rail ? "ZTRACK" : "RZNORM");
     case CaseSetting::extra_slip: return r.model->where(rail ? "EWHEEL" : "EXRHS");
+    case CaseSetting::grid: return r.model->where("DISCNS");
     case CaseSetting::heat: return r.run->where("HEAT");
     case CaseSetting::elastic_constants: return r.kept.material_where;
     case CaseSetting::layer: return r.kept.layer->where;
@@ -59,8 +61,12 @@ SourcePosition where_of(const ContactReader& r, CaseSetting setting) {
   return {};
 }
 
-void refuse_contradictions(ContactReader& r, const Case& c) {
+/// read: the cases so far.
+void refuse_contradictions(ContactReader& r, const Case& c, const std::vector<Case>& read) {
   for (const Contradiction& one : contradictions(c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
+  const auto previous = std::find_if(read.rbegin(), read.rend(), [&](const Case& p) { return p.sequence == c.sequence; });
+  if (previous == read.rend()) return;
+  for (const Contradiction& one : contradictions(*previous, c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
 }
 
 }  // namespace
@@ -115,7 +121,7 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     const int ending = (*reader.run)["RETURN"];
     if (ending <= 1) {
       kept.has_history = true;
-      refuse_contradictions(reader, next);
+      refuse_contradictions(reader, next, result.cases);
       if (!reader.refusals.empty()) throw first_refusal(reader.refusals);
       result.cases.push_back(std::move(next));
     }

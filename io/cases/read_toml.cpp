@@ -122,6 +122,7 @@ CaseFile parse_case_text(std::string_view text, const std::filesystem::path& nam
     for (const CaseOverride& change : changes) apply_assignment(c, change, folder);
     validate_case(c);
   }
+  settle_sequences(result.cases);
   return result;
 }
 
@@ -133,6 +134,7 @@ void apply_overrides(CaseFile& target, std::span<const std::string> overrides) {
     for (const CaseOverride& change : changes) apply_assignment(c, change, target.path.parent_path());
     validate_case(c);
   }
+  settle_sequences(changed);
   target.cases = std::move(changed);
 }
 

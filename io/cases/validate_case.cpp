@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <functional>
+#include <map>
 #include <utility>
 
 #include <fmt/format.h>
@@ -144,8 +145,8 @@ class Checker {
     for (const FrictionLaw& law : c.friction_of_row) friction(law);
   }
 
-  void combinations(const Case& c) const {
-    for (const Contradiction& one : contradictions(c)) require(false, one.message, one.advice);
+  void none(const std::vector<Contradiction>& found) const {
+    for (const Contradiction& one : found) require(false, one.message, one.advice);
   }
 
  private:
@@ -159,7 +160,20 @@ void validate_case(const Case& c) {
   const Checker check(c);
   if (const auto* rail = std::get_if<WheelRailCase>(&c.content)) check.wheel_rail(*rail);
   else check.basic(std::get<BasicCase>(c.content));
-  check.combinations(c);
+  check.none(contradictions(c));
+}
+
+void settle_sequences(std::vector<Case>& cases) {
+  std::map<int, const Case*> last;
+  for (Case& c : cases) {
+    const auto [previous, first] = last.try_emplace(c.sequence, &c);
+    if (first) {
+      if (auto* basic = std::get_if<BasicCase>(&c.content)) basic->history = HistoryInput::start;
+    } else {
+      Checker(c).none(contradictions(*previous->second, c));
+    }
+    previous->second = &c;
+  }
 }
 
 }  // namespace treadmark::io

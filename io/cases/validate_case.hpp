@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <vector>
+
 #include "treadmark/io/cases/case_model.hpp"
 
 namespace treadmark::io {
@@ -9,5 +11,9 @@ namespace treadmark::io {
 /// Checks that a case is complete, consistent and within what the program supports; throws Error (configuration) at the
 /// position of the case otherwise.
 void validate_case(const Case& c);
+
+/// Lets the first case of each sequence start, as it has nothing to continue, and checks that the others fit to what they continue;
+/// throws like validate_case.
+void settle_sequences(std::vector<Case>& cases);
 
 }  // namespace treadmark::io

@@ -91,7 +91,7 @@ class ContactWriter {
     if (table) add("nvf", std::to_string(sets));
     const int law = digit("FRCLAW");
     for (int i = 0; i < sets; ++i) {
-      const std::string position = table ? (digit("VARFRC") == 1 ? "-20d " : "15.0 ") : "";
+      const std::string position = table ? (std::to_string(10 * i - 20) + (digit("VARFRC") == 1 ? "d " : " ")) : "";
       add("friction", position + (law == 0 ? "0.3 0.3" : law == 6 ? "0.3 20. -0.1 100." : "0.2 0.1 100. 0.05 200."));
     }
     if (law != 0) add("memory", "0.003 1.0");
@@ -137,7 +137,8 @@ class ContactWriter {
   }
 
   template <class Add>
-  static void subsurface(Add add) {
+  void subsurface(Add add) const {
+    if (lines_.contains("block")) return add("block", "");
     for (const char* block : {"1\n 2 0.0 0.5", "2\n 1 1 2\n 1 1 2\n 1 0.1 0.1", "3\n 2 1\n 1 2\n 1\n 1 0.1 0.1", "5\n 2\n 0.0 1.0",
                               "6\n 1 1 2\n 1 1 2\n 1\n 0.5", "7\n 1 1\n 1\n 1\n 2\n 0.0 1.0", "9\n 2 1 2\n 0.0 1.0\n 0.0\n 0.0\n 1.0", "0"})
       add("block", block);

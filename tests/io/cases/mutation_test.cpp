@@ -56,7 +56,11 @@ TEST(Mutation, ContactInputOnlyThrowsError) {
   text += ContactWriter(1).set("STRESS", 3).set("VARFRC", 1).set("HEAT", 3).set("INFLCF", 4).set("RETURN", 3).str();
   text += ContactWriter(3).set("MATER", 3).set("GAUSEI", 2).str();
   text += ContactWriter(3).set("EXRHS", 9).line("ibase", "2 1").line("gap", "2 0. 460. -10. 20.\n 0. 1.").set("RETURN", 2).str();
-  text += ContactWriter(3).str(false) + "0 MODULE\n";
+  text += ContactWriter(3).str(false);
+  text += ContactWriter(3).set("STRESS", 3).set("HEAT", 3).set("INFLCF", 4).set("FRCLAW", 6).str();
+  text += ContactWriter(3).set("TANG", 1).set("MATER", 4).set("BOUND", 1).set("VARFRC", 3).set("PVTIME", 0).str();
+  text += ContactWriter(3).set("TANG", 2).set("NORM", 0).set("EXRHS", 9).line("ibase", "1 4").line("gap", "1 0 1 0 0 0\n 2\n 0 1 0 1\n 0 1 2 3\n 0.5").str();
+  text += "0 MODULE\n";
   const int good = accepted(text, 1, kMutants, [](const std::string& t) { parse_contact_input(t, "m.inp"); });
   EXPECT_GT(good, 0);
   EXPECT_LT(good, kMutants);
@@ -70,7 +74,14 @@ TEST(Mutation, CaseFileOnlyThrowsError) {
       "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\ncreepage_x = -1e-3\nrolling_step_mm = 0.4\nvelocity_m_s = 30\n"
       "hertz.given = \"semi_axes\"\nhertz.semi_axis_x_mm = 4.0\nhertz.semi_axis_y_mm = 2.0\n[case]\nregime = \"steady\"\n"
       "[[cases]]\npatch.creepage_y = [0.0, 1e-3]\n[[cases]]\npatch.force_x_relative = -0.5\n";
-  for (const std::string& text : {example.str(), patch}) {
+  const std::string everything =
+      "[patch]\napproach_mm = 0.01\nmx = 3\nmy = 2\ndx_mm = 1\ndy_mm = 1\nrolling_step_mm = 1\nvelocity_m_s = 30\n"
+      "gap.coefficients_si = [1, 0, 1, 0, 0, 0]\nextra_slip_x = [1, 2, 3, 4, 5, 6]\nextra_slip_y = [0, 0, 0, 0, 0, 7]\n"
+      "planform = { kind = \"sub_patches\", rectangles_mm = [0, 1, 0, 1, 0, 1, 2, 3], coupling = [0.5] }\n"
+      "[case]\nregime = \"steady\"\nhistory = \"continue\"\nsequence = 3\n[influence]\nkind = \"angle_corrected\"\nposition_mm = [-1, 1]\n"
+      "inclination_deg = [2, 3]\n[heat]\nrail_bulk_temperature_C = 20\n[friction]\nrows = [{ coefficient = 0.2 }, { coefficient = 0.3 }]\n"
+      "[[subsurface.blocks]]\nz_mm = [0.0, 0.5]\ncolumns = [0, 2]\n[[subsurface.blocks]]\nx_mm = [1]\ny_mm = [-1, 1]\nz_mm = [-2]\n";
+  for (const std::string& text : {example.str(), patch, everything}) {
     const int good = accepted(text, 2, kMutants / 2, [](const std::string& t) { parse_case_text(t, "m.toml"); });
     EXPECT_GT(good, 0);
     EXPECT_LT(good, kMutants / 2);

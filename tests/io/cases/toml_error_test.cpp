@@ -103,7 +103,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{kHertz + "force_x_relative = 0.1\ncreepage_x = 0.1\n", "exclude each other"}, Wrong{kHertz + "approach_mm = 0.1\n", "exclude each other"},
                       Wrong{"[patch]\nmx = 2\nmy = 2\nhertz.given = \"curvatures\"\nhertz.curvature_x_per_m = 1\nhertz.curvature_y_per_m = 1\n", "the normal load is missing"},
                       Wrong{"[patch]\nnormal_force_N = 1\nmx = 3000\nmy = 3000\nhertz.given = \"curvatures\"\nhertz.curvature_x_per_m = 1\n", "potential contact too large"},
-                      Wrong{kPatch + "dx_mm = 1\ndy_mm = 1\nnormal_model = \"elliptic\"\ngap.coefficients_si = [1,0,1,0,0,0]\n", "need [patch.hertz]"}));
+                      Wrong{kPatch + "dx_mm = 1\ndy_mm = 1\nnormal_model = \"elliptic\"\ngap.coefficients_si = [1,0,1,0,0,0]\n", "elliptic and parabolic pressures need Hertzian geometry"}));
 
 TEST(TomlOverrideError, NamesTheOverride) {
   EXPECT_THAT(error_of(kRail, {"wheelset.y=3"}), ::testing::HasSubstr("override 'wheelset.y=3': unknown key 'wheelset.y' (did you mean 'wheelset.y_mm'?)"));

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <numbers>
+#include <set>
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -86,7 +87,8 @@ TEST(TomlCase, EveryNumberKeyHasItsPlace) {
       if (other.get && (other.info.scope == KeyScope::any || other.info.scope == key.info.scope ||
                         (key.info.scope == KeyScope::any && other.info.scope == KeyScope::wheel_rail)))
         moved += other.get(changed) != other.get(fresh) ? 1 : 0;
-    const bool both_bodies = key.info.path == "material.shear_modulus_GPa" || key.info.path == "material.poisson_ratio";
+    const std::set<std::string> of_both{"material.shear_modulus_GPa", "material.poisson_ratio", "material.creep_ratio", "material.relaxation_time_s"};
+    const bool both_bodies = of_both.contains(key.info.path);
     EXPECT_LE(moved, both_bodies ? 3 : 2);
     EXPECT_GE(moved, 1);
     ++tested;
@@ -105,6 +107,9 @@ TEST(TomlCase, UnitsComeFromTheName) {
   EXPECT_DOUBLE_EQ(unit_of_key("b_m_s"), 1.0);
   EXPECT_DOUBLE_EQ(unit_of_key("b_rad_m"), 1.0);
   EXPECT_DOUBLE_EQ(unit_of_key("b_mm_per_MPa"), 1e-9);
+  EXPECT_DOUBLE_EQ(unit_of_key("b_MPa_per_mm"), 1e9);
+  EXPECT_DOUBLE_EQ(unit_of_key("b_J_per_kg_K"), 1.0);
+  EXPECT_DOUBLE_EQ(unit_of_key("b_kg_per_m3"), 1.0);
   EXPECT_DOUBLE_EQ(unit_of_key("coefficient"), 1.0);
 }
 

@@ -1,0 +1,98 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/cases/shared_keys.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+using B = BasicCase;
+
+void add_elastic(KeyList& list) {
+  constexpr KeyLimits kPoisson{{}, 0.0, 0.5};
+  const auto both = [&](const std::string& path, KeyLimits limits, const std::string& doc, auto first, auto second) {
+    CaseKey& key = shared_number(list, path, limits, doc, first);
+    const double unit = unit_of_key(path);
+    key.set = [first, second, unit](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      std::visit([&](auto& content) { first(content) = second(content) = v.number() * unit; }, c.content);
+    };
+  };
+  const auto g1 = [](auto& c) -> double& { return c.material.shear_modulus_1; };
+  const auto g2 = [](auto& c) -> double& { return c.material.shear_modulus_2; };
+  const auto nu1 = [](auto& c) -> double& { return c.material.poisson_1; };
+  const auto nu2 = [](auto& c) -> double& { return c.material.poisson_2; };
+  both("material.shear_modulus_GPa", kPositive, "shear modulus G of both bodies", g1, g2);
+  both("material.poisson_ratio", kPoisson, "Poisson's ratio of both bodies", nu1, nu2);
+  shared_number(list, "material.rail_shear_modulus_GPa", kPositive, "shear modulus of the rail (body 1)", g1);
+  shared_number(list, "material.wheel_shear_modulus_GPa", kPositive, "shear modulus of the wheel (body 2)", g2);
+  shared_number(list, "material.rail_poisson_ratio", kPoisson, "Poisson's ratio of the rail (body 1)", nu1);
+  shared_number(list, "material.wheel_poisson_ratio", kPoisson, "Poisson's ratio of the wheel (body 2)", nu2);
+  shared_number(list, "material.layer_flexibility_mm_per_MPa", kNotNegative,
+                "thickness over shear modulus of an interface layer: its elastic tangential flexibility",
+                [](auto& c) -> double& { return c.material.layer_flexibility; });
+}
+
+void add_beyond_elastic(KeyList& list) {
+  list.number<B>("material.layer_yield_MPa", kNotNegative, "shear stress at which the interface layer yields; 0 = never",
+                 [](B& c) -> double& { return c.material.layer_yield; });
+  list.number<B>("material.layer_hardening_MPa_per_mm", kAnyNumber,
+                 "change of that stress with the distance of plastic shear; negative = softening, down to a tenth",
+                 [](B& c) -> double& { return c.material.layer_hardening; });
+  list.number<B>("material.sheet_flexibility_mm_per_MPa", kNotNegative, "normal flexibility of a thin compressible sheet; 0 = none",
+                 [](B& c) -> double& { return c.material.sheet_flexibility; });
+
+  const auto pair = [&](const std::string& name, const std::string& doc, double Material::*rail, double Material::*wheel) {
+    list.number<B>("material." + name, kNotNegative, doc + " of both bodies", [rail](B& c) -> double& { return c.material.*rail; });
+    list.keys.back().set = [rail, wheel](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      Material& m = content_of<B>(c).material;
+      m.*rail = m.*wheel = v.number();
+    };
+    list.number<B>("material.rail_" + name, kNotNegative, doc + " of body 1", [rail](B& c) -> double& { return c.material.*rail; });
+    list.number<B>("material.wheel_" + name, kNotNegative, doc + " of body 2", [wheel](B& c) -> double& { return c.material.*wheel; });
+  };
+  pair("creep_ratio", "viscoelastic (standard linear solid, 0 = elastic): delayed over immediate compliance", &Material::creep_ratio_1,
+       &Material::creep_ratio_2);
+  pair("relaxation_time_s", "viscoelastic: relaxation time", &Material::relaxation_time_1, &Material::relaxation_time_2);
+}
+
+void add_influence(KeyList& list) {
+  using Kind = InfluenceInput::Kind;
+  shared_choice<Kind>(list, "influence.kind",
+                      {{"constant", Kind::constant},
+                       {"bilinear", Kind::bilinear},
+                       {"angle_corrected", Kind::angle_corrected},
+                       {"table", Kind::table}},
+                      "influence coefficients: half-space with constant or bilinear tractions on an element; patch only: corrected for "
+                      "the inclination of the surface, or numerical ones from a file",
+                      [](auto& c) -> Kind& { return c.influence.kind; });
+  list.number_list<B>("influence.position_mm", "angle_corrected: positions along y, increasing",
+                      [](B& c) -> std::vector<double>& { return c.influence.position; });
+  for (const std::string unit : {"deg", "rad"}) {
+    KeyInfo& info = list.number_list<B>("influence.inclination_" + unit, "angle_corrected: inclination of the surface at these positions",
+                                        [](B& c) -> std::vector<double>& { return c.influence.inclination; });
+    info.group = "influence inclination";
+    info.alternative = unit;
+  }
+  list.choice<B, bool>("influence.inclination_fit", {{"line", true}, {"table", false}},
+                       "angle_corrected: one straight line through the inclinations, or the table as it is",
+                       [](B& c) -> bool& { return c.influence.linear; });
+  list.integer<B>("influence.variant", 1, 4,
+                  "angle_corrected: what is turned by the difference of inclinations: 1 tractions, 2 the same but for their effect in x, 3 "
+                  "displacements, 4 half of it each",
+                  [](B& c) -> int& { return c.influence.variant; });
+  KeyInfo file = key_info("influence.file", KeyType::path, "table: file of numerical influence coefficients, relative to the case file");
+  file.scope = KeyScope::patch;
+  list.add(file).set = [](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+    content_of<B>(c).influence.file = (folder / v.text()).lexically_normal();
+  };
+}
+
+}  // namespace
+
+void add_material_keys(KeyList& list) {
+  add_elastic(list);
+  add_beyond_elastic(list);
+  add_influence(list);
+}
+
+}  // namespace treadmark::io
