@@ -5,6 +5,7 @@
 #include <chrono>
 #include <limits>
 
+#include "treadmark/app/derived_results.hpp"
 #include "treadmark/app/gap_formula.hpp"
 #include "treadmark/app/planform.hpp"
 #include "treadmark/app/patch_result.hpp"
@@ -63,20 +64,6 @@ kalker::HistoryUse history(io::HistoryInput input) {
   return kalker::HistoryUse::start;
 }
 
-kalker::InfluenceSettings influence(const io::InfluenceInput& input) {
-  kalker::InfluenceSettings out;
-  using From = io::InfluenceInput::Kind;
-  using To = kalker::InfluenceSettings::Kind;
-  out.kind = input.kind == From::bilinear ? To::bilinear : input.kind == From::angle_corrected ? To::angle_corrected
-             : input.kind == From::table  ? To::table
-                                          : To::constant;
-  out.position = input.position;
-  out.inclination = input.inclination;
-  out.variant = input.variant;
-  out.linear = input.linear;
-  return out;
-}
-
 double timed(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
@@ -116,12 +103,13 @@ PosedProblem pose(const io::BasicCase& input) {
   p.tangential_model = to_tangential_model(input.tangential_model);
   p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
   p.settings = to_solver_settings(input.solver);
-  p.influence = influence(input.influence);
+  p.influence = to_influence(input.influence);
   p.history = history(input.history);
   p.friction_of_row = input.friction_of_row;
   p.extra_slip_x = input.extra_slip_x;
   p.extra_slip_y = input.extra_slip_y;
   p.thermal = input.thermal;
+  p.sensitivities = input.sensitivities;
   return out;
 }
 
@@ -159,6 +147,7 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   r.xi = solution.creepage.xi;
   r.eta = solution.creepage.eta;
   r.phi = solution.creepage.phi;
+  add_derived(input, p, solution, r);
   result.patches.push_back(std::move(r));
   return result;
 }

@@ -2,6 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/patch_result.hpp"
 
+#include <memory>
+
+#include "treadmark/io/cases/read_influence.hpp"
+
 namespace treadmark::app {
 
 kalker::SolverSettings to_solver_settings(const io::SolverInput& input) {
@@ -54,6 +58,21 @@ kalker::TangentialModel to_tangential_model(io::TangentialModelInput model) {
   return To::full;
 }
 
+kalker::InfluenceSettings to_influence(const io::InfluenceInput& input) {
+  kalker::InfluenceSettings out;
+  using From = io::InfluenceInput::Kind;
+  using To = kalker::InfluenceSettings::Kind;
+  out.kind = input.kind == From::bilinear ? To::bilinear : input.kind == From::angle_corrected ? To::angle_corrected
+             : input.kind == From::table  ? To::table
+                                          : To::constant;
+  out.position = input.position;
+  out.inclination = input.inclination;
+  out.variant = input.variant;
+  out.linear = input.linear;
+  if (input.kind == From::table) out.table = std::make_shared<const NumericalInfluence>(io::read_influence(input.file));
+  return out;
+}
+
 io::PatchResult patch_result(const kalker::ContactSolution& c, const Grid2& grid, const std::vector<double>& gap,
                              const Material& material, const FrictionLaw& friction) {
   io::PatchResult r;
@@ -88,6 +107,16 @@ io::PatchResult patch_result(const kalker::ContactSolution& c, const Grid2& grid
   f.slip_x = c.slip_x;
   f.slip_s = c.slip_y;
   f.friction = c.friction;
+  f.plastic_x = c.plastic_x;
+  f.plastic_s = c.plastic_y;
+  f.yield_stress = c.yield_stress;
+  f.temperature_1 = c.temperature_1;
+  f.temperature_2 = c.temperature_2;
+  if (!c.temperature_1.empty()) {
+    r.max_temperature_1 = c.max_temperature_1;
+    r.max_temperature_2 = c.max_temperature_2;
+  }
+  if (c.sensitivities) r.sensitivities = {c.sensitivities->by_creepage, c.sensitivities->by_approach};
   f.state.reserve(c.state.size());
   for (const kalker::ElementState state : c.state) f.state.push_back(static_cast<std::uint8_t>(state));
   return r;

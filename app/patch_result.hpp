@@ -13,6 +13,8 @@ namespace treadmark::app {
 kalker::SolverSettings to_solver_settings(const io::SolverInput& input);
 kalker::NormalModel to_normal_model(io::NormalModelInput model);
 kalker::TangentialModel to_tangential_model(io::TangentialModelInput model);
+/// Reads the file of numerical coefficients. Errors: those of the reader.
+kalker::InfluenceSettings to_influence(const io::InfluenceInput& input);
 
 /// What every contact patch reports: forces, counts and fields. Reference point and kinematics are left to the caller.
 io::PatchResult patch_result(const kalker::ContactSolution& solution, const Grid2& grid, const std::vector<double>& gap,

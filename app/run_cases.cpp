@@ -11,6 +11,7 @@
 #include <vector>
 
 #include "treadmark/app/basic_case.hpp"
+#include "treadmark/app/derived_results.hpp"
 #include "treadmark/app/sampled_region.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/app/version.hpp"
@@ -109,7 +110,12 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles)));
         pool.give_back(std::move(lease));
       } else {
-        result = sequence.solve(std::get<io::BasicCase>(c.content));
+        const auto& input = std::get<io::BasicCase>(c.content);
+        result = sequence.solve(input);
+        for (io::PatchResult& patch : result.patches) {
+          if (c.element_table > 0) patch.element_table = mat_head(input, c.number);
+          patch.all_elements = c.element_table > 1;
+        }
       }
     } catch (const Error& e) {
       if (e.kind() != ErrorKind::numerical) {
@@ -121,6 +127,8 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
       result.message = e.what();
     }
     result.number = c.number;
+    result.shown = c.shown;
+    if (!c.shown) result.patches.clear();
     result.seconds = seconds_since(case_start);
     results[i] = std::move(result);
     if (progress.report) {

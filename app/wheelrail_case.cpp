@@ -59,6 +59,17 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
 
   p.material = input.material;
   p.friction = input.friction;
+  const io::FrictionVariation& variation = input.friction_variation;
+  if (variation.kind == io::FrictionVariation::Kind::inclination) {
+    p.friction_inclination = variation.positions;
+    p.friction_laws = variation.laws;
+  } else if (variation.kind == io::FrictionVariation::Kind::along_track) {
+    p.friction = friction_at(variation.positions, variation.laws, input.wheelset.s, input.friction);
+  }
+  p.normal_model = to_normal_model(input.normal_model);
+  p.tangential_model = to_tangential_model(input.tangential_model);
+  p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
+  p.influence = to_influence(input.influence);
   p.solver = to_solver_settings(input.solver);
   p.max_force_iterations = input.solver.max_nr;
   return p;

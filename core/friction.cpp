@@ -31,4 +31,24 @@ double FrictionLaw::at_temperature(double temperature) const {
   return kinetic + temperature_change * std::clamp(share, 0.0, 1.0);
 }
 
+FrictionLaw between(const FrictionLaw& a, const FrictionLaw& b, double share) {
+  FrictionLaw out = a;
+  for (double FrictionLaw::*number :
+       {&FrictionLaw::kinetic, &FrictionLaw::amplitude_1, &FrictionLaw::amplitude_2, &FrictionLaw::half_velocity_1,
+        &FrictionLaw::half_velocity_2, &FrictionLaw::memory_distance, &FrictionLaw::memory_velocity,
+        &FrictionLaw::reference_temperature, &FrictionLaw::temperature_change, &FrictionLaw::temperature_range})
+    out.*number = (1.0 - share) * a.*number + share * b.*number;
+  return out;
+}
+
+FrictionLaw friction_at(std::span<const double> positions, std::span<const FrictionLaw> laws, double position,
+                        const FrictionLaw& otherwise) {
+  if (positions.empty()) return otherwise;
+  const auto next = std::upper_bound(positions.begin(), positions.end(), position);
+  if (next == positions.begin()) return laws.front();
+  if (next == positions.end()) return laws.back();
+  const auto k = static_cast<std::size_t>(next - positions.begin());
+  return between(laws[k - 1], laws[k], (position - positions[k - 1]) / (positions[k] - positions[k - 1]));
+}
+
 }  // namespace treadmark

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <span>
+
 namespace treadmark {
 
 /// Coefficient of friction as a function of the local slip velocity w [m/s]:
@@ -28,5 +30,11 @@ struct FrictionLaw {
   /// Kind::temperature: friction where the surface of body 1 has this temperature [deg C].
   double at_temperature(double temperature) const;
 };
+
+/// The law between two others of the same kind, number by number. share: 0 = a, 1 = b.
+FrictionLaw between(const FrictionLaw& a, const FrictionLaw& b, double share);
+
+/// The law at a position between given ones, the first or last one beyond them; none given: otherwise.
+FrictionLaw friction_at(std::span<const double> positions, std::span<const FrictionLaw> laws, double position, const FrictionLaw& otherwise);
 
 }  // namespace treadmark

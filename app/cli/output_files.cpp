@@ -11,6 +11,8 @@
 #include "treadmark/io/results/picture_svg.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
+#include "treadmark/io/results/write_mat.hpp"
+#include "treadmark/io/results/write_subs.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
 
 namespace treadmark::cli {
@@ -28,11 +30,30 @@ void prepare(const std::filesystem::path& folder, const char* last_file) {
 
 }  // namespace
 
+namespace {
+
+/// Text tables for other people's tools, of the cases that ask for them.
+void write_text_tables(const std::filesystem::path& folder, const io::RunResult& result) {
+  const std::string stem = std::filesystem::path(result.input_file).stem().string();
+  for (const io::CaseResult& c : result.cases)
+    for (std::size_t k = 0; k < c.patches.size(); ++k) {
+      const io::PatchResult& patch = c.patches[k];
+      const int letter = c.has_wheelset ? static_cast<int>(k) + 1 : 0;
+      if (patch.element_table)
+        io::write_mat(folder / io::case_file_name(stem, c.number, letter, "mat"), *patch.element_table, patch, patch.all_elements);
+      if (patch.subsurface_table && !patch.subsurface.empty())
+        io::write_subs(folder / io::case_file_name(stem, c.number, letter, "subs"), patch.subsurface, patch.full_tensor);
+    }
+}
+
+}  // namespace
+
 void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
   prepare(folder, "result.json");
   io::write_hdf5(folder / "fields.h5", result);
   io::write_vtk(folder / "vtk", result);
   io::write_pressure_svg(folder / "pressure.svg", result);
+  write_text_tables(folder, result);
   io::write_json(folder / "result.json", result);
 }
 

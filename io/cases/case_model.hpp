@@ -227,6 +227,7 @@ struct BasicCase {
   std::vector<FrictionLaw> friction_of_row;    ///< empty, or one for each row
   std::vector<double> extra_slip_x, extra_slip_y;  ///< empty, or one for each element [-]; shift: [m]
   std::optional<Thermal> thermal;
+  bool sensitivities = false;                  ///< derivatives of forces are wanted
   SubsurfaceInput subsurface;
 };
 
@@ -234,6 +235,7 @@ struct Case {
   int number = 0;               ///< counts from 1 in the file
   SourcePosition where;         ///< first line of the case
   int sequence = 0;             ///< cases of one sequence follow each other in time
+  bool shown = true;            ///< false: no output is wanted (O = 0)
   int element_table = 0;        ///< .mat text table of elements: 0 none, 1 those in contact, 2 all
   std::variant<WheelRailCase, BasicCase> content;
 };

@@ -163,7 +163,7 @@ constexpr DigitValue kRunDigits[] = {
     {0, 'A', "MATFIL", 0, yes, "no table of elements (.mat)"},
     {0, 'A', "MATFIL", 1, yes, "table of the elements in contact"},
     {0, 'A', "MATFIL", 2, yes, "table of all elements"},
-    {0, 'O', "OUTPUT", -1, no_effect, "amount of output"},
+    {0, 'O', "OUTPUT", -1, yes, "amount of output; 0: the case is solved, its patches are not in the results"},
     {0, 'W', "FLOW", -1, no_effect, "trace of the calculation"},
     {0, 'R', "RETURN", 0, yes, "run; the next case follows without module line"},
     {0, 'R', "RETURN", 1, yes, "run; the next case starts with a module line"},

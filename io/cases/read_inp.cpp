@@ -114,6 +114,7 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     next.where = where;
     next.sequence = kept.number;
     next.element_table = (*reader.run)["MATFIL"];
+    next.shown = (*reader.run)["OUTPUT"] != 0;
     if (module == 1) next.content = read_wheel_rail(reader);
     else next.content = read_basic(reader);
     kept.started = true;

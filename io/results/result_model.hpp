@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <optional>
 #include <string>
@@ -10,6 +11,7 @@
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/report.hpp"
 #include "treadmark/core/surface_difference.hpp"
+#include "treadmark/io/results/mat_file_head.hpp"
 #include "treadmark/io/results/subsurface_block.hpp"
 
 namespace treadmark::io {
@@ -49,6 +51,16 @@ struct PatchResult {
   std::optional<double> max_temperature_1, max_temperature_2;  ///< in contact, rail and wheel [deg C]
   PatchFields fields;
   std::vector<SubsurfaceBlock> subsurface;         ///< in the axes of the patch
+  bool subsurface_table = false, full_tensor = false;  ///< a .subs text file is wanted, with all components of stress
+  std::optional<MatFileHead> element_table;        ///< a .mat text file is wanted
+  bool all_elements = false;                       ///< in it, also those not in contact
+  /// Derivatives of the forces on the rail, where they were asked for: by the creepages xi, eta [N], phi [N m] (shift: [N/m], [N/rad])
+  /// of (F_x, F_s), and by the approach of (F_n, F_x, F_s) [N/m].
+  struct Sensitivities {
+    std::array<std::array<double, 2>, 3> by_creepage{};
+    std::array<double, 3> by_approach{};
+  };
+  std::optional<Sensitivities> sensitivities;
 };
 
 struct CaseResult {
@@ -56,6 +68,7 @@ struct CaseResult {
   Status status = Status::ok;
   std::string message;
   double seconds = 0.0;
+  bool shown = true;              ///< false: the input asks for no output of this case
   bool has_wheelset = false;
   double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;      ///< wheelset [m], [rad]
   double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0; ///< [m/s], [rad/s]

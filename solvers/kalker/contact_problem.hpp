@@ -84,7 +84,7 @@ struct HertzShape {
 };
 
 struct SolverSettings {
-  enum class Method { automatic, sweeps };
+  enum class Method { automatic, sweeps };   ///< sweeps: over single elements, slow; an independent check (tangential problem)
   double eps = 1e-5;        ///< relative accuracy of tractions
   int max_iterations = 999; ///< inner iterations per solve
   int max_outer = 100;      ///< active-set corrections, friction iterations

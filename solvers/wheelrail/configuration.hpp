@@ -88,6 +88,14 @@ struct Problem {
   FrictionLaw friction;
   kalker::SolverSettings solver;
   int max_force_iterations = 30;
+  kalker::NormalModel normal_model = kalker::NormalModel::full;            ///< full, kpec or analyn
+  kalker::TangentialModel tangential_model = kalker::TangentialModel::full;
+  kalker::FastsimSettings fastsim;
+  kalker::InfluenceSettings influence;   ///< constant or bilinear
+  /// Friction at inclinations of the rail's surface [rad], increasing; between them every number of the law is interpolated, beyond them
+  /// it stays. Empty: friction is the same everywhere.
+  std::vector<double> friction_inclination;
+  std::vector<FrictionLaw> friction_laws;
 };
 
 }  // namespace treadmark::wheelrail

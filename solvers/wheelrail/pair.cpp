@@ -81,7 +81,11 @@ kalker::ContactProblem Pair::contact_problem(const Problem& p, const PatchSoluti
   c.gap = patch.distance;
   c.sub_patches = sub_patches(p.discretisation, patch.region, patch.frame, patch.grid);
   c.material = p.material;
-  c.friction = p.friction;
+  c.friction = friction_at(p.friction_inclination, p.friction_laws, patch.frame.angle, p.friction);
+  c.normal_model = p.normal_model;
+  c.tangential_model = p.tangential_model;
+  c.fastsim = p.fastsim;
+  c.influence = p.influence;
   c.force_prescribed = false;
   c.approach = patch.approach;
   c.regime = p.regime;

@@ -36,4 +36,14 @@ FrictionSolveResult FrictionSolve::run(const FrictionProblem& problem, FrictionS
   }
 }
 
+FrictionSolveResult FrictionSolve::run_sweeps(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations) {
+  limit_to_bound(state.traction, problem.bound);
+  FrictionSweeps sweeps(*problem.matrix);
+  FrictionSolveResult result;
+  result.sweeps = sweeps.run(problem, state.traction, kSweepAccuracy * eps, max_iterations);
+  result.converged = result.sweeps < max_iterations;
+  state.update(problem);
+  return result;
+}
+
 }  // namespace treadmark::kalker

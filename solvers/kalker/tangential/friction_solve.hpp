@@ -17,6 +17,8 @@ class FrictionSolve {
  public:
   /// max_iterations: Newton steps at a time, and sweeps in total, before giving up.
   FrictionSolveResult run(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations);
+  /// Sweeps alone, for comparison.
+  FrictionSolveResult run_sweeps(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations);
 
   FrictionNewton& newton() { return newton_; }
 

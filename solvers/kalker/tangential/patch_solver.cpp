@@ -79,8 +79,9 @@ void PatchSolver::start_from(Field2 traction, std::vector<double> slip_speed) {
 }
 
 bool PatchSolver::solve_at_fixed_friction(double eps) {
-  const FrictionSolveResult result =
-      friction_solve_.run(problem_, state_, eps, input_.settings.max_iterations);
+  const bool sweeps = input_.settings.method == SolverSettings::Method::sweeps;
+  const FrictionSolveResult result = sweeps ? friction_solve_.run_sweeps(problem_, state_, eps, input_.settings.max_iterations)
+                                            : friction_solve_.run(problem_, state_, eps, input_.settings.max_iterations);
   steps_ += result.steps;
   sweeps_ += result.sweeps;
   return result.converged;
