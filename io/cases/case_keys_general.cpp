@@ -42,6 +42,14 @@ void add_case(KeyList& list) {
     for (std::size_t i = 0; i < choices.size(); ++i)
       if (choices[i] == v.text()) c.element_table = static_cast<int>(i);
   };
+
+  KeyInfo sensitivities = key_info("case.sensitivities", KeyType::flag,
+                                   "derivatives of the forces by creepages and approach in the results; full theory");
+  sensitivities.scope = KeyScope::patch;
+  sensitivities.default_text = "false";
+  list.add(sensitivities).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<BasicCase>(c).sensitivities = v.flag();
+  };
 }
 
 void add_solver(KeyList& list) {

@@ -74,6 +74,14 @@ Json patch_json(const PatchResult& patch) {
   out["approach_mm"] = number(patch.approach * kMilli);
   out["pmax_MPa"] = number(patch.pmax * kMega);
 
+  if (patch.sensitivities) {
+    const auto& s = *patch.sensitivities;
+    out["sensitivities"] = {{"fx_by_xi", number(s.by_creepage[0][0])},   {"fs_by_xi", number(s.by_creepage[0][1])},
+                            {"fx_by_eta", number(s.by_creepage[1][0])},  {"fs_by_eta", number(s.by_creepage[1][1])},
+                            {"fx_by_phi", number(s.by_creepage[2][0])},  {"fs_by_phi", number(s.by_creepage[2][1])},
+                            {"fn_by_approach", number(s.by_approach[0])}, {"fx_by_approach", number(s.by_approach[1])},
+                            {"fs_by_approach", number(s.by_approach[2])}};
+  }
   if (patch.max_temperature_1) out["max_temperature_1_C"] = number(*patch.max_temperature_1);
   if (patch.max_temperature_2) out["max_temperature_2_C"] = number(*patch.max_temperature_2);
 

@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <array>
 #include <cmath>
 #include <numbers>
 
@@ -285,6 +287,95 @@ TEST(History, WorkGoesIntoFrictionAndElasticEnergy) {
   // a path that turns has not come to a closed loop yet
   const Cycle eight = third_cycle(false);
   EXPECT_NEAR(eight.input, eight.friction + eight.energy_change, 1e-6 * eight.friction);
+}
+
+/// Derivatives of forces against differences of forces, in small steps so that few elements change their state.
+TEST(Sensitivities, AreThoseOfSmallDifferences) {
+  for (const Regime regime : {Regime::steady, Regime::shift}) {
+    Ball ball(24, 1e-10);
+    ball.problem.force_prescribed = false;
+    ball.problem.approach = 3.0e-5;
+    ball.problem.regime = regime;
+    const double length = regime == Regime::shift ? 4e-3 : 1.0;
+    ball.problem.creepage = {-6e-4 * length, 4e-4 * length, 0.2 * length};
+    ball.problem.sensitivities = true;
+    ContactSolver solver;
+    const ContactSolution at = ball.solve(solver);
+    ASSERT_TRUE(at.sensitivities);
+    ASSERT_GT(at.elements_slip, 50);
+    ASSERT_GT(at.elements_adhesion, 50);
+    const auto derivative = [&](double& parameter, double step) {
+      const double before = parameter;
+      parameter = before + step;
+      const ContactSolution more = ball.solve(solver);
+      parameter = before - step;
+      const ContactSolution less = ball.solve(solver);
+      parameter = before;
+      return std::array<double, 3>{(more.force_n - less.force_n) / (2.0 * step), (more.force_x - less.force_x) / (2.0 * step),
+                                   (more.force_y - less.force_y) / (2.0 * step)};
+    };
+    Creepage& c = ball.problem.creepage;
+    const double scale = std::fabs(at.sensitivities->by_creepage[0][0]);
+    const std::array<double*, 3> parameters{&c.xi, &c.eta, &c.phi};
+    for (std::size_t k = 0; k < 3; ++k) {
+      const double size = k == 2 ? 0.2 * length : 5e-4 * length;
+      const auto d = derivative(*parameters[k], 1e-4 * size);
+      const double unit = k == 2 ? 2.7e-3 : 1.0;   // a spin acts by its lever
+      EXPECT_NEAR(at.sensitivities->by_creepage[k][0], d[1], 0.01 * scale * unit) << k;
+      EXPECT_NEAR(at.sensitivities->by_creepage[k][1], d[2], 0.01 * scale * unit) << k;
+    }
+    const auto d = derivative(ball.problem.approach, 1e-10);
+    EXPECT_NEAR(at.sensitivities->by_approach[0], d[0], 1e-3 * d[0]);
+    EXPECT_NEAR(at.sensitivities->by_approach[1], d[1], 0.01 * d[0]);
+    EXPECT_NEAR(at.sensitivities->by_approach[2], d[2], 0.01 * d[0]);
+    // Hertz: F_n grows as the 3/2 power of the approach
+    EXPECT_NEAR(at.sensitivities->by_approach[0], 1.5 * at.force_n / 3.0e-5, 0.02 * at.sensitivities->by_approach[0]);
+  }
+}
+
+/// Friction that falls with temperature: full sliding, so that the heat is known and the coefficient follows from it.
+TEST(TemperatureFriction, FitsTheTemperature) {
+  Ball ball(20, 1e-7);
+  ball.problem.regime = Regime::steady;
+  ball.problem.creepage = {-0.05, 0.0, 0.0};
+  ball.problem.thermal.emplace();
+  ball.problem.friction.kind = FrictionLaw::Kind::temperature;
+  ball.problem.friction.kinetic = 0.3;
+  ball.problem.friction.reference_temperature = 0.0;
+  ball.problem.friction.temperature_change = -0.2;
+  ball.problem.friction.temperature_range = 1000.0;
+  ball.problem.friction.memory_distance = 0.0;
+  ContactSolver solver;
+  const ContactSolution s = ball.solve(solver);
+  ASSERT_EQ(s.status, Status::ok) << s.tangential.message;
+  ASSERT_GT(s.max_temperature_1, 50.0);
+  double fx = 0.0;
+  for (std::size_t i = 0; i < s.pressure.size(); ++i) {
+    if (!(s.pressure[i] > 0.0)) continue;
+    const double mu = 0.3 - 0.2 * std::clamp(s.temperature_1[i] / 1000.0, 0.0, 1.0);
+    EXPECT_NEAR(s.friction[i], mu, 1e-4);
+    fx += mu * s.pressure[i] * ball.problem.grid.cell_area();
+  }
+  EXPECT_NEAR(s.force_x, fx, 1e-4 * fx);
+  EXPECT_LT(s.force_x, 0.299 * s.force_n);
+}
+
+/// Sweeps over single elements are another way to the same solution.
+TEST(Sweeps, ReachTheSameSolutionOfTransientRolling) {
+  Ball ball(10, 1e-8);
+  ball.problem.regime = Regime::transient;
+  ball.problem.creepage = {-6e-4, 3e-4, 0.1};
+  ContactSolver newton, sweeps;
+  for (int k = 0; k < 4; ++k) {
+    ball.problem.history = k == 0 ? HistoryUse::start : HistoryUse::keep_going;
+    ball.problem.settings.method = SolverSettings::Method::automatic;
+    const ContactSolution a = ball.solve(newton);
+    ball.problem.settings.method = SolverSettings::Method::sweeps;
+    const ContactSolution b = ball.solve(sweeps);
+    ASSERT_EQ(b.status, Status::ok) << b.tangential.message;
+    EXPECT_LT(largest_difference(a.traction_x, b.traction_x), 1e-6 * a.max_pressure);
+    EXPECT_LT(largest_difference(a.traction_y, b.traction_y), 1e-6 * a.max_pressure);
+  }
 }
 
 }  // namespace
