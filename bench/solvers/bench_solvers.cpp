@@ -90,9 +90,9 @@ bool print_times(int largest, nlohmann::json& json) {
       print(t, growth);
       converged = converged && t.converged;
       json["times"].push_back({{"problem", t.problem}, {"n", t.n}, {"contact_elements", t.elements}, {"cpu_s", t.time.cpu},
-                               {"wall_s", t.time.wall}, {"iterations", t.iterations}, {"ns_per_element_and_iteration", t.nanoseconds_each()},
-                               {"force_x", t.force_x}, {"force_y", t.force_y}, {"saturation", t.saturation},
-                               {"converged", t.converged}});
+                               {"wall_s", t.time.wall}, {"iterations", t.iterations},
+                               {"ns_per_element_and_iteration", t.nanoseconds_each()}, {"force_x", t.force_x},
+                               {"force_y", t.force_y}, {"saturation", t.saturation}, {"converged", t.converged}});
       if (growth) json["times"].back()["growth"] = *growth;
       if (t.products > 0.0) json["times"].back()["products"] = t.products;
     }
