@@ -105,7 +105,8 @@ struct Rolling {
 TEST(HistoryConvergence, RollingFromRestTendsToSteadyRolling) {
   const std::vector<int> distances{4, 8, 16, 32, 64, 128}, shown{4, 8, 16, 32, 64};
   Rolling rolling(20);
-  const auto half = rolling.differences(0.5, distances), one = rolling.differences(1.0, distances), two = rolling.differences(2.0, distances);
+  const auto half = rolling.differences(0.5, distances), one = rolling.differences(1.0, distances);
+  const auto two = rolling.differences(2.0, distances);
   for (std::size_t k = 0; k < shown.size(); ++k)
     treadmark::testing::expect_documented("rolled", shown[k], {half[k], one[k], two[k]});
   EXPECT_LT(std::abs(one.back()), 2e-5);

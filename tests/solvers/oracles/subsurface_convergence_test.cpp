@@ -45,7 +45,8 @@ TEST(SubsurfaceConvergence, BelowASphereItIsHertz) {
     std::vector<double> errors;
     for (const double zeta : {0.25, 0.5, 1.0, 2.0}) {
       const Vec3 point(0.0, 0.0, zeta * a);
-      const Mat3 stress = subsurface_stress(surface_tractions(owned.problem.grid, solution), kSteel, std::span(&point, 1)).front().stress / p0;
+      const SurfaceTractions tractions = surface_tractions(owned.problem.grid, solution);
+      const Mat3 stress = subsurface_stress(tractions, kSteel, std::span(&point, 1)).front().stress / p0;
       const double axial = -1.0 / (1.0 + zeta * zeta);
       const double radial = -(1.0 + kPoisson) * (1.0 - zeta * std::atan(1.0 / zeta)) - 0.5 * axial;
       errors.push_back(std::hypot(stress(2, 2) - axial, stress(0, 0) - radial));
