@@ -110,10 +110,10 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles)));
         pool.give_back(std::move(lease));
       } else {
-        const auto& input = std::get<io::BasicCase>(c.content);
-        result = sequence.solve(input);
+        const auto& basic = std::get<io::BasicCase>(c.content);
+        result = sequence.solve(basic);
         for (io::PatchResult& patch : result.patches) {
-          if (c.element_table > 0) patch.element_table = mat_head(input, c.number);
+          if (c.element_table > 0) patch.element_table = mat_head(basic, c.number);
           patch.all_elements = c.element_table > 1;
         }
       }

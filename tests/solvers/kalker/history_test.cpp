@@ -265,7 +265,7 @@ Cycle third_cycle(bool line) {
     double power = 0.0;
     for (std::size_t i = 0; i < px.size(); ++i) power += (s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i]) * area;
     EXPECT_NEAR(s.frictional_power, power, 1e-12 + 1e-9 * std::fabs(power));
-    EXPECT_LE(s.frictional_power, 1e-15);
+    EXPECT_LE(s.frictional_power, 1e-12);  // rounding, where hardly anything slips
     for (std::size_t i = 0; i < px.size() && k >= 2 * steps; ++i) {
       const double mx = 0.5 * (px[i] + s.traction_x[i]), my = 0.5 * (py[i] + s.traction_y[i]);
       out.input -= (mx * wx + my * wy) * area;

@@ -22,7 +22,12 @@ std::string refusal(const std::function<void(Case&)>& change) {
 }
 
 TEST(TangentialSolver, RefusesWhatItCannotDo) {
-  EXPECT_NE(refusal([](Case& c) { c.problem.material.shear_modulus_2 = 26e9; }).find("K = "), std::string::npos);
+  EXPECT_NE(refusal([](Case& c) { c.problem.friction_of_row.resize(3); }).find("friction laws"), std::string::npos);
+  EXPECT_NE(refusal([](Case& c) {
+              c.problem.regime = Regime::transient;
+              c.problem.rolling.step = 0.0;
+            }).find("rolling step"),
+            std::string::npos);
   EXPECT_NE(refusal([](Case& c) { c.problem.rolling.chi = 1.0; }).find("direction"), std::string::npos);
   EXPECT_NE(refusal([](Case& c) { c.problem.rolling.velocity = 0.0; }).find("velocity"), std::string::npos);
   EXPECT_NE(refusal([](Case& c) { c.solution.pressure.pop_back(); }).find("pressure"), std::string::npos);
