@@ -11,6 +11,7 @@
 #include "treadmark/app/patch_result.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/kalker/normal/semi_double_elliptic.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -31,7 +32,7 @@ kalker::HertzShape hertz_shape(const io::BasicCase& input, const io::HertzInput&
     case io::HertzInput::Given::line_semi_axis:
       return kalker::hertz_line_from_semi_axis(h.aa, h.bb, load, material);
     case io::HertzInput::Given::semi_double_elliptic:
-      break;
+      return kalker::hertz_semi_double_elliptic(h.aa, h.bb_negative, h.bb_positive, load, material);
   }
   return {};
 }

@@ -18,8 +18,11 @@ namespace {
 void check(const ContactProblem& problem) {
   const SubPatches& s = problem.sub_patches;
   const auto n = static_cast<std::size_t>(s.count);
-  if (problem.force_prescribed || problem.normal_model != NormalModel::full)
-    throw Error(ErrorKind::configuration, "sub-patches need a prescribed approach and the full normal problem");
+  using Model = NormalModel;
+  const Model model = problem.normal_model;
+  if (problem.force_prescribed || (model != Model::full && model != Model::kpec && model != Model::analyn))
+    throw Error(ErrorKind::configuration, "sub-patches need a prescribed approach and pressures that follow from the gap", {},
+                "use the full normal problem, KPEC or ANALYN");
   if (s.part.size() != problem.grid.size() || s.coupling.size() != n * n)
     throw Error(ErrorKind::configuration, "sub-patches need a part for every element and a factor for every pair");
   for (const double f : s.coupling)

@@ -76,6 +76,18 @@ TEST(SubPatches, ForceFallsSteadilyWithCoupling) {
   }
 }
 
+TEST(SubPatches, TakeApproximatePressures) {
+  for (const NormalModel model : {NormalModel::kpec, NormalModel::analyn}) {
+    TwoBumps full(0.5), fast(0.5);
+    fast.problem.normal_model = model;
+    const ContactSolution a = ContactSolver().solve_normal(full.problem), b = ContactSolver().solve_normal(fast.problem);
+    ASSERT_EQ(b.status, Status::ok) << b.normal.message;
+    // ellipses: both approximations are close to the full solution
+    EXPECT_NEAR(b.force_n, a.force_n, 0.02 * a.force_n);
+    EXPECT_NEAR(b.max_pressure, a.max_pressure, 0.02 * a.max_pressure);
+  }
+}
+
 TEST(SubPatches, RefusesWhatItCannotSolve) {
   TwoBumps bumps(0.5);
   bumps.problem.force_prescribed = true;
