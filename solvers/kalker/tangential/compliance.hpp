@@ -59,7 +59,7 @@ class Compliance {
   void tabulate();
   Entry wide_at(int dix, int diy) const;
   template <class Multiply>
-  void multiply(Transport transport, const Multiply& at) ;
+  void multiply(Transport transport, const Multiply& at);
 
   ComplianceKey key_;
   ToeplitzTransform transform_;
