@@ -100,7 +100,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   std::mutex progress_mutex;
   std::size_t finished = 0;
   SolverPool pool;
-  const auto solve_case = [&](std::size_t i, BasicSequence& sequence) {
+  const auto solve_case = [&](std::size_t i, BasicSequence& sequence, bool broken) {
     const auto case_start = Clock::now();
     const io::Case& c = file.cases[i];
     io::CaseResult result;
@@ -110,6 +110,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
         result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles)));
         pool.give_back(std::move(lease));
       } else {
+        if (broken) throw Error(ErrorKind::numerical, "the case before it in its sequence failed, so that there is no previous instant");
         const auto& basic = std::get<io::BasicCase>(c.content);
         result = sequence.solve(basic);
         for (io::PatchResult& patch : result.patches) {
@@ -139,9 +140,12 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   const auto groups = groups_in_time(file);
   parallel_for(groups.size(), [&](std::size_t g) {
     BasicSequence sequence;
+    bool broken = false;
     for (const std::size_t i : groups[g]) {
-      if (progress.stop_requested() || errors[groups[g].front()]) return;
-      solve_case(i, sequence);
+      if (progress.stop_requested()) return;
+      solve_case(i, sequence, broken);
+      if (errors[i]) return;
+      broken = results[i]->status == Status::failed;
     }
   });
   for (const auto& error : errors)

@@ -36,6 +36,7 @@ void add_case(KeyList& list) {
 
   KeyInfo table = key_info("case.element_table", KeyType::choice,
                            "text table of the elements of each patch (.mat): none, those in contact or all");
+  table.scope = KeyScope::patch;
   table.choices = {"none", "contact", "all"};
   table.default_text = "\"none\"";
   list.add(table).set = [choices = table.choices](Case& c, const CaseValue& v, const std::filesystem::path&) {

@@ -90,6 +90,10 @@ class Rules {
     refuse_if(c.tangential_model == TangentialModelInput::fastsim_one_flexibility && !(c.fastsim_flexibility > 0.0), CaseSetting::material,
               "FASTSIM with one flexibility needs that flexibility", "FLX in .inp, patch.fastsim_flexibility_mm_per_MPa in .toml");
     refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer, "the simplified theory knows no plasticity of the interface layer");
+    refuse_if(!c.friction_of_row.empty() || c.friction.kind == FrictionLaw::Kind::temperature, CaseSetting::friction,
+              "the simplified theory knows one coefficient of friction, not one by row or by temperature");
+    refuse_if(!c.extra_slip_x.empty(), CaseSetting::extra_slip, "the simplified theory takes no slip that is given for every element");
+    refuse_if(c.sensitivities, CaseSetting::material, "the simplified theory gives no sensitivities");
   }
 
   void material(const BasicCase& c) {

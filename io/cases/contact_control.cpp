@@ -75,6 +75,8 @@ void ContactReader::read_control_words() {
     note(fmt::format("G (GAUSEI) = {}, {}: {}", solver, run->described("GAUSEI").meaning,
                      solver == 3 || solver == 5 ? "read, but the solver and its relaxation are Treadmark's own"
                                                 : "its relaxation (OMEGAH, OMEGAS, OMGSLP) is read without effect"));
+  if (module == 1 && (*run)["MATFIL"] > 0)
+    note("A (MATFIL) > 0: tables of elements are written for module 3; those of a wheel on a rail are in the HDF5 and VTK files");
   if ((*run)["IESTIM"] > 0) note("I (IESTIM) > 0: initial estimates are not needed and ignored");
 }
 

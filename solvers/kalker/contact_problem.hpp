@@ -136,7 +136,8 @@ struct ContactProblem {
   bool sensitivities = false;                    ///< derivatives of forces are computed
 };
 
-/// Derivatives of the forces on body 1 at the solution, adhesion and slip areas staying as they are.
+/// Derivatives of the forces on body 1 at the solution; adhesion and slip areas and coefficients of friction stay as they are, and so do
+/// pressures under tangential tractions of dissimilar bodies.
 struct Sensitivities {
   std::array<std::array<double, 2>, 3> by_creepage{};   ///< of (F_x, F_y) by xi, eta [N], phi [N m]; shift: [N/m], [N/m], [N/rad]
   std::array<double, 3> by_approach{};                  ///< of (F_n, F_x, F_y) by the approach [N/m]

@@ -177,7 +177,10 @@ void ContactSolver::Workspace::solve_once(const ContactProblem& problem, Contact
 /// With surface temperatures, in turns with friction that depends on them.
 void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, ContactSolution& solution) {
   const HeatOptions heat{problem.thermal && problem.thermal->reference_quirks};
-  if (problem.friction.kind != FrictionLaw::Kind::temperature || !problem.thermal) {
+  const auto by_temperature = [](const FrictionLaw& law) { return law.kind == FrictionLaw::Kind::temperature; };
+  const std::vector<FrictionLaw>& rows = problem.friction_of_row;
+  const bool depends = rows.empty() ? by_temperature(problem.friction) : std::any_of(rows.begin(), rows.end(), by_temperature);
+  if (!depends || !problem.thermal) {
     solve_once(problem, solution);
     if (problem.thermal) add_surface_temperatures(problem, solution, heat);
     return;

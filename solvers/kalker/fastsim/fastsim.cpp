@@ -36,6 +36,10 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
   if (!(problem.fastsim.k0 > 0.0) || !(problem.fastsim.alpha > 0.0 && problem.fastsim.alpha <= 1.0) ||
       !(problem.fastsim.beta >= 0.0))
     refuse("the slope reduction needs k0 > 0, 0 < alpha <= 1, beta >= 0");
+  if (!problem.friction_of_row.empty() || problem.friction.kind == FrictionLaw::Kind::temperature)
+    refuse("friction is the same everywhere", "use the full tangential model for friction by row or by temperature");
+  if (!problem.extra_slip_x.empty() || !problem.extra_slip_y.empty())
+    refuse("slip given for every element is not taken into account", "use the full tangential model");
   const double flexibility = problem.fastsim.flexibility;
   if (problem.tangential_model == TangentialModel::fastsim_one_flexibility && !(flexibility > 0.0 && std::isfinite(flexibility)))
     refuse("the one flexibility is " + std::to_string(flexibility) + " m/Pa", "it must be positive");

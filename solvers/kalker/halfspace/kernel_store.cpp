@@ -2,14 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 
-#include <cmath>
-
 namespace treadmark::kalker {
 
 namespace {
 
 constexpr std::size_t kMostKernels = 8;
-constexpr double kEqualBodies = 1e-6;  ///< |K| below this has no influence
 
 bool viscoelastic(const Material& m) { return m.creep_ratio_1 != 0.0 || m.creep_ratio_2 != 0.0; }
 
@@ -41,9 +38,7 @@ KernelChoice KernelStore::get(const ContactProblem& problem) {
   choice.kernel = make_influence_kernel(problem.material, problem.influence, problem.grid.dx, problem.grid.dy,
                                         problem.rolling.velocity, problem.rolling.chi);
   choice.standard = problem.influence.kind == InfluenceSettings::Kind::constant && !viscoelastic(problem.material);
-  choice.coupled = choice.standard || problem.influence.kind == InfluenceSettings::Kind::bilinear
-                       ? std::fabs(combine(problem.material).difference) > kEqualBodies
-                       : choice.kernel->coupled();
+  choice.coupled = choice.kernel->coupled();
   entries_.push_front({numbers, problem.influence.table, choice});
   if (entries_.size() > kMostKernels) entries_.pop_back();
   return choice;

@@ -28,7 +28,7 @@ Pressure pressure_of(const ContactProblem& problem) {
 
 }  // namespace
 
-void assume_pressure(const ContactProblem& problem, const CombinedMaterial& material, NormalOperatorCache& operators,
+void assume_pressure(const ContactProblem& problem, NormalOperatorCache& operators,
                      ContactSolution& solution) {
   const Pressure pressure = pressure_of(problem);
   const HertzShape& hertz = *problem.hertz;
@@ -47,7 +47,7 @@ void assume_pressure(const ContactProblem& problem, const CombinedMaterial& mate
   if (box.empty())
     solution.status = solution.normal.status = Status::no_contact;
   else if (problem.normal_model == NormalModel::semi_double_elliptic)
-    half_space_displacement(operators, material, grid, box, solution.pressure, solution.displacement_n);
+    half_space_displacement(operators, problem, box, solution.pressure, solution.displacement_n);
 }
 
 }  // namespace treadmark::kalker

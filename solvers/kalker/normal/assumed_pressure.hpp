@@ -12,7 +12,7 @@ namespace treadmark::kalker {
 /// element's centre lies in the contact. The displacement of an elliptic or parabolic pressure is that of the undeformed
 /// contact area, of a semi-double-elliptic one that of the half-space.
 /// Errors: Error(configuration) without a Hertz ellipse, or without both semi-axes along y for the last model.
-void assume_pressure(const ContactProblem& problem, const CombinedMaterial& material, NormalOperatorCache& operators,
+void assume_pressure(const ContactProblem& problem, NormalOperatorCache& operators,
                      ContactSolution& solution);
 
 }  // namespace treadmark::kalker

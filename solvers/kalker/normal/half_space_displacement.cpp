@@ -4,8 +4,9 @@
 
 namespace treadmark::kalker {
 
-void half_space_displacement(NormalOperatorCache& operators, const CombinedMaterial& material, const Grid2& grid,
-                             const ElementBox& box, std::span<const double> pressure, std::span<double> displacement) {
+void half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
+                             std::span<const double> pressure, std::span<double> displacement) {
+  const Grid2& grid = problem.grid;
   // Beyond the box, possibly beyond the grid, there are no pressures; the size is one that transforms like.
   const int nx = NormalOperatorCache::rounded_up(box.nx()), ny = NormalOperatorCache::rounded_up(box.ny());
   AlignedVector<double> field(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
@@ -14,7 +15,7 @@ void half_space_displacement(NormalOperatorCache& operators, const CombinedMater
   };
   for (int iy = box.y0; iy < box.y1; ++iy)
     for (int ix = box.x0; ix < box.x1; ++ix) field[local(ix, iy)] = pressure[grid.index(ix, iy)];
-  operators.get(nx, ny, grid.dx, grid.dy, material.shear_modulus, material.poisson).displacement(field, field);
+  operators.get(nx, ny, problem).displacement(field, field);
   for (int iy = box.y0; iy < box.y1; ++iy)
     for (int ix = box.x0; ix < box.x1; ++ix) displacement[grid.index(ix, iy)] = field[local(ix, iy)];
 }

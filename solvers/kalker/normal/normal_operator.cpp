@@ -26,8 +26,11 @@ Spectrum reciprocal(const Spectrum& spectrum, double transform_size) {
 
 }  // namespace
 
-const NormalOperator& NormalOperatorCache::get(int nx, int ny, double dx, double dy, double shear_modulus, double poisson,
-                                               const std::shared_ptr<const InfluenceKernel>& kernel, double sheet) {
+const NormalOperator& NormalOperatorCache::get(int nx, int ny, const ContactProblem& problem) {
+  const CombinedMaterial material = combine(problem.material);
+  const double dx = problem.grid.dx, dy = problem.grid.dy, poisson = material.poisson, shear_modulus = material.shear_modulus;
+  const double sheet = problem.material.sheet_flexibility;
+  const std::shared_ptr<const InfluenceKernel> kernel = kernels_.get(problem).unusual();
   const bool other_elements = !table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson;
   if (other_elements || shear_modulus_ != shear_modulus || kernel_ != kernel || sheet_ != sheet) operators_.clear();
   if (other_elements) table_.emplace(Component::nn, dx, dy, poisson);

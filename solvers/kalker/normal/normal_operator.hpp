@@ -6,8 +6,9 @@
 #include <memory>
 #include <utility>
 
-#include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
+#include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence_table.hpp"
+#include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
 
 namespace treadmark::kalker {
@@ -32,14 +33,13 @@ class NormalOperatorCache {
   /// Sizes of boxes are rounded up to few values, so that operators are met again.
   static int rounded_up(int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; }
 
-  /// kernel: none for constant elements on half-spaces; the same if it is the same object. sheet: flexibility of a thin layer
-  /// between the bodies [m/Pa].
-  const NormalOperator& get(int nx, int ny, double dx, double dy, double shear_modulus, double poisson,
-                            const std::shared_ptr<const InfluenceKernel>& kernel = {}, double sheet = 0.0);
+  /// For a box of elements of the problem: its coefficients of influence, bodies and thin sheet.
+  const NormalOperator& get(int nx, int ny, const ContactProblem& problem);
 
  private:
   std::optional<InfluenceTable> table_;
   double shear_modulus_ = 0.0, sheet_ = 0.0;
+  KernelStore kernels_;
   std::shared_ptr<const InfluenceKernel> kernel_;
   std::map<std::pair<int, int>, std::unique_ptr<NormalOperator>> operators_;
 };

@@ -7,7 +7,6 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/normal/assumed_pressure.hpp"
 #include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
 #include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
@@ -104,7 +103,6 @@ void paste(const Grid2& grid, std::span<double> field, const ElementBox& box, co
 }  // namespace
 
 struct NormalSolver::Workspace {
-  KernelStore kernels;
   NormalOperatorCache operators;
   BoundConstrainedCg cg;
   std::vector<double> gap;  ///< without NaN
@@ -182,11 +180,7 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   std::vector<double>& pressure = solution.pressure;
   if (!take_last(grid, pressure)) first_pressure(problem, material, pressure);
 
-  const std::shared_ptr<const InfluenceKernel> kernel = kernels.get(problem).unusual();
-  const auto op = [&](const ElementBox& box) -> const NormalOperator& {
-    return operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson, kernel,
-                         problem.material.sheet_flexibility);
-  };
+  const auto op = [&](const ElementBox& box) -> const NormalOperator& { return operators.get(box.nx(), box.ny(), problem); };
   ElementBox box = rounded(bounding_box(grid, [&](std::size_t i) { return pressure[i] > 0.0; }), grid);
   cg.iterations = cg.products = 0;
   cg.approach = problem.approach;
@@ -280,9 +274,7 @@ std::vector<double> NormalSolver::pressure_by_approach(const ContactProblem& pro
   const ElementBox whole = bounding_box(grid, [&](std::size_t i) { return inside[i] > 0.0; });
   if (whole.empty()) return out;
   const ElementBox box = rounded(whole, grid);
-  const CombinedMaterial material = combine(problem.material);
-  const NormalOperator& op = workspace_->operators.get(box.nx(), box.ny(), grid.dx, grid.dy, material.shear_modulus, material.poisson,
-                                                       workspace_->kernels.get(problem).unusual(), problem.material.sheet_flexibility);
+  const NormalOperator& op = workspace_->operators.get(box.nx(), box.ny(), problem);
   constexpr double kAccuracy = 1e-8;
   paste(grid, out, box, pressure_of_unit_approach(op, cut(grid, inside, box), kAccuracy));
   return out;
@@ -295,13 +287,12 @@ void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solutio
   solution.pressure.assign(n, 0.0);
   solution.displacement_n.assign(n, 0.0);
   solution.state.assign(n, ElementState::exterior);
-  const CombinedMaterial material = combine(problem.material);
   if (problem.normal_model == NormalModel::full)
-    workspace_->solve_full(problem, material, solution);
+    workspace_->solve_full(problem, combine(problem.material), solution);
   else if (problem.normal_model == NormalModel::kpec || problem.normal_model == NormalModel::analyn)
-    solve_virtual_penetration(problem, material, workspace_->operators, solution);
+    solve_virtual_penetration(problem, workspace_->operators, solution);
   else
-    assume_pressure(problem, material, workspace_->operators, solution);
+    assume_pressure(problem, workspace_->operators, solution);
 
   double sum = 0.0;
   for (std::size_t i = 0; i < n; ++i) {

@@ -8,7 +8,6 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 
@@ -32,7 +31,6 @@ void check(const ContactProblem& problem) {
 }  // namespace
 
 struct SubPatchSolver::Workspace {
-  KernelStore kernels;
   NormalOperatorCache operators;
   std::vector<NormalSolver> solvers;
 };
@@ -64,10 +62,7 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
   const auto count = static_cast<std::size_t>(sub.count);
   const std::size_t n = grid.size();
   while (workspace_->solvers.size() < count) workspace_->solvers.emplace_back();
-  const CombinedMaterial material = combine(problem.material);
-  const NormalOperator& op =
-      workspace_->operators.get(grid.nx, grid.ny, grid.dx, grid.dy, material.shear_modulus, material.poisson,
-                                workspace_->kernels.get(problem).unusual(), problem.material.sheet_flexibility);
+  const NormalOperator& op = workspace_->operators.get(grid.nx, grid.ny, problem);
 
   // Displacement by each part alone, everywhere.
   std::vector<ContactSolution> parts(count);

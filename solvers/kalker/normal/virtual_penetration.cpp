@@ -35,12 +35,12 @@ void check(const ContactProblem& problem) {
 
 }  // namespace
 
-void solve_virtual_penetration(const ContactProblem& problem, const CombinedMaterial& material,
-                               NormalOperatorCache& operators, ContactSolution& solution) {
+void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators, ContactSolution& solution) {
   check(problem);
   const Grid2& grid = problem.grid;
   const Interpenetration overlap(grid, problem.gap, problem.approach);
   solution.approach = problem.approach;
+  const CombinedMaterial material = combine(problem.material);
   const bool kpec = problem.normal_model == NormalModel::kpec;
   if (!overlap.box().empty())
     solution.pressure = kpec ? kpec_distribution(overlap, material) : analyn_pressure(overlap, material);
@@ -49,7 +49,7 @@ void solve_virtual_penetration(const ContactProblem& problem, const CombinedMate
     solution.status = solution.normal.status = Status::no_contact;
     return;
   }
-  half_space_displacement(operators, material, grid, overlap.box(), solution.pressure, solution.displacement_n);
+  half_space_displacement(operators, problem, overlap.box(), solution.pressure, solution.displacement_n);
   if (!kpec) return;
   const int iy = overlap.deepest_row();
   const double scale = overlap.depth() / solution.displacement_n[grid.index(overlap.deepest_column(iy), iy)];

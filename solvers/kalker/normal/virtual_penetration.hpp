@@ -12,7 +12,6 @@ namespace treadmark::kalker {
 /// overlaps. The displacement is that of the half-space by the pressure, in the box of elements that overlap; with kpec it
 /// equals the depth at the deepest element.
 /// Errors: Error(configuration) for a prescribed force, less than 3 x 3 elements, a gap of another size or not finite.
-void solve_virtual_penetration(const ContactProblem& problem, const CombinedMaterial& material,
-                               NormalOperatorCache& operators, ContactSolution& solution);
+void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators, ContactSolution& solution);
 
 }  // namespace treadmark::kalker

@@ -3,7 +3,6 @@
 #include "treadmark/solvers/kalker/tangential/previous_instant.hpp"
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
@@ -19,7 +18,9 @@ struct Box {
   int x = 0, y = 0, nx = 0, ny = 0;
 };
 
-Box box_around(const Grid2& grid, std::span<const std::span<const double>> fields, const Patch* patch) {
+/// Now or then there are tractions only where there are pressures.
+Box box_around(const Patch& patch, std::span<const double> pressure, std::span<const double> pressure_then) {
+  const Grid2& grid = patch.grid;
   int x0 = grid.nx, x1 = -1, y0 = grid.ny, y1 = -1;
   const auto include = [&](int ix, int iy) {
     x0 = std::min(x0, ix);
@@ -27,13 +28,11 @@ Box box_around(const Grid2& grid, std::span<const std::span<const double>> field
     y0 = std::min(y0, iy);
     y1 = std::max(y1, iy);
   };
-  for (const auto& field : fields)
+  for (const auto& field : {pressure, pressure_then})
     for (int iy = 0; iy < grid.ny && !field.empty(); ++iy)
       for (int ix = 0; ix < grid.nx; ++ix)
         if (field[grid.index(ix, iy)] != 0.0) include(ix, iy);
-  if (patch != nullptr)
-    for (int i = 0; i < patch->size(); ++i) include(patch->column[static_cast<std::size_t>(i)], patch->row[static_cast<std::size_t>(i)]);
-  if (x1 < 0) return {};
+  for (int i = 0; i < patch.size(); ++i) include(patch.column[static_cast<std::size_t>(i)], patch.row[static_cast<std::size_t>(i)]);
   const auto roomy = [](int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; };
   Box out{x0, y0, roomy(x1 - x0 + 1), roomy(y1 - y0 + 1)};
   out.nx = std::max(out.nx, x1 - x0 + 1);
@@ -134,9 +133,7 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
     }
   // Displacements now by pressures of dissimilar bodies, and displacements of the same material a step ago.
   const ContactHistory& then = previous;
-  const std::array<std::span<const double>, 3> fields{pressure, history ? std::span<const double>(then.pressure) : std::span<const double>{},
-                                                      history ? std::span<const double>(then.traction_x) : std::span<const double>{}};
-  const Box box = box_around(grid, fields, &patch);
+  const Box box = box_around(patch, pressure, history ? std::span<const double>(then.pressure) : std::span<const double>{});
   const std::size_t size = static_cast<std::size_t>(box.nx) * static_cast<std::size_t>(box.ny);
   std::vector<double> ux(size), uy(size), before_x(size, 0.0), before_y(size, 0.0), edge_x, edge_y;
   if (kernel.coupled) {

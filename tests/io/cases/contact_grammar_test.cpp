@@ -364,7 +364,7 @@ TEST(ContactInputSequence, DebugLineAndSolverLinesAreRead) {
   for (const int solver : {0, 2, 3, 4, 5})
     EXPECT_NO_THROW(parse(ContactWriter(1).set("XFLOW", 1).set("GAUSEI", solver).str() + "0\n")) << solver;
   const CaseFile f = parse(ContactWriter(1).set("GAUSEI", 3).set("IESTIM", 1).set("MATFIL", 2).set("PVTIME", 0).str() + "0\n");
-  EXPECT_EQ(f.notes.size(), 3u);
+  EXPECT_EQ(f.notes.size(), 4u);
 }
 
 TEST(ContactInputSequence, LeadingZerosOfControlWordsMayBeMissing) {

@@ -212,6 +212,19 @@ TEST(History, SolvingAnInstantAgainChangesNothing) {
   EXPECT_GT(largest_difference(third.traction_x, second.traction_x), 1e-2 * second.max_pressure);
 }
 
+TEST(History, GoesOnFromAnInstantOfAnotherSolver) {
+  Ball ball(12);
+  ball.problem.regime = Regime::transient;
+  ball.problem.creepage = {-6e-4, 2e-4, 0.1};
+  ContactSolver one, other;
+  ball.solve(one);
+  other.continue_from(one.history());
+  ball.problem.history = HistoryUse::keep_going;
+  const ContactSolution a = ball.solve(one), b = ball.solve(other);
+  EXPECT_LT(largest_difference(a.traction_x, b.traction_x), 1e-7 * a.max_pressure);
+  EXPECT_LT(largest_difference(a.traction_y, b.traction_y), 1e-7 * a.max_pressure);
+}
+
 TEST(History, MovesWithAGridOfWholeElements) {
   Ball ball(12);
   ball.problem.regime = Regime::shift;
@@ -358,6 +371,20 @@ TEST(TemperatureFriction, FitsTheTemperature) {
   }
   EXPECT_NEAR(s.force_x, fx, 1e-4 * fx);
   EXPECT_LT(s.force_x, 0.299 * s.force_n);
+}
+
+TEST(SimplifiedTheory, RefusesFrictionAndSlipThatItWouldIgnore) {
+  Ball ball(10);
+  ball.problem.regime = Regime::steady;
+  ball.problem.tangential_model = TangentialModel::fastsim;
+  ContactSolver solver;
+  EXPECT_EQ(ball.solve(solver).status, Status::ok);
+  ball.problem.friction_of_row.resize(static_cast<std::size_t>(ball.problem.grid.ny));
+  EXPECT_THROW(ball.solve(solver), Error);
+  ball.problem.friction_of_row.clear();
+  const std::vector<double> slip(ball.gap.size(), 1e-4);
+  ball.problem.extra_slip_x = ball.problem.extra_slip_y = slip;
+  EXPECT_THROW(ball.solve(solver), Error);
 }
 
 /// Sweeps over single elements are another way to the same solution.

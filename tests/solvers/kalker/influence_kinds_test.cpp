@@ -136,6 +136,17 @@ TEST(InfluenceKinds, AVerySoftSheetIsABedOfSprings) {
   EXPECT_LT(rms_difference(thin.pressure, c.solve().pressure), 1e-3);
 }
 
+TEST(InfluenceKinds, ApproximatePressuresKnowTheSheetToo) {
+  Rolling8 c;
+  c.problem.regime = Regime::frictionless;
+  c.problem.force_prescribed = false;
+  c.problem.approach = 3e-5;
+  c.problem.normal_model = NormalModel::kpec;
+  const double bare = c.solve().force_n;
+  c.problem.material.sheet_flexibility = 1e-14;
+  EXPECT_LT(c.solve().force_n, 0.9 * bare);
+}
+
 /// A viscoelastic body is between its two elastic limits, and drags: pressures lean forwards.
 TEST(InfluenceKinds, ViscoelasticBodiesLieBetweenTheirLimits) {
   Rolling8 c;
