@@ -29,7 +29,7 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store, const SampledRegions& regions) {
   const StoredSurface& rail = store.get(input.rail, Body::rail, input.wheelset.nominal_radius, regions.rail);
   const StoredSurface& wheel = store.get(input.wheel, Body::wheel, input.wheelset.nominal_radius, regions.wheel);
-  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && wheel.constant_profile()};
+  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile(), wheel.constant_profile()};
 }
 
 // Solvers keep influence coefficients: hand finished ones to the next case with the same bodies.
@@ -107,7 +107,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
     try {
       if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) {
         SolverPool::Lease lease = pool.take(*geometries[i]);
-        result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles)));
+        result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles())));
         pool.give_back(std::move(lease));
       } else {
         if (broken) throw Error(ErrorKind::numerical, "the case before it in its sequence failed, so that there is no previous instant");

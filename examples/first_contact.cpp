@@ -10,7 +10,7 @@ int main() {
   using namespace treadmark;
   SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
   SurfaceSpec wheel{Body::wheel, 0.49, StandardProfile{"S1002"}, {.flats = {{.length = 0.16, .depth = 1.4e-3}}}};
-  wheelrail::Pair pair({create_surface(rail), create_surface(wheel), /*constant_profiles=*/false});
+  wheelrail::Pair pair({create_surface(rail), create_surface(wheel), /*prismatic_rail=*/true, /*round_wheel=*/false});
 
   wheelrail::Problem problem;
   problem.track.cant = 1.0 / 40.0;

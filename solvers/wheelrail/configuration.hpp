@@ -30,6 +30,28 @@ struct Track {
   double vy = 0.0, vz = 0.0, vroll = 0.0;  ///< and its rates [m/s], [rad/s]
 };
 
+/// A roller in place of the rail. Geometry::rail is then a surface of revolution about the y axis direction, placed like a rail's
+/// profile: its z = 0 lies at the nominal radius, its axle nominal_radius below. Cant does not apply, s along the track neither:
+/// position.x is where the wheelset's axle stands over the roller's.
+struct Roller {
+  double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
+  double pitch_rate = 0.0;      ///< [rad/s]; rolling forward has a positive rate (the wheelset's own is negative)
+};
+
+/// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the contact
+/// force on the rail in track axes.
+struct RailSprings {
+  double stiffness_y = 1e6, stiffness_z = 1e6;  ///< [N/m]; stiffness_z = 0: no vertical deflection
+  double force_y = 0.0, force_z = 0.0;          ///< further forces on the rail [N]
+  double first_step_y = 1e-3;                   ///< length of the first lateral step where nothing better is known [m]
+};
+
+/// Force against the change of contact force in time: F_damp = c dF/dt, its rate limited.
+struct Damping {
+  double normal = 0.0, tangential = 0.0;                          ///< c_n, c_t [s]
+  double max_rate_normal = 0.0, max_rate_tangential = 0.0;        ///< [N/s]
+};
+
 struct WheelsetDimensions {
   double flange_back_distance = 1.360;   ///< [m]
   double flange_back_position = -0.070;  ///< in wheel profile coordinates [m]
@@ -52,7 +74,16 @@ struct WheelsetState {
 /// The two bodies.
 struct Geometry {
   std::shared_ptr<const Surface> rail, wheel;
-  bool constant_profiles = true;  ///< prismatic rail and round wheel
+  bool prismatic_rail = true;  ///< one profile along the track; false: a variable rail, or a roller
+  bool round_wheel = true;     ///< one profile all round
+  bool constant_profiles() const { return prismatic_rail && round_wheel; }
+};
+
+/// Where elements lie, and how the bodies' rigid slip is found.
+enum class ReferenceSurface {
+  plane,               ///< tangent plane, creepages at the contact reference
+  plane_surface_slip,  ///< tangent plane, rigid slip of the surfaces at every element
+  curved,              ///< conformal contact: a surface between both bodies, curved across the rail
 };
 
 /// Grid and patch rules.
@@ -80,9 +111,16 @@ struct Problem {
   Track track;
   WheelsetDimensions wheelset;
   WheelsetState state;
+  std::optional<Roller> roller;
   /// Vertical force on the rail [N], track axes: state.position.z is then sought. Otherwise z is prescribed.
   std::optional<double> vertical_force;
-  kalker::Regime regime = kalker::Regime::steady;  ///< frictionless or steady
+  /// Longitudinal force on the rail [N], wheelset axes: state.velocity.pitch is then sought. Otherwise the rate is prescribed.
+  std::optional<double> longitudinal_force;
+  std::optional<RailSprings> rail_springs;         ///< the rail's deflection is then sought
+  /// A shift reads rates as displacements of the step. Transient rolling and shifts go on from the last solution as history says.
+  kalker::Regime regime = kalker::Regime::steady;
+  kalker::HistoryUse history = kalker::HistoryUse::start;
+  ReferenceSurface reference_surface = ReferenceSurface::plane;
   Discretisation discretisation;
   Material material;
   FrictionLaw friction;
@@ -91,7 +129,10 @@ struct Problem {
   kalker::NormalModel normal_model = kalker::NormalModel::full;            ///< full, kpec or analyn
   kalker::TangentialModel tangential_model = kalker::TangentialModel::full;
   kalker::FastsimSettings fastsim;
-  kalker::InfluenceSettings influence;   ///< constant or bilinear
+  kalker::InfluenceSettings influence;   ///< of angle-corrected ones the inclinations are the curved reference's
+  std::optional<Thermal> thermal;
+  std::optional<Damping> damping;
+  bool sensitivities = false;
   /// Friction at inclinations of the rail's surface [rad], increasing; between them every number of the law is interpolated, beyond them
   /// it stays. Empty: friction is the same everywhere.
   std::vector<double> friction_inclination;

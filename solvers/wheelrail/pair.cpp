@@ -70,6 +70,10 @@ Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)) {
   require_facing(geometry_.wheel, Facing::down, "wheel");
 }
 
+Pair::~Pair() = default;
+Pair::Pair(Pair&&) noexcept = default;
+Pair& Pair::operator=(Pair&&) noexcept = default;
+
 kalker::ContactSolver& Pair::solver(std::size_t patch) {
   while (solvers_.size() <= patch) solvers_.emplace_back();
   return solvers_[patch];

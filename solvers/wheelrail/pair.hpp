@@ -2,6 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
+#include <memory>
 #include <string>
 #include <utility>
 #include <vector>
@@ -13,6 +15,22 @@
 
 namespace treadmark::wheelrail {
 
+/// A force on the rail and its moment.
+struct Wrench {
+  Vec3 force = Vec3::Zero();    ///< [N]
+  Vec3 moment = Vec3::Zero();   ///< [N m]
+  Wrench& operator+=(const Wrench& other);
+};
+
+/// One load on the rail, seen from four sides. That on the wheel is the opposite.
+struct Wrenches {
+  Wrench track;      ///< track axes, moment about the rail marker
+  Wrench rail;       ///< rail axes, moment about the rail marker
+  Wrench wheelset;   ///< wheelset axes, moment about the wheel marker
+  Wrench wheel;      ///< wheel axes, moment about the wheel marker
+  Wrenches& operator+=(const Wrenches& other);
+};
+
 /// One contact patch between wheel and rail, solved.
 struct PatchSolution {
   detection::ContactPatch region;     ///< where the undeformed bodies interpenetrate
@@ -22,9 +40,22 @@ struct PatchSolution {
   double approach = 0.0;              ///< rigid penetration [m]
   ContactKinematics kinematics;
   kalker::ContactSolution contact;    ///< pressures, tractions, forces in contact axes, on the rail
+  /// Where the contact reference lies in the grid's axes [m]: (0, 0), or elsewhere for grids that stay aligned in time.
+  Vec2 reference_C = Vec2::Zero();
+  /// Curved reference: inclination of each row against the contact plane [rad]; empty otherwise. Then the contact problem's tractions
+  /// and its force components are local ones ("tilde"), force_C is their resultant.
+  std::vector<double> row_angle;
+  std::vector<double> extra_slip_x, extra_slip_y;  ///< rigid slip beyond creepage and spin; empty = none
+  Vec3 force_C = Vec3::Zero();        ///< on the rail, contact axes, with damping [N]
+  Vec3 moment_C = Vec3::Zero();       ///< about the contact reference [N m]
+  Wrenches load;
+  std::uint64_t id = 0;               ///< stays with a patch through a sequence in time; > 0
+  std::vector<std::uint64_t> came_from;  ///< patches of the previous instant that it continues
   Vec3 reference_rail = Vec3::Zero();   ///< contact reference in rail axes [m]
   Vec3 reference_wheel = Vec3::Zero();  ///< in wheel profile axes (not pitched) [m]
+  Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
   double reference_s = 0.0;             ///< arc length along the rail profile from y = 0 [m]
+  double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
   Vec3 force_T = Vec3::Zero();          ///< on the rail, track axes [N]
 };
 
@@ -39,25 +70,42 @@ struct PairSolution {
   std::string message;
   Placement placement;
   double z = 0.0;                       ///< vertical wheelset position, given or found [m]
+  double pitch_rate = 0.0;              ///< of the wheelset, given or found [rad/s]
+  double rail_deflection_y = 0.0, rail_deflection_z = 0.0;  ///< of a rail on springs [m]
   std::vector<PatchSolution> patches;   ///< field side first
   Vec3 force_T = Vec3::Zero();          ///< total on the rail, track axes [N]
   Vec3 force_Ws = Vec3::Zero();         ///< the same in wheelset axes [N]
   Vec3 moment_rail_T = Vec3::Zero();    ///< on the rail about the rail marker, track axes [N m]
   Vec3 moment_wheel_Ws = Vec3::Zero();  ///< on the rail about the wheel marker, wheelset axes [N m]
+  Wrenches load;                        ///< sum over the patches
   std::vector<std::pair<double, double>> force_iterations;  ///< (z [m], vertical force [N])
   PhaseTimes times;
 };
 
 /// Contact of one wheel and one rail (Kalker 1990; Vollebregt's grid-based contact search).
-/// Geometry is set once; solve() is called for one state after the other and starts each solve from what it can re-use of
-/// the same solve only, so that results do not depend on what was solved before. Not thread-safe: one Pair per thread.
+/// Geometry is set once; solve() is called for one state after the other. Without history (Problem::history == start) results do not
+/// depend on what was solved before; sequences in time go on from the last solution. Every error and every status leaves the pair
+/// usable; a solve that fails with an error leaves the history as it was. Memory does not grow with the number of calls.
+/// Not thread-safe: one Pair per thread; two Pairs on the same surfaces may work at once.
 class Pair {
  public:
   /// Errors: Error(configuration) if a surface is missing or faces the wrong way.
   explicit Pair(Geometry geometry);
+  ~Pair();
+  Pair(Pair&&) noexcept;
+  Pair& operator=(Pair&&) noexcept;
 
-  /// Errors: Error(configuration) for inconsistent input. Lack of contact or of convergence is a status.
+  /// Errors: Error(configuration) for inconsistent input or numbers that are not finite. Lack of contact or of convergence, forces
+  /// that cannot be balanced, a wheel inside the rail or beside it are statuses.
   PairSolution solve(const Problem& problem);
+
+  /// Forgets the history: the bodies come together from rest.
+  void reset();
+
+  /// Everything on which following solutions depend; cheap to copy, can be restored into any Pair on the same geometry.
+  class State;
+  std::shared_ptr<const State> save() const;
+  void restore(const std::shared_ptr<const State>& state);
 
  private:
   struct Level;

@@ -30,7 +30,7 @@ Grid2 reference_grid(const Geometry& geometry, const Problem& p, const Placement
   const bool steep = d.search == Discretisation::SearchGrid::reference_steep;
   detection::LongitudinalRange range;
   Grid2 grid;
-  if (geometry.constant_profiles) {
+  if (geometry.constant_profiles()) {
     constexpr double kSmallWheel = 30.5e-3;
     const double half = (steep || radius < kSmallWheel) ? 0.242 * radius : radius / 8.0;
     range = {placed.X_TA.origin.x() - half, placed.X_TA.origin.x() + half};
@@ -79,7 +79,7 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.facets);
   s.refined_dx = 0.3 * d.dx;
   s.refined_dy = 0.3 * d.ds;
-  s.refined_points = geometry.constant_profiles ? 64 : 120;
+  s.refined_points = geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
   s.reference_at_deepest = d.reference_at_deepest;
   s.rules.angle_separation = d.angle_separation;

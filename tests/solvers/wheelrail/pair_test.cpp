@@ -17,7 +17,7 @@ constexpr double kRadius = 0.46;
 Geometry ball_on_plane() {
   // The plane is given a finite crown so that a lateral range exists; 20 m is flat at this scale.
   return {analytic::make_prismatic_surface(analytic::cylinder_chain(20.0, 2.5e-3)),
-          analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 0.08), kRadius), true};
+          analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 0.08), kRadius), true, true};
 }
 
 Problem ball_problem() {
@@ -74,7 +74,7 @@ TEST(Pair, NoContactIsAStatus) {
 }
 
 Geometry standard_geometry() {
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true};
+  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
 }
 
 Problem standard_problem() {
@@ -172,8 +172,8 @@ TEST(Pair, FrictionDissipatesTheWorkOfTheCreepForces) {
 }
 
 TEST(Pair, RefusesWrongInput) {
-  EXPECT_THROW(Pair({nullptr, standard_geometry().wheel, true}), Error);
-  EXPECT_THROW(Pair({standard_geometry().wheel, standard_geometry().rail, true}), Error);
+  EXPECT_THROW(Pair({nullptr, standard_geometry().wheel, true, true}), Error);
+  EXPECT_THROW(Pair({standard_geometry().wheel, standard_geometry().rail, true, true}), Error);
   Pair pair(standard_geometry());
   Problem p = standard_problem();
   p.vertical_force = -5.0;
