@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "standard_pair.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -71,20 +72,6 @@ TEST(Pair, NoContactIsAStatus) {
   const PairSolution off = pair.solve(p);
   EXPECT_EQ(off.status, Status::no_contact);
   EXPECT_FALSE(off.message.empty());
-}
-
-Geometry standard_geometry() {
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
-}
-
-Problem standard_problem() {
-  Problem p;
-  p.track.cant = 1.0 / 40.0;
-  p.state.position = {0.0, 1.5e-3, 0.0, 2e-4, 3e-3, 0.0};
-  p.state.velocity = {10.0, 0.02, 0.0, 1e-3, 2e-3, -10.0 / kRadius * 0.9995};
-  p.vertical_force = 6e4;
-  p.discretisation.dx = p.discretisation.ds = 0.4e-3;
-  return p;
 }
 
 TEST(Pair, LeftIsTheMirrorImageOfRight) {
