@@ -7,7 +7,6 @@
 
 #include "standard_pair.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/contact_solver.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -25,22 +24,6 @@ Problem rolling_problem() {
 void advance(Problem& p) {
   p.history = HistoryUse::keep_going;
   p.state.position.x += p.discretisation.dx;
-}
-
-/// Steady rolling on the very elements of a patch.
-kalker::ContactSolution steady_on_the_same_elements(const Problem& p, const PatchSolution& patch) {
-  kalker::ContactProblem c;
-  c.grid = patch.grid;
-  c.gap = patch.distance;
-  c.material = p.material;
-  c.friction = p.friction;
-  c.force_prescribed = false;
-  c.approach = patch.approach;
-  c.regime = Regime::steady;
-  c.creepage = {patch.kinematics.xi, patch.kinematics.eta, patch.kinematics.phi, patch.reference_C.x(), patch.reference_C.y()};
-  c.rolling = {patch.kinematics.chi, patch.kinematics.velocity, patch.grid.dx};
-  c.settings = p.solver;
-  return kalker::ContactSolver().solve(c);
 }
 
 TEST(Sequence, TransientRollingEndsInSteadyRolling) {

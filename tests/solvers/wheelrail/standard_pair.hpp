@@ -3,6 +3,7 @@
 #pragma once
 
 #include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::wheelrail {
@@ -24,6 +25,22 @@ inline Problem standard_problem() {
   p.vertical_force = 6e4;
   p.discretisation.dx = p.discretisation.ds = 0.8e-3;
   return p;
+}
+
+/// Steady rolling on the very elements of a patch.
+inline kalker::ContactSolution steady_on_the_same_elements(const Problem& p, const PatchSolution& patch) {
+  kalker::ContactProblem c;
+  c.grid = patch.grid;
+  c.gap = patch.distance;
+  c.material = p.material;
+  c.friction = p.friction;
+  c.force_prescribed = false;
+  c.approach = patch.approach;
+  c.regime = kalker::Regime::steady;
+  c.creepage = {patch.kinematics.xi, patch.kinematics.eta, patch.kinematics.phi, patch.reference_C.x(), patch.reference_C.y()};
+  c.rolling = {patch.kinematics.chi, patch.kinematics.velocity, patch.grid.dx};
+  c.settings = p.solver;
+  return kalker::ContactSolver().solve(c);
 }
 
 }  // namespace treadmark::wheelrail
