@@ -187,8 +187,11 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   c.normal_model = p.normal_model;
   c.tangential_model = p.tangential_model;
   c.fastsim = p.fastsim;
-  c.influence = patch.reference ? influence_on(*patch.reference, s.grid, p.influence) : p.influence;
-  if (patch.reference) c.friction_of_row = friction_on(*patch.reference, s.frame.angle, p);
+  c.influence = p.influence;
+  if (p.reference_surface == ReferenceSurface::curved) {
+    c.influence = influence_on(*patch.reference, s.grid, p.influence);
+    c.friction_of_row = friction_on(*patch.reference, s.frame.angle, p);
+  }
   c.extra_slip_x = s.extra_slip_x;
   c.extra_slip_y = s.extra_slip_y;
   c.thermal = p.thermal;
