@@ -17,6 +17,8 @@ namespace {
 
 NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSource& source, Body body, double nominal_radius) {
   NaturalSurface natural = read_offset_surface(file.file);
+  if (body == Body::rail && nominal_radius != 0.0)
+    throw Error(ErrorKind::configuration, "a file of offsets cannot become a roller", {file.file.string()}, "give a profile");
   if (natural.spec.body != body)
     throw Error(ErrorKind::configuration, fmt::format("the offsets belong to a {}", body == Body::rail ? "wheel" : "rail"),
                 {file.file.string()});
@@ -32,6 +34,13 @@ NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSourc
   return natural;
 }
 
+/// The one place where the radius of a roller reaches its surface.
+template <class Spec>
+void make_roller(Spec& spec, double radius, const SourcePosition& where) {
+  if constexpr (requires { spec.roller_radius; }) spec.roller_radius = radius;
+  else if (radius != 0.0) throw Error(ErrorKind::configuration, "surfaces of rollers are not supported", where);
+}
+
 }  // namespace
 
 bool is_offset_file(const std::filesystem::path& file) {
@@ -41,7 +50,8 @@ bool is_offset_file(const std::filesystem::path& file) {
 NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius) {
   SurfaceSpec spec;
   spec.body = body;
-  spec.nominal_radius = nominal_radius;
+  spec.nominal_radius = body == Body::wheel ? nominal_radius : 0.0;
+  if (body == Body::rail) make_roller(spec, nominal_radius, source.where);
   spec.defects = source.defects;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     if (is_offset_file(file->file)) return read_offsets(*file, source, body, nominal_radius);

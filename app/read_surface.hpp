@@ -8,7 +8,8 @@
 namespace treadmark::app {
 
 /// Reads the geometry of a wheel or rail, whatever its kind (profile, slices, triangles, offsets, a shape given in the case),
-/// and builds the surface in its natural representation, with its defects.
+/// and builds the surface in its natural representation, with its defects. nominal_radius: of a wheel; of a roller in place of a rail
+/// (negative: ring), 0 = a rail [m].
 /// Errors of the readers and backends; Error(configuration) for defects on a file of offsets.
 NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius);
 

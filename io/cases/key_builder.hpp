@@ -31,14 +31,15 @@ inline constexpr KeyLimits kPositive{0.0, {}, {}};
 inline constexpr KeyLimits kNotNegative{{}, 0.0, {}};
 inline constexpr KeyLimits kAnyNumber{};
 
-/// Part of a Case that keys of one scope live in.
+/// Part of a Case that keys of one scope live in; Case: those of every case.
 template <class Content>
 Content& content_of(Case& c) {
-  return std::get<Content>(c.content);
+  if constexpr (std::is_same_v<Content, Case>) return c;
+  else return std::get<Content>(c.content);
 }
 template <class Content>
 constexpr KeyScope scope_of() {
-  return std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail : KeyScope::patch;
+  return std::is_same_v<Content, Case> ? KeyScope::any : std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail : KeyScope::patch;
 }
 
 /// The numbers of a list that has been checked, in SI units.
@@ -74,8 +75,8 @@ class KeyList {
       place(content_of<Content>(c)) = v.number() * unit;
     };
     key.get = [place, unit](const Case& c) {
-      Content copy = std::get<Content>(c.content);
-      return place(copy) / unit;
+      Case copy = c;
+      return place(content_of<Content>(copy)) / unit;
     };
     return key.info;
   }
@@ -167,6 +168,7 @@ void add_friction_keys(KeyList& list);
 void add_shape_keys(KeyList& list);
 void add_defect_keys(KeyList& list);
 void add_wheel_rail_keys(KeyList& list);
+void add_balance_keys(KeyList& list);
 void add_patch_keys(KeyList& list);
 void add_patch_geometry_keys(KeyList& list);
 void add_heat_keys(KeyList& list);

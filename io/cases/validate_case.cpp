@@ -61,19 +61,13 @@ class Checker {
   void wheel_rail(const WheelRailCase& c) const {
     surface(c.rail, Body::rail, 0.0);
     surface(c.wheel, Body::wheel, c.wheelset.nominal_radius);
-    require(c.regime == RegimeInput::none || c.regime == RegimeInput::steady,
-            fmt::format("case.regime = \"{}\" is not supported for a wheel on a rail", c.regime == RegimeInput::shift ? "shift" : "transient"),
-            "\"none\" and \"steady\" are");
     require(!c.vertical_force_prescribed || c.vertical_force > 0.0, "the vertical load is missing",
             "give wheelset.vertical_force_N or wheelset.z_mm");
     const DiscretisationInput& d = c.discretisation;
     require(d.separation >= d.combination, "discretisation.separation_mm must not be less than combination_mm");
-    require(c.influence.kind == InfluenceInput::Kind::constant || c.influence.kind == InfluenceInput::Kind::bilinear,
-            "influence.kind must be \"constant\" or \"bilinear\" for a wheel on a rail");
     require(c.tangential_model != TangentialModelInput::fastsim_one_flexibility || c.fastsim_flexibility > 0.0,
             "solver.fastsim_flexibility_mm_per_MPa is missing");
     friction(c.friction);
-    require(c.friction.kind != FrictionLaw::Kind::temperature, "friction.law = \"temperature\" is not supported for a wheel on a rail");
     friction_variation(c.friction_variation);
   }
 
@@ -85,7 +79,6 @@ class Checker {
     for (const FrictionLaw& law : v.laws) {
       require(law.kind == v.laws.front().kind, "all friction sets must have the same law");
       friction(law);
-      require(law.kind != FrictionLaw::Kind::temperature, "law = \"temperature\" is not supported for a wheel on a rail");
     }
   }
 
@@ -163,14 +156,20 @@ void validate_case(const Case& c) {
   check.none(contradictions(c));
 }
 
-void settle_sequences(std::vector<Case>& cases) {
+void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes) {
   std::map<int, const Case*> last;
+  bool told = false;
   for (Case& c : cases) {
     const auto [previous, first] = last.try_emplace(c.sequence, &c);
+    const Checker check(c);
     if (first) {
-      if (auto* basic = std::get_if<BasicCase>(&c.content)) basic->history = HistoryInput::start;
+      std::visit([](auto& content) { content.history = HistoryInput::start; }, c.content);
     } else {
-      Checker(c).none(contradictions(*previous->second, c));
+      check.none(contradictions(*previous->second, c));
+      const auto step = rolled_step(*previous->second, c);
+      const std::string complaint = step && notes != nullptr ? step->complaint() : std::string();
+      check.require(complaint.empty() || !step->too_long(), complaint, "more and shorter steps (case.steps, case.time_step_s)");
+      if (!complaint.empty() && !std::exchange(told, true)) notes->push_back(fmt::format("case {}: {}", c.number, complaint));
     }
     previous->second = &c;
   }

@@ -227,10 +227,19 @@ INSTANTIATE_TEST_SUITE_P(
 
 INSTANTIATE_TEST_SUITE_P(
     WheelRail, TomlPatchError,
-    ::testing::Values(Wrong{kRail + "case.regime = \"transient\"\n", "case.regime = \"transient\" is not supported for a wheel on a rail"},
-                      Wrong{kRail + "case.history = \"continue\"\n", "belongs to a [patch] case"}, Wrong{kRail + "material.creep_ratio = 1\n", "belongs to a [patch] case"},
-                      Wrong{kRail + "influence.kind = \"table\"\n", "influence.kind must be \"constant\" or \"bilinear\""},
-                      Wrong{kRail + "friction.law = \"temperature\"\n", "is not supported for a wheel on a rail"},
+    ::testing::Values(Wrong{kRail + "influence.position_mm = [1]\n", "belongs to a [patch] case"},
+                      Wrong{kRail + "influence.kind = \"table\"\n", "numerical influence coefficients are not supported for a wheel on a rail"},
+                      Wrong{kRail + "friction.law = \"temperature\"\n", "needs the thermal data of the bodies"},
+                      Wrong{kGap + "[roller]\nnominal_radius_mm = 500\n", "belongs to a wheel-rail case"},
+                      Wrong{kRail + "roller.pitch_rate_rad_s = 3\n", "the nominal radius of the roller is missing"},
+                      Wrong{kRail + "wheelset.vpitch_rad_s = -4\nwheelset.longitudinal_force_N = 3\n", "exclude each other"},
+                      Wrong{kRail + "wheelset.longitudinal_force_N = 3\ncase.regime = \"none\"\n", "a prescribed longitudinal force needs friction"},
+                      Wrong{kRail + "track.springs.stiffness_y_N_per_mm = 0\n", "must be greater than 0"},
+                      Wrong{kRail + "damping.normal_s = -1\n", "must be at least 0"},
+                      Wrong{kRail + "contact.reference_surface = \"conformal\"\n", "is not one of \"plane\", \"plane_surface_slip\", \"curved\""},
+                      Wrong{kRail + "[[subsurface.blocks]]\nz_mm = [1]\nx_mm = [0]\n", "a block of subsurface points is empty"},
+                      Wrong{kRail + "discretisation.max_elements = 1000000\n[[subsurface.blocks]]\nz_mm = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, "
+                                    "16, 17, 18, 19, 20, 21]\n", "21000000 subsurface points are more than 20000000"},
                       Wrong{kRail + "solver.tangential_model = \"fastsim_one_flexibility\"\n", "solver.fastsim_flexibility_mm_per_MPa is missing"},
                       Wrong{kGap + "[solver]\ntangential_model = \"fastsim\"\n", "belongs to a wheel-rail case"},
                       Wrong{kRail + "friction.along_track = [{ s_mm = 5, coefficient = 0.4 }, { s_mm = 5, coefficient = 0.4 }]\n", "the positions of friction sets must increase"},
