@@ -16,7 +16,8 @@ io::Loads to_loads(const wheelrail::Wrenches& load) {
 
 void put_reference(const wheelrail::PatchSolution& patch, io::PatchResult& r) {
   r.has_reference = true;
-  const Vec3 &track = patch.frame.X_TC.origin, &rail = patch.reference_rail, &wheel = patch.reference_wheel, &set = patch.reference_wheelset;
+  const Vec3 &track = patch.frame.X_TC.origin, &rail = patch.reference_rail;
+  const Vec3 &wheel = patch.reference_wheel, &set = patch.reference_wheelset;
   r.x_tr = track.x();
   r.y_tr = track.y();
   r.z_tr = track.z();

@@ -67,9 +67,9 @@ max_rate_tangential_N_per_s = 4e6
 }
 
 TEST(TomlBalance, CasesSwitchPartsOff) {
-  const CaseFile f = parse(kRail + "wheelset.longitudinal_force_N = 3\nroller.nominal_radius_mm = 500\ntrack.springs.force_y_N = 1\ndamping.normal_s = 1\n"
+  const CaseFile f = parse(kRail + "wheelset.longitudinal_force_N = 3\nroller.nominal_radius_mm = 500\ntrack.springs.force_y_N = 1\ndamping.normal_s = 1\ndamping.max_rate_normal_N_per_s = 9\n"
                                    "heat.rail_bulk_temperature_C = 5\n[[cases]]\n[[cases]]\nwheelset.vpitch_rad_s = -4\nroller.active = false\n"
-                                   "track.springs.active = false\ndamping.active = false\nheat.compute = false\n[[cases]]\ndamping.tangential_s = 2\n");
+                                   "track.springs.active = false\ndamping.active = false\nheat.compute = false\n[[cases]]\ndamping.tangential_s = 2\ndamping.max_rate_tangential_N_per_s = 9\n");
   EXPECT_TRUE(at(f, 0).longitudinal_force && at(f, 0).roller && at(f, 0).rail_springs && at(f, 0).damping && at(f, 0).thermal);
   EXPECT_FALSE(at(f, 1).longitudinal_force || at(f, 1).roller || at(f, 1).rail_springs || at(f, 1).damping || at(f, 1).thermal);
   EXPECT_DOUBLE_EQ(at(f, 1).wheelset.vpitch, -4.0);
@@ -109,17 +109,20 @@ columns = [3, 90000]
   EXPECT_DOUBLE_EQ(one("material = { creep_ratio = 1, rail_relaxation_time_s = 0.2 }\n").material.creep_ratio_2, 1.0);
 }
 
-const std::string kRolling = kRail + R"(
-[case]
-regime = "transient"
-history = "continue"
+const std::string kRolling = R"(
+rail.shape.standard = "60E1"
+wheel.shape.standard = "S1002"
 [wheelset]
+vertical_force_N = 1e5
 velocity_m_s = 2.0
 vpitch_rad_s = -4.0
 pitch_rad = 0.25
 nominal_radius_mm = 500
 vy_m_s = 0.01
 deviation_vz_m_s = 0.02
+[case]
+regime = "transient"
+history = "continue"
 [track]
 irregularity_vroll_rad_s = 0.5
 [discretisation]
@@ -170,7 +173,8 @@ TEST(TomlSteps, TimeStepSetsTheRollingStep) {
 }
 
 TEST(TomlSteps, ShiftsAreDisplacements) {
-  const CaseFile f = parse(kRail + "case = { regime = \"shift\", steps = 3 }\nwheelset = { velocity_m_s = 0.0002, vpitch_rad_s = -0.0004, s_mm = 5 }\n");
+  const CaseFile f = parse(kRail + "case = { regime = \"shift\", steps = 3 }\nwheelset.velocity_m_s = 0.0002\nwheelset.vpitch_rad_s = -0.0004\n"
+                                   "wheelset.s_mm = 5\n");
   ASSERT_EQ(f.cases.size(), 3u);
   EXPECT_EQ(at(f, 0).history, HistoryInput::start);
   for (const std::size_t i : {0u, 1u, 2u}) {
