@@ -154,9 +154,9 @@ TEST(TomlSteps, MoveOnByTheVelocities) {
 }
 
 TEST(TomlSteps, PositionsAndListsOfTheTableWin) {
-  const CaseFile f = parse(kRolling + "[[cases]]\ncase.steps = 2\nwheelset.pitch_deg = [1, 1.01]\nwheelset.vertical_force_N = [9e4, 8e4]\nwheelset.y_mm = 3\n");
+  const CaseFile f = parse(kRolling + "[[cases]]\ncase.steps = 2\nwheelset.pitch_deg = [14.3, 14.28]\nwheelset.vertical_force_N = [9e4, 8e4]\nwheelset.y_mm = 3\n");
   for (const std::size_t i : {1u, 2u}) {
-    EXPECT_NEAR(at(f, i).wheelset.pitch, (i == 1 ? 1.0 : 1.01) * std::numbers::pi / 180.0, 1e-15);
+    EXPECT_NEAR(at(f, i).wheelset.pitch, (i == 1 ? 14.3 : 14.28) * std::numbers::pi / 180.0, 1e-15);
     EXPECT_DOUBLE_EQ(at(f, i).vertical_force, i == 1 ? 9e4 : 8e4);
     EXPECT_DOUBLE_EQ(at(f, i).wheelset.y, 3e-3);
     EXPECT_NEAR(at(f, i).wheelset.s, static_cast<double>(i) * 0.4e-3, 1e-15);
