@@ -4,6 +4,7 @@
 
 #include "treadmark/app/derived_results.hpp"
 #include "treadmark/app/patch_result.hpp"
+#include "treadmark/app/wheelrail_case.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -66,7 +67,8 @@ void put_kinematics(const io::WheelRailCase& input, const wheelrail::PatchSoluti
 }
 
 io::PatchResult to_patch(const io::WheelRailCase& input, const wheelrail::PatchSolution& patch) {
-  io::PatchResult r = patch_result(patch.contact, patch.grid, patch.distance, input.material, input.friction);
+  io::PatchResult r =
+      patch_result(patch.contact, patch.grid, patch.distance, input.material, friction_of(input, patch.frame.angle));
   r.id = patch.id;
   r.came_from = patch.came_from;
   put_reference(patch, r);
