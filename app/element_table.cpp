@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/app/wheelrail_case.hpp"
+
 namespace treadmark::app {
 namespace {
 
@@ -72,6 +74,7 @@ io::MatFileHead mat_head(const io::BasicCase& input, int case_number) {
 
 io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSolution& solution, std::size_t patch, int case_number) {
   io::MatFileHead head = common_head(input, case_number);
+  head.friction = friction_of(input, solution.patches[patch].frame.angle);
   const io::WheelsetInput& w = input.wheelset;
   head.s_ws = input.roller ? 0.0 : w.s;
   head.pitch_ws = w.pitch;

@@ -77,7 +77,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
     p.friction_inclination = variation.positions;
     p.friction_laws = variation.laws;
   } else if (variation.kind == io::FrictionVariation::Kind::along_track) {
-    p.friction = friction_at(variation.positions, variation.laws, input.wheelset.s, input.friction);
+    p.friction = friction_of(input, 0.0);
   }
   p.normal_model = to_normal_model(input.normal_model);
   p.tangential_model = to_tangential_model(input.tangential_model);
@@ -93,6 +93,15 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
 double profile_radius(const io::WheelRailCase& input, Body body) {
   if (body == Body::wheel) return input.wheelset.nominal_radius;
   return input.roller ? input.roller->nominal_radius : 0.0;
+}
+
+FrictionLaw friction_of(const io::WheelRailCase& input, double contact_angle) {
+  using Kind = io::FrictionVariation::Kind;
+  const io::FrictionVariation& v = input.friction_variation;
+  if (v.kind == Kind::none) return input.friction;
+  // Inclinations are given as for the right-hand side.
+  const double inclination = input.side == io::Side::left ? -contact_angle : contact_angle;
+  return friction_at(v.positions, v.laws, v.kind == Kind::inclination ? inclination : input.wheelset.s, input.friction);
 }
 
 const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file) {

@@ -14,6 +14,9 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
 /// Radius of a surface of revolution where its profile has z = 0 [m]: wheel, roller (negative: ring); 0 for a rail.
 double profile_radius(const io::WheelRailCase& input, Body body);
 
+/// Friction of a patch whose contact plane has this inclination in track axes [rad].
+FrictionLaw friction_of(const io::WheelRailCase& input, double contact_angle);
+
 /// The first case of a wheel on a rail in a file; null if there is none.
 const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file);
 

@@ -4,6 +4,7 @@
 
 #include "treadmark/app/derived_results.hpp"
 #include "treadmark/app/patch_result.hpp"
+#include "treadmark/app/wheelrail_case.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -16,7 +17,8 @@ io::Loads to_loads(const wheelrail::Wrenches& load) {
 
 void put_reference(const wheelrail::PatchSolution& patch, io::PatchResult& r) {
   r.has_reference = true;
-  const Vec3 &track = patch.frame.X_TC.origin, &rail = patch.reference_rail, &wheel = patch.reference_wheel, &set = patch.reference_wheelset;
+  const Vec3 &track = patch.frame.X_TC.origin, &rail = patch.reference_rail;
+  const Vec3 &wheel = patch.reference_wheel, &set = patch.reference_wheelset;
   r.x_tr = track.x();
   r.y_tr = track.y();
   r.z_tr = track.z();
@@ -66,7 +68,8 @@ void put_kinematics(const io::WheelRailCase& input, const wheelrail::PatchSoluti
 }
 
 io::PatchResult to_patch(const io::WheelRailCase& input, const wheelrail::PatchSolution& patch) {
-  io::PatchResult r = patch_result(patch.contact, patch.grid, patch.distance, input.material, input.friction);
+  io::PatchResult r =
+      patch_result(patch.contact, patch.grid, patch.distance, input.material, friction_of(input, patch.frame.angle));
   r.id = patch.id;
   r.came_from = patch.came_from;
   put_reference(patch, r);

@@ -38,10 +38,12 @@ void add_roller(KeyList& list) {
   const auto number = [&](const std::string& name, const std::string& doc, double RollerInput::*member) {
     add_number(list, "roller." + name, kAnyNumber, doc, &W::roller, member);
   };
-  number("nominal_radius_mm", "radius where the roller's profile has z = 0; negative: the wheel runs inside a ring", &RollerInput::nominal_radius);
-  number("pitch_rate_rad_s", "pitch rate of the roller, positive where a wheel on it rolls forward (shift: rotation)", &RollerInput::pitch_rate);
-  add_switch(list, "roller", "a roller with the profile of [rail] in place of the rail; wheelset.s_mm is where the axle stands over the roller's",
-             &W::roller);
+  number("nominal_radius_mm", "radius where the roller's profile has z = 0; negative: the wheel runs inside a ring",
+         &RollerInput::nominal_radius);
+  number("pitch_rate_rad_s", "pitch rate of the roller, positive where a wheel on it rolls forward (shift: rotation)",
+         &RollerInput::pitch_rate);
+  add_switch(list, "roller",
+             "a roller with the profile of [rail] in place of the rail; wheelset.s_mm is where the axle stands over the roller's", &W::roller);
 }
 
 void add_springs(KeyList& list) {
@@ -78,8 +80,8 @@ void add_balance_keys(KeyList& list) {
   using R = ReferenceSurfaceInput;
   list.choice<W, R>("contact.reference_surface",
                     {{"plane", R::plane}, {"plane_surface_slip", R::plane_surface_slip}, {"curved", R::curved}},
-                    "tangent plane with creepages, tangent plane with the rigid slip of the surfaces at every element, or conformal contact "
-                    "on a surface that is curved across the rail",
+                    "tangent plane with creepages, tangent plane with the rigid slip of the surfaces at every element, or conformal "
+                    "contact on a surface that is curved across the rail",
                     [](W& c) -> R& { return c.reference_surface; });
 }
 

@@ -49,12 +49,12 @@ void add_case(KeyList& list) {
 void add_steps(KeyList& list) {
   constexpr double kMostSteps = 100000;
   list.integer<Case>("case.steps", 0, kMostSteps,
-                     "number of cases that a table makes, one after the other in time: a wheelset moves by its velocities from each to the next "
-                     "where the table does not give the position; 0: one case at the position given",
+                     "number of cases that a table makes, one after the other in time: a wheelset moves by its velocities from each to "
+                     "the next where the table does not give the position; 0: one case at the position given",
                      [](Case& c) -> int& { return c.steps; });
   KeyInfo& step = list.number<Case>("case.time_step_s", kPositive,
-                                    "time between two of these cases, from which the rolling step follows; without it the forward velocity rolls "
-                                    "one rolling step (dq_relative * dx_mm). A shift has no time: its velocities are displacements",
+                                    "time between two of these cases, from which the rolling step follows; without it the forward velocity "
+                                    "rolls one rolling step (dq_relative * dx_mm). A shift has no time: its velocities are displacements",
                                     [](Case& c) -> double& { return c.time_step; });
   step.default_text.clear();
 }

@@ -53,7 +53,9 @@ void put_discretisation(ContactReader& r, WheelRailCase& c) {
   if (model["DISCNS"] < 2 && method >= kOblique)
     r.refuse(model.where("DISCNS"), fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method));
   using Reference = ReferenceSurfaceInput;
-  c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip : method == kConformal ? Reference::curved : Reference::plane;
+  c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
+                        : method == kConformal ? Reference::curved
+                                               : Reference::plane;
   DiscretisationInput& d = c.discretisation;
   d.method = method == kSurfaceSlip || method == kConformal ? kAutomatic : method;
   d.linear_weight = r.weight == 1;

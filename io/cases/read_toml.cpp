@@ -105,8 +105,8 @@ struct Expansion {
     sweep_length(table, "", lists);
     const auto steps = static_cast<std::size_t>(changed(table, lists, 0, where).steps);
     if (steps > 0 && lists && *lists != steps)
-      throw Error(ErrorKind::configuration, fmt::format("case.steps is {}, but a list of the same table has {} values", steps, *lists), where,
-                  "a list gives one value for each step");
+      throw Error(ErrorKind::configuration, fmt::format("case.steps is {}, but a list of the same table has {} values", steps, *lists),
+                  where, "a list gives one value for each step");
     std::set<std::string, std::less<>> given;
     collect_paths(table, "", given);
     for (const CaseOverride& change : changes) given.insert(change.path);
@@ -131,7 +131,8 @@ struct Expansion {
 void refuse_steps(const std::vector<CaseOverride>& changes) {
   for (const CaseOverride& change : changes)
     if (change.path == "case.steps" || change.path == "case.time_step_s")
-      throw Error(ErrorKind::configuration, change.path + " makes cases while a .toml file is read, these are made already", change.value.where);
+      throw Error(ErrorKind::configuration, change.path + " makes cases while a .toml file is read, these are made already",
+                  change.value.where);
 }
 
 }  // namespace

@@ -51,8 +51,8 @@ std::vector<Contradiction> contradictions(const Case& previous, const Case& next
   const auto *a = std::get_if<WheelRailCase>(&previous.content), *b = std::get_if<WheelRailCase>(&next.content);
   if (a != nullptr && b != nullptr && continues(b->history) && goes_on(b->regime))
     rules.refuse_if(a->reference_surface != b->reference_surface || a->side != b->side || a->roller.has_value() != b->roller.has_value(),
-                    CaseSetting::grid, "a case that continues the previous one must be on the same side, on track or roller as before, with "
-                    "the same kind of reference surface", "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
+                    CaseSetting::grid, "a case that continues the previous one must be on the same side, on track or roller as before, "
+                    "with the same kind of reference surface", "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
   return std::move(rules.found);
 }
 
@@ -74,8 +74,8 @@ std::string RolledStep::complaint() const {
     return fmt::format("wheel or rail move {:.4g} mm through the contact since the previous case, more than two elements ({:.4g} mm): the "
                        "history does not reach that far", moved * 1e3, longest * 1e3);
   if (moved > 0.0 && std::abs(moved - rolled) > kSame * rolled)
-    return fmt::format("wheel or rail move {:.4g} mm through the contact since the previous case, but a rolling step is {:.4g} mm", moved * 1e3,
-                       rolled * 1e3);
+    return fmt::format("wheel or rail move {:.4g} mm through the contact since the previous case, but a rolling step is {:.4g} mm",
+                       moved * 1e3, rolled * 1e3);
   return {};
 }
 

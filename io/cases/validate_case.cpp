@@ -67,6 +67,10 @@ class Checker {
     require(d.separation >= d.combination, "discretisation.separation_mm must not be less than combination_mm");
     require(c.tangential_model != TangentialModelInput::fastsim_one_flexibility || c.fastsim_flexibility > 0.0,
             "solver.fastsim_flexibility_mm_per_MPa is missing");
+    if (const auto& damping = c.damping) {
+      require(damping->normal == 0.0 || damping->max_rate_normal > 0.0, "damping.max_rate_normal_N_per_s is missing");
+      require(damping->tangential == 0.0 || damping->max_rate_tangential > 0.0, "damping.max_rate_tangential_N_per_s is missing");
+    }
     friction(c.friction);
     friction_variation(c.friction_variation);
   }

@@ -12,7 +12,8 @@ void forces(RuleList& rules, const WheelRailCase& c) {
                   "T = 1 ... 3 in .inp, another case.regime in .toml");
   rules.refuse_if(c.rail_springs && !(c.rail_springs->stiffness_y > 0.0), CaseSetting::force,
                   "a rail on springs needs a positive lateral stiffness", "KYRAIL in .inp, track.springs.stiffness_y_N_per_mm in .toml");
-  rules.refuse_if(c.rail_springs && c.rail_springs->stiffness_z < 0.0, CaseSetting::force, "the vertical stiffness of a rail must not be negative");
+  rules.refuse_if(c.rail_springs && c.rail_springs->stiffness_z < 0.0, CaseSetting::force,
+                  "the vertical stiffness of a rail must not be negative");
   rules.refuse_if(c.rail_springs && !c.vertical_force_prescribed && !(c.rail_springs->stiffness_z > 0.0), CaseSetting::force,
                   "a rail on springs under a wheel of given height needs a positive vertical stiffness",
                   "KZRAIL or N = 1 in .inp, track.springs.stiffness_z_N_per_mm or wheelset.vertical_force_N in .toml");
@@ -45,7 +46,8 @@ void material(RuleList& rules, const WheelRailCase& c) {
   using Reference = ReferenceSurfaceInput;
   const bool by_row = c.reference_surface == Reference::curved && c.friction_variation.kind == FrictionVariation::Kind::inclination;
   simplified_theory(rules, c, by_row, false);
-  rules.refuse_if(c.tangential_model != TangentialModelInput::full && c.reference_surface != Reference::plane, CaseSetting::reference_surface,
+  const bool simplified = c.tangential_model != TangentialModelInput::full;
+  rules.refuse_if(simplified && c.reference_surface != Reference::plane, CaseSetting::reference_surface,
                   "the simplified theory takes one creepage for a patch, not the slip of surfaces at every element",
                   "D = 2 in .inp, contact.reference_surface = \"plane\" in .toml");
   viscoelastic_rules(rules, c);

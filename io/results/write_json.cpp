@@ -147,10 +147,10 @@ void add_wheelset(Json& out, const CaseResult& result) {
   add({"mx_w_Nmm", "my_w_Nmm", "mz_w_Nmm"}, result.moment_wheel, kMilli);
   out["force_on_rail"] = std::move(forces);
   if (result.loads) out["loads"] = loads_json(*result.loads);
-  if (result.rail_deflection)
-    out["rail_deflection"] = {{"y_mm", number(result.rail_deflection->x() * kMilli)}, {"z_mm", number(result.rail_deflection->y() * kMilli)}};
-  if (result.roller)
-    out["roller"] = {{"nominal_radius_mm", number(result.roller->nominal_radius * kMilli)}, {"pitch_rate_rad_s", number(result.roller->pitch_rate)}};
+  if (const auto& d = result.rail_deflection)
+    out["rail_deflection"] = {{"y_mm", number(d->x() * kMilli)}, {"z_mm", number(d->y() * kMilli)}};
+  if (const auto& r = result.roller)
+    out["roller"] = {{"nominal_radius_mm", number(r->nominal_radius * kMilli)}, {"pitch_rate_rad_s", number(r->pitch_rate)}};
 }
 
 Json case_json(const CaseResult& result) {

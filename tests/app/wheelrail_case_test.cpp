@@ -145,6 +145,23 @@ TEST(ToResult, ForcesOfConformalContactAreTheResultant) {
   EXPECT_EQ(p.fields.extra_slip_x.size(), 12u);
 }
 
+TEST(FrictionOf, FollowsInclinationSideAndPlace) {
+  io::WheelRailCase c;
+  EXPECT_EQ(friction_of(c, 0.5).kinetic, c.friction.kinetic);
+  FrictionLaw low, high;
+  low.kinetic = 0.2;
+  high.kinetic = 0.4;
+  c.friction_variation = {io::FrictionVariation::Kind::inclination, {-1.0, 1.0}, {low, high}};
+  EXPECT_NEAR(friction_of(c, 0.5).kinetic, 0.35, 1e-15);
+  EXPECT_NEAR(to_result(c, solved()).patches.at(0).fx_relative, 1.2e3 / (0.35 * 12e3), 1e-12);
+  c.side = io::Side::left;
+  EXPECT_NEAR(friction_of(c, 0.5).kinetic, 0.25, 1e-15);
+  c.friction_variation.kind = io::FrictionVariation::Kind::along_track;
+  c.wheelset.s = -1.0;
+  EXPECT_NEAR(friction_of(c, 0.5).kinetic, 0.2, 1e-15);
+  EXPECT_NEAR(to_problem(c, true).friction.kinetic, 0.2, 1e-15);
+}
+
 TEST(ToResult, TellsWhatWasFound) {
   io::WheelRailCase c;
   c.wheelset.vpitch = -4.0;

@@ -113,7 +113,7 @@ TEST(ContactRefusal, KeptMethodsOfSkippedCases) {
   const std::string oblique = ContactWriter(1).set("DISCNS", 8).set("RETURN", 3).str();
   EXPECT_NE(error_of(oblique + ContactWriter(1).set("DISCNS", 1).str()).find("D (DISCNS) = 1 keeps D = 8"), std::string::npos);
   const std::string thermal = ContactWriter(1).set("FRCLAW", 6).set("RETURN", 3).str();
-  EXPECT_NE(error_of(thermal + ContactWriter(1).set("FRCLAW", 1).str()).find("test.inp:16:4: friction that depends on the temperature"), std::string::npos);
+  EXPECT_NE(error_of(thermal + ContactWriter(1).set("FRCLAW", 1).str()).find("test.inp:19:4: friction that depends on the temperature"), std::string::npos);
   const std::string corrected = ContactWriter(1).set("INFLCF", 4).set("RETURN", 3).str();
   EXPECT_NE(error_of(corrected + ContactWriter(1).set("INFLCF", 1).str()).find("angle-corrected influence coefficients need the curved reference"),
             std::string::npos);

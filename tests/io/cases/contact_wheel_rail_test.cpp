@@ -71,7 +71,7 @@ TEST(ContactForces, LongitudinalForceReplacesThePitchRate) {
   EXPECT_EQ(at(f, 2).longitudinal_force, std::optional(5000.0));
   EXPECT_FALSE(at(f, 3).longitudinal_force);
   EXPECT_DOUBLE_EQ(at(f, 3).wheelset.vpitch, -4.0);
-  EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 1).set("EWHEEL", 1).str()), HasSubstr("test.inp:18:7: F (FORCE) = 1 needs FX"));
+  EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 1).set("EWHEEL", 1).str()), HasSubstr("test.inp:17:8: F (FORCE) = 1 needs FX"));
   EXPECT_THAT(error_of(rail().set("FORCE", 1).str() + keeping().set("EWHEEL", 0).str()), HasSubstr("F (FORCE) = 0 needs VPITCH"));
 }
 
@@ -123,7 +123,7 @@ TEST(ContactSequenceOfAWheel, FollowsThePDigit) {
 TEST(ContactSequenceOfAWheel, KeepsElementsAndSide) {
   const std::string first = rail().set("TANG", 2).str();
   EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()),
-              HasSubstr("test.inp:17:5: a case that continues the previous one needs elements of the same size"));
+              HasSubstr("test.inp:18:5: a case that continues the previous one needs elements of the same size"));
   EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).set("DISCNS", 4).str()), HasSubstr("the same kind of reference surface"));
   EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).set("CONFIG", 0).str()), HasSubstr("must be on the same side"));
   EXPECT_EQ(error_of(first + rail().set("TANG", 2).set("PVTIME", 2).set("CONFIG", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()), "no error");

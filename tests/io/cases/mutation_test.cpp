@@ -86,7 +86,7 @@ TEST(Mutation, CaseFileOnlyThrowsError) {
   const std::string rolling =
       "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\n[wheelset]\nvertical_force_N = 1e5\nlongitudinal_force_N = 1e3\n"
       "velocity_m_s = 2\n[case]\nregime = \"transient\"\nhistory = \"continue\"\ntime_step_s = 1e-4\n[roller]\nnominal_radius_mm = 500\n"
-      "pitch_rate_rad_s = 4\n[track.springs]\nforce_y_N = 3\n[damping]\nnormal_s = 1e-4\n[contact]\nreference_surface = \"curved\"\n"
+      "pitch_rate_rad_s = 4\n[track.springs]\nforce_y_N = 3\n[damping]\nnormal_s = 1e-4\nmax_rate_normal_N_per_s = 9\n[contact]\nreference_surface = \"curved\"\n"
       "[[cases]]\ncase.steps = 3\n[[cases]]\ncase.steps = 2\nwheelset.y_mm = [0, 1]\n";
   for (const std::string& text : {example.str(), patch, everything, rolling}) {
     const int good = accepted(text, 2, kMutants / 2, [](const std::string& t) { parse_case_text(t, "m.toml"); });

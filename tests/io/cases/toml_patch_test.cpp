@@ -236,6 +236,7 @@ INSTANTIATE_TEST_SUITE_P(
                       Wrong{kRail + "wheelset.longitudinal_force_N = 3\ncase.regime = \"none\"\n", "a prescribed longitudinal force needs friction"},
                       Wrong{kRail + "track.springs.stiffness_y_N_per_mm = 0\n", "must be greater than 0"},
                       Wrong{kRail + "damping.normal_s = -1\n", "must be at least 0"},
+                      Wrong{kRail + "damping.tangential_s = 1\n", "damping.max_rate_tangential_N_per_s is missing"},
                       Wrong{kRail + "contact.reference_surface = \"conformal\"\n", "is not one of \"plane\", \"plane_surface_slip\", \"curved\""},
                       Wrong{kRail + "[[subsurface.blocks]]\nz_mm = [1]\nx_mm = [0]\n", "a block of subsurface points is empty"},
                       Wrong{kRail + "discretisation.max_elements = 1000000\n[[subsurface.blocks]]\nz_mm = [1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11, 12, 13, 14, 15, "
