@@ -56,6 +56,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.discretisation.reference_at_deepest = d.method == kInitialContactPoint;
   p.discretisation.search = search_grid(d, constant_profiles);
   p.discretisation.search_method = search_method(d);
+  p.discretisation.distance_on_mesh = d.reference_search_mesh;
 
   p.material = input.material;
   p.friction = input.friction;

@@ -69,7 +69,7 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     throw Error(ErrorKind::configuration,
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
-  const bool one_profile = !settings.facets && ContactLocus::applies(bodies);
+  const bool one_profile = !settings.mesh && ContactLocus::applies(bodies);
   if (settings.method == SearchMethod::locus && !one_profile)
     throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel", {},
                 "use the grid method");
@@ -77,7 +77,7 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     locus_.emplace(bodies, g);
   } else {
     if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;
-    gap_.emplace(bodies, g, settings.facets, settings_.method == SearchMethod::full_grid);
+    gap_.emplace(bodies, g, settings.mesh, settings_.method == SearchMethod::full_grid);
   }
 }
 
@@ -86,6 +86,7 @@ double ContactSearch::least_gap() { return locus_ ? locus_->least() : gap_->leas
 BodyPair ContactSearch::bodies_at(double wheel_dz) const {
   BodyPair moved = bodies_;
   moved.X_TW.origin.z() += wheel_dz;
+  moved.distance_on_mesh = settings_.distance_on_mesh;
   return moved;
 }
 

@@ -5,6 +5,8 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/detection/wheel_mesh.hpp"
+
 namespace treadmark::detection {
 
 UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C) {
@@ -12,7 +14,10 @@ UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC,
   result.distance.resize(grid_C.size());
   std::vector<double> wheel_n(grid_C.size());
   bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {result.distance, {}, {}});
-  bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, grid_C}, {wheel_n, {}, {}});
+  if (bodies.distance_on_mesh)
+    mesh_heights(bodies, X_TC, grid_C, wheel_n);
+  else
+    bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, grid_C}, {wheel_n, {}, {}});
 
   double least = std::numeric_limits<double>::infinity();
   for (std::size_t i = 0; i < wheel_n.size(); ++i) {
