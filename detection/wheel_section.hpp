@@ -13,7 +13,8 @@ namespace treadmark::detection {
 double lowest_angle(const Pose& X_TW);
 
 /// Lateral positions in the wheel's frame, increasing, at which the reference program (CONTACT) puts the corners of its meshes [m]:
-/// the whole numbers of v for a wheel of slices, equal steps not longer than step otherwise.
+/// where the data
+/// of the wheel's surface lie if it tells, in equal steps not longer than step otherwise.
 /// angle: of the section that tells y over v [rad].
 std::vector<double> lateral_nodes(const Surface& wheel, double angle, double step);
 
