@@ -12,7 +12,7 @@ struct BodyPair {
   const Surface* wheel = nullptr;  ///< body 2, facing down
   Pose X_TR;                       ///< rail frame in T
   Pose X_TW;                       ///< wheel surface frame (origin on the axle, pitched with the wheel) in T
-  /// The undeformed distance is found with a mesh of the wheel as in the reference program, not with the surface itself.
+  /// The undeformed distance is found with a mesh of the wheel and sections of the rail as in the reference program.
   bool distance_on_mesh = false;
 };
 

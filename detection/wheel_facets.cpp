@@ -31,7 +31,7 @@ std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, const WheelFac
 }  // namespace
 
 LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets) {
-  const std::vector<double> y = lateral_nodes(wheel, lowest_angle(X_TW), facets.lateral_step);
+  const std::vector<double> y = mesh_lines(wheel, lowest_angle(X_TW), facets.lateral_step);
   LongitudinalRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double side : {-1.0, 1.0})
     for (const Vec3& p : section(wheel, X_TW, facets, side * facets.half_range, y)) {
@@ -43,7 +43,7 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 }
 
 FacetWheel::FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets)
-    : wheel_(wheel), X_TW_(X_TW), facets_(facets), lowest_(lowest_angle(X_TW)), y_(lateral_nodes(wheel, lowest_, facets.lateral_step)) {
+    : wheel_(wheel), X_TW_(X_TW), facets_(facets), lowest_(lowest_angle(X_TW)), y_(mesh_lines(wheel, lowest_, facets.lateral_step)) {
   for (std::size_t j = 0; j + 1 < y_.size(); ++j) widest_ = std::max(widest_, y_[j + 1] - y_[j]);
   across_ = static_cast<int>(y_.size());
   sections_.resize(static_cast<std::size_t>(facets.sections));

@@ -96,7 +96,7 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   int rows = static_cast<int>(std::lround((to - from) * radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
-  const std::vector<double> all = lateral_nodes(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep);
+  const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep);
   auto first = static_cast<std::size_t>(std::ranges::lower_bound(all, r.y_min) - all.begin());
   auto last = static_cast<std::size_t>(std::ranges::upper_bound(all, r.y_max) - all.begin());
   first = first > kMargin ? first - kMargin : 0;

@@ -16,7 +16,7 @@ double lowest_angle(const Pose& X_TW);
 /// where the data
 /// of the wheel's surface lie if it tells, in equal steps not longer than step otherwise.
 /// angle: of the section that tells y over v [rad].
-std::vector<double> lateral_nodes(const Surface& wheel, double angle, double step);
+std::vector<double> mesh_lines(const Surface& wheel, double angle, double step);
 
 /// Radius over lateral positions of the section at an angle [m]; NaN where the wheel is missing.
 std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y);
