@@ -72,6 +72,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
   p.influence = to_influence(input.influence);
   p.solver = to_solver_settings(input.solver);
+  p.solver.reference_quirks = d.reference_search_mesh;
   p.max_force_iterations = input.solver.max_nr;
   return p;
 }

@@ -94,6 +94,9 @@ struct SolverSettings {
   /// Falling friction: slip speeds that the iteration starts from. below: none, above: the rolling velocity, last: those of the last solution.
   enum class FirstSlip { below, above, last };
   FirstSlip first_slip = FirstSlip::last;
+  /// KPEC and ANALYN as the reference program (CONTACT) has them: parts of a patch are not told apart; KPEC lets ends of rows that lie
+  /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
+  bool reference_quirks = false;
 };
 
 /// Parts of a patch that lie apart: elastic influence across is scaled, so that patches come together without a jump.

@@ -57,6 +57,12 @@ void SubPatchSolver::reset() {
 
 void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   check(problem);
+  if (problem.settings.reference_quirks && problem.normal_model != NormalModel::full) {
+    ContactProblem whole = problem;
+    whole.sub_patches = {};
+    if (workspace_->solvers.empty()) workspace_->solvers.emplace_back();
+    return workspace_->solvers.front().solve(whole, solution);
+  }
   const Grid2& grid = problem.grid;
   const SubPatches& sub = problem.sub_patches;
   const auto count = static_cast<std::size_t>(sub.count);
