@@ -101,10 +101,10 @@ io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSo
   result.vroll = w.vroll;
   result.vyaw = w.vyaw;
   result.vpitch = w.vpitch;
-  result.force_tr = s.force_T;
-  result.force_ws = s.force_Ws;
-  result.moment_rail = s.moment_rail_T;
-  result.moment_wheel = s.moment_wheel_Ws;
+  result.force_tr = s.load.track.force;
+  result.force_ws = s.load.wheelset.force;
+  result.moment_rail = s.load.track.moment;
+  result.moment_wheel = s.load.wheelset.moment;
   result.search_s = s.times.search_s;
   result.distance_s = s.times.distance_s;
   result.normal_s = s.times.normal_s;

@@ -47,15 +47,16 @@ ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch) {
 Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, const ContactFrame& frame,
                              const PotentialContactSettings& settings) {
   const double x_reference = frame.X_TC.origin.x(), y_reference = frame.X_TC.origin.y();
-  const double x_low = patch.extent.box.x_min - x_reference, x_high = patch.extent.box.x_max - x_reference;
-  const double s_low = arc_length(bodies, x_reference, y_reference, patch.extent.box.y_min);
-  const double s_high = arc_length(bodies, x_reference, y_reference, patch.extent.box.y_max);
+  const double x_low = settings.reference.x() + patch.extent.box.x_min - x_reference;
+  const double x_high = settings.reference.x() + patch.extent.box.x_max - x_reference;
+  const double s_low = settings.reference.y() + arc_length(bodies, x_reference, y_reference, patch.extent.box.y_min);
+  const double s_high = settings.reference.y() + arc_length(bodies, x_reference, y_reference, patch.extent.box.y_max);
 
   double dx = settings.dx, ds = settings.ds;
   const auto first = [](double low, double step) { return std::floor(low / step) - 1.0; };
   const auto last = [](double high, double step) { return std::ceil(high / step) + 1.0; };
   const auto count = [&](double low, double high, double step) { return last(high, step) - first(low, step) + 1.0; };
-  for (bool double_x = true; count(x_low, x_high, dx) * count(s_low, s_high, ds) >= settings.max_elements;
+  for (bool double_x = true; settings.max_elements > 0 && count(x_low, x_high, dx) * count(s_low, s_high, ds) >= settings.max_elements;
        double_x = !double_x) {
     constexpr double kFewest = 10.0;
     const bool x_can = count(x_low, x_high, dx) > kFewest, s_can = count(s_low, s_high, ds) > kFewest;
@@ -65,6 +66,9 @@ Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, 
     else
       ds *= 2.0;
   }
+  constexpr double kMostElements = 1e7;
+  if (!(count(x_low, x_high, dx) * count(s_low, s_high, ds) < kMostElements))
+    throw Error(ErrorKind::configuration, "the potential contact area would have more than 10 million elements", {}, "use larger dx, ds");
   Grid2 grid;
   grid.dx = dx;
   grid.dy = ds;

@@ -19,11 +19,15 @@ ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch);
 
 struct PotentialContactSettings {
   double dx = 0.0, ds = 0.0;  ///< element sizes [m]
-  int max_elements = 20000;   ///< above it dx and ds are doubled in turn
+  int max_elements = 20000;   ///< above it dx and ds are doubled in turn; 0: they stay as they are
+  /// Where the contact reference lies in the axes of the grid [m]: elements lie at whole multiples of dx, ds from another origin, so
+  /// that the grids of a sequence in time line up.
+  Vec2 reference = Vec2::Zero();
 };
 
 /// Potential contact area: elements at whole multiples of dx, ds from the contact reference that cover the
 /// interpenetration with one extra element all round; lateral positions are arc lengths along the rail.
+/// Errors: Error(configuration) for an absurd number of elements.
 Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, const ContactFrame& frame,
                              const PotentialContactSettings& settings);
 

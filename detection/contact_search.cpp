@@ -86,7 +86,7 @@ double ContactSearch::least_gap() { return locus_ ? locus_->least() : gap_->leas
 BodyPair ContactSearch::bodies_at(double wheel_dz) const {
   BodyPair moved = bodies_;
   moved.X_TW.origin.z() += wheel_dz;
-  moved.distance_on_mesh = settings_.distance_on_mesh;
+  moved.distance_mesh = settings_.distance_mesh;
   return moved;
 }
 

@@ -33,7 +33,7 @@ struct SearchSettings {
   double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
   /// On the first grid, for agreement with the reference program; refined grids are always exact.
   std::optional<SearchMesh> mesh;
-  bool distance_on_mesh = false;  ///< passed on to bodies_at()
+  std::optional<DistanceMesh> distance_mesh;  ///< passed on to bodies_at()
   /// The contact reference is the point of deepest penetration instead of the weighted centre.
   bool reference_at_deepest = false;
 };

@@ -14,9 +14,9 @@ UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC,
   UndeformedDistance result;
   result.distance.resize(grid_C.size());
   std::vector<double> wheel_n(grid_C.size());
-  const bool on_sections = bodies.distance_on_mesh && !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, result.distance);
+  const bool on_sections = bodies.distance_mesh && !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, result.distance);
   if (!on_sections) bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {result.distance, {}, {}});
-  if (bodies.distance_on_mesh)
+  if (bodies.distance_mesh)
     mesh_heights(bodies, X_TC, grid_C, wheel_n);
   else
     bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, grid_C}, {wheel_n, {}, {}});

@@ -73,15 +73,17 @@ std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& 
 
 Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
   const Reach r = reach_of(X_TU, X_TC, g);
+  // Lines through the contact reference; a grid that lines up with others in time may have its origin far off.
   const Vec3 marker = X_TU.apply_inverse(X_TC.origin);
+  const double y_through = marker.y() > r.y_min && marker.y() < r.y_max ? marker.y() : 0.5 * (r.y_min + r.y_max);
   const double angle = lowest_angle(bodies.X_TW);
-  const std::vector<double> y = equal_arcs(*bodies.wheel, angle, r, marker.y(), g.dy);
+  const std::vector<double> y = equal_arcs(*bodies.wheel, angle, r, y_through, g.dy);
   const std::vector<double> radius = section_radius(*bodies.wheel, angle, y);
-  const int before = static_cast<int>(std::ceil((marker.x() - r.x_min) / g.dx)), behind = static_cast<int>(std::ceil((r.x_max - marker.x()) / g.dx));
-  Mesh mesh{before + behind + 1, static_cast<int>(y.size()), {}};
+  const double first = std::floor((r.x_min - marker.x()) / g.dx), last = std::ceil((r.x_max - marker.x()) / g.dx);
+  Mesh mesh{static_cast<int>(last - first) + 1, static_cast<int>(y.size()), {}};
   const Pose X_CU = X_TC.inverse() * X_TU;
-  for (int k = -before; k <= behind; ++k) {
-    const double x = marker.x() + k * g.dx;
+  for (int k = 0; k < mesh.rows; ++k) {
+    const double x = marker.x() + (first + k) * g.dx;
     for (std::size_t j = 0; j < y.size(); ++j) mesh.corners.push_back(X_CU.apply({x, y[j], std::sqrt(radius[j] * radius[j] - x * x)}));
   }
   return mesh;
@@ -92,8 +94,7 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   constexpr std::size_t kMargin = 3;
   const Reach r = reach_of(X_TU, X_TC, g);
   const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min), to = std::atan(r.x_max / r.z_min);
-  const double radius = X_TU.apply_inverse(X_TC.origin).z();
-  int rows = static_cast<int>(std::lround((to - from) * radius / g.dx)) + 2;
+  int rows = static_cast<int>(std::lround((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
   const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep);

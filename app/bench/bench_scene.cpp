@@ -37,7 +37,7 @@ std::shared_ptr<const Surface> without_defects(const NaturalSurface& natural) {
 
 const wheelrail::PatchSolution& main_patch(const wheelrail::PairSolution& solution) {
   return *std::max_element(solution.patches.begin(), solution.patches.end(),
-                           [](const auto& a, const auto& b) { return a.force_T.norm() < b.force_T.norm(); });
+                           [](const auto& a, const auto& b) { return a.force_C.norm() < b.force_C.norm(); });
 }
 
 }  // namespace

@@ -13,7 +13,7 @@ namespace {
 // Agreement: the vertical force is the prescribed one.
 void whole_case(benchmark::State& state, const char* backend) {
   const SolvedCase& s = solved_case(backend);
-  if (std::abs(s.solution.force_T.z() - *s.problem.vertical_force) > 1e-4 * *s.problem.vertical_force) {
+  if (std::abs(s.solution.load.track.force.z() - *s.problem.vertical_force) > 1e-4 * *s.problem.vertical_force) {
     refuse(state, "the vertical force is not the prescribed one");
     return;
   }

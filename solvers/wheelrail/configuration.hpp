@@ -35,7 +35,7 @@ struct Track {
 /// position.x is where the wheelset's axle stands over the roller's.
 struct Roller {
   double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
-  double pitch_rate = 0.0;      ///< [rad/s]; rolling forward has a positive rate (the wheelset's own is negative)
+  double pitch_rate = 0.0;      ///< [rad/s]; positive where a wheel above it rolls forward (the wheelset's own rate is then negative)
 };
 
 /// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the contact
@@ -121,6 +121,8 @@ struct Problem {
   /// A shift reads rates as displacements of the step. Transient rolling and shifts go on from the last solution as history says.
   kalker::Regime regime = kalker::Regime::steady;
   kalker::HistoryUse history = kalker::HistoryUse::start;
+  /// Steps of transient rolling longer than dt = 2 dx / V: refused, else a remark.
+  bool enforce_step_rule = true;
   ReferenceSurface reference_surface = ReferenceSurface::plane;
   Discretisation discretisation;
   Material material;

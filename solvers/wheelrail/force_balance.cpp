@@ -7,54 +7,67 @@
 
 namespace treadmark::wheelrail {
 namespace {
-double two_thirds(double x) { return std::cbrt(x) * std::cbrt(x); }
+
+double two_thirds(double x) { return std::copysign(std::cbrt(x * x), x); }
+
 }  // namespace
 
-ForceBalance::ForceBalance(double target, double tolerance, double stiffness)
-    : target_(target), tolerance_(tolerance), stiffness_(stiffness), phi_target_(two_thirds(target)) {
-  slope_ = two_thirds(stiffness_);
-}
+ForceBalance::ForceBalance(Target target, double tolerance, double stiffness)
+    : target_(target), tolerance_(tolerance), stiffness_(stiffness), slope_(two_thirds(stiffness)) {}
 
 double ForceBalance::first(double z_touch) {
-  // From the unloaded side: approximate pressures may fall with depth where parts of the contact go out, and then the first balance counts.
-  constexpr double kShare = 0.5;
   z_touch_ = z_touch;
-  next_ = z_touch + kShare * phi_target_ / slope_;
+  next_ = z_touch + std::max(0.0, two_thirds(target_.at(z_touch))) / slope_;
   return next_;
 }
 
-double ForceBalance::phi(double force, double least_gap) const {
-  return force > 0.0 ? two_thirds(force) : -two_thirds(stiffness_) * std::max(0.0, least_gap);
+double ForceBalance::residual(double z, double force, double least_gap) const {
+  const double phi = force > 0.0 ? two_thirds(force) : -two_thirds(stiffness_) * std::max(0.0, least_gap);
+  return phi - two_thirds(target_.at(z));
 }
 
 void ForceBalance::restart() {
   has_last_ = false;
+  width_ = std::numeric_limits<double>::infinity();
+  slow_ = 0;
   z_low_ = -std::numeric_limits<double>::infinity();
   z_high_ = std::numeric_limits<double>::infinity();
 }
 
 ForceBalance::State ForceBalance::add(double z, double force, double least_gap) {
-  if (std::abs(force - target_) <= tolerance_ * target_) {
+  const double value = residual(z, force, least_gap);
+  if (std::abs(force - target_.at(z)) <= tolerance_ * std::abs(target_.at(z))) {
     next_ = z;
-    z_last_ = z, phi_last_ = phi(force, least_gap), has_last_ = true;
+    z_last_ = z, last_ = value, has_last_ = true;
     return State::found;
   }
-  const double value = phi(force, least_gap);
-  (value < phi_target_ ? z_low_ : z_high_) = z;
+  if (value < 0.0)
+    z_low_ = z, force_low_ = force;
+  else
+    z_high_ = z, force_high_ = force;
 
   constexpr double kLeastStep = 1e-13;  // closer than this positions cannot be told apart in the surfaces [m]
-  if (has_last_ && std::abs(z - z_last_) > kLeastStep && value != phi_last_) {
-    const double secant = (value - phi_last_) / (z - z_last_);
+  if (has_last_ && std::abs(z - z_last_) > kLeastStep && value != last_) {
+    const double secant = (value - last_) / (z - z_last_);
     if (secant > 0.0) slope_ = std::clamp(secant, 0.2 * slope_, 5.0 * slope_);
   } else if (!has_last_ && force > 0.0 && z > z_touch_) {
-    slope_ = std::clamp(value / (z - z_touch_), 0.05 * slope_, 20.0 * slope_);
+    slope_ = std::clamp(two_thirds(force) / (z - z_touch_), 0.05 * slope_, 20.0 * slope_);
   }
-  z_last_ = z, phi_last_ = value, has_last_ = true;
+  z_last_ = z, last_ = value, has_last_ = true;
 
-  next_ = z + (phi_target_ - value) / slope_;
+  next_ = z - value / slope_;
   if (std::isfinite(z_low_) && std::isfinite(z_high_)) {
-    if (z_high_ - z_low_ < kLeastStep) return State::no_balance;
-    if (!(next_ > z_low_ && next_ < z_high_)) next_ = 0.5 * (z_low_ + z_high_);
+    // No contact is so stiff that its force changes by a thousandth within a nanometre.
+    constexpr double kJumpWidth = 1e-9, kJump = 1e-3;
+    const double width = z_high_ - z_low_;
+    if (width < kLeastStep || (width < kJumpWidth && force_high_ - force_low_ > kJump * std::abs(target_.at(z)))) return State::no_balance;
+    // Secants may close in from one side; those that do not close in at all give way to bisection.
+    constexpr int kPatience = 3;
+    slow_ = width > 0.5 * width_ ? slow_ + 1 : 0;
+    width_ = width;
+    const bool bisect = slow_ >= kPatience;
+    if (bisect) slow_ = 0;
+    if (bisect || !(next_ > z_low_ && next_ < z_high_)) next_ = 0.5 * (z_low_ + z_high_);
   }
   return State::search;
 }

@@ -13,8 +13,15 @@ class ForceBalance {
  public:
   enum class State { search, found, no_balance };
 
-  /// target > 0 [N]; tolerance relative to it; stiffness: guess of force / penetration^1.5 [N/m^1.5].
-  ForceBalance(double target, double tolerance, double stiffness);
+  /// What the force has to be: level - spring * z, as of a rail on springs.
+  struct Target {
+    double level = 0.0;   ///< [N]
+    double spring = 0.0;  ///< >= 0 [N/m]
+    double at(double z) const { return level - spring * z; }
+  };
+
+  /// tolerance relative to the target; stiffness: guess of force / penetration^1.5 [N/m^1.5].
+  ForceBalance(Target target, double tolerance, double stiffness);
 
   /// First position to try [m], given where the bodies touch.
   double first(double z_touch);
@@ -22,19 +29,26 @@ class ForceBalance {
   /// Takes force [N] (0 without contact) and least gap [m] found at z; next() is then the position to try.
   State add(double z, double force, double least_gap);
   double next() const { return next_; }
+  /// Forces on both sides of a jump [N].
+  double force_below() const { return force_low_; }
+  double force_above() const { return force_high_; }
 
   /// The force law changed a little (new tangential forces): keep the slope, forget the bracket.
   void restart();
 
  private:
-  double phi(double force, double least_gap) const;
+  /// Residual, about linear in z: negative where the force is too little.
+  double residual(double z, double force, double least_gap) const;
 
-  double target_, tolerance_, stiffness_;
-  double phi_target_;
+  Target target_;
+  double tolerance_, stiffness_;
   double z_touch_ = 0.0, next_ = 0.0;
   double slope_ = 0.0;
   bool has_last_ = false;
-  double z_last_ = 0.0, phi_last_ = 0.0;
+  double z_last_ = 0.0, last_ = 0.0;
+  double width_ = std::numeric_limits<double>::infinity();
+  int slow_ = 0;
+  double force_low_ = 0.0, force_high_ = 0.0;
   double z_low_ = -std::numeric_limits<double>::infinity();
   double z_high_ = std::numeric_limits<double>::infinity();
 };

@@ -59,18 +59,33 @@ void flip(PatchSolution& p) {
   p.kinematics.phi = -p.kinematics.phi;
   p.reference_rail.y() = -p.reference_rail.y();
   p.reference_wheel.y() = -p.reference_wheel.y();
+  p.reference_wheelset.y() = -p.reference_wheelset.y();
   p.reference_s = -p.reference_s;
-  p.force_T.y() = -p.force_T.y();
+  p.reference_C.y() = -p.reference_C.y();
+  for (double* angle : {&p.angle_rail, &p.angle_wheelset, &p.angle_wheel}) *angle = -*angle;
+  p.force_C.y() = -p.force_C.y();
+  flip_axial(p.moment_C);
+  p.load = mirrored(p.load);
+  std::reverse(p.row_angle.begin(), p.row_angle.end());
+  for (double& angle : p.row_angle) angle = -angle;
 
   kalker::ContactSolution& c = p.contact;
-  for (auto* field : {&p.distance, &c.pressure, &c.traction_x, &c.displacement_n, &c.displacement_x, &c.slip_x, &c.friction})
+  for (auto* field : {&p.distance, &c.pressure, &c.traction_x, &c.displacement_n, &c.displacement_x, &c.slip_x, &c.friction, &c.plastic_x,
+                      &c.yield_stress, &c.temperature_1, &c.temperature_2, &p.extra_slip_x})
     reverse_rows(*field, p.grid);
-  for (auto* field : {&c.traction_y, &c.displacement_y, &c.slip_y}) reverse_rows_and_sign(*field, p.grid);
+  for (auto* field : {&c.traction_y, &c.displacement_y, &c.slip_y, &c.plastic_y, &p.extra_slip_y}) reverse_rows_and_sign(*field, p.grid);
   reverse_rows(c.state, p.grid);
   c.creepage.eta = -c.creepage.eta;
   c.creepage.phi = -c.creepage.phi;
   c.creepage.spin_y = -c.creepage.spin_y;
   c.force_y = -c.force_y;
+  if (c.sensitivities) {
+    auto& by = c.sensitivities->by_creepage;
+    by[0][1] = -by[0][1];
+    by[1][0] = -by[1][0];
+    by[2][0] = -by[2][0];
+    c.sensitivities->by_approach[2] = -c.sensitivities->by_approach[2];
+  }
   c.moment_x = -c.moment_x;
   c.moment_n = -c.moment_n;
   p.grid.y0 = -p.grid.y(p.grid.ny - 1);
@@ -87,6 +102,7 @@ Problem mirrored(Problem p) {
   t.vy = -t.vy;
   t.vroll = -t.vroll;
   t.curvature = -t.curvature;
+  if (p.rail_springs) p.rail_springs->force_y = -p.rail_springs->force_y;
   for (SixMotion* m : {&p.state.position, &p.state.velocity, &p.state.wheel_offset, &p.state.wheel_velocity}) flip(*m);
   return p;
 }
@@ -94,10 +110,8 @@ Problem mirrored(Problem p) {
 PairSolution mirrored(PairSolution s) {
   for (Pose* pose : {&s.placement.X_TR, &s.placement.X_TS, &s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA}) flip(*pose);
   for (PatchSolution& patch : s.patches) flip(patch);
-  s.force_T.y() = -s.force_T.y();
-  s.force_Ws.y() = -s.force_Ws.y();
-  flip_axial(s.moment_rail_T);
-  flip_axial(s.moment_wheel_Ws);
+  s.load = mirrored(s.load);
+  s.rail_deflection_y = -s.rail_deflection_y;
   return s;
 }
 

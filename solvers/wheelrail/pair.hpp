@@ -12,24 +12,9 @@
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
+#include "treadmark/solvers/wheelrail/loads.hpp"
 
 namespace treadmark::wheelrail {
-
-/// A force on the rail and its moment.
-struct Wrench {
-  Vec3 force = Vec3::Zero();    ///< [N]
-  Vec3 moment = Vec3::Zero();   ///< [N m]
-  Wrench& operator+=(const Wrench& other);
-};
-
-/// One load on the rail, seen from four sides. That on the wheel is the opposite.
-struct Wrenches {
-  Wrench track;      ///< track axes, moment about the rail marker
-  Wrench rail;       ///< rail axes, moment about the rail marker
-  Wrench wheelset;   ///< wheelset axes, moment about the wheel marker
-  Wrench wheel;      ///< wheel axes, moment about the wheel marker
-  Wrenches& operator+=(const Wrenches& other);
-};
 
 /// One contact patch between wheel and rail, solved.
 struct PatchSolution {
@@ -56,7 +41,6 @@ struct PatchSolution {
   Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
   double reference_s = 0.0;             ///< arc length along the rail profile from y = 0 [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
-  Vec3 force_T = Vec3::Zero();          ///< on the rail, track axes [N]
 };
 
 /// Seconds spent, and how often.
@@ -73,14 +57,12 @@ struct PairSolution {
   double pitch_rate = 0.0;              ///< of the wheelset, given or found [rad/s]
   double rail_deflection_y = 0.0, rail_deflection_z = 0.0;  ///< of a rail on springs [m]
   std::vector<PatchSolution> patches;   ///< field side first
-  Vec3 force_T = Vec3::Zero();          ///< total on the rail, track axes [N]
-  Vec3 force_Ws = Vec3::Zero();         ///< the same in wheelset axes [N]
-  Vec3 moment_rail_T = Vec3::Zero();    ///< on the rail about the rail marker, track axes [N m]
-  Vec3 moment_wheel_Ws = Vec3::Zero();  ///< on the rail about the wheel marker, wheelset axes [N m]
   Wrenches load;                        ///< sum over the patches
   std::vector<std::pair<double, double>> force_iterations;  ///< (z [m], vertical force [N])
   PhaseTimes times;
 };
+
+struct Instant;
 
 /// Contact of one wheel and one rail (Kalker 1990; Vollebregt's grid-based contact search).
 /// Geometry is set once; solve() is called for one state after the other. Without history (Problem::history == start) results do not
@@ -108,15 +90,12 @@ class Pair {
   void restore(const std::shared_ptr<const State>& state);
 
  private:
-  struct Level;
-  PairSolution solve_right_hand(const Problem& problem);
-  Level evaluate(const Problem& problem, const Placement& placement, const detection::SearchResult& found,
-                 const detection::BodyPair& bodies, PhaseTimes& times);
-  kalker::ContactProblem contact_problem(const Problem& problem, const PatchSolution& patch) const;
-  kalker::ContactSolver& solver(std::size_t patch);
+  PairSolution solve_right_hand(const Problem& problem, Side side);
+  Instant choose_previous(const Problem& problem) const;
 
   Geometry geometry_;
-  std::vector<kalker::ContactSolver> solvers_;
+  std::vector<kalker::ContactSolver> solvers_;   ///< by number of the patch; keep coefficients
+  std::shared_ptr<const State> state_;
 };
 
 }  // namespace treadmark::wheelrail

@@ -127,20 +127,22 @@ GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height) {
 Placement place(const Geometry& geometry, const Problem& p) {
   Placement placed;
   const Track& t = p.track;
-  placed.X_TR.rotation = rotation_x(-t.cant + t.roll);
+  const double cant = p.roller ? 0.0 : t.cant;
+  placed.X_TR.rotation = rotation_x(-cant + t.roll);
   if (t.gauge_based) {
-    const GaugePoint gauge = gauge_point(*geometry.rail, t.cant, t.gauge_height);
-    placed.X_TR.origin = {0.0, 0.5 * t.gauge_width - gauge.y + t.dy, -gauge.z_top + t.dz};
+    const GaugePoint gauge = gauge_point(*geometry.rail, cant, t.gauge_height);
+    // A roller's height is that of its nominal circle.
+    placed.X_TR.origin = {0.0, 0.5 * t.gauge_width - gauge.y + t.dy, (p.roller ? 0.0 : -gauge.z_top) + t.dz};
   } else {
     placed.X_TR.origin = {0.0, t.rail_y0 + t.dy, t.rail_z0 + t.dz};
   }
 
   const SixMotion& q = p.state.position;
   placed.X_TS = placed.X_TR;
-  placed.X_TS.origin.x() -= q.x;
+  if (!p.roller) placed.X_TS.origin.x() -= q.x;
   const SixMotion& d = p.state.wheel_offset;
   const double radius = p.wheelset.nominal_radius;
-  placed.X_TWs = {{0.0, q.y, q.z - radius}, rotation_x(q.roll) * rotation_z(q.yaw)};
+  placed.X_TWs = {{p.roller ? q.x : 0.0, q.y, q.z - radius}, rotation_x(q.roll) * rotation_z(q.yaw)};
 
   double tape_height = 0.0;
   if (p.wheelset.tape_line) {

@@ -17,7 +17,7 @@ struct Outcome {
 };
 
 Outcome iterate(double target, double z_touch, double guess, const std::function<double(double)>& force) {
-  ForceBalance balance(target, 1e-6, guess);
+  ForceBalance balance({.level = target}, 1e-6, guess);
   double z = balance.first(z_touch);
   auto state = ForceBalance::State::search;
   int n = 0;
@@ -57,7 +57,7 @@ TEST(ForceBalance, SaysWhenTheForceJumpsOverTheTarget) {
 TEST(ForceBalance, ComesBackFromLostContact) {
   const auto force = [](double z) { return 5e10 * std::pow(std::max(0.0, z - 1e-3), 1.5); };
   // The touching position given is 0.2 mm too high: the first try has no contact at all.
-  ForceBalance balance(1e5, 1e-6, 1e11);
+  ForceBalance balance({.level = 1e5}, 1e-6, 1e11);
   double z = balance.first(8e-4);
   auto state = ForceBalance::State::search;
   for (int i = 0; i < 50 && state == ForceBalance::State::search; ++i) {

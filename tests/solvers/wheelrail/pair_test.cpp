@@ -6,6 +6,7 @@
 
 #include <cmath>
 
+#include "standard_pair.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -39,7 +40,7 @@ TEST(Pair, VerticalForceOnABallAgreesWithHertz) {
   const PairSolution s = pair.solve(p);
   ASSERT_EQ(s.status, Status::ok) << s.message;
   ASSERT_EQ(s.patches.size(), 1u);
-  EXPECT_NEAR(s.force_T.z(), force, 1e-4 * force);
+  EXPECT_NEAR(s.load.track.force.z(), force, 1e-4 * force);
   // Hertz (Johnson 1985, ch. 4): sphere of radius 0.46 m on a cylinder of 20 m; curvatures differ by 2.3 %: mean radius.
   const double e_star = p.material.shear_modulus_1 / (1.0 - p.material.poisson_1);
   const double mean_radius = 1.0 / std::sqrt((1.0 / kRadius) * (1.0 / kRadius + 1.0 / 20.0));
@@ -58,7 +59,7 @@ TEST(Pair, PrescribedPositionGivesTheForceOfThePrescribedForce) {
   p.vertical_force.reset();
   p.state.position.z = sought.z;
   const PairSolution given = pair.solve(p);
-  EXPECT_NEAR(given.force_T.z(), sought.force_T.z(), p.solver.eps * 3e4);  // one starts cold, the other warm
+  EXPECT_NEAR(given.load.track.force.z(), sought.load.track.force.z(), p.solver.eps * 3e4);  // one starts cold, the other warm
 }
 
 TEST(Pair, NoContactIsAStatus) {
@@ -71,20 +72,6 @@ TEST(Pair, NoContactIsAStatus) {
   const PairSolution off = pair.solve(p);
   EXPECT_EQ(off.status, Status::no_contact);
   EXPECT_FALSE(off.message.empty());
-}
-
-Geometry standard_geometry() {
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
-}
-
-Problem standard_problem() {
-  Problem p;
-  p.track.cant = 1.0 / 40.0;
-  p.state.position = {0.0, 1.5e-3, 0.0, 2e-4, 3e-3, 0.0};
-  p.state.velocity = {10.0, 0.02, 0.0, 1e-3, 2e-3, -10.0 / kRadius * 0.9995};
-  p.vertical_force = 6e4;
-  p.discretisation.dx = p.discretisation.ds = 0.4e-3;
-  return p;
 }
 
 TEST(Pair, LeftIsTheMirrorImageOfRight) {
@@ -103,11 +90,11 @@ TEST(Pair, LeftIsTheMirrorImageOfRight) {
   ASSERT_EQ(r.status, Status::ok) << r.message;
   ASSERT_EQ(l.patches.size(), r.patches.size());
   EXPECT_EQ(l.z, r.z);
-  EXPECT_EQ(l.force_T.x(), r.force_T.x());
-  EXPECT_EQ(l.force_T.y(), -r.force_T.y());
-  EXPECT_EQ(l.force_T.z(), r.force_T.z());
-  EXPECT_EQ(l.moment_rail_T.y(), r.moment_rail_T.y());
-  EXPECT_EQ(l.moment_rail_T.x(), -r.moment_rail_T.x());
+  EXPECT_EQ(l.load.track.force.x(), r.load.track.force.x());
+  EXPECT_EQ(l.load.track.force.y(), -r.load.track.force.y());
+  EXPECT_EQ(l.load.track.force.z(), r.load.track.force.z());
+  EXPECT_EQ(l.load.track.moment.y(), r.load.track.moment.y());
+  EXPECT_EQ(l.load.track.moment.x(), -r.load.track.moment.x());
   EXPECT_EQ(l.patches[0].frame.X_TC.origin.y(), -r.patches[0].frame.X_TC.origin.y());
   EXPECT_EQ(l.patches[0].frame.angle, -r.patches[0].frame.angle);
   EXPECT_EQ(l.patches[0].kinematics.eta, -r.patches[0].kinematics.eta);
@@ -130,7 +117,7 @@ TEST(Pair, MovingTrackAndWheelsetSidewaysChangesNothing) {
   ASSERT_EQ(a.status, Status::ok) << a.message;
   constexpr double kRounding = 1e-6;  // the force iteration stops within its tolerance
   // Curved or yawing track aside, creepages depend on where the wheelset centre is: it moved along.
-  EXPECT_NEAR(b.force_T.x(), a.force_T.x(), 2e-4 * std::abs(a.force_T.z()));
+  EXPECT_NEAR(b.load.track.force.x(), a.load.track.force.x(), 2e-4 * std::abs(a.load.track.force.z()));
   EXPECT_NEAR(b.z, a.z, kRounding * 1e-3);
   EXPECT_NEAR(b.patches[0].frame.X_TC.origin.y() - a.patches[0].frame.X_TC.origin.y(), 0.5, 1e-8);
   EXPECT_NEAR(b.patches[0].contact.max_pressure, a.patches[0].contact.max_pressure, 1e-4 * a.patches[0].contact.max_pressure);

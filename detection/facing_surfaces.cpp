@@ -1,0 +1,40 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/facing_surfaces.hpp"
+
+#include <limits>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::detection {
+
+FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid, const ReferenceRows& reference) {
+  if (reference.rows.size() != static_cast<std::size_t>(grid.ny))
+    throw Error(ErrorKind::configuration, "the reference surface has another number of rows than the grid of elements");
+  FacingSurfaces surfaces{std::vector<double>(grid.size()), std::vector<double>(grid.size())};
+  const auto width = static_cast<std::size_t>(grid.nx);
+  const Pose X_RC = bodies.X_TR.inverse() * X_TC, X_WC = bodies.X_TW.inverse() * X_TC;
+  const Grid2 row{grid.x0, 0.0, grid.dx, grid.dy, grid.nx, 1};
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const Pose X_CL = reference.X_CL(iy);
+    const std::size_t first = grid.index(0, iy);
+    bodies.rail->heights({X_RC * X_CL, row}, {{surfaces.rail.data() + first, width}, {}, {}});
+    bodies.wheel->heights({X_WC * X_CL, row}, {{surfaces.wheel.data() + first, width}, {}, {}});
+  }
+  return surfaces;
+}
+
+UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) {
+  UndeformedDistance result;
+  result.distance.resize(surfaces.rail.size());
+  double least = std::numeric_limits<double>::infinity();
+  for (std::size_t i = 0; i < result.distance.size(); ++i) {
+    const double h = result.distance[i] = surfaces.rail[i] - surfaces.wheel[i];
+    if (h < least) least = h;
+  }
+  result.approach = -least;
+  for (double& h : result.distance) h -= least;
+  return result;
+}
+
+}  // namespace treadmark::detection

@@ -1,0 +1,186 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/wheelrail/force_iteration.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/wheelrail/force_balance.hpp"
+#include "treadmark/solvers/wheelrail/root_search.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+class Iteration {
+ public:
+  Iteration(PairStep& step, const Problem& problem, double stiffness) : step_(step), p_(problem) {
+    out_.stiffness = stiffness;
+    out_.pitch_rate = p_.longitudinal_force ? free_rolling_rate() : p_.state.velocity.pitch;
+  }
+
+  Balance run() {
+    if (p_.rail_springs)
+      balance_lateral();
+    else if (step_.place(0.0))
+      balance_vertical();
+    else
+      off_the_rail();
+    if (p_.rail_springs && p_.vertical_force && p_.rail_springs->stiffness_z > 0.0)
+      out_.rail_dz = (*p_.vertical_force + p_.rail_springs->force_z) / p_.rail_springs->stiffness_z;
+    return std::move(out_);
+  }
+
+ private:
+  void fail(Status status, std::string message) {
+    if (out_.status != Status::ok) return;
+    out_.status = status;
+    out_.message = std::move(message);
+  }
+
+  void off_the_rail() { fail(Status::no_contact, "wheel and rail nowhere face each other: the wheel is off the rail"); }
+
+  double free_rolling_rate() const {
+    const double running = p_.roller ? p_.roller->pitch_rate * p_.roller->nominal_radius : p_.state.velocity.x;
+    return -running / p_.wheelset.nominal_radius;
+  }
+
+  /// Tractions, at the pitch rate that gives the prescribed longitudinal force.
+  bool solve_tangential() {
+    step_.solve_tangential(out_.pitch_rate);
+    if (!p_.longitudinal_force || step_.normal_force() <= 0.0) return true;
+    const double friction = std::max(p_.friction.static_friction(), 1e-6), bound = friction * step_.normal_force();
+    const double running = std::abs(free_rolling_rate());
+    // Creepages of the order of a ten-thousandth; of a shift, displacements of the order of a thousandth of an element.
+    const bool shift = p_.regime == kalker::Regime::shift;
+    const double unit = shift ? p_.discretisation.dx / p_.wheelset.nominal_radius : running;
+    RootSearch search({.tolerance = p_.solver.eps * bound, .first_step = 1e-4 * unit, .reach = 0.5 * unit, .resolution = 1e-14 * unit});
+    RootSearch::State state = RootSearch::State::search;
+    // A wheel that turns slower, its rate less negative, brakes: it pulls the rail forward.
+    constexpr int kMost = 60;
+    for (int i = 0; i < kMost; ++i) {
+      state = search.add(out_.pitch_rate, step_.longitudinal_force() - *p_.longitudinal_force);
+      if (state != RootSearch::State::search) break;
+      out_.pitch_rate = search.next();
+      step_.solve_tangential(out_.pitch_rate);
+    }
+    if (state == RootSearch::State::found) return true;
+    fail(Status::not_converged,
+         fmt::format("no longitudinal balance: {:.6g} N are prescribed, the contact gives {:.6g} N at most at this load (friction bound {:.6g} N)",
+                     *p_.longitudinal_force, step_.longitudinal_force(), bound));
+    return false;
+  }
+
+  bool inside_the_rail() {
+    if (step_.too_deep() <= 0.0) return false;
+    fail(Status::failed, fmt::format("the wheel lies {:.3g} mm deep inside the rail: check heights and the placement of both",
+                                     1e3 * step_.too_deep()));
+    return true;
+  }
+
+  /// On success the tangential problem is solved as well.
+  bool balance_vertical() {
+    const std::optional<RailSprings>& springs = p_.rail_springs;
+    if (!p_.vertical_force && !(springs && springs->stiffness_z > 0.0)) {
+      out_.z = p_.state.position.z;
+      step_.evaluate(out_.z);
+      return !inside_the_rail() && solve_tangential();
+    }
+    ForceBalance::Target target;
+    if (p_.vertical_force) {
+      target.level = *p_.vertical_force;
+    } else {
+      // k_z dz = F_z + F_external with dz = z_ws - z
+      target = {springs->stiffness_z * p_.state.position.z - springs->force_z, springs->stiffness_z};
+      const double unloaded = target.level / target.spring;
+      if (unloaded <= step_.touching_z()) {
+        out_.z = unloaded;
+        step_.evaluate(unloaded);
+        out_.rail_dz = p_.state.position.z - unloaded;
+        return solve_tangential();
+      }
+    }
+    if (!iterate_height(target)) return false;
+    if (!p_.vertical_force) out_.rail_dz = p_.state.position.z - out_.z;
+    return true;
+  }
+
+  bool iterate_height(const ForceBalance::Target& target) {
+    ForceBalance balance(target, p_.solver.eps, out_.stiffness);
+    double z = balance.first(step_.touching_z());
+    ForceBalance::State state = ForceBalance::State::search;
+    bool tangential_done = false;
+    for (int i = 0; i < p_.max_force_iterations; ++i) {
+      if (state == ForceBalance::State::search) {
+        step_.evaluate(z);
+        tangential_done = false;
+      }
+      // Too deep for contact mechanics: any large force sends the search back up.
+      const double force = step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
+      out_.iterations.emplace_back(z, force);
+      out_.z = z;
+      state = balance.add(z, force, step_.least_gap());
+      if (state == ForceBalance::State::no_balance) break;
+      if (state == ForceBalance::State::found) {
+        if (step_.too_deep() > 0.0 || tangential_done) break;
+        if (!solve_tangential()) return false;
+        tangential_done = true;
+        balance.restart();
+        continue;
+      }
+      z = balance.next();
+    }
+    if (inside_the_rail()) return false;
+    if (!tangential_done && !solve_tangential()) return false;
+    if (state == ForceBalance::State::found) {
+      const double depth = out_.z - step_.touching_z();
+      if (depth > 0.0) out_.stiffness = target.at(out_.z) / std::pow(depth, 1.5);
+      return true;
+    }
+    fail(Status::not_converged,
+         state == ForceBalance::State::no_balance
+             ? fmt::format("no vertical balance: the contact force jumps from {:.6g} N to {:.6g} N at z = {:.6g} mm, across the {:.6g} N "
+                           "prescribed", balance.force_below(), balance.force_above(), 1e3 * out_.z, target.at(out_.z))
+             : fmt::format("the vertical force was not reached within {} iterations", p_.max_force_iterations));
+    return false;
+  }
+
+  void balance_lateral() {
+    const RailSprings& k = *p_.rail_springs;
+    const double scale = p_.vertical_force.value_or(std::abs(k.force_y) + k.stiffness_y * 1e-3);
+    constexpr double kReach = 0.1;   // a rail does not give way farther [m]
+    RootSearch search({.tolerance = p_.solver.eps * scale, .first_step = k.first_step_y, .reach = kReach, .resolution = 1e-12});
+    RootSearch::State state = RootSearch::State::search;
+    double dy = 0.0;
+    constexpr int kMost = 60;
+    for (int i = 0; i < kMost; ++i) {
+      out_.rail_dy = dy;
+      if (!step_.place(dy)) return off_the_rail();
+      if (!balance_vertical()) return;
+      const double residual = k.stiffness_y * dy - step_.force_T().y() - k.force_y;
+      state = search.add(dy, residual);
+      if (state != RootSearch::State::search) break;
+      // The springs alone give the first step where the contact does not add to them.
+      dy = i == 0 ? std::clamp(-residual / k.stiffness_y, -k.first_step_y, k.first_step_y) : search.next();
+    }
+    if (state == RootSearch::State::found) return;
+    fail(Status::not_converged,
+         state == RootSearch::State::jump
+             ? fmt::format("no lateral balance: the force on the rail's springs jumps from {:.6g} N to {:.6g} N at a deflection of {:.6g} mm",
+                           search.residual_below(), search.residual_above(), 1e3 * out_.rail_dy)
+             : fmt::format("no lateral balance of the rail's springs within a deflection of {:.3g} mm", 1e3 * kReach));
+  }
+
+  PairStep& step_;
+  const Problem& p_;
+  Balance out_;
+};
+
+}  // namespace
+
+Balance find_balance(PairStep& step, const Problem& problem, double stiffness) { return Iteration(step, problem, stiffness).run(); }
+
+}  // namespace treadmark::wheelrail

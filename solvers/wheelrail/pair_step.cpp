@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/wheelrail/pair_step.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <limits>
+
+#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/solvers/wheelrail/search_window.hpp"
+#include "treadmark/solvers/wheelrail/sub_patches.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  using Clock = std::chrono::steady_clock;
+  double& total_;
+  Clock::time_point start_;
+};
+
+/// Interpenetration half as long as the search window: the bodies do not touch, they lie in each other.
+constexpr double kDeepestOfRadius = 0.02;
+
+/// Signed arc length along the rail's section through a point, from y = 0 of the profile.
+double profile_arc_length(const Surface& rail, const Vec3& point_R) {
+  constexpr int kSteps = 400;
+  const double step = std::abs(point_R.y()) / kSteps;
+  if (step == 0.0) return 0.0;
+  std::vector<double> z(kSteps + 1);
+  rail.heights({Pose{}, {point_R.x(), std::min(0.0, point_R.y()), 1.0, step, 1, kSteps + 1}}, {z, {}, {}});
+  double length = 0.0;
+  for (std::size_t i = 1; i < z.size(); ++i) {
+    const double dz = z[i] - z[i - 1];
+    length += std::isnan(dz) ? step : std::hypot(step, dz);
+  }
+  return std::copysign(length, point_R.y());
+}
+
+Rectangle extent_of(const Grid2& g) { return {g.x0, g.x(g.nx - 1), g.y0, g.y(g.ny - 1)}; }
+
+bool inside(const Rectangle& r, double x, double y, double margin_x, double margin_y) {
+  return x >= r.x_min - margin_x && x <= r.x_max + margin_x && y >= r.y_min - margin_y && y <= r.y_max + margin_y;
+}
+
+}  // namespace
+
+PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
+                   PhaseTimes& times)
+    : geometry_(geometry), problem_(problem), previous_(previous), solvers_(solvers), times_(times) {}
+
+bool PairStep::aligned() const {
+  return problem_.regime == kalker::Regime::shift || problem_.regime == kalker::Regime::transient;
+}
+
+bool PairStep::place(double rail_dy) {
+  Problem moved = problem_;
+  moved.track.dy += rail_dy;
+  if (moved.vertical_force) moved.state.position.z = 0.0;
+  start_z_ = moved.state.position.z;
+  start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
+  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS, start_.X_TA};
+  const Stopwatch watch(times_.search_s);
+  search_.emplace(bodies, search_settings(geometry_, moved, start_));
+  const double gap = search_->least_gap();
+  touching_z_ = start_z_ + gap;
+  return !std::isnan(gap);
+}
+
+void PairStep::link(const Rectangle& box, Patch& patch) const {
+  if (problem_.history == kalker::HistoryUse::start) return;
+  // Steady grids have their origin at the contact reference, aligned ones at a place that stays.
+  const double shift = problem_.regime == kalker::Regime::shift ? previous_.s : 0.0;
+  Rectangle here = box;
+  here.x_min -= shift, here.x_max -= shift;
+  patch.before = overlapping(previous_, here);
+  patch.solution.came_from.clear();
+  for (const PatchMemory* m : patch.before) patch.solution.came_from.push_back(m->id);
+  if (!aligned() || patch.before.empty()) return;
+  std::vector<kalker::ContactHistory> parts;
+  for (const PatchMemory* m : patch.before) parts.push_back(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds));
+  patch.history = united(parts, problem_.friction.static_friction(), problem_.material.layer_yield);
+}
+
+void PairStep::describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch) {
+  PatchSolution& s = patch.solution;
+  const Discretisation& d = problem_.discretisation;
+  s.region = region;
+  s.frame = detection::contact_frame(bodies, region);
+  const Pose& X_TC = s.frame.X_TC;
+  s.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS.apply_inverse(X_TC.origin));
+  detection::PotentialContactSettings settings{d.dx, d.ds, aligned() ? 0 : d.max_elements, Vec2::Zero()};
+  if (aligned())
+    settings.reference = {X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};
+  s.reference_C = settings.reference;
+  s.grid = detection::potential_contact_grid(bodies, region, s.frame, settings);
+  const Rectangle own = extent_of(s.grid);
+  patch.box = own;
+  Rectangle from_wheelset = own;
+  if (!aligned()) {
+    from_wheelset.x_min += X_TC.origin.x(), from_wheelset.x_max += X_TC.origin.x();
+    from_wheelset.y_min += s.reference_s, from_wheelset.y_max += s.reference_s;
+  }
+  link(from_wheelset, patch);
+  if (patch.history) s.grid = extended(s.grid, *patch.history);
+
+  const Pose X_TP = X_TC * Pose{{-s.reference_C.x(), -s.reference_C.y(), 0.0}, Mat3::Identity()};
+  auto undeformed = detection::undeformed_distance(bodies, X_TP, s.grid);
+  s.distance = std::move(undeformed.distance);
+  s.approach = undeformed.approach;
+  patch.gap = s.distance;
+  if (!patch.history) return;
+  // What the grid was extended by holds tractions of the previous instant, but contact of this one belongs to another patch.
+  double least = std::numeric_limits<double>::infinity();
+  const double margin = 0.25;
+  for (int iy = 0; iy < s.grid.ny; ++iy)
+    for (int ix = 0; ix < s.grid.nx; ++ix) {
+      const std::size_t i = s.grid.index(ix, iy);
+      if (!inside(own, s.grid.x(ix), s.grid.y(iy), margin * d.dx, margin * d.ds))
+        patch.gap[i] = std::numeric_limits<double>::quiet_NaN();
+      else if (patch.gap[i] < least)
+        least = patch.gap[i];
+    }
+  s.approach -= least;
+  for (auto* field : {&s.distance, &patch.gap})
+    for (double& h : *field) h -= least;
+}
+
+kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
+  while (solvers_.size() <= i) solvers_.emplace_back();
+  warm_.resize(std::max(warm_.size(), i + 1), 0);
+  if (!warm_[i]) {
+    warm_[i] = 1;
+    if (patch.before.size() == 1 && patch.before.front()->solver)
+      solvers_[i].restore(patch.before.front()->solver);
+    else
+      solvers_[i].reset();
+  }
+  return solvers_[i];
+}
+
+kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
+  const Problem& p = problem_;
+  const PatchSolution& s = patch.solution;
+  kalker::ContactProblem c;
+  c.grid = s.grid;
+  c.gap = patch.gap;
+  c.sub_patches = sub_patches(p.discretisation, s.region, s.frame, s.grid);
+  c.material = p.material;
+  c.friction = friction_at(p.friction_inclination, p.friction_laws, s.frame.angle, p.friction);
+  c.normal_model = p.normal_model;
+  c.tangential_model = p.tangential_model;
+  c.fastsim = p.fastsim;
+  c.influence = p.influence;
+  c.thermal = p.thermal;
+  c.sensitivities = p.sensitivities;
+  c.force_prescribed = false;
+  c.approach = s.approach;
+  c.regime = p.regime;
+  c.creepage = {s.kinematics.xi, s.kinematics.eta, s.kinematics.phi, s.reference_C.x(), s.reference_C.y()};
+  c.rolling.chi = s.kinematics.chi;
+  c.rolling.velocity = s.kinematics.velocity;
+  c.rolling.step = p.regime == kalker::Regime::shift ? 1.0 : p.discretisation.dq_relative * s.grid.dx;
+  c.settings = p.solver;
+  c.history = patch.history ? (p.history == kalker::HistoryUse::normal_only ? kalker::HistoryUse::normal_only : kalker::HistoryUse::keep_going)
+                            : kalker::HistoryUse::start;
+  // A wheel that stands still does not creep.
+  if (!(s.kinematics.velocity > 0.0)) c.regime = kalker::Regime::frictionless;
+  return c;
+}
+
+/// Resultant about the contact reference.
+void PairStep::resolve_forces(Patch& patch) const {
+  PatchSolution& s = patch.solution;
+  const kalker::ContactSolution& c = s.contact;
+  const Vec3 arm(s.reference_C.x(), s.reference_C.y(), 0.0);
+  s.force_C = {c.force_x, c.force_y, c.force_n};
+  s.moment_C = Vec3(c.moment_x, c.moment_y, c.moment_n) - arm.cross(s.force_C);
+}
+
+void PairStep::evaluate(double z) {
+  placement_ = start_;
+  const double dz = z - start_z_;
+  for (Pose* pose : {&placement_.X_TWs, &placement_.X_TW, &placement_.X_TA}) pose->origin.z() += dz;
+  patches_.clear();
+  detection::SearchResult found;
+  {
+    const Stopwatch watch(times_.search_s);
+    ++times_.searches;
+    found = search_->at(dz);
+  }
+  least_gap_ = found.least_gap;
+  const double deepest = kDeepestOfRadius * problem_.wheelset.nominal_radius;
+  too_deep_ = -found.least_gap > deepest ? -found.least_gap : 0.0;
+  if (too_deep_ > 0.0) return;
+
+  const detection::BodyPair bodies = search_->bodies_at(dz);
+  for (const detection::ContactPatch& region : found.patches) {
+    Patch patch;
+    {
+      const Stopwatch watch(times_.distance_s);
+      ++times_.distances;
+      describe(region, bodies, patch);
+    }
+    // Interpenetration between the element centres only: no contact on this grid.
+    if (!(patch.solution.approach > 0.0)) continue;
+    patch.solution.kinematics = contact_kinematics(problem_, placement_, patch.solution.frame.X_TC, patch.solution.approach);
+    {
+      const Stopwatch watch(times_.normal_s);
+      ++times_.normal_solves;
+      patch.solution.contact = solver(patches_.size(), patch).solve_normal(contact_problem(patch));
+    }
+    if (patch.solution.contact.status == Status::no_contact) continue;
+    resolve_forces(patch);
+    patch.normal_force_C = patch.predicted_force_C = patch.solution.force_C;
+    if (patches_.size() < tangential_share_.size())
+      patch.predicted_force_C += tangential_share_[patches_.size()] * patch.solution.contact.force_n;
+    patch.normal = patch.solution.contact;
+    patches_.push_back(std::move(patch));
+  }
+}
+
+void PairStep::solve_tangential(double pitch_rate) {
+  const Stopwatch watch(times_.tangential_s);
+  problem_.state.velocity.pitch = pitch_rate;
+  tangential_share_.assign(patches_.size(), Vec3::Zero());
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    Patch& patch = patches_[i];
+    PatchSolution& s = patch.solution;
+    s.kinematics = contact_kinematics(problem_, placement_, s.frame.X_TC, s.approach);
+    s.contact = patch.normal;
+    const kalker::ContactProblem problem = contact_problem(patch);
+    if (problem.regime != kalker::Regime::frictionless) ++times_.tangential_solves;
+    kalker::ContactSolver& contact_solver = solver(i, patch);
+    if (patch.history) contact_solver.continue_from(*patch.history);
+    contact_solver.solve_tangential(problem, s.contact);
+    resolve_forces(patch);
+    patch.predicted_force_C = s.force_C;
+    if (patch.normal.force_n > 0.0) tangential_share_[i] = (s.force_C - patch.normal_force_C) / patch.normal.force_n;
+  }
+}
+
+Vec3 PairStep::force_T() const {
+  Vec3 sum = Vec3::Zero();
+  for (const Patch& p : patches_) sum += p.solution.frame.X_TC.rotation * p.predicted_force_C;
+  return sum;
+}
+
+double PairStep::normal_force() const {
+  double sum = 0.0;
+  for (const Patch& p : patches_) sum += p.solution.contact.force_n;
+  return sum;
+}
+
+std::vector<PatchSolution> PairStep::take_patches() {
+  std::vector<PatchSolution> out;
+  for (Patch& p : patches_) out.push_back(std::move(p.solution));
+  patches_.clear();
+  return out;
+}
+
+Instant PairStep::finish() {
+  Instant now;
+  now.next_id = previous_.next_id;
+  now.stiffness = previous_.stiffness;
+  now.s = problem_.state.position.x;
+  const bool remember_solver = aligned();
+  std::vector<std::uint64_t> taken;
+  for (std::size_t i = 0; i < patches_.size(); ++i) {
+    Patch& patch = patches_[i];
+    PatchSolution& s = patch.solution;
+    // A patch keeps its number; where several come of one, the first does.
+    for (const std::uint64_t id : s.came_from)
+      if (s.id == 0 && std::find(taken.begin(), taken.end(), id) == taken.end()) s.id = id;
+    if (s.id == 0) s.id = now.next_id++;
+    taken.push_back(s.id);
+    PatchMemory m;
+    m.id = s.id;
+    m.box = patch.box;
+    m.history = solvers_[i].history();
+    m.force_C = s.force_C;
+    if (remember_solver) m.solver = solvers_[i].save();
+    const double shift_x = s.frame.X_TC.origin.x() - s.reference_C.x(), shift_y = s.reference_s - s.reference_C.y();
+    m.box.x_min += shift_x, m.box.x_max += shift_x;
+    m.box.y_min += shift_y, m.box.y_max += shift_y;
+    m.history.grid.x0 += shift_x;
+    m.history.grid.y0 += shift_y;
+    now.patches.push_back(std::move(m));
+  }
+  return now;
+}
+
+}  // namespace treadmark::wheelrail

@@ -1,0 +1,77 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <span>
+#include <vector>
+
+#include "treadmark/solvers/wheelrail/pair.hpp"
+#include "treadmark/solvers/wheelrail/patch_memory.hpp"
+
+namespace treadmark::wheelrail {
+
+/// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail, patches
+/// with their normal problems per height of the wheel over the rail, tangential problems per pitch rate.
+/// A right-hand problem. previous, the solvers and times must outlive this.
+class PairStep {
+ public:
+  PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
+           PhaseTimes& times);
+
+  /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other.
+  bool place(double rail_dy);
+  /// Wheelset height z [m] at which the bodies touch.
+  double touching_z() const { return touching_z_; }
+
+  /// Patches and pressures with the wheelset at height z over the undeflected rail.
+  void evaluate(double z);
+  /// Tractions at a pitch rate of the wheelset.
+  void solve_tangential(double pitch_rate);
+  /// How deep the wheel lies in the rail where that is beyond all contact mechanics [m], else 0.
+  double too_deep() const { return too_deep_; }
+
+  /// On the rail [N]: after evaluate() with the share of tangential forces as it was found last, after solve_tangential() as it is.
+  Vec3 force_T() const;
+  double longitudinal_force() const { return (placement_.X_TWs.rotation.transpose() * force_T()).x(); }
+  double normal_force() const;
+  double least_gap() const { return least_gap_; }
+
+  std::vector<PatchSolution> take_patches();
+  const Placement& placement() const { return placement_; }
+  /// Names the patches and returns what they leave to the next instant; before take_patches().
+  Instant finish();
+
+ private:
+  struct Patch {
+    PatchSolution solution;
+    std::vector<double> gap;                     ///< undeformed distance, NaN where another patch may touch
+    std::vector<const PatchMemory*> before;
+    std::optional<kalker::ContactHistory> history;
+    Rectangle box;                               ///< in the axes of the grid [m]
+    kalker::ContactSolution normal;
+    Vec3 normal_force_C = Vec3::Zero();          ///< resultant of the pressures
+    Vec3 predicted_force_C = Vec3::Zero();
+  };
+  bool aligned() const;
+  void describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
+  void link(const Rectangle& box, Patch& patch) const;
+  kalker::ContactProblem contact_problem(const Patch& patch) const;
+  kalker::ContactSolver& solver(std::size_t i, const Patch& patch);
+  void resolve_forces(Patch& patch) const;
+
+  const Geometry& geometry_;
+  Problem problem_;
+  const Instant& previous_;
+  std::vector<kalker::ContactSolver>& solvers_;
+  PhaseTimes& times_;
+
+  Placement start_, placement_;                  ///< at z = start_z_, and as it is
+  double start_z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
+  std::optional<detection::ContactSearch> search_;
+  std::vector<Patch> patches_;
+  std::vector<Vec3> tangential_share_;           ///< change of a patch's force by its tangential problem, over its normal force
+  std::vector<char> warm_;                       ///< solvers that have started from the previous instant
+};
+
+}  // namespace treadmark::wheelrail

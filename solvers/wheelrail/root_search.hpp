@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <limits>
+
+namespace treadmark::wheelrail {
+
+/// Finds where a residual that mostly grows with x vanishes, step by step: steps of growing length until there is one value of either
+/// sign, then secants inside the bracket, bisection where they do not halve it.
+class RootSearch {
+ public:
+  enum class State {
+    search,
+    found,    ///< |residual| <= tolerance
+    jump,     ///< the residual changes its sign between neighbouring numbers
+    nowhere,  ///< no change of sign within reach
+  };
+
+  struct Settings {
+    double tolerance = 0.0;   ///< on the residual
+    double first_step = 0.0;  ///< > 0
+    double reach = 0.0;       ///< farthest distance from the first x
+    double resolution = 0.0;  ///< values of x closer than this are the same
+  };
+  explicit RootSearch(const Settings& settings);
+
+  /// Takes the residual at x; next() is then what to try.
+  State add(double x, double residual);
+  double next() const { return next_; }
+  /// Residuals on both sides of a jump.
+  double residual_below() const { return f_low_; }
+  double residual_above() const { return f_high_; }
+
+ private:
+  bool bracketed() const;
+  double outside(double x, double residual);
+  double inside(double x, double residual);
+
+  Settings settings_;
+  int count_ = 0, slow_ = 0;
+  double next_ = 0.0, step_ = 0.0, start_ = 0.0;
+  double x_last_ = 0.0, f_last_ = 0.0;
+  double width_ = std::numeric_limits<double>::infinity();
+  double x_low_ = -std::numeric_limits<double>::infinity(), f_low_ = 0.0;   // where the residual is negative
+  double x_high_ = std::numeric_limits<double>::infinity(), f_high_ = 0.0;  // where it is positive
+};
+
+}  // namespace treadmark::wheelrail

@@ -1,0 +1,188 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+
+#include "standard_pair.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/wheelrail/root_search.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+constexpr double kLoad = 6e4;
+
+TEST(TotalForces, LongitudinalForceIsFoundByThePitchRate) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  for (const double target : {-9000.0, -200.0, 0.0, 4000.0, 1.2e4}) {
+    p.longitudinal_force = target;
+    const PairSolution s = pair.solve(p);
+    ASSERT_EQ(s.status, Status::ok) << target << ": " << s.message;
+    EXPECT_NEAR(s.load.wheelset.force.x(), target, 2.0 * p.solver.eps * 0.3 * kLoad);
+    EXPECT_NEAR(s.load.track.force.z(), kLoad, 2.0 * p.solver.eps * kLoad);
+    // The same state with the rate that was found gives the same forces.
+    Problem again = p;
+    again.longitudinal_force.reset();
+    again.state.velocity.pitch = s.pitch_rate;
+    EXPECT_NEAR(pair.solve(again).load.wheelset.force.x(), target, 5.0 * p.solver.eps * 0.3 * kLoad);
+  }
+}
+
+TEST(TotalForces, BrakingPullsTheRailForward) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  p.state.position = {};
+  p.state.velocity = {.x = 10.0};
+  p.longitudinal_force = 5e3;
+  const PairSolution braking = pair.solve(p);
+  p.longitudinal_force = -5e3;
+  const PairSolution driving = pair.solve(p);
+  EXPECT_GT(braking.pitch_rate, driving.pitch_rate) << "forward rolling has a negative rate: a braked wheel turns slower";
+  EXPECT_LT(braking.patches.at(0).kinematics.xi, 0.0);
+  EXPECT_GT(driving.patches.at(0).kinematics.xi, 0.0);
+}
+
+TEST(TotalForces, MoreThanFrictionAllowsIsNoBalance) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  p.longitudinal_force = 0.4 * kLoad;
+  const PairSolution s = pair.solve(p);
+  EXPECT_EQ(s.status, Status::not_converged);
+  EXPECT_NE(s.message.find("no longitudinal balance"), std::string::npos) << s.message;
+  p.longitudinal_force.reset();
+  EXPECT_EQ(pair.solve(p).status, Status::ok);
+}
+
+/// What holds where a rail on springs is in balance.
+void expect_spring_balance(const PairSolution& s, const RailSprings& k, double tolerance) {
+  ASSERT_EQ(s.status, Status::ok) << s.message;
+  EXPECT_NEAR(k.stiffness_y * s.rail_deflection_y, s.load.track.force.y() + k.force_y, tolerance);
+  if (k.stiffness_z > 0.0) {
+    EXPECT_NEAR(k.stiffness_z * s.rail_deflection_z, s.load.track.force.z() + k.force_z, tolerance);
+  } else {
+    EXPECT_EQ(s.rail_deflection_z, 0.0);
+  }
+}
+
+TEST(TotalForces, RailOnSpringsUnderAPrescribedLoad) {
+  Pair pair(standard_geometry());
+  for (const Side side : {Side::right, Side::left})
+    for (const double stiffness_z : {0.0, 2e7}) {
+      Problem p = standard_problem();
+      p.side = side;
+      p.rail_springs = RailSprings{.stiffness_y = 2e7, .stiffness_z = stiffness_z, .force_y = 1500.0, .force_z = -800.0};
+      const PairSolution s = pair.solve(p);
+      expect_spring_balance(s, *p.rail_springs, 5e-5 * kLoad);
+      EXPECT_NEAR(s.load.track.force.z(), kLoad, 2.0 * p.solver.eps * kLoad);
+      // A rigid rail that lies where the springs let it go carries the same.
+      Problem rigid = p;
+      rigid.rail_springs.reset();
+      rigid.track.dy += s.rail_deflection_y;
+      rigid.track.dz += s.rail_deflection_z;
+      const PairSolution r = pair.solve(rigid);
+      EXPECT_NEAR(r.z, s.z, 1e-9);
+      EXPECT_NEAR((r.load.track.force - s.load.track.force).norm(), 0.0, 1e-4 * kLoad);
+      EXPECT_NEAR((r.patches.at(0).frame.X_TC.origin - s.patches.at(0).frame.X_TC.origin).norm(), 0.0, 1e-7);
+    }
+}
+
+TEST(TotalForces, RailOnSpringsUnderAPrescribedHeight) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  p.vertical_force.reset();
+  p.rail_springs = RailSprings{.stiffness_y = 5e7, .stiffness_z = 4e7, .force_y = 0.0, .force_z = 0.0};
+  for (const double z : {0.3e-3, 1.5e-3}) {
+    p.state.position.z = z;
+    const PairSolution s = pair.solve(p);
+    expect_spring_balance(s, *p.rail_springs, 1e-3 * kLoad);
+    EXPECT_NEAR(s.z, z, 1e-12);
+    EXPECT_GT(s.load.track.force.z(), 0.0);
+  }
+  p.state.position.z = -1e-3;
+  EXPECT_EQ(pair.solve(p).status, Status::no_contact);
+}
+
+TEST(TotalForces, SpringsAndLongitudinalForceAtOnce) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  p.longitudinal_force = 3000.0;
+  p.rail_springs = RailSprings{.stiffness_y = 3e7, .stiffness_z = 3e7};
+  const PairSolution s = pair.solve(p);
+  expect_spring_balance(s, *p.rail_springs, 5e-5 * kLoad);
+  EXPECT_NEAR(s.load.wheelset.force.x(), 3000.0, 1.0);
+}
+
+TEST(TotalForces, DissimilarBodiesReachThePrescribedLoad) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  p.discretisation.dx = p.discretisation.ds = 1e-3;
+  p.material.shear_modulus_1 = 27e9;
+  p.material.poisson_1 = 0.34;
+  const PairSolution s = pair.solve(p);
+  ASSERT_EQ(s.status, Status::ok) << s.message;
+  EXPECT_NEAR(s.load.track.force.z(), kLoad, 2.0 * p.solver.eps * kLoad);
+}
+
+TEST(TotalForces, AWheelInsideTheRailAndOneBesideItAreStatuses) {
+  Pair pair(standard_geometry());
+  Problem p = standard_problem();
+  const PairSolution before = pair.solve(p);
+  Problem inside = p;
+  inside.vertical_force.reset();
+  inside.state.position.z = 30e-3;
+  PairSolution s = pair.solve(inside);
+  EXPECT_EQ(s.status, Status::failed);
+  EXPECT_NE(s.message.find("inside the rail"), std::string::npos) << s.message;
+  Problem derailed = p;
+  derailed.state.position.y = 0.4;
+  s = pair.solve(derailed);
+  EXPECT_EQ(s.status, Status::no_contact);
+  EXPECT_NE(s.message.find("off the rail"), std::string::npos) << s.message;
+  const PairSolution after = pair.solve(p);
+  EXPECT_EQ(after.z, before.z);
+  EXPECT_EQ(after.load.track.force, before.load.track.force);
+}
+
+TEST(TotalForces, NumbersThatAreNoneAreRefused) {
+  Pair pair(standard_geometry());
+  const double nan = std::numeric_limits<double>::quiet_NaN(), infinite = std::numeric_limits<double>::infinity();
+  const auto refused = [&](auto change) {
+    Problem p = standard_problem();
+    change(p);
+    EXPECT_THROW(pair.solve(p), Error);
+  };
+  refused([&](Problem& p) { p.state.position.roll = nan; });
+  refused([&](Problem& p) { p.state.velocity.pitch = infinite; });
+  refused([&](Problem& p) { p.vertical_force = nan; });
+  refused([&](Problem& p) { p.track.cant = nan; });
+  refused([&](Problem& p) { p.material.shear_modulus_1 = 0.0; });
+  refused([&](Problem& p) { p.longitudinal_force = 1.0, p.regime = kalker::Regime::frictionless; });
+  refused([&](Problem& p) { p.longitudinal_force = 1.0, p.state.velocity.x = 0.0; });
+  refused([&](Problem& p) { p.rail_springs = RailSprings{.stiffness_y = 0.0}; });
+  refused([&](Problem& p) { p.roller = Roller{.nominal_radius = 0.0}; });
+  EXPECT_EQ(pair.solve(standard_problem()).status, Status::ok);
+}
+
+TEST(RootSearch, FindsRootsOfGrowingFunctionsFromFarAway) {
+  const auto iterate = [](auto f, double start) {
+    RootSearch search({.tolerance = 1e-9, .first_step = 1e-3, .reach = 1e3, .resolution = 1e-14});
+    double x = start;
+    int n = 0;
+    RootSearch::State state;
+    while (++n, (state = search.add(x, f(x))) == RootSearch::State::search && n < 200) x = search.next();
+    return std::tuple(state, x, n);
+  };
+  const auto [state, x, n] = iterate([](double v) { return std::tanh(v - 7.0) + 0.2; }, 0.0);
+  EXPECT_EQ(state, RootSearch::State::found);
+  EXPECT_NEAR(std::tanh(x - 7.0), -0.2, 1e-8);
+  EXPECT_LT(n, 40);
+  EXPECT_EQ(std::get<0>(iterate([](double v) { return v < 0.5 ? -1.0 : 2.0; }, 0.0)), RootSearch::State::jump);
+  EXPECT_EQ(std::get<0>(iterate([](double) { return -1.0; }, 0.0)), RootSearch::State::nowhere);
+  EXPECT_LT(std::get<2>(iterate([](double v) { return 3.0 * v - 2e-3; }, 0.0)), 6);
+}
+
+}  // namespace
+}  // namespace treadmark::wheelrail

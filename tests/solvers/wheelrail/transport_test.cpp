@@ -1,0 +1,167 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Material carries its tractions through the contact. With an interface layer far softer than the bodies, u = L p, and without
+// creepage the tractions of an element are, one step of one element later, those of its neighbour behind, whatever becomes of the
+// patches meanwhile; what comes in at the leading edge has none.
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <map>
+#include <utility>
+
+#include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+using kalker::HistoryUse;
+using kalker::Regime;
+
+constexpr double kRadius = 0.46, kStep = 0.5e-3, kLayer = 1e-10, kShift = 1e-5;
+
+/// Two crowns 30 mm apart under a cylinder: two contacts.
+Geometry two_crowns() {
+  constexpr double kCrown = 0.1, kHollow = 0.05, kAngle = 0.1;
+  const double width = 2.0 * std::sin(kAngle) * (2.0 * kCrown + kHollow);
+  ArcChain rail{-0.5 * width, kCrown * (1.0 - std::cos(kAngle)), -kAngle, {}};
+  rail.segments = {{2.0 * kAngle * kCrown, 1.0 / kCrown}, {2.0 * kAngle * kHollow, -1.0 / kHollow}, {2.0 * kAngle * kCrown, 1.0 / kCrown}};
+  return {analytic::make_prismatic_surface(rail), analytic::make_revolved_surface(analytic::straight_chain(0.04), kRadius), true, true};
+}
+
+Problem crowns_problem() {
+  Problem p;
+  p.track.gauge_based = false;
+  p.track.rail_y0 = 0.75;
+  p.wheelset = {1.360, -0.070, kRadius, std::nullopt};
+  p.discretisation.dx = p.discretisation.ds = kStep;
+  p.material.layer_flexibility = kLayer;
+  p.friction.kinetic = 10.0;
+  p.vertical_force = 8e4;
+  p.solver.eps = 1e-8;
+  return p;
+}
+
+enum class Grouping { apart, parts_of_one, together };
+
+void group(Problem& p, Grouping g) {
+  p.discretisation.separation = g == Grouping::apart ? 2e-3 : 60e-3;
+  p.discretisation.combination = g == Grouping::together ? 60e-3 : 2e-3;
+}
+
+using Place = std::pair<long, long>;
+struct Element {
+  double pressure = 0.0, px = 0.0;
+};
+
+/// Elements in contact by their places on the raster.
+std::map<Place, Element> elements(const PairSolution& s) {
+  std::map<Place, Element> all;
+  for (const PatchSolution& patch : s.patches)
+    for (int iy = 0; iy < patch.grid.ny; ++iy)
+      for (int ix = 0; ix < patch.grid.nx; ++ix) {
+        const std::size_t i = patch.grid.index(ix, iy);
+        if (!(patch.contact.pressure[i] > 0.0)) continue;
+        const Place place{std::lround(patch.grid.x(ix) / kStep), std::lround(patch.grid.y(iy) / kStep)};
+        EXPECT_FALSE(all.contains(place)) << "two patches press on one element";
+        all[place] = {patch.contact.pressure[i], patch.contact.traction_x[i]};
+      }
+  return all;
+}
+
+/// Pitch rate at which the wheel rolls without creepage.
+double pure_rolling(Problem p) {
+  Pair pair(two_crowns());
+  p.regime = Regime::steady;
+  p.history = HistoryUse::start;
+  const auto creepage = [&](double rate) {
+    p.state.velocity.pitch = rate;
+    return pair.solve(p).patches.at(0).kinematics.xi;
+  };
+  double a = -p.state.velocity.x / kRadius, b = 1.001 * a, fa = creepage(a), fb = creepage(b);
+  for (int i = 0; i < 4 && fb != fa; ++i) {
+    const double c = b - fb * (b - a) / (fb - fa);
+    a = b, fa = fb, b = c, fb = creepage(c);
+  }
+  return b;
+}
+
+TEST(Transport, TractionsStayWithTheMaterialWhilePatchesMergeAndSplit) {
+  Pair pair(two_crowns());
+  Problem rolling = crowns_problem();
+  rolling.regime = Regime::transient;
+  rolling.state.velocity.x = 10.0;
+
+  // A shift fills both contacts with tractions.
+  Problem shift = crowns_problem();
+  shift.regime = Regime::shift;
+  shift.state.velocity.x = kShift;
+  group(shift, Grouping::apart);
+  PairSolution s = pair.solve(shift);
+  ASSERT_EQ(s.patches.size(), 2u);
+  auto before = elements(s);
+  double full = 0.0;
+  for (const auto& [place, e] : before) full = std::max(full, std::abs(e.px));
+  EXPECT_NEAR(full, kShift / kLayer, 0.01 * kShift / kLayer);
+
+  const Grouping plan[] = {Grouping::apart,        Grouping::together, Grouping::together,     Grouping::apart,    Grouping::apart,
+                           Grouping::parts_of_one, Grouping::apart,    Grouping::parts_of_one, Grouping::together, Grouping::apart};
+  rolling.history = HistoryUse::keep_going;
+  std::uint64_t largest_id = 2;
+  for (const Grouping g : plan) {
+    rolling.state.position.x += kStep;
+    group(rolling, g);
+    rolling.state.velocity.pitch = pure_rolling(rolling);   // one reference for both contacts has another radius
+    s = pair.solve(rolling);
+    ASSERT_EQ(s.status, Status::ok) << s.message;
+    EXPECT_LT(std::abs(s.patches.at(0).kinematics.xi), 1e-9);
+    ASSERT_EQ(s.patches.size(), g == Grouping::apart ? 2u : 1u);
+    const auto now = elements(s);
+    double total = 0.0, expected_total = 0.0;
+    for (const auto& [place, e] : now) {
+      const auto behind = before.find({place.first + 1, place.second});
+      const double expected = behind == before.end() ? 0.0 : behind->second.px;
+      EXPECT_NEAR(e.px, expected, 4e-3 * full) << place.first << ", " << place.second;
+      total += e.px;
+      expected_total += expected;
+    }
+    EXPECT_NEAR(total, expected_total, 1e-3 * std::abs(full) * static_cast<double>(now.size()));
+    EXPECT_GT(std::abs(total), 0.1 * full * static_cast<double>(now.size())) << "something is left to be carried";
+    for (const PatchSolution& patch : s.patches) {
+      EXPECT_FALSE(patch.came_from.empty());
+      largest_id = std::max(largest_id, patch.id);
+    }
+    before = now;
+  }
+  EXPECT_GT(largest_id, 2u) << "a patch that splits off gets a number of its own";
+}
+
+TEST(Transport, WhatLosesContactForgets) {
+  Pair pair(two_crowns());
+  Problem rolling = crowns_problem();
+  rolling.regime = Regime::transient;
+  rolling.state.velocity.x = 10.0;
+  rolling.state.velocity.pitch = pure_rolling(rolling);
+  Problem shift = crowns_problem();
+  shift.regime = Regime::shift;
+  shift.state.velocity.x = kShift;
+  const double z = pair.solve(shift).z;
+
+  rolling.history = HistoryUse::keep_going;
+  rolling.vertical_force.reset();
+  rolling.state.position.z = z;
+  rolling.state.position.x = kStep;
+  EXPECT_GT(std::abs(pair.solve(rolling).load.track.force.x()), 1.0);
+  rolling.state.position.z = -1e-3;
+  rolling.state.position.x += kStep;
+  EXPECT_EQ(pair.solve(rolling).status, Status::no_contact);
+  rolling.state.position.z = z;
+  rolling.state.position.x += kStep;
+  const PairSolution again = pair.solve(rolling);
+  ASSERT_EQ(again.status, Status::ok) << again.message;
+  EXPECT_NEAR(again.load.track.force.x(), 0.0, 1e-3);
+  EXPECT_TRUE(again.patches.at(0).came_from.empty());
+}
+
+}  // namespace
+}  // namespace treadmark::wheelrail
