@@ -19,7 +19,7 @@ struct BodyPair {
   const Surface* wheel = nullptr;  ///< body 2, facing down
   Pose X_TR;                       ///< rail frame in T
   Pose X_TW;                       ///< wheel surface frame (origin on the axle, pitched with the wheel) in T
-  std::optional<DistanceMesh> distance_mesh;  ///< empty: distances between the surfaces themselves
+  std::optional<DistanceMesh> distance_mesh = std::nullopt;  ///< empty: distances between the surfaces themselves
 };
 
 }  // namespace treadmark::detection

@@ -20,7 +20,7 @@
 namespace treadmark::wheelrail {
 namespace {
 
-// Hertz, sphere of 0.3 m radius on a plane: only the order of magnitude matters to start the force iteration.
+// Hertz, sphere on a plane: only the order of magnitude matters to start the force iteration.
 double stiffness_guess(const Material& material) {
   const CombinedMaterial m = combine(material);
   // Stiffer than any: approximate pressures may fall with depth where parts of the contact go out, and the first balance counts.
