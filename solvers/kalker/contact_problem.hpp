@@ -94,7 +94,8 @@ struct SolverSettings {
   /// Falling friction: slip speeds that the iteration starts from. below: none, above: the rolling velocity, last: those of the last solution.
   enum class FirstSlip { below, above, last };
   FirstSlip first_slip = FirstSlip::last;
-  /// KPEC and ANALYN as the reference program (CONTACT) has them: parts of a patch are not told apart; KPEC lets ends of rows that lie
+  /// As the reference program (CONTACT) has it: displacements, and the elastic energy with them, of parts of a patch are those of full
+  /// elastic influence. In KPEC and ANALYN parts are not told apart; KPEC lets ends of rows that lie
   /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
   bool reference_quirks = false;
 };

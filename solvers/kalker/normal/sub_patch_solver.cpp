@@ -109,7 +109,8 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t own = sub.part[i] > 0 ? sub.part[i] - 1u : 0u;
     for (std::size_t k = 0; k < count; ++k) {
-      solution.displacement_n[i] += (sub.part[i] > 0 ? sub.coupling[own * count + k] : 1.0) * caused[k][i];
+      const double felt = sub.part[i] > 0 && !problem.settings.reference_quirks ? sub.coupling[own * count + k] : 1.0;
+      solution.displacement_n[i] += felt * caused[k][i];
       solution.pressure[i] += parts[k].pressure[i];
     }
     if (!(solution.pressure[i] > 0.0)) continue;
