@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/detection/facing_surfaces.hpp"
 
-#include <limits>
-
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::detection {
@@ -24,17 +22,6 @@ FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const G
   return surfaces;
 }
 
-UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) {
-  UndeformedDistance result;
-  result.distance.resize(surfaces.rail.size());
-  double least = std::numeric_limits<double>::infinity();
-  for (std::size_t i = 0; i < result.distance.size(); ++i) {
-    const double h = result.distance[i] = surfaces.rail[i] - surfaces.wheel[i];
-    if (h < least) least = h;
-  }
-  result.approach = -least;
-  for (double& h : result.distance) h -= least;
-  return result;
-}
+UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) { return undeformed_distance(surfaces.rail, surfaces.wheel); }
 
 }  // namespace treadmark::detection

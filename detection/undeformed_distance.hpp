@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "treadmark/detection/contact_frame.hpp"
@@ -16,5 +17,8 @@ struct UndeformedDistance {
 
 /// Exact evaluation of both surfaces in the tangent plane (Figure 3 i-l of the same paper), unless BodyPair asks for a mesh of the wheel.
 UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C);
+
+/// The same from heights of rail and wheel along n [m], which are known already; both of one size.
+UndeformedDistance undeformed_distance(std::vector<double> rail_n, std::span<const double> wheel_n);
 
 }  // namespace treadmark::detection

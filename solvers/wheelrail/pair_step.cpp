@@ -8,7 +8,9 @@
 #include <limits>
 
 #include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
+#include "treadmark/solvers/wheelrail/surface_slip.hpp"
 #include "treadmark/solvers/wheelrail/sub_patches.hpp"
 
 namespace treadmark::wheelrail {
@@ -110,8 +112,25 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   link(from_wheelset, patch);
   if (patch.history) s.grid = extended(s.grid, *patch.history);
 
-  const Pose X_TP = X_TC * Pose{{-s.reference_C.x(), -s.reference_C.y(), 0.0}, Mat3::Identity()};
-  auto undeformed = detection::undeformed_distance(bodies, X_TP, s.grid);
+  measure_distance(bodies, own, patch);
+}
+
+/// Undeformed distance on the grid, of a tangent plane or a curve, and the part of it that may touch.
+void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const {
+  PatchSolution& s = patch.solution;
+  const Discretisation& d = problem_.discretisation;
+  const Pose& X_TC = s.frame.X_TC;
+  detection::UndeformedDistance undeformed;
+  if (problem_.reference_surface == ReferenceSurface::plane) {
+    const Pose X_TP = X_TC * Pose{{-s.reference_C.x(), -s.reference_C.y(), 0.0}, Mat3::Identity()};
+    undeformed = detection::undeformed_distance(bodies, X_TP, s.grid);
+  } else {
+    const bool curved = problem_.reference_surface == ReferenceSurface::curved;
+    patch.reference = curved ? detection::curved_reference(bodies, s.frame, s.grid, s.reference_C) : detection::plane_reference(s.grid, s.reference_C);
+    patch.surfaces = detection::facing_surfaces(bodies, X_TC, s.grid, *patch.reference);
+    undeformed = detection::undeformed_distance(patch.surfaces);
+    if (curved) s.row_angle = patch.reference->angles();
+  }
   s.distance = std::move(undeformed.distance);
   s.approach = undeformed.approach;
   patch.gap = s.distance;
@@ -130,6 +149,17 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   s.approach -= least;
   for (auto* field : {&s.distance, &patch.gap})
     for (double& h : *field) h -= least;
+}
+
+/// Creepages, or slip of the surfaces.
+void PairStep::move(Patch& patch) const {
+  PatchSolution& s = patch.solution;
+  s.kinematics = contact_kinematics(problem_, placement_, s.frame.X_TC, s.approach);
+  if (!patch.reference) return;
+  SurfaceSlip slip = surface_slip(problem_, placement_, s.frame.X_TC, s.grid, *patch.reference, patch.surfaces, s.kinematics);
+  s.kinematics = slip.kinematics;
+  s.extra_slip_x = std::move(slip.extra_x);
+  s.extra_slip_y = std::move(slip.extra_y);
 }
 
 kalker::ContactSolver& PairStep::solver(std::size_t i, const Patch& patch) {
@@ -158,6 +188,12 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   c.tangential_model = p.tangential_model;
   c.fastsim = p.fastsim;
   c.influence = p.influence;
+  if (p.reference_surface == ReferenceSurface::curved) {
+    c.influence = influence_on(*patch.reference, s.grid, p.influence);
+    c.friction_of_row = friction_on(*patch.reference, s.frame.angle, p);
+  }
+  c.extra_slip_x = s.extra_slip_x;
+  c.extra_slip_y = s.extra_slip_y;
   c.thermal = p.thermal;
   c.sensitivities = p.sensitivities;
   c.force_prescribed = false;
@@ -179,6 +215,12 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
 void PairStep::resolve_forces(Patch& patch) const {
   PatchSolution& s = patch.solution;
   const kalker::ContactSolution& c = s.contact;
+  if (patch.reference) {
+    const Wrench load = resultant_on(*patch.reference, s.grid, c);
+    s.force_C = load.force;
+    s.moment_C = load.moment;
+    return;
+  }
   const Vec3 arm(s.reference_C.x(), s.reference_C.y(), 0.0);
   s.force_C = {c.force_x, c.force_y, c.force_n};
   s.moment_C = Vec3(c.moment_x, c.moment_y, c.moment_n) - arm.cross(s.force_C);
@@ -210,7 +252,7 @@ void PairStep::evaluate(double z) {
     }
     // Interpenetration between the element centres only: no contact on this grid.
     if (!(patch.solution.approach > 0.0)) continue;
-    patch.solution.kinematics = contact_kinematics(problem_, placement_, patch.solution.frame.X_TC, patch.solution.approach);
+    move(patch);
     {
       const Stopwatch watch(times_.normal_s);
       ++times_.normal_solves;
@@ -233,7 +275,7 @@ void PairStep::solve_tangential(double pitch_rate) {
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     Patch& patch = patches_[i];
     PatchSolution& s = patch.solution;
-    s.kinematics = contact_kinematics(problem_, placement_, s.frame.X_TC, s.approach);
+    move(patch);
     s.contact = patch.normal;
     const kalker::ContactProblem problem = contact_problem(patch);
     if (problem.regime != kalker::Regime::frictionless) ++times_.tangential_solves;

@@ -6,6 +6,7 @@
 #include <span>
 #include <vector>
 
+#include "treadmark/detection/facing_surfaces.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/patch_memory.hpp"
 
@@ -49,6 +50,9 @@ class PairStep {
     std::vector<const PatchMemory*> before;
     std::optional<kalker::ContactHistory> history;
     Rectangle box;                               ///< in the axes of the grid [m]
+    /// Where the rigid slip is that of the surfaces: what elements lie on, and the surfaces over them.
+    std::optional<detection::ReferenceRows> reference;
+    detection::FacingSurfaces surfaces;
     kalker::ContactSolution normal;
     Vec3 normal_force_C = Vec3::Zero();          ///< resultant of the pressures
     Vec3 predicted_force_C = Vec3::Zero();
@@ -56,6 +60,8 @@ class PairStep {
   bool aligned() const;
   void describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
   void link(const Rectangle& box, Patch& patch) const;
+  void measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const;
+  void move(Patch& patch) const;
   kalker::ContactProblem contact_problem(const Patch& patch) const;
   kalker::ContactSolver& solver(std::size_t i, const Patch& patch);
   void resolve_forces(Patch& patch) const;

@@ -26,20 +26,25 @@ InfluenceBlock with_rotated_displacements(const InfluenceBlock& a, double c, dou
 
 }  // namespace
 
-InfluenceBlock corrected_for_angle(const InfluenceBlock& a, double alpha, AngleCorrection correction) {
-  const double c = std::cos(alpha), s = std::sin(alpha);
+AngleFactors::AngleFactors(double alpha)
+    : c(std::cos(alpha)), s(std::sin(alpha)), half_c(std::cos(0.5 * alpha)), half_s(std::sin(0.5 * alpha)) {}
+
+InfluenceBlock corrected_for_angle(const InfluenceBlock& a, const AngleFactors& alpha, AngleCorrection correction) {
   switch (correction) {
-    case AngleCorrection::rotated_loads: return with_rotated_loads(a, c, s);
+    case AngleCorrection::rotated_loads: return with_rotated_loads(a, alpha.c, alpha.s);
     case AngleCorrection::rotated_loads_but_xn: {
-      InfluenceBlock block = with_rotated_loads(a, c, s);
+      InfluenceBlock block = with_rotated_loads(a, alpha.c, alpha.s);
       block.xn = a.xn;
       return block;
     }
-    case AngleCorrection::rotated_displacements: return with_rotated_displacements(a, c, s);
+    case AngleCorrection::rotated_displacements: return with_rotated_displacements(a, alpha.c, alpha.s);
     case AngleCorrection::half_and_half: break;
   }
-  const double half_c = std::cos(0.5 * alpha), half_s = std::sin(0.5 * alpha);
-  return with_rotated_displacements(with_rotated_loads(a, half_c, half_s), half_c, half_s);
+  return with_rotated_displacements(with_rotated_loads(a, alpha.half_c, alpha.half_s), alpha.half_c, alpha.half_s);
+}
+
+InfluenceBlock corrected_for_angle(const InfluenceBlock& a, double alpha, AngleCorrection correction) {
+  return corrected_for_angle(a, AngleFactors(alpha), correction);
 }
 
 AngleCorrectedKernel::AngleCorrectedKernel(std::shared_ptr<const InfluenceKernel> half_space, double curvature,

@@ -35,7 +35,14 @@ class AngleCorrectedKernel final : public InfluenceKernel {
   AngleCorrection correction_;
 };
 
+/// Cosine and sine of an angle alpha [rad] and of half of it.
+struct AngleFactors {
+  explicit AngleFactors(double alpha);
+  double c, s, half_c, half_s;
+};
+
 /// Coefficients between a load and an observation whose inclinations differ by alpha [rad], from those of the half-space.
+InfluenceBlock corrected_for_angle(const InfluenceBlock& half_space, const AngleFactors& alpha, AngleCorrection correction);
 InfluenceBlock corrected_for_angle(const InfluenceBlock& half_space, double alpha, AngleCorrection correction);
 
 /// Slope of the least-squares straight line through the points. Errors: Error(configuration) for different lengths, numbers that are

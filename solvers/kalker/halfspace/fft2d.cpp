@@ -49,24 +49,69 @@ RealFft2d::RealFft2d(int nx, int ny, int active_rows) : nx_(nx), ny_(ny), active
   plan_ = shared_plan(nx, ny, active_rows);
 }
 
+namespace {
+
+void check_sizes(bool fit) {
+  if (!fit) throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
+}
+
+void check_aligned(const void* memory) {
+  if (!is_aligned(memory)) throw Error(ErrorKind::configuration, "an array of a Fourier transform does not begin at a cache line");
+}
+
+}  // namespace
+
 void RealFft2d::forward(std::span<double> real, std::span<std::complex<double>> spectrum) const {
-  if (real.size() != real_size() || spectrum.size() != spectrum_size())
-    throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
-  if (is_aligned(real.data()) && is_aligned(spectrum.data())) return plan_->forward(real.data(), spectrum.data());
-  AlignedVector<double> aligned_real(real.begin(), real.end());
-  AlignedVector<std::complex<double>> aligned_spectrum(spectrum.size());
-  plan_->forward(aligned_real.data(), aligned_spectrum.data());
-  std::copy(aligned_spectrum.begin(), aligned_spectrum.end(), spectrum.begin());
+  check_sizes(real.size() == real_size() && spectrum.size() == spectrum_size());
+  if (!is_aligned(real.data()) || !is_aligned(spectrum.data())) {
+    AlignedVector<double> aligned_real(real.begin(), real.end());
+    AlignedVector<std::complex<double>> aligned_spectrum(spectrum.size());
+    forward(aligned_real, aligned_spectrum);
+    std::copy(aligned_spectrum.begin(), aligned_spectrum.end(), spectrum.begin());
+    return;
+  }
+  std::fill(spectrum.begin() + static_cast<std::ptrdiff_t>(rows_size()), spectrum.end(), std::complex<double>());
+  plan_->rows_forward(real.data(), spectrum.data());
+  plan_->columns_forward(spectrum.data());
 }
 
 void RealFft2d::inverse(std::span<std::complex<double>> spectrum, std::span<double> real) const {
-  if (real.size() != real_size() || spectrum.size() != spectrum_size())
-    throw Error(ErrorKind::configuration, "arrays of a Fourier transform have the wrong size");
-  if (is_aligned(real.data()) && is_aligned(spectrum.data())) return plan_->inverse(spectrum.data(), real.data());
-  AlignedVector<double> aligned_real(real.size());
-  AlignedVector<std::complex<double>> aligned_spectrum(spectrum.begin(), spectrum.end());
-  plan_->inverse(aligned_spectrum.data(), aligned_real.data());
-  std::copy(aligned_real.begin(), aligned_real.end(), real.begin());
+  check_sizes(real.size() == real_size() && spectrum.size() == spectrum_size());
+  if (!is_aligned(real.data()) || !is_aligned(spectrum.data())) {
+    AlignedVector<double> aligned_real(real.size());
+    AlignedVector<std::complex<double>> aligned_spectrum(spectrum.begin(), spectrum.end());
+    inverse(aligned_spectrum, aligned_real);
+    std::copy(aligned_real.begin(), aligned_real.end(), real.begin());
+    return;
+  }
+  plan_->columns_inverse(spectrum.data());
+  plan_->rows_inverse(spectrum.data(), real.data());
+}
+
+void RealFft2d::forward_rows(std::span<double> real, std::span<std::complex<double>> rows) const {
+  check_sizes(real.size() == real_size() && rows.size() == rows_size());
+  check_aligned(real.data());
+  check_aligned(rows.data());
+  plan_->rows_forward(real.data(), rows.data());
+}
+
+void RealFft2d::inverse_rows(std::span<std::complex<double>> rows, std::span<double> real) const {
+  check_sizes(real.size() == real_size() && rows.size() == rows_size());
+  check_aligned(real.data());
+  check_aligned(rows.data());
+  plan_->rows_inverse(rows.data(), real.data());
+}
+
+void RealFft2d::forward_columns(std::span<std::complex<double>> spectrum) const {
+  check_sizes(spectrum.size() == spectrum_size());
+  check_aligned(spectrum.data());
+  plan_->columns_forward(spectrum.data());
+}
+
+void RealFft2d::inverse_columns(std::span<std::complex<double>> spectrum) const {
+  check_sizes(spectrum.size() == spectrum_size());
+  check_aligned(spectrum.data());
+  plan_->columns_inverse(spectrum.data());
 }
 
 int good_fft_size(int n) {

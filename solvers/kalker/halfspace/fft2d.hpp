@@ -33,6 +33,15 @@ class RealFft2d {
   /// spectrum is overwritten.
   void inverse(std::span<std::complex<double>> spectrum, std::span<double> real) const;
 
+  /// The two halves of forward and inverse: along the active rows, each to nx/2+1 complex numbers and back, and along the columns,
+  /// in place. What is multiplied row by row may stand between them. All arrays are overwritten and must begin at
+  /// cache lines (AlignedVector).
+  std::size_t rows_size() const { return static_cast<std::size_t>(nx_ / 2 + 1) * static_cast<std::size_t>(active_rows_); }
+  void forward_rows(std::span<double> real, std::span<std::complex<double>> rows) const;
+  void inverse_rows(std::span<std::complex<double>> rows, std::span<double> real) const;
+  void forward_columns(std::span<std::complex<double>> spectrum) const;
+  void inverse_columns(std::span<std::complex<double>> spectrum) const;
+
  private:
   int nx_, ny_, active_rows_;
   std::shared_ptr<const FftPlan> plan_;

@@ -12,8 +12,12 @@ namespace treadmark::kalker {
 class FftPlan {
  public:
   virtual ~FftPlan() = default;
-  virtual void forward(double* real, std::complex<double>* spectrum) const = 0;
-  virtual void inverse(std::complex<double>* spectrum, double* real) const = 0;
+  /// Along the active rows; real is overwritten.
+  virtual void rows_forward(double* real, std::complex<double>* spectrum) const = 0;
+  virtual void rows_inverse(std::complex<double>* spectrum, double* real) const = 0;
+  /// Along the columns of all rows, in place.
+  virtual void columns_forward(std::complex<double>* spectrum) const = 0;
+  virtual void columns_inverse(std::complex<double>* spectrum) const = 0;
 };
 
 /// Defined by the library that is compiled in. Calls are serialised by the caller.

@@ -22,14 +22,14 @@ const kissfft<double>& thread_transform(int n, bool inverse) {
   return transforms.try_emplace({n, inverse}, static_cast<std::size_t>(n), inverse).first->second;
 }
 
-/// Rows as complex transforms of half the length (even values real, odd values imaginary), then columns.
+/// Rows as complex transforms of half the length (even values real, odd values imaginary).
 class KissPlan final : public FftPlan {
  public:
   KissPlan(int nx, int ny, int active_rows) : half_(nx / 2), columns_(nx / 2 + 1), ny_(ny), active_rows_(active_rows) {
     for (int k = 0; k <= half_; ++k) twiddle_.push_back(std::polar(1.0, -2.0 * std::numbers::pi * k / nx));
   }
 
-  void forward(double* real, Complex* spectrum) const override {
+  void rows_forward(double* real, Complex* spectrum) const override {
     const auto& transform = thread_transform(half_, false);
     std::vector<Complex> packed(static_cast<std::size_t>(half_));
     for (int iy = 0; iy < active_rows_; ++iy) {
@@ -41,12 +41,9 @@ class KissPlan final : public FftPlan {
         row[k] = even + twiddle_[at(k)] * odd;
       }
     }
-    std::fill(spectrum + std::ptrdiff_t{active_rows_} * columns_, spectrum + std::ptrdiff_t{ny_} * columns_, Complex());
-    transform_columns(spectrum, false);
   }
 
-  void inverse(Complex* spectrum, double* real) const override {
-    transform_columns(spectrum, true);
+  void rows_inverse(Complex* spectrum, double* real) const override {
     const auto& transform = thread_transform(half_, true);
     std::vector<Complex> packed(static_cast<std::size_t>(half_));
     for (int iy = 0; iy < active_rows_; ++iy) {
@@ -58,6 +55,9 @@ class KissPlan final : public FftPlan {
       transform.transform(packed.data(), reinterpret_cast<Complex*>(real) + std::ptrdiff_t{iy} * half_);
     }
   }
+
+  void columns_forward(Complex* spectrum) const override { transform_columns(spectrum, false); }
+  void columns_inverse(Complex* spectrum) const override { transform_columns(spectrum, true); }
 
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }

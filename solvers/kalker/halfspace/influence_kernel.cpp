@@ -12,6 +12,7 @@
 #include "treadmark/solvers/kalker/halfspace/angle_corrected_kernel.hpp"
 #include "treadmark/solvers/kalker/halfspace/bilinear_elements.hpp"
 #include "treadmark/solvers/kalker/halfspace/constant_elements.hpp"
+#include "treadmark/solvers/kalker/halfspace/row_inclination.hpp"
 #include "treadmark/solvers/kalker/halfspace/tabulated_kernel.hpp"
 #include "treadmark/solvers/kalker/halfspace/viscoelastic_kernel.hpp"
 
@@ -63,14 +64,12 @@ std::shared_ptr<const InfluenceKernel> make_viscoelastic(const Material& m, Kind
 
 std::shared_ptr<const InfluenceKernel> make_angle_corrected(const InfluenceSettings& settings,
                                                             std::shared_ptr<const InfluenceKernel> half_space) {
-  if (settings.variant < 1 || settings.variant > 4)
-    throw Error(ErrorKind::configuration, "angle correction of variant " + std::to_string(settings.variant), {},
-                "there are variants 1 to 4");
+  const AngleCorrection correction = angle_correction(settings);
   if (!settings.linear)
-    throw Error(ErrorKind::configuration, "angle correction by inclinations row by row is not available", {},
-                "use the straight line through the inclinations");
+    throw Error(ErrorKind::configuration, "inclinations row by row leave no coefficients that depend on the offset only", {},
+                "turn products with the half-space's coefficients, or use the straight line through the inclinations");
   return std::make_shared<AngleCorrectedKernel>(std::move(half_space), regression_slope(settings.position, settings.inclination),
-                                                static_cast<AngleCorrection>(settings.variant));
+                                                correction);
 }
 
 }  // namespace
@@ -80,6 +79,11 @@ InfluenceBlock mirrored(const InfluenceBlock& block, bool in_x, bool in_y) {
   return {.xx = block.xx,          .xy = x * y * block.xy, .xn = x * block.xn,
           .yx = x * y * block.yx,  .yy = block.yy,         .yn = y * block.yn,
           .nx = x * block.nx,      .ny = y * block.ny,     .nn = block.nn};
+}
+
+InfluenceBlock divided(const InfluenceBlock& b, double d) {
+  return {.xx = b.xx / d, .xy = b.xy / d, .xn = b.xn / d, .yx = b.yx / d, .yy = b.yy / d, .yn = b.yn / d,
+          .nx = b.nx / d, .ny = b.ny / d, .nn = b.nn / d};
 }
 
 std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material, const InfluenceSettings& settings, double dx,

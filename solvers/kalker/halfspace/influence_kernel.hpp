@@ -20,6 +20,9 @@ struct InfluenceBlock {
 /// The coefficients of a symmetric kernel (see InfluenceKernel) where X, Y or both have the other sign.
 InfluenceBlock mirrored(const InfluenceBlock& block, bool in_x, bool in_y);
 
+/// block / divisor
+InfluenceBlock divided(const InfluenceBlock& block, double divisor);
+
 /// Influence coefficients of one loaded element, a function of where the displacement is looked at. Immutable.
 class InfluenceKernel {
  public:
@@ -39,7 +42,8 @@ class InfluenceKernel {
 /// The kernel for elements of dx by dy [m] of a pair of bodies; flexibilities of layers and sheets are not in it. velocity: of rolling
 /// [m/s], direction along +x (chi = 0) or -x (chi = pi); both matter for viscoelastic bodies only.
 /// Errors: Error(configuration) for combinations without meaning (viscoelastic bodies with K != 0, other directions or other than
-/// half-space coefficients; a table for other steps; a variant that does not exist) and for inclinations row by row.
+/// half-space coefficients; a table for other steps; a variant that does not exist) and for inclinations row by row, see
+/// RowInclination.
 std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material, const InfluenceSettings& settings, double dx,
                                                              double dy, double velocity, double chi);
 

@@ -5,11 +5,13 @@
 #include <array>
 #include <initializer_list>
 #include <memory>
+#include <optional>
 #include <span>
 #include <vector>
 
-#include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
+#include "treadmark/solvers/kalker/halfspace/block_table.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
+#include "treadmark/solvers/kalker/halfspace/turned_product.hpp"
 
 namespace treadmark::kalker {
 
@@ -27,33 +29,36 @@ class InfluenceOperator {
   int nx() const { return transform_.nx(); }
   int ny() const { return transform_.ny(); }
   std::size_t size() const { return transform_.size(); }
-  const InfluenceKernel& kernel() const { return *kernel_; }
+  const InfluenceKernel& kernel() const { return table_->kernel(); }
 
-  /// Input and output may be the same fields.
-  void tangential_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> ux, std::span<double> uy);
-  void tangential_by_normal(std::span<const double> pn, std::span<double> ux, std::span<double> uy);
-  void normal_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> un);
-  void normal_by_normal(std::span<const double> pn, std::span<double> un);
+  /// Input and output may be the same fields. rows: inclinations by which the coefficients, then those of half-spaces, are turned
+  /// (TurnedProduct), or none.
+  void tangential_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> ux, std::span<double> uy,
+                                const RowInclination* rows = nullptr);
+  void tangential_by_normal(std::span<const double> pn, std::span<double> ux, std::span<double> uy, const RowInclination* rows = nullptr);
+  void normal_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> un,
+                            const RowInclination* rows = nullptr);
+  void normal_by_normal(std::span<const double> pn, std::span<double> un, const RowInclination* rows = nullptr);
 
   /// Coefficients for an element that lies (dix, diy) elements from the loaded one, |dix| < nx, |diy| < ny, not divided by G [m].
-  InfluenceBlock at(int dix, int diy);
+  InfluenceBlock at(int dix, int diy) { return table_->at(dix, diy); }
 
  private:
   using Coefficient = double InfluenceBlock::*;
 
-  void make_table();
   const Spectrum& spectrum(Coefficient coefficient);
   /// result = first * field_1 + second * field_2 of the transformed fields; without second only the former.
   void invert(Coefficient first, Coefficient second, std::span<double> result);
   /// Whether there is anything to compute for fields of these sizes.
   bool coupled(std::initializer_list<std::size_t> sizes) const;
 
-  double dx_, dy_, shear_modulus_, shift_x_, shift_y_;
-  std::shared_ptr<const InfluenceKernel> kernel_;
+  TurnedProduct& turned();
+
+  double shear_modulus_;
   ToeplitzTransform transform_;
-  bool fold_x_, fold_y_;               ///< offsets of both signs follow from the ones >= 0
-  std::vector<InfluenceBlock> table_;  ///< empty until needed
+  std::shared_ptr<BlockTable> table_;
   std::array<Spectrum, 9> spectra_;    ///< empty until needed
+  std::optional<TurnedProduct> turned_;
   Spectrum field_1_, field_2_, sum_;
 };
 

@@ -56,6 +56,19 @@ void multiply(std::span<std::complex<double>> spectrum, std::span<const std::com
   }
 }
 
+void add_product(std::span<std::complex<double>> sum, std::span<const std::complex<double>> field,
+                 std::span<const std::complex<double>> factor, double weight) {
+  check_size(field.size(), sum.size());
+  check_size(factor.size(), sum.size());
+  double* __restrict s = reinterpret_cast<double*>(sum.data());
+  const double* __restrict a = reinterpret_cast<const double*>(field.data());
+  const double* __restrict b = reinterpret_cast<const double*>(factor.data());
+  for (std::size_t k = 0; k < 2 * sum.size(); k += 2) {
+    s[k] += weight * (a[k] * b[k] - a[k + 1] * b[k + 1]);
+    s[k + 1] += weight * (a[k] * b[k + 1] + a[k + 1] * b[k]);
+  }
+}
+
 ToeplitzTransform::ToeplitzTransform(int nx, int ny)
     : nx_((check_grid(nx, ny), nx)), ny_(ny), fft_(padded(nx), padded_rows(ny), ny) {}
 
@@ -108,26 +121,68 @@ void ToeplitzTransform::convolve(std::span<const std::complex<double>> kernel_sp
   inverse(spectrum, result);
 }
 
-void ToeplitzTransform::forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const {
+void ToeplitzTransform::pad(std::span<const double> field, std::span<double> real) const {
   check_size(field.size(), size());
-  const std::span<double> real = padded_field(fft_.real_size());
   for (int iy = 0; iy < ny_; ++iy) {
     const auto row = real.begin() + static_cast<std::ptrdiff_t>(product(iy, padded_nx()));
     const auto source = field.begin() + static_cast<std::ptrdiff_t>(product(iy, nx_));
     std::copy(source, source + nx_, row);
     std::fill(row + nx_, row + padded_nx(), 0.0);
   }
-  fft_.forward(real, spectrum);
 }
 
-void ToeplitzTransform::inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const {
+void ToeplitzTransform::crop(std::span<const double> real, std::span<double> field) const {
   check_size(field.size(), size());
-  const std::span<double> real = padded_field(fft_.real_size());
-  fft_.inverse(spectrum, real);
   for (int iy = 0; iy < ny_; ++iy) {
     const auto row = real.begin() + static_cast<std::ptrdiff_t>(product(iy, padded_nx()));
     std::copy(row, row + nx_, field.begin() + static_cast<std::ptrdiff_t>(product(iy, nx_)));
   }
+}
+
+void ToeplitzTransform::forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const {
+  const std::span<double> real = padded_field(fft_.real_size());
+  pad(field, real);
+  fft_.forward(real, spectrum);
+}
+
+void ToeplitzTransform::inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const {
+  const std::span<double> real = padded_field(fft_.real_size());
+  fft_.inverse(spectrum, real);
+  crop(real, field);
+}
+
+void ToeplitzTransform::forward_rows(std::span<const double> field, std::span<std::complex<double>> rows) const {
+  const std::span<double> real = padded_field(fft_.real_size());
+  pad(field, real);
+  fft_.forward_rows(real, rows);
+}
+
+void ToeplitzTransform::inverse_rows(std::span<std::complex<double>> rows, std::span<double> field) const {
+  const std::span<double> real = padded_field(fft_.real_size());
+  fft_.inverse_rows(rows, real);
+  crop(real, field);
+}
+
+void ToeplitzTransform::forward_columns(std::span<const std::complex<double>> rows, std::span<const double> factor,
+                                        std::span<std::complex<double>> spectrum) const {
+  check_size(factor.size(), static_cast<std::size_t>(ny_));
+  check_size(rows.size(), rows_size());
+  check_size(spectrum.size(), spectrum_size());
+  const auto width = static_cast<std::size_t>(padded_nx() / 2 + 1);
+  for (std::size_t iy = 0, k = 0; iy < factor.size(); ++iy)
+    for (const std::size_t end = k + width; k < end; ++k) spectrum[k] = factor[iy] * rows[k];
+  std::fill(spectrum.begin() + static_cast<std::ptrdiff_t>(rows.size()), spectrum.end(), std::complex<double>());
+  fft_.forward_columns(spectrum);
+}
+
+void ToeplitzTransform::add_inverse_columns(std::span<std::complex<double>> spectrum, std::span<const double> factor,
+                                            std::span<std::complex<double>> rows) const {
+  check_size(factor.size(), static_cast<std::size_t>(ny_));
+  check_size(rows.size(), rows_size());
+  fft_.inverse_columns(spectrum);
+  const auto width = static_cast<std::size_t>(padded_nx() / 2 + 1);
+  for (std::size_t iy = 0, k = 0; iy < factor.size(); ++iy)
+    for (const std::size_t end = k + width; k < end; ++k) rows[k] += factor[iy] * spectrum[k];
 }
 
 ToeplitzOperator::ToeplitzOperator(int nx, int ny, const OffsetKernel& kernel) : nx_(nx), ny_(ny) {

@@ -20,6 +20,10 @@ using Spectrum = AlignedVector<std::complex<double>>;
 /// spectrum[k] *= factor[k]; equal sizes.
 void multiply(std::span<std::complex<double>> spectrum, std::span<const std::complex<double>> factor);
 
+/// sum[k] += weight * field[k] * factor[k]; equal sizes.
+void add_product(std::span<std::complex<double>> sum, std::span<const std::complex<double>> field,
+                 std::span<const std::complex<double>> factor, double weight = 1.0);
+
 /// Zero-padded transforms of fields with ny rows of nx values, for convolutions with kernels of index offsets.
 /// u = K p reads: forward(p, s); multiply s by kernel_spectrum(K); inverse(s, u). Sums of several kernels and fields are
 /// formed between the transforms. Const members may be called from any number of threads.
@@ -44,12 +48,26 @@ class ToeplitzTransform {
   void forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const;
   /// spectrum is overwritten.
   void inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const;
+  /// Transforms along the rows only, ny rows of padded_nx/2+1 values, so that rows may be multiplied by factors (one a row)
+  /// before and after a convolution. The inverse overwrites its rows.
+  std::size_t rows_size() const { return fft_.rows_size(); }
+  void forward_rows(std::span<const double> field, std::span<std::complex<double>> rows) const;
+  void inverse_rows(std::span<std::complex<double>> rows, std::span<double> field) const;
+  /// spectrum = that of the rows times their factors.
+  void forward_columns(std::span<const std::complex<double>> rows, std::span<const double> factor,
+                       std::span<std::complex<double>> spectrum) const;
+  /// rows += those of the spectrum times their factors; spectrum is overwritten.
+  void add_inverse_columns(std::span<std::complex<double>> spectrum, std::span<const double> factor,
+                           std::span<std::complex<double>> rows) const;
+
   /// Size of the padded periodic field (the spectrum has padded_ny rows of padded_nx/2+1 values).
   int padded_nx() const { return fft_.nx(); }
   int padded_ny() const { return fft_.ny(); }
 
  private:
   Spectrum whole_spectrum(std::span<const double> padded) const;
+  void pad(std::span<const double> field, std::span<double> real) const;
+  void crop(std::span<const double> real, std::span<double> field) const;
 
   int nx_, ny_;
   RealFft2d fft_;

@@ -15,7 +15,7 @@ void half_space_displacement(NormalOperatorCache& operators, const ContactProble
   };
   for (int iy = box.y0; iy < box.y1; ++iy)
     for (int ix = box.x0; ix < box.x1; ++ix) field[local(ix, iy)] = pressure[grid.index(ix, iy)];
-  operators.get(nx, ny, problem).displacement(field, field);
+  operators.get(nx, ny, box.y0, problem).displacement(field, field);
   for (int iy = box.y0; iy < box.y1; ++iy)
     for (int ix = box.x0; ix < box.x1; ++ix) displacement[grid.index(ix, iy)] = field[local(ix, iy)];
 }

@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "treadmark/solvers/kalker/halfspace/block_table.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
@@ -26,30 +28,51 @@ Spectrum reciprocal(const Spectrum& spectrum, double transform_size) {
 
 }  // namespace
 
-const NormalOperator& NormalOperatorCache::get(int nx, int ny, const ContactProblem& problem) {
+NormalOperator NormalOperatorCache::get(int nx, int ny, int first_row, const ContactProblem& problem) {
   const CombinedMaterial material = combine(problem.material);
   const double dx = problem.grid.dx, dy = problem.grid.dy, poisson = material.poisson, shear_modulus = material.shear_modulus;
   const double sheet = problem.material.sheet_flexibility;
-  const std::shared_ptr<const InfluenceKernel> kernel = kernels_.get(problem).unusual();
+  const KernelChoice choice = kernels_.get(problem);
+  const std::shared_ptr<const InfluenceKernel> kernel = choice.unusual();
+  const bool turned = choice.inclination != nullptr;
   const bool other_elements = !table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson;
-  if (other_elements || shear_modulus_ != shear_modulus || kernel_ != kernel || sheet_ != sheet) operators_.clear();
+  if (other_elements || shear_modulus_ != shear_modulus || kernel_ != kernel || sheet_ != sheet || turned_ != turned) operators_.clear();
   if (other_elements) table_.emplace(Component::nn, dx, dy, poisson);
   shear_modulus_ = shear_modulus;
   kernel_ = kernel;
   sheet_ = sheet;
-  if (const auto known = operators_.find({nx, ny}); known != operators_.end()) return *known->second;
-  if (operators_.size() >= kMaxOperators) operators_.clear();
+  turned_ = turned;
+  auto known = operators_.find({nx, ny});
+  if (known == operators_.end()) {
+    if (operators_.size() >= kMaxOperators) operators_.clear();
+    known = operators_.emplace(std::pair{nx, ny}, make(nx, ny)).first;
+  }
+  return {known->second, choice.rows(problem.grid, first_row, ny)};
+}
 
-  auto made = std::make_unique<NormalOperator>(NormalOperator{ToeplitzTransform(nx, ny), {}, {}});
-  if (!kernel) table_->grow(made->transform.padded_nx() / 2 + 1, made->transform.padded_ny() / 2 + 1);
+std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
+  const double dx = table_->dx(), dy = table_->dy();
+  auto made = std::make_shared<NormalInfluence>(NormalInfluence{ToeplitzTransform(nx, ny), {}, {}, {}});
+  if (!kernel_) table_->grow(made->transform.padded_nx() / 2 + 1, made->transform.padded_ny() / 2 + 1);
   made->influence = made->transform.wrapped_kernel_spectrum([&](int dix, int diy) {
-    const double c = kernel ? kernel->at(dix * dx, diy * dy).nn : (*table_)(dix, diy);
-    return c / shear_modulus + (dix == 0 && diy == 0 ? sheet : 0.0);
+    const double c = kernel_ ? kernel_->at(dix * dx, diy * dy).nn : (*table_)(dix, diy);
+    return c / shear_modulus_ + (dix == 0 && diy == 0 ? sheet_ : 0.0);
   });
   // of kernels that are not symmetric the even part
   made->preconditioner =
       reciprocal(made->influence, static_cast<double>(made->transform.padded_nx()) * made->transform.padded_ny());
-  return *(operators_[{nx, ny}] = std::move(made));
+  if (turned_) {
+    const auto blocks = std::make_shared<BlockTable>(nx, ny, dx, dy, kernel_);
+    made->turned.emplace(
+        made->transform,
+        [blocks, g = shear_modulus_, sheet = sheet_](int dix, int diy) {
+          InfluenceBlock block = divided(blocks->at(dix, diy), g);
+          if (dix == 0 && diy == 0) block.nn += sheet;
+          return block;
+        },
+        kernel_->coupled());
+  }
+  return made;
 }
 
 }  // namespace treadmark::kalker

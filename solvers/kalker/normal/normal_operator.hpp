@@ -4,27 +4,42 @@
 
 #include <map>
 #include <memory>
+#include <optional>
 #include <utility>
 
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence_table.hpp"
 #include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
+#include "treadmark/solvers/kalker/halfspace/turned_product.hpp"
 
 namespace treadmark::kalker {
 
-/// Normal displacement by pressure on a box of elements, u = (1/G) C p, and an approximate inverse of it.
-struct NormalOperator {
+/// Coefficients of pressures on a box of elements of one size.
+struct NormalInfluence {
   ToeplitzTransform transform;
-  Spectrum influence;   ///< C/G [m/Pa]
+  Spectrum influence;                    ///< C/G [m/Pa]; of coefficients that are turned row by row those before
   Spectrum preconditioner;
+  std::optional<TurnedProduct> turned;   ///< of coefficients that are turned row by row
+};
+
+/// Normal displacement by pressure on a box of elements, u = (1/G) C p, and an approximate inverse of it. Not thread-safe.
+class NormalOperator {
+ public:
+  NormalOperator(std::shared_ptr<NormalInfluence> coefficients, std::optional<RowInclination> rows)
+      : coefficients_(std::move(coefficients)), rows_(std::move(rows)) {}
 
   void displacement(std::span<const double> pressure, std::span<double> u) const {
-    transform.convolve(influence, pressure, u);
+    if (rows_) return coefficients_->turned->apply(*rows_, {.x = {}, .y = {}, .n = pressure}, {.x = {}, .y = {}, .n = u});
+    coefficients_->transform.convolve(coefficients_->influence, pressure, u);
   }
   void precondition(std::span<const double> residual, std::span<double> z) const {
-    transform.convolve(preconditioner, residual, z);
+    coefficients_->transform.convolve(coefficients_->preconditioner, residual, z);
   }
+
+ private:
+  std::shared_ptr<NormalInfluence> coefficients_;
+  std::optional<RowInclination> rows_;
 };
 
 /// Operators of the boxes met so far for one element size and material; starts anew when these change.
@@ -33,15 +48,18 @@ class NormalOperatorCache {
   /// Sizes of boxes are rounded up to few values, so that operators are met again.
   static int rounded_up(int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; }
 
-  /// For a box of elements of the problem: its coefficients of influence, bodies and thin sheet.
-  const NormalOperator& get(int nx, int ny, const ContactProblem& problem);
+  /// For a box of elements of the problem, from row `first_row` of its grid on: its coefficients of influence, bodies and thin sheet.
+  NormalOperator get(int nx, int ny, int first_row, const ContactProblem& problem);
 
  private:
+  std::shared_ptr<NormalInfluence> make(int nx, int ny);
+
   std::optional<InfluenceTable> table_;
   double shear_modulus_ = 0.0, sheet_ = 0.0;
   KernelStore kernels_;
   std::shared_ptr<const InfluenceKernel> kernel_;
-  std::map<std::pair<int, int>, std::unique_ptr<NormalOperator>> operators_;
+  bool turned_ = false;
+  std::map<std::pair<int, int>, std::shared_ptr<NormalInfluence>> operators_;
 };
 
 }  // namespace treadmark::kalker

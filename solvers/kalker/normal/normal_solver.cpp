@@ -180,7 +180,7 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   std::vector<double>& pressure = solution.pressure;
   if (!take_last(grid, pressure)) first_pressure(problem, material, pressure);
 
-  const auto op = [&](const ElementBox& box) -> const NormalOperator& { return operators.get(box.nx(), box.ny(), problem); };
+  const auto op = [&](const ElementBox& box) { return operators.get(box.nx(), box.ny(), box.y0, problem); };
   ElementBox box = rounded(bounding_box(grid, [&](std::size_t i) { return pressure[i] > 0.0; }), grid);
   cg.iterations = cg.products = 0;
   cg.approach = problem.approach;
@@ -188,8 +188,9 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   for (;;) {
     const AlignedVector<double> box_gap = cut(grid, gap, box);
     cg.p = cut(grid, pressure, box);
+    const NormalOperator box_operator = op(box);
     BoxProblem part;
-    part.op = &op(box);
+    part.op = &box_operator;
     part.gap = box_gap;
     part.nx = box.nx();
     part.ny = box.ny();
@@ -274,7 +275,7 @@ std::vector<double> NormalSolver::pressure_by_approach(const ContactProblem& pro
   const ElementBox whole = bounding_box(grid, [&](std::size_t i) { return inside[i] > 0.0; });
   if (whole.empty()) return out;
   const ElementBox box = rounded(whole, grid);
-  const NormalOperator& op = workspace_->operators.get(box.nx(), box.ny(), problem);
+  const NormalOperator op = workspace_->operators.get(box.nx(), box.ny(), box.y0, problem);
   constexpr double kAccuracy = 1e-8;
   paste(grid, out, box, pressure_of_unit_approach(op, cut(grid, inside, box), kAccuracy));
   return out;

@@ -68,7 +68,7 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
   const auto count = static_cast<std::size_t>(sub.count);
   const std::size_t n = grid.size();
   while (workspace_->solvers.size() < count) workspace_->solvers.emplace_back();
-  const NormalOperator& op = workspace_->operators.get(grid.nx, grid.ny, problem);
+  const NormalOperator op = workspace_->operators.get(grid.nx, grid.ny, 0, problem);
 
   // Displacement by each part alone, everywhere.
   std::vector<ContactSolution> parts(count);

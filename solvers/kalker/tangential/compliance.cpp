@@ -39,6 +39,7 @@ Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx,
   step_.resize(static_cast<std::size_t>(px / 2 + 1));
   for (std::size_t k = 0; k < step_.size(); ++k)
     step_[k] = 1.0 - std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(k) / px);
+  for (const std::complex<double>& step : step_) step_back_.push_back(std::conj(step));
   spectrum_x_.resize(transform_.spectrum_size());
   spectrum_y_.resize(transform_.spectrum_size());
 }
@@ -103,7 +104,8 @@ void Compliance::multiply(Transport transport, const Multiply& at) {
 }
 
 void Compliance::apply(Transport transport, std::span<const double> px, std::span<const double> py,
-                       std::span<double> ux, std::span<double> uy) {
+                       std::span<double> ux, std::span<double> uy, const RowInclination* rows) {
+  if (rows) return apply_turned(*rows, transport, px, py, ux, uy);
   transform_.forward(px, spectrum_x_);
   transform_.forward(py, spectrum_y_);
   if (symmetric()) {
@@ -122,6 +124,33 @@ void Compliance::apply(Transport transport, std::span<const double> px, std::spa
   }
   transform_.inverse(spectrum_x_, ux);
   transform_.inverse(spectrum_y_, uy);
+}
+
+InfluenceBlock Compliance::half_space_at(int dix, int diy) {
+  if (!half_space_) half_space_.emplace(key_.nx + 1, key_.ny, key_.dx, key_.dy, key_.kernel);
+  InfluenceBlock block = divided(half_space_->at(dix, diy), key_.shear_modulus);
+  if (dix == 0 && diy == 0) {
+    block.xx += key_.layer;
+    block.yy += key_.layer;
+  }
+  return block;
+}
+
+Compliance::Entry Compliance::at(int dix, int loaded_row, int observed_row, const RowInclination& rows) {
+  const InfluenceBlock block = corrected_for_angle(half_space_at(dix, observed_row - loaded_row),
+                                                   AngleFactors(rows.difference(loaded_row, observed_row)), rows.correction());
+  return {block.xx, block.xy, block.yx, block.yy};
+}
+
+/// Rolling goes along rows, so that the difference between an element and the one ahead commutes with what is done to rows.
+void Compliance::apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px, std::span<const double> py,
+                              std::span<double> ux, std::span<double> uy) {
+  if (!turned_)
+    turned_.emplace(transform_, [this](int dix, int diy) { return half_space_at(dix, diy); }, key_.kernel && key_.kernel->coupled());
+  std::span<const std::complex<double>> along_rows;
+  if (transport == Transport::forward) along_rows = step_;
+  if (transport == Transport::backward) along_rows = step_back_;
+  turned_->apply(rows, {.x = px, .y = py, .n = {}}, {.x = ux, .y = uy, .n = {}}, along_rows);
 }
 
 }  // namespace treadmark::kalker

@@ -7,8 +7,9 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/solvers/kalker/halfspace/influence_kernel.hpp"
+#include "treadmark/solvers/kalker/halfspace/block_table.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
+#include "treadmark/solvers/kalker/halfspace/turned_product.hpp"
 #include "treadmark/solvers/kalker/tangential/inverse_compliance.hpp"
 
 namespace treadmark::kalker {
@@ -37,14 +38,17 @@ struct ComplianceKey {
 class Compliance {
  public:
   explicit Compliance(const ComplianceKey& key);
+  Compliance(const Compliance&) = delete;
+  Compliance& operator=(const Compliance&) = delete;
 
   const ComplianceKey& key() const { return key_; }
   std::size_t size() const { return transform_.size(); }
 
-  /// Displacement (none) or its change in a step of rolling.
+  /// Displacement (none) or its change in a step of rolling. rows: inclinations by which the coefficients, then those of half-spaces,
+  /// are turned from row to row, or none.
   void apply(Transport transport, std::span<const double> px, std::span<const double> py, std::span<double> ux,
-             std::span<double> uy);
-  /// Approximately the p with B p = u.
+             std::span<double> uy, const RowInclination* rows = nullptr);
+  /// Approximately the p with B p = u, no matter how rows are turned.
   InverseCompliance& inverse() { return *inverse_; }
 
   struct Entry {
@@ -52,12 +56,17 @@ class Compliance {
   };
   /// Coefficients at an offset "observation minus source", |dix| <= nx, |diy| < ny [m/Pa].
   Entry at(int dix, int diy) const;
+  /// The same between a loaded and an observed row of the box that are turned.
+  Entry at(int dix, int loaded_row, int observed_row, const RowInclination& rows);
 
  private:
   using Block = ComplianceBlock;
   bool symmetric() const { return key_.kernel == nullptr || key_.kernel->symmetric(); }
   void tabulate();
   Entry wide_at(int dix, int diy) const;
+  InfluenceBlock half_space_at(int dix, int diy);
+  void apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px, std::span<const double> py,
+                    std::span<double> ux, std::span<double> uy);
   template <class Multiply>
   void multiply(Transport transport, const Multiply& at);
 
@@ -66,8 +75,10 @@ class Compliance {
   std::vector<Entry> table_;                  ///< offsets 0..padded_nx/2, 0..padded_ny/2; all signs unless symmetric
   std::vector<Block> symbol_;                 ///< symmetric kernels
   std::vector<Spectrum> spectra_;             ///< others: xx, xy, yx, yy
-  std::vector<std::complex<double>> step_;    ///< 1 - exp(2 pi i k / padded_nx)
+  std::vector<std::complex<double>> step_, step_back_;   ///< 1 - exp(+-2 pi i k / padded_nx)
   Spectrum spectrum_x_, spectrum_y_;
+  std::optional<BlockTable> half_space_;      ///< all components, for rows that are turned; made when needed
+  std::optional<TurnedProduct> turned_;
   std::optional<InverseCompliance> inverse_;
 };
 

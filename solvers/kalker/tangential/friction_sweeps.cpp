@@ -37,14 +37,31 @@ std::array<double, 2> element_traction(std::array<double, 2> k, std::array<doubl
 FrictionSweeps::FrictionSweeps(const PatchOperator& matrix)
     : compliance_(matrix.compliance()),
       patch_(matrix.patch()),
+      rows_(matrix.rows()),
       rolling_(patch_.transport != Transport::none),
       width_(patch_.box_nx + 2) {
   nodes_x_.resize(static_cast<std::size_t>(width_) * static_cast<std::size_t>(patch_.box_ny));
   nodes_y_.resize(nodes_x_.size());
-  // Offsets "observation minus source" in reverse order of x, so that a row of sources is read forwards.
   const int nx = patch_.box_nx, ny = patch_.box_ny;
+  if (rows_) {
+    table_.resize(static_cast<std::size_t>(ny) * static_cast<std::size_t>(2 * nx + 1));
+    return;
+  }
   for (int diy = 1 - ny; diy < ny; ++diy)
     for (int dix = nx; dix >= -nx; --dix) table_.push_back(compliance_.at(dix, diy));
+}
+
+void FrictionSweeps::turn_row(int observed) {
+  if (!rows_ || turned_row_ == observed) return;
+  turned_row_ = observed;
+  std::size_t k = 0;
+  for (int jy = 0; jy < patch_.box_ny; ++jy)
+    for (int dix = patch_.box_nx; dix >= -patch_.box_nx; --dix) table_[k++] = compliance_.at(dix, jy, observed, *rows_);
+}
+
+const Compliance::Entry* FrictionSweeps::coefficients(int ix, int iy, int jy) const {
+  const int row = rows_ ? jy : iy - jy + patch_.box_ny - 1;
+  return &table_[static_cast<std::size_t>(row * (2 * patch_.box_nx + 1) + patch_.box_nx - ix - 1)];
 }
 
 int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, double eps, int count) {
@@ -74,9 +91,9 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
       // Slip of this element by all others and itself.
       double sx = problem.rigid_slip[i], sy = problem.rigid_slip[n + i];
       const int cell = static_cast<int>(patch_.cell[i]), ix = cell % nx, iy = cell / nx;
+      turn_row(iy);
       for (int jy = 0; jy < ny; ++jy) {
-        const Compliance::Entry* b =
-            &table_[static_cast<std::size_t>((iy - jy + ny - 1) * (2 * nx + 1) + nx - ix - 1)];
+        const Compliance::Entry* b = coefficients(ix, iy, jy);
         const std::size_t first = static_cast<std::size_t>(jy * width_);
         // Source columns -1 to nx, offsets ix + 1 down to ix - nx.
         for (int jx = -1; jx <= nx; ++jx, ++b) {

@@ -20,12 +20,20 @@ class FrictionSweeps {
   int run(const FrictionProblem& problem, std::span<double> traction, double eps, int count);
 
  private:
-  const Compliance& compliance_;
+  void turn_row(int observed);
+  /// Coefficients for sources from column 0 of row jy on, seen from an element.
+  const Compliance::Entry* coefficients(int ix, int iy, int jy) const;
+
+  Compliance& compliance_;
   const Patch& patch_;
+  const RowInclination* rows_;       ///< none unless coefficients are turned row by row
   bool rolling_;
   int width_;                        ///< columns of the node array: the box and one column on either side
   std::vector<double> nodes_x_, nodes_y_;
+  /// Offsets "observation minus source" in reverse order of x, so that a row of sources is read forwards; for every difference of
+  /// rows or, where coefficients are turned, from every row of sources to the row observed at present.
   std::vector<Compliance::Entry> table_;
+  int turned_row_ = -1;              ///< the row observed at present
 };
 
 /// Argument of the minimum of q.K q/2 + c.q over |q| <= bound, K = diag(k): a traction with slip K q + c.

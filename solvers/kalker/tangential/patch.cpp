@@ -3,6 +3,7 @@
 #include "treadmark/solvers/kalker/tangential/patch.hpp"
 
 #include <algorithm>
+#include <utility>
 
 namespace treadmark::kalker {
 
@@ -49,7 +50,8 @@ Patch make_patch(const Grid2& grid, Transport transport, const std::vector<Eleme
   return patch;
 }
 
-PatchOperator::PatchOperator(const Patch& patch, Compliance& compliance) : patch_(patch), compliance_(compliance) {
+PatchOperator::PatchOperator(const Patch& patch, Compliance& compliance, std::optional<RowInclination> rows)
+    : patch_(patch), compliance_(compliance), rows_(std::move(rows)) {
   in_x_.assign(compliance.size(), 0.0);
   in_y_ = in_x_;
   out_x_ = in_x_;
@@ -77,13 +79,13 @@ void PatchOperator::gather(std::span<double> field) const {
 
 void PatchOperator::apply(Transport transport, std::span<const double> p, std::span<double> s) {
   scatter(p);
-  compliance_.apply(transport, in_x_, in_y_, out_x_, out_y_);
+  compliance_.apply(transport, in_x_, in_y_, out_x_, out_y_, rows());
   gather(s);
 }
 
 void PatchOperator::displacement_of_box(std::span<const double> p, std::span<double> ux, std::span<double> uy) {
   scatter(p);
-  compliance_.apply(Transport::none, in_x_, in_y_, ux, uy);
+  compliance_.apply(Transport::none, in_x_, in_y_, ux, uy, rows());
 }
 
 void PatchOperator::inverse_displacement(std::span<const double> u, std::span<double> p) {

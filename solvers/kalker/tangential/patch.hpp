@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
@@ -35,11 +36,12 @@ Patch make_patch(const Grid2& grid, Transport transport, const std::vector<Eleme
 /// Products of a patch's tractions with its coefficients. Not thread-safe.
 class PatchOperator {
  public:
-  /// Both must outlive the operator.
-  PatchOperator(const Patch& patch, Compliance& compliance);
+  /// Both must outlive the operator. rows: inclinations of the rows of the patch's box by which coefficients are turned, or none.
+  PatchOperator(const Patch& patch, Compliance& compliance, std::optional<RowInclination> rows = {});
 
   const Patch& patch() const { return patch_; }
-  const Compliance& compliance() const { return compliance_; }
+  Compliance& compliance() const { return compliance_; }
+  const RowInclination* rows() const { return rows_ ? &*rows_ : nullptr; }
 
   /// Part of the slip distance that is due to tractions: S = W + A p [m].
   void slip(std::span<const double> p, std::span<double> s) { apply(patch_.transport, p, s); }
@@ -60,6 +62,7 @@ class PatchOperator {
 
   const Patch& patch_;
   Compliance& compliance_;
+  std::optional<RowInclination> rows_;
   double diagonal_ = 0.0;
   AlignedVector<double> in_x_, in_y_, out_x_, out_y_;
 };

@@ -39,7 +39,7 @@ PatchSolver::PatchSolver(const ContactProblem& problem, const Patch& patch, Patc
       layer_(problem.material, patch),
       cache_(cache),
       key_(compliance_key(patch, problem.material, conditions_.kernel)),
-      matrix_(patch, cache.get(key_)) {
+      matrix_(patch, cache.get(key_), conditions_.rows) {
   problem_.matrix = &matrix_;
   if (!conditions_.yield_before.empty()) layer_.start_from(conditions_.yield_before);
   const std::size_t n = conditions_.pressure.size();

@@ -21,6 +21,7 @@ struct PatchConditions {
   std::vector<double> temperature;       ///< of body 1's surface [deg C], for friction that depends on it; else empty
   std::vector<double> yield_before;      ///< likewise the yield stress of the layer [Pa]
   std::shared_ptr<const InfluenceKernel> kernel;   ///< none: constant elements on half-spaces
+  std::optional<RowInclination> rows;    ///< of the patch's box where coefficients are turned row by row
 };
 
 /// The friction problem of one patch at creepages that may change from call to call; starts from the last solution.

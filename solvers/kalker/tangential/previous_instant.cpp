@@ -113,6 +113,7 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
   const double g = combine(problem.material).shear_modulus;
   PatchConditions out;
   out.kernel = kernel.unusual();
+  out.rows = kernel.rows(grid, patch.box_y, patch.box_ny);
   out.pressure.resize(n);
   for (std::size_t i = 0; i < n; ++i) out.pressure[i] = pressure[patch.grid_index(static_cast<int>(i))];
   KnownSlip& known = out.known_slip;
@@ -135,12 +136,15 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
   const ContactHistory& then = previous;
   const Box box = box_around(patch, pressure, history ? std::span<const double>(then.pressure) : std::span<const double>{});
   const std::size_t size = static_cast<std::size_t>(box.nx) * static_cast<std::size_t>(box.ny);
+  const std::optional<RowInclination> inclination = kernel.rows(grid, box.y, box.ny);
+  const RowInclination* rows = inclination ? &*inclination : nullptr;
   std::vector<double> ux(size), uy(size), before_x(size, 0.0), before_y(size, 0.0), edge_x, edge_y;
   if (kernel.coupled) {
     const std::vector<double> p = cut(grid, box, pressure);
-    operators.get(box.nx, box.ny, grid, g, kernel.kernel, 0.0, 0.0).tangential_by_normal(p, ux, uy);
+    operators.get(box.nx, box.ny, grid, g, kernel.kernel, 0.0, 0.0).tangential_by_normal(p, ux, uy, rows);
     add_to_patch(patch, box, ux, uy, 1.0, known.other);
-    if (steady) operators.get(box.nx, box.ny, grid, g, kernel.kernel, step.shift_x, step.shift_y).tangential_by_normal(p, before_x, before_y);
+    if (steady)
+      operators.get(box.nx, box.ny, grid, g, kernel.kernel, step.shift_x, step.shift_y).tangential_by_normal(p, before_x, before_y, rows);
   }
   if (history) {
     const std::vector<double> px = cut(grid, box, then.traction_x), py = cut(grid, box, then.traction_y);
@@ -148,9 +152,9 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
       InfluenceOperator& op = operators.get(box.nx, box.ny, grid, g, kernel.kernel, shift_x, shift_y);
       x.assign(size, 0.0);
       y.assign(size, 0.0);
-      op.tangential_by_tangential(px, py, x, y);
+      op.tangential_by_tangential(px, py, x, y, rows);
       if (kernel.coupled) {
-        op.tangential_by_normal(cut(grid, box, then.pressure), ux, uy);
+        op.tangential_by_normal(cut(grid, box, then.pressure), ux, uy, rows);
         for (std::size_t k = 0; k < size; ++k) {
           x[k] += ux[k];
           y[k] += uy[k];
@@ -200,8 +204,9 @@ void add_displacement_by_pressure(const ContactProblem& problem, const KernelCho
                                   OperatorStore& operators, std::span<double> ux, std::span<double> uy) {
   const Grid2& grid = problem.grid;
   std::vector<double> x(grid.size()), y(grid.size());
+  const std::optional<RowInclination> rows = kernel.rows(grid, 0, grid.ny);
   operators.get(grid.nx, grid.ny, grid, combine(problem.material).shear_modulus, kernel.kernel, 0.0, 0.0)
-      .tangential_by_normal(pressure, x, y);
+      .tangential_by_normal(pressure, x, y, rows ? &*rows : nullptr);
   for (std::size_t i = 0; i < grid.size(); ++i) {
     ux[i] += x[i];
     uy[i] += y[i];
@@ -212,7 +217,9 @@ std::vector<double> displacement_by_traction(const ContactProblem& problem, cons
                                              std::span<const double> py, OperatorStore& operators) {
   const Grid2& grid = problem.grid;
   std::vector<double> u(grid.size());
-  operators.get(grid.nx, grid.ny, grid, combine(problem.material).shear_modulus, kernel.kernel, 0.0, 0.0).normal_by_tangential(px, py, u);
+  const std::optional<RowInclination> rows = kernel.rows(grid, 0, grid.ny);
+  operators.get(grid.nx, grid.ny, grid, combine(problem.material).shear_modulus, kernel.kernel, 0.0, 0.0)
+      .normal_by_tangential(px, py, u, rows ? &*rows : nullptr);
   return u;
 }
 

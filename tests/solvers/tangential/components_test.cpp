@@ -3,6 +3,7 @@
 #include <random>
 
 #include "tangential_cases.hpp"
+#include "treadmark/solvers/kalker/halfspace/constant_elements.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/tangential/friction_solve.hpp"
 #include "treadmark/solvers/kalker/tangential/friction_sweeps.hpp"
@@ -108,13 +109,21 @@ TEST(ElementTraction, MinimisesWithinTheCircle) {
   EXPECT_EQ(element_traction({1.0, 1.0}, {1.0, 2.0}, 0.0), (std::array<double, 2>{0.0, 0.0}));
 }
 
-/// The fall-back alone arrives where Newton's method does.
-TEST(Sweeps, ReachTheSolutionOfNewtonsMethod) {
+/// The fall-back alone arrives where Newton's method does; inclination: amplitude by which rows are turned [rad].
+void expect_agreement_of_sweeps(double inclination) {
   for (const Transport transport : {Transport::none, Transport::forward, Transport::backward}) {
     Case c = wheel_case(12);
     const Patch patch = make_patch(c.problem.grid, transport, c.solution.state);
-    Compliance compliance({patch.box_nx, patch.box_ny, c.problem.grid.dx, c.problem.grid.dy, 0.28, 82e9, 0.0, nullptr});
-    PatchOperator matrix(patch, compliance);
+    std::shared_ptr<const InfluenceKernel> kernel;
+    if (inclination > 0.0) kernel = std::make_shared<ConstantElements>(c.problem.grid.dx, c.problem.grid.dy, 0.28, 0.1);
+    Compliance compliance({patch.box_nx, patch.box_ny, c.problem.grid.dx, c.problem.grid.dy, 0.28, 82e9, 0.0, kernel});
+    std::optional<RowInclination> rows;
+    if (inclination > 0.0) {
+      std::vector<double> angle;
+      for (int iy = 0; iy < patch.box_ny; ++iy) angle.push_back(inclination * std::sin(0.9 * iy));
+      rows.emplace(angle, AngleCorrection::half_and_half);
+    }
+    PatchOperator matrix(patch, compliance, rows);
     FrictionProblem problem;
     problem.matrix = &matrix;
     const double length = transport == Transport::none ? 5e-3 : 1.0;
@@ -136,6 +145,9 @@ TEST(Sweeps, ReachTheSolutionOfNewtonsMethod) {
     EXPECT_LE(distance(swept, newton.traction), 1e-7 * largest(problem.bound));
   }
 }
+
+TEST(Sweeps, ReachTheSolutionOfNewtonsMethod) { expect_agreement_of_sweeps(0.0); }
+TEST(Sweeps, ReachTheSolutionWithTurnedRows) { expect_agreement_of_sweeps(0.4); }
 
 TEST(FrictionSolve, NoFrictionNoTractions) {
   Case c = wheel_case(12);
