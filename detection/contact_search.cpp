@@ -50,6 +50,7 @@ ContactPatch to_patch(const GapField& field, double wheel_dz, const Region& r, b
   p.x = at_deepest ? p.deepest_T.x() : r.x;
   p.y = at_deepest ? p.deepest_T.y() : r.y;
   p.inclination = r.inclination;
+  p.extent.x = p.x, p.extent.y = p.y;
   p.weight = r.weight;
   p.least_gap = r.least_gap;
   p.parts = {p.extent};
