@@ -69,6 +69,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.discretisation.reference_at_deepest = d.method == kInitialContactPoint;
   p.discretisation.search = search_grid(d, constant_profiles);
   p.discretisation.search_method = search_method(d);
+  p.discretisation.distance_on_mesh = d.reference_search_mesh;
 
   p.material = input.material;
   p.friction = input.friction;
@@ -84,6 +85,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
   p.influence = to_influence(input.influence);
   p.solver = to_solver_settings(input.solver);
+  p.solver.reference_quirks = d.reference_search_mesh;
   p.max_force_iterations = input.solver.max_nr;
   p.thermal = input.thermal;
   p.sensitivities = input.sensitivities;

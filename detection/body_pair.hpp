@@ -2,9 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
+
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::detection {
+
+/// Undeformed distances are to be found with a mesh of the wheel and sections of the rail, as in the reference program (CONTACT).
+struct DistanceMesh {
+  double nominal_radius = 0.0;   ///< of the wheel [m]
+};
 
 /// Two surfaces placed in one common frame T (for a wheelset on track: the track frame). The surfaces must outlive this.
 struct BodyPair {
@@ -12,6 +19,7 @@ struct BodyPair {
   const Surface* wheel = nullptr;  ///< body 2, facing down
   Pose X_TR;                       ///< rail frame in T
   Pose X_TW;                       ///< wheel surface frame (origin on the axle, pitched with the wheel) in T
+  std::optional<DistanceMesh> distance_mesh = std::nullopt;  ///< empty: distances between the surfaces themselves
 };
 
 }  // namespace treadmark::detection

@@ -249,6 +249,7 @@ void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_
     p.x = at_deepest ? p.deepest_T.x() : sum_x / sum;
     p.y = at_deepest ? p.deepest_T.y() : sum_y / sum;
     p.inclination = sum_a / sum;
+    p.extent.x = p.x, p.extent.y = p.y;
     p.weight = sum * rows.step;
     p.least_gap = gap(deepest);
     add(found.patches, std::move(p));

@@ -29,6 +29,7 @@ ContactPatch merged(const ContactPatch& a, const ContactPatch& b, bool keep_part
   m.x = share * a.x + (1.0 - share) * b.x;
   m.y = share * a.y + (1.0 - share) * b.y;
   m.inclination = share * a.inclination + (1.0 - share) * b.inclination;
+  m.extent.x = m.x, m.extent.y = m.y;
   m.parts = {m.extent};
   if (keep_parts) {
     m.parts = a.parts;

@@ -13,6 +13,7 @@ namespace treadmark::detection {
 struct PatchExtent {
   Rectangle box;                              ///< [m]
   double z_at_y_min = 0.0, z_at_y_max = 0.0;  ///< rail heights at the lateral ends [m]
+  double x = 0.0, y = 0.0;                    ///< weighted contact reference [m]
 };
 
 /// One prospective contact patch: where the undeformed bodies interpenetrate, in the common frame T.

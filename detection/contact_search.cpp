@@ -50,6 +50,7 @@ ContactPatch to_patch(const GapField& field, double wheel_dz, const Region& r, b
   p.x = at_deepest ? p.deepest_T.x() : r.x;
   p.y = at_deepest ? p.deepest_T.y() : r.y;
   p.inclination = r.inclination;
+  p.extent.x = p.x, p.extent.y = p.y;
   p.weight = r.weight;
   p.least_gap = r.least_gap;
   p.parts = {p.extent};
@@ -69,7 +70,7 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     throw Error(ErrorKind::configuration,
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
-  const bool one_profile = !settings.facets && ContactLocus::applies(bodies);
+  const bool one_profile = !settings.mesh && ContactLocus::applies(bodies);
   if (settings.method == SearchMethod::locus && !one_profile)
     throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel", {},
                 "use the grid method");
@@ -77,7 +78,7 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
     locus_.emplace(bodies, g);
   } else {
     if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;
-    gap_.emplace(bodies, g, settings.facets, settings_.method == SearchMethod::full_grid);
+    gap_.emplace(bodies, g, settings.mesh, settings_.method == SearchMethod::full_grid);
   }
 }
 
@@ -86,6 +87,7 @@ double ContactSearch::least_gap() { return locus_ ? locus_->least() : gap_->leas
 BodyPair ContactSearch::bodies_at(double wheel_dz) const {
   BodyPair moved = bodies_;
   moved.X_TW.origin.z() += wheel_dz;
+  moved.distance_mesh = settings_.distance_mesh;
   return moved;
 }
 

@@ -10,7 +10,7 @@
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/interpenetration.hpp"
 #include "treadmark/detection/pruned_gap.hpp"
-#include "treadmark/detection/wheel_facets.hpp"
+#include "treadmark/detection/search_mesh.hpp"
 
 namespace treadmark::detection {
 
@@ -31,8 +31,9 @@ struct SearchSettings {
   bool refine = true;
   int refined_points = 64;
   double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
-  /// Faceted wheel on the first grid, for agreement with the reference program; refined grids are always exact.
-  std::optional<WheelFacets> facets;
+  /// On the first grid, for agreement with the reference program; refined grids are always exact.
+  std::optional<SearchMesh> mesh;
+  std::optional<DistanceMesh> distance_mesh;  ///< passed on to bodies_at()
   /// The contact reference is the point of deepest penetration instead of the weighted centre.
   bool reference_at_deepest = false;
 };

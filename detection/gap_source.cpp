@@ -31,9 +31,12 @@ struct GapSource::Patch {
   std::vector<GapField::Tile*> tiles;
 };
 
-GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets)
+GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh)
     : bodies_(bodies), X_RT_(bodies.X_TR.inverse()), X_WT_(bodies.X_TW.inverse()), grid_(grid_T) {
-  if (facets) facets_.emplace(*bodies.wheel, bodies.X_TW, *facets, grid_T);
+  if (mesh) {
+    facets_.emplace(*bodies.wheel, bodies.X_TW, mesh->wheel);
+    section_x_ = mesh->rail_section_x;
+  }
   const Grid2& g = grid_T;
   const int n = (g.ny - 1) / kRowsPerLean + 1;
   lean_.resize(static_cast<std::size_t>(n));
@@ -128,7 +131,14 @@ void GapSource::fill_patch(const Patch& patch) {
   const auto array = [&](std::size_t i, std::span<double> of_tile) { return alone ? of_tile : std::span(scratch.get() + i * n, n); };
   GapField::Tile& first = *patch.tiles.front();
   const std::span<double> wheel_z = array(0, first.gap), rail_z = array(1, first.rail_z), slope = array(2, first.rail_slope);
-  bodies_.rail->heights({X_RT_, part}, {rail_z, {}, slope});
+  if (section_x_) {
+    bodies_.rail->heights({X_RT_, part}, {rail_z, {}, {}});
+    std::vector<double> of_section(static_cast<std::size_t>(part.ny));
+    bodies_.rail->heights({X_RT_, {*section_x_, part.y0, 1.0, part.dy, 1, part.ny}}, {{}, {}, of_section});
+    for (std::size_t i = 0; i < n; ++i) slope[i] = of_section[i / static_cast<std::size_t>(part.nx)];
+  } else {
+    bodies_.rail->heights({X_RT_, part}, {rail_z, {}, slope});
+  }
   if (facets_)
     facets_->heights(part, wheel_z);
   else

@@ -24,8 +24,8 @@ constexpr double kRounding = 1e-10;
 
 }  // namespace
 
-PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<WheelFacets>& facets, bool everything)
-    : source_(bodies, grid_T, facets), field_(everything ? GapField(grid_T, kLogEverything, kLogEverything) : GapField(grid_T, kLogX, kLogY)), least_known_(kInfinity) {
+PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh, bool everything)
+    : source_(bodies, grid_T, mesh), field_(everything ? GapField(grid_T, kLogEverything, kLogEverything) : GapField(grid_T, kLogX, kLogY)), least_known_(kInfinity) {
   if (everything)
     reveal(IndexBox{0, 0, grid_T.nx, grid_T.ny});
   else

@@ -9,12 +9,16 @@
 
 namespace treadmark::detection {
 
-/// A wheel as the search of the reference program (CONTACT) sees it: exact cross-sections at equally spaced angles about the
+/// A wheel as the search of the reference program (CONTACT) sees it: exact points of equally spaced cross-sections about the
 /// lowest point, joined by bilinear facets. Only for agreement with its results; Treadmark's own search needs no mesh.
 struct WheelFacets {
-  double half_angle = 0.2;  ///< sections from -half_angle to +half_angle about the lowest point [rad]
+  enum class Sections {
+    angles,  ///< through the axle
+    planes,  ///< of one x in the wheel's frame; a round wheel only
+  } kind = Sections::angles;
+  double half_range = 0.2;  ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
   int sections = 0;         ///< >= 2
-  double lateral_step = 0.5e-3;  ///< the width of the wheel is divided into equal steps not longer than this [m]
+  double lateral_step = 0.5e-3;  ///< of corners where the wheel itself has none
 };
 
 /// Least and greatest x in T of the sections' points [m], over the whole width of the wheel.
@@ -26,8 +30,7 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 /// The facets, made where they are asked for. One per thread.
 class FacetWheel {
  public:
-  /// grid_T: what heights() will be asked for are parts of it.
-  FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, const Grid2& grid_T);
+  FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets);
 
   /// A rectangle over which every corner of the facets over r lies, so that bounds of the wheel there are bounds of the facets
   /// over r. Facets steeper than five to one are not followed.
@@ -47,17 +50,17 @@ class FacetWheel {
     const auto i = static_cast<std::size_t>(j - s.first);
     return i < s.points.size() ? s.points[i] : make_corner(k, j);
   }
-  bool has_corners(int k, int j) const {  ///< this one and the next
-    const Section& s = sections_[static_cast<std::size_t>(k)];
-    return j >= s.first && j + 1 < s.first + static_cast<int>(s.points.size());
-  }
   const Vec3& make_corner(int k, int j);
+  std::vector<Vec3> corners(int k, int first, int last) const;
+  double corner_near(double y) const;   ///< index, not whole, of the corner over y of T on an upright wheel
   double height_over(double x, double y, double& a, double& b);
 
   const Surface& wheel_;
   Pose X_TW_;
   WheelFacets facets_;
-  double lowest_, first_, step_;  ///< angle of the lowest section; y of corner 0 and distance of corners
+  double lowest_;            ///< angle of the lowest section
+  std::vector<double> y_;    ///< of corners, in the wheel's frame
+  double widest_ = 0.0;      ///< distance of corners
   int across_;
   int wanted_first_ = 0, wanted_last_ = 0;  ///< corners that the grid at hand needs
   std::vector<Section> sections_;

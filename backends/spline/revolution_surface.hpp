@@ -6,6 +6,7 @@
 
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
+#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
@@ -14,7 +15,7 @@ namespace treadmark::spline {
 /// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of the
 /// wheel to its far side is a miss. Within a profile segment of x = +-r, where the surface stands upright over the plane,
 /// points may be misses too.
-class RevolutionSurface final : public Surface {
+class RevolutionSurface final : public Surface, public LateralData {
  public:
   /// Errors: Error(configuration) unless the radius is positive everywhere.
   RevolutionSurface(ProfileSpline profile, double nominal_radius);
@@ -28,6 +29,7 @@ class RevolutionSurface final : public Surface {
   bool constant_profile() const override { return true; }
   Box3 bounds() const override;
   std::size_t memory_bytes() const override;
+  std::vector<double> data_v() const override { return {profile_.breaks().begin(), profile_.breaks().end()}; }
 
  private:
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <numeric>
 #include <type_traits>
 
 #include "treadmark/backends/spline/bound_search.hpp"
@@ -176,6 +177,13 @@ Box3 SliceSurface<Geometry>::bounds() const {
 template <class Geometry>
 std::size_t SliceSurface<Geometry>::memory_bytes() const {
   return sizeof(*this) + net_.memory_bytes() + hulls_.memory_bytes();
+}
+
+template <class Geometry>
+std::vector<double> SliceSurface<Geometry>::data_v() const {
+  std::vector<double> v(static_cast<std::size_t>(net_.cells()) + 1);
+  std::iota(v.begin(), v.end(), 1.0);
+  return v;
 }
 
 template <class Geometry>

@@ -11,12 +11,10 @@ namespace {
 
 double at(const std::vector<double>& field, std::size_t i) { return i < field.size() ? field[i] : 0.0; }
 
-/// Simplified theory and assumed pressures have no displacement field that belongs to the tractions.
+/// Assumed pressures have no displacement field that belongs to them. Simplified theory has that of its elastic layer.
 bool has_elastic_energy(const ContactProblem& problem) {
   const NormalModel normal = problem.normal_model;
-  const bool assumed = normal == NormalModel::elliptic || normal == NormalModel::parabolic || normal == NormalModel::semi_double_elliptic;
-  const bool simplified = problem.regime != Regime::frictionless && problem.tangential_model != TangentialModel::full;
-  return !assumed && !simplified;
+  return normal != NormalModel::elliptic && normal != NormalModel::parabolic && normal != NormalModel::semi_double_elliptic;
 }
 
 }  // namespace

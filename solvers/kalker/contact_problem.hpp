@@ -94,6 +94,10 @@ struct SolverSettings {
   /// Falling friction: slip speeds that the iteration starts from. below: none, above: the rolling velocity, last: those of the last solution.
   enum class FirstSlip { below, above, last };
   FirstSlip first_slip = FirstSlip::last;
+  /// As the reference program (CONTACT) has it: displacements, and the elastic energy with them, of parts of a patch are those of full
+  /// elastic influence. In KPEC and ANALYN parts are not told apart; KPEC lets ends of rows that lie
+  /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
+  bool reference_quirks = false;
 };
 
 /// Parts of a patch that lie apart: elastic influence across is scaled, so that patches come together without a jump.

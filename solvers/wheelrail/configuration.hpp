@@ -104,6 +104,7 @@ struct Discretisation {
     reference_steep,  ///< the same with its finer lateral steps for steep slopes
   } search = SearchGrid::refined;
   detection::SearchMethod search_method = detection::SearchMethod::automatic;
+  bool distance_on_mesh = false;   ///< undeformed distance with the reference program's mesh of the wheel
 };
 
 struct Problem {

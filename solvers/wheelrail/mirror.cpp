@@ -45,6 +45,7 @@ void flip(detection::PatchExtent& e) {
   e.box.y_min = -e.box.y_min;
   e.box.y_max = -e.box.y_max;
   std::swap(e.z_at_y_min, e.z_at_y_max);
+  e.y = -e.y;
 }
 
 void flip(PatchSolution& p) {

@@ -20,10 +20,11 @@
 namespace treadmark::wheelrail {
 namespace {
 
-// Hertz, sphere of 0.3 m radius on a plane: only the order of magnitude matters to start the force iteration.
+// Hertz, sphere on a plane: only the order of magnitude matters to start the force iteration.
 double stiffness_guess(const Material& material) {
   const CombinedMaterial m = combine(material);
-  constexpr double kRadius = 0.3;
+  // Stiffer than any: approximate pressures may fall with depth where parts of the contact go out, and the first balance counts.
+  constexpr double kRadius = 2.4;
   return 4.0 / 3.0 * m.shear_modulus / (1.0 - m.poisson) * std::sqrt(kRadius);
 }
 

@@ -9,6 +9,7 @@
 
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
+#include "treadmark/solvers/wheelrail/part_slip.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
 #include "treadmark/solvers/wheelrail/sub_patches.hpp"
@@ -151,11 +152,22 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
     for (double& h : *field) h -= least;
 }
 
+/// The reference program has one creepage for all parts, strip theory one for every row.
+bool PairStep::parts_creep_apart() const {
+  return !problem_.solver.reference_quirks && problem_.tangential_model != kalker::TangentialModel::fastrip;
+}
+
 /// Creepages, or slip of the surfaces.
 void PairStep::move(Patch& patch) const {
   PatchSolution& s = patch.solution;
   s.kinematics = contact_kinematics(problem_, placement_, s.frame.X_TC, s.approach);
-  if (!patch.reference) return;
+  if (!patch.reference) {
+    if (!parts_creep_apart()) return;
+    PartSlip slip = part_slip(problem_, placement_, *geometry_.rail, s, sub_patches(problem_.discretisation, s.region, s.frame, s.grid));
+    s.extra_slip_x = std::move(slip.x);
+    s.extra_slip_y = std::move(slip.y);
+    return;
+  }
   SurfaceSlip slip = surface_slip(problem_, placement_, s.frame.X_TC, s.grid, *patch.reference, patch.surfaces, s.kinematics);
   s.kinematics = slip.kinematics;
   s.extra_slip_x = std::move(slip.extra_x);
@@ -261,17 +273,28 @@ void PairStep::evaluate(double z) {
     if (patch.solution.contact.status == Status::no_contact) continue;
     resolve_forces(patch);
     patch.normal_force_C = patch.predicted_force_C = patch.solution.force_C;
-    if (patches_.size() < tangential_share_.size())
-      patch.predicted_force_C += tangential_share_[patches_.size()] * patch.solution.contact.force_n;
+    patch.predicted_force_C += share_near(region.extent.box) * patch.solution.contact.force_n;
     patch.normal = patch.solution.contact;
     patches_.push_back(std::move(patch));
   }
 }
 
+/// Of the patches that were there when tractions were found last: patches come, go, join and part while the wheel moves.
+Vec3 PairStep::share_near(const Rectangle& box) const {
+  Vec3 sum = Vec3::Zero();
+  double weight = 0.0;
+  for (const TangentialShare& t : tangential_share_) {
+    if (t.box.x_min > box.x_max || t.box.x_max < box.x_min || t.box.y_min > box.y_max || t.box.y_max < box.y_min) continue;
+    sum += t.normal_force * t.share;
+    weight += t.normal_force;
+  }
+  return weight > 0.0 ? Vec3(sum / weight) : Vec3::Zero();
+}
+
 void PairStep::solve_tangential(double pitch_rate) {
   const Stopwatch watch(times_.tangential_s);
   problem_.state.velocity.pitch = pitch_rate;
-  tangential_share_.assign(patches_.size(), Vec3::Zero());
+  tangential_share_.clear();
   for (std::size_t i = 0; i < patches_.size(); ++i) {
     Patch& patch = patches_[i];
     PatchSolution& s = patch.solution;
@@ -284,7 +307,8 @@ void PairStep::solve_tangential(double pitch_rate) {
     contact_solver.solve_tangential(problem, s.contact);
     resolve_forces(patch);
     patch.predicted_force_C = s.force_C;
-    if (patch.normal.force_n > 0.0) tangential_share_[i] = (s.force_C - patch.normal_force_C) / patch.normal.force_n;
+    if (patch.normal.force_n > 0.0)
+      tangential_share_.push_back({s.region.extent.box, patch.normal.force_n, (s.force_C - patch.normal_force_C) / patch.normal.force_n});
   }
 }
 

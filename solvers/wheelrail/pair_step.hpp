@@ -57,7 +57,15 @@ class PairStep {
     Vec3 normal_force_C = Vec3::Zero();          ///< resultant of the pressures
     Vec3 predicted_force_C = Vec3::Zero();
   };
+  /// Change of a patch's force by its tangential problem, over its normal force.
+  struct TangentialShare {
+    Rectangle box;         ///< where the patch was, in T
+    double normal_force;   ///< [N]
+    Vec3 share;            ///< in contact axes
+  };
   bool aligned() const;
+  bool parts_creep_apart() const;
+  Vec3 share_near(const Rectangle& box) const;
   void describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
   void link(const Rectangle& box, Patch& patch) const;
   void measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const;
@@ -76,7 +84,7 @@ class PairStep {
   double start_z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
   std::optional<detection::ContactSearch> search_;
   std::vector<Patch> patches_;
-  std::vector<Vec3> tangential_share_;           ///< change of a patch's force by its tangential problem, over its normal force
+  std::vector<TangentialShare> tangential_share_;
   std::vector<char> warm_;                       ///< solvers that have started from the previous instant
 };
 

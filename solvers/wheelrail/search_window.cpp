@@ -22,24 +22,24 @@ int checked_count(double n) {
 // The wheel circle is followed over +-0.2 rad: further out no wheel can touch a rail or roller.
 constexpr double kHalfAngle = 0.2;
 
-// One grid whose steps follow dx, ds: for a round wheel exact, for an out-of-round one on facets between sections.
+// One grid whose steps follow dx, ds, and the wheel on facets between sections.
 Grid2 reference_grid(const Geometry& geometry, const Problem& p, const Placement& placed, const LateralRange& rail,
-                     std::optional<detection::WheelFacets>& facets) {
+                     detection::WheelFacets& facets) {
   const Discretisation& d = p.discretisation;
   const double radius = p.wheelset.nominal_radius;
   const bool steep = d.search == Discretisation::SearchGrid::reference_steep;
-  detection::LongitudinalRange range;
   Grid2 grid;
-  if (geometry.constant_profiles()) {
+  if (geometry.round_wheel) {
     constexpr double kSmallWheel = 30.5e-3;
-    const double half = (steep || radius < kSmallWheel) ? 0.242 * radius : radius / 8.0;
-    range = {placed.X_TA.origin.x() - half, placed.X_TA.origin.x() + half};
-    grid.nx = odd(checked_count(std::round(2.0 * half / (1.5 * d.dx) + 2.0)));
+    facets.kind = detection::WheelFacets::Sections::planes;
+    facets.half_range = (steep || radius < kSmallWheel) ? 0.242 * radius : radius / 8.0;
+    facets.sections = odd(checked_count(std::round(2.0 * facets.half_range / (1.5 * d.dx) + 2.0)));
   } else {
-    grid.nx = odd(checked_count(std::round(2.0 * kHalfAngle * radius / (4.0 * d.dx) + 2.0)));
-    facets = detection::WheelFacets{kHalfAngle, grid.nx};
-    range = detection::facet_range(*geometry.wheel, placed.X_TA, *facets);
+    facets.half_range = kHalfAngle;
+    facets.sections = odd(checked_count(std::round(2.0 * kHalfAngle * radius / (4.0 * d.dx) + 2.0)));
   }
+  const detection::LongitudinalRange range = detection::facet_range(*geometry.wheel, placed.X_TA, facets);
+  grid.nx = facets.sections;
   grid.dx = (range.x_max - range.x_min) / (grid.nx - 1);
   grid.x0 = range.x_min;
   grid.dy = (steep ? 0.3 : 0.75) * d.ds;
@@ -76,11 +76,12 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   detection::SearchSettings s;
   s.method = d.search_method;
   s.refine = d.search == Discretisation::SearchGrid::refined;
-  s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.facets);
+  s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.mesh.emplace().wheel);
   s.refined_dx = 0.3 * d.dx;
   s.refined_dy = 0.3 * d.ds;
   s.refined_points = geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
+  if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius};
   s.reference_at_deepest = d.reference_at_deepest;
   s.rules.angle_separation = d.angle_separation;
   s.rules.separation = d.separation;

@@ -42,6 +42,7 @@ def main():
     parser = common_parser(__doc__)
     parser.add_argument("case")
     parser.add_argument("tolerance")
+    parser.add_argument("--input", type=pathlib.Path, help="input file within the data folder; by default the example of that name")
     parser.add_argument("--without", default="", help="a quantity of patches that is not compared")
     args = parser.parse_args()
     shared = shared_folder(args.source)
@@ -49,7 +50,7 @@ def main():
     result = args.work / f"{args.case}.json"
     result.unlink(missing_ok=True)
     run = subprocess.run(
-        [args.program, "run", shared / "data" / "contact_examples" / f"{args.case}.inp", "--json", result, "--quiet"],
+        [args.program, "run", shared / "data" / (args.input or pathlib.Path("contact_examples", f"{args.case}.inp")), "--json", result, "--quiet"],
         stdout=subprocess.DEVNULL)
     if run.returncode not in (0, 4):
         print(f"the program ended with status {run.returncode}")

@@ -38,8 +38,11 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
     refuse("the slope reduction needs k0 > 0, 0 < alpha <= 1, beta >= 0");
   if (!problem.friction_of_row.empty() || problem.friction.kind == FrictionLaw::Kind::temperature)
     refuse("friction is the same everywhere", "use the full tangential model for friction by row or by temperature");
-  if (!problem.extra_slip_x.empty() || !problem.extra_slip_y.empty())
-    refuse("slip given for every element is not taken into account", "use the full tangential model");
+  const bool extra = !problem.extra_slip_x.empty() || !problem.extra_slip_y.empty();
+  if (extra && problem.tangential_model == TangentialModel::fastrip)
+    refuse("strip theory does not take slip given for every element into account", "use the full tangential model, or FASTSIM");
+  for (const auto& slip : {problem.extra_slip_x, problem.extra_slip_y})
+    if (!slip.empty() && slip.size() != problem.grid.size()) refuse("slip is not given for every element");
   const double flexibility = problem.fastsim.flexibility;
   if (problem.tangential_model == TangentialModel::fastsim_one_flexibility && !(flexibility > 0.0 && std::isfinite(flexibility)))
     refuse("the one flexibility is " + std::to_string(flexibility) + " m/Pa", "it must be positive");
@@ -105,7 +108,9 @@ void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage,
                     Vec2& u) {
   const double lever_x = x - creepage.spin_x + sign_ * problem_.rolling.spin_offset_factor * dq_;
   const double lever_y = y - creepage.spin_y;
-  const Vec2 rigid(creepage.xi - flex.spin_x * creepage.phi * lever_y, creepage.eta + flex.spin_y * creepage.phi * lever_x);
+  const auto extra = [i](const auto& slip) { return slip.empty() ? 0.0 : slip[i]; };
+  const Vec2 rigid(creepage.xi - flex.spin_x * creepage.phi * lever_y + extra(problem_.extra_slip_x),
+                   creepage.eta + flex.spin_y * creepage.phi * lever_x + extra(problem_.extra_slip_y));
   const Vec2 ahead = u;
   const Vec2 flexibility(flex.lx / flex.slope, flex.ly / flex.slope);
   u = ahead - dq_ * rigid;

@@ -20,12 +20,12 @@ struct Vertex {
   double x = 0.0, distance = 0.0;  ///< [m], < 0: overlap
 };
 
-Vertex vertex(const Interpenetration& overlap, int iy) {
+Vertex vertex(const Interpenetration& overlap, int iy, bool at_element) {
   const int ix = overlap.deepest_column(iy);
   const double behind = overlap.distance(ix - 1, iy), here = overlap.distance(ix, iy), ahead = overlap.distance(ix + 1, iy);
   Vertex result{overlap.grid().x(ix), here};
   const double second = behind - 2.0 * here + ahead;
-  if (!std::isfinite(second) || !(second > 0.0)) return result;
+  if (at_element || !std::isfinite(second) || !(second > 0.0)) return result;
   const double share = 0.5 * (behind - ahead) / second;
   result.x += share * overlap.grid().dx;
   result.distance -= 0.5 * share * share * second;
@@ -68,16 +68,16 @@ double curvature_across(const Interpenetration& overlap, int iy) {
 
 }  // namespace
 
-std::vector<double> analyn_pressure(const Interpenetration& overlap, const CombinedMaterial& material) {
+std::vector<double> analyn_pressure(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks) {
   const Grid2& grid = overlap.grid();
   const ElementBox& box = overlap.box();
   double depth = 0.0;
-  for (int iy = box.y0; iy < box.y1; ++iy) depth = std::max(depth, -vertex(overlap, iy).distance);
+  for (int iy = box.y0; iy < box.y1; ++iy) depth = std::max(depth, -vertex(overlap, iy, reference_quirks).distance);
 
   std::vector<double> pressure(grid.size(), 0.0);
   for (int iy = box.y0; iy < box.y1; ++iy) {
     if (!(overlap.least_distance(iy) < 0.0)) continue;
-    const Vertex deepest = vertex(overlap, iy);
+    const Vertex deepest = vertex(overlap, iy, reference_quirks);
     const double a_curvature = curvature_along(overlap, iy), b_curvature = curvature_across(overlap, iy);
     const HertzShape whole = hertz_from_curvatures(a_curvature, b_curvature, {false, depth}, material);
     // Hertz' contact ends across where the gap above its least is B b^2: there the row's share of the depth is used up.

@@ -51,7 +51,7 @@ struct CutLevel {
 
   double at(double y) const {
     const double t = (y - middle) / b;
-    return std::clamp(along - (along - across) * t * t, 0.0, 1.0);
+    return along - (along - across) * t * t;
   }
 };
 
@@ -91,17 +91,18 @@ void fill_run(const Interpenetration& overlap, int iy, int first, int last, doub
 
 }  // namespace
 
-std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material) {
+std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks) {
   const Grid2& grid = overlap.grid();
   const CutLevel cut = cut_level(overlap, material);
   std::vector<double> distribution(grid.size(), 0.0);
   for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy) {
-    const double level = -(1.0 - cut.at(grid.y(iy))) * overlap.depth();
+    const double share = cut.at(grid.y(iy)), level = -(1.0 - std::clamp(share, 0.0, 1.0)) * overlap.depth();
+    const double end_level = reference_quirks ? -(1.0 - share) * overlap.depth() : level;
     for (int ix = overlap.box().x0; ix < overlap.box().x1; ++ix) {
       if (overlap.distance(ix, iy) > level) continue;
       const int first = ix;
       while (overlap.distance(ix + 1, iy) <= level) ++ix;
-      fill_run(overlap, iy, first, ix, level, distribution);
+      fill_run(overlap, iy, first, ix, end_level, distribution);
     }
   }
   return distribution;

@@ -14,6 +14,6 @@ namespace treadmark::kalker {
 /// ellipse as high as the run is half long.
 /// Returned: that distribution [m], of the grid's size, to be scaled so that the half-space's displacement at the deepest
 /// element equals the depth. There must be contact.
-std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material);
+std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks);
 
 }  // namespace treadmark::kalker

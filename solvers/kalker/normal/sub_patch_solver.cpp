@@ -57,6 +57,12 @@ void SubPatchSolver::reset() {
 
 void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
   check(problem);
+  if (problem.settings.reference_quirks && problem.normal_model != NormalModel::full) {
+    ContactProblem whole = problem;
+    whole.sub_patches = {};
+    if (workspace_->solvers.empty()) workspace_->solvers.emplace_back();
+    return workspace_->solvers.front().solve(whole, solution);
+  }
   const Grid2& grid = problem.grid;
   const SubPatches& sub = problem.sub_patches;
   const auto count = static_cast<std::size_t>(sub.count);
@@ -103,7 +109,8 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t own = sub.part[i] > 0 ? sub.part[i] - 1u : 0u;
     for (std::size_t k = 0; k < count; ++k) {
-      solution.displacement_n[i] += (sub.part[i] > 0 ? sub.coupling[own * count + k] : 1.0) * caused[k][i];
+      const double felt = sub.part[i] > 0 && !problem.settings.reference_quirks ? sub.coupling[own * count + k] : 1.0;
+      solution.displacement_n[i] += felt * caused[k][i];
       solution.pressure[i] += parts[k].pressure[i];
     }
     if (!(solution.pressure[i] > 0.0)) continue;

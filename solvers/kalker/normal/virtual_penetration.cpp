@@ -41,9 +41,9 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
   const Interpenetration overlap(grid, problem.gap, problem.approach);
   solution.approach = problem.approach;
   const CombinedMaterial material = combine(problem.material);
-  const bool kpec = problem.normal_model == NormalModel::kpec;
+  const bool kpec = problem.normal_model == NormalModel::kpec, quirks = problem.settings.reference_quirks;
   if (!overlap.box().empty())
-    solution.pressure = kpec ? kpec_distribution(overlap, material) : analyn_pressure(overlap, material);
+    solution.pressure = kpec ? kpec_distribution(overlap, material, quirks) : analyn_pressure(overlap, material, quirks);
   const bool any = std::any_of(solution.pressure.begin(), solution.pressure.end(), [](double p) { return p > 0.0; });
   if (!any) {
     solution.status = solution.normal.status = Status::no_contact;

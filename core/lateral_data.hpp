@@ -1,0 +1,17 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+namespace treadmark {
+
+/// What surfaces can tell, too, that are fitted to data along lines.
+class LateralData {
+ public:
+  virtual ~LateralData() = default;
+  /// Lateral parameters v (see SurfacePoint) at which the data lie, increasing. Thread-safe.
+  virtual std::vector<double> data_v() const = 0;
+};
+
+}  // namespace treadmark

@@ -1,0 +1,180 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/wheel_mesh.hpp"
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <vector>
+
+#include "treadmark/detection/facet_search.hpp"
+#include "treadmark/detection/wheel_section.hpp"
+
+namespace treadmark::detection {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Corners in the contact frame, row by row (along the wheel), lateral index fastest.
+struct Mesh {
+  int rows = 0, columns = 0;
+  std::vector<Vec3> corners;
+  const Vec3& at(int k, int j) const { return corners[static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j)]; }
+};
+
+/// What part of the wheel the mesh must cover, in the frame of the wheel's axle without pitch.
+struct Reach {
+  double x_min, x_max, y_min, y_max, z_min;
+};
+
+Reach reach_of(const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
+  constexpr double kInfinity = std::numeric_limits<double>::infinity(), kMargin = 2.0;
+  Reach r{kInfinity, -kInfinity, kInfinity, -kInfinity, kInfinity};
+  const Vec3 lateral = X_TC.rotation.col(1);
+  for (const double x : {g.x0 - 0.5 * g.dx, g.x(g.nx - 1) + 0.5 * g.dx})
+    for (const double s : {g.y0 - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy}) {
+      const Vec3 p = X_TU.apply_inverse(X_TC.origin + s * lateral + Vec3(x, 0.0, 0.0));
+      r.x_min = std::min(r.x_min, p.x()), r.x_max = std::max(r.x_max, p.x());
+      r.y_min = std::min(r.y_min, p.y()), r.y_max = std::max(r.y_max, p.y());
+      r.z_min = std::min(r.z_min, p.z());
+    }
+  r.x_min -= kMargin * g.dx, r.x_max += kMargin * g.dx;
+  r.y_min -= kMargin * g.dy, r.y_max += kMargin * g.dy;
+  r.z_min -= g.dy * std::abs(lateral.z());
+  return r;
+}
+
+/// Lateral positions over the reach whose distance along the profile from y_through is a whole multiple of a step.
+std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& r, double y_through, double step) {
+  constexpr int kParts = 10;
+  const double fine = step / kParts;
+  std::vector<double> y{y_through}, radius;
+  for (int i = 1; y.front() > r.y_min - step; ++i) y.insert(y.begin(), y_through - i * fine);
+  const std::size_t through = y.size() - 1;
+  for (int i = 1; y.back() < r.y_max + step; ++i) y.push_back(y_through + i * fine);
+  radius = section_radius(wheel, angle, y);
+  std::vector<double> nodes{y_through};
+  const auto walk = [&](int direction) {
+    double length = 0.0, next = step;
+    for (auto i = static_cast<std::ptrdiff_t>(through); i + direction >= 0 && i + direction < static_cast<std::ptrdiff_t>(y.size()); i += direction) {
+      const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(i + direction);
+      const double piece = std::hypot(fine, radius[to] - radius[from]);
+      if (std::isnan(piece)) return;
+      for (; length + piece >= next; next += step) nodes.push_back(y[from] + (y[to] - y[from]) * (next - length) / piece);
+      length += piece;
+    }
+  };
+  walk(-1);
+  std::ranges::reverse(nodes);
+  walk(1);
+  return nodes;
+}
+
+Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
+  const Reach r = reach_of(X_TU, X_TC, g);
+  // Lines through the contact reference; a grid that lines up with others in time may have its origin far off.
+  const Vec3 marker = X_TU.apply_inverse(X_TC.origin);
+  const double y_through = marker.y() > r.y_min && marker.y() < r.y_max ? marker.y() : 0.5 * (r.y_min + r.y_max);
+  const double angle = lowest_angle(bodies.X_TW);
+  const std::vector<double> y = equal_arcs(*bodies.wheel, angle, r, y_through, g.dy);
+  const std::vector<double> radius = section_radius(*bodies.wheel, angle, y);
+  const double first = std::floor((r.x_min - marker.x()) / g.dx), last = std::ceil((r.x_max - marker.x()) / g.dx);
+  Mesh mesh{static_cast<int>(last - first) + 1, static_cast<int>(y.size()), {}};
+  const Pose X_CU = X_TC.inverse() * X_TU;
+  for (int k = 0; k < mesh.rows; ++k) {
+    const double x = marker.x() + (first + k) * g.dx;
+    for (std::size_t j = 0; j < y.size(); ++j) mesh.corners.push_back(X_CU.apply({x, y[j], std::sqrt(radius[j] * radius[j] - x * x)}));
+  }
+  return mesh;
+}
+
+Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
+  constexpr double kLateralStep = 0.5e-3;
+  constexpr std::size_t kMargin = 3;
+  const Reach r = reach_of(X_TU, X_TC, g);
+  const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min), to = std::atan(r.x_max / r.z_min);
+  int rows = static_cast<int>(std::lround((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
+  if (rows % 2 == 0) ++rows;
+
+  const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep);
+  auto first = static_cast<std::size_t>(std::ranges::lower_bound(all, r.y_min) - all.begin());
+  auto last = static_cast<std::size_t>(std::ranges::upper_bound(all, r.y_max) - all.begin());
+  first = first > kMargin ? first - kMargin : 0;
+  last = std::min(all.size(), last + kMargin);
+  const std::span<const double> y = std::span(all).subspan(first, last - first);
+  Mesh mesh{rows, static_cast<int>(y.size()), {}};
+  for (int k = 0; k < rows; ++k) {
+    const double angle = lowest + from + (to - from) * k / (rows - 1);
+    const std::vector<double> section = section_radius(*bodies.wheel, angle, y);
+    const Pose X_CP = X_TC.inverse() * bodies.X_TW * Pose{Vec3::Zero(), rotation_y(angle)};
+    for (std::size_t j = 0; j < y.size(); ++j) mesh.corners.push_back(X_CP.apply({0.0, y[j], section[j]}));
+  }
+  return mesh;
+}
+
+/// Half the difference of the neighbours, one-sided at an edge.
+template <class Value>
+double slope(Value&& value, int i, int count) {
+  const double here = value(i), below = i > 0 ? value(i - 1) : kNaN, above = i + 1 < count ? value(i + 1) : kNaN;
+  if (std::isnan(below)) return std::isnan(above) ? 0.0 : above - here;
+  return std::isnan(above) ? here - below : 0.5 * (above - below);
+}
+
+/// Hermite's cubic: values and slopes at both ends.
+double hermite(double t, double a, double b, double slope_a, double slope_b) {
+  const double rise = b - a;
+  return a + t * (slope_a + t * (3.0 * rise - 2.0 * slope_a - slope_b + t * (slope_a + slope_b - 2.0 * rise)));
+}
+
+double bicubic(const Mesh& mesh, const FacetPlace& p) {
+  const auto n = [&](int k, int j) { return mesh.at(k, j).z(); };
+  const auto along = [&](int k, int j) { return slope([&](int i) { return n(i, j); }, k, mesh.rows); };
+  std::array<double, 2> value{}, by_v{};
+  for (const int i : {0, 1}) {
+    const int j = p.j + i;
+    value[static_cast<std::size_t>(i)] = hermite(p.u, n(p.k, j), n(p.k + 1, j), along(p.k, j), along(p.k + 1, j));
+    const auto across = [&](int k) { return slope([&](int m) { return n(k, m); }, j, mesh.columns); };
+    const auto mixed = [&](int k) { return slope([&](int m) { return along(k, m); }, j, mesh.columns); };
+    by_v[static_cast<std::size_t>(i)] = hermite(p.u, across(p.k), across(p.k + 1), mixed(p.k), mixed(p.k + 1));
+  }
+  return hermite(p.v, value[0], value[1], by_v[0], by_v[1]);
+}
+
+double bilinear(const Mesh& mesh, const FacetPlace& p) {
+  const auto n = [&](int k, int j) { return mesh.at(k, j).z(); };
+  const double first = n(p.k, p.j) + p.u * (n(p.k + 1, p.j) - n(p.k, p.j)), second = n(p.k, p.j + 1) + p.u * (n(p.k + 1, p.j + 1) - n(p.k, p.j + 1));
+  return first + p.v * (second - first);
+}
+
+}  // namespace
+
+void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std::span<double> wheel_n) {
+  const bool round = bodies.wheel->constant_profile();
+  const Pose X_TU = bodies.X_TW * Pose{Vec3::Zero(), rotation_y(lowest_angle(bodies.X_TW))};
+  const Mesh mesh = round ? round_mesh(bodies, X_TU, X_TC, g) : slices_mesh(bodies, X_TU, X_TC, g);
+  std::ranges::fill(wheel_n, kNaN);
+  if (mesh.rows < 2 || mesh.columns < 2) return;
+  const auto corner = [&](int k, int j) -> const Vec3& { return mesh.at(k, j); };
+  const int middle = mesh.rows / 2;
+  for (int iy = 0; iy < g.ny; ++iy) {
+    // From the corner of the middle section next to the row, then from element to element.
+    double near = 0.0;
+    for (int j = 1; j < mesh.columns; ++j)
+      if (std::abs(corner(middle, j).y() - g.y(iy)) < std::abs(corner(middle, static_cast<int>(near)).y() - g.y(iy))) near = j;
+    const double start_a = std::clamp((g.x(0) - corner(0, 0).x()) / (corner(mesh.rows - 1, 0).x() - corner(0, 0).x()), 0.0, 1.0) * (mesh.rows - 1);
+    double a = start_a, b = near;
+    for (int ix = 0; ix < g.nx; ++ix) {
+      FacetPlace place;
+      double a_try = a, b_try = b;
+      if (!find_facet(corner, mesh.rows, mesh.columns, g.x(ix), g.y(iy), a_try, b_try, place)) {
+        a_try = std::clamp(start_a + ix, 0.0, mesh.rows - 1.0), b_try = near;
+        if (!find_facet(corner, mesh.rows, mesh.columns, g.x(ix), g.y(iy), a_try, b_try, place)) continue;
+      }
+      a = a_try, b = b_try;
+      wheel_n[g.index(ix, iy)] = round ? bilinear(mesh, place) : bicubic(mesh, place);
+    }
+  }
+}
+
+}  // namespace treadmark::detection
