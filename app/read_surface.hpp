@@ -9,8 +9,13 @@ namespace treadmark::app {
 
 /// Reads the geometry of a wheel or rail, whatever its kind (profile, slices, triangles, offsets, a shape given in the case),
 /// and builds the surface in its natural representation, with its defects.
-/// Errors of the readers and backends; Error(configuration) for defects on a file of offsets.
-NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius);
+/// Several parts become one body. roller_radius [m]: the rail is a roller (SurfaceSpec::roller_radius); 0 = it is a rail.
+/// Errors of the readers and backends; Error(configuration) for defects on a file of offsets or on a body of parts, and for a
+/// roller from a file of offsets.
+NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius, double roller_radius = 0.0);
+
+/// The motion of a section that a crossing asks for.
+MovingSection motion_of(const io::CrossingInput& crossing);
 
 /// Whether the name ends like a file of offsets: .vdb.
 bool is_offset_file(const std::filesystem::path& file);

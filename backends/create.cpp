@@ -15,6 +15,7 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/composed.hpp"
 #include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/backends/offset/make.hpp"
@@ -22,6 +23,7 @@
 #include "treadmark/backends/sampling/difference.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/backends/spline/make.hpp"
+#include "treadmark/backends/spline/slice_kinks.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark {
@@ -76,13 +78,20 @@ std::string words(const mesh::MeshRepair& repair) {
   return text.empty() ? text : text + ". ";
 }
 
+std::shared_ptr<const Surface> slice_surface(const SliceSet& slices, double nominal_radius) {
+  if (slices.kinks.empty()) return spline::make_slice_surface(slices, nominal_radius);
+  std::vector<std::shared_ptr<const Surface>> parts;
+  for (const SliceSet& part : spline::split_at_kinks(slices)) parts.push_back(spline::make_slice_surface(part, nominal_radius));
+  return assembly::outermost_of(std::move(parts));
+}
+
 std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats, std::string* note = nullptr) {
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
     return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, flats);
   if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
     return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, flats)
                                     : analytic::make_prismatic_surface(*chain);
-  if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return spline::make_slice_surface(*slices, spec.nominal_radius);
+  if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return slice_surface(*slices, spec.nominal_radius);
   if (const auto* points = std::get_if<Profile>(&spec.shape)) return spline::make_profile_surface(*points, spec.nominal_radius);
   mesh::MeshRepair repair;
   auto surface = mesh::make_mesh_surface(std::get<TriangleMesh>(spec.shape), spec.body, {}, &repair);

@@ -11,12 +11,6 @@ namespace {
 
 using W = WheelRailCase;
 
-bool is_backend_name(std::string_view text) {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz";
-  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
-         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
-}
-
 /// Keys of wheel.shape or rail.shape.
 class ShapeKeys {
  public:
@@ -28,7 +22,7 @@ class ShapeKeys {
     add_file_options();
     KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic or offset-bilinear; "
                                 "without it the one that fits the shape");
-    backend.pattern = "^[a-z][a-z0-9_-]*$";
+    backend.pattern = kBackendPattern;
     backend.matches = is_backend_name;
     backend.scope = KeyScope::wheel_rail;
     list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -59,6 +53,16 @@ class ShapeKeys {
       std::get<GeometryFile>(s.geometry).file = (folder / name).lexically_normal();
       s.where = v.where;
     };
+
+    if (body_ == "wheel") {
+      KeyInfo seam = info("open_seam", KeyType::flag, "slices all round: constant between the last and the first one, instead of smooth over the seam");
+      seam.default_text = "false";
+      list_.add(seam).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+        GeometryFile* given = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
+        if (given == nullptr) throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
+        given->open_seam = v.flag();
+      };
+    }
 
     KeyInfo standard = info("standard", KeyType::choice, "standard profile from its published formula");
     standard.choices = {standard_};
@@ -189,8 +193,15 @@ class ShapeKeys {
 
 }  // namespace
 
+bool is_backend_name(std::string_view text) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz";
+  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
+}
+
 void add_shape_keys(KeyList& list) {
   ShapeKeys(list, "rail", &W::rail, "60E1").add();
+  add_part_keys(list);
   ShapeKeys(list, "wheel", &W::wheel, "S1002").add();
 }
 

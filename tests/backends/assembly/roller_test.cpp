@@ -29,11 +29,11 @@ Pose at_angle(double radius, double theta) {
 }
 
 TEST(Roller, ACylinderIsACircleInEveryBackend) {
-  constexpr double kRadius = 0.3, kTolerance = 1e-6;  // facets: h^2/(8 R)
-  const NaturalSurface natural = create_natural(roller({-0.03, 0.0, 0.0, {{0.06, 0.0}}}, kRadius));
+  constexpr double kRadius = 0.3, kTolerance = 2e-6;  // facets: h^2/(8 R)
+  const NaturalSurface natural = create_natural(roller({-0.015, 0.0, 0.0, {{0.03, 0.0}}}, kRadius));
   for (const std::string_view backend : backend_names()) {
     SCOPED_TRACE(backend);
-    const RepresentedSurface r = represent(natural, {std::string(backend), 1e-3, {}});
+    const RepresentedSurface r = represent(natural, {std::string(backend), 2e-3, {}});
     EXPECT_EQ(r.surface->backend(), backend);
     EXPECT_EQ(r.surface->facing(), Facing::up);
     for (const double x : {-0.2, -0.01, 0.0, 0.0003, 0.15})
@@ -42,7 +42,7 @@ TEST(Roller, ACylinderIsACircleInEveryBackend) {
     for (double theta = -3.1; theta < 3.2; theta += 0.31)
       EXPECT_NEAR(height_at(*r.surface, at_angle(kRadius, theta), {0.0, -0.011}), 0.0, kTolerance) << theta;
     EXPECT_TRUE(std::isnan(height_at(*r.surface, {}, {kRadius + 0.001, 0.0})));
-    EXPECT_TRUE(std::isnan(height_at(*r.surface, {}, {0.0, 0.031})));
+    EXPECT_TRUE(std::isnan(height_at(*r.surface, {}, {0.0, 0.016})));
   }
 }
 
