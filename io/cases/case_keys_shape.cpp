@@ -20,6 +20,7 @@ class ShapeKeys {
   void add() {
     add_geometry();
     add_file_options();
+    if (body_ == "wheel") add_seam();
     KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic or offset-bilinear; "
                                 "without it the one that fits the shape");
     backend.pattern = kBackendPattern;
@@ -53,16 +54,6 @@ class ShapeKeys {
       std::get<GeometryFile>(s.geometry).file = (folder / name).lexically_normal();
       s.where = v.where;
     };
-
-    if (body_ == "wheel") {
-      KeyInfo seam = info("open_seam", KeyType::flag, "slices all round: constant between the last and the first one, instead of smooth over the seam");
-      seam.default_text = "false";
-      list_.add(seam).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
-        GeometryFile* given = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
-        if (given == nullptr) throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
-        given->open_seam = v.flag();
-      };
-    }
 
     KeyInfo standard = info("standard", KeyType::choice, "standard profile from its published formula");
     standard.choices = {standard_};
@@ -114,6 +105,16 @@ class ShapeKeys {
       GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
       if (file == nullptr) throw Error(ErrorKind::configuration, path + " belongs to a shape given by a file", v.where);
       change(file->options, v);
+    };
+  }
+
+  void add_seam() {
+    KeyInfo seam = info("open_seam", KeyType::flag, "slices all round: constant between the last and the first one, instead of smooth over the seam");
+    seam.default_text = "false";
+    list_.add(seam).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
+      if (file == nullptr) throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
+      file->open_seam = v.flag();
     };
   }
 

@@ -70,7 +70,7 @@ TEST(TomlParts, EveryKeyFindsItsPlace) {
   EXPECT_EQ(file.options.scale, 1000.0);
   EXPECT_DOUBLE_EQ(wing.offset.x(), 0.012);
   EXPECT_EQ(wing.crossing, CrossingInput{});
-  EXPECT_EQ(wing.where.line, 14);
+  EXPECT_EQ(wing.where.line, 15);
   const ArcChain& arcs = std::get<ArcChain>(chain.geometry);
   ASSERT_EQ(arcs.segments.size(), 2u);
   EXPECT_DOUBLE_EQ(arcs.segments[0].curvature, 1.0 / 0.3);
