@@ -175,6 +175,8 @@ TEST(Roller, DefectsLieAtArcLengthsFromTheTop) {
 TEST(Roller, RefusesWhatMakesNoSense) {
   SurfaceSpec spec{Body::rail, 0.0, StandardProfile{"60E1"}, {}, std::numeric_limits<double>::infinity()};
   EXPECT_THROW(create_natural(spec), Error);
+  spec.roller_radius = -0.5;
+  EXPECT_THROW(create_natural(spec), Error);
   spec.roller_radius = 0.02;  // less than the profile is deep
   EXPECT_THROW(create_natural(spec), Error);
   spec.roller_radius = 0.5;
