@@ -42,6 +42,7 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
     source = body == Body::wheel ? first->wheel : first->rail;
     source.backend.clear();
     source.resolution = 0.0;
+    for (io::SurfaceSource& part : source.parts) part.backend.clear(), part.resolution = 0.0;
     return read_surface(source, body, body == Body::wheel && radius > 0.0 ? radius : profile_radius(*first, body));
   }
   if (is_offset_file(file)) {

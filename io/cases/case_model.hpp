@@ -11,6 +11,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/friction.hpp"
 #include "treadmark/core/material.hpp"
+#include "treadmark/core/pose.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
 namespace treadmark::io {
@@ -33,6 +34,17 @@ struct ProfileOptions {
 struct GeometryFile {
   std::filesystem::path file;   ///< already resolved against the folder of the case file
   ProfileOptions options;
+  bool open_seam = false;       ///< SliceSet::open_seam
+};
+
+/// A rail whose one section moves along the track.
+struct CrossingInput {
+  enum class Part { none, nose, wing } part = Part::none;
+  double x = 0.0, y = 0.0, z = 0.0;    ///< where a nose levels off or a wing starts to move; offset of its section there [m]
+  double slope = 0.1;                  ///< of the nose before x (rising), of the wing after it (towards +y)
+  double length = 0.5;                 ///< over which it rises or moves [m]
+  double rounding = 0.1;               ///< over which the slope changes [m]
+  friend bool operator==(const CrossingInput&, const CrossingInput&) = default;
 };
 
 struct SurfaceSource {
@@ -42,6 +54,9 @@ struct SurfaceSource {
   std::string backend;            ///< "" = the natural one; see `treadmark list backends`
   double resolution = 0.0;        ///< [m]; 0 = the backend's default
   SourcePosition where;
+  CrossingInput crossing;         ///< rail only
+  Vec3 offset = Vec3::Zero();     ///< of a part, in the frame of the body [m]
+  std::vector<SurfaceSource> parts;  ///< rail only: several surfaces, of which the outermost counts, instead of geometry
 };
 
 enum class Side { left, right };

@@ -49,6 +49,10 @@ inline std::vector<double> numbers_of(const CaseValue& list, double unit) {
   return numbers;
 }
 
+/// What names of backends look like; which there are is not known here.
+inline constexpr const char* kBackendPattern = "^[a-z][a-z0-9_-]*$";
+bool is_backend_name(std::string_view text);
+
 /// A list of keys under construction.
 class KeyList {
  public:
@@ -166,6 +170,7 @@ void add_general_keys(KeyList& list);
 void add_material_keys(KeyList& list);
 void add_friction_keys(KeyList& list);
 void add_shape_keys(KeyList& list);
+void add_part_keys(KeyList& list);
 void add_defect_keys(KeyList& list);
 void add_wheel_rail_keys(KeyList& list);
 void add_balance_keys(KeyList& list);

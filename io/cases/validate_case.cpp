@@ -27,13 +27,8 @@ class Checker {
 
   void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
     const std::string body = which == Body::rail ? "rail" : "wheel";
-    if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
-      require(!file->file.empty(), body + ".shape is missing",
-              fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
-      require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
-              body + ".shape: kink_low_deg must not exceed kink_high_deg");
-    }
-    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    if (!s.parts.empty()) return parts(s);
+    shape(s, body);
     for (const WheelFlat& flat : s.defects.flats)
       require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
     try {
@@ -41,6 +36,28 @@ class Checker {
     } catch (const Error& e) {
       throw Error(e.kind(), fmt::format("case {}: {}", number_, e.message()), where_, e.advice());
     }
+  }
+
+  void parts(const SurfaceSource& s) const {
+    const auto* file = std::get_if<GeometryFile>(&s.geometry);
+    require(file != nullptr && file->file.empty(), "rail.shape and rail.parts exclude each other", "give one of them");
+    require(s.crossing.part == CrossingInput::Part::none, "rail.shape.crossing does not belong to rail.parts", "give it in the part");
+    require(s.defects.empty(), "defects cannot be added to rail.parts");
+    for (std::size_t i = 0; i < s.parts.size(); ++i) shape(s.parts[i], fmt::format("rail.parts[{}]", i));
+  }
+
+  /// body: its name in messages.
+  void shape(const SurfaceSource& s, const std::string& body) const {
+    const bool part = body.ends_with(']');
+    if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
+      require(!file->file.empty(), body + ".shape is missing",
+              part ? "give its file, standard or arcs" : fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
+      require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
+              body + ".shape: kink_low_deg must not exceed kink_high_deg");
+    }
+    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    require(s.crossing.part == CrossingInput::Part::none || s.crossing.length > 0.5 * s.crossing.rounding,
+            body + ": crossing_length_mm must be more than half of crossing_rounding_mm");
   }
 
   void friction(const FrictionLaw& f) const {
