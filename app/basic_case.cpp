@@ -37,34 +37,6 @@ kalker::HertzShape hertz_shape(const io::BasicCase& input, const io::HertzInput&
   return {};
 }
 
-kalker::Regime regime(io::RegimeInput input) {
-  switch (input) {
-    case io::RegimeInput::none:
-      return kalker::Regime::frictionless;
-    case io::RegimeInput::shift:
-      return kalker::Regime::shift;
-    case io::RegimeInput::transient:
-      return kalker::Regime::transient;
-    case io::RegimeInput::steady:
-      return kalker::Regime::steady;
-  }
-  return kalker::Regime::frictionless;
-}
-
-kalker::HistoryUse history(io::HistoryInput input) {
-  switch (input) {
-    case io::HistoryInput::start:
-      return kalker::HistoryUse::start;
-    case io::HistoryInput::keep_going:
-      return kalker::HistoryUse::keep_going;
-    case io::HistoryInput::normal_only:
-      return kalker::HistoryUse::normal_only;
-    case io::HistoryInput::same_instant:
-      return kalker::HistoryUse::same_instant;
-  }
-  return kalker::HistoryUse::start;
-}
-
 double timed(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();
@@ -95,7 +67,7 @@ PosedProblem pose(const io::BasicCase& input) {
   p.force_prescribed = input.normal_force_prescribed;
   p.normal_force = input.normal_force;
   p.approach = input.approach;
-  p.regime = regime(input.regime);
+  p.regime = to_regime(input.regime);
   p.creepage = {input.xi, input.eta, input.phi, input.spin_x, input.spin_y};
   p.rolling = {input.chi, input.velocity, input.dq, input.spin_offset_factor};
   p.fx_relative = input.fx_relative;
@@ -105,7 +77,7 @@ PosedProblem pose(const io::BasicCase& input) {
   p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
   p.settings = to_solver_settings(input.solver);
   p.influence = to_influence(input.influence);
-  p.history = history(input.history);
+  p.history = to_history(input.history);
   p.friction_of_row = input.friction_of_row;
   p.extra_slip_x = input.extra_slip_x;
   p.extra_slip_y = input.extra_slip_y;
@@ -148,15 +120,9 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   r.xi = solution.creepage.xi;
   r.eta = solution.creepage.eta;
   r.phi = solution.creepage.phi;
-  add_derived(input, p, solution, r);
+  add_subsurface(input.subsurface, input.material, p.grid, solution, r);
   result.patches.push_back(std::move(r));
   return result;
-}
-
-bool starts_anew(const io::BasicCase& input) {
-  if (input.history == io::HistoryInput::start) return true;
-  const bool needs_previous = input.regime == io::RegimeInput::shift || input.regime == io::RegimeInput::transient;
-  return !needs_previous && input.history != io::HistoryInput::same_instant;
 }
 
 }  // namespace treadmark::app

@@ -18,7 +18,4 @@ class BasicSequence {
   kalker::ContactSolver solver_;
 };
 
-/// Whether a case does not depend on the ones before it.
-bool starts_anew(const io::BasicCase& input);
-
 }  // namespace treadmark::app

@@ -173,7 +173,7 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   const auto natural = [&](io::SurfaceSource source, Body body, const Region& region) -> const NaturalSurface& {
     source.backend.clear();
     source.resolution = 0.0;
-    return *store.get(source, body, first->wheelset.nominal_radius, region).natural;
+    return *store.get(source, body, profile_radius(*first, body), region).natural;
   };
   const NaturalSurface& wheel = natural(first->wheel, Body::wheel, regions.wheel);
   const NaturalSurface& rail = natural(first->rail, Body::rail, regions.rail);

@@ -8,11 +8,9 @@
 
 namespace treadmark::app {
 
-/// Stresses below the surface that a case asks for, into the patch's result.
-void add_derived(const io::BasicCase& input, const kalker::ContactProblem& problem, const kalker::ContactSolution& solution,
-                 io::PatchResult& result);
-
-/// What the head of a .mat file says of a basic case.
-io::MatFileHead mat_head(const io::BasicCase& input, int case_number);
+/// Stresses below the surface at the points asked for, into the patch's result. Points under elements that the grid does not have are
+/// left out; origin: of free points, in the axes of the grid [m].
+void add_subsurface(const io::SubsurfaceInput& input, const Material& material, const Grid2& grid, const kalker::ContactSolution& solution,
+                    io::PatchResult& result, const Vec2& origin = Vec2::Zero());
 
 }  // namespace treadmark::app

@@ -42,7 +42,8 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
     source = body == Body::wheel ? first->wheel : first->rail;
     source.backend.clear();
     source.resolution = 0.0;
-    return read_surface(source, body, radius > 0.0 ? radius : first->wheelset.nominal_radius);
+    for (io::SurfaceSource& part : source.parts) part.backend.clear(), part.resolution = 0.0;
+    return read_surface(source, body, body == Body::wheel && radius > 0.0 ? radius : profile_radius(*first, body));
   }
   if (is_offset_file(file)) {
     NaturalSurface natural = read_offset_surface(file);
@@ -57,7 +58,7 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
   geometry.options.scale = said.scale_to_mm;
   source.geometry = geometry;
   source.where = {file.string(), 0, 0};
-  return read_surface(source, body, radius);
+  return read_surface(source, body, body == Body::wheel ? radius : 0.0);
 }
 
 Region part_of(Body body, const Range& range_x, const Range& range_theta) {

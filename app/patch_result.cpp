@@ -58,6 +58,34 @@ kalker::TangentialModel to_tangential_model(io::TangentialModelInput model) {
   return To::full;
 }
 
+kalker::Regime to_regime(io::RegimeInput input) {
+  switch (input) {
+    case io::RegimeInput::none:
+      return kalker::Regime::frictionless;
+    case io::RegimeInput::shift:
+      return kalker::Regime::shift;
+    case io::RegimeInput::transient:
+      return kalker::Regime::transient;
+    case io::RegimeInput::steady:
+      return kalker::Regime::steady;
+  }
+  return kalker::Regime::frictionless;
+}
+
+kalker::HistoryUse to_history(io::HistoryInput input) {
+  switch (input) {
+    case io::HistoryInput::start:
+      return kalker::HistoryUse::start;
+    case io::HistoryInput::keep_going:
+      return kalker::HistoryUse::keep_going;
+    case io::HistoryInput::normal_only:
+      return kalker::HistoryUse::normal_only;
+    case io::HistoryInput::same_instant:
+      return kalker::HistoryUse::same_instant;
+  }
+  return kalker::HistoryUse::start;
+}
+
 kalker::InfluenceSettings to_influence(const io::InfluenceInput& input) {
   kalker::InfluenceSettings out;
   using From = io::InfluenceInput::Kind;

@@ -11,6 +11,8 @@
 namespace treadmark::app {
 
 kalker::SolverSettings to_solver_settings(const io::SolverInput& input);
+kalker::Regime to_regime(io::RegimeInput input);
+kalker::HistoryUse to_history(io::HistoryInput input);
 kalker::NormalModel to_normal_model(io::NormalModelInput model);
 kalker::TangentialModel to_tangential_model(io::TangentialModelInput model);
 /// Reads the file of numerical coefficients. Errors: those of the reader.

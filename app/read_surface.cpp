@@ -3,6 +3,9 @@
 #include "treadmark/app/read_surface.hpp"
 
 #include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -17,6 +20,8 @@ namespace {
 
 NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSource& source, Body body, double nominal_radius) {
   NaturalSurface natural = read_offset_surface(file.file);
+  if (body == Body::rail && nominal_radius != 0.0)
+    throw Error(ErrorKind::configuration, "a file of offsets cannot become a roller", {file.file.string()}, "use a profile, slices or triangles");
   if (natural.spec.body != body)
     throw Error(ErrorKind::configuration, fmt::format("the offsets belong to a {}", body == Body::rail ? "wheel" : "rail"),
                 {file.file.string()});
@@ -32,23 +37,51 @@ NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSourc
   return natural;
 }
 
+SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition& where) {
+  SliceSet slices = io::read_slices(file.file, body, file.options, where);
+  slices.open_seam = file.open_seam;
+  return slices;
+}
+
+NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double radius) {
+  if (!source.defects.empty()) throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
+  std::vector<SurfacePart> parts;
+  for (const io::SurfaceSource& part : source.parts)
+    parts.push_back({std::make_shared<const NaturalSurface>(read_surface(part, body, radius)), part.offset,
+                     part.backend, part.resolution});
+  return join_surfaces(std::move(parts));
+}
+
 }  // namespace
 
 bool is_offset_file(const std::filesystem::path& file) {
   return io::profiles::lower(file.extension().string()) == ".vdb";
 }
 
-NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double nominal_radius) {
+MovingSection motion_of(const io::CrossingInput& c) {
+  MovingSection m;
+  m.x = c.x, m.y = c.y, m.z = c.z;
+  m.rounding = c.rounding;
+  const bool nose = c.part == io::CrossingInput::Part::nose;
+  m.slope_z_before = nose ? -c.slope : 0.0;
+  m.slope_y_after = nose ? 0.0 : c.slope;
+  m.length_before = nose ? c.length : c.rounding;
+  m.length_after = nose ? c.rounding : c.length;
+  return m;
+}
+
+NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
+  if (!source.parts.empty()) return read_parts(source, body, radius);
   SurfaceSpec spec;
   spec.body = body;
-  spec.nominal_radius = nominal_radius;
+  (body == Body::wheel ? spec.nominal_radius : spec.roller_radius) = radius;
   spec.defects = source.defects;
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
-    if (is_offset_file(file->file)) return read_offsets(*file, source, body, nominal_radius);
+    if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
     if (io::is_mesh_file(file->file))
       spec.shape = io::read_mesh(file->file, file->options.scale, source.where);
     else if (io::is_slices_file(file->file))
-      spec.shape = io::read_slices(file->file, body, file->options, source.where);
+      spec.shape = slices_of(*file, body, source.where);
     else
       spec.shape = io::read_profile(file->file, body, file->options, source.where);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
@@ -56,6 +89,7 @@ NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double n
   } else {
     spec.shape = std::get<ArcChain>(source.geometry);
   }
+  if (source.crossing.part != io::CrossingInput::Part::none) spec.shape = move_section(spec, motion_of(source.crossing));
   return create_natural(std::move(spec));
 }
 

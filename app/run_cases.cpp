@@ -4,14 +4,11 @@
 
 #include <chrono>
 #include <exception>
-#include <map>
-#include <memory>
 #include <mutex>
 #include <optional>
 #include <vector>
 
-#include "treadmark/app/basic_case.hpp"
-#include "treadmark/app/derived_results.hpp"
+#include "treadmark/app/case_sequence.hpp"
 #include "treadmark/app/sampled_region.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/app/version.hpp"
@@ -27,55 +24,9 @@ using Clock = std::chrono::steady_clock;
 double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
 
 wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store, const SampledRegions& regions) {
-  const StoredSurface& rail = store.get(input.rail, Body::rail, input.wheelset.nominal_radius, regions.rail);
-  const StoredSurface& wheel = store.get(input.wheel, Body::wheel, input.wheelset.nominal_radius, regions.wheel);
-  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile(), wheel.constant_profile()};
-}
-
-// Solvers keep influence coefficients: hand finished ones to the next case with the same bodies.
-class SolverPool {
- public:
-  struct Lease {
-    wheelrail::Geometry geometry;
-    std::unique_ptr<wheelrail::Pair> pair;
-  };
-
-  Lease take(const wheelrail::Geometry& geometry) {
-    const std::lock_guard lock(mutex_);
-    auto& idle = idle_[{geometry.rail.get(), geometry.wheel.get()}];
-    if (idle.empty()) return {geometry, std::make_unique<wheelrail::Pair>(geometry)};
-    Lease lease{geometry, std::move(idle.back())};
-    idle.pop_back();
-    return lease;
-  }
-
-  void give_back(Lease lease) {
-    const std::lock_guard lock(mutex_);
-    idle_[{lease.geometry.rail.get(), lease.geometry.wheel.get()}].push_back(std::move(lease.pair));
-  }
-
- private:
-  std::mutex mutex_;
-  std::map<std::pair<const Surface*, const Surface*>, std::vector<std::unique_ptr<wheelrail::Pair>>> idle_;
-};
-
-/// Indices of cases that are solved one after the other. Those of different groups do not depend on each other.
-std::vector<std::vector<std::size_t>> groups_in_time(const io::CaseFile& file) {
-  std::vector<std::vector<std::size_t>> groups;
-  std::map<int, std::size_t> open;   // group of the last basic case, by sequence
-  for (std::size_t i = 0; i < file.cases.size(); ++i) {
-    const auto* basic = std::get_if<io::BasicCase>(&file.cases[i].content);
-    if (basic != nullptr) {
-      const auto before = open.find(file.cases[i].sequence);
-      if (before != open.end() && !starts_anew(*basic)) {
-        groups[before->second].push_back(i);
-        continue;
-      }
-      open[file.cases[i].sequence] = groups.size();
-    }
-    groups.push_back({i});
-  }
-  return groups;
+  const StoredSurface& rail = store.get(input.rail, Body::rail, profile_radius(input, Body::rail), regions.rail);
+  const StoredSurface& wheel = store.get(input.wheel, Body::wheel, profile_radius(input, Body::wheel), regions.wheel);
+  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller, wheel.constant_profile()};
 }
 
 }  // namespace
@@ -99,25 +50,13 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   std::vector<std::exception_ptr> errors(file.cases.size());
   std::mutex progress_mutex;
   std::size_t finished = 0;
-  SolverPool pool;
-  const auto solve_case = [&](std::size_t i, BasicSequence& sequence, bool broken) {
+  PairPool pool;
+  const auto solve_case = [&](std::size_t i, CaseSequence& sequence) {
     const auto case_start = Clock::now();
     const io::Case& c = file.cases[i];
     io::CaseResult result;
     try {
-      if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) {
-        SolverPool::Lease lease = pool.take(*geometries[i]);
-        result = to_result(*input, lease.pair->solve(to_problem(*input, geometries[i]->constant_profiles())));
-        pool.give_back(std::move(lease));
-      } else {
-        if (broken) throw Error(ErrorKind::numerical, "the case before it in its sequence failed, so that there is no previous instant");
-        const auto& basic = std::get<io::BasicCase>(c.content);
-        result = sequence.solve(basic);
-        for (io::PatchResult& patch : result.patches) {
-          if (c.element_table > 0) patch.element_table = mat_head(basic, c.number);
-          patch.all_elements = c.element_table > 1;
-        }
-      }
+      result = sequence.solve(c, geometries[i] ? &*geometries[i] : nullptr);
     } catch (const Error& e) {
       if (e.kind() != ErrorKind::numerical) {
         errors[i] = std::make_exception_ptr(e.where().file.empty() ? Error(e.kind(), e.message(), c.where, e.advice()) : e);
@@ -139,13 +78,11 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   };
   const auto groups = groups_in_time(file);
   parallel_for(groups.size(), [&](std::size_t g) {
-    BasicSequence sequence;
-    bool broken = false;
+    CaseSequence sequence(pool);
     for (const std::size_t i : groups[g]) {
       if (progress.stop_requested()) return;
-      solve_case(i, sequence, broken);
+      solve_case(i, sequence);
       if (errors[i]) return;
-      broken = results[i]->status == Status::failed;
     }
   });
   for (const auto& error : errors)

@@ -9,8 +9,9 @@
 
 namespace treadmark::app {
 
-/// Solves every case of a file on the threads of the pool. Cases do not influence each other, so that results are the same
-/// for any number of threads. A case that fails numerically gets Status::failed and its message; the others go on.
+/// Solves every case of a file on the threads of the pool. Cases that go on from the one before them in their sequence are solved in
+/// order, all others do not influence each other, so that results are the same for any number of threads. A case
+/// that fails numerically gets Status::failed and its message; the others go on.
 /// After a stop request the result holds the finished cases, in order, and complete = false.
 /// Errors: Error for input that cannot be solved at all (configuration, input data).
 io::RunResult run_cases(const io::CaseFile& file, const Progress& progress = {});

@@ -14,13 +14,20 @@ namespace treadmark::app {
 namespace {
 
 /// Everything that tells one geometry from another but its defects.
-std::string key_of(const io::SurfaceSource& source, Body body, double nominal_radius) {
-  std::string key = fmt::format("{} {:.17g}", body == Body::rail ? "rail" : "wheel", nominal_radius);
+std::string key_of(const io::SurfaceSource& source, Body body, double radius) {
+  std::string key = fmt::format("{} {:.17g}", body == Body::rail ? "rail" : "wheel", radius);
+  const io::CrossingInput& c = source.crossing;
+  if (c.part != io::CrossingInput::Part::none)
+    key += fmt::format(" crossing {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", static_cast<int>(c.part), c.x, c.y, c.z, c.slope,
+                       c.length, c.rounding);
+  for (const io::SurfaceSource& part : source.parts)
+    key += fmt::format(" [{} at {:.17g} {:.17g} {:.17g} as {} {:.17g}]", key_of(part, body, radius), part.offset.x(),
+                       part.offset.y(), part.offset.z(), part.backend, part.resolution);
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     const io::ProfileOptions& o = file->options;
     const SmoothingOptions& s = o.smoothing;
-    key += fmt::format(" file {} {} {} {:.17g} {:.17g} {:.17g} {} {} {:.17g} {:.17g} {:.17g} {:.17g}", file->file.string(),
-                       o.mirror_y, o.mirror_z, o.scale, o.zigzag_threshold, o.max_omit, o.error_handling,
+    key += fmt::format(" file {} {} {} {} {:.17g} {:.17g} {:.17g} {} {} {:.17g} {:.17g} {:.17g} {:.17g}", file->file.string(),
+                       file->open_seam, o.mirror_y, o.mirror_z, o.scale, o.zigzag_threshold, o.max_omit, o.error_handling,
                        static_cast<int>(s.method), s.strength, s.kink_high, s.kink_low, s.kink_width);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
     key += " standard " + standard->name;
@@ -52,25 +59,29 @@ auto located(const SourcePosition& where, Build build) {
 
 }  // namespace
 
-void SurfaceStore::note_hash(const std::string& file) {
+void SurfaceStore::note_hashes(const io::SurfaceSource& source) {
+  for (const io::SurfaceSource& part : source.parts) note_hashes(part);
+  const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
+  if (geometry == nullptr || !source.parts.empty()) return;
+  const std::string file = geometry->file.string();
   const bool known = std::any_of(hashes_.begin(), hashes_.end(), [&](const auto& entry) { return entry.first == file; });
   if (!known) hashes_.emplace_back(file, io::sha256_file(file));
 }
 
-std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSource& source, Body body, double nominal_radius) {
-  std::string key = key_of(source, body, nominal_radius);
+std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSource& source, Body body, double radius) {
+  std::string key = key_of(source, body, radius);
   for (const Natural& known : naturals_)
     if (known.key == key && known.defects == source.defects) return known.surface;
   auto surface = located(source.where, [&] {
-    return std::make_shared<const NaturalSurface>(read_surface(source, body, nominal_radius));
+    return std::make_shared<const NaturalSurface>(read_surface(source, body, radius));
   });
-  if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) note_hash(file->file.string());
+  note_hashes(source);
   naturals_.push_back({std::move(key), source.defects, surface});
   return surface;
 }
 
-const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double nominal_radius, const Region& region) {
-  const auto given = natural(source, body, nominal_radius);
+const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double radius, const Region& region) {
+  const auto given = natural(source, body, radius);
   const Representation wanted{source.backend, source.resolution, region};
   auto found = std::find_if(stored_.begin(), stored_.end(), [&](const auto& s) {
     return s->natural == given.get() && same(s->representation, wanted);

@@ -18,7 +18,7 @@ namespace treadmark::app {
 struct StoredSurface {
   std::shared_ptr<const NaturalSurface> natural;   ///< as given
   RepresentedSurface represented;                  ///< as asked for; used in the analysis
-  bool constant_profile() const { return natural->constant_profile(); }
+  bool constant_profile() const { return natural->constant_profile(); }  ///< prismatic rail (so no roller), round wheel
   Body body() const { return natural->spec.body; }
 };
 
@@ -27,7 +27,8 @@ class SurfaceStore {
  public:
   /// region: what has to be sampled if the representation needs samples.
   /// Errors of the readers and backends pass through, with the place in the case file that asked for the geometry.
-  const StoredSurface& get(const io::SurfaceSource& source, Body body, double nominal_radius, const Region& region);
+  /// radius: nominal radius of a wheel, or of a roller in place of a rail [m]; 0 = it is a rail.
+  const StoredSurface& get(const io::SurfaceSource& source, Body body, double radius, const Region& region);
 
   /// What get() has handed out since begin_run(), in the order of the first requests, with fit errors of sampled surfaces.
   std::vector<io::SurfaceUse> uses();
@@ -50,8 +51,8 @@ class SurfaceStore {
     bool fit_known = false;
   };
 
-  std::shared_ptr<const NaturalSurface> natural(const io::SurfaceSource& source, Body body, double nominal_radius);
-  void note_hash(const std::string& file);
+  std::shared_ptr<const NaturalSurface> natural(const io::SurfaceSource& source, Body body, double radius);
+  void note_hashes(const io::SurfaceSource& source);
 
   std::vector<Natural> naturals_;
   std::vector<std::unique_ptr<Stored>> stored_;

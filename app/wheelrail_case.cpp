@@ -22,6 +22,12 @@ detection::SearchMethod search_method(const io::DiscretisationInput& d) {
   return d.method == kGrid || d.method == kSteepGrid ? Method::pruned_grid : Method::automatic;
 }
 
+wheelrail::ReferenceSurface reference_surface(io::ReferenceSurfaceInput input) {
+  using From = io::ReferenceSurfaceInput;
+  using To = wheelrail::ReferenceSurface;
+  return input == From::curved ? To::curved : input == From::plane_surface_slip ? To::plane_surface_slip : To::plane;
+}
+
 }  // namespace
 
 wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_profiles) {
@@ -39,7 +45,14 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.state.wheel_offset = {w.dx, w.dy, w.dz, w.droll, w.dyaw, w.dpitch};
   p.state.wheel_velocity = {w.dvx, w.dvy, w.dvz, w.dvroll, w.dvyaw, w.dvpitch};
   if (input.vertical_force_prescribed) p.vertical_force = input.vertical_force;
-  p.regime = input.regime == io::RegimeInput::steady ? kalker::Regime::steady : kalker::Regime::frictionless;
+  p.longitudinal_force = input.longitudinal_force;
+  if (input.roller) p.roller = {input.roller->nominal_radius, input.roller->pitch_rate};
+  if (const auto& k = input.rail_springs) p.rail_springs = {k->stiffness_y, k->stiffness_z, k->force_y, k->force_z, k->first_step_y};
+  if (const auto& d = input.damping) p.damping = {d->normal, d->tangential, d->max_rate_normal, d->max_rate_tangential};
+  p.regime = to_regime(input.regime);
+  p.history = to_history(input.history);
+  p.enforce_step_rule = !input.long_steps;
+  p.reference_surface = reference_surface(input.reference_surface);
 
   const io::DiscretisationInput& d = input.discretisation;
   constexpr int kInitialContactPoint = 7;
@@ -65,7 +78,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
     p.friction_inclination = variation.positions;
     p.friction_laws = variation.laws;
   } else if (variation.kind == io::FrictionVariation::Kind::along_track) {
-    p.friction = friction_at(variation.positions, variation.laws, input.wheelset.s, input.friction);
+    p.friction = friction_of(input, 0.0);
   }
   p.normal_model = to_normal_model(input.normal_model);
   p.tangential_model = to_tangential_model(input.tangential_model);
@@ -74,72 +87,29 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   p.solver = to_solver_settings(input.solver);
   p.solver.reference_quirks = d.reference_search_mesh;
   p.max_force_iterations = input.solver.max_nr;
+  p.thermal = input.thermal;
+  p.sensitivities = input.sensitivities;
   return p;
+}
+
+double profile_radius(const io::WheelRailCase& input, Body body) {
+  if (body == Body::wheel) return input.wheelset.nominal_radius;
+  return input.roller ? input.roller->nominal_radius : 0.0;
+}
+
+FrictionLaw friction_of(const io::WheelRailCase& input, double contact_angle) {
+  using Kind = io::FrictionVariation::Kind;
+  const io::FrictionVariation& v = input.friction_variation;
+  if (v.kind == Kind::none) return input.friction;
+  // Inclinations are given as for the right-hand side.
+  const double inclination = input.side == io::Side::left ? -contact_angle : contact_angle;
+  return friction_at(v.positions, v.laws, v.kind == Kind::inclination ? inclination : input.wheelset.s, input.friction);
 }
 
 const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file) {
   for (const io::Case& c : file.cases)
     if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) return input;
   return nullptr;
-}
-
-io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSolution& s) {
-  io::CaseResult result;
-  result.status = s.status;
-  result.message = s.message;
-  const io::WheelsetInput& w = input.wheelset;
-  result.has_wheelset = true;
-  result.s = w.s;
-  result.y = w.y;
-  result.z = s.z;
-  result.roll = w.roll;
-  result.yaw = w.yaw;
-  result.pitch = w.pitch;
-  result.vs = w.vs;
-  result.vy = w.vy;
-  result.vz = w.vz;
-  result.vroll = w.vroll;
-  result.vyaw = w.vyaw;
-  result.vpitch = w.vpitch;
-  result.force_tr = s.load.track.force;
-  result.force_ws = s.load.wheelset.force;
-  result.moment_rail = s.load.track.moment;
-  result.moment_wheel = s.load.wheelset.moment;
-  result.search_s = s.times.search_s;
-  result.distance_s = s.times.distance_s;
-  result.normal_s = s.times.normal_s;
-  result.tangential_s = s.times.tangential_s;
-  result.searches = s.times.searches;
-  result.distances = s.times.distances;
-  result.normal_solves = s.times.normal_solves;
-  result.tangential_solves = s.times.tangential_solves;
-  result.force_iterations = s.force_iterations;
-
-  for (const wheelrail::PatchSolution& patch : s.patches) {
-    io::PatchResult r = patch_result(patch.contact, patch.grid, patch.distance, input.material, input.friction);
-    r.has_reference = true;
-    r.x_tr = patch.frame.X_TC.origin.x();
-    r.y_tr = patch.frame.X_TC.origin.y();
-    r.z_tr = patch.frame.X_TC.origin.z();
-    r.angle = patch.frame.angle;
-    r.x_rail = patch.reference_rail.x();
-    r.y_rail = patch.reference_rail.y();
-    r.z_rail = patch.reference_rail.z();
-    r.s_rail = patch.reference_s;
-    r.x_wheel = patch.reference_wheel.x();
-    r.y_wheel = patch.reference_wheel.y();
-    r.z_wheel = patch.reference_wheel.z();
-    r.has_rolling = input.regime == io::RegimeInput::steady;
-    r.chi = patch.kinematics.chi;
-    r.velocity = patch.kinematics.velocity;
-    r.dq = patch.contact.rolling_step;
-    r.xi = patch.kinematics.xi;
-    r.eta = patch.kinematics.eta;
-    r.phi = patch.kinematics.phi;
-    r.fields.X_TC = patch.frame.X_TC;
-    result.patches.push_back(std::move(r));
-  }
-  return result;
 }
 
 }  // namespace treadmark::app

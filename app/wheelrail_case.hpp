@@ -11,10 +11,13 @@ namespace treadmark::app {
 /// The solver's view of a wheel-rail case. constant_profiles: prismatic rail and round wheel.
 wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_profiles);
 
+/// Radius of a surface of revolution where its profile has z = 0 [m]: wheel, roller (negative: ring); 0 for a rail.
+double profile_radius(const io::WheelRailCase& input, Body body);
+
+/// Friction of a patch whose contact plane has this inclination in track axes [rad].
+FrictionLaw friction_of(const io::WheelRailCase& input, double contact_angle);
+
 /// The first case of a wheel on a rail in a file; null if there is none.
 const io::WheelRailCase* first_wheelrail_case(const io::CaseFile& file);
-
-/// The result file's view of its solution.
-io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSolution& solution);
 
 }  // namespace treadmark::app

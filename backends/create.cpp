@@ -15,12 +15,15 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/backends/assembly/outermost_surface.hpp"
+#include "treadmark/backends/composed.hpp"
 #include "treadmark/backends/mesh/make.hpp"
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/sampling/convert_points.hpp"
 #include "treadmark/backends/sampling/difference.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
 #include "treadmark/backends/spline/make.hpp"
+#include "treadmark/backends/spline/slice_kinks.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark {
@@ -42,6 +45,8 @@ void require_same_body(Body shape, Body wanted, std::string_view what) {
 void check(const SurfaceSpec& spec) {
   if (spec.body == Body::wheel && !(spec.nominal_radius > 0.0))
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
+  if (spec.body == Body::wheel && spec.roller_radius != 0.0)
+    throw Error(ErrorKind::configuration, "a roller takes the place of a rail, a wheel cannot be one");
   if (spec.body == Body::rail && spec.defects.on_wheel())
     throw Error(ErrorKind::configuration, "flats and polygonizations belong to wheels, not to rails");
   if (spec.body == Body::wheel && spec.defects.on_rail())
@@ -73,13 +78,20 @@ std::string words(const mesh::MeshRepair& repair) {
   return text.empty() ? text : text + ". ";
 }
 
+std::shared_ptr<const Surface> slice_surface(const SliceSet& slices, double nominal_radius) {
+  if (slices.kinks.empty()) return spline::make_slice_surface(slices, nominal_radius);
+  std::vector<std::shared_ptr<const Surface>> parts;
+  for (const SliceSet& part : spline::split_at_kinks(slices)) parts.push_back(spline::make_slice_surface(part, nominal_radius));
+  return assembly::outermost_of(std::move(parts));
+}
+
 std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats, std::string* note = nullptr) {
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
     return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, flats);
   if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
     return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, flats)
                                     : analytic::make_prismatic_surface(*chain);
-  if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return spline::make_slice_surface(*slices, spec.nominal_radius);
+  if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return slice_surface(*slices, spec.nominal_radius);
   if (const auto* points = std::get_if<Profile>(&spec.shape)) return spline::make_profile_surface(*points, spec.nominal_radius);
   mesh::MeshRepair repair;
   auto surface = mesh::make_mesh_surface(std::get<TriangleMesh>(spec.shape), spec.body, {}, &repair);
@@ -321,6 +333,7 @@ std::span<const std::string_view> standard_profile_names() { return analytic::st
 
 NaturalSurface create_natural(SurfaceSpec spec) {
   check(spec);
+  if (spec.roller_radius != 0.0) return create_roller(std::move(spec));
   NaturalSurface natural;
   natural.surface = make_natural(spec, natural.note);
   natural.spec = std::move(spec);
@@ -342,6 +355,8 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
 
 RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted) {
   using offset::Interpolation;
+  if (natural.wheel_of_roller != nullptr) return represent_roller(natural, wanted);
+  if (!natural.parts.empty()) return represent_parts(natural, wanted);
   const auto start = Clock::now();
   RepresentedSurface out;
   out.region = wanted.region;
@@ -372,6 +387,7 @@ RepresentedSurface represent(const NaturalSurface& natural, const Representation
 }
 
 SurfaceDifference fit_error(const NaturalSurface& natural, const RepresentedSurface& represented) {
+  if (natural.wheel_of_roller != nullptr) return roller_fit_error(natural, represented);
   sampling::DifferenceSettings settings;
   settings.region = represented.region;
   if (natural.spec.body == Body::rail && !std::isfinite(natural.surface->bounds().max.x())) {
@@ -386,6 +402,7 @@ std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::stri
 }
 
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
+  if (natural.wheel_of_roller != nullptr) return roller_triangles(natural, wanted, sampled);
   Resampling sampling(natural, wanted);
   TriangleMesh mesh = sampling.triangles();
   if (sampled != nullptr) *sampled = sampling.sampled();
@@ -393,6 +410,7 @@ TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& w
 }
 
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
+  if (natural.wheel_of_roller != nullptr) return roller_slices(natural, wanted, sampled);
   Resampling sampling(natural, wanted);
   SliceSet slices = sampling.slices();
   if (sampled != nullptr) *sampled = sampling.sampled();
@@ -401,6 +419,8 @@ SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, 
 
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled, const SurfaceSpec* given_base, const std::string& notes) {
+  if (natural.wheel_of_roller != nullptr)
+    throw Error(ErrorKind::configuration, "files of offsets hold rails and wheels, not rollers", {}, "write slices or triangles");
   Resampling sampling(natural, wanted);
   std::shared_ptr<const Surface> base;
   offset::OffsetFile content;

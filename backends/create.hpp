@@ -8,8 +8,10 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "treadmark/backends/sampling/region.hpp"
+#include "treadmark/core/moving_section.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/core/surface_difference.hpp"
 #include "treadmark/core/surface_spec.hpp"
@@ -28,11 +30,16 @@ void require_backend(std::string_view name);
 /// Standard profiles that StandardProfile::name may name: "60E1", "S1002".
 std::span<const std::string_view> standard_profile_names();
 
+struct SurfacePart;
+
 /// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles a mesh.
 struct NaturalSurface {
   SurfaceSpec spec;                        ///< what it was made from; of a file of offsets body and radius only
   std::shared_ptr<const Surface> surface;
   std::string note;                        ///< repairs worth knowing; may be empty
+  /// Of a roller only: the wheel that it is when turned over, in the wheel's own frame.
+  std::shared_ptr<const NaturalSurface> wheel_of_roller{};
+  std::vector<SurfacePart> parts{};        ///< of a body of several surfaces only
   bool constant_profile() const { return surface->constant_profile(); }
 };
 
@@ -47,13 +54,26 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file);
 struct Representation {
   std::string backend;       ///< of backend_names(); "" = the natural one
   double resolution = 0.0;   ///< spacing of the samples [m]; 0 = none where the data serve directly, else kDefaultResolution
-  Region region;             ///< sampled part; a rail without ends is limited to +-kDefaultHalfLength if this does not limit it
+  Region region;             ///< sampled part (of a roller u is the arc length); a rail without ends is limited to +-kDefaultHalfLength if this does not limit it
 };
 inline constexpr double kDefaultResolution = 0.5e-3;  ///< [m]
 inline constexpr double kDefaultHalfLength = 0.5;     ///< [m]
 
 /// Arc-length step at which formulas are sampled for splines when no resolution is asked for [m].
 inline constexpr double kResampleStep = 0.25e-3;
+
+/// One of several surfaces that make up a body.
+struct SurfacePart {
+  std::shared_ptr<const NaturalSurface> natural;
+  Vec3 offset = Vec3::Zero();   ///< of its frame in that of the body [m]
+  std::string backend;          ///< of backend_names(): it goes before what the whole body is asked for; "" = no wish
+  double resolution = 0.0;      ///< [m] 0 = no wish
+};
+
+/// Several surfaces as one: the outermost one counts, see assembly::outermost_of. Represented, every part is sampled by itself;
+/// triangles and slices are those of the outer skin. Errors: Error(configuration) without parts, or for rails and wheels mixed,
+/// wheels out of their axle, or different nominal radii.
+NaturalSurface join_surfaces(std::vector<SurfacePart> parts);
 
 struct RepresentedSurface {
   std::shared_ptr<const Surface> surface;
@@ -63,6 +83,10 @@ struct RepresentedSurface {
   double build_seconds = 0.0;
   std::string note;            ///< repairs and limits worth knowing; may be empty
 };
+
+/// A rail whose section moves along the track, as slices; section: points, a standard profile or a chain of arcs of a rail.
+/// Errors: Error(configuration) for another shape, or a motion that makes no sense.
+SliceSet move_section(const SurfaceSpec& section, const MovingSection& motion);
 
 /// Turns a surface into a representation. Errors: Error(configuration) for an unknown backend or one that cannot represent
 /// the shape; those of sampling and of the backends.

@@ -81,7 +81,7 @@ class Surface {
   /// Box that holds the whole surface [m]; entries may be infinite.
   virtual Box3 bounds() const = 0;
   virtual std::size_t memory_bytes() const = 0;
-  /// Whether the shape is one profile: a rail the same at every x, a wheel the same at every theta.
+  /// Whether the shape is one profile: a rail the same at every x, a wheel the same at every theta. False for a roller.
   virtual bool constant_profile() const { return false; }
 
   /// Heights (and slopes) over a regular grid in a rigidly placed plane; see HeightsOut.

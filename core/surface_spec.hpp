@@ -37,6 +37,9 @@ struct SurfaceSpec {
   double nominal_radius = 0.0;  ///< wheel: radius at profile z = 0 [m]; rail: unused
   std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh> shape;
   Defects defects;
+  /// Rail: 0, or the nominal radius of a roller [m]: the profile turned about an axle parallel to y at z = roller_radius, with
+  /// profile z = 0 at that radius. x of slices and defects is then the arc length at that radius, 0 at the top.
+  double roller_radius = 0.0;
 };
 
 }  // namespace treadmark

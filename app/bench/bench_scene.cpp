@@ -48,8 +48,8 @@ BenchScene make_bench_scene(const io::CaseFile& file, const BenchGrid& grid) {
     throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail to be measured", {file.path.string()});
 
   BenchScene s;
-  s.rail = as_given(input->rail, Body::rail, input->wheelset.nominal_radius, s.rail_build_seconds);
-  s.wheel = as_given(input->wheel, Body::wheel, input->wheelset.nominal_radius, s.wheel_build_seconds);
+  s.rail = as_given(input->rail, Body::rail, profile_radius(*input, Body::rail), s.rail_build_seconds);
+  s.wheel = as_given(input->wheel, Body::wheel, profile_radius(*input, Body::wheel), s.wheel_build_seconds);
   s.rail_base = without_defects(*s.rail);
   s.wheel_base = without_defects(*s.wheel);
   io::CaseFile first;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/spline/fit_slices.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <map>
@@ -21,6 +22,9 @@ constexpr int kLeastSlices = 4;
 constexpr double kFullTurn = 2.0 * std::numbers::pi;
 // The influence of a slice on an interpolating spline falls by 3.7 per slice.
 constexpr std::size_t kWrappedSlices = 16;
+// Slices a turn apart, to the digits that files have.
+constexpr double kSameAngle = 1e-4;    // [rad]
+constexpr double kSameSection = 1e-6;  // [m]
 // A gap up to this multiple of the widest step between slices counts as one more step of a full circle.
 constexpr double kWidestGap = 1.5;
 
@@ -115,21 +119,34 @@ struct Arrangement {
   std::vector<double> u;
   std::vector<std::size_t> slice;
   bool closed = false;
+  std::size_t copies = 0;  // at each end
 };
 
+bool same_section(const Profile& a, const Profile& b) {
+  const auto same = [](double p, double q) { return std::abs(p - q) <= kSameSection; };
+  return std::ranges::equal(a.y, b.y, same) && std::ranges::equal(a.z, b.z, same);
+}
+
+// Whether the last slice is the first one again, a turn later.
+bool ends_where_it_begins(const SliceSet& slices) {
+  return std::abs(slices.u.back() - slices.u.front() - kFullTurn) <= kSameAngle && slices.u.size() > kLeastSlices &&
+         same_section(slices.profiles.front(), slices.profiles.back());
+}
+
 Arrangement arrange(const SliceSet& slices) {
-  const std::size_t n = slices.u.size();
-  Arrangement all{slices.u, std::vector<std::size_t>(n), false};
+  const bool repeated = slices.body == Body::wheel && !slices.open_seam && ends_where_it_begins(slices);
+  const std::size_t n = slices.u.size() - (repeated ? 1 : 0);
+  Arrangement all{slices.u, std::vector<std::size_t>(n), false, 0};
   for (std::size_t i = 0; i < n; ++i) all.slice[i] = i;
-  if (slices.body == Body::rail) return all;
+  if (slices.body == Body::rail || slices.open_seam) return all;
   double widest = 0.0;
   for (std::size_t i = 0; i + 1 < n; ++i) widest = std::max(widest, slices.u[i + 1] - slices.u[i]);
-  const double gap = kFullTurn - (slices.u.back() - slices.u.front());
-  all.closed = gap > 0.0 && gap <= kWidestGap * widest;
+  const double gap = kFullTurn - (slices.u[n - 1] - slices.u.front());
+  all.closed = repeated || (gap > 0.0 && gap <= kWidestGap * widest);
   if (!all.closed) return all;
 
   const std::size_t copies = std::min(n, kWrappedSlices);
-  Arrangement closed{{}, {}, true};
+  Arrangement closed{{}, {}, true, copies};
   const auto add = [&](std::size_t i, double turn) {
     closed.u.push_back(slices.u[i] + turn);
     closed.slice.push_back(i);
@@ -151,8 +168,7 @@ constexpr int kBeforeFirst = -1, kAfterLast = -2;
 SpanPlan plan_spans(const SliceSet& slices, const Arrangement& all) {
   SpanPlan plan;
   if (all.closed) {
-    const std::size_t n = slices.u.size();
-    const std::size_t copies = (all.u.size() - n) / 2;
+    const std::size_t copies = all.copies, n = all.u.size() - 2 * copies;
     for (std::size_t i = 0; i < n; ++i) {
       plan.starts.push_back(slices.u[i]);
       plan.interval.push_back(static_cast<int>(copies + i));

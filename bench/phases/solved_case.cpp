@@ -18,8 +18,8 @@ SolvedCase solve(std::string_view backend) {
   const io::CaseFile file = app::bench_case();
   auto input = std::get<io::WheelRailCase>(file.cases.front().content);
   input.rail.defects = {};
-  const double radius = input.wheelset.nominal_radius;
-  const NaturalSurface rail = app::read_surface(input.rail, Body::rail, radius), wheel = app::read_surface(input.wheel, Body::wheel, radius);
+  const NaturalSurface rail = app::read_surface(input.rail, Body::rail, app::profile_radius(input, Body::rail)),
+                       wheel = app::read_surface(input.wheel, Body::wheel, app::profile_radius(input, Body::wheel));
   SolvedCase s;
   s.geometry = {rail.surface, represent(wheel, {std::string(backend), 0.0, {}}).surface, false};
   s.problem = app::to_problem(input, false);

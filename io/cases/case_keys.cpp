@@ -25,8 +25,8 @@ struct UnitEnding {
 };
 // Longer endings first.
 constexpr UnitEnding kUnits[] = {
-    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3}, {"_m_s", 1.0},
-    {"_mm3", 1e-9},        {"_um", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
+    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_N_per_mm", 1e3}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3},
+    {"_m_s", 1.0},         {"_mm3", 1e-9},        {"_um", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
     {"_N", 1.0},
 };
 
@@ -156,6 +156,7 @@ std::span<const CaseKey> case_keys() {
     KeyList list;
     add_general_keys(list);
     add_wheel_rail_keys(list);
+    add_balance_keys(list);
     add_shape_keys(list);
     add_defect_keys(list);
     add_patch_keys(list);

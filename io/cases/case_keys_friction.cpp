@@ -17,8 +17,8 @@ const std::vector<std::pair<std::string, Kind>> kLaws{{"coulomb", Kind::coulomb}
 
 void add_one_law(KeyList& list) {
   shared_choice<Kind>(list, "friction.law", kLaws,
-                      "constant friction, friction that falls with the slip velocity, or that depends on the surface temperature (patch "
-                      "only)",
+                      "constant friction, friction that falls with the slip velocity, or that depends on the surface "
+                      "temperature",
                       [](auto& c) -> Kind& { return c.friction.kind; });
   shared_number(list, "friction.coefficient", kFriction, "coefficient of friction; of falling laws the limit at high slip velocity",
                 [](auto& c) -> double& { return c.friction.kinetic; });
@@ -34,13 +34,12 @@ void add_one_law(KeyList& list) {
                 [](auto& c) -> double& { return c.friction.memory_distance; });
   shared_number(list, "friction.memory_velocity_mm_s", kNotNegative, "least slip velocity in the memory",
                 [](auto& c) -> double& { return c.friction.memory_velocity; });
-  using B = BasicCase;
-  list.number<B>("friction.reference_temperature_C", kAnyNumber, "temperature: up to here the coefficient holds",
-                 [](B& c) -> double& { return c.friction.reference_temperature; });
-  list.number<B>("friction.temperature_change", kAnyNumber, "temperature: change of the coefficient of friction over the range",
-                 [](B& c) -> double& { return c.friction.temperature_change; });
-  list.number<B>("friction.temperature_range_K", kPositive, "temperature: range over which friction changes linearly",
-                 [](B& c) -> double& { return c.friction.temperature_range; });
+  shared_number(list, "friction.reference_temperature_C", kAnyNumber, "temperature: up to here the coefficient holds",
+                [](auto& c) -> double& { return c.friction.reference_temperature; });
+  shared_number(list, "friction.temperature_change", kAnyNumber, "temperature: change of the coefficient of friction over the range",
+                [](auto& c) -> double& { return c.friction.temperature_change; });
+  shared_number(list, "friction.temperature_range_K", kPositive, "temperature: range over which friction changes linearly",
+                [](auto& c) -> double& { return c.friction.temperature_range; });
 }
 
 /// Keys of one law in a list of laws; law: Element& -> FrictionLaw&.

@@ -12,20 +12,19 @@ void add_case(KeyList& list) {
   using Regime = RegimeInput;
   CaseKey& regime = shared_choice<Regime>(
       list, "case.regime", {{"none", Regime::none}, {"shift", Regime::shift}, {"transient", Regime::transient}, {"steady", Regime::steady}},
-      "tangential problem: none, one shift (patch only), one step of transient rolling (patch only) or steady rolling; a [patch] "
-      "starts from \"none\"",
+      "tangential problem: none, one shift, one step of transient rolling or steady rolling; a [patch] starts from \"none\"",
       [](auto& c) -> Regime& { return c.regime; });
   regime.info.default_text = "\"steady\"";
 
   using History = HistoryInput;
-  list.choice<BasicCase, History>("case.history",
-                                  {{"start", History::start},
-                                   {"continue", History::keep_going},
-                                   {"normal_only", History::normal_only},
-                                   {"same_instant", History::same_instant}},
-                                  "what a case takes over from the one before it in its sequence: nothing, its tractions as previous "
-                                  "instant, only the normal part of them, or the same previous instant as that case had",
-                                  [](BasicCase& c) -> History& { return c.history; });
+  shared_choice<History>(list, "case.history",
+                         {{"start", History::start},
+                          {"continue", History::keep_going},
+                          {"normal_only", History::normal_only},
+                          {"same_instant", History::same_instant}},
+                         "what a case takes over from the one before it in its sequence: nothing, its tractions as previous "
+                         "instant, only the normal part of them, or the same previous instant as that case had",
+                         [](auto& c) -> History& { return c.history; });
 
   constexpr double kMostSequences = 1e6;
   KeyInfo sequence = key_info("case.sequence", KeyType::integer, "cases with the same number follow each other in time");
@@ -36,7 +35,6 @@ void add_case(KeyList& list) {
 
   KeyInfo table = key_info("case.element_table", KeyType::choice,
                            "text table of the elements of each patch (.mat): none, those in contact or all");
-  table.scope = KeyScope::patch;
   table.choices = {"none", "contact", "all"};
   table.default_text = "\"none\"";
   list.add(table).set = [choices = table.choices](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -44,13 +42,21 @@ void add_case(KeyList& list) {
       if (choices[i] == v.text()) c.element_table = static_cast<int>(i);
   };
 
-  KeyInfo sensitivities = key_info("case.sensitivities", KeyType::flag,
-                                   "derivatives of the forces by creepages and approach in the results; full theory");
-  sensitivities.scope = KeyScope::patch;
-  sensitivities.default_text = "false";
-  list.add(sensitivities).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    content_of<BasicCase>(c).sensitivities = v.flag();
-  };
+  shared_flag(list, "case.sensitivities", "derivatives of the forces by creepages and approach in the results; full theory",
+              [](auto& c) -> bool& { return c.sensitivities; });
+}
+
+void add_steps(KeyList& list) {
+  constexpr double kMostSteps = 100000;
+  list.integer<Case>("case.steps", 0, kMostSteps,
+                     "number of cases that a table makes, one after the other in time: a wheelset moves by its velocities from each to "
+                     "the next where the table does not give the position; 0: one case at the position given",
+                     [](Case& c) -> int& { return c.steps; });
+  KeyInfo& step = list.number<Case>("case.time_step_s", kPositive,
+                                    "time between two of these cases, from which the rolling step follows; without it the forward velocity "
+                                    "rolls one rolling step (dq_relative * dx_mm). A shift has no time: its velocities are displacements",
+                                    [](Case& c) -> double& { return c.time_step; });
+  step.default_text.clear();
 }
 
 void add_solver(KeyList& list) {
@@ -90,6 +96,7 @@ void add_wheel_rail_models(KeyList& list) {
 
 void add_general_keys(KeyList& list) {
   add_case(list);
+  add_steps(list);
   add_material_keys(list);
   add_friction_keys(list);
   add_solver(list);

@@ -1,14 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/key_builder.hpp"
+#include "treadmark/io/cases/shared_keys.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-using B = BasicCase;
-
-Thermal& heat(B& c) {
+template <class Content>
+Thermal& heat(Content& c) {
   if (!c.thermal) c.thermal.emplace();
   return *c.thermal;
 }
@@ -19,8 +18,8 @@ void add_heat_keys(KeyList& list) {
   for (ThermalProperties Thermal::*body : {&Thermal::body_1, &Thermal::body_2}) {
     const bool rail = body == &Thermal::body_1;
     const auto property = [&](const std::string& name, KeyLimits limits, const std::string& doc, double ThermalProperties::*member) {
-      list.number<B>(fmt::format("heat.{}_{}", rail ? "rail" : "wheel", name), limits, fmt::format("{} of body {}", doc, rail ? 1 : 2),
-                     [body, member](B& c) -> double& { return heat(c).*body.*member; });
+      shared_number(list, fmt::format("heat.{}_{}", rail ? "rail" : "wheel", name), limits, fmt::format("{} of body {}", doc, rail ? 1 : 2),
+                    [body, member](auto& c) -> double& { return heat(c).*body.*member; });
     };
     property("bulk_temperature_C", kAnyNumber, "temperature far from the contact", &ThermalProperties::bulk_temperature);
     property("heat_capacity_J_per_kg_K", kPositive, "specific heat capacity", &ThermalProperties::heat_capacity);
@@ -28,16 +27,17 @@ void add_heat_keys(KeyList& list) {
     property("density_kg_per_m3", kPositive, "density", &ThermalProperties::density);
   }
   constexpr KeyLimits kShare{{}, 0.0, 1.0};
-  list.number<B>("heat.plastic_fraction", kShare, "share of the plastic work of the interface layer that becomes heat",
-                 [](B& c) -> double& { return heat(c).plastic_fraction; });
+  shared_number(list, "heat.plastic_fraction", kShare, "share of the plastic work of the interface layer that becomes heat",
+                [](auto& c) -> double& { return heat(c).plastic_fraction; });
 
   KeyInfo compute = key_info("heat.compute", KeyType::flag,
                              "surface temperatures (steady rolling only); any other key of [heat] asks for them too");
-  compute.scope = KeyScope::patch;
   compute.default_text = "false";
   list.add(compute).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    if (v.flag()) heat(content_of<B>(c));
-    else content_of<B>(c).thermal.reset();
+    std::visit([&](auto& content) {
+      if (v.flag()) heat(content);
+      else content.thermal.reset();
+    }, c.content);
   };
 }
 

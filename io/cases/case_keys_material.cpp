@@ -33,22 +33,22 @@ void add_elastic(KeyList& list) {
 }
 
 void add_beyond_elastic(KeyList& list) {
-  list.number<B>("material.layer_yield_MPa", kNotNegative, "shear stress at which the interface layer yields; 0 = never",
-                 [](B& c) -> double& { return c.material.layer_yield; });
-  list.number<B>("material.layer_hardening_MPa_per_mm", kAnyNumber,
+  shared_number(list, "material.layer_yield_MPa", kNotNegative, "shear stress at which the interface layer yields; 0 = never",
+                 [](auto& c) -> double& { return c.material.layer_yield; });
+  shared_number(list, "material.layer_hardening_MPa_per_mm", kAnyNumber,
                  "change of that stress with the distance of plastic shear; negative = softening, down to a tenth",
-                 [](B& c) -> double& { return c.material.layer_hardening; });
-  list.number<B>("material.sheet_flexibility_mm_per_MPa", kNotNegative, "normal flexibility of a thin compressible sheet; 0 = none",
-                 [](B& c) -> double& { return c.material.sheet_flexibility; });
+                 [](auto& c) -> double& { return c.material.layer_hardening; });
+  shared_number(list, "material.sheet_flexibility_mm_per_MPa", kNotNegative, "normal flexibility of a thin compressible sheet; 0 = none",
+                 [](auto& c) -> double& { return c.material.sheet_flexibility; });
 
   const auto pair = [&](const std::string& name, const std::string& doc, double Material::*rail, double Material::*wheel) {
-    list.number<B>("material." + name, kNotNegative, doc + " of both bodies", [rail](B& c) -> double& { return c.material.*rail; });
-    list.keys.back().set = [rail, wheel](Case& c, const CaseValue& v, const std::filesystem::path&) {
-      Material& m = content_of<B>(c).material;
-      m.*rail = m.*wheel = v.number();
-    };
-    list.number<B>("material.rail_" + name, kNotNegative, doc + " of body 1", [rail](B& c) -> double& { return c.material.*rail; });
-    list.number<B>("material.wheel_" + name, kNotNegative, doc + " of body 2", [wheel](B& c) -> double& { return c.material.*wheel; });
+    const auto place = [](double Material::*member) { return [member](auto& c) -> double& { return c.material.*member; }; };
+    shared_number(list, "material." + name, kNotNegative, doc + " of both bodies", place(rail)).set =
+        [rail, wheel](Case& c, const CaseValue& v, const std::filesystem::path&) {
+          std::visit([&](auto& content) { content.material.*rail = content.material.*wheel = v.number(); }, c.content);
+        };
+    shared_number(list, "material.rail_" + name, kNotNegative, doc + " of body 1", place(rail));
+    shared_number(list, "material.wheel_" + name, kNotNegative, doc + " of body 2", place(wheel));
   };
   pair("creep_ratio", "viscoelastic (standard linear solid, 0 = elastic): delayed over immediate compliance", &Material::creep_ratio_1,
        &Material::creep_ratio_2);
@@ -62,24 +62,26 @@ void add_influence(KeyList& list) {
                        {"bilinear", Kind::bilinear},
                        {"angle_corrected", Kind::angle_corrected},
                        {"table", Kind::table}},
-                      "influence coefficients: half-space with constant or bilinear tractions on an element; patch only: corrected for "
-                      "the inclination of the surface, or numerical ones from a file",
+                      "influence coefficients: half-space with constant or bilinear tractions on an element, corrected for the "
+                      "inclination of the surface (wheel on rail: of the curved reference), or numerical ones from a file (patch only)",
                       [](auto& c) -> Kind& { return c.influence.kind; });
-  list.number_list<B>("influence.position_mm", "angle_corrected: positions along y, increasing",
+  list.number_list<B>("influence.position_mm", "angle_corrected, patch only: positions along y, increasing",
                       [](B& c) -> std::vector<double>& { return c.influence.position; });
   for (const std::string unit : {"deg", "rad"}) {
-    KeyInfo& info = list.number_list<B>("influence.inclination_" + unit, "angle_corrected: inclination of the surface at these positions",
+    KeyInfo& info = list.number_list<B>("influence.inclination_" + unit, "angle_corrected, patch only: inclination of the surface at these positions",
                                         [](B& c) -> std::vector<double>& { return c.influence.inclination; });
     info.group = "influence inclination";
     info.alternative = unit;
   }
-  list.choice<B, bool>("influence.inclination_fit", {{"line", true}, {"table", false}},
-                       "angle_corrected: one straight line through the inclinations, or the table as it is",
-                       [](B& c) -> bool& { return c.influence.linear; });
-  list.integer<B>("influence.variant", 1, 4,
+  shared_choice<bool>(list, "influence.inclination_fit", {{"line", true}, {"table", false}},
+                      "angle_corrected: one straight line through the inclinations, or the table as it is",
+                      [](auto& c) -> bool& { return c.influence.linear; });
+  list.integer<Case>("influence.variant", 1, 4,
                   "angle_corrected: what is turned by the difference of inclinations: 1 tractions, 2 the same but for their effect in x, 3 "
                   "displacements, 4 half of it each",
-                  [](B& c) -> int& { return c.influence.variant; });
+                  [](Case& c) -> int& {
+                    return std::visit([](auto& content) -> int& { return content.influence.variant; }, c.content);
+                  });
   KeyInfo file = key_info("influence.file", KeyType::path, "table: file of numerical influence coefficients, relative to the case file");
   file.scope = KeyScope::patch;
   list.add(file).set = [](Case& c, const CaseValue& v, const std::filesystem::path& folder) {

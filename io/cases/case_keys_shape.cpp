@@ -11,12 +11,6 @@ namespace {
 
 using W = WheelRailCase;
 
-bool is_backend_name(std::string_view text) {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz";
-  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
-         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
-}
-
 /// Keys of wheel.shape or rail.shape.
 class ShapeKeys {
  public:
@@ -26,9 +20,10 @@ class ShapeKeys {
   void add() {
     add_geometry();
     add_file_options();
+    if (body_ == "wheel") add_seam();
     KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic or offset-bilinear; "
                                 "without it the one that fits the shape");
-    backend.pattern = "^[a-z][a-z0-9_-]*$";
+    backend.pattern = kBackendPattern;
     backend.matches = is_backend_name;
     backend.scope = KeyScope::wheel_rail;
     list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -113,6 +108,16 @@ class ShapeKeys {
     };
   }
 
+  void add_seam() {
+    KeyInfo seam = info("open_seam", KeyType::flag, "slices all round: constant between the last and the first one, instead of smooth over the seam");
+    seam.default_text = "false";
+    list_.add(seam).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
+      if (file == nullptr) throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
+      file->open_seam = v.flag();
+    };
+  }
+
   void add_file_options() {
     using Method = SmoothingOptions::Method;
     const ProfileOptions fresh;
@@ -189,8 +194,15 @@ class ShapeKeys {
 
 }  // namespace
 
+bool is_backend_name(std::string_view text) {
+  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz";
+  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
+         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
+}
+
 void add_shape_keys(KeyList& list) {
   ShapeKeys(list, "rail", &W::rail, "60E1").add();
+  add_part_keys(list);
   ShapeKeys(list, "wheel", &W::wheel, "S1002").add();
 }
 

@@ -41,6 +41,10 @@ ElementKey<Block> element_lengths(const std::string& name, std::string doc, std:
           }};
 }
 
+SubsurfaceInput& subsurface(Case& c) {
+  return std::visit([](auto& content) -> SubsurfaceInput& { return content.subsurface; }, c.content);
+}
+
 }  // namespace
 
 void add_subsurface_keys(KeyList& list) {
@@ -51,16 +55,14 @@ void add_subsurface_keys(KeyList& list) {
       element_lengths("y_mm", "free points instead: their y", &Block::y, true),
       required(element_lengths("z_mm", "depths, positive in body 1, negative in body 2", &Block::z, false))};
   KeyInfo blocks = key_info("subsurface.blocks", KeyType::table_list, "grids of points at which stresses below the surface are computed");
-  blocks.scope = KeyScope::patch;
-  add_list<Block, BasicCase>(list, std::move(blocks), std::move(keys), [](BasicCase& c, bool) { return &c.subsurface.blocks; });
+  add_list<Block, Case>(list, std::move(blocks), std::move(keys), [](Case& c, bool) { return &subsurface(c).blocks; });
 
   KeyInfo table = key_info("subsurface.text_table", KeyType::choice,
                            "text table of them (.subs): none, stress invariants, or all stresses too");
-  table.scope = KeyScope::patch;
   table.choices = {"none", "invariants", "tensor"};
   table.default_text = "\"none\"";
   list.add(table).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    SubsurfaceInput& s = content_of<BasicCase>(c).subsurface;
+    SubsurfaceInput& s = subsurface(c);
     s.text_table = v.text() != "none";
     s.full_tensor = v.text() == "tensor";
   };

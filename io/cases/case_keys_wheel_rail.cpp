@@ -127,6 +127,21 @@ void add_wheelset(KeyList& list) {
   list.number<W>("wheelset.vyaw_rad_s", kAnyNumber, "yaw rate", [](W& c) -> double& { return c.wheelset.vyaw; });
   list.number<W>("wheelset.vpitch_rad_s", kAnyNumber, "pitch rate, negative when rolling forward (pure rolling: -velocity/radius)",
                  [](W& c) -> double& { return c.wheelset.vpitch; });
+  CaseKey& rate = list.keys.back();
+  rate.info.group = "wheelset pitch rate";
+  rate.info.alternative = "rate";
+  rate.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<W>(c).wheelset.vpitch = v.number();
+    content_of<W>(c).longitudinal_force.reset();
+  };
+  KeyInfo force = key_info("wheelset.longitudinal_force_N", KeyType::number,
+                           "longitudinal force on the rail in wheelset axes; the pitch rate is then sought (positive: the wheel brakes)");
+  force.scope = KeyScope::wheel_rail;
+  force.group = "wheelset pitch rate";
+  force.alternative = "force";
+  list.add(force).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    content_of<W>(c).longitudinal_force = v.number();
+  };
 }
 
 void add_flexible_wheelset(KeyList& list) {

@@ -11,6 +11,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/friction.hpp"
 #include "treadmark/core/material.hpp"
+#include "treadmark/core/pose.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
 namespace treadmark::io {
@@ -33,6 +34,17 @@ struct ProfileOptions {
 struct GeometryFile {
   std::filesystem::path file;   ///< already resolved against the folder of the case file
   ProfileOptions options;
+  bool open_seam = false;       ///< SliceSet::open_seam
+};
+
+/// A rail whose one section moves along the track.
+struct CrossingInput {
+  enum class Part { none, nose, wing } part = Part::none;
+  double x = 0.0, y = 0.0, z = 0.0;    ///< where a nose levels off or a wing starts to move; offset of its section there [m]
+  double slope = 0.1;                  ///< of the nose before x (rising), of the wing after it (towards +y)
+  double length = 0.5;                 ///< over which it rises or moves [m]
+  double rounding = 0.1;               ///< over which the slope changes [m]
+  friend bool operator==(const CrossingInput&, const CrossingInput&) = default;
 };
 
 struct SurfaceSource {
@@ -42,6 +54,9 @@ struct SurfaceSource {
   std::string backend;            ///< "" = the natural one; see `treadmark list backends`
   double resolution = 0.0;        ///< [m]; 0 = the backend's default
   SourcePosition where;
+  CrossingInput crossing;         ///< rail only
+  Vec3 offset = Vec3::Zero();     ///< of a part, in the frame of the body [m]
+  std::vector<SurfaceSource> parts;  ///< rail only: several surfaces, of which the outermost counts, instead of geometry
 };
 
 enum class Side { left, right };
@@ -67,6 +82,32 @@ struct WheelsetInput {
   /// Deviations of the wheel of a flexible wheelset and their rates [m], [rad], [m/s], [rad/s].
   double dx = 0.0, dy = 0.0, dz = 0.0, droll = 0.0, dyaw = 0.0, dpitch = 0.0;
   double dvx = 0.0, dvy = 0.0, dvz = 0.0, dvroll = 0.0, dvyaw = 0.0, dvpitch = 0.0;
+};
+
+/// A roller in place of the rail. Then wheelset.s is where the wheelset's axle stands over the roller's.
+struct RollerInput {
+  double nominal_radius = 0.0;    ///< [m]; negative: the wheel runs inside a ring
+  double pitch_rate = 0.0;        ///< [rad/s], positive where a wheel above it rolls forward; shift: [rad]
+};
+
+/// Springs under a rail without mass, which moves until k d = F + force, F the contact force on the rail in track axes.
+struct RailSpringsInput {
+  double stiffness_y = 1e6, stiffness_z = 1e6;  ///< [N/m]; stiffness_z = 0: no vertical deflection
+  double force_y = 0.0, force_z = 0.0;          ///< further forces on the rail [N]
+  double first_step_y = 1e-3;                   ///< of the search for the lateral deflection [m]
+};
+
+/// Force against the change of contact force in time, its rate limited.
+struct DampingInput {
+  double normal = 0.0, tangential = 0.0;                    ///< [s]
+  double max_rate_normal = 0.0, max_rate_tangential = 0.0;  ///< [N/s]
+};
+
+/// Where elements lie, and how the rigid slip of the bodies is found.
+enum class ReferenceSurfaceInput {
+  plane,               ///< tangent plane, creepages at the contact reference
+  plane_surface_slip,  ///< tangent plane, rigid slip of the surfaces at every element
+  curved,              ///< conformal contact: a surface between the bodies
 };
 
 struct DiscretisationInput {
@@ -154,10 +195,16 @@ struct WheelRailCase {
   Side side = Side::right;
   SurfaceSource rail, wheel;
   TrackInput track;
+  std::optional<RollerInput> roller;
+  std::optional<RailSpringsInput> rail_springs;
+  /// Of a shift velocities are displacements of the step: [m], [rad].
   WheelsetInput wheelset;
   bool vertical_force_prescribed = true;
   double vertical_force = 0.0;             ///< F_z on the rail, track axes [N]
+  std::optional<double> longitudinal_force;  ///< F_x on the rail, wheelset axes [N]: the pitch rate is then sought
   RegimeInput regime = RegimeInput::steady;
+  HistoryInput history = HistoryInput::start;
+  ReferenceSurfaceInput reference_surface = ReferenceSurfaceInput::plane;
   DiscretisationInput discretisation;
   Material material;
   FrictionLaw friction;                    ///< of a variation the first law
@@ -167,7 +214,15 @@ struct WheelRailCase {
   TangentialModelInput tangential_model = TangentialModelInput::full;
   double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
   double fastsim_flexibility = 0.0;        ///< fastsim_one_flexibility: L [m/Pa]
-  InfluenceInput influence;                ///< constant or bilinear
+  /// constant, bilinear, or angle_corrected without a table: the inclinations are the curved reference's
+  InfluenceInput influence;
+  std::optional<Thermal> thermal;
+  std::optional<DampingInput> damping;
+  bool sensitivities = false;              ///< derivatives of forces are wanted
+  SubsurfaceInput subsurface;              ///< element numbers that a patch does not have are passed over
+  /// As the reference program: the spin moment of grids that are aligned in time is about their origin instead of the contact reference,
+  /// and steps of transient rolling may be longer than dt = 2 dx / V.
+  bool moments_about_grid_origin = false, long_steps = false;
 };
 
 /// Hertzian geometry (IPOTCN < 0): what is given and the grid that follows from it.
@@ -237,6 +292,10 @@ struct Case {
   int sequence = 0;             ///< cases of one sequence follow each other in time
   bool shown = true;            ///< false: no output is wanted (O = 0)
   int element_table = 0;        ///< .mat text table of elements: 0 none, 1 those in contact, 2 all
+  /// While a file is read: cases in time that one table makes (0: positions are as given), and the time between them [s] (0: that of a
+  /// rolling step).
+  int steps = 0;
+  double time_step = 0.0;
   std::variant<WheelRailCase, BasicCase> content;
 };
 

@@ -9,35 +9,19 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/cases/shared_rules.hpp"
+
 namespace treadmark::io {
 
 namespace {
 
-constexpr double kDissimilar = 1e-4;
-constexpr double kSameStep = 0.01;       // relative difference of dq and dx that counts as none
 constexpr double kAngleTolerance = 1e-6;   // [rad]
-constexpr double kMostPoints = 2e7;
 
-bool viscoelastic(const Material& m) { return m.creep_ratio_1 > 0.0 || m.creep_ratio_2 > 0.0; }
-bool rolling(RegimeInput r) { return r == RegimeInput::transient || r == RegimeInput::steady; }
 /// Rolling along +x or -x.
 bool along_rows(double chi) { return std::abs(std::sin(chi)) < kAngleTolerance; }
 
 class Rules {
  public:
-  void of(const WheelRailCase& c) {
-    const double difference = combine(c.material).difference;
-    if (c.regime != RegimeInput::none && std::abs(difference) >= kDissimilar)
-      add(CaseSetting::elastic_constants,
-          fmt::format("dissimilar materials (K = {:.3g}) couple the normal and the tangential problem, which is not supported for a "
-                      "wheel on a rail", difference),
-          "without a tangential problem they are possible");
-    if (c.material.layer_yield > 0.0)
-      add(CaseSetting::layer, fmt::format("plasticity of the interface layer (yield stress {} MPa) is not supported for a wheel on a rail",
-                                          c.material.layer_yield * 1e-6),
-          "TAU_C0 = 0 or > 1e10 makes the layer purely elastic");
-  }
-
   void of(const BasicCase& c) {
     regime(c);
     normal_model(c);
@@ -50,14 +34,14 @@ class Rules {
     subsurface(c.subsurface, c);
   }
 
-  std::vector<Contradiction> found;
+  std::vector<Contradiction> take() { return std::move(found_.found); }
 
  private:
   void add(CaseSetting setting, std::string message, std::string advice = {}) {
-    found.push_back({setting, std::move(message), std::move(advice)});
+    found_.add(setting, std::move(message), std::move(advice));
   }
   void refuse_if(bool bad, CaseSetting setting, std::string message, std::string advice = {}) {
-    if (bad) add(setting, std::move(message), std::move(advice));
+    found_.refuse_if(bad, setting, std::move(message), std::move(advice));
   }
 
   void regime(const BasicCase& c) {
@@ -84,41 +68,19 @@ class Rules {
   }
 
   void tangential_model(const BasicCase& c) {
-    if (c.tangential_model == TangentialModelInput::full) return;
-    refuse_if(c.regime == RegimeInput::shift || c.regime == RegimeInput::transient, CaseSetting::material,
-              "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling");
+    simplified_theory(found_, c, !c.friction_of_row.empty(), !c.extra_slip_x.empty());
     refuse_if(c.tangential_model == TangentialModelInput::fastsim_one_flexibility && !(c.fastsim_flexibility > 0.0), CaseSetting::material,
               "FASTSIM with one flexibility needs that flexibility", "FLX in .inp, patch.fastsim_flexibility_mm_per_MPa in .toml");
-    refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer, "the simplified theory knows no plasticity of the interface layer");
-    refuse_if(!c.friction_of_row.empty() || c.friction.kind == FrictionLaw::Kind::temperature, CaseSetting::friction,
-              "the simplified theory knows one coefficient of friction, not one by row or by temperature");
-    refuse_if(!c.extra_slip_x.empty(), CaseSetting::extra_slip, "the simplified theory takes no slip that is given for every element");
-    refuse_if(c.sensitivities, CaseSetting::material, "the simplified theory gives no sensitivities");
   }
 
   void material(const BasicCase& c) {
-    const Material& m = c.material;
-    refuse_if(m.relaxation_time_1 < 0.0 || m.relaxation_time_2 < 0.0 || m.creep_ratio_1 < 0.0 || m.creep_ratio_2 < 0.0,
-              CaseSetting::material, "creep ratios and relaxation times must not be negative");
-    if (viscoelastic(m)) {
-      refuse_if(c.regime == RegimeInput::shift || c.regime == RegimeInput::transient, CaseSetting::regime,
-                "viscoelastic bodies need steady rolling or no tangential problem");
-      refuse_if(c.regime != RegimeInput::none && (!along_rows(c.chi) || std::cos(c.chi) < 0.0), CaseSetting::material,
+    viscoelastic_rules(found_, c);
+    if (viscoelastic(c.material) && c.regime != RegimeInput::none)
+      refuse_if(!along_rows(c.chi) || std::cos(c.chi) < 0.0, CaseSetting::material,
                 fmt::format("viscoelastic bodies must roll in direction 0, found {:.6g} rad", c.chi));
-      const double difference = combine(m).difference;
-      refuse_if(std::abs(difference) >= kDissimilar, CaseSetting::elastic_constants,
-                fmt::format("viscoelastic bodies must not be dissimilar (K = {:.3g})", difference));
-      refuse_if(c.influence.kind != InfluenceInput::Kind::constant, CaseSetting::influence,
-                "viscoelastic bodies need the half-space with constant elements");
-      refuse_if(c.normal_model != NormalModelInput::full || c.tangential_model != TangentialModelInput::full, CaseSetting::material,
-                "viscoelastic bodies need the full normal and tangential problem");
-    }
-    if (m.layer_yield > 0.0 && rolling(c.regime)) {
-      refuse_if(!along_rows(c.chi), CaseSetting::layer, "a layer that yields must roll in direction 0 or pi (180 degrees)");
-      refuse_if(c.dx > 0.0 && std::abs(c.dq - c.dx) > kSameStep * c.dx, CaseSetting::layer,
-                fmt::format("a layer that yields needs a rolling step of one element: the step is {:.6g} mm, elements are {:.6g} mm",
-                            c.dq * 1e3, c.dx * 1e3));
-    }
+    if (!(c.material.layer_yield > 0.0) || !rolling(c.regime)) return;
+    refuse_if(!along_rows(c.chi), CaseSetting::layer, "a layer that yields must roll in direction 0 or pi (180 degrees)");
+    if (c.dx > 0.0) step_of_one_element(found_, c.dq, c.dx);
   }
 
   void influence(const BasicCase& c) {
@@ -164,11 +126,7 @@ class Rules {
   }
 
   void friction_and_heat(const BasicCase& c) {
-    const auto thermal = [](const FrictionLaw& f) { return f.kind == FrictionLaw::Kind::temperature; };
-    refuse_if(!c.thermal && (thermal(c.friction) || std::any_of(c.friction_of_row.begin(), c.friction_of_row.end(), thermal)),
-              CaseSetting::friction, "friction that depends on the temperature needs the thermal data of the bodies",
-              "H = 3 in .inp, [heat] in .toml");
-    refuse_if(c.thermal && c.regime != RegimeInput::steady, CaseSetting::heat, "surface temperatures need steady rolling");
+    temperatures(found_, c, c.friction_of_row);
     refuse_if(!c.friction_of_row.empty() && c.friction_of_row.size() != static_cast<std::size_t>(c.my), CaseSetting::friction,
               fmt::format("friction is given for {} rows, but there are {}", c.friction_of_row.size(), c.my));
   }
@@ -198,33 +156,17 @@ class Rules {
     refuse_if(points > kMostPoints, CaseSetting::subsurface,
               fmt::format("{:.0f} subsurface points are more than {:.0f}", points, kMostPoints));
   }
-};
 
-/// Steps equal, origins a whole number of steps apart.
-bool same_raster(double a0, double a_step, double b0, double b_step) {
-  constexpr double kTolerance = 1e-3;   // of a step
-  const double steps = (b0 - a0) / a_step;
-  return std::abs(b_step - a_step) < kTolerance * a_step && std::abs(steps - std::round(steps)) < kTolerance;
-}
+  RuleList found_;
+};
 
 }  // namespace
 
-std::vector<Contradiction> contradictions(const Case& previous, const Case& next) {
-  const auto *a = std::get_if<BasicCase>(&previous.content), *b = std::get_if<BasicCase>(&next.content);
-  if (a == nullptr || b == nullptr) return {};
-  const bool continues = b->history == HistoryInput::keep_going || b->history == HistoryInput::same_instant;
-  const bool depends = b->regime == RegimeInput::shift || b->regime == RegimeInput::transient;
-  // The grid of Hertzian geometry is not known before it is solved.
-  const bool known = a->dx > 0.0 && a->dy > 0.0 && b->dx > 0.0 && b->dy > 0.0;
-  if (!continues || !depends || !known || (same_raster(a->x0, a->dx, b->x0, b->dx) && same_raster(a->y0, a->dy, b->y0, b->dy))) return {};
-  return {{CaseSetting::grid, "a case that continues the previous one needs elements of the same size, moved by whole elements",
-           "start anew (P = 2 in .inp, case.history = \"start\" in .toml)"}};
-}
-
 std::vector<Contradiction> contradictions(const Case& c) {
+  if (const auto* rail = std::get_if<WheelRailCase>(&c.content)) return contradictions(*rail);
   Rules rules;
-  std::visit([&](const auto& content) { rules.of(content); }, c.content);
-  return std::move(rules.found);
+  rules.of(std::get<BasicCase>(c.content));
+  return rules.take();
 }
 
 }  // namespace treadmark::io

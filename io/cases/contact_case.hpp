@@ -18,6 +18,7 @@ struct ContactSequence {
   int number = 0;                        ///< in the order in which the sequences appear in the file
   bool started = false;                  ///< a case has been read
   bool has_history = false;              ///< a case has been read that is to be computed
+  bool step_noted = false;               ///< a rolling step that does not fit the positions has been noted
   int previous_normal = -1;              ///< N digit of the previous case
   SolverInput solver;
   int max_elements = 20000;
@@ -52,9 +53,12 @@ struct ContactSequence {
   InfluenceInput influence;
   std::optional<Thermal> thermal;
   SubsurfaceInput subsurface;
-  bool has_damping = false;
+  std::optional<DampingInput> damping;
 
   WheelRailCase wheel_rail;
+  /// Of lines whose meaning depends on digits; a case takes what its own digits ask for. SI units.
+  std::optional<double> roller_radius, roller_pitch_rate, forward_velocity, pitch_rate, longitudinal_force;
+  std::optional<RailSpringsInput> rail_springs;
   int discretisation_method = 2;         ///< D digit that was read last
   bool has_rail = false, has_wheel = false;
 
@@ -87,6 +91,8 @@ struct ContactReader {
   void refuse(const SourcePosition& where, std::string message, std::string advice = {});
   void note(std::string message);        ///< once per file
 
+  bool on_roller() const { return (*problem)["CONFIG"] >= 4; }   ///< module 1
+
   void read_solver();
   /// sets: friction laws that follow, with their positions if V = 1, 2.
   void read_friction(long sets);
@@ -112,6 +118,13 @@ std::filesystem::path resolve_name(const std::filesystem::path& folder, std::str
 /// Potential contact area, undeformed distance and planform of a basic case.
 void read_potential_contact(ContactReader& reader);
 void read_gap(ContactReader& reader);
+
+/// Profile line of a wheel-rail case, 'file' MIRRORY SCALE SMOOTH [MIRRORZ [PRFOPT]], and the lines that PRFOPT announces.
+SurfaceSource read_profile(ContactReader& reader, std::string_view body);
+/// Track or roller, and the wheelset; then what the digits take of their motion.
+void read_track(ContactReader& reader);
+void read_wheelset(ContactReader& reader);
+void put_motion(ContactReader& reader, WheelRailCase& to);
 
 /// The body of one case after its control words.
 WheelRailCase read_wheel_rail(ContactReader& reader);

@@ -63,9 +63,9 @@ void ContactReader::read_control_words() {
                fmt::format("{} ({}) = {}, {}, is not supported", d.letter, d.keyword, (*word)[keyword], d.meaning),
                keyword == "EXRHS" ? "give the extra rigid slip of every element with E = 9" : "");
     }
-  if (damping >= 2)
-    refuse(damping_where, fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported", damping));
-  if (damping == 1 && kept.has_damping) refuse(damping_where, "M2 = 1, keep damping, is not supported");
+  if (module == 3 && damping >= 2)
+    refuse(damping_where, fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported in module 3", damping));
+  if (module == 3 && damping == 1 && kept.damping) refuse(damping_where, "M2 = 1, keep damping, is not supported in module 3");
 
   if (!kept.started && (*problem)["PVTIME"] != 2)
     note(fmt::format("P (PVTIME) = {} of the first case at {} is taken as 2: there is nothing to continue",
@@ -75,8 +75,6 @@ void ContactReader::read_control_words() {
     note(fmt::format("G (GAUSEI) = {}, {}: {}", solver, run->described("GAUSEI").meaning,
                      solver == 3 || solver == 5 ? "read, but the solver and its relaxation are Treadmark's own"
                                                 : "its relaxation (OMEGAH, OMEGAS, OMGSLP) is read without effect"));
-  if (module == 1 && (*run)["MATFIL"] > 0)
-    note("A (MATFIL) > 0: tables of elements are written for module 3; those of a wheel on a rail are in the HDF5 and VTK files");
   if ((*run)["IESTIM"] > 0) note("I (IESTIM) > 0: initial estimates are not needed and ignored");
 }
 

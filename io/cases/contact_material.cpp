@@ -135,11 +135,15 @@ void ContactReader::read_material() {
 }
 
 void ContactReader::read_damping() {
-  if (damping == 0) kept.has_damping = false;
+  if (damping == 0) kept.damping.reset();
   if (damping < 2) return;
   text.begin_record("the damping line CDAMPN");
-  for (const auto name : {"CDAMPN", "CDAMPT", "DFNMAX", "DFTMAX"}) text.real(name);
-  kept.has_damping = true;
+  DampingInput d;
+  d.normal = not_negative(text, "CDAMPN");
+  d.tangential = not_negative(text, "CDAMPT");
+  d.max_rate_normal = not_negative(text, "DFNMAX");
+  d.max_rate_tangential = not_negative(text, "DFTMAX");
+  kept.damping = d;
 }
 
 void ContactReader::read_heat() {

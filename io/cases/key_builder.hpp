@@ -31,14 +31,15 @@ inline constexpr KeyLimits kPositive{0.0, {}, {}};
 inline constexpr KeyLimits kNotNegative{{}, 0.0, {}};
 inline constexpr KeyLimits kAnyNumber{};
 
-/// Part of a Case that keys of one scope live in.
+/// Part of a Case that keys of one scope live in; Case: those of every case.
 template <class Content>
 Content& content_of(Case& c) {
-  return std::get<Content>(c.content);
+  if constexpr (std::is_same_v<Content, Case>) return c;
+  else return std::get<Content>(c.content);
 }
 template <class Content>
 constexpr KeyScope scope_of() {
-  return std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail : KeyScope::patch;
+  return std::is_same_v<Content, Case> ? KeyScope::any : std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail : KeyScope::patch;
 }
 
 /// The numbers of a list that has been checked, in SI units.
@@ -47,6 +48,10 @@ inline std::vector<double> numbers_of(const CaseValue& list, double unit) {
   for (const CaseValue& one : list.list()) numbers.push_back(one.number() * unit);
   return numbers;
 }
+
+/// What names of backends look like; which there are is not known here.
+inline constexpr const char* kBackendPattern = "^[a-z][a-z0-9_-]*$";
+bool is_backend_name(std::string_view text);
 
 /// A list of keys under construction.
 class KeyList {
@@ -74,8 +79,8 @@ class KeyList {
       place(content_of<Content>(c)) = v.number() * unit;
     };
     key.get = [place, unit](const Case& c) {
-      Content copy = std::get<Content>(c.content);
-      return place(copy) / unit;
+      Case copy = c;
+      return place(content_of<Content>(copy)) / unit;
     };
     return key.info;
   }
@@ -165,8 +170,10 @@ void add_general_keys(KeyList& list);
 void add_material_keys(KeyList& list);
 void add_friction_keys(KeyList& list);
 void add_shape_keys(KeyList& list);
+void add_part_keys(KeyList& list);
 void add_defect_keys(KeyList& list);
 void add_wheel_rail_keys(KeyList& list);
+void add_balance_keys(KeyList& list);
 void add_patch_keys(KeyList& list);
 void add_patch_geometry_keys(KeyList& list);
 void add_heat_keys(KeyList& list);

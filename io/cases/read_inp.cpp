@@ -52,21 +52,28 @@ SourcePosition where_of(const ContactReader& r, CaseSetting setting) {
     case CaseSetting::influence: return r.model->where("INFLCF");
     case CaseSetting::material: return r.model->where("MATER");
     case CaseSetting::geometry: return r.model->where(rail ? "ZTRACK" : "RZNORM");
-    case CaseSetting::extra_slip: return r.model->where(rail ? "EWHEEL" : "EXRHS");
+    case CaseSetting::extra_slip: return r.model->where("EXRHS");
     case CaseSetting::grid: return r.model->where("DISCNS");
     case CaseSetting::heat: return r.run->where("HEAT");
+    case CaseSetting::reference_surface: return r.model->where("DISCNS");
+    case CaseSetting::force: return r.problem->where("FORCE");
     case CaseSetting::elastic_constants: return r.kept.material_where;
     case CaseSetting::layer: return r.kept.layer->where;
   }
   return {};
 }
 
-/// read: the cases so far.
+/// read: the cases so far. Steps that are too long are noted only, as the reference program runs them.
 void refuse_contradictions(ContactReader& r, const Case& c, const std::vector<Case>& read) {
   for (const Contradiction& one : contradictions(c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
   const auto previous = std::find_if(read.rbegin(), read.rend(), [&](const Case& p) { return p.sequence == c.sequence; });
   if (previous == read.rend()) return;
   for (const Contradiction& one : contradictions(*previous, c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
+  const auto step = rolled_step(*previous, c);
+  if (step && !r.kept.step_noted && !step->complaint().empty()) {
+    r.kept.step_noted = true;
+    r.note(fmt::format("{}: {}", c.where.to_string(), step->complaint()));
+  }
 }
 
 }  // namespace

@@ -3,13 +3,15 @@
 #include "treadmark/io/cases/read_toml.hpp"
 
 #include <algorithm>
-#include <map>
+#include <functional>
 #include <optional>
+#include <set>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/case_steps.hpp"
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/profiles/sha256.hpp"
@@ -63,21 +65,74 @@ std::vector<CaseOverride> parse_overrides(std::span<const std::string> overrides
   return parsed;
 }
 
-void expand_entry(const CaseEntry& cases, const CaseValue& entry, const Case& defaults, const std::filesystem::path& folder,
-                  std::vector<Case>& out) {
-  if (!entry.is_table())
-    throw Error(ErrorKind::configuration, fmt::format("[[cases]] must be tables, found {}", entry.kind()), entry.where);
-  std::optional<std::size_t> count;
-  sweep_length(entry.table(), "", count);
-  for (std::size_t i = 0; i < count.value_or(1); ++i) {
-    if (out.size() >= kMostCases)
-      throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), cases.key_where);
-    Case next = defaults;
-    next.where = entry.where;
-    if (count) apply_table(next, sweep_element(entry.table(), "", i), folder);
-    else apply_table(next, entry.table(), folder);
+/// Paths of all keys that a table gives.
+void collect_paths(const CaseTable& table, const std::string& prefix, std::set<std::string, std::less<>>& paths) {
+  for (const CaseEntry& entry : table) {
+    const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
+    paths.insert(path);
+    if (entry.value.is_table()) collect_paths(entry.value.table(), path, paths);
+  }
+}
+
+/// What all entries of a file share while they become cases.
+struct Expansion {
+  const Case& defaults;
+  const std::filesystem::path& folder;
+  const std::vector<CaseOverride>& changes;
+  std::vector<Case>& out;
+
+  void add(Case next, const SourcePosition& where) const {
+    if (out.size() >= kMostCases) throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), where);
     out.push_back(std::move(next));
   }
+
+  const Case* previous_of(const Case& c) const {
+    const auto found = std::find_if(out.rbegin(), out.rend(), [&](const Case& one) { return one.sequence == c.sequence; });
+    return found == out.rend() ? nullptr : &*found;
+  }
+
+  /// The i-th case of a table, overridden.
+  Case changed(const CaseTable& table, std::optional<std::size_t> lists, std::size_t i, const SourcePosition& where) const {
+    Case next = defaults;
+    next.where = where;
+    apply_table(next, lists ? sweep_element(table, "", i) : table, folder);
+    for (const CaseOverride& change : changes) apply_assignment(next, change, folder);
+    return next;
+  }
+
+  void expand(const CaseTable& table, const SourcePosition& where) const {
+    std::optional<std::size_t> lists;
+    sweep_length(table, "", lists);
+    const auto steps = static_cast<std::size_t>(changed(table, lists, 0, where).steps);
+    if (steps > 0 && lists && *lists != steps)
+      throw Error(ErrorKind::configuration, fmt::format("case.steps is {}, but a list of the same table has {} values", steps, *lists),
+                  where, "a list gives one value for each step");
+    std::set<std::string, std::less<>> given;
+    collect_paths(table, "", given);
+    for (const CaseOverride& change : changes) given.insert(change.path);
+    for (std::size_t i = 0; i < (steps > 0 ? steps : lists.value_or(1)); ++i) {
+      Case next = changed(table, lists, i, where);
+      if (steps > 0) step(next, i > 0, [&](std::string_view key) { return given.contains(key); });
+      next.steps = 0;
+      add(std::move(next), where);
+    }
+  }
+
+ private:
+  void step(Case& next, bool goes_on, const std::function<bool(std::string_view)>& given) const {
+    HistoryInput& history = std::visit([](auto& content) -> HistoryInput& { return content.history; }, next.content);
+    if (goes_on && history == HistoryInput::start) history = HistoryInput::keep_going;
+    settle_rolling_step(next);
+    const Case* previous = previous_of(next);
+    if (previous != nullptr && history != HistoryInput::start && history != HistoryInput::same_instant) move_on(next, *previous, given);
+  }
+};
+
+void refuse_steps(const std::vector<CaseOverride>& changes) {
+  for (const CaseOverride& change : changes)
+    if (change.path == "case.steps" || change.path == "case.time_step_s")
+      throw Error(ErrorKind::configuration, change.path + " makes cases while a .toml file is read, these are made already",
+                  change.value.where);
 }
 
 }  // namespace
@@ -112,23 +167,30 @@ CaseFile parse_case_text(std::string_view text, const std::filesystem::path& nam
   }
   apply_table(defaults, common, folder);
 
-  if (entries == nullptr) result.cases.push_back(defaults);
-  else
-    for (const CaseValue& entry : entries->value.list()) expand_entry(*entries, entry, defaults, folder, result.cases);
+  const Expansion expansion{defaults, folder, changes, result.cases};
+  if (entries == nullptr) {
+    expansion.expand({}, defaults.where);
+  } else {
+    for (const CaseValue& entry : entries->value.list()) {
+      if (!entry.is_table())
+        throw Error(ErrorKind::configuration, fmt::format("[[cases]] must be tables, found {}", entry.kind()), entry.where);
+      expansion.expand(entry.table(), entry.where);
+    }
+  }
 
   int number = 0;
   for (Case& c : result.cases) {
     c.number = ++number;
-    for (const CaseOverride& change : changes) apply_assignment(c, change, folder);
     validate_case(c);
   }
-  settle_sequences(result.cases);
+  settle_sequences(result.cases, &result.notes);
   return result;
 }
 
 void apply_overrides(CaseFile& target, std::span<const std::string> overrides) {
   const std::vector<CaseOverride> changes = parse_overrides(overrides);
   if (changes.empty()) return;
+  refuse_steps(changes);
   std::vector<Case> changed = target.cases;
   for (Case& c : changed) {
     for (const CaseOverride& change : changes) apply_assignment(c, change, target.path.parent_path());
@@ -144,6 +206,7 @@ CaseFile read_case_file(const std::filesystem::path& file, std::span<const std::
 
 void apply_override(Case& target, std::string_view assignment) {
   const CaseOverride change = parse_override(assignment);
+  refuse_steps({change});
   Case changed = target;
   apply_assignment(changed, change, std::filesystem::path(target.where.file).parent_path());
   validate_case(changed);

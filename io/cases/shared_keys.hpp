@@ -52,4 +52,15 @@ CaseKey& shared_choice(KeyList& list, const std::string& path, std::vector<std::
   return key;
 }
 
+/// place: content& -> bool&.
+template <class Place>
+void shared_flag(KeyList& list, const std::string& path, const std::string& doc, Place place) {
+  KeyInfo info = key_info(path, KeyType::flag, doc);
+  WheelRailCase fresh;
+  info.default_text = place(fresh) ? "true" : "false";
+  list.add(info).set = [place](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    std::visit([&](auto& content) { place(content) = v.flag(); }, c.content);
+  };
+}
+
 }  // namespace treadmark::io

@@ -27,13 +27,8 @@ class Checker {
 
   void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
     const std::string body = which == Body::rail ? "rail" : "wheel";
-    if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
-      require(!file->file.empty(), body + ".shape is missing",
-              fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
-      require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
-              body + ".shape: kink_low_deg must not exceed kink_high_deg");
-    }
-    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    if (!s.parts.empty()) return parts(s);
+    shape(s, body);
     for (const WheelFlat& flat : s.defects.flats)
       require(flat.shape == WheelFlat::Shape::fresh || flat.depth > 0.0, "wheel.flats: a rounded flat needs depth_mm");
     try {
@@ -41,6 +36,28 @@ class Checker {
     } catch (const Error& e) {
       throw Error(e.kind(), fmt::format("case {}: {}", number_, e.message()), where_, e.advice());
     }
+  }
+
+  void parts(const SurfaceSource& s) const {
+    const auto* file = std::get_if<GeometryFile>(&s.geometry);
+    require(file != nullptr && file->file.empty(), "rail.shape and rail.parts exclude each other", "give one of them");
+    require(s.crossing.part == CrossingInput::Part::none, "rail.shape.crossing does not belong to rail.parts", "give it in the part");
+    require(s.defects.empty(), "defects cannot be added to rail.parts");
+    for (std::size_t i = 0; i < s.parts.size(); ++i) shape(s.parts[i], fmt::format("rail.parts[{}]", i));
+  }
+
+  /// body: its name in messages.
+  void shape(const SurfaceSource& s, const std::string& body) const {
+    const bool part = body.ends_with(']');
+    if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
+      require(!file->file.empty(), body + ".shape is missing",
+              part ? "give its file, standard or arcs" : fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
+      require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
+              body + ".shape: kink_low_deg must not exceed kink_high_deg");
+    }
+    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    require(s.crossing.part == CrossingInput::Part::none || s.crossing.length > 0.5 * s.crossing.rounding,
+            body + ": crossing_length_mm must be more than half of crossing_rounding_mm");
   }
 
   void friction(const FrictionLaw& f) const {
@@ -61,19 +78,17 @@ class Checker {
   void wheel_rail(const WheelRailCase& c) const {
     surface(c.rail, Body::rail, 0.0);
     surface(c.wheel, Body::wheel, c.wheelset.nominal_radius);
-    require(c.regime == RegimeInput::none || c.regime == RegimeInput::steady,
-            fmt::format("case.regime = \"{}\" is not supported for a wheel on a rail", c.regime == RegimeInput::shift ? "shift" : "transient"),
-            "\"none\" and \"steady\" are");
     require(!c.vertical_force_prescribed || c.vertical_force > 0.0, "the vertical load is missing",
             "give wheelset.vertical_force_N or wheelset.z_mm");
     const DiscretisationInput& d = c.discretisation;
     require(d.separation >= d.combination, "discretisation.separation_mm must not be less than combination_mm");
-    require(c.influence.kind == InfluenceInput::Kind::constant || c.influence.kind == InfluenceInput::Kind::bilinear,
-            "influence.kind must be \"constant\" or \"bilinear\" for a wheel on a rail");
     require(c.tangential_model != TangentialModelInput::fastsim_one_flexibility || c.fastsim_flexibility > 0.0,
             "solver.fastsim_flexibility_mm_per_MPa is missing");
+    if (const auto& damping = c.damping) {
+      require(damping->normal == 0.0 || damping->max_rate_normal > 0.0, "damping.max_rate_normal_N_per_s is missing");
+      require(damping->tangential == 0.0 || damping->max_rate_tangential > 0.0, "damping.max_rate_tangential_N_per_s is missing");
+    }
     friction(c.friction);
-    require(c.friction.kind != FrictionLaw::Kind::temperature, "friction.law = \"temperature\" is not supported for a wheel on a rail");
     friction_variation(c.friction_variation);
   }
 
@@ -85,7 +100,6 @@ class Checker {
     for (const FrictionLaw& law : v.laws) {
       require(law.kind == v.laws.front().kind, "all friction sets must have the same law");
       friction(law);
-      require(law.kind != FrictionLaw::Kind::temperature, "law = \"temperature\" is not supported for a wheel on a rail");
     }
   }
 
@@ -163,14 +177,20 @@ void validate_case(const Case& c) {
   check.none(contradictions(c));
 }
 
-void settle_sequences(std::vector<Case>& cases) {
+void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes) {
   std::map<int, const Case*> last;
+  bool told = false;
   for (Case& c : cases) {
     const auto [previous, first] = last.try_emplace(c.sequence, &c);
+    const Checker check(c);
     if (first) {
-      if (auto* basic = std::get_if<BasicCase>(&c.content)) basic->history = HistoryInput::start;
+      std::visit([](auto& content) { content.history = HistoryInput::start; }, c.content);
     } else {
-      Checker(c).none(contradictions(*previous->second, c));
+      check.none(contradictions(*previous->second, c));
+      const auto step = rolled_step(*previous->second, c);
+      const std::string complaint = step && notes != nullptr ? step->complaint() : std::string();
+      check.require(complaint.empty() || !step->too_long(), complaint, "more and shorter steps (case.steps, case.time_step_s)");
+      if (!complaint.empty() && !std::exchange(told, true)) notes->push_back(fmt::format("case {}: {}", c.number, complaint));
     }
     previous->second = &c;
   }

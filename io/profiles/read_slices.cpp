@@ -102,14 +102,19 @@ void check_angles(const std::vector<SliceEntry>& entries) {
                 "shift the angles with OFFSET or leave out slices");
 }
 
-/// Kinks and accelerations are checked; the surface makes no use of them.
-void read_feature_numbers(RecordReader& in, int count, int features, const char* what) {
+/// Part numbers, counted from 1: each stands for the feature at the end of that part.
+std::vector<int> read_feature_numbers(RecordReader& in, int count, int features, const char* what) {
+  std::vector<int> numbers;
   for (int i = 1; i <= count; ++i) {
     const int number = in.integer(fmt::format("{} {} of {}", what, i, count));
     if (number < 1 || number > features - 2)
       in.fail(fmt::format("a {} must be a feature from 1 to NFEAT-2 = {}, this is {}", what, features - 2, number));
+    numbers.push_back(number);
   }
   if (count > 0) in.end_record();
+  std::sort(numbers.begin(), numbers.end());
+  numbers.erase(std::unique(numbers.begin(), numbers.end()), numbers.end());
+  return numbers;
 }
 
 std::vector<std::vector<double>> read_features(RecordReader& in, const Header& h, std::vector<SliceEntry>& entries) {
@@ -181,7 +186,8 @@ SliceList read_list(std::string_view text, const std::string& file, Body body) {
   SliceList out;
   out.entries = read_entries(in, header);
   if (body == Body::wheel) check_angles(out.entries);
-  read_feature_numbers(in, header.kinks, header.features, "kink");
+  out.set.kinks = read_feature_numbers(in, header.kinks, header.features, "kink");
+  // accelerations of the lateral parametrisation change no surface
   read_feature_numbers(in, header.accelerations, header.features, "acceleration");
   out.set.body = body;
   out.set.name = file;

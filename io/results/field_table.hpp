@@ -19,7 +19,7 @@ struct FieldColumn {
   std::vector<double> PatchFields::*values;
 };
 
-inline constexpr std::array<FieldColumn, 15> kFieldColumns{{
+inline constexpr std::array<FieldColumn, 17> kFieldColumns{{
     {"gap", "m", "m", "undeformed distance, NaN where a surface is missing", &PatchFields::gap},
     {"pressure", "Pa", "Pa", "normal pressure", &PatchFields::pressure},
     {"traction_x", "Pa", "Pa", "longitudinal traction on the rail", &PatchFields::traction_x},
@@ -35,6 +35,8 @@ inline constexpr std::array<FieldColumn, 15> kFieldColumns{{
     {"yield_stress", "Pa", "Pa", "shear stress at which the interface layer yields", &PatchFields::yield_stress},
     {"temperature_1", "degC", "degC", "surface temperature of the rail", &PatchFields::temperature_1},
     {"temperature_2", "degC", "degC", "surface temperature of the wheel", &PatchFields::temperature_2},
+    {"extra_slip_x", "1", "m", "longitudinal rigid slip beyond the creepages", &PatchFields::extra_slip_x},
+    {"extra_slip_s", "1", "m", "lateral rigid slip beyond the creepages", &PatchFields::extra_slip_s},
 }};
 
 /// Throws Error(configuration) unless every field of the patch is empty or has one value per element.

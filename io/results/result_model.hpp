@@ -18,6 +18,16 @@ namespace treadmark::io {
 
 /// Results of a run as plain data in SI units; the writers convert to the units in the names of the result file.
 
+/// A force on the rail [N] and its moment [N m].
+struct Load {
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+};
+
+/// One load in four systems of axes; moments about the rail marker (track, rail) or the wheel marker (wheelset, wheel).
+struct Loads {
+  Load track, rail, wheelset, wheel;
+};
+
 struct PatchFields {
   Grid2 grid;                                      ///< element centres in contact axes [m]
   Pose X_TC;                                       ///< pose of the grid's frame (x, s, n) in track axes (identity for a basic case)
@@ -30,13 +40,32 @@ struct PatchFields {
   std::vector<double> plastic_x, plastic_s;        ///< plastic shear of the interface layer [m]; empty without
   std::vector<double> yield_stress;                ///< of the interface layer [Pa]; empty without
   std::vector<double> temperature_1, temperature_2;  ///< of the surfaces of rail and wheel [deg C]; empty unless computed
+  /// Rigid slip of the surfaces beyond creepages and spin, relative as slip is (shift: [m]); empty = none.
+  std::vector<double> extra_slip_x, extra_slip_s;
+  /// Curved reference: inclination of each row against the contact plane [rad]; tractions and slip are in the axes of the row and s is
+  /// the arc length of the reference. Empty: a plane.
+  std::vector<double> row_angle;
 };
+
+/// Where row iy of the elements' edges lies in the contact plane's axes: lateral and normal to it [m]; iy = 0 ... ny. A row is as long
+/// as it is high in the grid, turned by its inclination; the contact reference lies on the plane.
+std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s);
 
 struct PatchResult {
   bool has_reference = false;                      ///< wheel-rail cases only
   double x_tr = 0.0, y_tr = 0.0, z_tr = 0.0, angle = 0.0;     ///< contact reference in track axes [m], [rad]
   double x_rail = 0.0, y_rail = 0.0, z_rail = 0.0, s_rail = 0.0;  ///< in rail axes; s along the profile [m]
   double x_wheel = 0.0, y_wheel = 0.0, z_wheel = 0.0;         ///< in wheel-profile axes [m]
+  double x_wheelset = 0.0, y_wheelset = 0.0, z_wheelset = 0.0;  ///< in wheelset axes [m]
+  double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
+  double reference_x = 0.0, reference_s = 0.0;     ///< contact reference in the axes of the grid [m]
+  std::uint64_t id = 0;                            ///< stays with a patch through a sequence in time; 0 = not known
+  std::vector<std::uint64_t> came_from;            ///< patches of the previous instant that it continues
+  std::optional<Loads> loads;
+  struct LocalForces {
+    double fn = 0.0, fx = 0.0, fs = 0.0;           ///< [N]
+  };
+  std::optional<LocalForces> local;                ///< curved reference: sums of the components in the axes of the rows
   bool has_rolling = false;
   double chi = 0.0, dq = 0.0, velocity = 0.0;      ///< [rad], [m], [m/s]
   bool shift = false;                              ///< creepages are lengths, power is work
@@ -75,6 +104,12 @@ struct CaseResult {
   Vec3 force_tr = Vec3::Zero(), force_ws = Vec3::Zero();                     ///< on the rail [N]
   Vec3 moment_rail = Vec3::Zero();    ///< on the rail about the rail marker, track axes [N m]
   Vec3 moment_wheel = Vec3::Zero();   ///< on the rail about the wheel marker, wheelset axes [N m]
+  std::optional<Loads> loads;         ///< on the rail, sum over the patches
+  std::optional<Vec2> rail_deflection;  ///< of a rail on springs, y and z [m]
+  struct Roller {
+    double nominal_radius = 0.0, pitch_rate = 0.0;  ///< [m], [rad/s]
+  };
+  std::optional<Roller> roller;       ///< in place of the rail
   double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< times [s]
   int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;
   std::vector<std::pair<double, double>> force_iterations;  ///< (z_ws [m], F_z [N])

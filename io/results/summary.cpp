@@ -66,6 +66,10 @@ void add_wheelset(Table& table, const CaseResult& result) {
                          three(result.s * 1e3, result.y * 1e3, result.z * 1e3)));
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset roll, yaw, pitch", kLabel, "[deg]",
                          three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees)));
+  table.line(fmt::format("  {:<{}}{:<9}{:>{}}", "wheelset pitch rate", kLabel, "[rad/s]", five_digits(result.vpitch), kColumn));
+  if (const auto& d = result.rail_deflection)
+    table.line(fmt::format("  {:<{}}{:<9}{:>{}}{:>{}}", "rail deflection y, z", kLabel, "[mm]", four_decimals(d->x() * 1e3), kColumn,
+                           four_decimals(d->y() * 1e3), kColumn));
   table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]", three_forces(result.force_tr)));
 }
 

@@ -12,6 +12,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/attributes.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
@@ -170,6 +171,9 @@ void write_fields(hid_t group, const PatchResult& patch) {
     write_dataset(group, std::string(column.name), H5T_NATIVE_DOUBLE, values.data(), size,
                   std::string(patch.shift ? column.unit_shift : column.unit), std::string(column.meaning));
   }
+  if (!fields.row_angle.empty())
+    write_dataset(group, "row_angle", H5T_NATIVE_DOUBLE, fields.row_angle.data(), {s.size()}, "rad",
+                  "inclination of the rows of a curved reference against the contact plane");
   if (!fields.state.empty())
     write_dataset(group, "state", H5T_NATIVE_UINT8, fields.state.data(), size, "1",
                   "0 exterior, 1 adhesion, 2 slip, 3 plastic");
@@ -192,62 +196,18 @@ void write_subsurface(hid_t patch_group, const std::vector<SubsurfaceBlock>& blo
   }
 }
 
+void add_all(hid_t object, const std::vector<Attribute>& attributes) {
+  for (const Attribute& one : attributes) std::visit([&](const auto& value) { add(object, one.name, value); }, one.value);
+}
+
 void write_patch(hid_t group, const PatchResult& patch) {
-  const Grid2& grid = patch.fields.grid;
-  add(group, "frame", "x, s, n: s along the rail profile, n into the rail; X_TC places it in track axes");
-  add(group, "X_TC_origin", patch.fields.X_TC.origin);
-  add(group, "X_TC_rotation", patch.fields.X_TC.rotation);
-  add(group, "nx", grid.nx);
-  add(group, "ny", grid.ny);
-  add(group, "shift", patch.shift ? 1 : 0);
-  const std::pair<const char*, double> numbers[] = {{"x0", grid.x0},
-                                                    {"s0", grid.y0},
-                                                    {"dx", grid.dx},
-                                                    {"ds", grid.dy},
-                                                    {"fn", patch.fn},
-                                                    {"fx", patch.fx},
-                                                    {"fs", patch.fs},
-                                                    {"mn", patch.mn},
-                                                    {"xi", patch.xi},
-                                                    {"eta", patch.eta},
-                                                    {"phi", patch.phi},
-                                                    {"approach", patch.approach},
-                                                    {"pmax", patch.pmax},
-                                                    {"elastic_energy", patch.elastic_energy},
-                                                    {"frictional_power", patch.frictional_power},
-                                                    {"shear_modulus", patch.shear_modulus}};
-  for (const auto& [name, value] : numbers) add(group, name, value);
-  if (patch.has_rolling) {
-    add(group, "chi", patch.chi);
-    add(group, "dq", patch.dq);
-    add(group, "velocity", patch.velocity);
-  }
-  if (patch.has_reference) {
-    add(group, "reference_track", Vec3(patch.x_tr, patch.y_tr, patch.z_tr));
-    add(group, "reference_rail", Vec3(patch.x_rail, patch.y_rail, patch.z_rail));
-    add(group, "reference_wheel", Vec3(patch.x_wheel, patch.y_wheel, patch.z_wheel));
-    add(group, "contact_angle", patch.angle);
-    add(group, "s_rail", patch.s_rail);
-  }
+  add_all(group, attributes_of(patch));
   write_fields(group, patch);
   write_subsurface(group, patch.subsurface);
 }
 
 void write_case(hid_t group, const CaseResult& result) {
-  add(group, "number", result.number);
-  add(group, "status", std::string(to_string(result.status)));
-  add(group, "message", result.message);
-  add(group, "seconds", result.seconds);
-  if (result.has_wheelset) {
-    add(group, "wheelset_position", Vec3(result.s, result.y, result.z));
-    add(group, "wheelset_roll_yaw_pitch", Vec3(result.roll, result.yaw, result.pitch));
-    add(group, "wheelset_velocity", Vec3(result.vs, result.vy, result.vz));
-    add(group, "wheelset_rates_roll_yaw_pitch", Vec3(result.vroll, result.vyaw, result.vpitch));
-    add(group, "force_on_rail_track", result.force_tr);
-    add(group, "force_on_rail_wheelset", result.force_ws);
-    add(group, "moment_on_rail_at_rail", result.moment_rail);
-    add(group, "moment_on_rail_at_wheel", result.moment_wheel);
-  }
+  add_all(group, attributes_of(result));
   int number = 0;
   for (const PatchResult& patch : result.patches) {
     ++number;
@@ -259,25 +219,7 @@ void write_case(hid_t group, const CaseResult& result) {
 }
 
 void write_run(hid_t file, const RunResult& run) {
-  add(file, "format", "treadmark result 1");
-  add(file, "units", "SI");
-  add(file, "axes", "x forward, y right, z down; forces and tractions act on the rail");
-  add(file, "version", run.version);
-  add(file, "git", run.git);
-  add(file, "threads", run.threads);
-  add(file, "seconds", run.seconds);
-  add(file, "input", run.input_file);
-  add(file, "sha256", run.input_sha256);
-  std::vector<std::string> files, hashes;
-  for (const auto& [name, hash] : run.geometry_sha256) {
-    files.push_back(name);
-    hashes.push_back(hash);
-  }
-  add(file, "geometry_files", files);
-  add(file, "geometry_sha256", hashes);
-  add(file, "settings", run.settings);
-  add(file, "complete", run.complete ? 1 : 0);
-  add(file, "cases_total", run.cases_total);
+  add_all(file, attributes_of(run));
   for (const CaseResult& result : run.cases) {
     const Handle group = make_group(file, fmt::format("case_{:04}", result.number));
     write_case(group, result);

@@ -48,15 +48,35 @@ Json kinematics(const PatchResult& patch) {
   return out;
 }
 
+Json load_json(const Load& load) {
+  return {{"fx_N", number(load.force.x())},           {"fy_N", number(load.force.y())},           {"fz_N", number(load.force.z())},
+          {"mx_Nmm", number(load.moment.x() * kMilli)}, {"my_Nmm", number(load.moment.y() * kMilli)},
+          {"mz_Nmm", number(load.moment.z() * kMilli)}};
+}
+
+Json loads_json(const Loads& loads) {
+  return {{"track", load_json(loads.track)},
+          {"rail", load_json(loads.rail)},
+          {"wheelset", load_json(loads.wheelset)},
+          {"wheel", load_json(loads.wheel)}};
+}
+
 Json patch_json(const PatchResult& patch) {
   Json out = Json::object();
+  if (patch.id != 0) {
+    out["id"] = patch.id;
+    out["came_from"] = patch.came_from;
+  }
   if (patch.has_reference)
     out["reference"] = {{"x_tr_mm", number(patch.x_tr * kMilli)},       {"y_tr_mm", number(patch.y_tr * kMilli)},
                         {"z_tr_mm", number(patch.z_tr * kMilli)},       {"angle_rad", number(patch.angle)},
                         {"x_rail_mm", number(patch.x_rail * kMilli)},   {"y_rail_mm", number(patch.y_rail * kMilli)},
                         {"z_rail_mm", number(patch.z_rail * kMilli)},   {"s_rail_mm", number(patch.s_rail * kMilli)},
                         {"x_wheel_mm", number(patch.x_wheel * kMilli)}, {"y_wheel_mm", number(patch.y_wheel * kMilli)},
-                        {"z_wheel_mm", number(patch.z_wheel * kMilli)}};
+                        {"z_wheel_mm", number(patch.z_wheel * kMilli)}, {"x_ws_mm", number(patch.x_wheelset * kMilli)},
+                        {"y_ws_mm", number(patch.y_wheelset * kMilli)}, {"z_ws_mm", number(patch.z_wheelset * kMilli)},
+                        {"angle_rail_rad", number(patch.angle_rail)},   {"angle_ws_rad", number(patch.angle_wheelset)},
+                        {"angle_wheel_rad", number(patch.angle_wheel)}};
   out["kinematics"] = kinematics(patch);
   out["xi"] = out["kinematics"]["xi"];
   out["eta"] = out["kinematics"]["eta"];
@@ -73,6 +93,13 @@ Json patch_json(const PatchResult& patch) {
   out["fs_rel"] = number(patch.fs_relative);
   out["approach_mm"] = number(patch.approach * kMilli);
   out["pmax_MPa"] = number(patch.pmax * kMega);
+
+  if (patch.loads) out["loads"] = loads_json(*patch.loads);
+  if (patch.local) {
+    out["fn_tilde_N"] = number(patch.local->fn);
+    out["fx_tilde_N"] = number(patch.local->fx);
+    out["fs_tilde_N"] = number(patch.local->fs);
+  }
 
   if (patch.sensitivities) {
     const auto& s = *patch.sensitivities;
@@ -92,7 +119,14 @@ Json patch_json(const PatchResult& patch) {
                  {"dx_mm", number(grid.dx * kMilli)},
                  {"ds_mm", number(grid.dy * kMilli)},
                  {"x0_mm", number(grid.x0 * kMilli)},
-                 {"s0_mm", number(grid.y0 * kMilli)}};
+                 {"s0_mm", number(grid.y0 * kMilli)},
+                 {"reference_x_mm", number(patch.reference_x * kMilli)},
+                 {"reference_s_mm", number(patch.reference_s * kMilli)}};
+  if (!patch.fields.row_angle.empty()) {
+    Json angles = Json::array();
+    for (const double angle : patch.fields.row_angle) angles.push_back(number(angle));
+    out["grid"]["row_angle_rad"] = std::move(angles);
+  }
   return out;
 }
 
@@ -112,6 +146,11 @@ void add_wheelset(Json& out, const CaseResult& result) {
   add({"mx_r_Nmm", "my_r_Nmm", "mz_r_Nmm"}, result.moment_rail, kMilli);
   add({"mx_w_Nmm", "my_w_Nmm", "mz_w_Nmm"}, result.moment_wheel, kMilli);
   out["force_on_rail"] = std::move(forces);
+  if (result.loads) out["loads"] = loads_json(*result.loads);
+  if (const auto& d = result.rail_deflection)
+    out["rail_deflection"] = {{"y_mm", number(d->x() * kMilli)}, {"z_mm", number(d->y() * kMilli)}};
+  if (const auto& r = result.roller)
+    out["roller"] = {{"nominal_radius_mm", number(r->nominal_radius * kMilli)}, {"pitch_rate_rad_s", number(r->pitch_rate)}};
 }
 
 Json case_json(const CaseResult& result) {

@@ -16,13 +16,15 @@ namespace treadmark::io {
 namespace {
 
 /// Corners of the elements in track axes, (nx + 1) (ny + 1) points.
-std::vector<double> corner_points(const PatchFields& fields) {
+std::vector<double> corner_points(const PatchFields& fields, double reference_s) {
+  const std::vector<Vec2> rows = row_edges(fields, reference_s);
   const Grid2& grid = fields.grid;
   std::vector<double> points;
   points.reserve(3 * static_cast<std::size_t>(grid.nx + 1) * static_cast<std::size_t>(grid.ny + 1));
   for (int iy = 0; iy <= grid.ny; ++iy)
     for (int ix = 0; ix <= grid.nx; ++ix) {
-      const Vec3 p_T = fields.X_TC.apply({grid.x0 + (ix - 0.5) * grid.dx, grid.y0 + (iy - 0.5) * grid.dy, 0.0});
+      const Vec2& row = rows[static_cast<std::size_t>(iy)];
+      const Vec3 p_T = fields.X_TC.apply({grid.x0 + (ix - 0.5) * grid.dx, row.x(), row.y()});
       points.insert(points.end(), {p_T.x(), p_T.y(), p_T.z()});
     }
   return points;
@@ -36,7 +38,8 @@ std::vector<float> traction_vectors(const PatchFields& fields) {
   out.reserve(3 * fields.pressure.size());
   const bool tangential = !fields.traction_x.empty() && !fields.traction_s.empty();
   for (std::size_t i = 0; i < fields.pressure.size(); ++i) {
-    const Vec3 t_T = fields.X_TC.rotation * Vec3(tangential ? fields.traction_x[i] : 0.0,
+    const double angle = fields.row_angle.empty() ? 0.0 : fields.row_angle[i / static_cast<std::size_t>(fields.grid.nx)];
+    const Vec3 t_T = fields.X_TC.rotation * rotation_x(angle) * Vec3(tangential ? fields.traction_x[i] : 0.0,
                                                  tangential ? fields.traction_s[i] : 0.0, fields.pressure[i]);
     for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(t_T[k]));
   }
@@ -61,7 +64,7 @@ std::string patch_to_vts(const PatchResult& patch, int case_number, int patch_nu
   if (!fields.pressure.empty()) cells += vtk_data_array("traction_on_rail_Pa", traction_vectors(fields), 3);
   if (!fields.state.empty()) cells += vtk_data_array("state", fields.state, 1);
 
-  return vtk_structured_grid(extent, "CellData", cells, vtk_data_array("points_m", corner_points(fields), 3));
+  return vtk_structured_grid(extent, "CellData", cells, vtk_data_array("points_m", corner_points(fields, patch.reference_s), 3));
 }
 
 namespace {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/conformance/subjects.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -76,6 +77,39 @@ Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(doubl
   return s;
 }
 
+/// The profile turned about an axle at z = radius; planes stand on the roller as they would on the rail, at some angle round it.
+Shape roller_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
+  const double R = spec.roller_radius;
+  Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
+  s.outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : std::hypot(p.x(), p.z() - R) - (R - z(p.y())); };
+  s.u_min = -0.35 * R;
+  s.u_max = 0.42 * R;
+  const auto at = [R](double theta, double y, double down, double roll, double yaw, double pitch) {
+    const double r = R - down;
+    return pose({r * std::sin(theta), y, R - r * std::cos(theta)}, roll, yaw, pitch);
+  };
+  s.planes = {at(0.0, 0.001, -0.0004, 0.0, 0.0, 0.0), at(0.0, 0.012, 0.0, 0.07, 0.0, 0.0), at(0.3, -0.02, 0.003, -0.45, 0.03, -0.3),
+              at(0.02, 0.005, 0.001, 0.02, -0.4, 0.1), at(-0.01, -0.03, 0.008, -1.1, 0.01, 0.0), at(0.0, 0.03, 0.008, 1.5, 1.3, 0.0)};
+  return s;
+}
+
+/// An arc of R60 put together from two parts that overlap, each in a frame of its own.
+Shape two_part_shape() {
+  constexpr double kRadius = 0.06, kEnd = 0.5, kOverlap = 0.05;
+  const auto arc = [](double from, double to, double y, double z) {
+    return ArcChain{kRadius * std::sin(from) - y, kRadius * (1.0 - std::cos(from)) - z, from, {{kRadius * (to - from), 1.0 / kRadius}}};
+  };
+  Shape s = rail_shape("two_part_rail", {Body::rail, 0.0, arc(-kEnd, kEnd, 0.0, 0.0), {}},
+                       [](double y) { return kRadius - std::sqrt(kRadius * kRadius - y * y); }, -kRadius * std::sin(kEnd), kRadius * std::sin(kEnd));
+  s.natural = [arc] {
+    const auto part = [&](double from, double to, double y, double z) {
+      return SurfacePart{std::make_shared<const NaturalSurface>(create_natural({Body::rail, 0.0, arc(from, to, y, z), {}})), {0.1, y, z}, "", 0.0};
+    };
+    return join_surfaces({part(-kEnd, kOverlap, -0.015, 0.002), part(-kOverlap, kEnd, 0.02, 0.0)});
+  };
+  return s;
+}
+
 double flat_test_depth(double theta, double y, double R) {
   // one rounded flat that fades sideways, 60 mm long, 0.8 mm deep, at theta = 0.01, y = 4 mm, 50 mm wide
   const double x = R * (theta - 0.01);
@@ -142,6 +176,14 @@ std::vector<Shape> shapes() {
   }
   all.push_back(rail_shape("rail_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}},
                            [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+  all.push_back(two_part_shape());
+  all.push_back(roller_shape("roller_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, 0.5},
+                             [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+  {
+    ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
+    all.push_back(roller_shape("barrel_roller", {Body::rail, 0.0, barrel, {}, 0.2},
+                               [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
+  }
   {
     ArcChain barrel{-0.05 * std::sin(0.8), -0.05 * (1.0 - std::cos(0.8)), 0.8, {{0.05 * 1.6, -1.0 / 0.05}}};
     all.push_back(wheel_shape("barrel_wheel", {Body::wheel, 0.3, barrel, {}},
@@ -210,7 +252,7 @@ std::shared_ptr<const Surface> Subject::make() const {
   Representation wanted{contestant.backend, contestant.resolution, {}};
   wanted.region.u_min = shape.u_min;
   wanted.region.u_max = shape.u_max;
-  built.emplace_back(key, represent(create_natural(shape.spec), wanted).surface);
+  built.emplace_back(key, represent(shape.natural ? shape.natural() : create_natural(shape.spec), wanted).surface);
   return built.back().second;
 }
 

@@ -8,6 +8,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/backends/create.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/core/surface_spec.hpp"
 
@@ -23,6 +24,7 @@ struct Shape {
   double r_low, r_high;        ///< wheel: radii, rail: heights between which brute force looks [m]
   double u_min, u_max;         ///< part that is sampled: x [m] or theta [rad]
   std::vector<Pose> planes;    ///< planes near the surface, in its frame
+  std::function<NaturalSurface()> natural{};  ///< what is represented; without it made from spec
 };
 
 /// How a backend joins the suite, and what it promises.

@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
 
 #include "treadmark/backends/spline/bspline_basis.hpp"
 #include "treadmark/backends/spline/fit_slices.hpp"
+#include "treadmark/backends/spline/slice_kinks.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 
@@ -189,6 +191,69 @@ TEST(SliceNet, WheelsCloseSmoothlyOverTheSeam) {
     EXPECT_NEAR(before.value.w, after.value.w, 1e-12);
     EXPECT_NEAR(before.by_u.w, after.by_u.w, 1e-11);
   }
+}
+
+TEST(SliceNet, AFirstSliceGivenAgainAfterATurnClosesTheWheelToo) {
+  constexpr double kPi = std::numbers::pi;
+  const auto dr = [](double theta) { return 1e-4 * std::cos(3.0 * theta + 0.4); };
+  SliceSet wheel;
+  wheel.body = Body::wheel;
+  wheel.name = "wheel";
+  for (int i = 0; i <= 60; ++i) {
+    wheel.u.push_back(-kPi + 2 * kPi * i / 60);
+    wheel.profiles.push_back(testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return dr(2 * kPi * i / 60 - kPi); }));
+  }
+  const auto jumps = [](const SliceNet& net) {
+    const NetValue before = net.at(net.find(-kPi - 1e-9), 19, 0.5), after = net.at(net.find(-kPi + 1e-9), 19, 0.5);
+    const NetSecond second_before = net.second_at(net.find(-kPi - 1e-9), 19, 0.5), second_after = net.second_at(net.find(-kPi + 1e-9), 19, 0.5);
+    return std::array{std::abs(before.value.w - after.value.w), std::abs(before.by_u.w - after.by_u.w),
+                      std::abs(second_before.by_uu.w - second_after.by_uu.w)};
+  };
+  const auto closed = jumps(fit_slices(wheel));
+  EXPECT_LT(closed[0], 1e-12);
+  EXPECT_LT(closed[1], 1e-11);
+  EXPECT_LT(closed[2], 2e-9) << "of 9e-4";
+  wheel.open_seam = true;
+  const auto open = jumps(fit_slices(wheel));
+  EXPECT_LT(open[0], 1e-12);
+  EXPECT_GT(open[2], 100.0 * closed[2]);
+  // a last slice that differs is no repetition
+  wheel.open_seam = false;
+  for (double& z : wheel.profiles.back().z) z += 1e-4;
+  EXPECT_GT(jumps(fit_slices(wheel))[0], 0.9e-4);
+}
+
+TEST(SliceNet, AnOpenSeamIsConstant) {
+  constexpr double kPi = std::numbers::pi;
+  SliceSet wheel;
+  wheel.body = Body::wheel;
+  wheel.name = "wheel";
+  wheel.open_seam = true;
+  for (int i = 0; i < 20; ++i) {
+    wheel.u.push_back(-kPi + 0.1 + 2 * kPi * i / 20);
+    wheel.profiles.push_back(testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return 1e-4 * i; }));
+  }
+  const SliceNet net = fit_slices(wheel);
+  EXPECT_NEAR(value_at(net, wheel.u.back() + 0.1, 3.0).w, 19e-4, 1e-12);
+  EXPECT_NEAR(value_at(net, -kPi + 0.05, 3.0).w, 0.0, 1e-12);
+}
+
+TEST(SliceKinks, PartsKeepTheirFeaturesAndBadOnesAreRefused) {
+  SliceSet set = rail_slices({0.0, 0.1, 0.2, 0.3, 0.4}, [](double, double) { return 0.0; });
+  EXPECT_EQ(split_at_kinks(set).size(), 1u);
+  set.features.assign(5, {0.0, 4e-3, 9e-3, 15e-3});
+  set.kinks = {1, 2};
+  const auto parts = split_at_kinks(set);
+  ASSERT_EQ(parts.size(), 3u);
+  EXPECT_EQ(parts[1].features[3], (std::vector<double>{4e-3, 9e-3}));
+  for (const SliceSet& part : parts) EXPECT_TRUE(part.kinks.empty());
+  for (const std::vector<int>& bad : {std::vector<int>{0}, {3}, {2, 1}, {-1}, {1, 1}}) {
+    set.kinks = bad;
+    EXPECT_THROW(split_at_kinks(set), Error);
+  }
+  set.features.clear();
+  set.kinks = {1};
+  EXPECT_THROW(split_at_kinks(set), Error);
 }
 
 TEST(SliceNet, AnArcOfAWheelGoesOnConstantly) {

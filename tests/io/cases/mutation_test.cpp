@@ -60,6 +60,8 @@ TEST(Mutation, ContactInputOnlyThrowsError) {
   text += ContactWriter(3).set("STRESS", 3).set("HEAT", 3).set("INFLCF", 4).set("FRCLAW", 6).str();
   text += ContactWriter(3).set("TANG", 1).set("MATER", 4).set("BOUND", 1).set("VARFRC", 3).set("PVTIME", 0).str();
   text += ContactWriter(3).set("TANG", 2).set("NORM", 0).set("EXRHS", 9).line("ibase", "1 4").line("gap", "1 0 1 0 0 0\n 2\n 0 1 0 1\n 0 1 2 3\n 0.5").str();
+  text += ContactWriter(1).set("CONFIG", 5).set("FORCE", 3).set("TANG", 2).set("DISCNS", 4).set("INFLCF", 4).set("MATER", 4).set("PVTIME", 0).str();
+  text += ContactWriter(1).line("word2", "0022033 2").line("damping", "1. 2. 3. 4.").set("FORCE", 1).set("STRESS", 3).set("HEAT", 3).str();
   text += "0 MODULE\n";
   const int good = accepted(text, 1, kMutants, [](const std::string& t) { parse_contact_input(t, "m.inp"); });
   EXPECT_GT(good, 0);
@@ -81,7 +83,12 @@ TEST(Mutation, CaseFileOnlyThrowsError) {
       "[case]\nregime = \"steady\"\nhistory = \"continue\"\nsequence = 3\n[influence]\nkind = \"angle_corrected\"\nposition_mm = [-1, 1]\n"
       "inclination_deg = [2, 3]\n[heat]\nrail_bulk_temperature_C = 20\n[friction]\nrows = [{ coefficient = 0.2 }, { coefficient = 0.3 }]\n"
       "[[subsurface.blocks]]\nz_mm = [0.0, 0.5]\ncolumns = [0, 2]\n[[subsurface.blocks]]\nx_mm = [1]\ny_mm = [-1, 1]\nz_mm = [-2]\n";
-  for (const std::string& text : {example.str(), patch, everything}) {
+  const std::string rolling =
+      "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\n[wheelset]\nvertical_force_N = 1e5\nlongitudinal_force_N = 1e3\n"
+      "velocity_m_s = 2\n[case]\nregime = \"transient\"\nhistory = \"continue\"\ntime_step_s = 1e-4\n[roller]\nnominal_radius_mm = 500\n"
+      "pitch_rate_rad_s = 4\n[track.springs]\nforce_y_N = 3\n[damping]\nnormal_s = 1e-4\nmax_rate_normal_N_per_s = 9\n[contact]\nreference_surface = \"curved\"\n"
+      "[[cases]]\ncase.steps = 3\n[[cases]]\ncase.steps = 2\nwheelset.y_mm = [0, 1]\n";
+  for (const std::string& text : {example.str(), patch, everything, rolling}) {
     const int good = accepted(text, 2, kMutants / 2, [](const std::string& t) { parse_case_text(t, "m.toml"); });
     EXPECT_GT(good, 0);
     EXPECT_LT(good, kMutants / 2);

@@ -356,9 +356,10 @@ TEST(TomlOverride, OneCaseStaysAsItWasOnError) {
   apply_override(c, "wheelset.y_mm=3");
   EXPECT_DOUBLE_EQ(rail_case(f, 0).wheelset.y, 3e-3);
   EXPECT_THROW(apply_override(c, "wheelset.y_mm=x"), Error);
-  EXPECT_THROW(apply_override(c, "case.regime=shift"), Error);
+  EXPECT_THROW(apply_override(c, "wheelset.vertical_force_N=-1"), Error);
+  EXPECT_THROW(apply_override(c, "roller.pitch_rate_rad_s=4"), Error);
   EXPECT_DOUBLE_EQ(rail_case(f, 0).wheelset.y, 3e-3);
-  EXPECT_EQ(rail_case(f, 0).regime, RegimeInput::steady);
+  EXPECT_FALSE(rail_case(f, 0).roller);
 }
 
 TEST(AnyCase, ExtensionDecides) {

@@ -132,6 +132,8 @@ TEST(ReadSlices, OneFeatureMeansNone) {
 TEST(ReadSlices, ChecksKinksAndAccelerations) {
   const std::string features = "0 0 10 20 30\n10 0 10 20 30\n20 0 10 20 30\n30 0 10 20 30\n";
   EXPECT_EQ(parse(text("0 1", kFour, "4 2 1", "1\n2\n1\n" + features)).features.size(), 4u);
+  EXPECT_EQ(parse(text("0 1", kFour, "4 2 1", "2\n1\n1\n" + features)).kinks, (std::vector<int>{1, 2}));
+  EXPECT_TRUE(parse(text("0 1", kFour, "4 0 1", "2\n" + features)).kinks.empty());
   TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 1 0", "3\n" + features)), "a kink must be a feature from 1 to", 9, 1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 0 1", "0\n" + features)), "a acceleration must be", 9, 1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "0 1 0", "1\n")), "from 1 to NFEAT-2 = -2", 9, 1);

@@ -1,0 +1,150 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/assembly/outermost_surface.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::assembly {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+
+/// Fields of one part, of which only what is wanted has entries.
+struct PartFields {
+  std::vector<double> z, dzdx, dzdy;
+
+  PartFields(std::size_t n, const HeightsOut& wanted)
+      : z(n), dzdx(wanted.dzdx.empty() ? 0 : n), dzdy(wanted.dzdy.empty() ? 0 : n) {}
+  HeightsOut out() { return {z, dzdx, dzdy}; }
+};
+
+class OutermostSurface final : public Surface {
+ public:
+  explicit OutermostSurface(std::vector<std::shared_ptr<const Surface>> parts) : parts_(std::move(parts)) {
+    if (parts_.empty()) throw Error(ErrorKind::configuration, "a body of several surfaces needs at least one");
+    std::vector<std::string_view> names;
+    for (const auto& part : parts_) {
+      if (part == nullptr) throw Error(ErrorKind::configuration, "a part of a body has no surface");
+      if (part->facing() != facing()) throw Error(ErrorKind::configuration, "the parts of a body must all be rails, or all wheels");
+      if (std::find(names.begin(), names.end(), part->backend()) == names.end()) names.push_back(part->backend());
+    }
+    std::sort(names.begin(), names.end());
+    for (const std::string_view name : names) {
+      if (!backend_.empty()) backend_ += '+';
+      backend_ += name;
+    }
+  }
+
+  std::string_view backend() const override { return backend_; }
+  Facing facing() const override { return parts_.front()->facing(); }
+  Box3 bounds() const override {
+    Box3 all = parts_.front()->bounds();
+    for (const auto& part : parts_) {
+      const Box3 box = part->bounds();
+      all.min = all.min.cwiseMin(box.min);
+      all.max = all.max.cwiseMax(box.max);
+    }
+    return all;
+  }
+  std::size_t memory_bytes() const override {
+    std::size_t sum = sizeof(*this);
+    for (const auto& part : parts_) sum += part->memory_bytes();
+    return sum;
+  }
+
+ private:
+  bool outside_of(double z, double other) const { return facing() == Facing::up ? z < other : z > other; }
+
+  /// Whether z replaces what has been found so far (NaN: nothing).
+  bool wins(double z, double best) const { return !std::isnan(z) && (std::isnan(best) || outside_of(z, best)); }
+
+  /// best_z: the outermost heights so far.
+  void merge(const PartFields& part, std::vector<double>& best_z, const HeightsOut& out) const {
+    for (std::size_t i = 0; i < best_z.size(); ++i) {
+      if (!wins(part.z[i], best_z[i])) continue;
+      best_z[i] = part.z[i];
+      if (!out.dzdx.empty()) out.dzdx[i] = part.dzdx[i];
+      if (!out.dzdy.empty()) out.dzdy[i] = part.dzdy[i];
+    }
+  }
+
+  /// evaluate: const Surface&, HeightsOut; empty: const Surface& -> whether the part is nowhere near.
+  template <class Evaluate, class Empty>
+  void outermost(std::size_t n, const HeightsOut& out, Evaluate evaluate, Empty empty) const {
+    std::vector<double> best_z(n, kNaN);
+    for (const auto field : {out.dzdx, out.dzdy}) std::fill(field.begin(), field.end(), kNaN);
+    PartFields fields(n, out);
+    for (const auto& part : parts_) {
+      if (empty(*part)) continue;
+      evaluate(*part, fields.out());
+      merge(fields, best_z, out);
+    }
+    std::copy_n(best_z.begin(), out.z.size(), out.z.begin());
+  }
+
+  void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
+    const Grid2& g = plane.grid;
+    const Rectangle whole{g.x0, g.x(g.nx - 1), g.y0, g.y(g.ny - 1)};
+    outermost(g.size(), out, [&](const Surface& part, const HeightsOut& fields) { part.heights(plane, fields); },
+              [&](const Surface& part) { return part.height_bounds(plane.X_SP, whole).empty; });
+  }
+
+  void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override {
+    outermost(points_P.size(), out, [&](const Surface& part, const HeightsOut& fields) { part.heights_at(X_SP, points_P, fields); },
+              [](const Surface&) { return false; });
+  }
+
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override {
+    std::vector<double> best_z(out.size(), kNaN);
+    std::fill(out.begin(), out.end(), SurfacePoint{});
+    std::vector<SurfacePoint> found(out.size());
+    const Vec3 normal = X_SP.rotation.col(2);
+    for (const auto& part : parts_) {
+      part->locate(X_SP, points_P, found);
+      for (std::size_t i = 0; i < out.size(); ++i) {
+        if (found[i].status == LocateStatus::outside) continue;
+        const double z = normal.dot(found[i].position_S - X_SP.origin);
+        if (!wins(z, best_z[i])) continue;
+        best_z[i] = z;
+        out[i] = found[i];
+      }
+    }
+  }
+
+  static HeightBounds both(const HeightBounds& a, const HeightBounds& b) {
+    if (a.empty || b.empty) return a.empty ? b : a;
+    return {std::min(a.z_min, b.z_min), std::max(a.z_max, b.z_max), false};
+  }
+
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override {
+    HeightBounds all{0.0, 0.0, true};
+    for (const auto& part : parts_) all = both(all, part->height_bounds(X_SP, rectangle_P));
+    return all;
+  }
+
+  void do_grid_bounds(const Pose& X_SP, const RectangleGrid& rectangles_P, std::span<HeightBounds> out) const override {
+    std::fill(out.begin(), out.end(), HeightBounds{0.0, 0.0, true});
+    std::vector<HeightBounds> found(out.size());
+    for (const auto& part : parts_) {
+      part->height_bounds(X_SP, rectangles_P, found);
+      std::transform(out.begin(), out.end(), found.begin(), out.begin(), both);
+    }
+  }
+
+  std::vector<std::shared_ptr<const Surface>> parts_;
+  std::string backend_;
+};
+
+}  // namespace
+
+std::shared_ptr<const Surface> outermost_of(std::vector<std::shared_ptr<const Surface>> parts) {
+  return std::make_shared<OutermostSurface>(std::move(parts));
+}
+
+}  // namespace treadmark::assembly

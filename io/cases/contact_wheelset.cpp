@@ -1,0 +1,108 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/contact_case.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+constexpr double kMillimetre = 1e-3;
+
+}  // namespace
+
+void read_wheelset(ContactReader& r) {
+  ContactText& text = r.text;
+  const int e = (*r.model)["EWHEEL"], normal = (*r.problem)["NORM"];
+  WheelRailCase& c = r.kept.wheel_rail;
+  WheelsetInput& w = c.wheelset;
+  if (e == 0) {
+    if (r.kept.previous_normal >= 0 && r.kept.previous_normal != normal)
+      throw Error(ErrorKind::configuration, fmt::format("N (NORM) = {} differs from the previous case: that needs E (EWHEEL) > 0",
+                                                        normal), r.problem->where("NORM"));
+    return;
+  }
+  if (e == 3 || e == 5) {
+    text.begin_record("the wheelset line FBDIST");
+    w.flange_back_distance = text.real("FBDIST") * kMillimetre;
+    w.flange_back_position = text.real("FBPOS") * kMillimetre;
+    w.nominal_radius = text.real("NOMRAD") * kMillimetre;
+    if (!(w.nominal_radius > 0.0)) text.fail("NOMRAD must be positive");
+    constexpr double kUnusedTapeLine = 999.0;
+    const auto tape = text.optional_real();
+    w.tape_line = tape && std::abs(*tape) < kUnusedTapeLine ? std::optional(*tape * kMillimetre) : std::nullopt;
+    c.wheel = read_profile(r, "wheel");
+    r.kept.has_wheel = true;
+  }
+  text.begin_record("the wheelset position line S");
+  w.s = text.real(r.on_roller() ? "X" : "S") * kMillimetre;
+  w.y = text.real("Y") * kMillimetre;
+  if (normal == 1) c.vertical_force = text.real("FZ");
+  else w.z = text.real("Z") * kMillimetre;
+  w.roll = text.angle("ROLL");
+  w.yaw = text.angle("YAW");
+  w.pitch = text.angle("PITCH");
+  if (e >= 2) {
+    text.begin_record("the wheelset velocity line VS");
+    if (r.on_roller()) r.kept.roller_pitch_rate = text.angle("VPITCH_ROL");
+    else r.kept.forward_velocity = text.real("VS") * kMillimetre;
+    w.vy = text.real("VY") * kMillimetre;
+    w.vz = text.real("VZ") * kMillimetre;
+    w.vroll = text.angle("VROLL");
+    w.vyaw = text.angle("VYAW");
+    if ((*r.problem)["FORCE"] == 1) r.kept.longitudinal_force = text.real("FX");
+    else r.kept.pitch_rate = text.angle("VPITCH");
+  }
+  if (e >= 4) {
+    text.begin_record("the wheel deviation line DXWHL");
+    w.dx = text.real("DXWHL") * kMillimetre;
+    w.dy = text.real("DYWHL") * kMillimetre;
+    w.dz = text.real("DZWHL") * kMillimetre;
+    w.droll = text.angle("DROLLW");
+    w.dyaw = text.angle("DYAWW");
+    w.dpitch = text.angle("DPITCHW");
+    text.begin_record("the wheel deviation velocity line VXWHL");
+    w.dvx = text.real("VXWHL") * kMillimetre;
+    w.dvy = text.real("VYWHL") * kMillimetre;
+    w.dvz = text.real("VZWHL") * kMillimetre;
+    w.dvroll = text.angle("VROLLW");
+    w.dvyaw = text.angle("VYAWW");
+    w.dvpitch = text.angle("VPITCHW");
+  }
+}
+
+/// What the digits take of the kept motion.
+void put_motion(ContactReader& r, WheelRailCase& c) {
+  const ContactSequence& kept = r.kept;
+  const ControlWord& problem = *r.problem;
+  const auto need = [&](const std::optional<double>& value, std::string_view digit, std::string_view name) {
+    if (!value)
+      r.fail_at(problem, digit, fmt::format("needs {} of the velocity line, but no case has given it", name), "use E (EWHEEL) = 2 or more");
+    return *value;
+  };
+  c.roller.reset();
+  if (r.on_roller()) {
+    if (!kept.roller_radius)
+      r.fail_at(problem, "CONFIG", "needs NOMRAD of the roller, but no case has given it", "use Z (ZTRACK) = 3");
+    c.roller = {*kept.roller_radius, need(kept.roller_pitch_rate, "CONFIG", "the roller's pitch rate")};
+    c.wheelset.vs = 0.0;
+  } else {
+    c.wheelset.vs = need(kept.forward_velocity, "CONFIG", "VS");
+  }
+  c.longitudinal_force.reset();
+  if (problem["FORCE"] == 1) {
+    c.longitudinal_force = need(kept.longitudinal_force, "FORCE", "FX");
+    c.wheelset.vpitch = kept.pitch_rate.value_or(0.0);
+  } else {
+    c.wheelset.vpitch = need(kept.pitch_rate, "FORCE", "VPITCH");
+  }
+  c.rail_springs.reset();
+  if (problem["FORCE"] != 3) return;
+  if (!kept.rail_springs) r.fail_at(problem, "FORCE", "needs the line KYRAIL, but no case has given it", "use Z (ZTRACK) = 2 or 3");
+  c.rail_springs = kept.rail_springs;
+}
+
+}  // namespace treadmark::io

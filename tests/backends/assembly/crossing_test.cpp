@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "treadmark/backends/analytic/moving_section.hpp"
+#include "treadmark/backends/create.hpp"
+#include "treadmark/core/error.hpp"
+
+namespace treadmark {
+namespace {
+
+/// Levels off at x = 0.2 m from a rise of 1:10.
+MovingSection nose() {
+  MovingSection m;
+  m.x = 0.2;
+  m.y = 0.01;
+  m.slope_z_before = -0.1;
+  m.length_before = 0.3;
+  m.length_after = 0.1;
+  return m;
+}
+
+/// Moves aside by 1:10 from x = 0.05 m.
+MovingSection wing() {
+  MovingSection m;
+  m.x = 0.05;
+  m.z = 1e-3;
+  m.slope_y_after = 0.1;
+  m.length_before = 0.1;
+  m.length_after = 0.4;
+  return m;
+}
+
+SurfaceSpec moving(const MovingSection& motion) {
+  const SurfaceSpec section{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  return {Body::rail, 0.0, move_section(section, motion), {}};
+}
+
+/// Triangle of second derivatives over the rounding, integrated twice by the midpoint rule.
+double ramp_by_integration(double t, double r) {
+  if (t <= -0.5 * r) return 0.0;
+  constexpr int kSteps = 20000;
+  const double from = -0.5 * r, h = (t - from) / kSteps;
+  double sum = 0.0;
+  for (int i = 0; i < kSteps; ++i) {
+    const double at = from + (i + 0.5) * h;
+    sum += std::max(0.0, 2.0 / r * (1.0 - 2.0 * std::fabs(at) / r)) * (t - at) * h;
+  }
+  return sum;
+}
+
+TEST(MovingSection, TurnsByATriangleOfSecondDerivatives) {
+  const MovingSection m = wing();
+  for (const double x : {-0.02, 0.0, 0.02, 0.05, 0.07, 0.1, 0.2, 0.44}) {
+    const analytic::SectionOffset o = analytic::section_offset(m, x);
+    EXPECT_NEAR(o.y, 0.1 * ramp_by_integration(x - 0.05, m.rounding), 1e-9) << x;
+    EXPECT_EQ(o.z, 1e-3);
+  }
+  // straight before and after, and at rest beyond the ends
+  EXPECT_NEAR(analytic::section_offset(nose(), 0.0).z, 0.02, 1e-15);
+  EXPECT_NEAR(analytic::section_offset(nose(), 0.27).z, 0.0, 1e-15);
+  EXPECT_EQ(analytic::section_offset(nose(), -0.4).z, analytic::section_offset(nose(), -0.1).z);
+  EXPECT_EQ(analytic::section_offset(wing(), 0.6).y, analytic::section_offset(wing(), 0.45).y);
+}
+
+TEST(MovingSection, SplinesThroughItsSlicesFollowItExactly) {
+  for (const MovingSection& m : {nose(), wing()}) {
+    const NaturalSurface surface = create_natural(moving(m));
+    // the same section at rest, as slices
+    MovingSection still;
+    still.length_before = still.length_after = 1.0;
+    const NaturalSurface section = create_natural(moving(still));
+    for (double x = -0.3; x < 0.7; x += 0.0137) {
+      const analytic::SectionOffset o = analytic::section_offset(m, x);
+      for (double y = -0.034; y < 0.035; y += 0.0041)
+        ASSERT_NEAR(height_at(*surface.surface, {}, {x, y + o.y}), o.z + height_at(*section.surface, {}, {x, y}), 1e-11) << x << ' ' << y;
+    }
+  }
+}
+
+TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
+  Region region;
+  region.u_min = 0.17;
+  region.u_max = 0.23;
+  for (const MovingSection& m : {nose(), wing()}) {
+    const NaturalSurface natural = create_natural(moving(m));
+    for (const std::string backend : {"spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"}) {
+      SCOPED_TRACE(backend);
+      // offsets act along z: they cannot move the sides of a section far aside
+      if (backend.starts_with("offset") && m == wing()) continue;
+      const RepresentedSurface r = represent(natural, {backend, 1e-3, region});
+      const SurfaceDifference d = fit_error(natural, r);
+      EXPECT_GT(d.points, 1000u);
+      EXPECT_LE(d.height_rms, 3e-6);
+    }
+  }
+}
+
+TEST(Crossing, TheNoseTakesOverFromTheWing) {
+  const auto part = [](const MovingSection& m, const Vec3& offset, const char* backend) {
+    return SurfacePart{std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, 1e-3};
+  };
+  const NaturalSurface crossing = join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.03, 0.0}, "")});
+  const auto top = [&](const Surface& s, double x) {
+    double least = INFINITY, at = NAN;
+    for (double y = -0.07; y < 0.12; y += 0.5e-3)
+      if (const double z = height_at(s, {}, {x, y}); z < least) least = z, at = y;
+    return Vec2(at, least);
+  };
+  EXPECT_NEAR(top(*crossing.surface, 0.0).y(), 1e-3, 1e-5) << "on the wing, 1 mm low";
+  EXPECT_NEAR(top(*crossing.surface, 0.0).x(), 0.03, 6e-4);
+  EXPECT_NEAR(top(*crossing.surface, 0.3).y(), 0.0, 1e-5) << "on the nose";
+  EXPECT_NEAR(top(*crossing.surface, 0.3).x(), -0.01, 6e-4);
+  // where the straight rise reaches the wing's height
+  const double meet = 0.2 - 1e-3 / 0.1;
+  EXPECT_GT(top(*crossing.surface, meet - 0.03).x(), 0.0);
+  EXPECT_LT(top(*crossing.surface, meet + 0.03).x(), 0.0);
+  const NaturalSurface mixed = join_surfaces({part(nose(), {0.0, -0.02, 0.0}, "mesh"), part(wing(), {0.0, 0.03, 0.0}, "")});
+  const RepresentedSurface r = represent(mixed, {"", 0.0, {0.1, 0.2, -1.0, 1.0}});
+  EXPECT_EQ(r.surface->backend(), "mesh+spline");
+  for (const double x : {0.11, 0.15, 0.19}) EXPECT_NEAR(top(*r.surface, x).y(), top(*crossing.surface, x).y(), 2e-6);
+}
+
+TEST(MovingSection, RefusesWhatMakesNoSense) {
+  const SurfaceSpec section{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  MovingSection m = nose();
+  m.rounding = 0.0;
+  EXPECT_THROW(move_section(section, m), Error);
+  m.rounding = 0.3;  // longer than twice the line after it
+  EXPECT_THROW(move_section(section, m), Error);
+  m = nose();
+  m.slope_z_before = -1.1;
+  EXPECT_THROW(move_section(section, m), Error);
+  m = nose();
+  m.x = NAN;
+  EXPECT_THROW(move_section(section, m), Error);
+  EXPECT_THROW(move_section({Body::wheel, 0.46, StandardProfile{"S1002"}, {}}, nose()), Error);
+  EXPECT_THROW(move_section(moving(nose()), wing()), Error) << "it moves already";
+}
+
+/// A roof whose ridge is a kink feature that wanders with x.
+SliceSet roof(bool kink) {
+  SliceSet set;
+  set.name = "roof";
+  for (int i = 0; i < 9; ++i) {
+    Profile p;
+    const double ridge = 1e-3 * std::sin(0.8 * i), slope = 0.2;
+    for (int k = -80; k <= 80; ++k) {
+      const double s = 0.25e-3 * k;
+      p.y.push_back(ridge + s);
+      p.z.push_back(slope * std::fabs(s));
+    }
+    set.u.push_back(0.01 * i);
+    const double half = 0.02 * std::hypot(1.0, slope);
+    set.features.push_back({0.0, half, 2.0 * half});
+    set.profiles.push_back(std::move(p));
+  }
+  if (kink) set.kinks = {1};
+  return set;
+}
+
+TEST(Kinks, TheSurfaceTurnsSharplyAlongThem) {
+  const NaturalSurface sharp = create_natural({Body::rail, 0.0, roof(true), {}}), smooth = create_natural({Body::rail, 0.0, roof(false), {}});
+  EXPECT_EQ(sharp.surface->backend(), "spline");
+  double worst_sharp = 0.0, worst_smooth = 0.0;
+  for (int i = 1; i < 8; ++i) {
+    const double x = 0.01 * i, ridge = 1e-3 * std::sin(0.8 * i);
+    for (double d = -0.019; d < 0.019; d += 0.17e-3) {
+      const double exact = 0.2 * std::fabs(d), z = height_at(*sharp.surface, {}, {x, ridge + d});
+      ASSERT_FALSE(std::isnan(z)) << x << ' ' << d;
+      worst_sharp = std::max(worst_sharp, std::fabs(z - exact));
+      worst_smooth = std::max(worst_smooth, std::fabs(height_at(*smooth.surface, {}, {x, ridge + d}) - exact));
+    }
+    ASSERT_FALSE(std::isnan(height_at(*sharp.surface, {}, {x, ridge}))) << "no crack along the ridge";
+  }
+  EXPECT_LT(worst_sharp, 0.1 * worst_smooth);
+  EXPECT_GT(worst_smooth, 2e-6);
+}
+
+}  // namespace
+}  // namespace treadmark
