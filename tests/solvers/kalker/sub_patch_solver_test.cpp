@@ -53,6 +53,36 @@ TEST(SubPatches, FullCouplingIsOnePatch) {
   EXPECT_NEAR(parts.force_n, whole.force_n, 1e-5 * whole.force_n);
 }
 
+TEST(SubPatches, TheReferenceProgramDoesNotTellThemApartInApproximateTheories) {
+  for (const NormalModel model : {NormalModel::kpec, NormalModel::analyn}) {
+    TwoBumps bumps(0.3);
+    bumps.problem.normal_model = model;
+    bumps.problem.settings.reference_quirks = true;
+    const ContactSolution quirky = ContactSolver().solve_normal(bumps.problem);
+    bumps.problem.settings.reference_quirks = false;
+    const ContactSolution parts = ContactSolver().solve_normal(bumps.problem);
+    bumps.problem.settings.reference_quirks = true;
+    bumps.problem.sub_patches = {};
+    const ContactSolution whole = ContactSolver().solve_normal(bumps.problem);
+    EXPECT_EQ(quirky.pressure, whole.pressure);
+    EXPECT_GT(std::abs(parts.force_n / whole.force_n - 1.0), 1e-2);
+  }
+}
+
+TEST(SubPatches, ElasticEnergyOfTheReferenceProgramIsThatOfFullInfluence) {
+  TwoBumps bumps(0.3);
+  const ContactSolution parts = ContactSolver().solve_normal(bumps.problem);
+  bumps.problem.settings.reference_quirks = true;
+  const ContactSolution quirky = ContactSolver().solve_normal(bumps.problem);
+  EXPECT_EQ(quirky.pressure, parts.pressure);
+  EXPECT_GT(quirky.elastic_energy, parts.elastic_energy);
+  // In contact the influence of parts on themselves and 0.3 times that of the other make up approach less gap.
+  double work = 0.0;
+  for (std::size_t i = 0; i < parts.pressure.size(); ++i) work += parts.pressure[i] * (bumps.problem.approach - bumps.gap[i]);
+  work *= 0.5 * bumps.problem.grid.cell_area();
+  EXPECT_NEAR(parts.elastic_energy, work, 1e-5 * work);
+}
+
 TEST(SubPatches, NoCouplingIsTwoPatches) {
   TwoBumps bumps(0.0);
   const ContactSolution parts = ContactSolver().solve_normal(bumps.problem);

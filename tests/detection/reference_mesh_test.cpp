@@ -1,0 +1,154 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <vector>
+
+#include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/backends/spline/make.hpp"
+#include "treadmark/detection/lateral_nodes.hpp"
+#include "treadmark/detection/natural_curve.hpp"
+#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/wheel_facets.hpp"
+#include "treadmark/detection/wheel_mesh.hpp"
+
+namespace treadmark::detection {
+namespace {
+
+constexpr double kRadius = 0.46, kCrown = 0.3;
+
+/// Rail of crown radius 300 mm whose slices move aside by 1:10; nine slices every 10 mm.
+SliceSet crossing(Body body) {
+  SliceSet slices;
+  slices.body = body;
+  for (int k = 0; k < 9; ++k) {
+    slices.u.push_back(body == Body::rail ? 0.01 * (k - 4) : 0.02 * (k - 4));
+    Profile profile;
+    profile.body = body;
+    const double aside = body == Body::rail ? 0.001 * (k - 4) : 0.0;
+    for (int i = -60; i <= 60; ++i) {
+      const double y = 0.5e-3 * (body == Body::rail ? i : -i);
+      profile.y.push_back(y + aside);
+      profile.z.push_back((body == Body::rail ? 1.0 : -1.0) * (kCrown - std::sqrt(kCrown * kCrown - y * y)));
+    }
+    slices.profiles.push_back(profile);
+  }
+  return slices;
+}
+
+/// A wheel over a rail's top, yawed and rolled a little; the contact frame leans.
+struct Scene {
+  std::shared_ptr<const Surface> rail, wheel;
+  BodyPair bodies;
+  Pose X_TC{{2e-3, 1e-3, 0.0}, rotation_x(-0.03)};
+  Grid2 grid{-4e-3, -3e-3, 0.2e-3, 0.2e-3, 41, 31};
+
+  Scene(std::shared_ptr<const Surface> r, std::shared_ptr<const Surface> w) : rail(std::move(r)), wheel(std::move(w)) {
+    bodies.rail = rail.get();
+    bodies.wheel = wheel.get();
+    bodies.X_TW = {{0.0, 0.0, -kRadius}, rotation_x(0.01) * rotation_z(0.02) * rotation_y(0.7)};
+    bodies.distance_mesh = DistanceMesh{kRadius};
+  }
+
+  double greatest_difference(const Grid2& g) const {
+    std::vector<double> exact(g.size()), mesh(g.size());
+    wheel->heights({bodies.X_TW.inverse() * X_TC, g}, {exact, {}, {}});
+    mesh_heights(bodies, X_TC, g, mesh);
+    double most = 0.0;
+    for (std::size_t i = 0; i < g.size(); ++i) most = std::max(most, std::isnan(mesh[i]) ? 1.0 : std::abs(mesh[i] - exact[i]));
+    return most;
+  }
+};
+
+std::shared_ptr<const Surface> standard_rail() { return analytic::make_standard_surface({"60E1"}, Body::rail, 0.0); }
+std::shared_ptr<const Surface> standard_wheel() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius); }
+
+TEST(ReferenceMesh, NaturalCurveFollowsACircle) {
+  std::vector<Vec2> points;
+  for (int i = -40; i <= 40; ++i) points.emplace_back(0.3 * std::sin(0.002 * i), -0.3 * std::cos(0.002 * i));
+  const NaturalCurve curve(points);
+  for (const double y : {-0.011, -0.0003, 0.0, 0.0071})
+    EXPECT_NEAR(curve.least_over(y), -std::sqrt(0.09 - y * y), 1e-11);
+  EXPECT_TRUE(std::isnan(curve.least_over(0.03)));
+}
+
+TEST(ReferenceMesh, NaturalCurveOfThreePoints) {
+  // Over the first chord t the cubic without bend at the outer end is h (1.5 t - 0.5 t^3).
+  const double h = 0.2;
+  const NaturalCurve curve({{-1.0, 0.0}, {0.0, h}, {1.0, 0.0}});
+  for (const double t : {0.1, 0.5, 0.9}) EXPECT_NEAR(curve.least_over(t - 1.0), h * (1.5 * t - 0.5 * t * t * t), 1e-14);
+}
+
+TEST(ReferenceMesh, ChordsOfARoundWheelAreAsFarOffAsTheirSag) {
+  const Scene scene(standard_rail(), standard_wheel());
+  Grid2 fine = scene.grid;
+  fine.dx = fine.dy = 0.1e-3, fine.nx = 81, fine.ny = 61;
+  const double coarse_error = scene.greatest_difference(scene.grid), fine_error = scene.greatest_difference(fine);
+  // Tread of radius 330 mm and more across, wheel radius along.
+  const double sag = 0.125 * 0.2e-3 * 0.2e-3 * (1.0 / kRadius + 1.0 / 0.33);
+  EXPECT_LT(coarse_error, 1.1 * sag);
+  EXPECT_GT(coarse_error, 0.1 * sag);
+  EXPECT_NEAR(coarse_error / fine_error, 4.0, 1.0);
+}
+
+TEST(ReferenceMesh, OfARoundWheelMayHaveItsOriginFarOff) {
+  Scene scene(standard_rail(), standard_wheel());
+  const double near = scene.greatest_difference(scene.grid);
+  const double far = 5000.0 * scene.grid.dx;
+  scene.X_TC.origin.x() -= far;
+  scene.grid.x0 += far;
+  EXPECT_NEAR(scene.greatest_difference(scene.grid), near, 1e-12);
+}
+
+TEST(ReferenceMesh, BicubicMeshOfASmoothSliceWheelIsTheWheel) {
+  const Scene scene(standard_rail(), spline::make_slice_surface(crossing(Body::wheel), kRadius));
+  Scene level = scene;
+  level.bodies.X_TW.rotation = rotation_x(0.01) * rotation_z(0.02);
+  EXPECT_LT(level.greatest_difference(level.grid), 2e-10);
+}
+
+TEST(ReferenceMesh, CornersLieWhereTheDataLie) {
+  const auto wheel = spline::make_slice_surface(crossing(Body::wheel), kRadius);
+  const std::vector<double> y = lateral_nodes(*wheel, Pose{}, 0.0, {-10e-3, 10e-3});
+  ASSERT_GT(y.size(), 30u);
+  std::vector<Vec2> points;
+  for (const double at : y) points.emplace_back(0.0, at);
+  std::vector<SurfacePoint> found(points.size());
+  wheel->locate(Pose{}, points, found);
+  for (const SurfacePoint& p : found) EXPECT_NEAR(p.v, std::round(p.v), 1e-6);
+  EXPECT_TRUE(lateral_nodes(*standard_wheel(), Pose{}, 0.0, {-10e-3, 10e-3}).empty()) << "arcs have no data";
+}
+
+TEST(ReferenceMesh, SectionsOfAVariableRailAreTheRail) {
+  const Scene scene(spline::make_slice_surface(crossing(Body::rail), 0.0), standard_wheel());
+  std::vector<double> exact(scene.grid.size()), sections(scene.grid.size());
+  scene.rail->heights({scene.bodies.X_TR.inverse() * scene.X_TC, scene.grid}, {exact, {}, {}});
+  ASSERT_TRUE(section_heights(scene.bodies, scene.X_TC, scene.grid, sections));
+  for (std::size_t i = 0; i < exact.size(); ++i) ASSERT_NEAR(sections[i], exact[i], 2e-9);
+}
+
+TEST(ReferenceMesh, SectionsNeedARailMadeOfData) {
+  const Scene scene(standard_rail(), standard_wheel());
+  std::vector<double> n(scene.grid.size());
+  EXPECT_FALSE(section_heights(scene.bodies, scene.X_TC, scene.grid, n));
+}
+
+TEST(ReferenceMesh, PlanesAndAnglesGiveOneFacettedWheel) {
+  // Both are chords of the same round wheel.
+  const auto wheel = standard_wheel();
+  const Pose X_TW{{0.0, 0.0, -kRadius}, rotation_z(0.01) * rotation_y(-2.0)};
+  const WheelFacets angles{WheelFacets::Sections::angles, 0.1, 401, 0.5e-3}, planes{WheelFacets::Sections::planes, 0.1 * kRadius, 401, 0.5e-3};
+  const Grid2 grid{-5e-3, -10e-3, 0.7e-3, 0.9e-3, 15, 21};
+  std::vector<double> by_angles(grid.size()), by_planes(grid.size()), exact(grid.size());
+  FacetWheel(*wheel, X_TW, angles).heights(grid, by_angles);
+  FacetWheel(*wheel, X_TW, planes).heights(grid, by_planes);
+  wheel->heights({X_TW.inverse(), grid}, {exact, {}, {}});
+  for (std::size_t i = 0; i < grid.size(); ++i) {
+    ASSERT_NEAR(by_angles[i], exact[i], 3e-7);
+    ASSERT_NEAR(by_planes[i], exact[i], 3e-7);
+  }
+}
+
+}  // namespace
+}  // namespace treadmark::detection
