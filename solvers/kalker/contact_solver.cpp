@@ -6,6 +6,9 @@
 #include <cmath>
 #include <optional>
 #include <string>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
@@ -153,15 +156,19 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
     tangential.solve(problem, solution, previous);
     if (problem.settings.max_coupling <= 1) return;
     if (round > 1) {
-      change = relative_change(before, solution);
+      const double earlier = std::exchange(change, relative_change(before, solution));
       if (change <= kAgreement * problem.settings.eps) return;
+      // The rounds contract: what all further ones would change together.
+      constexpr double kContracting = 0.5;
+      const double rate = round > 2 ? change / earlier : 1.0;
+      if (rate < kContracting && change * rate / (1.0 - rate) <= kAgreement * problem.settings.eps) return;
     }
     if (round >= problem.settings.max_coupling) break;
   }
   if (solution.tangential.status == Status::ok) {
     solution.tangential.status = Status::not_converged;
-    solution.tangential.message = "normal and tangential problem still change each other by " + std::to_string(change) + " after " +
-                                  std::to_string(problem.settings.max_coupling) + " rounds";
+    solution.tangential.message =
+        fmt::format("normal and tangential problem still change each other by {:.2g} after {} rounds", change, problem.settings.max_coupling);
   }
 }
 

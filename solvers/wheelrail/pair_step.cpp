@@ -56,7 +56,7 @@ bool inside(const Rectangle& r, double x, double y, double margin_x, double marg
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
                    PhaseTimes& times)
-    : geometry_(geometry), problem_(problem), previous_(previous), solvers_(solvers), times_(times) {}
+    : geometry_(geometry), problem_(problem), previous_(previous), solvers_(solvers), times_(times), tangential_share_(previous.shares) {}
 
 bool PairStep::aligned() const {
   return problem_.regime == kalker::Regime::shift || problem_.regime == kalker::Regime::transient;
@@ -163,7 +163,7 @@ void PairStep::move(Patch& patch) const {
   s.kinematics = contact_kinematics(problem_, placement_, s.frame.X_TC, s.approach);
   if (!patch.reference) {
     if (!parts_creep_apart()) return;
-    PartSlip slip = part_slip(problem_, placement_, *geometry_.rail, s, sub_patches(problem_.discretisation, s.region, s.frame, s.grid));
+    PartSlip slip = part_slip(problem_, placement_, *geometry_.rail, s, sub_patches(problem_.discretisation, s.region, s.frame, s.reference_C, s.grid));
     s.extra_slip_x = std::move(slip.x);
     s.extra_slip_y = std::move(slip.y);
     return;
@@ -193,7 +193,7 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   kalker::ContactProblem c;
   c.grid = s.grid;
   c.gap = patch.gap;
-  c.sub_patches = sub_patches(p.discretisation, s.region, s.frame, s.grid);
+  c.sub_patches = sub_patches(p.discretisation, s.region, s.frame, s.reference_C, s.grid);
   c.material = p.material;
   c.friction = friction_at(p.friction_inclination, p.friction_laws, s.frame.angle, p.friction);
   c.normal_model = p.normal_model;
@@ -335,6 +335,7 @@ Instant PairStep::finish() {
   Instant now;
   now.next_id = previous_.next_id;
   now.stiffness = previous_.stiffness;
+  now.shares = tangential_share_;
   now.s = problem_.state.position.x;
   const bool remember_solver = aligned();
   std::vector<std::uint64_t> taken;

@@ -57,12 +57,6 @@ class PairStep {
     Vec3 normal_force_C = Vec3::Zero();          ///< resultant of the pressures
     Vec3 predicted_force_C = Vec3::Zero();
   };
-  /// Change of a patch's force by its tangential problem, over its normal force.
-  struct TangentialShare {
-    Rectangle box;         ///< where the patch was, in T
-    double normal_force;   ///< [N]
-    Vec3 share;            ///< in contact axes
-  };
   bool aligned() const;
   bool parts_creep_apart() const;
   Vec3 share_near(const Rectangle& box) const;

@@ -25,10 +25,18 @@ struct PatchMemory {
   std::shared_ptr<const kalker::ContactSolver::State> solver;
 };
 
+/// Change of a patch's force by its tangential problem, over its normal force.
+struct TangentialShare {
+  Rectangle box;                   ///< where the patch was, in T [m]
+  double normal_force = 0.0;       ///< [N]
+  Vec3 share = Vec3::Zero();       ///< in contact axes
+};
+
 /// One instant of a pair.
 struct Instant {
   std::vector<PatchMemory> patches;
   double s = 0.0;          ///< of the wheelset along the track [m]
+  std::vector<TangentialShare> shares;
   double stiffness = 0.0;  ///< vertical force / penetration^1.5 [N/m^1.5]; 0 = unknown
   std::uint64_t next_id = 1;
 };

@@ -7,7 +7,7 @@
 namespace treadmark::wheelrail {
 
 kalker::SubPatches sub_patches(const Discretisation& discretisation, const detection::ContactPatch& region,
-                               const detection::ContactFrame& frame, const Grid2& grid) {
+                               const detection::ContactFrame& frame, const Vec2& reference_C, const Grid2& grid) {
   kalker::SubPatches sub;
   const auto& parts = region.parts;
   if (parts.size() < 2) return sub;
@@ -26,7 +26,7 @@ kalker::SubPatches sub_patches(const Discretisation& discretisation, const detec
     const Rectangle& box = parts[k].box;
     for (int iy = 0; iy < grid.ny; ++iy)
       for (int ix = 0; ix < grid.nx; ++ix) {
-        const double x = grid.x(ix), s = grid.y(iy);
+        const double x = grid.x(ix) - reference_C.x(), s = grid.y(iy) - reference_C.y();
         const std::size_t i = grid.index(ix, iy);
         if (sub.part[i] == 0 && x >= box.x_min - reference.x() - margin && x <= box.x_max - reference.x() + margin &&
             s >= (box.y_min - reference.y()) * stretch - margin && s <= (box.y_max - reference.y()) * stretch + margin)

@@ -11,6 +11,6 @@ namespace treadmark::wheelrail {
 /// Elements of each part of a patch, a little enlarged, and how much the parts feel of each other.
 /// Empty for a patch of one part.
 kalker::SubPatches sub_patches(const Discretisation& discretisation, const detection::ContactPatch& region,
-                               const detection::ContactFrame& frame, const Grid2& grid);
+                               const detection::ContactFrame& frame, const Vec2& reference_C, const Grid2& grid);
 
 }  // namespace treadmark::wheelrail
