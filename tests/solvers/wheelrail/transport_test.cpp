@@ -53,7 +53,6 @@ void group(Problem& p, Grouping g) {
 using Place = std::pair<long, long>;
 struct Element {
   double pressure = 0.0, px = 0.0;
-  double own_slip = 0.0;   ///< of a part, beyond the patch's
 };
 
 /// Elements in contact by their places on the raster.
@@ -66,7 +65,7 @@ std::map<Place, Element> elements(const PairSolution& s) {
         if (!(patch.contact.pressure[i] > 0.0)) continue;
         const Place place{std::lround(patch.grid.x(ix) / kStep), std::lround(patch.grid.y(iy) / kStep)};
         EXPECT_FALSE(all.contains(place)) << "two patches press on one element";
-        all[place] = {patch.contact.pressure[i], patch.contact.traction_x[i], patch.extra_slip_x.empty() ? 0.0 : patch.extra_slip_x[i]};
+        all[place] = {patch.contact.pressure[i], patch.contact.traction_x[i]};
       }
   return all;
 }
@@ -129,7 +128,7 @@ TEST(Transport, TractionsStayWithTheMaterialWhilePatchesMergeAndSplit) {
     double total = 0.0, expected_total = 0.0;
     for (const auto& [place, e] : now) {
       const auto behind = before.find({place.first + 1, place.second});
-      const double expected = (behind == before.end() ? 0.0 : behind->second.px) - e.own_slip * kStep / kLayer;
+      const double expected = behind == before.end() ? 0.0 : behind->second.px;
       EXPECT_NEAR(e.px, expected, 4e-3 * full) << place.first << ", " << place.second;
       total += e.px;
       expected_total += expected;
