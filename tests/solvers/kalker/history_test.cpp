@@ -384,6 +384,8 @@ TEST(SimplifiedTheory, RefusesFrictionAndSlipThatItWouldIgnore) {
   ball.problem.friction_of_row.clear();
   const std::vector<double> slip(ball.gap.size(), 1e-4);
   ball.problem.extra_slip_x = ball.problem.extra_slip_y = slip;
+  EXPECT_EQ(ball.solve(solver).status, Status::ok);
+  ball.problem.tangential_model = TangentialModel::fastrip;
   EXPECT_THROW(ball.solve(solver), Error);
 }
 

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
