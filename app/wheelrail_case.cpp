@@ -13,7 +13,8 @@ wheelrail::Discretisation::SearchGrid search_grid(const io::DiscretisationInput&
   using Grid = wheelrail::Discretisation::SearchGrid;
   if (!d.reference_search_mesh) return Grid::refined;
   if (d.method == kSteepGrid) return Grid::reference_steep;
-  return d.method == kGrid || !constant_profiles ? Grid::reference_mesh : Grid::refined;
+  if (d.method == kGrid || !constant_profiles) return Grid::reference_mesh;
+  return d.prune ? Grid::reference_locus : Grid::refined;
 }
 
 detection::SearchMethod search_method(const io::DiscretisationInput& d) {

@@ -71,10 +71,12 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
   const bool one_profile = !settings.mesh && ContactLocus::applies(bodies);
-  if (settings.method == SearchMethod::locus && !one_profile)
+  if ((settings.method == SearchMethod::locus || settings.locus_rows) && !one_profile)
     throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel", {},
                 "use the grid method");
-  if (settings.method == SearchMethod::locus || (settings.method == SearchMethod::automatic && one_profile && settings.refine)) {
+  if (settings.locus_rows) {
+    reference_locus_.emplace(bodies, *settings.locus_rows);
+  } else if (settings.method == SearchMethod::locus || (settings.method == SearchMethod::automatic && one_profile && settings.refine)) {
     locus_.emplace(bodies, g);
   } else {
     if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;
@@ -82,7 +84,10 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
   }
 }
 
-double ContactSearch::least_gap() { return locus_ ? locus_->least() : gap_->least(); }
+double ContactSearch::least_gap() {
+  if (reference_locus_) return reference_locus_->least();
+  return locus_ ? locus_->least() : gap_->least();
+}
 
 BodyPair ContactSearch::bodies_at(double wheel_dz) const {
   BodyPair moved = bodies_;
@@ -95,12 +100,13 @@ SearchResult ContactSearch::at(double wheel_dz) {
   const SearchSettings& s = settings_;
   if (std::isnan(least_gap())) return {{}, least_gap()};
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
-  return locus_ ? on_locus(wheel_dz, look_below) : on_grid(wheel_dz, look_below);
+  return method() == SearchMethod::locus ? on_locus(wheel_dz, look_below) : on_grid(wheel_dz, look_below);
 }
 
 SearchResult ContactSearch::on_locus(double wheel_dz, double look_below) {
   const SearchSettings& s = settings_;
-  ContactLocus::Found found = locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest);
+  ContactLocus::Found found = reference_locus_ ? reference_locus_->at(wheel_dz, s.rules.near_miss, s.weight, s.reference_at_deepest)
+                                               : locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest);
   return {combine_patches(std::move(found.patches), found.near_misses, s.rules), found.least_gap};
 }
 

@@ -10,6 +10,7 @@
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/interpenetration.hpp"
 #include "treadmark/detection/pruned_gap.hpp"
+#include "treadmark/detection/reference_locus.hpp"
 #include "treadmark/detection/search_mesh.hpp"
 
 namespace treadmark::detection {
@@ -33,6 +34,8 @@ struct SearchSettings {
   double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
   /// On the first grid, for agreement with the reference program; refined grids are always exact.
   std::optional<SearchMesh> mesh;
+  /// The locus on these rows instead of Treadmark's own, for agreement with that program; needs constant profiles.
+  std::optional<LocusRows> locus_rows;
   std::optional<DistanceMesh> distance_mesh;  ///< passed on to bodies_at()
   /// The contact reference is the point of deepest penetration instead of the weighted centre.
   bool reference_at_deepest = false;
@@ -56,7 +59,7 @@ class ContactSearch {
   ContactSearch(const BodyPair& bodies, const SearchSettings& settings);
 
   /// The method in use; never automatic.
-  SearchMethod method() const { return locus_ ? SearchMethod::locus : settings_.method; }
+  SearchMethod method() const { return locus_ || reference_locus_ ? SearchMethod::locus : settings_.method; }
 
   /// Least gap [m] at the position given at construction, on the first grid; NaN where the bodies nowhere face each other.
   double least_gap();
@@ -78,6 +81,7 @@ class ContactSearch {
   BodyPair bodies_;
   SearchSettings settings_;
   std::optional<ContactLocus> locus_;
+  std::optional<ReferenceLocus> reference_locus_;
   std::optional<PrunedGap> gap_;
   struct Refined {
     Grid2 grid;

@@ -102,6 +102,7 @@ struct Discretisation {
     refined,          ///< coarse grid over the whole window, fine grids on what it finds
     reference_mesh,   ///< one grid whose steps follow dx, ds as in the reference program (CONTACT)
     reference_steep,  ///< the same with its finer lateral steps for steep slopes
+    reference_locus,  ///< its contact locus, where both profiles are constant
   } search = SearchGrid::refined;
   detection::SearchMethod search_method = detection::SearchMethod::automatic;
   bool distance_on_mesh = false;   ///< undeformed distance with the reference program's mesh of the wheel

@@ -65,6 +65,11 @@ Grid2 coarse_grid(const Problem& p, const Placement& placed, const LateralRange&
   return grid;
 }
 
+detection::LocusRows locus_rows(const Problem& p, const LateralRange& rail) {
+  const double step = 0.3 * p.discretisation.ds;
+  return {rail.y_min, step, checked_count(std::ceil((rail.y_max - rail.y_min) / step)) + 1, p.wheelset.nominal_radius};
+}
+
 }  // namespace
 
 detection::SearchSettings search_settings(const Geometry& geometry, const Problem& p, const Placement& placed) {
@@ -75,8 +80,10 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
 
   detection::SearchSettings s;
   s.method = d.search_method;
-  s.refine = d.search == Discretisation::SearchGrid::refined;
+  const bool locus = d.search == Discretisation::SearchGrid::reference_locus;
+  s.refine = locus || d.search == Discretisation::SearchGrid::refined;
   s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.mesh.emplace().wheel);
+  if (locus) s.locus_rows = locus_rows(p, rail);
   s.refined_dx = 0.3 * d.dx;
   s.refined_dy = 0.3 * d.ds;
   s.refined_points = geometry.constant_profiles() ? 64 : 120;

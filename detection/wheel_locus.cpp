@@ -1,0 +1,122 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/wheel_locus.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <numbers>
+#include <utility>
+
+#include "treadmark/detection/natural_spline.hpp"
+#include "treadmark/detection/wheel_section.hpp"
+
+namespace treadmark::detection {
+namespace {
+
+constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
+constexpr double kKinkHigh = 18.0 * std::numbers::pi / 180.0, kKinkLow = 0.1 * kKinkHigh, kKinkWidth = 2e-3;
+
+/// The profile's data and the points of their circles, in T; by increasing y.
+struct Line {
+  std::vector<Vec2> profile;
+  std::vector<Vec3> points;
+};
+
+Line line_of(const BodyPair& bodies, double nominal_radius) {
+  constexpr double kLateralStep = 0.5e-3;  // where the wheel tells no data
+  const double lowest = lowest_angle(bodies.X_TW);
+  const std::vector<double> y = mesh_lines(*bodies.wheel, lowest, kLateralStep);
+  std::vector<Vec2> section;
+  for (const double at : y) section.emplace_back(0.0, at);
+  std::vector<double> radius(y.size()), slope(y.size());
+  bodies.wheel->heights_at({Vec3::Zero(), rotation_y(lowest)}, section, {radius, {}, slope});
+
+  const Pose X_TU = bodies.X_TW * Pose{Vec3::Zero(), rotation_y(lowest)};
+  const Mat3& M = X_TU.rotation;
+  const double farthest = 0.5 * nominal_radius;
+  Line line;
+  for (std::size_t i = 0; i < y.size(); ++i) {
+    if (std::isnan(radius[i]) || std::isnan(slope[i])) continue;
+    const double x = std::clamp((radius[i] * slope[i] * M(0, 1) - nominal_radius * M(0, 2)) / M(0, 0), -farthest, farthest);
+    line.profile.emplace_back(y[i], radius[i]);
+    line.points.push_back(X_TU.apply({x, y[i], std::sqrt(radius[i] * radius[i] - x * x)}));
+  }
+  return line;
+}
+
+/// Keeps the part about the middle over which y of T increases.
+void trim(Line& line) {
+  if (line.points.size() < 2) return;
+  double mean = 0.0;
+  for (const Vec3& p : line.points) mean += p.y() / static_cast<double>(line.points.size());
+  const auto nearest = std::ranges::min_element(line.points, {}, [&](const Vec3& p) { return std::abs(p.y() - mean); });
+  std::size_t first = static_cast<std::size_t>(nearest - line.points.begin()), last = first;
+  while (first > 0 && line.points[first - 1].y() < line.points[first].y()) --first;
+  while (last + 1 < line.points.size() && line.points[last + 1].y() > line.points[last].y()) ++last;
+  const auto cut = [&](auto& list) {
+    list.erase(list.begin() + static_cast<std::ptrdiff_t>(last) + 1, list.end());
+    list.erase(list.begin(), list.begin() + static_cast<std::ptrdiff_t>(first));
+  };
+  cut(line.profile);
+  cut(line.points);
+}
+
+/// Ends of the line and sharp corners with nothing but gentle turns about them.
+std::vector<std::size_t> section_ends(const std::vector<Vec2>& profile, const std::vector<double>& steps) {
+  const std::size_t n = profile.size();
+  std::vector<double> turn(n, 0.0), s(n, 0.0);
+  for (std::size_t i = 1; i < n; ++i) s[i] = s[i - 1] + steps[i - 1];
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    const Vec2 a = profile[i] - profile[i - 1], b = profile[i + 1] - profile[i];
+    turn[i] = std::abs(std::atan2(a.x() * b.y() - a.y() * b.x(), a.dot(b)));
+  }
+  std::vector<std::size_t> ends{0};
+  for (std::size_t i = 1; i + 1 < n; ++i) {
+    if (!(turn[i] > kKinkHigh)) continue;
+    bool alone = true;
+    for (std::size_t k = i; k-- > 0 && s[i] - s[k] <= kKinkWidth;) alone = alone && turn[k] <= kKinkLow;
+    for (std::size_t k = i + 1; k < n && s[k] - s[i] <= kKinkWidth; ++k) alone = alone && turn[k] <= kKinkLow;
+    if (alone) ends.push_back(i);
+  }
+  ends.push_back(n - 1);
+  return ends;
+}
+
+}  // namespace
+
+WheelLocus::WheelLocus(const BodyPair& bodies, double nominal_radius) {
+  Line line = line_of(bodies, nominal_radius);
+  trim(line);
+  if (line.points.size() < 2) return;
+  for (std::size_t i = 0; i + 1 < line.profile.size(); ++i) steps_.push_back((line.profile[i + 1] - line.profile[i]).norm());
+  points_ = std::move(line.points);
+  const std::vector<std::size_t> ends = section_ends(line.profile, steps_);
+  for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
+    const std::size_t first = ends[k], steps = ends[k + 1] - ends[k];
+    const std::vector<Vec3> bends = natural_bends<Vec3>(std::span(points_).subspan(first, steps + 1), std::span(steps_).subspan(first, steps));
+    bends_start_.insert(bends_start_.end(), bends.begin(), bends.end() - 1);
+    bends_end_.insert(bends_end_.end(), bends.begin() + 1, bends.end());
+  }
+}
+
+std::vector<Vec2> WheelLocus::over(const std::vector<double>& y) const {
+  constexpr int kHalvings = 52;
+  std::vector<Vec2> found(y.size(), {kNaN, kNaN});
+  std::size_t i = 0;
+  for (std::size_t k = 0; k < y.size(); ++k) {
+    while (i + 2 < points_.size() && points_[i + 1].y() < y[k]) ++i;
+    if (steps_.empty() || y[k] < points_[i].y() || y[k] > points_[i + 1].y()) continue;
+    const auto at = [&](double f) { return natural_point(points_[i], points_[i + 1], bends_start_[i], bends_end_[i], steps_[i], f); };
+    double low = 0.0, high = 1.0;
+    for (int half = 0; half < kHalvings; ++half) {
+      const double middle = 0.5 * (low + high);
+      (at(middle).y() < y[k] ? low : high) = middle;
+    }
+    const Vec3 p = at(0.5 * (low + high));
+    found[k] = {p.x(), p.z()};
+  }
+  return found;
+}
+
+}  // namespace treadmark::detection
