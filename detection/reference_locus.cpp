@@ -92,7 +92,7 @@ ContactPatch ReferenceLocus::patch(int first, int last, int deepest, double whee
   double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
   for (int i = first; i <= last; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double c = -gap(i, wheel_dz), w = row_weight(weight, c, kappa), half = std::sqrt(c / (std::cos(inclination_[k]) * kappa));
+    const double c = -gap(i, wheel_dz), w = row_weight(weight, c, kappa), half = std::sqrt(c / kappa);
     sum += w;
     sum_x += w * x_[k];
     sum_y += w * rows_.y(i);
