@@ -45,15 +45,16 @@ Reach reach_of(const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
   return r;
 }
 
-/// Lateral positions over the reach whose distance along the profile from y_through is a whole multiple of a step.
+/// Lateral positions about the reach whose distance along the profile from y_through is a whole multiple of a step.
 std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& r, double y_through, double step) {
   constexpr int kParts = 10;
   const double fine = step / kParts;
-  std::vector<double> y{y_through}, radius;
-  for (int i = 1; y.front() > r.y_min - step; ++i) y.insert(y.begin(), y_through - i * fine);
-  const std::size_t through = y.size() - 1;
-  for (int i = 1; y.back() < r.y_max + step; ++i) y.push_back(y_through + i * fine);
-  radius = section_radius(wheel, angle, y);
+  const auto steps_over = [&](double length) { return std::max(1, static_cast<int>(std::ceil(length / fine))); };
+  const int below = steps_over(y_through - r.y_min + step), above = steps_over(r.y_max + step - y_through);
+  std::vector<double> y;
+  for (int i = -below; i <= above; ++i) y.push_back(y_through + i * fine);
+  const auto through = static_cast<std::size_t>(below);
+  const std::vector<double> radius = section_radius(wheel, angle, y);
   std::vector<double> nodes{y_through};
   const auto walk = [&](int direction) {
     double length = 0.0, next = step;
@@ -68,16 +69,18 @@ std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& 
   walk(-1);
   std::ranges::reverse(nodes);
   walk(1);
+  const double spare = 2.0 * step;
+  std::erase_if(nodes, [&](double node) { return node < r.y_min - spare || node > r.y_max + spare; });
   return nodes;
 }
 
 Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
   const Reach r = reach_of(X_TU, X_TC, g);
-  // Lines through the contact reference; a grid that lines up with others in time may have its origin far off.
-  const Vec3 marker = X_TU.apply_inverse(X_TC.origin);
-  const double y_through = marker.y() > r.y_min && marker.y() < r.y_max ? marker.y() : 0.5 * (r.y_min + r.y_max);
   const double angle = lowest_angle(bodies.X_TW);
-  const std::vector<double> y = equal_arcs(*bodies.wheel, angle, r, y_through, g.dy);
+  // Lines through the origin of the grid, which lies far off where grids line up in time.
+  const Vec3 marker = X_TU.apply_inverse(X_TC.origin);
+  std::vector<double> y = equal_arcs(*bodies.wheel, angle, r, marker.y(), g.dy);
+  if (y.size() < 2) y = equal_arcs(*bodies.wheel, angle, r, 0.5 * (r.y_min + r.y_max), g.dy);  // the origin is beside the wheel
   const std::vector<double> radius = section_radius(*bodies.wheel, angle, y);
   const double first = std::floor((r.x_min - marker.x()) / g.dx), last = std::ceil((r.x_max - marker.x()) / g.dx);
   Mesh mesh{static_cast<int>(last - first) + 1, static_cast<int>(y.size()), {}};

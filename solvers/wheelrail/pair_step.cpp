@@ -7,6 +7,7 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/part_slip.hpp"
@@ -31,8 +32,16 @@ class Stopwatch {
 /// Interpenetration half as long as the search window: the bodies do not touch, they lie in each other.
 constexpr double kDeepestOfRadius = 0.02;
 
-/// Signed arc length along the rail's section through a point, from y = 0 of the profile.
-double profile_arc_length(const Surface& rail, const Vec3& point_R) {
+/// Signed arc length along the rail's section through a point seen from above: as the rail's own data have it, else from y = 0 of the
+/// profile.
+double profile_arc_length(const Surface& rail, const Pose& X_TR, const Vec3& point_T) {
+  if (dynamic_cast<const ArcLengthParameter*>(&rail) != nullptr) {
+    const Vec2 above(point_T.x(), point_T.y());
+    SurfacePoint found;
+    rail.locate(X_TR.inverse(), {&above, 1}, {&found, 1});
+    if (found.status != LocateStatus::outside) return found.v;
+  }
+  const Vec3 point_R = X_TR.apply_inverse(point_T);
   constexpr int kSteps = 400;
   const double step = std::abs(point_R.y()) / kSteps;
   if (step == 0.0) return 0.0;
@@ -97,7 +106,7 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   s.region = region;
   s.frame = detection::contact_frame(bodies, region);
   const Pose& X_TC = s.frame.X_TC;
-  s.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS.apply_inverse(X_TC.origin));
+  s.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS, X_TC.origin);
   detection::PotentialContactSettings settings{d.dx, d.ds, aligned() ? 0 : d.max_elements, Vec2::Zero()};
   if (aligned())
     settings.reference = {X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};
