@@ -251,13 +251,16 @@ class Resampling {
   /// rail's are. Sides that no wheel can touch are left out: along them offsets would be large.
   std::shared_ptr<const Surface> following_base() {
     constexpr double kStationSteps = 40.0;
+    const double apart = kStationSteps * resolution_;
     limit_rail();
+    note_ += fmt::format("offsets over sections at least {:g} mm apart. ", 1e3 * apart);
+    const auto* slices = std::get_if<SliceSet>(&spec_.shape);
+    if (slices != nullptr && !slices->features.empty() && spec_.defects.empty())
+      return slice_surface(sampling::thinned_slices(*slices, apart), 0.0);
     Region r = region_;
     r.u_min -= beyond() + resolution_;
     r.u_max += beyond() + resolution_;
-    auto base = spline::make_slice_surface(sampling::touchable_slices(*natural_.surface, r, kStationSteps * resolution_, resolution_), 0.0);
-    note_ += fmt::format("offsets over sections {:g} mm apart, without sides steeper than 80 degrees. ", 1e3 * kStationSteps * resolution_);
-    return base;
+    return spline::make_slice_surface(sampling::touchable_slices(*natural_.surface, r, apart, resolution_), 0.0);
   }
 
   void limit_rail() {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <ranges>
 #include <utility>
 #include <vector>
 
@@ -74,7 +75,28 @@ Profile section_at(const Surface& rail, double x, double low, double high, doubl
   return profile;
 }
 
+/// Whether the same features are there in two slices.
+bool same_parts(const SliceSet& slices, std::size_t a, std::size_t b) {
+  const auto missing = [](double s) { return std::isnan(s); };
+  return slices.features.empty() || std::ranges::equal(slices.features[a], slices.features[b], {}, missing, missing);
+}
+
 }  // namespace
+
+SliceSet thinned_slices(const SliceSet& slices, double apart) {
+  SliceSet some = slices;
+  some.u.clear(), some.profiles.clear(), some.features.clear();
+  const std::size_t n = slices.u.size();
+  for (std::size_t i = 0; i < n; ++i) {
+    const bool end = i < 2 || i + 2 >= n || !same_parts(slices, i - 1, i) || !same_parts(slices, i, i + 1) ||
+                     !same_parts(slices, i - 2, i - 1) || !same_parts(slices, i + 1, i + 2);
+    if (!end && slices.u[i] - some.u.back() < apart) continue;
+    some.u.push_back(slices.u[i]);
+    some.profiles.push_back(slices.profiles[i]);
+    if (!slices.features.empty()) some.features.push_back(slices.features[i]);
+  }
+  return some;
+}
 
 SliceSet touchable_slices(const Surface& rail, const Region& region, double spacing_u, double spacing) {
   if (!(spacing > 0.0)) throw Error(ErrorKind::configuration, "the spacing of samples must be positive");

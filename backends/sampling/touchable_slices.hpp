@@ -18,4 +18,8 @@ inline constexpr double kSteepestTouchable = 5.6712818196177075;  ///< [-] tan(8
 /// Error(input_data) where a section is missing, or has a gap.
 SliceSet touchable_slices(const Surface& rail, const Region& region, double spacing_u, double spacing);
 
+/// Some of the slices, where possible at least apart [m] from each other: those between which a feature begins or ends all stay,
+/// and so do the first two and the last two.
+SliceSet thinned_slices(const SliceSet& slices, double apart);
+
 }  // namespace treadmark::sampling
