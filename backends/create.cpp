@@ -202,17 +202,21 @@ class Resampling {
   std::shared_ptr<const Surface> as_offset(offset::Interpolation interpolation, std::string backend) {
     std::shared_ptr<const Surface> base;
     SurfaceSpec base_spec;
+    offset::OffsetSample sample;
     const std::string note = note_;
     try {
-      const offset::OffsetSample sample = offsets(base, base_spec);
-      return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
-    } catch (const Error& e) {
-      if (spec_.body != Body::rail || e.kind() != ErrorKind::input_data) throw;
+      sample = offsets(base, base_spec);
+    } catch (const Error& one_section) {
+      if (spec_.body != Body::rail || one_section.kind() != ErrorKind::input_data) throw;
+      note_ = note;
+      // one section lies not below all of the rail: let the base follow it
+      try {
+        base = following_base();
+        sample = offsets_over(*base, {region_.u_min, region_.u_max, region_.y_min, region_.y_max});
+      } catch (const Error&) {
+        throw one_section;
+      }
     }
-    // one section lies not below all of the rail: let the base follow it
-    note_ = note;
-    base = following_base();
-    const offset::OffsetSample sample = offsets_over(*base, {region_.u_min, region_.u_max, region_.y_min, region_.y_max});
     return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
   }
 
