@@ -22,6 +22,7 @@
 #include "treadmark/backends/sampling/convert_points.hpp"
 #include "treadmark/backends/sampling/difference.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
+#include "treadmark/backends/sampling/touchable_slices.hpp"
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/backends/spline/slice_kinks.hpp"
 #include "treadmark/core/error.hpp"
@@ -192,17 +193,47 @@ class Resampling {
                                                  spec_.nominal_radius, "median section");
     }
     base = undamaged(base_spec, {});
+    limit_rail();
+    Rectangle region{region_.u_min, region_.u_max, region_.y_min, region_.y_max};
+    if (known && given == nullptr) narrow(region);
+    return offsets_over(*base, region);
+  }
+
+  std::shared_ptr<const Surface> as_offset(offset::Interpolation interpolation, std::string backend) {
+    std::shared_ptr<const Surface> base;
+    SurfaceSpec base_spec;
+    offset::OffsetSample sample;
+    const std::string note = note_;
+    try {
+      sample = offsets(base, base_spec);
+    } catch (const Error& one_section) {
+      if (spec_.body != Body::rail || one_section.kind() != ErrorKind::input_data) throw;
+      note_ = note;
+      // one section lies not below all of the rail: let the base follow it
+      try {
+        base = following_base();
+        sample = offsets_over(*base, {region_.u_min, region_.u_max, region_.y_min, region_.y_max});
+      } catch (const Error&) {
+        throw one_section;
+      }
+    }
+    return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
+  }
+
+ private:
+  /// An offset that ends makes splines ring for some voxels: let it end outside.
+  double beyond() const {
+    constexpr double kBeyond = 8.0;
+    return kBeyond * resolution_ / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
+  }
+
+  offset::OffsetSample offsets_over(const Surface& base, const Rectangle& region) {
     offset::OffsetSettings settings;
     settings.du = settings.dy = resolution_;
-    limit_rail();
-    settings.region_uy = {region_.u_min, region_.u_max, region_.y_min, region_.y_max};
-    if (known && given == nullptr) narrow(settings.region_uy);
-    // an offset that ends makes splines ring for some voxels: let it end outside
-    constexpr double kBeyond = 8.0;
-    const double beyond = kBeyond * resolution_ / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
-    settings.region_uy.x_min -= beyond;
-    settings.region_uy.x_max += beyond;
-    auto sample = offset::sample_offsets(*natural_.surface, *base, spec_.body, spec_.nominal_radius, settings);
+    settings.region_uy = region;
+    settings.region_uy.x_min -= beyond();
+    settings.region_uy.x_max += beyond();
+    auto sample = offset::sample_offsets(*natural_.surface, base, spec_.body, spec_.nominal_radius, settings);
     constexpr double kMostContinued = 0.02;
     if (sample.gaps > 0)
       throw Error(ErrorKind::input_data,
@@ -220,14 +251,22 @@ class Resampling {
     return sample;
   }
 
-  std::shared_ptr<const Surface> as_offset(offset::Interpolation interpolation, std::string backend) {
-    std::shared_ptr<const Surface> base;
-    SurfaceSpec base_spec;
-    const offset::OffsetSample sample = offsets(base, base_spec);
-    return offset::make_offset_surface(std::move(base), sample.offsets, interpolation, std::move(backend));
+  /// A spline through sections far apart, for rails that move aside: offsets over it are small, and its sides are where the
+  /// rail's are. Sides that no wheel can touch are left out: along them offsets would be large.
+  std::shared_ptr<const Surface> following_base() {
+    constexpr double kStationSteps = 40.0;
+    const double apart = kStationSteps * resolution_;
+    limit_rail();
+    note_ += fmt::format("offsets over sections at least {:g} mm apart. ", 1e3 * apart);
+    const auto* slices = std::get_if<SliceSet>(&spec_.shape);
+    if (slices != nullptr && !slices->features.empty() && spec_.defects.empty())
+      return slice_surface(sampling::thinned_slices(*slices, apart), 0.0);
+    Region r = region_;
+    r.u_min -= beyond() + resolution_;
+    r.u_max += beyond() + resolution_;
+    return spline::make_slice_surface(sampling::touchable_slices(*natural_.surface, r, apart, resolution_), 0.0);
   }
 
- private:
   void limit_rail() {
     if (spec_.body != Body::rail) return;
     const Box3 box = natural_.surface->bounds();

@@ -114,7 +114,25 @@ Layout make_layout(const std::vector<CasePicture>& cases) {
   return layout;
 }
 
-std::string draw_panel(const CasePicture& picture, const Layout& layout, double top_pressure, int index,
+/// Wheelsets that stand at several places along the track, all with the same pitch, are told apart by their places.
+bool differ_in_place(const std::vector<CaseResult>& cases) {
+  const CaseResult* first = nullptr;
+  bool places = false;
+  for (const CaseResult& c : cases) {
+    if (!c.has_wheelset) continue;
+    if (first == nullptr) first = &c;
+    if (c.pitch != first->pitch) return false;
+    places = places || c.s != first->s;
+  }
+  return places;
+}
+
+std::string title_of(const CaseResult& result, bool by_place) {
+  if (!result.has_wheelset) return fmt::format("case {}", result.number);
+  return by_place ? fmt::format("s {:.4g} mm", 1e3 * result.s) : fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi);
+}
+
+std::string draw_panel(const CasePicture& picture, const Layout& layout, bool by_place, double top_pressure, int index,
                        int case_count) {
   const CaseResult& result = *picture.result;
   const PanelScale panel{layout.window(picture), layout.scale_x, layout.scale_y};
@@ -123,9 +141,7 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, double 
   std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n",
                                 kLeft + column * (width + kGapX), kTop + row * (height + kGapY));
 
-  const std::string title = result.has_wheelset ? fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi)
-                                                : fmt::format("case {}", result.number);
-  out += svg_text(0.5 * width, -20.0, title, "middle", " class=\"title\"");
+  out += svg_text(0.5 * width, -20.0, title_of(result, by_place), "middle", " class=\"title\"");
   if (picture.contact) {
     double force = 0.0, pressure = 0.0;
     for (const PatchResult& patch : result.patches) {
@@ -175,9 +191,10 @@ std::string pressure_svg(const RunResult& run) {
   const Layout layout = make_layout(cases);
 
   std::string out = svg_head(layout.picture_width(), layout.picture_height(), 10, kPanelStyle);
+  const bool by_place = differ_in_place(run.cases);
   int index = 0;
   for (const CasePicture& picture : cases)
-    out += draw_panel(picture, layout, top_pressure, index++, static_cast<int>(cases.size()));
+    out += draw_panel(picture, layout, by_place, top_pressure, index++, static_cast<int>(cases.size()));
   return out + draw_legend(layout, top_pressure) + "</svg>\n";
 }
 

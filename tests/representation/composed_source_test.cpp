@@ -55,20 +55,20 @@ TEST(ComposedSource, TheStoreKeepsPartsRollersAndCrossingsApart) {
   region.u_min = -0.02;
   region.u_max = 0.02;
   io::SurfaceSource crossing = rail_of(kCrossing);
-  const app::StoredSurface& first = store.get(crossing, Body::rail, 0.46, region);
+  const app::StoredSurface& first = store.get(crossing, Body::rail, 0.0, region);
   EXPECT_EQ(first.represented.surface->backend(), "mesh+spline");
-  EXPECT_EQ(&store.get(crossing, Body::rail, 0.46, region), &first);
+  EXPECT_EQ(&store.get(crossing, Body::rail, 0.0, region), &first);
   crossing.parts[0].offset.y() += 1e-3;
-  EXPECT_NE(&store.get(crossing, Body::rail, 0.46, region), &first);
+  EXPECT_NE(&store.get(crossing, Body::rail, 0.0, region), &first);
 
   const io::SurfaceSource plain = rail_of("rail.shape.standard = \"60E1\"\n");
-  const app::StoredSurface& rail = store.get(plain, Body::rail, 0.46, region);
-  const app::StoredSurface& roller = store.get(plain, Body::rail, 0.46, region, 0.5);
+  const app::StoredSurface& rail = store.get(plain, Body::rail, 0.0, region);
+  const app::StoredSurface& roller = store.get(plain, Body::rail, 0.5, region);
   EXPECT_TRUE(rail.constant_profile());
   EXPECT_FALSE(roller.constant_profile());
   EXPECT_NEAR(height_at(*roller.represented.surface, {}, {0.1, 0.0}), 0.5 - std::sqrt(0.25 - 0.01), 1e-12);
   const io::SurfaceSource nose = rail_of("rail.shape.standard = \"60E1\"\nrail.shape.crossing = \"nose\"\n");
-  const app::StoredSurface& rising = store.get(nose, Body::rail, 0.46, region);
+  const app::StoredSurface& rising = store.get(nose, Body::rail, 0.0, region);
   EXPECT_NEAR(height_at(*rising.represented.surface, {}, {-0.2, 0.0}), 0.02, 1e-6);
   EXPECT_EQ(store.uses().size(), 5u);
 }

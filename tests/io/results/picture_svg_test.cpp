@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/results/picture_svg.hpp"
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -114,6 +115,18 @@ TEST(PressureSvg, OnePanelACaseAndWellFormed) {
   EXPECT_NE(svg.find(">no contact<"), std::string::npos);
   EXPECT_NE(svg.find(">case 2<"), std::string::npos);
   EXPECT_EQ(svg.find("nan"), std::string::npos);
+}
+
+TEST(PressureSvg, WheelsetsThatDifferInTheirPlaceOnlyAreToldApartByIt) {
+  io::RunResult run = testing::sample_run();
+  run.cases.resize(2, run.cases.front());
+  run.cases[1] = run.cases[0];
+  run.cases[0].has_wheelset = run.cases[1].has_wheelset = true;
+  run.cases[1].s = run.cases[0].s - 30.5e-3;
+  const std::string shown = fmt::format(">s {:.4g} mm<", 1e3 * run.cases[1].s);
+  EXPECT_NE(io::pressure_svg(run).find(shown), std::string::npos);
+  run.cases[1].pitch += 0.1;
+  EXPECT_EQ(io::pressure_svg(run).find(shown), std::string::npos);
 }
 
 TEST(PressureSvg, TheFilledBaseCoversTheElementsInContact) {
