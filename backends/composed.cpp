@@ -3,13 +3,18 @@
 #include "treadmark/backends/composed.hpp"
 
 #include <algorithm>
+#include <chrono>
 #include <cmath>
 #include <utility>
+#include <variant>
 
 #include "treadmark/backends/analytic/moving_section.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/backends/assembly/limited_surface.hpp"
 #include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/assembly/placed_surface.hpp"
+#include "treadmark/backends/assembly/ring.hpp"
 #include "treadmark/backends/assembly/roller.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -43,6 +48,12 @@ std::shared_ptr<const Surface> placed(std::shared_ptr<const Surface> surface, co
 
 void turn_back(Sampled* sampled, double radius) {
   if (sampled != nullptr) sampled->region = roller_region(sampled->region, radius);
+}
+
+/// Slices of a rail go on for ever, those of a ring end.
+std::shared_ptr<const Surface> slice_ring(SliceSet slices) {
+  const double first = slices.u.front(), last = slices.u.back();
+  return assembly::limit_along(create_natural({Body::rail, 0.0, std::move(slices), {}}).surface, first, last);
 }
 
 }  // namespace
@@ -92,6 +103,54 @@ SliceSet roller_slices(const NaturalSurface& natural, const Representation& want
   const SliceSet wheel = to_slices(*natural.wheel_of_roller, wanted_of_wheel(natural, wanted), sampled);
   turn_back(sampled, natural.spec.roller_radius);
   return assembly::roller_slices(wheel, natural.spec.roller_radius);
+}
+
+bool is_ring(const NaturalSurface& natural) { return natural.spec.roller_radius < 0.0 && natural.parts.empty(); }
+
+NaturalSurface create_ring(SurfaceSpec spec) {
+  const double radius = spec.roller_radius;
+  if (!spec.defects.empty() || std::holds_alternative<SliceSet>(spec.shape))
+    throw Error(ErrorKind::configuration, "a ring that a wheel runs in (negative radius) has one profile all round", {},
+                "use triangles for a ring that is worn or damaged unevenly");
+  NaturalSurface natural;
+  if (const auto* mesh = std::get_if<TriangleMesh>(&spec.shape)) {
+    assembly::ring_half_length(radius, 0.0);
+    natural = create_natural({Body::rail, 0.0, assembly::lower_part(*mesh, radius), {}});
+  } else if (const auto* points = std::get_if<Profile>(&spec.shape)) {
+    natural.surface = slice_ring(assembly::ring_slices(*points, radius));
+  } else {
+    const auto* chain = std::get_if<ArcChain>(&spec.shape);
+    natural.surface = assembly::make_ring_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), radius);
+  }
+  natural.spec = std::move(spec);
+  return natural;
+}
+
+NaturalSurface rail_of_ring(const NaturalSurface& ring) {
+  NaturalSurface rail{{}, ring.surface, ring.note};
+  rail.spec.shape = SliceSet{};
+  return rail;
+}
+
+/// Splines go through sections at the joints of a formula; everything else is sampled from the ring.
+RepresentedSurface represent_ring(const NaturalSurface& ring, const Representation& wanted) {
+  const auto* chain = std::get_if<ArcChain>(&ring.spec.shape);
+  const auto* standard = std::get_if<StandardProfile>(&ring.spec.shape);
+  if (wanted.backend != "spline" || (chain == nullptr && standard == nullptr)) {
+    RepresentedSurface sampled = represent(rail_of_ring(ring), wanted);
+    if (sampled.resampled) sampled.surface = assembly::limit_along(std::move(sampled.surface), sampled.region.u_min, sampled.region.u_max);
+    return sampled;
+  }
+  RepresentedSurface out;
+  const auto start = std::chrono::steady_clock::now();
+  out.resampled = true;
+  out.resolution = wanted.resolution > 0.0 ? wanted.resolution : kResampleStep;
+  const Profile profile = chain != nullptr ? analytic::sample_profile(*chain, Body::rail, out.resolution) : analytic::sample_profile(*standard, out.resolution);
+  out.surface = slice_ring(assembly::ring_slices(profile, ring.spec.roller_radius));
+  const Box3 box = out.surface->bounds();
+  out.region = {std::max(wanted.region.u_min, box.min.x()), std::min(wanted.region.u_max, box.max.x()), wanted.region.y_min, wanted.region.y_max};
+  out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+  return out;
 }
 
 RepresentedSurface represent_parts(const NaturalSurface& whole, const Representation& wanted) {

@@ -372,6 +372,7 @@ std::span<const std::string_view> standard_profile_names() { return analytic::st
 
 NaturalSurface create_natural(SurfaceSpec spec) {
   check(spec);
+  if (spec.roller_radius < 0.0) return create_ring(std::move(spec));
   if (spec.roller_radius != 0.0) return create_roller(std::move(spec));
   NaturalSurface natural;
   natural.surface = make_natural(spec, natural.note);
@@ -395,6 +396,7 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
 RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted) {
   using offset::Interpolation;
   if (natural.wheel_of_roller != nullptr) return represent_roller(natural, wanted);
+  if (is_ring(natural)) return represent_ring(natural, wanted);
   if (!natural.parts.empty()) return represent_parts(natural, wanted);
   const auto start = Clock::now();
   RepresentedSurface out;
@@ -442,6 +444,7 @@ std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::stri
 
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
   if (natural.wheel_of_roller != nullptr) return roller_triangles(natural, wanted, sampled);
+  if (is_ring(natural)) return to_triangles(rail_of_ring(natural), wanted, sampled);
   Resampling sampling(natural, wanted);
   TriangleMesh mesh = sampling.triangles();
   if (sampled != nullptr) *sampled = sampling.sampled();
@@ -450,6 +453,7 @@ TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& w
 
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
   if (natural.wheel_of_roller != nullptr) return roller_slices(natural, wanted, sampled);
+  if (is_ring(natural)) return to_slices(rail_of_ring(natural), wanted, sampled);
   Resampling sampling(natural, wanted);
   SliceSet slices = sampling.slices();
   if (sampled != nullptr) *sampled = sampling.sampled();
@@ -458,7 +462,7 @@ SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, 
 
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled, const SurfaceSpec* given_base, const std::string& notes) {
-  if (natural.wheel_of_roller != nullptr)
+  if (natural.wheel_of_roller != nullptr || is_ring(natural))
     throw Error(ErrorKind::configuration, "files of offsets hold rails and wheels, not rollers", {}, "write slices or triangles");
   Resampling sampling(natural, wanted);
   std::shared_ptr<const Surface> base;

@@ -39,6 +39,7 @@ struct SurfaceSpec {
   Defects defects;
   /// Rail: 0, or the nominal radius of a roller [m]: the profile turned about an axle parallel to y at z = roller_radius, with
   /// profile z = 0 at that radius. x of slices and defects is then the arc length at that radius, 0 at the top.
+  /// Negative: a ring with the material outside, in which a wheel runs; its axle lies above. Slices and defects do not fit it.
   double roller_radius = 0.0;
 };
 

@@ -104,8 +104,8 @@ void require_once_round(const SliceSet& slices, double radius) {
 
 SurfaceSpec wheel_of_roller(const SurfaceSpec& roller) {
   const double radius = roller.roller_radius;
-  if (!(radius > 0.0) || !std::isfinite(radius)) 
-    throw Error(ErrorKind::configuration, "a roller needs a positive nominal radius", {}, "rings that a wheel runs in (negative radius) are not supported");
+  if (!(radius > 0.0) || !std::isfinite(radius))
+    throw Error(ErrorKind::configuration, "a roller needs a positive nominal radius", {}, "rings that a wheel runs in (negative radius) are not wheels turned over");
   SurfaceSpec wheel;
   wheel.body = Body::wheel;
   wheel.nominal_radius = radius;

@@ -93,6 +93,23 @@ Shape roller_shape(std::string name, SurfaceSpec spec, std::function<double(doub
   return s;
 }
 
+/// The profile turned about an axle above it, material outside; planes stand on its lower part.
+Shape ring_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
+  const double R = -spec.roller_radius;
+  Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
+  s.outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : R + z(p.y()) - std::hypot(p.x(), p.z() + R); };
+  s.u_min = -0.2 * R;
+  s.u_max = 0.25 * R;
+  s.varies = true;
+  const auto at = [R](double theta, double y, double down, double roll, double yaw, double pitch) {
+    const double r = R + down;
+    return pose({r * std::sin(theta), y, -R + r * std::cos(theta)}, roll, yaw, pitch);
+  };
+  s.planes = {at(0.0, 0.001, -0.0004, 0.0, 0.0, 0.0), at(0.0, 0.012, 0.0, 0.07, 0.0, 0.0), at(0.15, -0.02, 0.003, -0.45, 0.03, 0.15),
+              at(0.02, 0.005, 0.001, 0.02, -0.4, 0.1), at(-0.01, -0.0301, 0.008, -1.1, 0.01, 0.0), at(0.0, 0.0303, 0.008, 1.5, 1.3, 0.0)};
+  return s;
+}
+
 /// An arc of R60 put together from two parts that overlap, each in a frame of its own.
 Shape two_part_shape() {
   constexpr double kRadius = 0.06, kEnd = 0.5, kOverlap = 0.05;
@@ -183,6 +200,13 @@ std::vector<Shape> shapes() {
     ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
     all.push_back(roller_shape("barrel_roller", {Body::rail, 0.0, barrel, {}, 0.2},
                                [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
+  }
+  {
+    ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
+    all.push_back(ring_shape("barrel_ring", {Body::rail, 0.0, barrel, {}, -0.6},
+                             [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
+    all.push_back(ring_shape("ring_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, -0.7},
+                             [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
   }
   {
     ArcChain barrel{-0.05 * std::sin(0.8), -0.05 * (1.0 - std::cos(0.8)), 0.8, {{0.05 * 1.6, -1.0 / 0.05}}};

@@ -25,6 +25,7 @@ struct Shape {
   double u_min, u_max;         ///< part that is sampled: x [m] or theta [rad]
   std::vector<Pose> planes;    ///< planes near the surface, in its frame
   std::function<NaturalSurface()> natural{};  ///< what is represented; without it made from spec
+  bool varies = false;         ///< more than one cross-section, though there is no damage
 };
 
 /// How a backend joins the suite, and what it promises.
@@ -45,7 +46,7 @@ struct Contestant {
 struct Subject {
   Shape shape;
   Contestant contestant;
-  const Tolerance& tolerance() const { return shape.spec.defects.empty() ? contestant.constant : contestant.damaged; }
+  const Tolerance& tolerance() const { return shape.spec.defects.empty() && !shape.varies ? contestant.constant : contestant.damaged; }
   std::shared_ptr<const Surface> make() const;
 };
 

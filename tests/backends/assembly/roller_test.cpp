@@ -175,8 +175,10 @@ TEST(Roller, DefectsLieAtArcLengthsFromTheTop) {
 TEST(Roller, RefusesWhatMakesNoSense) {
   SurfaceSpec spec{Body::rail, 0.0, StandardProfile{"60E1"}, {}, std::numeric_limits<double>::infinity()};
   EXPECT_THROW(create_natural(spec), Error);
-  spec.roller_radius = -0.5;
+  spec.roller_radius = -0.01;  // the axle would lie in the profile
+  spec.shape = ArcChain{-0.01, -0.02, 0.0, {{0.02, 0.0}}};
   EXPECT_THROW(create_natural(spec), Error);
+  spec.shape = StandardProfile{"60E1"};
   spec.roller_radius = 0.02;  // less than the profile is deep
   EXPECT_THROW(create_natural(spec), Error);
   spec.roller_radius = 0.5;
