@@ -35,7 +35,7 @@ struct Track {
 /// position.x is where the wheelset's axle stands over the roller's.
 struct Roller {
   double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
-  double pitch_rate = 0.0;      ///< [rad/s]; positive where a wheel above it rolls forward (the wheelset's own rate is then negative)
+  double pitch_rate = 0.0;      ///< [rad/s]; positive where a wheel on top of it rolls forward, negative for a ring
 };
 
 /// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the contact

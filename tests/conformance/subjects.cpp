@@ -98,15 +98,15 @@ Shape ring_shape(std::string name, SurfaceSpec spec, std::function<double(double
   const double R = -spec.roller_radius;
   Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
   s.outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : R + z(p.y()) - std::hypot(p.x(), p.z() + R); };
-  s.u_min = -0.2 * R;
-  s.u_max = 0.25 * R;
+  s.u_min = -0.12;
+  s.u_max = 0.15;
   s.varies = true;
   const auto at = [R](double theta, double y, double down, double roll, double yaw, double pitch) {
     const double r = R + down;
     return pose({r * std::sin(theta), y, -R + r * std::cos(theta)}, roll, yaw, pitch);
   };
-  s.planes = {at(0.0, 0.001, -0.0004, 0.0, 0.0, 0.0), at(0.0, 0.012, 0.0, 0.07, 0.0, 0.0), at(0.15, -0.02, 0.003, -0.45, 0.03, 0.15),
-              at(0.02, 0.005, 0.001, 0.02, -0.4, 0.1), at(-0.01, -0.0301, 0.008, -1.1, 0.01, 0.0), at(0.0, 0.0303, 0.008, 1.5, 1.3, 0.0)};
+  s.planes = {at(0.0, 0.0013, -0.0004, 0.0, 0.0, 0.0), at(0.0, 0.0117, 0.0, 0.07, 0.0, 0.0), at(0.15, -0.02, 0.003, -0.45, 0.03, 0.15),
+              at(0.02, 0.0047, 0.001, 0.02, -0.4, 0.1), at(-0.01, -0.0297, 0.0081, -1.1, 0.01, 0.0), at(0.0, 0.0297, 0.0083, 1.5, 1.3, 0.0)};
   return s;
 }
 
