@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/detection/facing_surfaces.hpp"
 
+#include <cmath>
+#include <utility>
+
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::detection {
@@ -20,6 +23,19 @@ FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const G
     bodies.wheel->heights({X_WC * X_CL, row}, {{surfaces.wheel.data() + first, width}, {}, {}});
   }
   return surfaces;
+}
+
+UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid, const ReferenceRows& reference) {
+  const auto width = static_cast<std::size_t>(grid.nx);
+  std::vector<double> rail(grid.size()), wheel(grid.size());
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const ReferenceRow& row = reference.rows[static_cast<std::size_t>(iy)];
+    const Grid2 line{grid.x0 - reference.reference_C.x(), row.y, grid.dx, grid.dy, grid.nx, 1};
+    const UndeformedDistance h = undeformed_distance(bodies, X_TC, line);
+    for (std::size_t ix = 0; ix < width; ++ix)
+      rail[grid.index(static_cast<int>(ix), iy)] = std::cos(row.angle) * (h.distance[ix] - h.approach);
+  }
+  return undeformed_distance(std::move(rail), wheel);
 }
 
 UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) { return undeformed_distance(surfaces.rail, surfaces.wheel); }

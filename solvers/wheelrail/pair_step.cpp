@@ -138,7 +138,13 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
     const bool curved = problem_.reference_surface == ReferenceSurface::curved;
     patch.reference = curved ? detection::curved_reference(bodies, s.frame, s.grid, s.reference_C) : detection::plane_reference(s.grid, s.reference_C);
     patch.surfaces = detection::facing_surfaces(bodies, X_TC, s.grid, *patch.reference);
-    undeformed = detection::undeformed_distance(patch.surfaces);
+    if (curved && bodies.distance_mesh) {
+      undeformed = detection::projected_distance(bodies, X_TC, s.grid, *patch.reference);
+      for (std::size_t i = 0; i < s.grid.size(); ++i)
+        patch.surfaces.wheel[i] = patch.surfaces.rail[i] - undeformed.distance[i] + undeformed.approach;
+    } else {
+      undeformed = detection::undeformed_distance(patch.surfaces);
+    }
     if (curved) s.row_angle = patch.reference->angles();
   }
   s.distance = std::move(undeformed.distance);
