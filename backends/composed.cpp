@@ -145,10 +145,13 @@ RepresentedSurface represent_ring(const NaturalSurface& ring, const Representati
   const auto start = std::chrono::steady_clock::now();
   out.resampled = true;
   out.resolution = wanted.resolution > 0.0 ? wanted.resolution : kResampleStep;
-  const Profile profile = chain != nullptr ? analytic::sample_profile(*chain, Body::rail, out.resolution) : analytic::sample_profile(*standard, out.resolution);
+  const Profile profile = chain != nullptr ? analytic::sample_profile(*chain, Body::rail, out.resolution)
+                                           : analytic::sample_profile(*standard, out.resolution);
   out.surface = slice_ring(assembly::ring_slices(profile, ring.spec.roller_radius));
   const Box3 box = out.surface->bounds();
-  out.region = {std::max(wanted.region.u_min, box.min.x()), std::min(wanted.region.u_max, box.max.x()), wanted.region.y_min, wanted.region.y_max};
+  out.region = wanted.region;
+  out.region.u_min = std::max(out.region.u_min, box.min.x());
+  out.region.u_max = std::min(out.region.u_max, box.max.x());
   out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
   return out;
 }

@@ -91,7 +91,8 @@ double ring_half_length(double radius, double least_z) {
   if (!(radius < 0.0) || !std::isfinite(radius))
     throw Error(ErrorKind::configuration, "a ring that a wheel runs in needs a negative, finite nominal radius");
   if (!(least_z > radius))
-    throw Error(ErrorKind::configuration, "the profile of the ring reaches its axle", {}, "check the nominal radius and the height of the profile");
+    throw Error(ErrorKind::configuration, "the profile of the ring reaches its axle", {},
+                "check the nominal radius and the height of the profile");
   return kRingReach * (least_z - radius);
 }
 
@@ -99,8 +100,8 @@ std::shared_ptr<const Surface> make_ring_surface(const ArcChain& chain, double r
   analytic::GraphCurve profile = analytic::graph_of(chain);
   const double half_length = ring_half_length(radius, profile.range(profile.y_min(), profile.y_max()).h_min);
   auto field = std::make_shared<RingField>(std::move(profile), -radius, half_length);
-  return limit_along(displacement::make_displaced_surface(analytic::make_prismatic_surface(chain), std::move(field), Body::rail, "analytic"),
-                     -half_length, half_length);
+  auto bent = displacement::make_displaced_surface(analytic::make_prismatic_surface(chain), std::move(field), Body::rail, "analytic");
+  return limit_along(std::move(bent), -half_length, half_length);
 }
 
 SliceSet ring_slices(const Profile& profile, double radius) {

@@ -338,7 +338,8 @@ TEST_P(Conformance, LocatedPointsLieOnTheSurface) {
 }
 
 TEST_P(Conformance, CurvaturesMatchSecondDifferencesInTheTangentPlane) {
-  if (shape().varies && subject().contestant.backend == "offset-bilinear") GTEST_SKIP() << "bilinear offsets have no curvature of their own";
+  if (shape().varies && subject().contestant.backend == "offset-bilinear")
+    GTEST_SKIP() << "bilinear offsets have no curvature of their own";
   constexpr double kStep = 5e-5;  // [m] the noise of 1e-16 m heights in the second difference is 4e-8 1/m
   const double side = shape().spec.body == Body::wheel ? 1.0 : -1.0;
   const Grid2 g = coarse_grid();

@@ -36,7 +36,8 @@ TEST(Ring, IsACircleInEveryBackend) {
     const bool facets = backend == "mesh-flat" || backend == "offset-bilinear";
     const double tolerance = backend == "analytic" ? 1e-14 : facets ? 1.5e-6 : 2e-8;  // facets: h^2 (1/(8 R) + 1/(8 R_crown))
     for (const double x : {-0.12, -0.0103, 0.0, 0.0307, 0.14})
-      for (const double y : {-0.0202, 0.0, 0.0131}) EXPECT_NEAR(height_at(*r.surface, {}, {x, y}), height(x, y), tolerance) << x << ' ' << y;
+      for (const double y : {-0.0202, 0.0, 0.0131})
+        EXPECT_NEAR(height_at(*r.surface, {}, {x, y}), height(x, y), tolerance) << x << ' ' << y;
     EXPECT_TRUE(std::isnan(height_at(*r.surface, {}, {0.0, 0.031})));
     EXPECT_TRUE(std::isnan(height_at(*r.surface, {}, {0.4, 0.0})));
   }
@@ -57,7 +58,10 @@ TEST(Ring, TrianglesAboveTheAxleHideNothing) {
   TriangleMesh mesh = to_triangles(natural, {"", 2e-3, region});
   const auto n = static_cast<std::uint32_t>(mesh.vertices.size());
   const std::size_t below = mesh.triangles.size();
-  for (std::uint32_t i = 0; i < n; ++i) mesh.vertices.push_back({-mesh.vertices[i].x(), mesh.vertices[i].y(), -2.0 * kRadius - mesh.vertices[i].z()});
+  for (std::uint32_t i = 0; i < n; ++i) {
+    const Vec3 v = mesh.vertices[i];
+    mesh.vertices.push_back({-v.x(), v.y(), -2.0 * kRadius - v.z()});
+  }
   for (std::size_t i = 0; i < below; ++i) {
     const auto t = mesh.triangles[i];
     mesh.triangles.push_back({t[0] + n, t[1] + n, t[2] + n});
