@@ -19,8 +19,8 @@ constexpr auto no = DigitSupport::no;
 constexpr DigitValue kDigits[] = {
     {1, 'C', "CONFIG", 0, yes, "left wheel on track"},
     {1, 'C', "CONFIG", 1, yes, "right wheel on track"},
-    {1, 'C', "CONFIG", 4, yes, "left wheel on roller"},
-    {1, 'C', "CONFIG", 5, yes, "right wheel on roller"},
+    {1, 'C', "CONFIG", 4, yes, "left wheel on roller, or in a ring (NOMRAD < 0)"},
+    {1, 'C', "CONFIG", 5, yes, "right wheel on roller, or in a ring (NOMRAD < 0)"},
     {1, 'P', "PVTIME", 0, yes, "continue from the previous case"},
     {1, 'P', "PVTIME", 1, yes, "keep the normal part of the previous case"},
     {1, 'P', "PVTIME", 2, yes, "start without history"},

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include "treadmark/core/error.hpp"
 
@@ -65,9 +66,12 @@ Grid2 coarse_grid(const Problem& p, const Placement& placed, const LateralRange&
   return grid;
 }
 
-detection::LocusRows locus_rows(const Problem& p, const LateralRange& rail) {
-  const double step = 0.3 * p.discretisation.ds;
-  return {rail.y_min, step, checked_count(std::ceil((rail.y_max - rail.y_min) / step)) + 1, p.wheelset.nominal_radius};
+/// Rows of the reference program's locus; none for elements so small that Treadmark's own locus, whose rows follow the contact, has to do.
+std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRange& rail) {
+  constexpr double kMostRows = 1e5;
+  const double step = 0.3 * p.discretisation.ds, rows = std::ceil((rail.y_max - rail.y_min) / step) + 1.0;
+  if (!(rows < kMostRows)) return std::nullopt;
+  return detection::LocusRows{rail.y_min, step, static_cast<int>(rows), p.wheelset.nominal_radius};
 }
 
 }  // namespace
