@@ -133,5 +133,30 @@ TEST(CurvedReference, NeedsAsManyRowsAsTheGrid) {
   EXPECT_THROW(facing_surfaces(pair.bodies, {}, grid, plane_reference({0.0, 0.0, 1e-3, 1e-3, 2, 2})), Error);
 }
 
+TEST(ProjectedDistance, OnAPlaneIsTheDistanceInThatPlane) {
+  const ConcentricGroove pair;
+  const Grid2 grid{-1e-3, -3e-3, 0.5e-3, 0.25e-3, 5, 25};
+  const Pose X_TC = frame_at_bottom(0.0).X_TC;
+  const UndeformedDistance projected = projected_distance(pair.bodies, X_TC, grid, plane_reference(grid));
+  const UndeformedDistance plain = undeformed_distance(pair.bodies, X_TC, grid);
+  EXPECT_NEAR(projected.approach, plain.approach, 1e-15);
+  for (std::size_t i = 0; i < grid.size(); ++i) EXPECT_NEAR(projected.distance[i], plain.distance[i], 1e-15);
+}
+
+// A gap measured along the contact plane's normal, times the cosine of the surface's inclination, is the gap along the surface's own
+// normal up to the second order in the gap over the radius.
+TEST(ProjectedDistance, OfNearSurfacesIsTheDistanceAlongTheirNormal) {
+  const ConcentricGroove pair;
+  const Grid2 grid{0.0, -6e-3, 0.5e-3, 0.25e-3, 1, 49};
+  const ContactFrame frame = frame_at_bottom(0.0);
+  const ReferenceRows curve = curved_reference(pair.bodies, frame, grid);
+  const UndeformedDistance projected = projected_distance(pair.bodies, frame.X_TC, grid, curve);
+  constexpr double kGap = kGroove - kMeridian;
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const double gap = projected.distance[grid.index(0, iy)] - projected.approach, tangent = std::tan(curve.rows[static_cast<std::size_t>(iy)].angle);
+    EXPECT_NEAR(gap, kGap, kGap * kGap / kMean * (0.05 + tangent * tangent)) << grid.y(iy);
+  }
+}
+
 }  // namespace
 }  // namespace treadmark::detection
