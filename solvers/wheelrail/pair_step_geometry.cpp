@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Where the patches of a step lie: contact frame, elements, undeformed distance, and the patches of the previous instant they continue.
+#include <cmath>
+#include <limits>
+#include <utility>
+#include <vector>
+
+#include "treadmark/core/lateral_data.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/solvers/wheelrail/pair_step.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+/// Signed arc length along the rail's section through a point seen from above: as the rail's own data have it, else from y = 0 of the
+/// profile.
+double profile_arc_length(const Surface& rail, const Pose& X_TR, const Vec3& point_T) {
+  if (dynamic_cast<const ArcLengthParameter*>(&rail) != nullptr) {
+    const Vec2 above(point_T.x(), point_T.y());
+    SurfacePoint found;
+    rail.locate(X_TR.inverse(), {&above, 1}, {&found, 1});
+    if (found.status != LocateStatus::outside) return found.v;
+  }
+  const Vec3 point_R = X_TR.apply_inverse(point_T);
+  constexpr int kSteps = 400;
+  const double step = std::abs(point_R.y()) / kSteps;
+  if (step == 0.0) return 0.0;
+  std::vector<double> z(kSteps + 1);
+  rail.heights({Pose{}, {point_R.x(), std::min(0.0, point_R.y()), 1.0, step, 1, kSteps + 1}}, {z, {}, {}});
+  double length = 0.0;
+  for (std::size_t i = 1; i < z.size(); ++i) {
+    const double dz = z[i] - z[i - 1];
+    length += std::isnan(dz) ? step : std::hypot(step, dz);
+  }
+  return std::copysign(length, point_R.y());
+}
+
+Rectangle extent_of(const Grid2& g) { return {g.x0, g.x(g.nx - 1), g.y0, g.y(g.ny - 1)}; }
+
+bool inside(const Rectangle& r, double x, double y, double margin_x, double margin_y) {
+  return x >= r.x_min - margin_x && x <= r.x_max + margin_x && y >= r.y_min - margin_y && y <= r.y_max + margin_y;
+}
+
+}  // namespace
+
+void PairStep::link(const Rectangle& box, Patch& patch) const {
+  if (problem_.history == kalker::HistoryUse::start) return;
+  // Steady grids have their origin at the contact reference, aligned ones at a place that stays.
+  const double shift = problem_.regime == kalker::Regime::shift ? previous_.s : 0.0;
+  Rectangle here = box;
+  here.x_min -= shift, here.x_max -= shift;
+  patch.before = overlapping(previous_, here);
+  patch.solution.came_from.clear();
+  for (const PatchMemory* m : patch.before) patch.solution.came_from.push_back(m->id);
+  if (!aligned() || patch.before.empty()) return;
+  std::vector<kalker::ContactHistory> parts;
+  for (const PatchMemory* m : patch.before) parts.push_back(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds));
+  patch.history = united(parts, problem_.friction.static_friction(), problem_.material.layer_yield);
+}
+
+void PairStep::describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch) {
+  PatchSolution& s = patch.solution;
+  const Discretisation& d = problem_.discretisation;
+  s.region = region;
+  s.frame = detection::contact_frame(bodies, region);
+  const Pose& X_TC = s.frame.X_TC;
+  s.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS, X_TC.origin);
+  detection::PotentialContactSettings settings{d.dx, d.ds, aligned() ? 0 : d.max_elements, Vec2::Zero()};
+  if (aligned())
+    settings.reference = {X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};
+  s.reference_C = settings.reference;
+  s.grid = detection::potential_contact_grid(bodies, region, s.frame, settings);
+  const Rectangle own = extent_of(s.grid);
+  patch.box = own;
+  Rectangle from_wheelset = own;
+  if (!aligned()) {
+    from_wheelset.x_min += X_TC.origin.x(), from_wheelset.x_max += X_TC.origin.x();
+    from_wheelset.y_min += s.reference_s, from_wheelset.y_max += s.reference_s;
+  }
+  link(from_wheelset, patch);
+  if (patch.history) s.grid = extended(s.grid, *patch.history);
+
+  measure_distance(bodies, own, patch);
+}
+
+/// Undeformed distance on the grid, of a tangent plane or a curve, and the part of it that may touch.
+void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const {
+  PatchSolution& s = patch.solution;
+  const Discretisation& d = problem_.discretisation;
+  const Pose& X_TC = s.frame.X_TC;
+  detection::UndeformedDistance undeformed;
+  if (problem_.reference_surface == ReferenceSurface::plane) {
+    const Pose X_TP = X_TC * Pose{{-s.reference_C.x(), -s.reference_C.y(), 0.0}, Mat3::Identity()};
+    undeformed = detection::undeformed_distance(bodies, X_TP, s.grid);
+  } else {
+    const bool curved = problem_.reference_surface == ReferenceSurface::curved;
+    patch.reference = curved ? detection::curved_reference(bodies, s.frame, s.grid, s.reference_C) : detection::plane_reference(s.grid, s.reference_C);
+    patch.surfaces = detection::facing_surfaces(bodies, X_TC, s.grid, *patch.reference);
+    if (curved && bodies.distance_mesh) {
+      undeformed = detection::projected_distance(bodies, X_TC, s.grid, *patch.reference);
+      for (std::size_t i = 0; i < s.grid.size(); ++i)
+        patch.surfaces.wheel[i] = patch.surfaces.rail[i] - undeformed.distance[i] + undeformed.approach;
+    } else {
+      undeformed = detection::undeformed_distance(patch.surfaces);
+    }
+    if (curved) s.row_angle = patch.reference->angles();
+  }
+  s.distance = std::move(undeformed.distance);
+  s.approach = undeformed.approach;
+  patch.gap = s.distance;
+  if (!patch.history) return;
+  // What the grid was extended by holds tractions of the previous instant, but contact of this one belongs to another patch.
+  double least = std::numeric_limits<double>::infinity();
+  const double margin = 0.25;
+  for (int iy = 0; iy < s.grid.ny; ++iy)
+    for (int ix = 0; ix < s.grid.nx; ++ix) {
+      const std::size_t i = s.grid.index(ix, iy);
+      if (!inside(own, s.grid.x(ix), s.grid.y(iy), margin * d.dx, margin * d.ds))
+        patch.gap[i] = std::numeric_limits<double>::quiet_NaN();
+      else if (patch.gap[i] < least)
+        least = patch.gap[i];
+    }
+  s.approach -= least;
+  for (auto* field : {&s.distance, &patch.gap})
+    for (double& h : *field) h -= least;
+}
+
+}  // namespace treadmark::wheelrail
