@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <array>
 #include <cmath>
+#include <string_view>
 
 #include <fmt/format.h>
 
@@ -11,6 +13,12 @@ namespace treadmark::io {
 namespace {
 
 constexpr double kMillimetre = 1e-3;
+
+/// Three lengths and three angles, or their rates.
+void read_six(ContactText& text, const std::array<std::string_view, 6>& names, const std::array<double*, 6>& values) {
+  for (std::size_t i = 0; i < 3; ++i) *values[i] = text.real(names[i]) * kMillimetre;
+  for (std::size_t i = 3; i < 6; ++i) *values[i] = text.angle(names[i]);
+}
 
 }  // namespace
 
@@ -58,19 +66,9 @@ void read_wheelset(ContactReader& r) {
   }
   if (e >= 4) {
     text.begin_record("the wheel deviation line DXWHL");
-    w.dx = text.real("DXWHL") * kMillimetre;
-    w.dy = text.real("DYWHL") * kMillimetre;
-    w.dz = text.real("DZWHL") * kMillimetre;
-    w.droll = text.angle("DROLLW");
-    w.dyaw = text.angle("DYAWW");
-    w.dpitch = text.angle("DPITCHW");
+    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"}, {&w.dx, &w.dy, &w.dz, &w.droll, &w.dyaw, &w.dpitch});
     text.begin_record("the wheel deviation velocity line VXWHL");
-    w.dvx = text.real("VXWHL") * kMillimetre;
-    w.dvy = text.real("VYWHL") * kMillimetre;
-    w.dvz = text.real("VZWHL") * kMillimetre;
-    w.dvroll = text.angle("VROLLW");
-    w.dvyaw = text.angle("VYAWW");
-    w.dvpitch = text.angle("VPITCHW");
+    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"}, {&w.dvx, &w.dvy, &w.dvz, &w.dvroll, &w.dvyaw, &w.dvpitch});
   }
 }
 

@@ -23,6 +23,7 @@ void roller(RuleList& rules, const WheelRailCase& c) {
   if (!c.roller) return;
   rules.refuse_if(c.roller->nominal_radius == 0.0, CaseSetting::geometry, "the nominal radius of the roller is missing",
                   "NOMRAD in .inp, roller.nominal_radius_mm in .toml");
+  rules.refuse_if(c.track.cant != 0.0, CaseSetting::geometry, "a roller has no cant", "leave out track.cant, or tilt it by track.irregularity_roll");
   rules.refuse_if(c.friction_variation.kind == FrictionVariation::Kind::along_track, CaseSetting::friction,
                   "friction cannot vary along the track of a wheel on a roller");
 }

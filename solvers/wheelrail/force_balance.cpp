@@ -28,10 +28,7 @@ double ForceBalance::residual(double z, double force, double least_gap) const {
 
 void ForceBalance::restart() {
   has_last_ = false;
-  width_ = std::numeric_limits<double>::infinity();
-  slow_ = 0;
-  z_low_ = -std::numeric_limits<double>::infinity();
-  z_high_ = std::numeric_limits<double>::infinity();
+  bracket_ = {};
 }
 
 ForceBalance::State ForceBalance::add(double z, double force, double least_gap) {
@@ -41,10 +38,7 @@ ForceBalance::State ForceBalance::add(double z, double force, double least_gap) 
     z_last_ = z, last_ = value, has_last_ = true;
     return State::found;
   }
-  if (value < 0.0)
-    z_low_ = z, force_low_ = force;
-  else
-    z_high_ = z, force_high_ = force;
+  bracket_.add(z, value, force);
 
   constexpr double kLeastStep = 1e-13;  // closer than this positions cannot be told apart in the surfaces [m]
   if (has_last_ && std::abs(z - z_last_) > kLeastStep && value != last_) {
@@ -56,18 +50,12 @@ ForceBalance::State ForceBalance::add(double z, double force, double least_gap) 
   z_last_ = z, last_ = value, has_last_ = true;
 
   next_ = z - value / slope_;
-  if (std::isfinite(z_low_) && std::isfinite(z_high_)) {
+  if (bracket_.closed()) {
     // No contact is so stiff that its force changes by a thousandth within a nanometre.
     constexpr double kJumpWidth = 1e-9, kJump = 1e-3;
-    const double width = z_high_ - z_low_;
-    if (width < kLeastStep || (width < kJumpWidth && force_high_ - force_low_ > kJump * std::abs(target_.at(z)))) return State::no_balance;
-    // Secants may close in from one side; those that do not close in at all give way to bisection.
-    constexpr int kPatience = 3;
-    slow_ = width > 0.5 * width_ ? slow_ + 1 : 0;
-    width_ = width;
-    const bool bisect = slow_ >= kPatience;
-    if (bisect) slow_ = 0;
-    if (bisect || !(next_ > z_low_ && next_ < z_high_)) next_ = 0.5 * (z_low_ + z_high_);
+    const double width = bracket_.width(), rise = bracket_.value_above() - bracket_.value_below();
+    if (width < kLeastStep || (width < kJumpWidth && rise > kJump * std::abs(target_.at(z)))) return State::no_balance;
+    next_ = bracket_.safeguarded(next_);
   }
   return State::search;
 }

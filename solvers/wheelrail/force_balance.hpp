@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <limits>
+#include "treadmark/solvers/wheelrail/bracket.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -30,8 +30,8 @@ class ForceBalance {
   State add(double z, double force, double least_gap);
   double next() const { return next_; }
   /// Forces on both sides of a jump [N].
-  double force_below() const { return force_low_; }
-  double force_above() const { return force_high_; }
+  double force_below() const { return bracket_.value_below(); }
+  double force_above() const { return bracket_.value_above(); }
 
   /// The force law changed a little (new tangential forces): keep the slope, forget the bracket.
   void restart();
@@ -46,11 +46,7 @@ class ForceBalance {
   double slope_ = 0.0;
   bool has_last_ = false;
   double z_last_ = 0.0, last_ = 0.0;
-  double width_ = std::numeric_limits<double>::infinity();
-  int slow_ = 0;
-  double force_low_ = 0.0, force_high_ = 0.0;
-  double z_low_ = -std::numeric_limits<double>::infinity();
-  double z_high_ = std::numeric_limits<double>::infinity();
+  Bracket bracket_;
 };
 
 }  // namespace treadmark::wheelrail

@@ -68,8 +68,9 @@ void move_down(PairSolution& s, double dz) {
   for (PatchSolution& patch : s.patches) {
     patch.frame.X_TC.origin.z() += dz;
     patch.region.deepest_T.z() += dz;
-    for (detection::PatchExtent* e : {&patch.region.extent}) e->z_at_y_min += dz, e->z_at_y_max += dz;
-    for (detection::PatchExtent& e : patch.region.parts) e.z_at_y_min += dz, e.z_at_y_max += dz;
+    const auto lower = [dz](detection::PatchExtent& e) { e.z_at_y_min += dz, e.z_at_y_max += dz; };
+    lower(patch.region.extent);
+    std::ranges::for_each(patch.region.parts, lower);
   }
 }
 

@@ -10,7 +10,6 @@
 #include "treadmark/solvers/wheelrail/part_slip.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"
-#include "treadmark/solvers/wheelrail/sub_patches.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -64,7 +63,7 @@ void PairStep::move(Patch& patch) const {
   s.kinematics = contact_kinematics(problem_, placement_, s.frame.X_TC, s.approach);
   if (!patch.reference) {
     if (!parts_creep_apart()) return;
-    PartSlip slip = part_slip(problem_, placement_, *geometry_.rail, s, sub_patches(problem_.discretisation, s.region, s.frame, s.reference_C, s.grid));
+    PartSlip slip = part_slip(problem_, placement_, *geometry_.rail, s, patch.parts);
     s.extra_slip_x = std::move(slip.x);
     s.extra_slip_y = std::move(slip.y);
     return;
@@ -94,7 +93,7 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   kalker::ContactProblem c;
   c.grid = s.grid;
   c.gap = patch.gap;
-  c.sub_patches = sub_patches(p.discretisation, s.region, s.frame, s.reference_C, s.grid);
+  c.sub_patches = patch.parts;
   c.material = p.material;
   c.friction = friction_at(p.friction_inclination, p.friction_laws, s.frame.angle, p.friction);
   c.normal_model = p.normal_model;

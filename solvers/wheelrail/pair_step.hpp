@@ -50,6 +50,7 @@ class PairStep {
     std::vector<const PatchMemory*> before;
     std::optional<kalker::ContactHistory> history;
     Rectangle box;                               ///< in the axes of the grid [m]
+    kalker::SubPatches parts;
     /// Where the rigid slip is that of the surfaces: what elements lie on, and the surfaces over them.
     std::optional<detection::ReferenceRows> reference;
     detection::FacingSurfaces surfaces;

@@ -9,6 +9,7 @@
 #include "treadmark/core/lateral_data.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
+#include "treadmark/solvers/wheelrail/sub_patches.hpp"
 
 namespace treadmark::wheelrail {
 namespace {
@@ -80,6 +81,7 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   }
   link(from_wheelset, patch);
   if (patch.history) s.grid = extended(s.grid, *patch.history);
+  patch.parts = sub_patches(d, region, s.frame, s.reference_C, s.grid);
 
   measure_distance(bodies, own, patch);
 }

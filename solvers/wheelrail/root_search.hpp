@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <limits>
+#include "treadmark/solvers/wheelrail/bracket.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -29,21 +29,17 @@ class RootSearch {
   State add(double x, double residual);
   double next() const { return next_; }
   /// Residuals on both sides of a jump.
-  double residual_below() const { return f_low_; }
-  double residual_above() const { return f_high_; }
+  double residual_below() const { return bracket_.value_below(); }
+  double residual_above() const { return bracket_.value_above(); }
 
  private:
-  bool bracketed() const;
   double outside(double x, double residual);
-  double inside(double x, double residual);
 
   Settings settings_;
-  int count_ = 0, slow_ = 0;
+  int count_ = 0;
   double next_ = 0.0, step_ = 0.0, start_ = 0.0;
   double x_last_ = 0.0, f_last_ = 0.0;
-  double width_ = std::numeric_limits<double>::infinity();
-  double x_low_ = -std::numeric_limits<double>::infinity(), f_low_ = 0.0;   // where the residual is negative
-  double x_high_ = std::numeric_limits<double>::infinity(), f_high_ = 0.0;  // where it is positive
+  Bracket bracket_;
 };
 
 }  // namespace treadmark::wheelrail

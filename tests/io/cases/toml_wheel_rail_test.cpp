@@ -191,6 +191,12 @@ TEST(TomlSteps, OnARollerOnlyTheWheelTurns) {
   EXPECT_NEAR(at(f, 1).wheelset.pitch, -4.0 * 1e-3 / 2.0, 1e-15);   // as if it rolled freely
 }
 
+TEST(TomlBalance, ARollerHasNoCant) {
+  const std::string roller = kRail + "roller = { nominal_radius_mm = 1000, pitch_rate_rad_s = 2 }\n";
+  EXPECT_EQ(parse(roller + "track.gauge_mm = 1435\n").cases.size(), 1u);
+  EXPECT_THAT(error_of(roller + "track.cant = \"1:40\"\n"), HasSubstr("a roller has no cant"));
+}
+
 TEST(TomlSteps, OverridesComeBeforeTheSteps) {
   const std::string text = kRolling + "[[cases]]\ncase.steps = 3\n";
   const CaseFile finer = parse(text, {"discretisation.dx_mm=0.2"});

@@ -5,14 +5,18 @@
 #include <gtest/gtest.h>
 
 #include <atomic>
-#include <random>
 
+#include "operator_fields.hpp"
 #include "point_solutions.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/halfspace/constant_elements.hpp"
 
 namespace treadmark::kalker {
 namespace {
+
+using testing::by_operator;
+using testing::Fields;
+using testing::random_tractions;
 
 constexpr double kDx = 0.5e-3, kDy = 0.8e-3, kShearModulus = 8e10;
 
@@ -46,51 +50,15 @@ class WithoutSymmetry final : public InfluenceKernel {
   std::shared_ptr<const InfluenceKernel> kernel_;
 };
 
-struct Fields {
-  explicit Fields(std::size_t size) : x(size), y(size), n(size) {}
-  std::vector<double> x, y, n;
-};
-
-Fields random_tractions(std::size_t size) {
-  std::mt19937 generator(11);
-  std::uniform_real_distribution<double> uniform(-1e9, 1e9);
-  Fields p(size);
-  for (auto* field : {&p.x, &p.y, &p.n})
-    for (double& value : *field) value = uniform(generator);
-  return p;
-}
-
 struct Case {
   int nx, ny;
   double shift_x, shift_y;
 };
 
 Fields direct_sum(const Case& c, const InfluenceKernel& kernel, const Fields& p) {
-  Fields u(p.x.size());
-  for (int i = 0; i < c.nx * c.ny; ++i)
-    for (int j = 0; j < c.nx * c.ny; ++j) {
-      const auto I = static_cast<std::size_t>(i), J = static_cast<std::size_t>(j);
-      const InfluenceBlock b =
-          kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
-      u.x[I] += (b.xx * p.x[J] + b.xy * p.y[J] + b.xn * p.n[J]) / kShearModulus;
-      u.y[I] += (b.yx * p.x[J] + b.yy * p.y[J] + b.yn * p.n[J]) / kShearModulus;
-      u.n[I] += (b.nx * p.x[J] + b.ny * p.y[J] + b.nn * p.n[J]) / kShearModulus;
-    }
-  return u;
-}
-
-Fields by_operator(InfluenceOperator& op, const Fields& p) {
-  Fields t(p.x.size()), n(p.x.size());
-  op.tangential_by_tangential(p.x, p.y, t.x, t.y);
-  op.normal_by_tangential(p.x, p.y, t.n);
-  op.tangential_by_normal(p.n, n.x, n.y);
-  op.normal_by_normal(p.n, n.n);
-  for (std::size_t i = 0; i < t.x.size(); ++i) {
-    t.x[i] += n.x[i];
-    t.y[i] += n.y[i];
-    t.n[i] += n.n[i];
-  }
-  return t;
+  return testing::direct_sum(p, kShearModulus, [&](int i, int j) {
+    return kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
+  });
 }
 
 void expect_near(const Fields& found, const Fields& expected) {

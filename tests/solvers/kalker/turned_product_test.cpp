@@ -3,8 +3,8 @@
 #include <gtest/gtest.h>
 
 #include <cmath>
-#include <random>
 
+#include "operator_fields.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/halfspace/bilinear_elements.hpp"
@@ -15,23 +15,13 @@
 namespace treadmark::kalker {
 namespace {
 
+using testing::by_operator;
+using testing::Fields;
+using testing::random_tractions;
+
 constexpr double kDx = 0.5e-3, kDy = 0.8e-3, kShearModulus = 8e10;
 constexpr std::array kCorrections{AngleCorrection::rotated_loads, AngleCorrection::rotated_loads_but_xn,
                                   AngleCorrection::rotated_displacements, AngleCorrection::half_and_half};
-
-struct Fields {
-  explicit Fields(int size) : x(static_cast<std::size_t>(size)), y(x), n(x) {}
-  std::vector<double> x, y, n;
-};
-
-Fields random_tractions(int size) {
-  std::mt19937 generator(23);
-  std::uniform_real_distribution<double> uniform(-1e9, 1e9);
-  Fields p(size);
-  for (auto* field : {&p.x, &p.y, &p.n})
-    for (double& value : *field) value = uniform(generator);
-  return p;
-}
 
 struct Box {
   int nx, ny;
@@ -41,32 +31,10 @@ struct Box {
 
 /// One coefficient after the other, in turned axes; the angles as they are, without order.
 Fields direct_sum(const Box& c, const InfluenceKernel& kernel, const std::vector<double>& angle, AngleCorrection correction, const Fields& p) {
-  Fields u(c.nx * c.ny);
-  for (int i = 0; i < c.nx * c.ny; ++i)
-    for (int j = 0; j < c.nx * c.ny; ++j) {
-      const auto I = static_cast<std::size_t>(i), J = static_cast<std::size_t>(j);
-      const InfluenceBlock plane = kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
-      const double alpha = angle[static_cast<std::size_t>(j / c.nx)] - angle[static_cast<std::size_t>(i / c.nx)];
-      const InfluenceBlock b = corrected_for_angle(plane, alpha, correction);
-      u.x[I] += (b.xx * p.x[J] + b.xy * p.y[J] + b.xn * p.n[J]) / kShearModulus;
-      u.y[I] += (b.yx * p.x[J] + b.yy * p.y[J] + b.yn * p.n[J]) / kShearModulus;
-      u.n[I] += (b.nx * p.x[J] + b.ny * p.y[J] + b.nn * p.n[J]) / kShearModulus;
-    }
-  return u;
-}
-
-Fields by_operator(InfluenceOperator& op, const Fields& p, const RowInclination* rows) {
-  Fields t(static_cast<int>(p.x.size())), n(t);
-  op.tangential_by_tangential(p.x, p.y, t.x, t.y, rows);
-  op.normal_by_tangential(p.x, p.y, t.n, rows);
-  op.tangential_by_normal(p.n, n.x, n.y, rows);
-  op.normal_by_normal(p.n, n.n, rows);
-  for (std::size_t i = 0; i < t.x.size(); ++i) {
-    t.x[i] += n.x[i];
-    t.y[i] += n.y[i];
-    t.n[i] += n.n[i];
-  }
-  return t;
+  return testing::direct_sum(p, kShearModulus, [&](int i, int j) {
+    const InfluenceBlock plane = kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
+    return corrected_for_angle(plane, angle[static_cast<std::size_t>(j / c.nx)] - angle[static_cast<std::size_t>(i / c.nx)], correction);
+  });
 }
 
 void expect_near(const Fields& found, const Fields& expected) {
@@ -92,7 +60,7 @@ class TurnedProducts : public ::testing::TestWithParam<Box> {};
 TEST_P(TurnedProducts, EqualTheDirectSum) {
   const Box c = GetParam();
   const auto kernel = std::make_shared<ConstantElements>(kDx, kDy, 0.28, c.difference);
-  const Fields p = random_tractions(c.nx * c.ny);
+  const Fields p = random_tractions(static_cast<std::size_t>(c.nx * c.ny));
   const std::vector<double> angle = uneven_angles(c.ny);
   InfluenceOperator op(c.nx, c.ny, kDx, kDy, kShearModulus, kernel, c.shift_x, c.shift_y);
   for (const AngleCorrection correction : kCorrections) {
@@ -108,7 +76,7 @@ INSTANTIATE_TEST_SUITE_P(Boxes, TurnedProducts,
 TEST(TurnedProduct, OnAStraightLineCoefficientsDependOnTheOffsetOnly) {
   const int nx = 11, ny = 9;
   const auto plane = std::make_shared<BilinearElements>(kDx, kDy, 0.3, -0.07);
-  const Fields p = random_tractions(nx * ny);
+  const Fields p = random_tractions(static_cast<std::size_t>(nx * ny));
   const double curvature = 120.0;
   std::vector<double> angle;
   for (int i = 0; i < ny; ++i) angle.push_back(-0.2 + curvature * i * kDy);
@@ -123,7 +91,7 @@ TEST(TurnedProduct, OnAStraightLineCoefficientsDependOnTheOffsetOnly) {
 TEST(TurnedProduct, RowsOfOneInclinationAreAPlane) {
   const int nx = 10, ny = 7;
   InfluenceOperator op(nx, ny, kDx, kDy, kShearModulus, std::make_shared<ConstantElements>(kDx, kDy, 0.28, 0.1));
-  const Fields p = random_tractions(nx * ny);
+  const Fields p = random_tractions(static_cast<std::size_t>(nx * ny));
   const Fields plane = by_operator(op, p, nullptr);
   for (const AngleCorrection correction : kCorrections) {
     const RowInclination rows(std::vector<double>(static_cast<std::size_t>(ny), 0.6), correction);
