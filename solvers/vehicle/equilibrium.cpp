@@ -1,0 +1,174 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/vehicle/equilibrium.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+namespace treadmark::vehicle {
+namespace {
+
+// Of pair coordinates: small against all that contact geometry changes over, large against rounding.
+constexpr double kSteps[kPairCoordinates] = {1e-6, 2e-6, 5e-8, 1e-6, 1e-6, 2e-6, 2e-6, 5e-8, 1e-6};
+// Rates, over the speed.
+constexpr double kRateSteps[kPairCoordinates] = {1e-6, 1e-6, 1e-6, 1e-6, 2e-6, 1e-6, 1e-6, 1e-6, 1e-6};
+
+void displace(PairMotion& m, int coordinate, double by) {
+  double* const place[] = {&m.wheelset.x,     &m.wheelset.y, &m.wheelset.z, &m.wheelset.roll, &m.wheelset.pitch,
+                           &m.wheelset.yaw,   &m.rail.y,     &m.rail.z,     &m.rail.roll};
+  *place[coordinate] += by;
+}
+
+void accelerate(PairMotion& m, int coordinate, double by) {
+  double* const place[] = {&m.wheelset_velocity.x,   &m.wheelset_velocity.y, &m.wheelset_velocity.z, &m.wheelset_velocity.roll,
+                           &m.wheelset_velocity.pitch, &m.wheelset_velocity.yaw, &m.rail.vy, &m.rail.vz, &m.rail.vroll};
+  *place[coordinate] += by;
+}
+
+PairVector force_at(const VehicleOnTrack& vehicle, std::size_t i, const PairMotion& m) {
+  return generalised_force(vehicle.wheels[i].element->evaluate(m), m);
+}
+
+template <class Change>
+PairVector slope(const VehicleOnTrack& vehicle, std::size_t i, const PairMotion& m, double step, Change&& change) {
+  PairMotion low = m, high = m;
+  change(low, -step);
+  change(high, step);
+  return (force_at(vehicle, i, high) - force_at(vehicle, i, low)) / (2.0 * step);
+}
+
+/// Wheelsets roll freely: of their pitch the rate is sought, and the angle stays.
+class Balance {
+ public:
+  Balance(const VehicleOnTrack& vehicle) : vehicle_(vehicle), system_(vehicle.system) {
+    for (const Multibody::Wheelset& w : system_.wheelsets)
+      if (w.coordinate[4] >= 0) rolling_.push_back(w.coordinate[4]);
+    scale_ = *std::ranges::max_element(system_.wheelset_load);
+    if (!(scale_ > 0.0)) throw Error(ErrorKind::configuration, "the wheelsets carry no load");
+  }
+
+  SystemState start() const {
+    SystemState state{0.0, Vector::Zero(system_.size()), Vector::Zero(system_.size())};
+    // Wheels into the rails as deep as their load takes, by the order of magnitude.
+    constexpr double kHertz = 1e11;  // [N/m^1.5]
+    for (std::size_t set = 0; set < system_.wheelsets.size(); ++set) {
+      std::optional<double> gap;
+      for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+        if (vehicle_.wheels[i].wheelset != static_cast<int>(set)) continue;
+        const double one = vehicle_.wheels[i].element->evaluate(vehicle_.motion(i, state)).least_gap;
+        gap = gap ? std::max(*gap, one) : one;
+      }
+      state.q[system_.wheelsets[set].coordinate[2]] += *gap + std::pow(0.5 * system_.wheelset_load[set] / kHertz, 2.0 / 3.0);
+    }
+    return state;
+  }
+
+  /// Imbalance of all coordinates. False: a wheel does not touch, or a contact cannot be solved.
+  bool imbalance(const SystemState& state, Vector& r, std::vector<ContactReaction>& reactions, std::string& why) const {
+    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v + characteristic_forces(system_, state.q);
+    reactions.clear();
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      const PairMotion m = vehicle_.motion(i, state);
+      reactions.push_back(vehicle_.wheels[i].element->evaluate(m));
+      const ContactReaction& reaction = reactions.back();
+      if (reaction.status != Status::ok || !(reaction.normal_force > 0.0)) {
+        why = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message.empty() ? "the wheel does not touch the rail" : reaction.message);
+        return false;
+      }
+      r += vehicle_.maps[i].transpose() * generalised_force(reaction, m);
+    }
+    return true;
+  }
+
+  double measure(const Vector& r) const {
+    double most = 0.0;
+    for (Eigen::Index i = 0; i < r.size(); ++i)
+      most = std::max(most, std::abs(r[i]) / (scale_ * system_.coordinates[static_cast<std::size_t>(i)].arm));
+    return most;
+  }
+
+  /// Derivative of -imbalance by the unknowns.
+  Matrix jacobian(const SystemState& state) const {
+    Matrix positions = system_.stiffness, rates = system_.damping;
+    for (const CharacteristicForce& c : system_.characteristics)
+      positions += characteristic(c, c.direction.dot(state.q)).stiffness * c.direction * c.direction.transpose();
+    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
+      const PairTangent t = linearised(vehicle_, i, state);
+      positions += vehicle_.maps[i].transpose() * t.stiffness * vehicle_.maps[i];
+      rates += vehicle_.maps[i].transpose() * t.damping * vehicle_.maps[i];
+    }
+    for (const int c : rolling_) positions.col(c) = rates.col(c);
+    return positions;
+  }
+
+  SystemState moved(SystemState state, const Vector& step) const {
+    const Vector held = state.q;
+    state.q += step;
+    for (const int c : rolling_) {
+      state.q[c] = held[c];
+      state.v[c] += step[c];
+    }
+    return state;
+  }
+
+ private:
+  const VehicleOnTrack& vehicle_;
+  const Multibody& system_;
+  std::vector<int> rolling_;
+  double scale_ = 1.0;
+};
+
+}  // namespace
+
+PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const SystemState& state) {
+  const PairMotion m = vehicle.motion(i, state);
+  PairTangent t;
+  for (int c = 0; c < kPairCoordinates; ++c) {
+    if (vehicle.maps[i].row(c).isZero(0.0)) continue;
+    t.stiffness.col(c) = -slope(vehicle, i, m, kSteps[c], [c](PairMotion& changed, double by) { displace(changed, c, by); });
+    t.damping.col(c) = -slope(vehicle, i, m, kRateSteps[c] * vehicle.speed, [c](PairMotion& changed, double by) { accelerate(changed, c, by); });
+  }
+  return t;
+}
+
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
+  const Balance balance(vehicle);
+  Equilibrium found;
+  found.state = balance.start();
+  Vector r;
+  std::string why;
+  if (!balance.imbalance(found.state, r, found.reactions, why)) {
+    found.report = {Status::failed, 0, found.residual, "no start for the static equilibrium: " + why};
+    return found;
+  }
+  found.residual = balance.measure(r);
+  for (; found.residual > settings.tolerance && found.iterations < settings.max_iterations; ++found.iterations) {
+    const Vector step = balance.jacobian(found.state).fullPivLu().solve(r);
+    constexpr double kShortest = 1e-3;
+    bool better = false;
+    for (double share = 1.0; share > kShortest && !better; share *= 0.5) {
+      const SystemState trial = balance.moved(found.state, share * step);
+      Vector r_trial;
+      std::vector<ContactReaction> reactions;
+      if (!balance.imbalance(trial, r_trial, reactions, why)) continue;
+      const double residual = balance.measure(r_trial);
+      if (!(residual < found.residual)) continue;
+      better = true;
+      found.state = trial;
+      found.residual = residual;
+      found.reactions = std::move(reactions);
+      r = r_trial;
+    }
+    if (!better) break;
+  }
+  if (found.residual > settings.acceptable)
+    found.report = {Status::not_converged, found.iterations, found.residual,
+                    fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}", found.residual,
+                                why.empty() ? "" : "; ", why)};
+  return found;
+}
+
+}  // namespace treadmark::vehicle

@@ -1,0 +1,32 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include "treadmark/core/report.hpp"
+#include "treadmark/solvers/vehicle/vehicle_on_track.hpp"
+
+namespace treadmark::vehicle {
+
+struct EquilibriumSettings {
+  double tolerance = 1e-6;     ///< of every force over the largest wheelset load
+  double acceptable = 1e-4;    ///< where grids let forces not come nearer
+  int max_iterations = 60;
+};
+
+struct Equilibrium {
+  Report report;
+  SystemState state;                          ///< v: rates of pitch of wheelsets that roll freely
+  std::vector<ContactReaction> reactions;     ///< of the wheels
+  double residual = 0.0;                      ///< largest force that is not balanced, over the largest wheelset load
+  int iterations = 0;
+};
+
+/// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces, contact
+/// included, are in balance (Newton's method, contact linearised by differences, steps halved until the imbalance falls).
+/// Accepts nothing in the elements.
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
+
+/// -d(generalised force of a wheel)/d(pair coordinates) and /d(their rates) by differences, about a motion.
+PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t wheel, const SystemState& state);
+
+}  // namespace treadmark::vehicle

@@ -1,0 +1,164 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/vehicle/implicit_step.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+namespace treadmark::vehicle {
+namespace {
+
+constexpr double kArm = 0.75;   // moments are compared with forces at half the gauge [m]
+
+double largest_force(const PairVector& f) {
+  double most = 0.0;
+  for (int c = 0; c < kPairCoordinates; ++c) {
+    const bool is_moment = (c >= 3 && c < 6) || c == 8;
+    most = std::max(most, std::abs(f[c]) / (is_moment ? kArm : 1.0));
+  }
+  return most;
+}
+
+}  // namespace
+
+/// The system without contacts for one step length, and how it gives way to forces at the contacts.
+struct ImplicitStep::Factors {
+  double length = 0.0;
+  Eigen::PartialPivLU<Matrix> lu;
+  Matrix by_touched;       ///< accelerations for unit forces at the touched coordinates
+  Matrix among_touched;    ///< those of the touched coordinates
+};
+
+ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings) : vehicle_(vehicle), settings_(settings) {
+  if (!(settings.spectral_radius >= 0.5 && settings.spectral_radius <= 1.0))
+    throw Error(ErrorKind::configuration, "the spectral radius must lie between 0.5 and 1");
+  alpha_ = -(1.0 - settings.spectral_radius) / (1.0 + settings.spectral_radius);
+  beta_ = 0.25 * (1.0 - alpha_) * (1.0 - alpha_);
+  gamma_ = 0.5 - alpha_;
+  for (int c = 0; c < vehicle.system.size(); ++c)
+    if (std::ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); })) touched_.push_back(c);
+  for (const auto& map : vehicle.maps) maps_.push_back(map(Eigen::all, touched_));
+  force_scale_ = 0.5 * *std::ranges::max_element(vehicle.system.wheelset_load);
+}
+
+ImplicitStep::~ImplicitStep() = default;
+ImplicitStep::ImplicitStep(ImplicitStep&&) noexcept = default;
+
+Motion ImplicitStep::start(const SystemState& state, const std::vector<ContactReaction>& reactions) const {
+  const Multibody& s = vehicle_.system;
+  Motion m;
+  m.state = state;
+  m.unbalanced = s.weight - s.stiffness * state.q - s.damping * state.v + characteristic_forces(s, state.q);
+  for (std::size_t i = 0; i < reactions.size(); ++i) {
+    m.contact_force.push_back(generalised_force(reactions[i], vehicle_.motion(i, state)));
+    m.unbalanced += vehicle_.maps[i].transpose() * m.contact_force.back();
+  }
+  m.a = Vector::Zero(s.size());
+  for (Eigen::Index i = 0; i < m.a.size(); ++i)
+    if (s.mass[i] > 0.0) m.a[i] = m.unbalanced[i] / s.mass[i];
+  // What has no mass follows its damper: C v' = -K v.
+  for (Eigen::Index i = 0; i < m.a.size(); ++i)
+    if (!(s.mass[i] > 0.0)) m.a[i] = -s.stiffness.row(i).dot(state.v) / s.damping(i, i);
+  m.a_before = m.a;
+  return m;
+}
+
+const ImplicitStep::Factors& ImplicitStep::factors(double h) {
+  if (factors_ && factors_->length == h) return *factors_;
+  const Multibody& s = vehicle_.system;
+  auto fresh = std::make_unique<Factors>();
+  fresh->length = h;
+  Matrix effective = (1.0 + alpha_) * (gamma_ * h * s.damping + beta_ * h * h * s.stiffness);
+  effective.diagonal() += s.mass;
+  fresh->lu.compute(effective);
+  Matrix unit = Matrix::Zero(s.size(), static_cast<Eigen::Index>(touched_.size()));
+  for (std::size_t i = 0; i < touched_.size(); ++i) unit(touched_[i], static_cast<Eigen::Index>(i)) = 1.0;
+  fresh->by_touched = fresh->lu.solve(unit);
+  fresh->among_touched = fresh->by_touched(touched_, Eigen::all);
+  factors_ = std::move(fresh);
+  return *factors_;
+}
+
+Vector ImplicitStep::predicted_acceleration(const Motion& from, double h) const {
+  if (!(from.step_before > 0.0)) return from.a;
+  return from.a + (h / from.step_before) * (from.a - from.a_before);
+}
+
+Step ImplicitStep::take(const Motion& from, double h) {
+  const Multibody& s = vehicle_.system;
+  const Factors& f = factors(h);
+  const std::size_t wheels = vehicle_.wheels.size();
+  const Vector q_known = from.state.q + h * from.state.v + h * h * (0.5 - beta_) * from.a;
+  const Vector v_known = from.state.v + h * (1.0 - gamma_) * from.a;
+  const double of_q = beta_ * h * h, of_v = gamma_ * h;
+  const auto state_of = [&](const Vector& a) { return SystemState{from.state.time + h, q_known + of_q * a, v_known + of_v * a}; };
+  const Vector known = (1.0 + alpha_) * (s.weight - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
+
+  Step step;
+  Vector a = predicted_acceleration(from, h);
+  for (; step.iterations < settings_.max_iterations; ++step.iterations) {
+    const SystemState at = state_of(a);
+    const Vector stops = characteristic_forces(s, at.q);
+    Vector right = known + (1.0 + alpha_) * stops;
+    Matrix give = Matrix::Zero(f.among_touched.rows(), f.among_touched.rows());
+    std::vector<PairVector> forces;
+    std::vector<PairTangent> tangents;
+    step.reactions.clear();
+    for (std::size_t i = 0; i < wheels; ++i) {
+      const PairMotion m = vehicle_.motion(i, at);
+      step.reactions.push_back(vehicle_.wheels[i].element->evaluate(m));
+      const ContactReaction& reaction = step.reactions.back();
+      if (reaction.status == Status::failed || reaction.status == Status::not_converged) {
+        step.why_not = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message);
+        return step;
+      }
+      forces.push_back(generalised_force(reaction, m));
+      tangents.push_back(vehicle_.tangent(i, reaction, m));
+      right += (1.0 + alpha_) * (vehicle_.maps[i].transpose() * forces.back());
+      const PairMatrix tangent = (1.0 + alpha_) * (of_q * tangents.back().stiffness + of_v * tangents.back().damping);
+      give += maps_[i].transpose() * tangent * maps_[i];
+    }
+    // Contacts respond to the difference from the state at which they were evaluated; (S + P' D P) x = b by the small system at P.
+    const Vector free = f.lu.solve(right) - a;
+    const Matrix small = Matrix::Identity(give.rows(), give.rows()) + f.among_touched * give;
+    const Vector change_touched = small.partialPivLu().solve(free(touched_));
+    const Vector change = free - f.by_touched * (give * change_touched);
+    a += change;
+
+    double most = 0.0;
+    for (std::size_t i = 0; i < wheels; ++i) {
+      const PairVector moved = maps_[i] * change(touched_);
+      const PairVector correction = -(of_q * tangents[i].stiffness + of_v * tangents[i].damping) * moved;
+      forces[i] += correction;
+      const double scale = std::max(force_scale_, step.reactions[i].normal_force);
+      most = std::max(most, largest_force(correction) / scale);
+    }
+    if (!a.allFinite()) {
+      step.why_not = "the motion has no finite values";
+      return step;
+    }
+    if (most > settings_.force_tolerance) continue;
+
+    step.converged = true;
+    ++step.iterations;
+    Motion& end = step.end;
+    end.state = state_of(a);
+    end.a = a;
+    end.a_before = from.a;
+    end.step_before = h;
+    end.contact_force = std::move(forces);
+    end.unbalanced = s.weight - s.stiffness * end.state.q - s.damping * end.state.v + stops;
+    for (std::size_t i = 0; i < wheels; ++i) end.unbalanced += vehicle_.maps[i].transpose() * end.contact_force[i];
+    for (Eigen::Index i = 0; i < a.size(); ++i)
+      if (s.mass[i] > 0.0)
+        step.position_error = std::max(step.position_error, std::abs(beta_ - 1.0 / 6.0) * h * h * std::abs(a[i] - from.a[i]) *
+                                                                s.coordinates[static_cast<std::size_t>(i)].arm);
+    return step;
+  }
+  step.why_not = "contact forces and motion did not come to agree within a step";
+  return step;
+}
+
+}  // namespace treadmark::vehicle

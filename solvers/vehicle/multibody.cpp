@@ -1,0 +1,284 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/vehicle/multibody.hpp"
+
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::vehicle {
+namespace {
+
+constexpr double kHalfGauge = 0.75;  // [m], to compare rotations with displacements
+constexpr int kRotations = 3;        // freedoms from here on are rotations
+constexpr const char* kFreedomNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
+
+struct PlacedBody {
+  BodySpec spec;
+  std::array<int, kFreedoms> coordinate;
+  bool axle_boxes = false;   ///< springs do not follow its pitch
+  bool fixed_while_preloading = false;
+};
+
+/// A direction in which a spring or damper acts: relative displacement of b against a by the coordinates.
+using Direction = std::vector<std::pair<int, double>>;
+
+class Assembly {
+ public:
+  Assembly(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity)
+      : speed_(speed), gravity_(gravity) {
+    for (const BodySpec& body : vehicle.bodies) add_body(body, body.name, Vec3::Zero());
+    for (const WheelsetSpec& w : vehicle.wheelsets) {
+      PlacedBody& body = find(w.body, {});
+      body.axle_boxes = body.fixed_while_preloading = true;
+    }
+    for (const SpringSpec& spring : vehicle.springs) add_spring(spring, "", Vec3::Zero());
+    for (const BumpStopSpec& stop : vehicle.bump_stops) add_stop(stop);
+    for (std::size_t i = 0; i < vehicle.wheelsets.size(); ++i) add_wheelset(vehicle.wheelsets[i], track, i);
+    finish();
+  }
+
+  Multibody take() { return std::move(system_); }
+
+ private:
+  void add_body(const BodySpec& spec, const std::string& name, const Vec3& offset) {
+    PlacedBody body{spec, {}, false, false};
+    body.spec.name = name;
+    body.spec.position += offset;
+    for (int f = 0; f < kFreedoms; ++f) {
+      const auto i = static_cast<std::size_t>(f);
+      body.coordinate[i] = -1;
+      if (!spec.free[i]) continue;
+      const double inertia = f < kRotations ? spec.mass : spec.inertia[f - kRotations];
+      if (!(inertia > 0.0))
+        throw Error(ErrorKind::configuration, fmt::format("body '{}' has no positive {} but may move in {}", spec.name,
+                                                          f < kRotations ? "mass" : "moment of inertia", kFreedomNames[i]),
+                    spec.where);
+      body.coordinate[i] = add_coordinate(static_cast<int>(bodies_.size()), static_cast<Freedom>(f), name + '.' + kFreedomNames[i], inertia);
+    }
+    if (!by_name_.emplace(name, bodies_.size()).second)
+      throw Error(ErrorKind::configuration, fmt::format("there are two bodies '{}'", name), spec.where);
+    bodies_.push_back(std::move(body));
+  }
+
+  int add_coordinate(int body, Freedom freedom, std::string name, double inertia) {
+    system_.coordinates.push_back({body, freedom, std::move(name), static_cast<int>(freedom) < kRotations ? 1.0 : kHalfGauge});
+    inertia_.push_back(inertia);
+    return static_cast<int>(inertia_.size()) - 1;
+  }
+
+  PlacedBody& find(const std::string& name, const SourcePosition& where) {
+    const auto found = by_name_.find(name);
+    if (found == by_name_.end()) throw Error(ErrorKind::configuration, fmt::format("there is no body '{}'", name), where);
+    return bodies_[found->second];
+  }
+
+  /// Displacement of the body's point along (or rotation about) an axis.
+  void add_point(const std::string& name, const std::string& suffix, const SourcePosition& where, const Vec3& point, int freedom, double sign,
+                 Direction& direction) {
+    if (name == kGround) return;
+    const PlacedBody& body = find(name + suffix, where);
+    const auto add = [&](int f, double factor) {
+      if (f == static_cast<int>(Freedom::pitch) && body.axle_boxes) return;
+      const int c = body.coordinate[static_cast<std::size_t>(f)];
+      if (c >= 0 && factor != 0.0) direction.emplace_back(c, sign * factor);
+    };
+    add(freedom, 1.0);
+    if (freedom >= kRotations) return;
+    const Vec3 arm = point - body.spec.position, axis = Vec3::Unit(freedom);
+    for (int r = 0; r < 3; ++r) add(kRotations + r, Vec3::Unit(r).cross(arm).dot(axis));
+  }
+
+  Direction relative(const std::string& a, const std::string& b, const std::string& suffix, const SourcePosition& where, const Vec3& point,
+                     int freedom) {
+    Direction direction;
+    add_point(a, suffix, where, point, freedom, -1.0, direction);
+    add_point(b, suffix, where, point, freedom, 1.0, direction);
+    return direction;
+  }
+
+  void add_spring(const SpringSpec& spring, const std::string& suffix, const Vec3& offset) {
+    const Vec3 point = spring.position + offset;
+    for (int f = 0; f < kFreedoms; ++f) {
+      const auto i = static_cast<std::size_t>(f);
+      const double k = spring.stiffness[i], c = spring.damping[i], series = spring.damper_stiffness[i];
+      if (k < 0.0 || c < 0.0 || series < 0.0)
+        throw Error(ErrorKind::configuration, fmt::format("spring '{}' has a negative stiffness or damping in {}", spring.name, kFreedomNames[i]),
+                    spring.where);
+      if (k == 0.0 && c == 0.0) continue;
+      const Direction direction = relative(spring.body_a, spring.body_b, suffix, spring.where, point, f);
+      if (k > 0.0) terms_.push_back({direction, k, false});
+      if (c == 0.0) continue;
+      if (series == 0.0) {
+        terms_.push_back({direction, c, true});
+        continue;
+      }
+      // Spring to the damper's inner end, which the damper ties to body a.
+      const int inner = add_coordinate(-1, static_cast<Freedom>(f), spring.name + suffix + ".damper_" + kFreedomNames[i], 0.0);
+      Direction stretched = direction;
+      stretched.emplace_back(inner, -1.0);
+      terms_.push_back({stretched, series, false});
+      terms_.push_back({{{inner, 1.0}}, c, true});
+    }
+  }
+
+  void add_stop(const BumpStopSpec& stop) {
+    stops_.push_back({relative(stop.body_a, stop.body_b, "", stop.where, stop.position, static_cast<int>(stop.direction)), &stop});
+  }
+
+  void add_wheelset(const WheelsetSpec& spec, const std::optional<TrackModel>& track, std::size_t number) {
+    const PlacedBody& body = find(spec.body, {});
+    Multibody::Wheelset w{body.coordinate, spec.nominal_radius, -1, -1};
+    const Vec3 below(body.spec.position.x(), 0.0, 0.0);
+    if (track) {
+      const std::string suffix = '@' + std::to_string(number + 1);
+      for (const BodySpec& b : track->bodies) add_body(b, b.name + suffix, below);
+      for (const SpringSpec& spring : track->springs) add_spring(spring, suffix, below);
+      const auto rail = [&](const std::string& name) {
+        if (name.empty()) return -1;
+        const PlacedBody& r = find(name + suffix, {});
+        system_.rails.push_back({{r.coordinate[1], r.coordinate[2], r.coordinate[3]}, r.spec.position - below});
+        return static_cast<int>(system_.rails.size()) - 1;
+      };
+      w.left_rail = rail(track->left_rail);
+      w.right_rail = rail(track->right_rail);
+    }
+    system_.wheelsets.push_back(w);
+  }
+
+  Vector spread(const Direction& direction) const {
+    Vector v = Vector::Zero(static_cast<Eigen::Index>(inertia_.size()));
+    for (const auto& [c, factor] : direction) v[c] += factor;
+    return v;
+  }
+
+  void finish() {
+    const auto n = static_cast<Eigen::Index>(inertia_.size());
+    system_.mass = Eigen::Map<const Vector>(inertia_.data(), n);
+    system_.stiffness = Matrix::Zero(n, n);
+    system_.dissipation = Matrix::Zero(n, n);
+    for (const Term& term : terms_) {
+      Matrix& target = term.damper ? system_.dissipation : system_.stiffness;
+      for (const auto& [i, a] : term.direction)
+        for (const auto& [j, b] : term.direction) target(i, j) += term.value * a * b;
+    }
+    system_.damping = system_.dissipation;
+    for (std::size_t i = 0; i < system_.wheelsets.size(); ++i) couple_roll_and_yaw(system_.wheelsets[i]);
+    for (const auto& [direction, stop] : stops_)
+      system_.characteristics.push_back({spread(direction), stop->displacement, stop->force});
+    balance_weight();
+  }
+
+  /// Angular momentum of a wheel set that turns with -V/R about an axle which rolls and yaws.
+  void couple_roll_and_yaw(const Multibody::Wheelset& w) {
+    const int roll = w.coordinate[3], yaw = w.coordinate[5];
+    if (roll < 0 || yaw < 0) return;
+    const PlacedBody& body = bodies_[static_cast<std::size_t>(system_.coordinates[static_cast<std::size_t>(roll)].body)];
+    const double momentum = body.spec.inertia.y() * -speed_ / w.nominal_radius;
+    system_.damping(roll, yaw) -= momentum;
+    system_.damping(yaw, roll) += momentum;
+  }
+
+  /// Springs bear the weight of what is not a wheelset; the rest is left to the wheelsets' contact.
+  void balance_weight() {
+    const Eigen::Index n = system_.mass.size();
+    Vector weight = Vector::Zero(n);
+    std::vector<Eigen::Index> sprung;
+    for (Eigen::Index i = 0; i < n; ++i) {
+      const Coordinate& c = system_.coordinates[static_cast<std::size_t>(i)];
+      if (c.body >= 0 && c.freedom == Freedom::z) weight[i] = inertia_[static_cast<std::size_t>(i)] * gravity_;
+      if (c.body < 0 || !bodies_[static_cast<std::size_t>(c.body)].fixed_while_preloading) sprung.push_back(i);
+    }
+    // Inner ends of dampers and directions without springs bear nothing.
+    const Matrix k = system_.stiffness(sprung, sprung);
+    const Vector borne = sprung.empty() ? Vector() : Vector(k.completeOrthogonalDecomposition().solve(weight(sprung)));
+    const Vector left = weight(sprung) - k * borne;
+    for (Eigen::Index i = 0; i < left.size(); ++i)
+      if (std::abs(left[i]) > 1e-6 * (1.0 + weight.cwiseAbs().maxCoeff()))
+        throw Error(ErrorKind::configuration,
+                    fmt::format("nothing bears the weight at {}", system_.coordinates[static_cast<std::size_t>(sprung[static_cast<std::size_t>(i)])].name),
+                    {}, "a spring is missing");
+    Vector q = Vector::Zero(n);
+    q(sprung) = borne;
+    system_.weight = weight - system_.stiffness * q;
+    system_.weight(sprung).setZero();
+    for (const Multibody::Wheelset& w : system_.wheelsets) {
+      const int z = w.coordinate[2];
+      if (z < 0) throw Error(ErrorKind::configuration, "a wheelset must be free to move in z");
+      system_.wheelset_load.push_back(system_.weight[z]);
+      system_.wheelset_mass.push_back(system_.mass[z]);
+    }
+  }
+
+  struct Term {
+    Direction direction;
+    double value;
+    bool damper;
+  };
+  double speed_, gravity_;
+  Multibody system_;
+  std::vector<double> inertia_;
+  std::vector<PlacedBody> bodies_;
+  std::map<std::string, std::size_t> by_name_;
+  std::vector<Term> terms_;
+  std::vector<std::pair<Direction, const BumpStopSpec*>> stops_;
+};
+
+}  // namespace
+
+Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity) {
+  if (vehicle.wheelsets.empty()) throw Error(ErrorKind::configuration, "the vehicle has no wheelset");
+  return Assembly(vehicle, track, speed, gravity).take();
+}
+
+CharacteristicValue characteristic(const CharacteristicForce& c, double displacement) {
+  const double u = std::abs(displacement), sign = displacement < 0.0 ? -1.0 : 1.0;
+  CharacteristicValue value;
+  for (std::size_t i = 0; i + 1 < c.displacement.size(); ++i) {
+    const double low = c.displacement[i], high = i + 2 < c.displacement.size() ? std::min(u, c.displacement[i + 1]) : u;
+    if (u <= low) break;
+    const double slope = (c.force[i + 1] - c.force[i]) / (c.displacement[i + 1] - low);
+    value.energy += (high - low) * (c.force[i] + 0.5 * slope * (high - low));
+    value.force = sign * (c.force[i] + slope * (high - low));
+    value.stiffness = slope;
+  }
+  return value;
+}
+
+Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy) {
+  Vector forces = Vector::Zero(q.size());
+  for (const CharacteristicForce& c : system.characteristics) {
+    const CharacteristicValue value = characteristic(c, c.direction.dot(q));
+    forces -= value.force * c.direction;
+    if (energy) *energy += value.energy;
+  }
+  return forces;
+}
+
+Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> pair_map(const Multibody& system, int wheelset, wheelrail::Side side,
+                                                                 const Vec3& rail_marker) {
+  Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> map(static_cast<Eigen::Index>(kPairCoordinates), system.mass.size());
+  map.setZero();
+  const Multibody::Wheelset& w = system.wheelsets.at(static_cast<std::size_t>(wheelset));
+  for (int f = 0; f < kFreedoms; ++f)
+    if (const int c = w.coordinate[static_cast<std::size_t>(f)]; c >= 0) map(f, c) = 1.0;
+  const int index = side == wheelrail::Side::left ? w.left_rail : w.right_rail;
+  if (index < 0) return map;
+  const Multibody::Rail& rail = system.rails[static_cast<std::size_t>(index)];
+  const Vec3 arm = rail_marker - rail.centre;
+  const auto [y, z, roll] = rail.coordinate;
+  if (y >= 0) map(6, y) = 1.0;
+  if (z >= 0) map(7, z) = 1.0;
+  if (roll >= 0) {
+    map(6, roll) = -arm.z();
+    map(7, roll) = arm.y();
+    map(8, roll) = 1.0;
+  }
+  return map;
+}
+
+}  // namespace treadmark::vehicle
