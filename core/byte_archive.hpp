@@ -20,15 +20,13 @@ class ByteWriter {
   template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void put(T value) {
-    const auto* first = reinterpret_cast<const std::byte*>(&value);
-    bytes_.insert(bytes_.end(), first, first + sizeof value);
+    append(&value, sizeof value);
   }
   template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void put(std::span<const T> values) {
     put(values.size());
-    const auto more = std::as_bytes(values);
-    bytes_.insert(bytes_.end(), more.begin(), more.end());
+    if (!values.empty()) append(values.data(), values.size_bytes());
   }
   void put(const std::vector<double>& values) { put(std::span<const double>(values)); }
   void put(const std::string& text) { put(std::span<const char>(text)); }
@@ -36,6 +34,8 @@ class ByteWriter {
   const std::vector<std::byte>& bytes() const { return bytes_; }
 
  private:
+  void append(const void* first, std::size_t size);
+
   std::vector<std::byte> bytes_;
 };
 
@@ -47,7 +47,11 @@ class ByteReader {
   template <class T>
     requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void get(T& value) {
-    std::memcpy(&value, take(sizeof value).data(), sizeof value);
+    const auto bytes = take(sizeof value);
+    if constexpr (std::is_same_v<T, bool>)
+      value = bytes.front() != std::byte{0};   // no other bytes are values of it
+    else
+      std::memcpy(&value, bytes.data(), sizeof value);
   }
   template <class T>
   T get() {

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <string>
 #include <utility>
 
@@ -13,9 +12,8 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
 #include "treadmark/solvers/kalker/heat/surface_temperature.hpp"
-#include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 #include "treadmark/solvers/kalker/normal/sub_patch_solver.hpp"
-#include "treadmark/solvers/kalker/tangential/tangential_solver.hpp"
+#include "treadmark/solvers/kalker/solver_state.hpp"
 
 namespace treadmark::kalker {
 
@@ -49,14 +47,6 @@ double relative_change(const ContactSolution& before, const ContactSolution& aft
 }
 
 }  // namespace
-
-class ContactSolver::State {
- public:
-  ContactHistory previous, last;
-  NormalStart normal;
-  std::vector<NormalStart> sub_patches;
-  std::optional<TangentialStart> tangential;
-};
 
 struct ContactSolver::Workspace {
   NormalSolver normal;

@@ -14,6 +14,7 @@
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/missing_surface.hpp"
+#include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
@@ -109,12 +110,6 @@ void complete(const Problem& p, PairSolution& solution) {
 }
 
 }  // namespace
-
-class Pair::State {
- public:
-  Instant previous, last;   ///< the instant before the last solution, and what it left
-  Side side = Side::right;
-};
 
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
