@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/solvers/wheelrail/placement.hpp"
+#include "treadmark/solvers/wheelrail/state_archive.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -55,17 +56,18 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
 }
 
 FullContact::FullContact(wheelrail::Geometry geometry, wheelrail::Problem problem)
-    : problem_(std::move(problem)), pair_(geometry), accepted_(pair_.save()) {
-  const Vec3 marker = rail_marker_at_rest(geometry, problem_);
+    : geometry_(std::move(geometry)), problem_(std::move(problem)), pair_(geometry_) {
+  const Vec3 marker = rail_marker_at_rest(geometry_, problem_);
   problem_.track.gauge_based = false;
   problem_.track.rail_y0 = marker.y();
   problem_.track.rail_z0 = marker.z();
   problem_.vertical_force.reset();
   problem_.longitudinal_force.reset();
   problem_.rail_springs.reset();
+  past_.state = accepted_.before.state = pair_.save();
 }
 
-ContactReaction FullContact::evaluate(const PairMotion& motion) {
+wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& motion) {
   wheelrail::Problem p = problem_;
   p.state.position = motion.wheelset;
   p.state.velocity = motion.wheelset_velocity;
@@ -73,33 +75,35 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
   p.track.dy = r.y, p.track.dz = r.z, p.track.roll = r.roll;
   p.track.vy = r.vy, p.track.vz = r.vz, p.track.vroll = r.vroll;
 
-  const double travelled = motion.wheelset.x - accepted_x_;
-  const bool goes_on = started_ && p.regime == kalker::Regime::transient && travelled != 0.0;
-  if (goes_on) {
+  const double travelled = motion.wheelset.x - past.x;
+  if (past.started && p.regime == kalker::Regime::transient && travelled != 0.0) {
     p.history = kalker::HistoryUse::keep_going;
     p.discretisation.dq_relative = std::abs(travelled) / p.discretisation.dx;
   } else {
     p.regime = kalker::Regime::steady;
     p.history = kalker::HistoryUse::start;
   }
-  pair_.restore(accepted_);
-  solution_ = pair_.solve(p);
-  tried_x_ = motion.wheelset.x;
+  pair_.restore(past.state);
+  return pair_.solve(p);
+}
 
-  const wheelrail::PhaseTimes& t = solution_.times;
+ContactReaction FullContact::evaluate(const PairMotion& motion) {
+  const wheelrail::PairSolution solution = solve(past_, motion);
+  tried_ = motion;
+  const wheelrail::PhaseTimes& t = solution.times;
   times_.search_s += t.search_s, times_.distance_s += t.distance_s, times_.normal_s += t.normal_s, times_.tangential_s += t.tangential_s;
   times_.searches += t.searches, times_.distances += t.distances;
   times_.normal_solves += t.normal_solves, times_.tangential_solves += t.tangential_solves;
 
   ContactReaction out;
-  out.status = solution_.status;
-  out.message = solution_.message;
-  out.least_gap = solution_.least_gap;
-  out.on_rail = solution_.load.track;
-  const Vec3 arm = solution_.placement.X_TR.origin - solution_.placement.X_TWs.origin;
+  out.status = solution.status;
+  out.message = solution.message;
+  out.least_gap = solution.least_gap;
+  out.on_rail = solution.load.track;
+  const Vec3 arm = solution.placement.X_TR.origin - solution.placement.X_TWs.origin;
   out.on_wheelset = {-out.on_rail.force, -(out.on_rail.moment + arm.cross(out.on_rail.force))};
   double most_loaded = 0.0;
-  for (const wheelrail::PatchSolution& patch : solution_.patches) {
+  for (const wheelrail::PatchSolution& patch : solution.patches) {
     const kalker::ContactSolution& c = patch.contact;
     out.lateral_creep_force += c.force_y;
     out.longitudinal_creep_force += c.force_x;
@@ -108,7 +112,7 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
     out.area += c.elements_contact * patch.grid.cell_area();
     out.elastic_energy += c.elastic_energy;
     out.frictional_power -= c.frictional_power;
-    out.tangents.push_back(tangent_of(patch, p, travelled));
+    out.tangents.push_back(tangent_of(patch, problem_, motion.wheelset.x - past_.x));
     ++out.patches;
     if (c.force_n <= most_loaded) continue;
     most_loaded = c.force_n;
@@ -119,9 +123,64 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
 }
 
 void FullContact::accept() {
-  accepted_ = pair_.save();
-  accepted_x_ = tried_x_;
-  started_ = true;
+  accepted_ = {past_, tried_};
+  past_ = {pair_.save(), true, tried_.wheelset.x};
+}
+
+wheelrail::PairSolution FullContact::repeat(const Instant& instant) {
+  const auto now = pair_.save();
+  wheelrail::PairSolution solution = solve(instant.before, instant.motion);
+  pair_.restore(now);
+  return solution;
+}
+
+namespace {
+
+using Past = FullContact::Past;
+
+void put(const Past& past, ByteWriter& out) {
+  wheelrail::write(past.state, out);
+  out.put(past.started);
+  out.put(past.x);
+}
+
+void get(Past& past, ByteReader& in) {
+  past.state = wheelrail::read_state(in);
+  in.get(past.started);
+  in.get(past.x);
+}
+
+/// Every number of a motion, in order.
+template <class Motion, class Visit>
+void each(Motion& m, Visit&& visit) {
+  visit(m.time);
+  for (auto* q : {&m.wheelset, &m.wheelset_velocity}) visit(q->x), visit(q->y), visit(q->z), visit(q->roll), visit(q->yaw), visit(q->pitch);
+  auto& r = m.rail;
+  visit(r.y), visit(r.z), visit(r.roll), visit(r.vy), visit(r.vz), visit(r.vroll);
+}
+
+}  // namespace
+
+void FullContact::write(const Instant& instant, ByteWriter& out) {
+  put(instant.before, out);
+  each(instant.motion, [&](double value) { out.put(value); });
+}
+
+FullContact::Instant FullContact::read(ByteReader& in) {
+  Instant instant;
+  get(instant.before, in);
+  each(instant.motion, [&](double& value) { in.get(value); });
+  return instant;
+}
+
+void FullContact::save(ByteWriter& out) const {
+  put(past_, out);
+  write(accepted_, out);
+}
+
+void FullContact::restore(ByteReader& in) {
+  get(past_, in);
+  accepted_ = read(in);
 }
 
 }  // namespace treadmark::vehicle

@@ -23,20 +23,38 @@ class FullContact : public ContactElement {
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
 
-  /// Of the evaluation before the last accept(), with all fields.
-  const wheelrail::PairSolution& solution() const { return solution_; }
-  /// Seconds spent in every evaluation since construction.
+  /// What an evaluation goes on from.
+  struct Past {
+    std::shared_ptr<const wheelrail::Pair::State> state;
+    bool started = false;       ///< there was an instant
+    double x = 0.0;             ///< distance travelled then [m]
+  };
+  /// An instant as it can be solved again, with all fields and the same bits.
+  struct Instant {
+    Past before;
+    PairMotion motion;
+  };
+  /// The one accepted last.
+  const Instant& accepted() const { return accepted_; }
+  /// Solves an instant again; what the next evaluations go on from stays as it is.
+  wheelrail::PairSolution repeat(const Instant& instant);
+  static void write(const Instant& instant, ByteWriter& out);
+  static Instant read(ByteReader& in);
+
+  /// Time spent in all evaluations since construction.
   const wheelrail::PhaseTimes& times() const { return times_; }
   const wheelrail::Problem& problem() const { return problem_; }
+  const wheelrail::Geometry& geometry() const { return geometry_; }
 
  private:
+  wheelrail::PairSolution solve(const Past& past, const PairMotion& motion);
+
+  wheelrail::Geometry geometry_;
   wheelrail::Problem problem_;
   wheelrail::Pair pair_;
-  std::shared_ptr<const wheelrail::Pair::State> accepted_;
-  bool started_ = false;        ///< an instant has been accepted
-  double accepted_x_ = 0.0;     ///< where [m]
-  double tried_x_ = 0.0;
-  wheelrail::PairSolution solution_;
+  Past past_;
+  PairMotion tried_;
+  Instant accepted_;
   wheelrail::PhaseTimes times_;
 };
 

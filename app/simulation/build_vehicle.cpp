@@ -1,0 +1,129 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/simulation/build_vehicle.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/vehicle/table_contact.hpp"
+
+namespace treadmark::app {
+namespace {
+
+constexpr double kRailBeyond = 0.5;  // [m], ahead of and behind what the wheels pass
+
+wheelrail::Side side_of(io::Side side) { return side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right; }
+
+io::SurfaceSource round_wheel(const io::SimulationFile& file) {
+  io::SurfaceSource source = file.other_wheel ? *file.other_wheel : file.contact.wheel;
+  source.defects = {};
+  return source;
+}
+
+class Builder {
+ public:
+  Builder(const io::SimulationFile& file, SurfaceStore& store) : file_(file), store_(store) {
+    rail_region_.u_min = -kRailBeyond;
+    rail_region_.u_max = file.settings.distance + kRailBeyond;
+  }
+
+  wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
+    const io::SurfaceSource wheel_source = wheel.defects ? file_.contact.wheel : represented_as_wheel(round_wheel(file_));
+    return geometry(wheel_source, file_.contact.rail);
+  }
+
+  /// Round wheel, rail without defects, both as they are given.
+  std::shared_ptr<const vehicle::ContactTable> table(double wheel_load) {
+    if (table_) return table_;
+    io::SurfaceSource wheel = round_wheel(file_), rail = file_.contact.rail;
+    rail.defects = {};
+    wheel.backend = rail.backend = "";
+    wheel.resolution = rail.resolution = 0.0;
+    const wheelrail::Geometry bodies = geometry(wheel, rail);
+    if (!bodies.constant_profiles())
+      throw Error(ErrorKind::configuration,
+                  bodies.round_wheel ? "wheels with table contact need a rail of one section" : "wheels with table contact must be round", wheel.where,
+                  bodies.round_wheel ? "give every wheel contact = \"full\"" : "give the shape of the round wheels as simulation.other_wheel");
+    table_ = vehicle::build_contact_table(bodies, to_problem(file_.contact, true), wheel_load);
+    return table_;
+  }
+
+ private:
+  io::SurfaceSource represented_as_wheel(io::SurfaceSource source) const {
+    source.backend = file_.contact.wheel.backend;
+    source.resolution = file_.contact.wheel.resolution;
+    return source;
+  }
+
+  wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source) {
+    const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, rail_region_);
+    const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, file_.contact.wheelset.nominal_radius, Region{});
+    return {rail.represented.surface, wheel.represented.surface, rail.constant_profile(), wheel.constant_profile()};
+  }
+
+  const io::SimulationFile& file_;
+  SurfaceStore& store_;
+  Region rail_region_;
+  std::shared_ptr<const vehicle::ContactTable> table_;
+};
+
+}  // namespace
+
+std::string wheel_name(const io::WheelContactInput& wheel) {
+  return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == io::Side::left ? "left" : "right");
+}
+
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
+  Builder builder(file, store);
+  BuiltVehicle built;
+  vehicle::VehicleOnTrack& v = built.vehicle;
+  v.speed = file.settings.speed;
+  v.system = vehicle::assemble(file.vehicle, file.track, v.speed, file.settings.gravity);
+  v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
+  for (const io::WheelContactInput& wheel : file.wheels) {
+    vehicle::WheelOnRail on{wheel.wheelset, side_of(wheel.side), wheel_name(wheel), nullptr, Vec3::Zero()};
+    if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
+    if (wheel.model == io::ContactModelInput::full) {
+      const wheelrail::Geometry geometry = builder.full_geometry(wheel);
+      io::WheelRailCase input = file.contact;
+      input.side = wheel.side;
+      const wheelrail::Problem problem = to_problem(input, geometry.constant_profiles());
+      on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
+      built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem));
+      on.element = built.full.back();
+    } else {
+      const auto start = std::chrono::steady_clock::now();
+      const double load = *std::ranges::max_element(v.system.wheelset_load) / 2.0;
+      const auto table = builder.table(load);
+      on.element = std::make_shared<vehicle::TableContact>(table, on.side);
+      on.rail_marker = table->nominal().X_TR.origin;
+      if (on.side == wheelrail::Side::left) on.rail_marker.y() = -on.rail_marker.y();
+      built.full.push_back(nullptr);
+      built.table_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    }
+    v.wheels.push_back(std::move(on));
+  }
+  v.connect();
+  return built;
+}
+
+vehicle::SimulationSettings integration_settings(const io::SimulationFile& file) {
+  const io::SimulationSettings& s = file.settings;
+  vehicle::SimulationSettings out;
+  out.duration = s.duration;
+  out.position_tolerance = s.tolerance;
+  out.min_step = s.min_step;
+  out.max_step = s.max_step.value_or(1e-3);
+  const bool any_full = std::ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
+  constexpr double kNoLimit = 0.1;  // [m]
+  out.max_travel = any_full ? s.max_step_elements * file.contact.discretisation.dx : kNoLimit;
+  out.step.spectral_radius = s.spectral_radius;
+  return out;
+}
+
+}  // namespace treadmark::app

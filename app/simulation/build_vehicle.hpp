@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "treadmark/app/surface_store.hpp"
+#include "treadmark/io/simulations/simulation_model.hpp"
+#include "treadmark/solvers/vehicle/full_contact.hpp"
+#include "treadmark/solvers/vehicle/simulation.hpp"
+
+namespace treadmark::app {
+
+/// A vehicle on its track with contact elements at all wheels.
+struct BuiltVehicle {
+  vehicle::VehicleOnTrack vehicle;
+  /// By wheel: the element, where the contact is solved in full; else null.
+  std::vector<std::shared_ptr<vehicle::FullContact>> full;
+  double table_seconds = 0.0;   ///< spent on contact tables
+};
+
+/// "ws1_right"
+std::string wheel_name(const io::WheelContactInput& wheel);
+
+/// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without defects.
+/// Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot have.
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store);
+
+/// Settings of the integration.
+vehicle::SimulationSettings integration_settings(const io::SimulationFile& file);
+
+}  // namespace treadmark::app

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/simulation/history_record.hpp"
+
+#include <algorithm>
+
+namespace treadmark::app {
+namespace {
+
+using vehicle::ContactReaction;
+
+const char* unit_of(const vehicle::Coordinate& c) { return static_cast<int>(c.freedom) < 3 ? "m" : "rad"; }
+
+}  // namespace
+
+HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation) : simulation_(simulation) {
+  const auto& wheels = simulation.vehicle().wheels;
+  const auto first_full = std::ranges::find_if(built.full, [](const auto& element) { return element != nullptr; });
+  if (first_full != built.full.end()) watched_ = static_cast<std::size_t>(first_full - built.full.begin());
+
+  add("t_s", "s", "time", [&] { return simulation_.state().time; });
+  add("x_m", "m", "distance travelled", [&] { return simulation_.state().time * simulation_.vehicle().speed; });
+  add_wheel(watched_, "", built.full[watched_] != nullptr);
+  for (std::size_t i = 0; i < wheels.size(); ++i)
+    if (i != watched_) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
+  leading_ = columns_.size();
+  add_energies();
+  add_bodies();
+}
+
+void HistoryRecord::add(std::string name, std::string unit, std::string description, std::function<double()> value) {
+  columns_.push_back({{std::move(name), std::move(unit), std::move(description)}, std::move(value)});
+}
+
+void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool full) {
+  const std::string of = prefix.empty() ? " (" + simulation_.vehicle().wheels[wheel].name + ")" : "";
+  const auto reaction = [this, wheel]() -> const ContactReaction& { return simulation_.reactions()[wheel]; };
+  add(prefix + "Q_N", "N", "vertical force on the rail" + of, [=] { return reaction().on_rail.force.z(); });
+  add(prefix + "Y_N", "N", "lateral force on the rail" + of, [=] { return reaction().on_rail.force.y(); });
+  add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of, [=] { return reaction().longitudinal_creep_force; });
+  add(prefix + "Ty_N", "N", "lateral creep force on the rail" + of, [=] { return reaction().lateral_creep_force; });
+  if (!full) return;
+  add(prefix + "Fn_N", "N", "normal force" + of, [=] { return reaction().normal_force; });
+  add(prefix + "pmax_Pa", "Pa", "largest contact pressure" + of, [=] { return reaction().max_pressure; });
+  add(prefix + "area_m2", "m2", "contact area" + of, [=] { return reaction().area; });
+  add(prefix + "gap_m", "m", "least distance of the undeformed bodies, negative: penetration" + of, [=] { return reaction().least_gap; });
+  add(prefix + "x_cp_m", "m", "contact reference ahead of the axle" + of, [=] { return reaction().contact_x; });
+  add(prefix + "y_cp_m", "m", "contact reference in track axes" + of, [=] { return reaction().contact_y; });
+  add(prefix + "patches", "1", "contact patches" + of, [=] { return static_cast<double>(reaction().patches); });
+  add(prefix + "friction_W", "W", "power dissipated by friction" + of, [=] { return reaction().frictional_power; });
+  const auto motion = [this, wheel] { return simulation_.vehicle().motion(wheel, simulation_.state()); };
+  add(prefix + "pitch_rad", "rad", "pitch of the wheelset" + of, [=] { return motion().wheelset.pitch; });
+  add(prefix + "rail_y_m", "m", "lateral displacement of the rail" + of, [=] { return motion().rail.y; });
+  add(prefix + "rail_z_m", "m", "vertical displacement of the rail" + of, [=] { return motion().rail.z; });
+  add(prefix + "rail_roll_rad", "rad", "roll of the rail" + of, [=] { return motion().rail.roll; });
+}
+
+void HistoryRecord::add_energies() {
+  add("energy.mechanical_J", "J", "kinetic energy and potentials about the reference configuration", [&] { return simulation_.energy().mechanical; });
+  add("energy.dampers_J", "J", "dissipated in dampers", [&] { return simulation_.energy().dampers; });
+  add("energy.drive_J", "J", "work that keeps up the speed", [&] { return simulation_.energy().drive; });
+  add("energy.friction_J", "J", "dissipated in the contacts", [&] { return simulation_.energy().friction; });
+  add("energy.elastic_J", "J", "stored in the contacts", [&] { return simulation_.energy().elastic; });
+  add("energy.integration_error_J", "J", "what the time integration gained",
+      [&] { return simulation_.energy().integration_error(simulation_.energy_at_start()); });
+  add("energy.contact_error_J", "J", "work on the contacts that they neither store nor dissipate",
+      [&] { return simulation_.energy().contact_error(simulation_.energy_at_start()); });
+}
+
+void HistoryRecord::add_bodies() {
+  const auto& coordinates = simulation_.vehicle().system.coordinates;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    const vehicle::Coordinate& c = coordinates[i];
+    if (c.body < 0) continue;
+    const auto at = static_cast<Eigen::Index>(i);
+    const std::string unit = unit_of(c);
+    add(c.name + '_' + unit, unit, "displacement from the reference configuration", [this, at] { return simulation_.state().q[at]; });
+    add(c.name + "_rate_" + unit + "_s", unit + "/s", "its rate", [this, at] { return simulation_.state().v[at]; });
+  }
+}
+
+std::vector<io::HistoryColumn> HistoryRecord::columns() const {
+  std::vector<io::HistoryColumn> heads;
+  for (const Column& column : columns_) heads.push_back(column.head);
+  return heads;
+}
+
+void HistoryRecord::append(std::vector<double>& values) const {
+  for (const Column& column : columns_) values.push_back(column.value());
+}
+
+std::vector<io::NamedValue> summarise(const io::SimulationResult& result, const vehicle::Simulation& simulation, const std::string& prefix) {
+  std::vector<io::NamedValue> summary;
+  const auto add = [&](const std::string& name, double value, const char* unit, const char* description) {
+    summary.push_back({prefix + name, value, unit, description});
+  };
+  const std::size_t rows = result.rows(), columns = result.columns.size();
+  const auto value = [&](std::size_t row, std::size_t column) { return result.values[row * columns + column]; };
+  const auto find = [&](const std::string& name) -> std::size_t {
+    const auto at = std::ranges::find(result.columns, prefix + name, &io::HistoryColumn::name);
+    return static_cast<std::size_t>(at - result.columns.begin());
+  };
+  const auto extreme = [&](std::size_t column, bool largest) {
+    std::size_t best = 0;
+    for (std::size_t row = 1; row < rows; ++row)
+      if (largest ? value(row, column) > value(best, column) : value(row, column) < value(best, column)) best = row;
+    return best;
+  };
+  if (rows == 0) return summary;
+  const std::size_t q = find("Q_N"), ty = find("Ty_N"), pressure = find("pmax_Pa");
+  const std::size_t highest = extreme(q, true), lowest = extreme(q, false);
+  const double at_rest = value(0, q);
+  add("q_max_N", value(highest, q), "N", "largest vertical force");
+  add("q_max_t_s", value(highest, 0), "s", "when");
+  add("q_max_x_m", value(highest, 1), "m", "where");
+  add("q_min_N", value(lowest, q), "N", "least vertical force");
+  add("q_static_N", at_rest, "N", "vertical force at the start");
+  add("q_max_over_static", value(highest, q) / at_rest, "1", "largest vertical force over that at the start");
+  add("ty_max_N", value(extreme(ty, true), ty), "N", "largest lateral creep force");
+  add("ty_min_N", value(extreme(ty, false), ty), "N", "least lateral creep force");
+  if (pressure < columns) add("pmax_Pa", value(extreme(pressure, true), pressure), "Pa", "largest contact pressure");
+  if (!prefix.empty()) return summary;
+  add("contact_lost", static_cast<double>(std::ranges::count(simulation.events(), false, &vehicle::ContactEvent::regained)), "1",
+      "how often a wheel lost contact");
+  const vehicle::EnergyBalance& e = simulation.energy();
+  add("energy_turnover_J", e.turnover, "J", "work of contacts and dampers, all counted positive");
+  add("energy_integration_error", e.integration_error(simulation.energy_at_start()) / std::max(e.turnover, 1e-300), "1", "over the turnover");
+  add("energy_contact_error", e.contact_error(simulation.energy_at_start()) / std::max(e.turnover, 1e-300), "1", "over the turnover");
+  add("steps", static_cast<double>(simulation.counts().steps), "1", "accepted time steps");
+  add("steps_rejected", static_cast<double>(simulation.counts().rejected), "1", "time steps that were repeated");
+  add("contact_rounds", static_cast<double>(simulation.counts().evaluations), "1", "evaluations of all contacts");
+  return summary;
+}
+
+}  // namespace treadmark::app

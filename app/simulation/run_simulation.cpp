@@ -1,0 +1,249 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/simulation/run_simulation.hpp"
+
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/simulation/history_record.hpp"
+#include "treadmark/app/simulation/snapshots.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/solvers/vehicle/eigenmodes.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+class Stopwatch {
+ public:
+  explicit Stopwatch(double& total) : total_(total) {}
+  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
+
+ private:
+  double& total_;
+  Clock::time_point start_ = Clock::now();
+};
+
+io::SimulationResult head(const io::SimulationFile& file, const SurfaceStore& store, const SimulationOptions& options) {
+  io::SimulationResult result;
+  result.version = version();
+  result.git = git_revision();
+  result.input_file = file.path.filename().string();
+  result.input_sha256 = file.sha256;
+  result.geometry_sha256 = store.hashes();
+  for (auto& [name, hash] : result.geometry_sha256) name = std::filesystem::path(name).filename().string();
+  result.geometry_sha256.emplace_back(file.vehicle_file.path.filename().string(), file.vehicle_file.sha256);
+  if (file.track_file) result.geometry_sha256.emplace_back(file.track_file->path.filename().string(), file.track_file->sha256);
+  result.title = file.title;
+  result.settings = options.settings;
+  result.swept = options.swept;
+  return result;
+}
+
+/// A simulation with everything that is written down of it.
+class Run {
+ public:
+  Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, SimulationTimes& times)
+      : file_(file), options_(options), times_(times), built_(build(file, store, times)), snapshots_(file, built_),
+        result_(head(file, store, options)) {
+    equilibrium_ = balance();
+    describe_statics();
+    {
+      const Stopwatch watch(times_.modes_s);
+      for (const vehicle::Eigenmode& mode : vehicle::eigenmodes(built_.vehicle, equilibrium_.state))
+        result_.modes.push_back({mode.frequency, mode.damping_ratio, vehicle::describe(mode, built_.vehicle.system)});
+    }
+  }
+
+  io::SimulationResult take() { return std::move(result_); }
+
+  void integrate(const Progress& progress) {
+    const wheelrail::PhaseTimes before = contact_times();
+    {
+      const Stopwatch watch(times_.integration_s);
+      begin();
+      try {
+        loop(progress);
+      } catch (const Error& e) {
+        if (e.kind() != ErrorKind::numerical) throw;
+        result_.status = "failed";
+        result_.message = e.what();
+      }
+    }
+    const wheelrail::PhaseTimes after = contact_times();
+    times_.contact = {after.search_s - before.search_s,         after.distance_s - before.distance_s,
+                      after.normal_s - before.normal_s,         after.tangential_s - before.tangential_s,
+                      after.searches - before.searches,         after.distances - before.distances,
+                      after.normal_solves - before.normal_solves, after.tangential_solves - before.tangential_solves};
+    finish();
+    if (result_.status != "complete") keep_checkpoint();
+  }
+
+ private:
+  static BuiltVehicle build(const io::SimulationFile& file, SurfaceStore& store, SimulationTimes& times) {
+    const Stopwatch watch(times.build_s);
+    BuiltVehicle built = build_vehicle(file, store);
+    times.tables_s = built.table_seconds;
+    return built;
+  }
+
+  vehicle::Equilibrium balance() {
+    const Stopwatch watch(times_.equilibrium_s);
+    vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle);
+    if (e.report.status != Status::ok) throw Error(ErrorKind::numerical, e.report.message, {}, "check the loads, the gauge and where the wheels stand at the start");
+    return e;
+  }
+
+  void describe_statics() {
+    const auto add = [&](std::string name, double value, const char* unit, const char* description) {
+      result_.statics.push_back({std::move(name), value, unit, description});
+    };
+    for (std::size_t i = 0; i < built_.vehicle.wheels.size(); ++i) {
+      const std::string& wheel = built_.vehicle.wheels[i].name;
+      const vehicle::ContactReaction& r = equilibrium_.reactions[i];
+      const vehicle::PairMotion m = built_.vehicle.motion(i, equilibrium_.state);
+      add(wheel + ".Q_N", r.on_rail.force.z(), "N", "vertical force on the rail");
+      add(wheel + ".Y_N", r.on_rail.force.y(), "N", "lateral force on the rail");
+      add(wheel + ".Ty_N", r.lateral_creep_force, "N", "lateral creep force on the rail");
+      add(wheel + ".y_cp_m", r.contact_y, "m", "contact in track axes");
+      add(wheel + ".rail_z_m", m.rail.z, "m", "vertical displacement of the rail");
+    }
+    for (std::size_t set = 0; set < built_.vehicle.system.wheelsets.size(); ++set)
+      add(fmt::format("wheelset{}.load_N", set + 1), built_.vehicle.system.wheelset_load[set], "N", "weight that the two wheels carry");
+    add("residual", equilibrium_.residual, "1", "largest force out of balance over a wheelset's load");
+  }
+
+  wheelrail::PhaseTimes contact_times() const {
+    wheelrail::PhaseTimes sum;
+    for (const auto& full : built_.full) {
+      if (!full) continue;
+      const wheelrail::PhaseTimes& t = full->times();
+      sum.search_s += t.search_s, sum.distance_s += t.distance_s, sum.normal_s += t.normal_s, sum.tangential_s += t.tangential_s;
+      sum.searches += t.searches, sum.distances += t.distances;
+      sum.normal_solves += t.normal_solves, sum.tangential_solves += t.tangential_solves;
+    }
+    return sum;
+  }
+
+  void begin() {
+    simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
+    record_.emplace(built_, *simulation_);
+    result_.columns = record_->columns();
+    if (options_.resume && !options_.checkpoint_file.empty() && std::filesystem::exists(options_.checkpoint_file)) {
+      restore();
+      times_.resumed_at_s = simulation_->state().time;
+      return;
+    }
+    record_->append(result_.values);
+    snapshots_.take_start(*simulation_);
+  }
+
+  void loop(const Progress& progress) {
+    constexpr double kPerMetre = 1e4;
+    const auto total = static_cast<std::size_t>(kPerMetre * file_.settings.distance);
+    auto last_kept = Clock::now(), last_told = last_kept - std::chrono::hours(1);
+    while (!simulation_->finished()) {
+      if (progress.stop_requested()) {
+        result_.status = "interrupted";
+        result_.message = fmt::format("stopped at t = {:.6g} s", simulation_->state().time);
+        return;
+      }
+      const vehicle::SystemState before = simulation_->state();
+      simulation_->advance();
+      snapshots_.take_passed(*simulation_, before);
+      if (due(simulation_->state().time * built_.vehicle.speed)) record_->append(result_.values);
+      const auto now = Clock::now();
+      if (progress.report && now - last_told > std::chrono::milliseconds(100)) {
+        last_told = now;
+        const double x = simulation_->state().time * built_.vehicle.speed;
+        progress.report(std::min(total, static_cast<std::size_t>(kPerMetre * x)), total, fmt::format("x = {:.3f} m", x));
+      }
+      if (!options_.checkpoint_file.empty() && std::chrono::duration<double>(now - last_kept).count() > file_.settings.checkpoint) {
+        keep_checkpoint();
+        last_kept = Clock::now();
+      }
+    }
+  }
+
+  /// Whether the instant at x is to be written down.
+  bool due(double x) {
+    const double every = file_.settings.output_every;
+    if (every <= 0.0 || simulation_->finished()) return true;
+    const double last = result_.values[result_.values.size() - result_.columns.size() + 1];
+    return std::floor(x / every) > std::floor(last / every);
+  }
+
+  void finish() {
+    result_.events.clear();
+    for (const vehicle::ContactEvent& e : simulation_->events())
+      result_.events.push_back({e.time, e.time * built_.vehicle.speed, built_.vehicle.wheels[e.wheel].name,
+                                e.regained ? "contact regained" : "contact lost"});
+    result_.summary = summarise(result_, *simulation_);
+    result_.snapshots = snapshots_.results(result_.snapshot_times);
+    result_.snapshots.version = result_.version;
+    result_.snapshots.git = result_.git;
+  }
+
+  void keep_checkpoint() {
+    if (options_.checkpoint_file.empty()) return;
+    ByteWriter out;
+    simulation_->save(out);
+    out.put(result_.values);
+    snapshots_.save(out);
+    io::SimulationResult partial = result_;
+    if (partial.status == "complete") partial.status = "interrupted";
+    partial.snapshots = {};
+    partial.snapshot_times.clear();
+    partial.checkpoint = out.bytes();
+    io::write_simulation(options_.checkpoint_file, partial);
+  }
+
+  void restore() {
+    const io::SimulationCheckpoint kept = io::read_checkpoint(options_.checkpoint_file);
+    if (kept.version != result_.version || kept.input_sha256 != result_.input_sha256 || kept.settings != result_.settings)
+      throw Error(ErrorKind::configuration, fmt::format("{} belongs to another simulation", options_.checkpoint_file.string()), {},
+                  "resume with the same input and settings, or start anew in another folder");
+    ByteReader in(kept.bytes);
+    simulation_->restore(in);
+    in.get(result_.values);
+    snapshots_.restore(in);
+  }
+
+  const io::SimulationFile& file_;
+  const SimulationOptions& options_;
+  SimulationTimes& times_;
+  BuiltVehicle built_;
+  vehicle::Equilibrium equilibrium_;
+  std::optional<vehicle::Simulation> simulation_;
+  std::optional<HistoryRecord> record_;
+  Snapshots snapshots_;
+  io::SimulationResult result_;
+};
+
+}  // namespace
+
+io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options,
+                                    const Progress& progress, SimulationTimes* times) {
+  SimulationTimes unasked;
+  Run run(file, store, options, times ? *times : unasked);
+  run.integrate(progress);
+  return run.take();
+}
+
+io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options) {
+  SimulationTimes unasked;
+  return Run(file, store, options, unasked).take();
+}
+
+void check_simulation_input(const io::SimulationFile& file) {
+  SurfaceStore store;
+  build_vehicle(file, store);
+}
+
+}  // namespace treadmark::app

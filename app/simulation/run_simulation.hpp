@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "treadmark/app/surface_store.hpp"
+#include "treadmark/core/progress.hpp"
+#include "treadmark/io/histories/history_model.hpp"
+#include "treadmark/io/simulations/simulation_model.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
+
+namespace treadmark::app {
+
+struct SimulationOptions {
+  std::vector<std::string> settings;         ///< echo of overrides
+  std::vector<std::pair<std::string, std::string>> swept;
+  /// Where unfinished results are kept, with what it takes to go on; empty: nowhere. The file is removed by nobody here.
+  std::filesystem::path checkpoint_file;
+  bool resume = false;                       ///< go on from that file, if there is one
+};
+
+/// Time of the computer that a simulation took; not part of its results.
+struct SimulationTimes {
+  double build_s = 0.0, tables_s = 0.0, equilibrium_s = 0.0, modes_s = 0.0, integration_s = 0.0;
+  wheelrail::PhaseTimes contact;             ///< of the wheels with full contact, in the integration
+  double resumed_at_s = 0.0;                 ///< simulated time at which it went on
+};
+
+/// Runs a simulation from static equilibrium to its end. A numerical failure on the way gives status "failed" and the history up to there,
+/// a stop request "interrupted"; of both the checkpoint can be gone on from. Results are the same to the last bit for any number of
+/// threads, interruptions and resumptions.
+/// Errors: Error(configuration), Error(input_data) for input that cannot be simulated at all, and for a checkpoint of another
+/// simulation; Error(numerical) without an equilibrium.
+io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options,
+                                    const Progress& progress, SimulationTimes* times = nullptr);
+
+/// Vehicle, track and contacts in equilibrium, without integration: static values and modes.
+io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options);
+
+/// Reads the geometry and builds everything that a simulation needs, to find errors before it runs.
+void check_simulation_input(const io::SimulationFile& file);
+
+}  // namespace treadmark::app
