@@ -23,7 +23,8 @@ Places read_place(const TableReader& table, const std::vector<std::string>& know
   const CaseValue& between = table.need("between", "the two bodies that are connected");
   const std::vector<std::string> names = table.words("between");
   if (names.size() != 2)
-    throw Error(ErrorKind::configuration, fmt::format("{} has {} names, it needs 2", table.path_of("between"), names.size()), between.where);
+    throw Error(ErrorKind::configuration, fmt::format("{} has {} names, it needs 2", table.path_of("between"), names.size()),
+                between.where);
   for (std::size_t i = 0; i < 2; ++i)
     check_name(fmt::format("{}: the body", table.path_of("between")), names[i], known, between.list()[i].where);
   if (names[0] == names[1])
@@ -85,7 +86,8 @@ void check_spring(const TableReader& part, const SpringSpec& spring) {
   for (std::size_t i = 0; i < spring.damping.size(); ++i)
     if (spring.damper_stiffness.at(i) > 0.0 && spring.damping.at(i) == 0.0)
       throw Error(ErrorKind::configuration,
-                  fmt::format("{}: a spring in series with the damper in {} needs that damper", part.path(), freedom_word(static_cast<int>(i))),
+                  fmt::format("{}: a spring in series with the damper in {} needs that damper", part.path(),
+                              freedom_word(static_cast<int>(i))),
                   part.need(i < 3 ? "damper_stiffness_N_per_m" : "rotational_damper_stiffness_N_m_per_rad").where);
 }
 

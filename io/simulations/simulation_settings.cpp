@@ -92,7 +92,8 @@ std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::s
     const WheelContactInput wheel = read_wheel(table, wheelsets);
     const std::size_t index = 2 * static_cast<std::size_t>(wheel.wheelset) + (wheel.side == Side::left ? 0 : 1);
     if (given[index])
-      table.fail(fmt::format("the {} wheel of wheelset {} is given twice", wheel.side == Side::left ? "left" : "right", wheel.wheelset + 1));
+      table.fail(fmt::format("the {} wheel of wheelset {} is given twice", wheel.side == Side::left ? "left" : "right",
+                             wheel.wheelset + 1));
     given[index] = true;
     std::optional<double>& other = wheels[index ^ 1].pitch;
     if (wheel.pitch && other && *other != *wheel.pitch)
