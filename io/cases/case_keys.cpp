@@ -26,7 +26,7 @@ struct UnitEnding {
 // Longer endings first.
 constexpr UnitEnding kUnits[] = {
     {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_N_per_mm", 1e3}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3},
-    {"_m_s", 1.0},         {"_mm3", 1e-9},        {"_um", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
+    {"_m_s", 1.0},         {"_mm3", 1e-9},        {"_um", 1e-6},   {"_us", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
     {"_N", 1.0},
 };
 

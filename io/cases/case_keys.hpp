@@ -65,7 +65,7 @@ struct ElementPath {
 /// Errors: Error(configuration) if rest does not start with a number and a dot.
 ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where);
 
-/// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _GPa, _MPa, _m_s, _per_m ...).
+/// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _us, _GPa, _MPa, _m_s, _per_m ...).
 double unit_of_key(std::string_view path);
 
 /// Type and range; throws Error (configuration) at the value.

@@ -137,16 +137,14 @@ void refuse_steps(const std::vector<CaseOverride>& changes) {
 
 }  // namespace
 
-CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
+CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name, std::span<const std::string> overrides) {
   CaseFile result;
   result.path = name;
-  result.sha256 = sha256_hex(text);
   result.title = name.stem().string();
   const std::vector<CaseOverride> changes = parse_overrides(overrides);
   const std::filesystem::path folder = name.parent_path();
 
   // Title and cases apart, everything at the top is common to all cases.
-  const CaseTable document = parse_toml(text, name.string());
   CaseTable common;
   const CaseEntry* entries = nullptr;
   Case defaults;
@@ -184,6 +182,12 @@ CaseFile parse_case_text(std::string_view text, const std::filesystem::path& nam
     validate_case(c);
   }
   settle_sequences(result.cases, &result.notes);
+  return result;
+}
+
+CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
+  CaseFile result = case_file_of(parse_toml(text, name.string()), name, overrides);
+  result.sha256 = sha256_hex(text);
   return result;
 }
 

@@ -8,6 +8,7 @@
 #include <string_view>
 
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/cases/case_value.hpp"
 
 namespace treadmark::io {
 
@@ -21,6 +22,9 @@ CaseFile read_case_file(const std::filesystem::path& file, std::span<const std::
 
 /// The same for text that is already in memory; name serves for messages and for resolving geometry files.
 CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides = {});
+
+/// The same for tables that have been parsed already (and perhaps changed); sha256 stays empty.
+CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name, std::span<const std::string> overrides = {});
 
 /// Applies one "key.path=value" to a case from any kind of file; the case is checked again. Relative paths count from the
 /// folder of the file that the case came from. Keys of list elements are written with their number from 0:

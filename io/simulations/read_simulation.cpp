@@ -1,0 +1,161 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/read_simulation.hpp"
+
+#include <algorithm>
+#include <cctype>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/read_vehicle.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/simulation_parts.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+/// Overrides by what they change.
+struct Overrides {
+  std::vector<CaseOverride> simulation, vehicle, track;
+  std::vector<std::string> contact;
+};
+
+bool cut(std::string& path, std::string_view prefix) {
+  if (!path.starts_with(prefix)) return false;
+  path.erase(0, prefix.size());
+  return true;
+}
+
+Overrides sorted(std::span<const std::string> assignments) {
+  Overrides result;
+  for (const std::string& one : assignments) {
+    CaseOverride change = parse_override(one);
+    if (cut(change.path, "vehicle.")) result.vehicle.push_back(std::move(change));
+    else if (cut(change.path, "track_model.")) result.track.push_back(std::move(change));
+    else if (change.path == "title" || change.path.starts_with("simulation.")) result.simulation.push_back(std::move(change));
+    else result.contact.push_back(one);
+  }
+  return result;
+}
+
+void change_simulation(CaseTable& document, const std::vector<CaseOverride>& changes) {
+  constexpr std::string_view kDistance = "distance_m", kDuration = "duration_s";
+  for (const CaseOverride& change : changes) {
+    change_value(document, change.path, change);
+    // Distance and duration exclude each other: the one that is set last counts.
+    std::string key = change.path;
+    if (!cut(key, "simulation.") || (key != kDistance && key != kDuration)) continue;
+    for (CaseEntry& entry : document)
+      if (auto* table = std::get_if<CaseTable>(&entry.value.data); table != nullptr && entry.key == "simulation")
+        std::erase_if(*table, [&](const CaseEntry& e) { return e.key != key && (e.key == kDistance || e.key == kDuration); });
+  }
+}
+
+struct FileText {
+  NamedFile file;
+  std::string text;
+};
+
+/// Text of a file that the simulation names.
+FileText named_text(const TableReader& simulation, std::string_view key, const std::filesystem::path& folder) {
+  std::string name = simulation.text(key);
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const std::filesystem::path path = (folder / name).lexically_normal();
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    throw Error(ErrorKind::configuration, fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
+                simulation.need(key).where, "names count from the folder of the simulation file");
+  FileText result{{path, {}}, read_text(path)};
+  result.file.sha256 = sha256_hex(result.text);
+  return result;
+}
+
+void read_models(const TableReader& simulation, const std::filesystem::path& folder, const Overrides& overrides, SimulationFile& out) {
+  simulation.need("vehicle", "name the vehicle file");
+  const FileText vehicle = named_text(simulation, "vehicle", folder);
+  out.vehicle = parse_vehicle_text(vehicle.text, vehicle.file.path.string(), overrides.vehicle);
+  out.vehicle_file = vehicle.file;
+  if (simulation.find("track") == nullptr) {
+    if (overrides.track.empty()) return;
+    throw Error(ErrorKind::configuration, "there is no track to change, simulation.track is not given",
+                overrides.track.front().value.where, "without it the track is rigid");
+  }
+  const FileText track = named_text(simulation, "track", folder);
+  out.track = parse_track_text(track.text, track.file.path.string(), overrides.track);
+  out.track_file = track.file;
+}
+
+/// Histories of transient rolling reach two elements back.
+void check_steps(const TableReader& simulation, const SimulationFile& out) {
+  const SimulationSettings& s = out.settings;
+  const auto place = [&](std::string_view key) { return simulation.find(key) ? simulation.find(key)->where : simulation.where(); };
+  constexpr double kMostElements = 2.0;
+  if (out.contact.regime == RegimeInput::transient && s.max_step_elements > kMostElements)
+    throw Error(ErrorKind::configuration,
+                fmt::format("simulation.max_step_elements = {:.6g}: steps of transient rolling must not exceed dt = 2 dx / V",
+                            s.max_step_elements),
+                place("max_step_elements"), "give at most 2, or case.regime = \"steady\"");
+  const double longest = s.longest_step(out.contact.discretisation.dx);
+  if (s.min_step > longest)
+    throw Error(ErrorKind::configuration,
+                fmt::format("simulation.min_step_us = {:.6g} exceeds the longest step of {:.6g} us", s.min_step * 1e6, longest * 1e6),
+                place("min_step_us"), "the longest step follows from max_step_us and max_step_elements * dx / V");
+}
+
+bool has_table(const std::filesystem::path& file, std::string_view key, std::string_view without) {
+  std::string extension = file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  if (extension != ".toml") return false;
+  const CaseTable document = parse_toml(read_text(file), file.string());
+  return find_entry(document, key) != nullptr && (without.empty() || find_entry(document, without) == nullptr);
+}
+
+}  // namespace
+
+SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name, std::span<const std::string> overrides) {
+  const Overrides changes = sorted(overrides);
+  change_simulation(document, changes.simulation);
+  SimulationFile result;
+  result.path = name;
+  result.title = name.stem().string();
+  const CaseEntry* simulation_table = nullptr;
+  ContactPart contact{{}, changes.contact, name};
+  for (const CaseEntry& entry : document) {
+    if (entry.key == "simulation") simulation_table = &entry;
+    else contact.tables.push_back(entry);
+    if (entry.key == "title" && std::holds_alternative<std::string>(entry.value.data)) result.title = entry.value.text();
+  }
+  const SourcePosition top{name.string(), 1, 1};
+  if (simulation_table == nullptr || !simulation_table->value.is_table())
+    throw Error(ErrorKind::configuration, "[simulation] is missing, this is no simulation file",
+                simulation_table == nullptr ? top : simulation_table->value.where, "see docs/simulation-files.md");
+
+  const TableReader simulation(simulation_table->value.table(), simulation_table->value.where, "simulation", kSimulationKeys);
+  result.settings = read_settings(simulation);
+  result.fields = read_fields(simulation);
+  read_models(simulation, name.parent_path(), changes, result);
+  result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
+  read_contact(contact, result);
+  read_other_wheel(contact, simulation, result);
+  check_steps(simulation, result);
+  return result;
+}
+
+SimulationFile parse_simulation_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
+  SimulationFile result = simulation_of(parse_toml(text, name.string()), name, overrides);
+  result.sha256 = sha256_hex(text);
+  return result;
+}
+
+SimulationFile read_simulation_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_simulation_text(read_text(file), file, overrides);
+}
+
+bool is_simulation_file(const std::filesystem::path& file) { return has_table(file, "simulation", "study"); }
+bool is_study_file(const std::filesystem::path& file) { return has_table(file, "study", ""); }
+
+}  // namespace treadmark::io

@@ -1,0 +1,170 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/read_study.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/study_parts.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+using Base = std::variant<SimulationFile, CaseFile>;
+
+/// The file that all runs start from, parsed once.
+struct BaseTables {
+  std::filesystem::path path;
+  CaseTable tables;
+  std::string sha256;
+  bool simulation = false;
+
+  Base read(std::span<const std::string> overrides) const {
+    if (simulation) {
+      SimulationFile file = simulation_of(tables, path, overrides);
+      file.sha256 = sha256;
+      return file;
+    }
+    CaseFile file = case_file_of(tables, path, overrides);
+    file.sha256 = sha256;
+    return file;
+  }
+};
+
+/// The tables of a file without [study].
+BaseTables base_of(CaseTable tables, const std::filesystem::path& path, std::string sha256) {
+  BaseTables base{path, std::move(tables), std::move(sha256), false};
+  std::erase_if(base.tables, [](const CaseEntry& entry) { return entry.key == "study"; });
+  base.simulation = find_entry(base.tables, "simulation") != nullptr;
+  return base;
+}
+
+BaseTables read_base(const std::filesystem::path& path) {
+  const std::string text = read_text(path);
+  return base_of(parse_toml(text, path.string()), path, sha256_hex(text));
+}
+
+BaseTables named_base(const TableReader& study, const CaseTable& document, const std::filesystem::path& folder) {
+  for (const CaseEntry& entry : document)
+    if (entry.key != "study" && entry.key != "title")
+      throw Error(ErrorKind::configuration, fmt::format("{} stands beside study.base, which says it all", entry.key), entry.key_where,
+                  "change keys of the base in [[study.vary]], or leave study.base out");
+  std::string name = study.text("base");
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const std::filesystem::path path = (folder / name).lexically_normal();
+  const SourcePosition& where = study.need("base").where;
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    throw Error(ErrorKind::configuration, fmt::format("study.base: there is no file {}", path.string()), where,
+                "names count from the folder of the study file");
+  if (path.extension() != ".toml") throw Error(ErrorKind::configuration, "study.base must be a .toml file", where);
+  if (is_study_file(path)) throw Error(ErrorKind::configuration, "study.base is a study itself", where, "name a simulation or case file");
+  return read_base(path);
+}
+
+/// Overrides of the study change its tables, the others are returned.
+std::vector<std::string> apply_to_study(CaseTable& document, std::span<const std::string> overrides) {
+  std::vector<std::string> others;
+  for (const std::string& one : overrides) {
+    const CaseOverride change = parse_override(one);
+    if (change.path == "title" || change.path.starts_with("study.")) change_value(document, change.path, change);
+    else others.push_back(one);
+  }
+  return others;
+}
+
+void check_not_varied(const std::vector<Variation>& variations, const std::vector<std::string>& common) {
+  for (const std::string& one : common) {
+    const CaseOverride change = parse_override(one);
+    for (const Variation& variation : variations)
+      for (const VariedValue& value : variation.values)
+        for (const std::string& varied : value.overrides)
+          if (parse_override(varied).path == change.path)
+            throw Error(ErrorKind::configuration, fmt::format("the study varies {} itself", change.path), change.value.where);
+  }
+}
+
+std::string described(const StudyFile& study, const StudyRun& run) {
+  std::string text;
+  for (std::size_t v = 0; v < study.variations.size(); ++v) {
+    const Variation& variation = study.variations[v];
+    const std::string& name = variation.label.empty() ? variation.key : variation.label;
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", name, name.empty() ? "" : " = ", variation.values[run.values[v]].label);
+  }
+  return text;
+}
+
+/// The place in the study file of an override that is to blame.
+SourcePosition place_of(const SourcePosition& where, const StudyFile& study, const StudyRun& run) {
+  for (std::size_t v = 0; v < study.variations.size(); ++v) {
+    const VariedValue& value = study.variations[v].values[run.values[v]];
+    for (const std::string& one : value.overrides)
+      if (parse_override(one).value.where.file == where.file) return value.where;
+  }
+  return where;
+}
+
+/// Reads the base as every run will; what is wrong is told at the place of the error, with the run.
+void check_runs(const StudyFile& study, const BaseTables& base) {
+  for (const StudyRun& run : study.runs) {
+    try {
+      base.read(run.overrides);
+    } catch (const Error& e) {
+      if (study.variations.empty()) throw;
+      throw Error(e.kind(), fmt::format("run {} ({}): {}", run.number, described(study, run), e.message()), place_of(e.where(), study, run),
+                  e.advice());
+    }
+  }
+}
+
+std::string title_of(const CaseTable& document, const TableReader& study, const std::filesystem::path& file) {
+  std::string title = study.text_or("title", file.stem().string());
+  const CaseEntry* top = find_entry(document, "title");
+  if (top == nullptr || study.find("title") != nullptr) return title;
+  if (!std::holds_alternative<std::string>(top->value.data))
+    throw Error(ErrorKind::configuration, fmt::format("title must be text, found {}", top->value.kind()), top->value.where);
+  return top->value.text();
+}
+
+}  // namespace
+
+StudyFile read_study_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  const std::string text = read_text(file);
+  CaseTable document = parse_toml(text, file.string());
+  const std::vector<std::string> common = apply_to_study(document, overrides);
+  const CaseEntry* table = find_entry(document, "study");
+  if (table == nullptr || !table->value.is_table())
+    throw Error(ErrorKind::configuration, "[study] is missing, this is no study file",
+                table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where, "see docs/simulation-files.md");
+  const TableReader study(table->value.table(), table->value.where, "study", kStudyKeys);
+
+  StudyFile result;
+  result.path = file;
+  result.sha256 = sha256_hex(text);
+  result.title = title_of(document, study, file);
+  result.variations = read_variations(study);
+  check_not_varied(result.variations, common);
+  result.runs = runs_of(result.variations, common);
+  result.figures = read_figures(study, result.variations);
+
+  const bool named = study.find("base") != nullptr;
+  if (!named && document.size() == 1)
+    study.fail("study.base is missing", "name a simulation or case file, or give its tables beside [study]");
+  const BaseTables base = named ? named_base(study, document, file.parent_path()) : base_of(document, file, result.sha256);
+  result.base = base.path;
+  result.base_is_simulation = base.simulation;
+  check_runs(result, base);
+  return result;
+}
+
+Base read_study_run(const StudyFile& study, const StudyRun& run) { return read_base(study.base).read(run.overrides); }
+
+}  // namespace treadmark::io

@@ -1,0 +1,142 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/read_vehicle.hpp"
+
+#include <algorithm>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/check_held.hpp"
+#include "treadmark/io/simulations/model_parts.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+/// Overrides of keys that are not in one of the lists mean the table that gives the model its name.
+void change_model(CaseTable& document, std::span<const CaseOverride> changes, const std::string& main_table) {
+  constexpr std::string_view kLists[] = {"bodies", "springs", "bump_stops", "wheelsets"};
+  for (const CaseOverride& change : changes) {
+    const std::string_view head = std::string_view(change.path).substr(0, change.path.find('.'));
+    const bool in_list = std::find(std::begin(kLists), std::end(kLists), head) != std::end(kLists);
+    change_value(document, in_list ? change.path : main_table + '.' + change.path, change);
+  }
+}
+
+/// Reader of the table that gives the model its name.
+TableReader main_table(const TableReader& document, const std::string& key, std::span<const std::string_view> known) {
+  const CaseTable* table = document.table(key);
+  if (table == nullptr) document.fail(fmt::format("[{0}] is missing, this is no {0} file", key), "see docs/simulation-files.md");
+  TableReader reader(*table, document.find(key)->where, key, known);
+  reader.text_or("source", {});
+  return reader;
+}
+
+void scale(SixValues& values, double factor) {
+  for (double& value : values) value *= factor;
+}
+
+template <class Model>
+void scale_model(Model& model, const TableReader& table) {
+  const double mass = table.number_or("scale_mass", kPositive, 1.0), stiffness = table.number_or("scale_stiffness", kPositive, 1.0),
+               damping = table.number_or("scale_damping", kNotNegative, 1.0);
+  for (BodySpec& body : model.bodies) {
+    body.mass *= mass;
+    body.inertia *= mass;
+  }
+  for (SpringSpec& spring : model.springs) {
+    scale(spring.stiffness, stiffness);
+    scale(spring.damping, damping);
+    scale(spring.damper_stiffness, damping > 0.0 ? stiffness : 0.0);
+  }
+}
+
+std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std::vector<BodySpec>& bodies) {
+  std::vector<WheelsetSpec> wheelsets;
+  std::set<std::string> seen;
+  for (const CaseValue* one : document.tables("wheelsets")) {
+    const TableReader part(one->table(), one->where, "wheelsets", kWheelsetKeys);
+    WheelsetSpec wheelset{part.text("body"), part.number("nominal_radius_mm", kPositive)};
+    const SourcePosition& where = part.need("body").where;
+    check_name("wheelsets.body: the body", wheelset.body, names_of(bodies), where);
+    if (!seen.insert(wheelset.body).second)
+      throw Error(ErrorKind::configuration, fmt::format("the body '{}' is a wheelset twice", wheelset.body), where);
+    const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const BodySpec& b) { return b.name == wheelset.body; });
+    if (!body->free.at(static_cast<std::size_t>(Freedom::z)))
+      throw Error(ErrorKind::configuration, fmt::format("the wheelset '{}' cannot move in z", wheelset.body), where,
+                  "add \"z\" to what is free: the load of its wheels follows from its vertical motion");
+    wheelsets.push_back(std::move(wheelset));
+  }
+  if (wheelsets.empty()) document.fail("there are no [[wheelsets]]", "name the bodies that run on the rails, the leading one first");
+  return wheelsets;
+}
+
+void check_vehicle(const VehicleModel& vehicle) {
+  // Wheels on two rails hold x, y and pitch by creep forces, z and roll by normal ones.
+  Foundation wheels{"the wheelsets", {}, {true, true, true, true, true, false}};
+  for (const WheelsetSpec& wheelset : vehicle.wheelsets) wheels.bodies.push_back(wheelset.body);
+  check_held(vehicle.bodies, vehicle.springs, wheels);
+}
+
+void read_rails(const TableReader& table, TrackModel& track) {
+  const CaseValue& list = table.need("rails", "the bodies that are the left and the right rail");
+  const std::vector<std::string> rails = table.words("rails");
+  if (rails.size() != 2 || rails[0] == rails[1])
+    throw Error(ErrorKind::configuration, "track.rails must name two bodies, the left and the right rail", list.where);
+  for (std::size_t i = 0; i < 2; ++i) check_name("track.rails: the body", rails[i], names_of(track.bodies), list.list()[i].where);
+  track.left_rail = rails[0];
+  track.right_rail = rails[1];
+}
+
+std::vector<CaseOverride> parsed(std::span<const std::string> overrides) {
+  std::vector<CaseOverride> changes;
+  for (const std::string& one : overrides) changes.push_back(parse_override(one));
+  return changes;
+}
+
+}  // namespace
+
+VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
+  CaseTable tables = parse_toml(text, name);
+  change_model(tables, changes, "vehicle");
+  const TableReader document(tables, {name, 1, 1}, "", kVehicleTables);
+  const TableReader table = main_table(document, "vehicle", kVehicleKeys);
+  VehicleModel vehicle;
+  vehicle.name = table.text("name");
+  vehicle.bodies = read_bodies(document);
+  vehicle.springs = read_springs(document, vehicle.bodies);
+  vehicle.bump_stops = read_bump_stops(document, vehicle.bodies);
+  vehicle.wheelsets = read_wheelsets(document, vehicle.bodies);
+  check_vehicle(vehicle);
+  scale_model(vehicle, table);
+  return vehicle;
+}
+
+TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
+  CaseTable tables = parse_toml(text, name);
+  change_model(tables, changes, "track");
+  const TableReader document(tables, {name, 1, 1}, "", kTrackTables);
+  const TableReader table = main_table(document, "track", kTrackKeys);
+  TrackModel track;
+  track.name = table.text("name");
+  track.bodies = read_bodies(document);
+  track.springs = read_springs(document, track.bodies);
+  read_rails(table, track);
+  check_held(track.bodies, track.springs, {"the ground", {kGround}, {}});
+  scale_model(track, table);
+  return track;
+}
+
+VehicleModel read_vehicle_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_vehicle_text(read_text(file), file.string(), parsed(overrides));
+}
+
+TrackModel read_track_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_track_text(read_text(file), file.string(), parsed(overrides));
+}
+
+}  // namespace treadmark::io

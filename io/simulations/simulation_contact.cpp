@@ -1,0 +1,169 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/simulation_parts.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+/// A key of case files, or the beginning of keys (ending with '_' or '.'), that a simulation gives itself.
+struct Refusal {
+  std::string_view key, reason, advice;
+};
+
+constexpr std::string_view kFound = "a simulation finds it";
+constexpr Refusal kRefusals[] = {
+    {"cases", "a simulation is one case in time", "use [study] for several of them"},
+    {"patch", "a simulation is about wheels on rails", ""},
+    {"roller", "vehicles run on a track", ""},
+    {"case.side", "a simulation has both sides", "say it in [[simulation.wheels]]"},
+    {"case.history", kFound, ""},
+    {"case.sequence", "a simulation is one case in time", ""},
+    {"case.steps", "a simulation finds its steps", "limit them with simulation.max_step_elements"},
+    {"case.time_step_s", "a simulation finds its steps", "limit them with simulation.max_step_us"},
+    {"wheelset.vertical_force_N", kFound, "it follows from the masses of the vehicle"},
+    {"wheelset.longitudinal_force_N", kFound, ""},
+    {"wheelset.s_mm", kFound, ""},
+    {"wheelset.y_mm", kFound, ""},
+    {"wheelset.z_mm", kFound, ""},
+    {"wheelset.roll_", kFound, ""},
+    {"wheelset.yaw_", kFound, ""},
+    {"wheelset.pitch_", kFound, "the pitch at the start is pitch_deg in [[simulation.wheels]]"},
+    {"wheelset.velocity_m_s", kFound, "give simulation.speed_m_s"},
+    {"wheelset.vy_m_s", kFound, ""},
+    {"wheelset.vz_m_s", kFound, ""},
+    {"wheelset.vroll_rad_s", kFound, ""},
+    {"wheelset.vyaw_rad_s", kFound, ""},
+    {"wheelset.vpitch_rad_s", kFound, ""},
+    {"wheelset.deviation_", "wheelsets of a simulation are rigid", ""},
+    {"track.irregularity_", kFound, ""},
+    {"track.springs", "the track of a simulation is a file", "name it in simulation.track"},
+    {"track.curvature_per_m", "a simulation runs on straight track", ""},
+};
+
+void refuse(std::string_view path, const SourcePosition& where) {
+  for (const Refusal& one : kRefusals) {
+    const bool beginning = one.key.ends_with('_');
+    const bool within = path.starts_with(one.key) && (beginning || path.size() == one.key.size() || path[one.key.size()] == '.');
+    if (within)
+      throw Error(ErrorKind::configuration, fmt::format("{} has no place in a simulation file: {}", path, one.reason), where,
+                  std::string(one.advice));
+  }
+}
+
+void refuse_keys(const CaseTable& table, const std::string& prefix) {
+  for (const CaseEntry& entry : table) {
+    const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
+    refuse(path, entry.key_where);
+    if (entry.value.is_table()) refuse_keys(entry.value.table(), path);
+  }
+}
+
+/// Where a key is given: by an override, in the file, or not at all.
+std::optional<SourcePosition> given_at(const ContactPart& part, std::string_view path) {
+  for (const std::string& one : part.overrides)
+    if (const CaseOverride change = parse_override(one); change.path == path) return change.value.where;
+  const CaseEntry* entry = find_entry(part.tables, path);
+  if (entry == nullptr) return std::nullopt;
+  return entry->value.where;
+}
+
+void put(CaseTable& tables, const std::string& path, double value) {
+  change_value(tables, path, {path, {{}, value}, {}});
+}
+
+/// The tables as a complete case: with what the simulation knows, and a load for the checks.
+CaseTable completed(const ContactPart& part, const SimulationFile& out) {
+  constexpr double kAnyLoad = 1.0;
+  CaseTable tables = part.tables;
+  const CaseEntry* wheelset = find_entry(tables, "wheelset");
+  if (wheelset != nullptr && !wheelset->value.is_table()) return tables;  // the reader of cases tells what is wrong
+  const double radius = out.vehicle.wheelsets.front().nominal_radius;
+  put(tables, "wheelset.vertical_force_N", kAnyLoad);
+  put(tables, "wheelset.velocity_m_s", out.settings.speed);
+  put(tables, "wheelset.vpitch_rad_s", -out.settings.speed / radius);
+  if (!given_at(part, "wheelset.nominal_radius_mm")) put(tables, "wheelset.nominal_radius_mm", radius * 1e3);
+  return tables;
+}
+
+WheelRailCase contact_of(const CaseTable& tables, const ContactPart& part, std::vector<std::string>* notes) {
+  CaseFile file = case_file_of(tables, part.name, part.overrides);
+  if (notes != nullptr) *notes = std::move(file.notes);
+  return std::get<WheelRailCase>(std::move(file.cases.at(0).content));
+}
+
+void check_radius(const ContactPart& part, const SimulationFile& out) {
+  const auto where = given_at(part, "wheelset.nominal_radius_mm");
+  if (!where) return;
+  constexpr double kSame = 1e-12;
+  for (const WheelsetSpec& wheelset : out.vehicle.wheelsets)
+    if (std::abs(wheelset.nominal_radius - out.contact.wheelset.nominal_radius) > kSame)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("wheelset.nominal_radius_mm = {:.10g} differs from {:.10g} mm of '{}' in the vehicle file",
+                              out.contact.wheelset.nominal_radius * 1e3, wheelset.nominal_radius * 1e3, wheelset.body),
+                  *where, "leave it out, the vehicle file gives it");
+}
+
+void check_regime(const ContactPart& part, const SimulationFile& out) {
+  const WheelRailCase& c = out.contact;
+  const SourcePosition top{part.name.string(), 1, 1};
+  if (c.regime != RegimeInput::steady && c.regime != RegimeInput::transient)
+    throw Error(ErrorKind::configuration, "case.regime of a simulation must be \"steady\" or \"transient\"",
+                given_at(part, "case.regime").value_or(top), "wheels of a simulation roll");
+}
+
+/// Shapes that may be out of round or damaged all around, so that none can be told from them that is not.
+bool is_measured_wheel(const SurfaceSource& wheel) {
+  const auto* file = std::get_if<GeometryFile>(&wheel.geometry);
+  if (file == nullptr) return false;
+  std::string extension = file->file.extension().string();
+  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  constexpr std::string_view kWhole[] = {".slcw", ".ply", ".stl", ".obj", ".off", ".vdb"};
+  return std::find(std::begin(kWhole), std::end(kWhole), extension) != std::end(kWhole);
+}
+
+}  // namespace
+
+void read_contact(const ContactPart& part, SimulationFile& out) {
+  refuse_keys(part.tables, "");
+  for (const std::string& one : part.overrides) {
+    const CaseOverride change = parse_override(one);
+    refuse(change.path, change.value.where);
+  }
+  out.contact = contact_of(completed(part, out), part, &out.notes);
+  out.contact.vertical_force = 0.0;
+  check_radius(part, out);
+  check_regime(part, out);
+}
+
+void read_other_wheel(const ContactPart& part, const TableReader& simulation, SimulationFile& out) {
+  if (const CaseTable* wheel = simulation.table("other_wheel")) {
+    // Its keys are those of [wheel]: read in its place.
+    CaseTable tables = completed(part, out);
+    std::erase_if(tables, [](const CaseEntry& entry) { return entry.key == "wheel"; });
+    tables.push_back({"wheel", simulation.need("other_wheel").where, {simulation.need("other_wheel").where, *wheel}});
+    ContactPart other{{}, {}, part.name};
+    for (const std::string& one : part.overrides)
+      if (!one.starts_with("wheel.")) other.overrides.push_back(one);
+    out.other_wheel = contact_of(tables, other, nullptr).wheel;
+    if (!out.other_wheel->defects.empty())
+      throw Error(ErrorKind::configuration, "simulation.other_wheel is the shape of round wheels, it has no defects",
+                  simulation.need("other_wheel").where, "give them in [wheel]");
+    return;
+  }
+  const auto round = std::find_if(out.wheels.begin(), out.wheels.end(), [](const WheelContactInput& w) { return !w.defects; });
+  if (round == out.wheels.end() || !is_measured_wheel(out.contact.wheel)) return;
+  simulation.fail(fmt::format("[wheel] is measured all around, but the {} wheel of wheelset {} is round: its shape is missing",
+                              round->side == Side::left ? "left" : "right", round->wheelset + 1),
+                  "give [simulation.other_wheel], for example shape.standard = \"S1002\"");
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,109 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <functional>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/simulation_parts.hpp"
+
+namespace treadmark::io {
+
+double SimulationSettings::longest_step(double dx) const {
+  return std::min(max_step.value_or(std::numeric_limits<double>::infinity()), max_step_elements * dx / speed);
+}
+
+namespace {
+
+double read_speed(const TableReader& simulation) {
+  const CaseValue& value = simulation.need("speed_m_s", "a simulation needs a speed");
+  const double speed = simulation.number("speed_m_s", kNotNegative);
+  if (!(speed > 0.0))
+    throw Error(ErrorKind::configuration, "simulation.speed_m_s = 0: a simulation needs a speed", value.where,
+                "for a wheel that stands still use a case file");
+  return speed;
+}
+
+std::vector<double> increasing(const TableReader& fields, std::string_view key, KeyLimits limits) {
+  const std::vector<double> values = fields.numbers(key, limits);
+  if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end())
+    throw Error(ErrorKind::configuration, fmt::format("{} must increase", fields.path_of(key)), fields.need(key).where);
+  return values;
+}
+
+WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
+  WheelContactInput wheel;
+  wheel.wheelset = table.integer("wheelset", 1, 1e6) - 1;
+  if (static_cast<std::size_t>(wheel.wheelset) >= wheelsets)
+    throw Error(ErrorKind::configuration,
+                fmt::format("simulation.wheels.wheelset = {}, but the vehicle has {} wheelset{}", wheel.wheelset + 1, wheelsets,
+                            wheelsets == 1 ? "" : "s"),
+                table.need("wheelset").where, "wheelsets count from 1, the leading one");
+  wheel.side = table.choice("side", {"left", "right"}) == "left" ? Side::left : Side::right;
+  wheel.model = table.choice("contact", {"full", "table"}) == "full" ? ContactModelInput::full : ContactModelInput::table;
+  wheel.defects = table.flag_or("defects", true);
+  wheel.pitch = table.number_if("pitch_deg", kAnyNumber);
+  return wheel;
+}
+
+}  // namespace
+
+SimulationSettings read_settings(const TableReader& simulation) {
+  SimulationSettings s;
+  s.speed = read_speed(simulation);
+  simulation.exclude("distance_m", "duration_s");
+  if (simulation.find("duration_s") != nullptr) {
+    s.duration = simulation.number("duration_s", kPositive);
+    s.distance = s.duration * s.speed;
+  } else {
+    simulation.need("distance_m", "say how far, distance_m, or how long, duration_s");
+    s.distance = simulation.number("distance_m", kPositive);
+    s.duration = s.distance / s.speed;
+  }
+  s.gravity = simulation.number_or("gravity_m_s2", kPositive, s.gravity);
+  s.tolerance = simulation.number_or("tolerance_um", kPositive, s.tolerance);
+  s.max_step = simulation.number_if("max_step_us", kPositive);
+  s.min_step = simulation.number_or("min_step_us", kPositive, s.min_step);
+  s.max_step_elements = simulation.number_or("max_step_elements", kPositive, s.max_step_elements);
+  s.spectral_radius = simulation.number_or("spectral_radius", {{}, 0.0, 1.0}, s.spectral_radius);
+  s.checkpoint = simulation.number_or("checkpoint_s", kPositive, s.checkpoint);
+  s.output_every = simulation.number_or("output_every_mm", kNotNegative, s.output_every);
+  return s;
+}
+
+FieldRequests read_fields(const TableReader& simulation) {
+  const CaseTable* table = simulation.table("fields");
+  if (table == nullptr) return {};
+  const TableReader fields(*table, simulation.need("fields").where, simulation.path_of("fields"), kFieldKeys);
+  return {increasing(fields, "pitch_deg", kAnyNumber), increasing(fields, "position_m", kNotNegative)};
+}
+
+std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets) {
+  std::vector<WheelContactInput> wheels(2 * wheelsets);
+  for (std::size_t i = 0; i < wheels.size(); ++i) {
+    wheels[i].wheelset = static_cast<int>(i / 2);
+    wheels[i].side = i % 2 == 0 ? Side::left : Side::right;
+  }
+  std::vector<bool> given(wheels.size());
+  for (const CaseValue* one : simulation.tables("wheels")) {
+    const TableReader table(one->table(), one->where, simulation.path_of("wheels"), kWheelKeys);
+    const WheelContactInput wheel = read_wheel(table, wheelsets);
+    const std::size_t index = 2 * static_cast<std::size_t>(wheel.wheelset) + (wheel.side == Side::left ? 0 : 1);
+    if (given[index])
+      table.fail(fmt::format("the {} wheel of wheelset {} is given twice", wheel.side == Side::left ? "left" : "right",
+                             wheel.wheelset + 1));
+    given[index] = true;
+    std::optional<double>& other = wheels[index ^ 1].pitch;
+    if (wheel.pitch && other && *other != *wheel.pitch)
+      throw Error(ErrorKind::configuration, fmt::format("wheelset {} has two different pitch angles at the start", wheel.wheelset + 1),
+                  table.need("pitch_deg").where, "both wheels turn with the axle");
+    const std::optional<double> pitch = wheel.pitch ? wheel.pitch : other;
+    wheels[index] = wheel;
+    wheels[index].pitch = other = pitch;
+  }
+  return wheels;
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <cmath>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+#include "treadmark/io/simulations/study_parts.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+constexpr double kMostValues = 10000;
+
+std::string quoted(const std::string& text) {
+  std::string result = "\"";
+  for (const char c : text) {
+    if (c == '"' || c == '\\') result += '\\';
+    result += c;
+  }
+  return result + '"';
+}
+
+/// The value as TOML on one line.
+std::string toml_of(const CaseValue& value) {
+  if (value.is_list()) {
+    std::string text;
+    for (const CaseValue& one : value.list()) text += (text.empty() ? "" : ", ") + toml_of(one);
+    return '[' + text + ']';
+  }
+  if (value.is_table()) {
+    std::string text;
+    for (const CaseEntry& entry : value.table())
+      text += fmt::format("{}{} = {}", text.empty() ? "" : ", ", quoted(entry.key), toml_of(entry.value));
+    return '{' + text + '}';
+  }
+  if (const auto* text = std::get_if<std::string>(&value.data)) return quoted(*text);
+  if (const auto* flag = std::get_if<bool>(&value.data)) return *flag ? "true" : "false";
+  if (const auto* integer = std::get_if<std::int64_t>(&value.data)) return std::to_string(*integer);
+  return fmt::format("{}", std::get<double>(value.data));
+}
+
+VariedValue single_value(const std::string& key, const CaseValue& value) {
+  VariedValue result;
+  result.where = value.where;
+  const bool text = std::holds_alternative<std::string>(value.data);
+  const bool number = std::holds_alternative<std::int64_t>(value.data) || std::holds_alternative<double>(value.data);
+  result.label = text ? value.text() : toml_of(value);
+  if (number) result.number = value.number();
+  result.overrides = {fmt::format("{}={}", key, toml_of(value))};
+  return result;
+}
+
+/// { label = "FASTSIM", set = ["solver.tangential_model=fastsim", ...] }
+VariedValue set_of_keys(const CaseValue& value, const std::string& path) {
+  const TableReader table(value.table(), value.where, path, kVaryValueKeys);
+  VariedValue result;
+  result.where = value.where;
+  result.label = table.text("label");
+  const CaseValue& set = table.need("set", "a list of \"key=value\"");
+  result.overrides = table.words("set");
+  if (result.overrides.empty()) throw Error(ErrorKind::configuration, fmt::format("{} is empty", table.path_of("set")), set.where);
+  for (std::size_t i = 0; i < result.overrides.size(); ++i) {
+    try {
+      parse_override(result.overrides[i]);
+    } catch (const Error& e) {
+      throw Error(ErrorKind::configuration, fmt::format("'{}': {}", result.overrides[i].substr(0, 100), e.message()), set.list()[i].where,
+                  e.advice());
+    }
+  }
+  return result;
+}
+
+std::vector<VariedValue> listed_values(const TableReader& table, const std::string& key) {
+  const CaseValue& list = table.need("values", "a list of values, or from, to and count");
+  if (!list.is_list() || list.list().empty())
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a list with at least one value", table.path_of("values")), list.where);
+  std::vector<VariedValue> values;
+  for (const CaseValue& one : list.list()) {
+    const bool set = one.is_table() && (key.empty() || find_entry(one.table(), "set") != nullptr);
+    if (!set && key.empty())
+      throw Error(ErrorKind::configuration, fmt::format("{} is missing", table.path_of("key")), one.where,
+                  "name the key that has these values, or give sets of keys, { label = \"...\", set = [\"key=value\"] }");
+    values.push_back(set ? set_of_keys(one, table.path_of("values")) : single_value(key, one));
+  }
+  return values;
+}
+
+std::vector<VariedValue> spaced_values(const TableReader& table, const std::string& key) {
+  if (key.empty()) table.fail(fmt::format("{} is missing", table.path_of("key")), "name the key that has these values");
+  const bool logarithmic = table.find("spacing") != nullptr && table.choice("spacing", {"linear", "logarithmic"}) == "logarithmic";
+  table.need("to", "from, to and count belong together");
+  table.need("count", "from, to and count belong together");
+  const KeyLimits limits = logarithmic ? kPositive : kAnyNumber;
+  const double from = table.number("from", limits), to = table.number("to", limits);
+  const int count = table.integer("count", 2, kMostValues);
+  std::vector<VariedValue> values;
+  for (int i = 0; i < count; ++i) {
+    const double share = static_cast<double>(i) / (count - 1);
+    double value = logarithmic ? from * std::pow(to / from, share) : from + (to - from) * share;
+    if (i == count - 1) value = to;
+    values.push_back(single_value(key, {table.where(), value}));
+    values.back().label = fmt::format("{:.6g}", value);
+  }
+  return values;
+}
+
+Variation read_variation(const TableReader& table) {
+  Variation variation;
+  variation.key = table.text_or("key", {});
+  if (variation.key.find('=') != std::string::npos)
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a key only", table.path_of("key")), table.need("key").where,
+                "its values stand in values = [...]");
+  table.exclude("values", "from");
+  const bool spaced = table.find("from") != nullptr;
+  for (const char* key : {"to", "count", "spacing"})
+    if (!spaced && table.find(key) != nullptr)
+      throw Error(ErrorKind::configuration, fmt::format("{} needs {}", table.path_of(key), table.path_of("from")), table.need(key).where);
+  variation.values = spaced ? spaced_values(table, variation.key) : listed_values(table, variation.key);
+  variation.label = table.text_or("label", variation.key);
+  return variation;
+}
+
+}  // namespace
+
+std::vector<Variation> read_variations(const TableReader& study) {
+  std::vector<Variation> variations;
+  std::set<std::string> seen;
+  for (const CaseValue* one : study.tables("vary")) {
+    const TableReader table(one->table(), one->where, study.path_of("vary"), kVaryKeys);
+    variations.push_back(read_variation(table));
+    std::set<std::string> keys;
+    for (const VariedValue& value : variations.back().values)
+      for (const std::string& assignment : value.overrides) keys.insert(parse_override(assignment).path);
+    for (const std::string& key : keys)
+      if (!seen.insert(key).second) table.fail(fmt::format("{} is varied twice", key));
+  }
+  double count = 1.0;
+  for (const Variation& variation : variations) count *= static_cast<double>(variation.values.size());
+  if (count > kMostValues) study.fail(fmt::format("a study of {:.0f} runs is too large, at most {:.0f}", count, kMostValues));
+  return variations;
+}
+
+std::vector<StudyRun> runs_of(const std::vector<Variation>& variations, const std::vector<std::string>& common) {
+  std::size_t count = 1;
+  for (const Variation& variation : variations) count *= variation.values.size();
+  std::vector<StudyRun> runs(count);
+  for (std::size_t i = 0; i < count; ++i) {
+    StudyRun& run = runs[i];
+    run.number = static_cast<int>(i) + 1;
+    run.values.resize(variations.size());
+    std::size_t rest = i;
+    for (std::size_t v = variations.size(); v-- > 0;) {
+      const std::size_t choices = variations[v].values.size();
+      run.values[v] = rest % choices;
+      rest /= choices;
+    }
+    run.overrides = common;
+    for (std::size_t v = 0; v < variations.size(); ++v) {
+      const auto& own = variations[v].values[run.values[v]].overrides;
+      run.overrides.insert(run.overrides.end(), own.begin(), own.end());
+    }
+  }
+  return runs;
+}
+
+}  // namespace treadmark::io

@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/table_reader.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/cases/nearest_key.hpp"
+
+namespace treadmark::io {
+
+TableReader::TableReader(const CaseTable& table, SourcePosition where, std::string path, std::span<const std::string_view> known)
+    : table_(table), where_(std::move(where)), path_(std::move(path)), known_(known) {
+  for (const CaseEntry& entry : table_) {
+    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
+    const std::string near = nearest_key(entry.key, std::vector<std::string>(known_.begin(), known_.end()));
+    throw Error(ErrorKind::configuration, fmt::format("unknown key '{}'", path_of(std::string_view(entry.key).substr(0, 100))),
+                entry.key_where,
+                near.empty() ? "see docs/simulation-files.md for all keys" : fmt::format("did you mean '{}'?", path_of(near)));
+  }
+}
+
+std::string TableReader::path_of(std::string_view key) const {
+  return path_.empty() ? std::string(key) : fmt::format("{}.{}", path_, key);
+}
+
+void TableReader::fail(std::string message, std::string advice) const {
+  throw Error(ErrorKind::configuration, std::move(message), where_, std::move(advice));
+}
+
+const CaseValue* TableReader::find(std::string_view key) const {
+  const auto found = std::find_if(table_.begin(), table_.end(), [&](const CaseEntry& entry) { return entry.key == key; });
+  return found == table_.end() ? nullptr : &found->value;
+}
+
+const CaseValue& TableReader::need(std::string_view key, std::string advice) const {
+  const CaseValue* value = find(key);
+  if (value == nullptr) fail(fmt::format("{} is missing", path_of(key)), std::move(advice));
+  return *value;
+}
+
+const CaseTable* TableReader::table(std::string_view key) const {
+  const CaseValue* value = find(key);
+  if (value == nullptr) return nullptr;
+  if (!value->is_table())
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a table, found {}", path_of(key), value->kind()), value->where);
+  return &value->table();
+}
+
+std::vector<const CaseValue*> TableReader::tables(std::string_view key) const {
+  std::vector<const CaseValue*> result;
+  const CaseValue* list = find(key);
+  if (list == nullptr) return result;
+  const auto wrong = [&](const CaseValue& value) {
+    throw Error(ErrorKind::configuration, fmt::format("{0} must be a list of tables, [[{0}]], found {1}", path_of(key), value.kind()),
+                value.where);
+  };
+  if (!list->is_list()) wrong(*list);
+  for (const CaseValue& one : list->list()) {
+    if (!one.is_table()) wrong(one);
+    result.push_back(&one);
+  }
+  return result;
+}
+
+KeyInfo TableReader::info(std::string_view key, KeyType type, KeyLimits limits) const {
+  KeyInfo result = key_info(path_of(key), type, {});
+  result.above = limits.above;
+  result.at_least = limits.at_least;
+  result.at_most = limits.at_most;
+  return result;
+}
+
+double TableReader::number(std::string_view key, KeyLimits limits) const {
+  const CaseValue& value = need(key);
+  check_value(info(key, KeyType::number, limits), value);
+  return value.number() * unit_of_key(key);
+}
+
+std::optional<double> TableReader::number_if(std::string_view key, KeyLimits limits) const {
+  if (find(key) == nullptr) return std::nullopt;
+  return number(key, limits);
+}
+
+double TableReader::number_or(std::string_view key, KeyLimits limits, double otherwise) const {
+  return number_if(key, limits).value_or(otherwise);
+}
+
+int TableReader::integer(std::string_view key, double least, double most) const {
+  const CaseValue& value = need(key);
+  check_value(info(key, KeyType::integer, {{}, least, most}), value);
+  return static_cast<int>(value.integer());
+}
+
+bool TableReader::flag_or(std::string_view key, bool otherwise) const {
+  const CaseValue* value = find(key);
+  if (value == nullptr) return otherwise;
+  check_value(info(key, KeyType::flag), *value);
+  return value->flag();
+}
+
+std::string TableReader::text(std::string_view key) const {
+  const CaseValue& value = need(key);
+  check_value(info(key, KeyType::text), value);
+  return value.text();
+}
+
+std::string TableReader::text_or(std::string_view key, std::string otherwise) const {
+  return find(key) == nullptr ? std::move(otherwise) : text(key);
+}
+
+std::string TableReader::choice(std::string_view key, std::vector<std::string> choices) const {
+  const CaseValue& value = need(key);
+  KeyInfo word = info(key, KeyType::choice);
+  word.choices = std::move(choices);
+  check_value(word, value);
+  return value.text();
+}
+
+std::vector<double> TableReader::numbers(std::string_view key, KeyLimits limits) const {
+  const CaseValue* value = find(key);
+  if (value == nullptr) return {};
+  check_value(info(key, KeyType::number_list, limits), *value);
+  return numbers_of(*value, unit_of_key(key));
+}
+
+std::vector<std::string> TableReader::words(std::string_view key) const {
+  const CaseValue* list = find(key);
+  if (list == nullptr) return {};
+  std::vector<std::string> result;
+  const auto wrong = [&](const CaseValue& value) {
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a list of texts, found {}", path_of(key), value.kind()), value.where);
+  };
+  if (!list->is_list()) wrong(*list);
+  for (const CaseValue& one : list->list()) {
+    if (!std::holds_alternative<std::string>(one.data)) wrong(one);
+    result.push_back(one.text());
+  }
+  return result;
+}
+
+std::optional<Vec3> TableReader::triple(std::string_view key, KeyLimits limits) const {
+  const CaseValue* value = find(key);
+  if (value == nullptr) return std::nullopt;
+  return triple_of(path_of(key), *value, unit_of_key(key), limits);
+}
+
+std::vector<Vec3> TableReader::points(std::string_view key) const {
+  const CaseValue* list = find(key);
+  if (list == nullptr) return {};
+  if (!list->is_list() || list->list().empty() || !list->list().front().is_list())
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a list of points, [[x, y, z], ...]", path_of(key)), list->where);
+  std::vector<Vec3> result;
+  for (const CaseValue& one : list->list()) result.push_back(triple_of(path_of(key), one, unit_of_key(key)));
+  return result;
+}
+
+void TableReader::exclude(std::string_view one, std::string_view other) const {
+  const CaseValue* second = find(other);
+  if (find(one) != nullptr && second != nullptr)
+    throw Error(ErrorKind::configuration, fmt::format("{} and {} exclude each other", path_of(one), path_of(other)), second->where,
+                "give one of them");
+}
+
+Vec3 triple_of(const std::string& path, const CaseValue& value, double unit, KeyLimits limits) {
+  KeyInfo info = key_info(path, KeyType::number_list, {});
+  info.above = limits.above;
+  info.at_least = limits.at_least;
+  info.at_most = limits.at_most;
+  check_value(info, value);
+  if (value.list().size() != 3)
+    throw Error(ErrorKind::configuration, fmt::format("{} has {} numbers, it needs 3: x, y, z", path, value.list().size()), value.where);
+  const std::vector<double> numbers = numbers_of(value, unit);
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+void check_name(std::string_view what, const std::string& name, std::span<const std::string> known, const SourcePosition& where) {
+  if (std::find(known.begin(), known.end(), name) != known.end()) return;
+  const std::string near = nearest_key(name, known);
+  std::string all;
+  for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
+  throw Error(ErrorKind::configuration, fmt::format("{} '{}' is not known", what, name.substr(0, 100)), where,
+              near.empty() ? fmt::format("there are: {}", all.substr(0, 400)) : fmt::format("did you mean '{}'?", near));
+}
+
+}  // namespace treadmark::io
