@@ -24,6 +24,9 @@ class ChartAxis {
  public:
   ChartAxis(AxisScale scale, std::span<const double> values, double floor = 0.0);
 
+  /// Linear, of exactly this range; low < high, both finite.
+  ChartAxis(double low, double high) : scale_(AxisScale::linear), floor_(0.0), low_(low), high_(high) {}
+
   double low() const { return low_; }
   double high() const { return high_; }
 

@@ -4,6 +4,10 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "treadmark/io/results/chart_curve.hpp"
 #include "treadmark/io/results/chart_marker.hpp"
 #include "treadmark/io/results/svg_text.hpp"
 
@@ -12,14 +16,18 @@ namespace {
 
 constexpr double kLabelFont = 11.0;  // as in kChartStyle
 constexpr double kReach = 1.3;       // of a marker's corners, over the radius of its area
+constexpr double kObstacle = 8.0;    // [px] between places of a curve that labels keep clear of
+constexpr double kClear = 2.0;       // [px] around them
 
 /// Axes of a chart and where values lie in the picture [px].
 class Frame {
  public:
   Frame(const Chart& chart, const ChartBox& box)
       : box_(box),
-        x_(chart.x_scale, values(chart, true), chart.x_floor),
-        y_(chart.y_scale, values(chart, false), chart.y_floor) {}
+        x_(chart.x_range ? ChartAxis((*chart.x_range)[0], (*chart.x_range)[1])
+                         : ChartAxis(chart.x_scale, values(chart, true), chart.x_floor)),
+        y_(chart.y_range ? ChartAxis((*chart.y_range)[0], (*chart.y_range)[1])
+                         : ChartAxis(chart.y_scale, values(chart, false), chart.y_floor)) {}
 
   std::optional<double> x(double value) const {
     const auto at = x_.place(value);
@@ -37,23 +45,32 @@ class Frame {
         if (x(point.x) && y(point.y)) return false;
       for (const double level : series.levels)
         if (y(level)) return false;
+      for (const auto& [at, value] : series.curve)
+        if (x(at) && y(value)) return false;
     }
     return true;
   }
 
-  std::string grid() const {
+  std::string grid(const Chart& chart) const {
     std::string lines, numbers;
     for (const AxisTick& tick : x_.ticks()) {
       lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid",
                            x_at(tick.at), box_.y, box_.height);
-      if (!tick.label.empty()) numbers += svg_text(x_at(tick.at), box_.y + box_.height + 16.0, tick.label);
+      if (!tick.label.empty() && chart.x_numbers) numbers += svg_text(x_at(tick.at), box_.y + box_.height + 16.0, tick.label);
     }
     for (const AxisTick& tick : y_.ticks()) {
       lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid",
                            box_.x, y_at(tick.at), box_.width);
-      if (!tick.label.empty()) numbers += svg_text(box_.x - 6.0, y_at(tick.at) + 4.0, tick.label, "end");
+      if (!tick.label.empty() && chart.y_numbers) numbers += svg_text(box_.x - 6.0, y_at(tick.at) + 4.0, tick.label, "end");
     }
     return lines + numbers;
+  }
+
+  /// Middle of the words along the y axis.
+  double y_label_x() const {
+    double widest = 0.0;
+    for (const AxisTick& tick : y_.ticks()) widest = std::max(widest, text_width(tick.label, kChartFont));
+    return box_.x - std::max(46.0, 16.0 + widest);
   }
 
  private:
@@ -62,6 +79,7 @@ class Frame {
     for (const ChartSeries& series : chart.series) {
       for (const ChartPoint& point : series.points) out.push_back(of_x ? point.x : point.y);
       if (!of_x) out.insert(out.end(), series.levels.begin(), series.levels.end());
+      for (const auto& point : series.curve) out.push_back(point[of_x ? 0 : 1]);
     }
     return out;
   }
@@ -88,8 +106,65 @@ std::string stroke(const ChartSeries& series, bool level) {
   return out;
 }
 
-std::string draw_lines(const ChartSeries& series, const Frame& frame) {
+/// The parts of a curve between values that cannot be shown.
+std::vector<std::vector<Pixel>> curve_parts(const ChartSeries& series, const Frame& frame) {
+  std::vector<std::vector<Pixel>> parts;
+  bool open = false;
+  for (const auto& [at, value] : series.curve) {
+    const auto x = frame.x(at), y = frame.y(value);
+    if (x && y && !open) parts.emplace_back();
+    open = x && y;
+    if (open) parts.back().push_back({*x, *y});
+  }
+  for (auto& part : parts) part = thin_curve(part);
+  return parts;
+}
+
+std::string draw_curve(const ChartSeries& series, const Frame& frame) {
+  std::string path;
+  for (const auto& part : curve_parts(series, frame)) path += curve_path(part);
+  return path.empty() ? "" : fmt::format("<path {} stroke-linejoin=\"round\" d=\"{}\"/>\n", stroke(series, false), path);
+}
+
+/// The names of curves, each beside its highest place, clear of the others.
+std::string draw_curve_labels(const Chart& chart, const Frame& frame) {
+  std::vector<LabelPoint> labels;
+  std::vector<int> styles;
+  for (const ChartSeries& series : chart.series) {
+    LabelPoint top;
+    bool any = false;
+    for (const auto& part : curve_parts(series, frame))
+      for (const Pixel& point : part)
+        if (!any || point[1] < top.y) {
+          top = {point[0], point[1], kClear, series.curve_label};
+          any = true;
+        }
+    if (any && !series.curve_label.empty()) {
+      labels.push_back(top);
+      styles.push_back(series.style);
+    }
+  }
+  const std::size_t count = labels.size();
+  if (count == 0) return {};
+  for (const ChartSeries& series : chart.series)
+    for (const auto& part : curve_parts(series, frame)) {
+      Pixel before{-kObstacle, 0.0};
+      for (const Pixel& point : part)
+        if (std::hypot(point[0] - before[0], point[1] - before[1]) >= kObstacle) {
+          labels.push_back({point[0], point[1], kClear, {}});
+          before = point;
+        }
+    }
+  const std::vector<LabelPlace> places = place_labels(labels, frame.box(), kLabelFont);
   std::string out;
+  for (std::size_t i = 0; i < count; ++i)
+    out += svg_text(places[i].x, places[i].y, labels[i].text, "start",
+                    fmt::format(" class=\"label halo\" fill=\"{}\"", chart_colour(styles[i])).c_str());
+  return out;
+}
+
+std::string draw_lines(const ChartSeries& series, const Frame& frame) {
+  std::string out = draw_curve(series, frame);
   for (const double level : series.levels)
     if (const auto y = frame.y(level))
       out += fmt::format("<path {} d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", stroke(series, true), frame.box().x, *y,
@@ -126,12 +201,12 @@ std::string draw_points(const Chart& chart, const Frame& frame) {
 
 std::string draw_chart(const Chart& chart, const ChartBox& box) {
   const Frame frame(chart, box);
-  std::string out = "<g class=\"chart\">\n" + frame.grid();
+  std::string out = "<g class=\"chart\">\n" + frame.grid(chart);
   for (const ChartSeries& series : chart.series) out += draw_lines(series, frame);
   out += fmt::format("<rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", box.x,
                      box.y, box.width, box.height);
-  out += draw_points(chart, frame);
-  const double middle = box.x + 0.5 * box.width, left = box.x - 46.0, centre = box.y + 0.5 * box.height;
+  out += draw_points(chart, frame) + draw_curve_labels(chart, frame);
+  const double middle = box.x + 0.5 * box.width, left = frame.y_label_x(), centre = box.y + 0.5 * box.height;
   if (frame.empty(chart)) out += svg_text(middle, centre, "no values");
   out += svg_text(middle, box.y - 8.0, chart.title, "middle", " class=\"title\"");
   out += svg_text(middle, box.y + box.height + 36.0, chart.x_label);
@@ -143,7 +218,8 @@ std::string draw_chart(const Chart& chart, const ChartBox& box) {
 std::string draw_chart_legend(const std::vector<ChartSeries>& series, double x, double y) {
   std::string out = "<g class=\"legend\">\n";
   for (const ChartSeries& item : series) {
-    const bool line = item.joined && !item.points.empty(), level = item.points.empty() && !item.levels.empty();
+    const bool line = !item.curve.empty() || (item.joined && !item.points.empty());
+    const bool level = !line && item.points.empty() && !item.levels.empty();
     if (line || level) out += fmt::format("<path {} d=\"M{:.1f} {:.1f}h28\"/>\n", stroke(item, level), x, y);
     if (!item.points.empty())
       out += marker(item.style, x + 14.0, y, item.joined ? item.points.front().radius : ChartPoint{}.radius, false);

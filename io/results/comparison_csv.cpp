@@ -8,25 +8,16 @@
 
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/comparison_fields.hpp"
+#include "treadmark/io/results/csv_text.hpp"
 
 namespace treadmark::io {
 namespace {
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 struct CellText {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{:.12g}", value + 0.0) : ""; }
   std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(const std::string& value) const { return csv_cell(value); }
 };
 
 template <class Cell>

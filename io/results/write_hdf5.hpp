@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::io {
@@ -15,5 +16,11 @@ namespace treadmark::io {
 /// and for files that cannot be written. Not to be called from two threads at once: the HDF5 library may not be
 /// thread-safe.
 void write_hdf5(const std::filesystem::path& path, const RunResult& run);
+
+/// Whether the wall-clock times of a case are written: without them equal results give equal bytes.
+enum class CaseTimes { written, left_out };
+
+/// Writes one case with its patches and fields to a group, as it stands at /case_0001 of the file above. Errors as above.
+void write_case(const Hdf5GroupWriter& group, const CaseResult& result, CaseTimes times);
 
 }  // namespace treadmark::io

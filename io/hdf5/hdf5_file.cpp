@@ -1,0 +1,275 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+#include <hdf5.h>
+
+#include <algorithm>
+#include <string_view>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/hdf5/hdf5_reader.hpp"
+#include "treadmark/io/hdf5/hdf5_writer.hpp"
+
+// Writer and reader share this file because it alone knows the HDF5 library.
+namespace treadmark::io {
+namespace {
+
+constexpr int kDeflateLevel = 4;
+constexpr hsize_t kLongestChunk = 16384;  // elements of a dataset of one dimension
+constexpr hsize_t kMaxChunk = 512;        // elements along a side: chunks stay below 3 MiB
+constexpr hssize_t kMostValues = hssize_t{1} << 34;
+
+[[noreturn]] void cannot_write(std::string_view what) {
+  throw Error(ErrorKind::configuration, fmt::format("HDF5: cannot write {}", what), {},
+              "check that the disk is not full and the folder is writable");
+}
+
+[[noreturn]] void cannot_read(const std::string& file, const std::string& what) {
+  throw Error(ErrorKind::input_data, fmt::format("HDF5: cannot read {}", what), {file, 0, 0}, "give a file of results that is complete");
+}
+
+Hdf5Id written(hid_t id, std::string_view what) {
+  if (id < 0) cannot_write(what);
+  return Hdf5Id(id);
+}
+
+void check_name(const std::string& name) {
+  if (!name.empty() && name != "." && name.find('/') == std::string::npos && name.find('\0') == std::string::npos) return;
+  throw Error(ErrorKind::configuration, fmt::format("\"{}\" cannot be the name of an object in an HDF5 file", name), {},
+              "choose a name without slashes");
+}
+
+Hdf5Id string_type() {
+  Hdf5Id type(H5Tcopy(H5T_C_S1));
+  if (type.get() < 0 || H5Tset_size(type.get(), H5T_VARIABLE) < 0 || H5Tset_cset(type.get(), H5T_CSET_UTF8) < 0)
+    cannot_write("texts");
+  return type;
+}
+
+Hdf5Id make_space(const std::vector<hsize_t>& size, const std::string& name) {
+  return written(size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), name);
+}
+
+/// Properties of a new object: without times, so that equal contents give equal bytes.
+Hdf5Id timeless(hid_t kind, const std::string& name) {
+  Hdf5Id creation = written(H5Pcreate(kind), name);
+  if (H5Pset_obj_track_times(creation.get(), false) < 0) cannot_write(name);
+  return creation;
+}
+
+std::vector<const char*> pointers(std::span<const std::string> texts) {
+  std::vector<const char*> out;
+  for (const std::string& text : texts) out.push_back(text.c_str());
+  return out;
+}
+
+/// Writes an attribute of an object.
+struct AttributeWriter {
+  hid_t object;
+  const std::string& name;
+
+  void write(hid_t type, const std::vector<hsize_t>& size, const void* data) const {
+    const Hdf5Id space = make_space(size, name);
+    const Hdf5Id attribute = written(H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    if (H5Awrite(attribute.get(), type, data) < 0) cannot_write(name);
+  }
+  void operator()(int value) const { write(H5T_NATIVE_INT, {}, &value); }
+  void operator()(double value) const { write(H5T_NATIVE_DOUBLE, {}, &value); }
+  void operator()(const Vec3& value) const { write(H5T_NATIVE_DOUBLE, {3}, value.data()); }
+  void operator()(const Mat3& value) const {
+    const Mat3 rows = value.transpose();  // stored by columns: HDF5 counts by rows
+    write(H5T_NATIVE_DOUBLE, {3, 3}, rows.data());
+  }
+  void operator()(const std::string& value) const {
+    const char* text = value.c_str();
+    write(string_type().get(), {}, &text);
+  }
+  void operator()(const std::vector<std::string>& values) const {
+    const auto texts = pointers(values);
+    write(string_type().get(), {values.size()}, texts.empty() ? static_cast<const void*>(&name) : texts.data());
+  }
+};
+
+/// Whole layers of two dimensions, cut to keep chunks small.
+std::vector<hsize_t> chunk_size(const std::vector<hsize_t>& size) {
+  std::vector<hsize_t> chunk = size;
+  const hsize_t largest = size.size() == 1 ? kLongestChunk : size.size() == 2 ? kMaxChunk : kMaxChunk / 4;
+  for (hsize_t& length : chunk) length = std::min(length, largest);
+  if (size.size() > 2) chunk[0] = 1;
+  return chunk;
+}
+
+void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* data, std::size_t count) {
+  check_name(what.name);
+  const std::vector<hsize_t> size(what.shape.begin(), what.shape.end());
+  hsize_t wanted = 1;
+  for (const hsize_t length : size) wanted *= length;
+  if (wanted != count)
+    throw Error(ErrorKind::configuration, fmt::format("{} has {} values where its shape asks for {}", what.name, count, wanted));
+  const Hdf5Id space = make_space(size, what.name), creation = timeless(H5P_DATASET_CREATE, what.name);
+  if (what.compressed && !size.empty() && count > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
+    const std::vector<hsize_t> chunk = chunk_size(size);
+    if (H5Pset_chunk(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 || H5Pset_shuffle(creation.get()) < 0 ||
+        H5Pset_deflate(creation.get(), kDeflateLevel) < 0)
+      cannot_write(what.name);
+  }
+  const Hdf5Id dataset =
+      written(H5Dcreate2(group, what.name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), what.name);
+  if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) cannot_write(what.name);
+  AttributeWriter{dataset.get(), "unit"}(what.unit);
+  AttributeWriter{dataset.get(), "meaning"}(what.meaning);
+}
+
+Hdf5Id open_to_write(const std::filesystem::path& file, const std::string& name) {
+  const Hdf5Id creation = timeless(H5P_FILE_CREATE, name), access = written(H5Pcreate(H5P_FILE_ACCESS), name);
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) < 0) cannot_write(name);
+  return written(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
+}
+
+Hdf5Id open_to_read(const std::filesystem::path& file) {
+  Hdf5Id id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
+  if (id.get() < 0) cannot_read(file.string(), "the file");
+  return id;
+}
+
+/// Number of values in a data space; negative where it cannot be read.
+hssize_t count_of(const Hdf5Id& space) {
+  const hssize_t count = space.get() < 0 ? -1 : H5Sget_simple_extent_npoints(space.get());
+  return count > kMostValues ? -1 : count;
+}
+
+/// Reads count texts with read(type, where to put pointers); false where they are none.
+template <class Read>
+bool read_texts(const Hdf5Id& stored, hssize_t count, std::vector<std::string>& out, Read read) {
+  if (stored.get() < 0 || count < 0 || H5Tis_variable_str(stored.get()) <= 0) return false;
+  std::vector<char*> texts(static_cast<std::size_t>(count), nullptr);
+  const bool done = count == 0 || read(string_type().get(), texts.data()) >= 0;
+  for (char* text : texts) {
+    if (done) out.emplace_back(text == nullptr ? "" : text);
+    H5free_memory(text);
+  }
+  return done;
+}
+
+std::vector<std::string> attribute_texts(hid_t object, const std::string& name, const std::string& file) {
+  std::vector<std::string> out;
+  const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
+  const Hdf5Id type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
+  if (!read_texts(type, count_of(space), out, [&](hid_t text, char** to) { return H5Aread(attribute.get(), text, to); }))
+    cannot_read(file, "the attribute " + name);
+  return out;
+}
+
+std::string first_text(std::vector<std::string> texts, const std::string& name, const std::string& file) {
+  if (texts.size() != 1) cannot_read(file, "the attribute " + name);
+  return std::move(texts.front());
+}
+
+template <class Value>
+std::vector<Value> read_values(hid_t group, const std::string& name, hid_t type, const std::string& file) {
+  const Hdf5Id dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
+  if (dataset.get() < 0) cannot_read(file, name);
+  const Hdf5Id space(H5Dget_space(dataset.get()));
+  const hssize_t count = count_of(space);
+  if (count < 0) cannot_read(file, name);
+  std::vector<Value> out(static_cast<std::size_t>(count));
+  if (count > 0 && H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) cannot_read(file, name);
+  return out;
+}
+
+}  // namespace
+
+Hdf5Id::~Hdf5Id() {
+  if (id_ >= 0) H5Idec_ref(id_);
+}
+
+Hdf5Silence::Hdf5Silence() {
+  H5E_auto2_t function = nullptr;
+  H5Eget_auto2(H5E_DEFAULT, &function, &data_);
+  function_ = reinterpret_cast<void*>(function);
+  H5Eset_auto2(H5E_DEFAULT, nullptr, nullptr);
+}
+
+Hdf5Silence::~Hdf5Silence() { H5Eset_auto2(H5E_DEFAULT, reinterpret_cast<H5E_auto2_t>(function_), data_); }
+
+Hdf5GroupWriter Hdf5GroupWriter::make_group(const std::string& name) const {
+  check_name(name);
+  const Hdf5Id creation = timeless(H5P_GROUP_CREATE, name);
+  return Hdf5GroupWriter(written(H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name));
+}
+
+void Hdf5GroupWriter::add(const Attribute& attribute) const { std::visit(AttributeWriter{id_.get(), attribute.name}, attribute.value); }
+
+void Hdf5GroupWriter::add(std::span<const Attribute> attributes) const {
+  for (const Attribute& one : attributes) add(one);
+}
+
+void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const double> values) const {
+  write_values(id_.get(), dataset, H5T_NATIVE_DOUBLE, values.data(), values.size());
+}
+
+void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::uint8_t> values) const {
+  write_values(id_.get(), dataset, H5T_NATIVE_UINT8, values.data(), values.size());
+}
+
+void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::string> values) const {
+  write_values(id_.get(), dataset, string_type().get(), pointers(values).data(), values.size());
+}
+
+void Hdf5GroupWriter::copy_file(const std::filesystem::path& source, const std::string& name) const {
+  check_name(name);
+  const Hdf5Id file = open_to_read(source);
+  if (H5Ocopy(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) cannot_write(name);
+}
+
+Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::string name)
+    : name_(std::move(name)),
+      file_(open_to_write(file, name_)),
+      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), name_)) {}
+
+void Hdf5Writer::close() {
+  root_ = Hdf5GroupWriter(Hdf5Id());
+  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 || H5Fclose(file_.release()) < 0) cannot_write(name_);
+}
+
+bool Hdf5GroupReader::has(const std::string& name) const { return H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT) > 0; }
+
+Hdf5GroupReader Hdf5GroupReader::open_group(const std::string& name) const {
+  Hdf5Id id(H5Gopen2(id_.get(), name.c_str(), H5P_DEFAULT));
+  if (id.get() < 0) cannot_read(file_, name);
+  return {std::move(id), file_};
+}
+
+std::string Hdf5GroupReader::text(const std::string& name) const { return first_text(texts(name), name, file_); }
+
+std::vector<std::string> Hdf5GroupReader::texts(const std::string& name) const { return attribute_texts(id_.get(), name, file_); }
+
+std::string Hdf5GroupReader::text_of(const std::string& dataset, const std::string& name) const {
+  const Hdf5Id object(H5Dopen2(id_.get(), dataset.c_str(), H5P_DEFAULT));
+  if (object.get() < 0) cannot_read(file_, dataset);
+  return first_text(attribute_texts(object.get(), name, file_), name, file_);
+}
+
+std::vector<double> Hdf5GroupReader::numbers(const std::string& dataset) const {
+  return read_values<double>(id_.get(), dataset, H5T_NATIVE_DOUBLE, file_);
+}
+
+std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset) const {
+  return read_values<std::uint8_t>(id_.get(), dataset, H5T_NATIVE_UINT8, file_);
+}
+
+std::vector<std::string> Hdf5GroupReader::strings(const std::string& dataset) const {
+  const Hdf5Id object(H5Dopen2(id_.get(), dataset.c_str(), H5P_DEFAULT));
+  if (object.get() < 0) cannot_read(file_, dataset);
+  const Hdf5Id type(H5Dget_type(object.get())), space(H5Dget_space(object.get()));
+  std::vector<std::string> out;
+  const auto read = [&](hid_t text, char** to) { return H5Dread(object.get(), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, to); };
+  if (!read_texts(type, count_of(space), out, read)) cannot_read(file_, dataset);
+  return out;
+}
+
+Hdf5Reader::Hdf5Reader(const std::filesystem::path& file)
+    : file_(open_to_read(file)), root_(Hdf5Id(H5Gopen2(file_.get(), "/", H5P_DEFAULT)), file.string()) {}
+
+}  // namespace treadmark::io

@@ -1,0 +1,64 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "treadmark/io/hdf5/attribute.hpp"
+#include "treadmark/io/hdf5/hdf5_id.hpp"
+
+namespace treadmark::io {
+
+/// What is written with the values of a dataset.
+struct Hdf5Dataset {
+  std::string name;
+  std::vector<std::size_t> shape;  ///< rows first; empty = one value
+  std::string unit, meaning;       ///< its attributes
+  bool compressed = false;         ///< where deflate is available and there are values
+};
+
+/// A group of an HDF5 file being written. Equal calls give equal bytes: no times are stored.
+/// Names are not empty, not ".", and have no slash and no zero byte. Errors of all functions: Error(configuration).
+/// Not to be used from two threads at once, not even for different files: the HDF5 library may not be thread-safe.
+class Hdf5GroupWriter {
+ public:
+  Hdf5GroupWriter make_group(const std::string& name) const;
+  void add(const Attribute& attribute) const;
+  void add(std::span<const Attribute> attributes) const;
+  void write(const Hdf5Dataset& dataset, std::span<const double> values) const;
+  void write(const Hdf5Dataset& dataset, std::span<const std::uint8_t> values) const;
+  void write(const Hdf5Dataset& dataset, std::span<const std::string> values) const;  ///< UTF-8
+
+  /// Everything in another HDF5 file becomes a group of this one. Errors: also Error(input_data) where it cannot be read.
+  void copy_file(const std::filesystem::path& source, const std::string& name) const;
+
+ private:
+  friend class Hdf5Writer;
+  explicit Hdf5GroupWriter(Hdf5Id id) : id_(std::move(id)) {}
+  Hdf5Id id_;
+};
+
+/// An HDF5 file being written, readable by the HDF5 library from version 1.8 on.
+class Hdf5Writer {
+ public:
+  /// file is replaced; name stands for it in errors.
+  Hdf5Writer(const std::filesystem::path& file, std::string name);
+
+  const Hdf5GroupWriter& root() const { return root_; }
+
+  /// Closes the file. Errors: Error(configuration) where not everything could be written. No group is used afterwards.
+  void close();
+
+ private:
+  Hdf5Silence silence_;
+  std::string name_;
+  Hdf5Id file_;
+  Hdf5GroupWriter root_;
+};
+
+}  // namespace treadmark::io

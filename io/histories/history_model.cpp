@@ -1,0 +1,61 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/histories/history_model.hpp"
+
+#include <fmt/format.h>
+
+#include <set>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::io {
+namespace {
+
+[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::configuration, message); }
+
+template <class Named>
+void check_names(const std::vector<Named>& list, const char* kind) {
+  std::set<std::string> seen;
+  for (const Named& one : list) {
+    if (one.name.empty() || one.name == "." || one.name.find('/') != std::string::npos || one.name.find('\0') != std::string::npos)
+      refuse(fmt::format("\"{}\" cannot be the name of a {}", one.name, kind));
+    if (!seen.insert(one.name).second) refuse(fmt::format("two {}s have the name {}", kind, one.name));
+  }
+}
+
+}  // namespace
+
+void check_simulation(const SimulationResult& result) {
+  check_names(result.columns, "column");
+  check_names(result.summary, "value of the summary");
+  check_names(result.statics, "static value");
+  const std::size_t width = result.columns.size();
+  if (width == 0 ? !result.values.empty() : result.values.size() % width != 0)
+    refuse(fmt::format("{} values are no whole rows of {} columns", result.values.size(), width));
+  if (!result.snapshot_times.empty() && result.snapshot_times.size() != result.snapshots.cases.size())
+    refuse(fmt::format("{} times for {} snapshots", result.snapshot_times.size(), result.snapshots.cases.size()));
+  std::set<int> numbers;
+  for (const CaseResult& one : result.snapshots.cases)
+    if (!numbers.insert(one.number).second) refuse(fmt::format("two snapshots have the number {}", one.number));
+  if (result.status != "complete" && result.status != "interrupted" && result.status != "failed")
+    refuse(fmt::format("\"{}\" is no status of a simulation: complete, interrupted or failed", result.status));
+}
+
+std::size_t column_index(const SimulationResult& result, const std::string& name) {
+  std::string names;
+  for (std::size_t i = 0; i < result.columns.size(); ++i) {
+    if (result.columns[i].name == name) return i;
+    names += (i == 0 ? "" : ", ") + result.columns[i].name;
+  }
+  throw Error(ErrorKind::configuration, fmt::format("the history has no column \"{}\"", name), {},
+              names.empty() ? "it has none at all" : "its columns: " + names);
+}
+
+std::vector<double> column_values(const SimulationResult& result, std::size_t index) {
+  std::vector<double> out;
+  out.reserve(result.rows());
+  for (std::size_t i = index; i < result.values.size(); i += result.columns.size()) out.push_back(result.values[i]);
+  return out;
+}
+
+}  // namespace treadmark::io

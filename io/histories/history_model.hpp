@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "treadmark/io/results/result_model.hpp"
+
+namespace treadmark::io {
+
+/// Results of a simulation in time as plain data in SI units.
+
+struct HistoryColumn {
+  std::string name;  ///< with its unit: "t_s", "x_m", "ws1_right.Q_N"
+  std::string unit, description;
+};
+
+struct HistoryEvent {
+  double time = 0.0, position = 0.0;  ///< [s], along the track [m]
+  std::string wheel, kind;            ///< "contact lost" or "contact regained"
+};
+
+struct NamedValue {
+  std::string name;  ///< with its unit: "q_max_N"
+  double value = 0.0;
+  std::string unit, description;
+};
+
+/// A mode of the linearised system.
+struct ModeRow {
+  double frequency_Hz = 0.0, damping_ratio = 0.0;
+  std::string shape;  ///< in words
+};
+
+/// A simulation, complete or not. It holds no wall-clock times, so that the results of an interrupted and resumed simulation equal
+/// those of an undisturbed one.
+struct SimulationResult {
+  std::string version, git;
+  std::string input_file, input_sha256;
+  std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
+  std::vector<std::string> settings;                                 ///< echo of overrides
+  std::string title;
+  std::string status = "complete";  ///< "complete", "interrupted" or "failed"
+  std::string message;
+  std::vector<HistoryColumn> columns;
+  std::vector<double> values;  ///< row by row: an instant a row, a value a column
+  std::vector<HistoryEvent> events;
+  std::vector<NamedValue> summary, statics;
+  std::vector<ModeRow> modes;
+  RunResult snapshots;                 ///< contact fields at chosen instants: a case each, with numbers of their own
+  std::vector<double> snapshot_times;  ///< [s], one a case of the snapshots; may be empty
+  std::vector<std::pair<std::string, std::string>> swept;  ///< (key, value) of the study that the simulation belongs to
+  std::vector<std::byte> checkpoint;                       ///< from which it can go on; may be empty
+
+  std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
+};
+
+/// Errors: Error(configuration) where names are empty, repeated or no names of a file's objects, where values are no whole rows,
+/// snapshots and their times differ in number, or numbers of snapshots are repeated.
+void check_simulation(const SimulationResult& result);
+
+/// Index of the column of this name. Errors: Error(configuration) that names those there are.
+std::size_t column_index(const SimulationResult& result, const std::string& name);
+
+/// The values of a column, an instant each; index < columns.size().
+std::vector<double> column_values(const SimulationResult& result, std::size_t index);
+
+}  // namespace treadmark::io

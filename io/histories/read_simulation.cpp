@@ -1,0 +1,125 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/hdf5/hdf5_reader.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/histories/store_names.hpp"
+
+namespace treadmark::io {
+namespace {
+
+/// A file of a simulation, checked for its format.
+class Store {
+ public:
+  explicit Store(const std::filesystem::path& path) : name_(path.string()), file_(path) {
+    if (root().text("format") != kSimulationFormat)
+      refuse(fmt::format("holds \"{}\" where \"{}\" is read", root().text("format"), kSimulationFormat));
+  }
+
+  const Hdf5GroupReader& root() const { return file_.root(); }
+
+  [[noreturn]] void refuse(const std::string& what) const {
+    throw Error(ErrorKind::input_data, "the store of a simulation " + what, {name_, 0, 0}, "give a file that a simulation wrote");
+  }
+  void require(bool condition, const std::string& where) const {
+    if (!condition) refuse("has lists of different lengths in " + where);
+  }
+
+ private:
+  std::string name_;
+  Hdf5Reader file_;
+};
+
+std::vector<std::pair<std::string, std::string>> pairs(const Store& store, const char* firsts, const char* seconds) {
+  const auto first = store.root().texts(firsts), second = store.root().texts(seconds);
+  store.require(first.size() == second.size(), seconds);
+  std::vector<std::pair<std::string, std::string>> out;
+  for (std::size_t i = 0; i < first.size(); ++i) out.emplace_back(first[i], second[i]);
+  return out;
+}
+
+void read_history(const Store& store, SimulationResult& result) {
+  const Hdf5GroupReader group = store.root().open_group("history");
+  std::vector<std::vector<double>> columns;
+  for (const std::string& name : group.texts(kNames)) {
+    result.columns.push_back({name, group.text_of(name, "unit"), group.text_of(name, "meaning")});
+    columns.push_back(group.numbers(name));
+    store.require(columns.back().size() == columns.front().size(), "history");
+  }
+  if (columns.empty()) return;
+  result.values.reserve(columns.size() * columns.front().size());
+  for (std::size_t row = 0; row < columns.front().size(); ++row)
+    for (const auto& column : columns) result.values.push_back(column[row]);
+}
+
+std::vector<NamedValue> read_named(const Store& store, const char* where) {
+  const Hdf5GroupReader group = store.root().open_group(where);
+  std::vector<NamedValue> out;
+  for (const std::string& name : group.texts(kNames)) {
+    const std::vector<double> value = group.numbers(name);
+    store.require(value.size() == 1, where);
+    out.push_back({name, value.front(), group.text_of(name, "unit"), group.text_of(name, "meaning")});
+  }
+  return out;
+}
+
+std::vector<HistoryEvent> read_events(const Store& store) {
+  const Hdf5GroupReader group = store.root().open_group("events");
+  const auto times = group.numbers("time"), positions = group.numbers("position");
+  const auto wheels = group.strings("wheel"), kinds = group.strings("kind");
+  store.require(positions.size() == times.size() && wheels.size() == times.size() && kinds.size() == times.size(), "events");
+  std::vector<HistoryEvent> out;
+  for (std::size_t i = 0; i < times.size(); ++i) out.push_back({times[i], positions[i], wheels[i], kinds[i]});
+  return out;
+}
+
+std::vector<ModeRow> read_modes(const Store& store) {
+  const Hdf5GroupReader group = store.root().open_group("modes");
+  const auto frequencies = group.numbers("frequency"), damping = group.numbers("damping_ratio");
+  const auto shapes = group.strings("shape");
+  store.require(damping.size() == frequencies.size() && shapes.size() == frequencies.size(), "modes");
+  std::vector<ModeRow> out;
+  for (std::size_t i = 0; i < frequencies.size(); ++i) out.push_back({frequencies[i], damping[i], shapes[i]});
+  return out;
+}
+
+std::vector<std::byte> read_bytes(const Store& store) {
+  std::vector<std::byte> out;
+  if (!store.root().has(kCheckpoint)) return out;
+  for (const std::uint8_t one : store.root().bytes(kCheckpoint)) out.push_back(std::byte{one});
+  return out;
+}
+
+}  // namespace
+
+SimulationResult read_simulation(const std::filesystem::path& path) {
+  const Store store(path);
+  const Hdf5GroupReader& root = store.root();
+  SimulationResult result;
+  result.version = root.text("version");
+  result.git = root.text("git");
+  result.input_file = root.text("input");
+  result.input_sha256 = root.text("sha256");
+  result.settings = root.texts("settings");
+  result.title = root.text("title");
+  result.status = root.text("status");
+  result.message = root.text("message");
+  result.geometry_sha256 = pairs(store, "geometry_files", "geometry_sha256");
+  result.swept = pairs(store, "swept_keys", "swept_values");
+  read_history(store, result);
+  result.events = read_events(store);
+  result.statics = read_named(store, "static");
+  result.summary = read_named(store, "summary");
+  result.modes = read_modes(store);
+  result.checkpoint = read_bytes(store);
+  return result;
+}
+
+SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
+  const Store store(path);
+  return {store.root().text("version"), store.root().text("sha256"), store.root().texts("settings"), read_bytes(store)};
+}
+
+}  // namespace treadmark::io

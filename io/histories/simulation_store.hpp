@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "treadmark/io/histories/history_model.hpp"
+
+namespace treadmark::io {
+
+/// Writes a simulation to one HDF5 file in SI units: /history, /events, /static, /modes, /summary, /fields (the snapshots, as
+/// write_hdf5 writes cases, without wall-clock times) and /checkpoint (left out where empty); the layout is in docs/histories.md.
+/// Equal results give equal bytes. The file appears only when complete. Errors: as check_simulation, and Error(configuration) for
+/// fields that do not match their grid and files that cannot be written. Not to be called from two threads at once.
+void write_simulation(const std::filesystem::path& path, const SimulationResult& result);
+
+/// The simulation in a file, without its snapshots and their times. Errors: Error(input_data). Not to be called from two threads at once.
+SimulationResult read_simulation(const std::filesystem::path& path);
+
+/// A checkpoint, and what must be the same for a simulation that goes on from it.
+struct SimulationCheckpoint {
+  std::string version, input_sha256;
+  std::vector<std::string> settings;
+  std::vector<std::byte> bytes;  ///< empty: the file has none
+};
+
+/// Errors: Error(input_data). Not to be called from two threads at once.
+SimulationCheckpoint read_checkpoint(const std::filesystem::path& path);
+
+}  // namespace treadmark::io

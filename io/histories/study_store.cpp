@@ -1,0 +1,62 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/histories/study_store.hpp"
+
+#include <fmt/format.h>
+
+#include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/histories/store_names.hpp"
+#include "treadmark/io/results/atomic_file.hpp"
+
+namespace treadmark::io {
+namespace {
+
+/// A dataset with a value of each run.
+template <class Value, class Get>
+void write_runs(const Hdf5GroupWriter& group, const StudyTable& table, Hdf5Dataset what, Get get) {
+  std::vector<Value> values;
+  for (const SimulationRun* run : table.runs) values.push_back(get(*run));
+  what.shape = {values.size()};
+  group.write(what, std::span<const Value>(values));
+}
+
+void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table) {
+  const Hdf5GroupWriter sweep = root.make_group("sweep"), swept = sweep.make_group("swept"), summary = sweep.make_group("summary");
+  using Text = std::string;
+  write_runs<double>(sweep, table, {"number", {}, "1", "of the run, in the name of its group"}, [](auto& run) { return run.number; });
+  write_runs<Text>(sweep, table, {"label", {}, "1", "of the run"}, [](auto& run) { return run.label; });
+  write_runs<Text>(sweep, table, {"status", {}, "1", "of the run"}, [](auto& run) { return run.status; });
+  write_runs<Text>(sweep, table, {"message", {}, "1", "of the run"}, [](auto& run) { return run.message; });
+  swept.add({kNames, table.keys});
+  for (const std::string& key : table.keys)
+    write_runs<Text>(swept, table, {key, {}, "1", "value of the key as written"}, [&](auto& run) {
+      const Text* value = swept_value(run, key);
+      return value != nullptr ? *value : Text();
+    });
+  std::vector<Text> names;
+  for (const NamedValue& quantity : table.quantities) names.push_back(quantity.name);
+  summary.add({kNames, names});
+  for (const NamedValue& quantity : table.quantities)
+    write_runs<double>(summary, table, {quantity.name, {}, quantity.unit, quantity.description},
+                       [&](auto& run) { return summary_value(run, quantity.name); });
+}
+
+}  // namespace
+
+void write_study_store(const std::filesystem::path& path, const StudyResult& study) {
+  const StudyTable table = study_table(study);
+  AtomicFile target(path);
+  Hdf5Writer file(target.temporary(), path.string());
+  const std::vector<Attribute> identity{{"format", std::string(kStudyFormat)}, {"units", "SI"},
+                                        {"version", study.version},            {"git", study.git},
+                                        {"input", study.input_file},           {"sha256", study.input_sha256},
+                                        {"title", study.title},                {"settings", study.settings}};
+  file.root().add(identity);
+  write_sweep(file.root(), table);
+  for (const SimulationRun* run : table.runs)
+    if (!run->store.empty()) file.root().copy_file(run->store, fmt::format("run_{:04}", run->number));
+  file.close();
+  target.commit();
+}
+
+}  // namespace treadmark::io
