@@ -4,12 +4,36 @@
 
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
 
 namespace treadmark::cli {
+namespace {
+
+void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run) {
+  if (const auto* simulation = std::get_if<io::SimulationFile>(&run)) app::check_simulation_input(*simulation);
+  else app::check_geometry(std::get<io::CaseFile>(run));
+}
+
+}  // namespace
 
 int check_command(const RunOptions& options) {
   for (const std::string& name : options.cases) {
+    if (io::is_study_file(name)) {
+      const io::StudyFile study = io::read_study_file(name, options.overrides);
+      for (const io::StudyRun& run : study.runs) check_run(io::read_study_run(study, run));
+      std::cout << name << ": " << study.runs.size() << (study.runs.size() == 1 ? " run" : " runs") << ", no errors\n";
+      continue;
+    }
+    if (io::is_simulation_file(name)) {
+      const io::SimulationFile file = io::read_simulation_file(name, options.overrides);
+      app::check_simulation_input(file);
+      for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+      std::cout << name << ": a simulation, no errors\n";
+      continue;
+    }
     const io::CaseFile file = io::read_any_case(name, options.overrides);
     app::check_geometry(file);
     for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';

@@ -84,6 +84,23 @@ struct ImportOptions {
   std::vector<std::string> overrides;                    ///< table.key=value
 };
 
+struct SimulateOptions {
+  std::string file;
+  std::string output_folder, json_file;   ///< empty = none; JSON "-" = stdout
+  std::string wheel_backend, rail_backend;
+  bool resume = false;
+  bool modes_only = false;                ///< print eigenfrequencies, do not integrate
+  std::vector<std::string> overrides;
+};
+
+struct SweepOptions {
+  std::string file;
+  std::string output_folder;
+  bool resume = false;
+  bool threads_given = false;             ///< else one for each process that was started together with others
+  std::vector<std::string> overrides;
+};
+
 // Each command returns an exit status or throws treadmark::Error.
 int run_command(const RunOptions& options, const CommonOptions& common);
 int compare_command(const CompareOptions& options, const CommonOptions& common);
@@ -91,6 +108,8 @@ int bench_command(const BenchOptions& options, const CommonOptions& common);
 int convert_command(const ConvertOptions& options, const CommonOptions& common);
 int scan_command(const ScanOptions& options, const CommonOptions& common);
 int import_command(const ImportOptions& options, const CommonOptions& common);
+int simulate_command(const SimulateOptions& options, const CommonOptions& common);
+int sweep_command(const SweepOptions& options, const CommonOptions& common);
 int check_command(const RunOptions& options);
 int list_command(const std::string& what);
 int schema_command();

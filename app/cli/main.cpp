@@ -126,6 +126,27 @@ int main(int argc, char** argv) {
   cli::add_scan_options(*scan, scanned);
   add_overrides(*scan, scanned.overrides);
 
+  cli::SimulateOptions simulated;
+  CLI::App* simulate = program.add_subcommand("simulate", "A vehicle on its track in time, with contact at its wheels");
+  simulate->add_option("FILE", simulated.file, "Simulation file (.toml)")->required();
+  simulate->add_option("-o,--output", simulated.output_folder, "Folder for simulation.h5, history.csv, events.csv, modes.csv and pictures (SVG)")
+      ->type_name("FOLDER");
+  simulate->add_option("--json", simulated.json_file, "Write the summary here; - for standard output instead of the table")->type_name("FILE");
+  std::string simulated_backend;
+  simulate->add_option("--backend", simulated_backend, "Surface backend for wheel and rail");
+  simulate->add_option("--wheel-backend", simulated.wheel_backend, "Surface backend for the wheel");
+  simulate->add_option("--rail-backend", simulated.rail_backend, "Surface backend for the rail");
+  simulate->add_flag("--resume", simulated.resume, "Go on with an interrupted simulation in the output folder");
+  simulate->add_flag("--modes", simulated.modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
+  add_overrides(*simulate, simulated.overrides);
+
+  cli::SweepOptions swept;
+  CLI::App* sweep = program.add_subcommand("sweep", "Runs of a simulation or case with varied keys, on all cores; goes on where it was stopped");
+  sweep->add_option("STUDY", swept.file, "Study file (.toml)")->required();
+  sweep->add_option("-o,--output", swept.output_folder, "Folder for sweep.h5, sweep.csv, figures and the runs")->type_name("FOLDER")->required();
+  sweep->add_flag("--resume", swept.resume, "Go on with a study that was stopped; there must be one in the folder");
+  add_overrides(*sweep, swept.overrides);
+
   CLI::App* check = program.add_subcommand("check", "Read and validate case files and their geometry without solving");
   add_case_options(*check, options);
 
@@ -148,6 +169,13 @@ int main(int argc, char** argv) {
     if (convert->parsed()) return cli::convert_command(conversion, common);
     if (import->parsed()) return cli::import_command(imported, common);
     if (scan->parsed()) return cli::scan_command(scanned, common);
+    if (simulate->parsed()) {
+      if (simulated.wheel_backend.empty()) simulated.wheel_backend = simulated_backend;
+      if (simulated.rail_backend.empty()) simulated.rail_backend = simulated_backend;
+      return cli::simulate_command(simulated, common);
+    }
+    swept.threads_given = threads->count() > 0;
+    if (sweep->parsed()) return cli::sweep_command(swept, common);
     if (check->parsed()) return cli::check_command(options);
     if (list->parsed()) return cli::list_command(what);
     if (schema->parsed()) return cli::schema_command();

@@ -1,0 +1,94 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/simulation/simulation_outputs.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/histories/history_csv.hpp"
+#include "treadmark/io/histories/history_svg.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/results/picture_svg.hpp"
+
+namespace treadmark::app {
+namespace {
+
+bool is_of_a_wheel(const std::string& name) {
+  if (name.starts_with("energy.")) return true;
+  const auto dot = name.find('.');
+  return dot == std::string::npos || (name.starts_with("ws") && (name.substr(0, dot).ends_with("_left") || name.substr(0, dot).ends_with("_right")));
+}
+
+}  // namespace
+
+io::SimulationResult wheel_columns(const io::SimulationResult& result) {
+  io::SimulationResult part = result;
+  part.columns.clear();
+  part.values.clear();
+  part.snapshots = {};
+  part.snapshot_times.clear();
+  std::vector<std::size_t> kept;
+  for (std::size_t i = 0; i < result.columns.size(); ++i)
+    if (is_of_a_wheel(result.columns[i].name)) {
+      kept.push_back(i);
+      part.columns.push_back(result.columns[i]);
+    }
+  for (std::size_t row = 0; row < result.rows(); ++row)
+    for (const std::size_t i : kept) part.values.push_back(result.values[row * result.columns.size() + i]);
+  return part;
+}
+
+void write_simulation_folder(const std::filesystem::path& folder, const io::SimulationResult& result) {
+  io::write_history_csv(folder / "history.csv", wheel_columns(result));
+  io::write_events_csv(folder / "events.csv", result);
+  io::write_modes_csv(folder / "modes.csv", result);
+  if (result.rows() > 1) {
+    constexpr double kKilo = 1e-3, kMega = 1e-6;
+    io::HistoryChart chart;
+    chart.title = result.title;
+    chart.x = {"t_s", "t [s]"};
+    chart.y = {{"Q_N", "Q [kN]", kKilo, {result.values[2]}}, {"Ty_N", "T_y [kN]", kKilo}};
+    const auto has = [&](const char* name) { return std::ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end(); };
+    if (has("pmax_Pa")) chart.y.push_back({"pmax_Pa", "p_max [MPa]", kMega});
+    const io::HistoryRun run{&result, result.title};
+    io::write_history_svg(folder / "history.svg", std::span(&run, 1), chart);
+  }
+  if (!result.snapshots.cases.empty()) io::write_pressure_svg(folder / "pressure.svg", result.snapshots);
+  io::write_simulation(folder / "simulation.h5", result);
+}
+
+std::string summary_text(const io::SimulationResult& result) {
+  std::string text = fmt::format("{}: {}{}{}\n", result.title.empty() ? result.input_file : result.title, result.status,
+                                 result.message.empty() ? "" : ", ", result.message);
+  for (const io::NamedValue& v : result.summary) {
+    double value = v.value;
+    std::string unit = v.unit == "1" ? "" : v.unit;
+    if (v.unit == "N") value *= 1e-3, unit = "kN";
+    if (v.unit == "Pa") value *= 1e-6, unit = "MPa";
+    text += fmt::format("  {:<26} {:>12.6g} {:<4} {}\n", v.name.substr(0, v.name.rfind('_' + v.unit)), value, unit, v.description);
+  }
+  return text;
+}
+
+std::string times_text(const SimulationTimes& t) {
+  const double geometry = t.contact.search_s + t.contact.distance_s;
+  const double contact = geometry + t.contact.normal_s + t.contact.tangential_s;
+  const auto share = [&](double part) { return t.integration_s > 0.0 ? 100.0 * part / t.integration_s : 0.0; };
+  std::string text = fmt::format("time: {:.2f} s surfaces and contact tables, {:.2f} s equilibrium, {:.2f} s modes, {:.2f} s integration\n",
+                                 t.build_s, t.equilibrium_s, t.modes_s, t.integration_s);
+  if (contact > 0.0)
+    text += fmt::format("  of the integration: geometry {:.0f} % (search {:.0f} %, distance {:.0f} %), normal problem {:.0f} %, tangential problem "
+                        "{:.0f} %, other {:.0f} %; {} contact solutions\n",
+                        share(geometry), share(t.contact.search_s), share(t.contact.distance_s), share(t.contact.normal_s),
+                        share(t.contact.tangential_s), share(t.integration_s - contact), t.contact.searches);
+  return text;
+}
+
+std::string modes_text(const io::SimulationResult& result) {
+  std::string text = fmt::format("{:>12} {:>9}  {}\n", "f [Hz]", "damping", "kinetic energy");
+  for (const io::ModeRow& mode : result.modes) text += fmt::format("{:>12.4f} {:>9.4f}  {}\n", mode.frequency_Hz, mode.damping_ratio, mode.shape);
+  return text;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "treadmark/app/simulation/run_simulation.hpp"
+
+namespace treadmark::app {
+
+/// Forces of all wheels of a history, without the motions of the bodies: what a table in text holds.
+io::SimulationResult wheel_columns(const io::SimulationResult& result);
+
+/// simulation.h5 (everything), history.csv (forces of the wheels), events.csv, modes.csv, history.svg, and with snapshots fields as
+/// pressure.svg. Files appear only when complete. Not to be called from two threads at once.
+void write_simulation_folder(const std::filesystem::path& folder, const io::SimulationResult& result);
+
+/// Result of a simulation as JSON, without history: what was run, static values, modes, events, summary, times.
+std::string to_json(const io::SimulationResult& result, const SimulationTimes& times);
+
+/// The same for people.
+std::string summary_text(const io::SimulationResult& result);
+/// Where the time went, with the share of geometry, normal and tangential problem.
+std::string times_text(const SimulationTimes& times);
+/// Eigenfrequencies, damping and what moves.
+std::string modes_text(const io::SimulationResult& result);
+
+}  // namespace treadmark::app
