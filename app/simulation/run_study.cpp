@@ -1,0 +1,274 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/simulation/run_study.hpp"
+
+#include <algorithm>
+#include <array>
+#include <atomic>
+#include <chrono>
+#include <cstdlib>
+#include <exception>
+#include <fstream>
+#include <mutex>
+#include <sstream>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/simulation/case_run.hpp"
+#include "treadmark/app/simulation/file_lock.hpp"
+#include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/histories/study_store.hpp"
+#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+
+namespace treadmark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr const char* kIdentityFile = "study.id";
+constexpr auto kPoll = std::chrono::milliseconds(200);
+
+std::string text_of(const fs::path& file) {
+  std::ifstream in(file);
+  std::ostringstream text;
+  text << in.rdbuf();
+  return text.str();
+}
+
+/// What results in a folder belong to.
+std::string identity_of(const io::StudyFile& study, const StudyOptions& options) {
+  std::string text = "treadmark " + version() + "\nstudy " + study.sha256 + "\nbase " + io::sha256_hex(text_of(study.base)) + '\n';
+  for (const std::string& setting : options.settings) text += setting + '\n';
+  return text;
+}
+
+fs::path folder_of(const StudyOptions& options, const io::StudyRun& run) { return options.folder / "runs" / fmt::format("run_{:04}", run.number); }
+
+std::vector<std::pair<std::string, std::string>> swept_of(const io::StudyFile& study, const io::StudyRun& run) {
+  std::vector<std::pair<std::string, std::string>> swept;
+  for (std::size_t i = 0; i < study.variations.size(); ++i) {
+    const io::Variation& v = study.variations[i];
+    const std::string& key = !v.key.empty() ? v.key : v.label;
+    swept.emplace_back(key.empty() ? fmt::format("vary.{}", i) : key, v.values[run.values[i]].label);
+  }
+  return swept;
+}
+
+std::string label_of(const io::StudyFile& study, const io::StudyRun& run) {
+  std::string label;
+  for (std::size_t i = 0; i < study.variations.size(); ++i) label += (i > 0 ? ", " : "") + study.variations[i].values[run.values[i]].label;
+  return label;
+}
+
+/// The HDF5 library is for one thread at a time.
+std::mutex& store_mutex() {
+  static std::mutex mutex;
+  return mutex;
+}
+
+class Workers {
+ public:
+  Workers(const io::StudyFile& study, const StudyOptions& options, const Progress& progress)
+      : study_(study), options_(options), progress_(progress), finished_(study.runs.size(), 0) {
+    for (std::size_t i = 0; i < study.runs.size(); ++i)
+      if (is_finished(i)) finished_[i] = 1;
+    found_ = static_cast<std::size_t>(std::ranges::count(finished_, 1));
+  }
+
+  std::size_t found() const { return found_; }
+  bool complete() const { return std::ranges::count(finished_, 1) == static_cast<std::ptrdiff_t>(finished_.size()); }
+
+  void work() {
+    std::vector<std::thread> threads;
+    const auto guarded = [this] {
+      try {
+        work_through();
+      } catch (...) {
+        const std::lock_guard lock(mutex_);
+        if (!error_) error_ = std::current_exception();
+        stop_ = true;
+      }
+    };
+    for (int i = 1; i < options_.workers; ++i) threads.emplace_back(guarded);
+    guarded();
+    for (std::thread& t : threads) t.join();
+    if (error_) std::rethrow_exception(error_);
+  }
+
+ private:
+  fs::path store_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "simulation.h5"; }
+  bool is_finished(std::size_t i) const { return fs::exists(store_of(i)); }
+  bool stopped() const { return stop_ || progress_.stop_requested(); }
+
+  void work_through() {
+    SurfaceStore surfaces;
+    while (!stopped()) {
+      bool worked = false, left = false;
+      for (std::size_t i = 0; i < study_.runs.size() && !stopped(); ++i) {
+        if (known_finished(i)) continue;
+        left = true;
+        worked = solve(i, surfaces) || worked;
+      }
+      if (!left) return;
+      // Others work on the rest; they may die.
+      if (!worked) std::this_thread::sleep_for(kPoll);
+    }
+  }
+
+  bool known_finished(std::size_t i) {
+    const std::lock_guard lock(mutex_);
+    if (!finished_[i] && is_finished(i)) note_finished(i);
+    return finished_[i] != 0;
+  }
+
+  void note_finished(std::size_t i) {
+    finished_[i] = 1;
+    if (progress_.report)
+      progress_.report(static_cast<std::size_t>(std::ranges::count(finished_, 1)), finished_.size(), label_of(study_, study_.runs[i]));
+  }
+
+  /// False: somebody else is at it.
+  bool solve(std::size_t i, SurfaceStore& surfaces) {
+    const io::StudyRun& run = study_.runs[i];
+    const fs::path folder = folder_of(options_, run);
+    fs::create_directories(folder);
+    const auto lock = FileLock::attempt(folder / "lock");
+    if (!lock) return false;
+    if (is_finished(i)) return true;
+    const auto input = io::read_study_run(study_, run);
+    SimulationOptions wanted;
+    wanted.settings = run.overrides;
+    wanted.swept = swept_of(study_, run);
+    wanted.checkpoint_file = folder / "unfinished.h5";
+    wanted.resume = true;
+    wanted.store_mutex = &store_mutex();
+    Progress inner;
+    inner.stop = progress_.stop;
+    io::SimulationResult result;
+    if (const auto* simulation = std::get_if<io::SimulationFile>(&input)) {
+      try {
+        result = run_simulation(*simulation, surfaces, wanted, inner);
+      } catch (const Error& e) {
+        if (e.kind() != ErrorKind::numerical) throw;
+        result = failed(e, *simulation, wanted);
+      }
+    } else {
+      result = run_case_file(std::get<io::CaseFile>(input), surfaces, wanted, inner);
+    }
+    if (result.status == "interrupted") return true;
+    {
+      const std::lock_guard store(store_mutex());
+      io::write_simulation(store_of(i), result);
+    }
+    std::error_code ignored;
+    fs::remove(wanted.checkpoint_file, ignored);
+    const std::lock_guard guard(mutex_);
+    if (!finished_[i]) note_finished(i);
+    return true;
+  }
+
+  static io::SimulationResult failed(const Error& e, const io::SimulationFile& file, const SimulationOptions& wanted) {
+    io::SimulationResult result;
+    result.version = version();
+    result.git = git_revision();
+    result.input_file = file.path.filename().string();
+    result.input_sha256 = file.sha256;
+    result.title = file.title;
+    result.settings = wanted.settings;
+    result.swept = wanted.swept;
+    result.status = "failed";
+    result.message = e.what();
+    return result;
+  }
+
+  const io::StudyFile& study_;
+  const StudyOptions& options_;
+  const Progress& progress_;
+  std::mutex mutex_;
+  std::vector<char> finished_;
+  std::size_t found_ = 0;
+  std::atomic<bool> stop_{false};
+  std::exception_ptr error_;
+};
+
+/// The folder belongs to this study from here on.
+void claim_folder(const io::StudyFile& study, const StudyOptions& options) {
+  std::error_code failure;
+  fs::create_directories(options.folder / "runs", failure);
+  if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {options.folder.string()});
+  const FileLock lock = FileLock::wait(options.folder / "lock");
+  const fs::path file = options.folder / kIdentityFile;
+  const std::string identity = identity_of(study, options);
+  if (!fs::exists(file)) {
+    if (options.must_exist)
+      throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {}, "leave --resume out to begin one");
+    io::write_text_file(file, identity);
+  } else if (text_of(file) != identity) {
+    throw Error(ErrorKind::configuration, options.folder.string() + " holds the results of another study", {},
+                "choose another folder, or remove this one; files, settings and version of Treadmark must be the same to go on");
+  }
+}
+
+io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) {
+  io::StudyResult result;
+  result.version = version();
+  result.git = git_revision();
+  result.input_file = study.path.filename().string();
+  result.input_sha256 = study.sha256;
+  result.title = study.title;
+  result.settings = options.settings;
+  for (const io::StudyRun& run : study.runs) {
+    const fs::path store = folder_of(options, run) / "simulation.h5";
+    if (!fs::exists(store)) continue;
+    const std::lock_guard lock(store_mutex());
+    const io::SimulationResult simulation = io::read_simulation(store);
+    result.runs.push_back({run.number, swept_of(study, run), label_of(study, run), simulation.status, simulation.message, simulation.summary, store});
+  }
+  return result;
+}
+
+}  // namespace
+
+StudyOutcome run_study(const io::StudyFile& study, const StudyOptions& options, const Progress& progress) {
+  claim_folder(study, options);
+  StudyOutcome outcome;
+  outcome.runs_total = study.runs.size();
+  Workers workers(study, options, progress);
+  outcome.found_finished = workers.found();
+  workers.work();
+  outcome.complete = workers.complete();
+  outcome.study = gather(study, options);
+  return outcome;
+}
+
+void write_study_folder(const io::StudyFile& file, const StudyOptions& options, const io::StudyResult& study) {
+  const FileLock lock = FileLock::wait(options.folder / "lock");
+  const fs::path marker = options.folder / "written.id";
+  const std::string identity = identity_of(file, options) + fmt::format("runs {}\n", study.runs.size());
+  if (fs::exists(marker) && text_of(marker) == identity && fs::exists(options.folder / "sweep.h5")) return;
+  io::write_sweep_csv(options.folder / "sweep.csv", study);
+  write_study_figures(file, options.folder, study);
+  io::write_study_store(options.folder / "sweep.h5", study);
+  io::write_text_file(marker, identity);
+}
+
+ProcessPlace process_place() {
+  const auto number = [](std::initializer_list<const char*> names, int otherwise) {
+    for (const char* name : names)
+      if (const char* text = std::getenv(name)) return std::atoi(text);
+    return otherwise;
+  };
+  ProcessPlace place;
+  place.count = number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"}, 1);
+  place.rank = number({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0);
+  return place;
+}
+
+}  // namespace treadmark::app
