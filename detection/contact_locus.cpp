@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/detection/closest_gap.hpp"
+
 namespace treadmark::detection {
 namespace {
 
@@ -157,10 +159,13 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s, bo
     }
   }
   line.least = kNaN;
+  std::size_t deepest = 0;
   for (std::size_t k = 0; k < m; ++k) {
     line.gap[k] = line.rail_z[k] - wheel_z[k];
     line.least = std::fmin(line.least, line.gap[k]);
+    if (line.gap[k] == line.least) deepest = k;
   }
+  line.closest = deepest > 0 && deepest + 1 < m ? vertex(line.gap[deepest - 1], line.gap[deepest], line.gap[deepest + 1]) : line.least;
   if (wheel_y_.empty()) wheel_y_ = std::move(wheel_y);
   return line;
 }
@@ -262,8 +267,11 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
   const Rows& rows = outline_.rows;
   const auto gap = [&](int i) { return i >= 0 && i < rows.count ? outline_.gap[static_cast<std::size_t>(i)] - wheel_dz : kNaN; };
   Found found;
+  double closest = kNaN;
+  // Where the bodies do not touch, all rows are looked at closely that may hold the least gap between them.
+  const double may_be_closest = std::max(look_below, outline_.least - wheel_dz + look_below);
   for (int i = 0; i < rows.count; ++i) {
-    if (!(gap(i) < look_below)) continue;
+    if (!(gap(i) < may_be_closest)) continue;
     // A run of rows below zero, or a local minimum above it.
     const int first = i;
     if (gap(i) < 0.0) {
@@ -271,8 +279,10 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
     } else if (gap(i - 1) <= gap(i) || gap(i + 1) < gap(i)) {
       continue;
     }
-    weigh_fine(fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1)), wheel_dz, near_miss_gap, weight,
-               reference_at_deepest, found);
+    const Outline& fine = fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1));
+    closest = std::fmin(closest, fine.closest - wheel_dz);
+    // On steep flanks a shallow contact may lie deeper below the rows than that.
+    if (gap(first) < look_below || fine.closest < wheel_dz) weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
   }
   // As in the grid search: deepest first, two near misses at most.
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };
@@ -280,6 +290,7 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
   std::ranges::stable_sort(found.near_misses, deeper);
   constexpr std::size_t kMaxNearMisses = 2;
   if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
+  found.closest = closest;
   found.least_gap = outline_.least - wheel_dz;
   for (const auto* list : {&found.patches, &found.near_misses})
     for (const ContactPatch& p : *list) found.least_gap = std::min(found.least_gap, p.least_gap);

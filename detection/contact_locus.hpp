@@ -28,6 +28,7 @@ class ContactLocus {
   struct Found {
     std::vector<ContactPatch> patches, near_misses;
     double least_gap = 0.0;  ///< of the patches and near misses
+    double closest = 0.0;    ///< least gap between the rows as well [m]
   };
   /// With the wheel moved by wheel_dz along z of T. Positions with a gap below look_below are looked at closely.
   Found at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight, bool reference_at_deepest);
@@ -51,6 +52,7 @@ class ContactLocus {
     Rows rows;
     std::vector<double> gap, x, radius, cubic, rail_z, rail_slope;
     double least = 0.0;
+    double closest = 0.0;   ///< least gap, between the rows as well [m]
   };
   Outline trace(const Rows& rows, const Samples& samples, bool curves);
   const Outline& fine_outline(int first_row, int last_row);

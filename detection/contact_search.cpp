@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/detection/closest_gap.hpp"
 #include "treadmark/detection/region_extent.hpp"
 
 namespace treadmark::detection {
@@ -98,7 +100,7 @@ BodyPair ContactSearch::bodies_at(double wheel_dz) const {
 
 SearchResult ContactSearch::at(double wheel_dz) {
   const SearchSettings& s = settings_;
-  if (std::isnan(least_gap())) return {{}, least_gap()};
+  if (std::isnan(least_gap())) return {{}, least_gap(), least_gap()};
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
   return method() == SearchMethod::locus ? on_locus(wheel_dz, look_below) : on_grid(wheel_dz, look_below);
 }
@@ -107,13 +109,14 @@ SearchResult ContactSearch::on_locus(double wheel_dz, double look_below) {
   const SearchSettings& s = settings_;
   ContactLocus::Found found = reference_locus_ ? reference_locus_->at(wheel_dz, s.rules.near_miss, s.weight, s.reference_at_deepest)
                                                : locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest);
-  return {combine_patches(std::move(found.patches), found.near_misses, s.rules), found.least_gap};
+  return {combine_patches(std::move(found.patches), found.near_misses, s.rules), found.least_gap, found.closest};
 }
 
 SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
   const SearchSettings& s = settings_;
   SearchResult result;
   result.least_gap = gap_->least() - wheel_dz;
+  double closest = std::numeric_limits<double>::infinity();
   gap_->reveal(look_below + wheel_dz);
 
   std::vector<ContactPatch> patches, near_misses;
@@ -128,6 +131,7 @@ SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
     for (const Region& part : find_regions(fine, wheel_dz, s.weight, s.rules.near_miss)) {
       const ContactPatch patch = to_patch(fine, wheel_dz, part, !part.near_miss(), s.reference_at_deepest);
       result.least_gap = std::min(result.least_gap, patch.least_gap);
+      closest = std::min(closest, vertex(fine, part.ix_deepest, part.iy_deepest) - wheel_dz);
       // Margins of neighbouring fine grids overlap: a region seen twice counts once.
       auto& list = part.near_miss() ? near_misses : patches;
       const bool known = std::any_of(list.begin(), list.end(), [&](const ContactPatch& other) {
@@ -137,7 +141,23 @@ SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
     }
   }
   result.patches = combine_patches(std::move(patches), near_misses, s.rules);
+  // Close to the loss of contact and beyond it nothing but the gap is wanted, and that exactly.
+  constexpr double kShallow = 5e-6;
+  result.closest = !s.refine ? result.least_gap : closest < -kShallow ? closest : closest_on_grid() - wheel_dz;
   return result;
+}
+
+double ContactSearch::closest_on_grid() {
+  if (closest_) return *closest_;
+  const double least = gap_->least(), look_below = grazing_gap(settings_.grid_T);
+  gap_->reveal(least + look_below);
+  closest_ = least;
+  for (const Region& region : find_regions(gap_->field(), least, std::nullopt, look_below)) {
+    const GapField fine = gap_field(bodies_, refined_grid(settings_.grid_T, region, settings_));
+    for (const Region& part : find_regions(fine, least, std::nullopt, look_below))
+      closest_ = std::min(*closest_, closest_about(bodies_, fine, part.ix_deepest, part.iy_deepest));
+  }
+  return *closest_;
 }
 
 const GapField& ContactSearch::refined(const Region& region) {

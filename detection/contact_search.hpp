@@ -45,6 +45,9 @@ struct SearchResult {
   std::vector<ContactPatch> patches;      ///< field side first
   /// Least gap over the search grid [m]: negative with contact, NaN where the bodies nowhere face each other.
   double least_gap = 0.0;
+  /// The same between the points of the grid as well: exact to a nanometre unless the mesh or the grid of the reference program is asked
+  /// for, and without jumps where contact comes and goes [m].
+  double closest = 0.0;
 };
 
 /// The contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid, interpenetration
@@ -77,12 +80,14 @@ class ContactSearch {
   SearchResult on_locus(double wheel_dz, double look_below);
   SearchResult on_grid(double wheel_dz, double look_below);
   const GapField& refined(const Region& region);
+  double closest_on_grid();
 
   BodyPair bodies_;
   SearchSettings settings_;
   std::optional<ContactLocus> locus_;
   std::optional<ReferenceLocus> reference_locus_;
   std::optional<PrunedGap> gap_;
+  std::optional<double> closest_;   ///< at the position given at construction [m]; found out when needed
   struct Refined {
     Grid2 grid;
     GapField field;

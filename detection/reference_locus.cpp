@@ -131,7 +131,7 @@ ContactLocus::Found ReferenceLocus::at(double wheel_dz, double near_miss_gap, Pe
   std::ranges::stable_sort(found.near_misses, deeper);
   constexpr std::size_t kMaxNearMisses = 2;
   if (found.near_misses.size() > kMaxNearMisses) found.near_misses.resize(kMaxNearMisses);
-  found.least_gap = least_ - wheel_dz;
+  found.closest = found.least_gap = least_ - wheel_dz;
   return found;
 }
 

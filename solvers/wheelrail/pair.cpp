@@ -164,6 +164,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   Balance balance = find_balance(step, p, known > 0.0 ? known : stiffness_guess(p.material));
   solution.z = balance.z + balance.rail_dz;
   solution.pitch_rate = balance.pitch_rate;
+  solution.least_gap = step.closest();
   solution.rail_deflection_y = balance.rail_dy;
   solution.rail_deflection_z = balance.rail_dz;
   solution.force_iterations = std::move(balance.iterations);

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <memory>
 #include <string>
 #include <utility>
@@ -55,6 +56,10 @@ struct PairSolution {
   Placement placement;
   double z = 0.0;                       ///< vertical wheelset position, given or found [m]
   double pitch_rate = 0.0;              ///< of the wheelset, given or found [rad/s]
+  /// Least distance from rail to wheel along z of the track at this position [m], also where they do not touch; negative: greatest
+  /// penetration. It falls by what the wheel comes down, so that the loss of contact is a simple root of it. NaN where no wheel lies over
+  /// the rail.
+  double least_gap = std::numeric_limits<double>::quiet_NaN();
   double rail_deflection_y = 0.0, rail_deflection_z = 0.0;  ///< of a rail on springs [m]
   std::vector<PatchSolution> patches;   ///< field side first
   Wrenches load;                        ///< sum over the patches

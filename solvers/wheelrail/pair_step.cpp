@@ -150,6 +150,7 @@ void PairStep::evaluate(double z) {
     found = search_->at(dz);
   }
   least_gap_ = found.least_gap;
+  closest_ = found.closest;
   const double deepest = kDeepestOfRadius * problem_.wheelset.nominal_radius;
   too_deep_ = -found.least_gap > deepest ? -found.least_gap : 0.0;
   if (too_deep_ > 0.0) return;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <limits>
 #include <optional>
 #include <span>
 #include <vector>
@@ -37,6 +38,8 @@ class PairStep {
   double longitudinal_force() const { return (placement_.X_TWs.rotation.transpose() * force_T()).x(); }
   double normal_force() const;
   double least_gap() const { return least_gap_; }
+  /// Likewise, between the points of the search grids as well; NaN before evaluate().
+  double closest() const { return closest_; }
 
   std::vector<PatchSolution> take_patches();
   const Placement& placement() const { return placement_; }
@@ -77,6 +80,7 @@ class PairStep {
 
   Placement start_, placement_;                  ///< at z = start_z_, and as it is
   double start_z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
+  double closest_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<detection::ContactSearch> search_;
   std::vector<Patch> patches_;
   std::vector<TangentialShare> tangential_share_;

@@ -57,7 +57,7 @@ class SolutionBytes {
     put(std::span<const std::uint64_t>(p.came_from));
   }
   void add(const PairSolution& s) {
-    put(s.status, s.message, s.z, s.pitch_rate, s.rail_deflection_y, s.rail_deflection_z, s.patches.size());
+    put(s.status, s.message, s.z, s.least_gap, s.pitch_rate, s.rail_deflection_y, s.rail_deflection_z, s.patches.size());
     for (const PatchSolution& p : s.patches) add(p);
     for (const auto& [z, force] : s.force_iterations) put(z, force);
     add(s.load);
