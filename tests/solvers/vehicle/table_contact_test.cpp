@@ -1,0 +1,409 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/vehicle/table_contact.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <limits>
+#include <map>
+#include <numbers>
+
+#include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/vehicle/pair_coordinates.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
+
+namespace treadmark::vehicle {
+namespace {
+
+using std::numbers::pi;
+using wheelrail::Side;
+
+constexpr double kRadius = 0.46, kSpeed = 20.0, kLoad = 8e4;
+
+wheelrail::Geometry standard_geometry() {
+  const auto rail = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
+  return {rail, analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
+}
+
+wheelrail::Problem standard_problem(double cant) {
+  wheelrail::Problem p;
+  p.track.cant = cant;
+  return p;
+}
+
+std::shared_ptr<const ContactTable> standard_table(double cant = 1.0 / 40.0) {
+  static std::map<double, std::shared_ptr<const ContactTable>> tables;
+  auto& table = tables[cant];
+  if (!table) table = build_contact_table(standard_geometry(), standard_problem(cant), kLoad);
+  return table;
+}
+
+/// A standing wheel pressed into the rail so much over the touching height.
+PairMotion pressed(const ContactTable& table, double y, double depth) {
+  PairMotion m;
+  m.wheelset.y = y;
+  m.wheelset.z = table.energy_height().at(y).value - 0.6 * table.levels().front().compression.at(y).value + depth;
+  return m;
+}
+
+PairMotion rolling(PairMotion m) {
+  m.wheelset_velocity.x = kSpeed;
+  m.wheelset_velocity.pitch = -kSpeed / kRadius;
+  return m;
+}
+
+/// Displaced and turned in every way.
+PairMotion general_motion(double y = 2.3e-3) {
+  PairMotion m = rolling(pressed(*standard_table(), y, 1.2e-4));
+  m.wheelset.roll = 4e-5;
+  m.wheelset.yaw = 3e-3;
+  m.rail = {2e-4, -1e-5, -6e-5, 0.01, -0.02, 0.03};
+  m.wheelset_velocity.y = 0.03;
+  m.wheelset_velocity.yaw = 0.01;
+  m.wheelset_velocity.roll = 2e-3;
+  m.wheelset_velocity.z = 1e-3;
+  return m;
+}
+
+PairMotion mirror_image(PairMotion m) {
+  for (wheelrail::SixMotion* q : {&m.wheelset, &m.wheelset_velocity}) q->y = -q->y, q->roll = -q->roll, q->yaw = -q->yaw;
+  m.rail.y = -m.rail.y, m.rail.roll = -m.rail.roll, m.rail.vy = -m.rail.vy, m.rail.vroll = -m.rail.vroll;
+  return m;
+}
+
+double rolling_radius(const ContactReaction& r, const PairMotion& m) {
+  const PatchTangent& t = r.tangents.at(0);
+  return t.X_TC.origin.z() - r.least_gap * t.X_TC.rotation(2, 2) - (m.wheelset.z - kRadius);
+}
+
+double contact_angle(const ContactReaction& r) { return roll_yaw_pitch(r.tangents.at(0).X_TC.rotation).roll; }
+
+TEST(TableContact, ABallIsHertzian) {
+  constexpr double kCrown = 20.0;  // across the track; flat as far as the ball is concerned
+  const wheelrail::Geometry ball{analytic::make_prismatic_surface(analytic::cylinder_chain(kCrown, 2.5e-3)),
+                                 analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 0.08), kRadius), true, true};
+  wheelrail::Problem p;
+  p.track.gauge_based = false;
+  p.track.rail_y0 = 0.75;
+  const auto table = build_contact_table(ball, p, kLoad, {.lateral_range = 6e-3, .step = 1e-3, .element_size = 0.4e-3});
+  TableContact element(table, Side::right);
+  for (const double y : {-4.3e-3, 0.0, 2.7e-3})
+    for (const double approach : {3e-5, 8e-5, 1.5e-4, 2.4e-4}) {
+      const double centres = kRadius + kCrown, angle = std::asin(y / centres);
+      PairMotion m;
+      m.wheelset.y = y;
+      m.wheelset.z = centres - std::sqrt((centres - approach) * (centres - approach) - y * y);
+      const ContactReaction r = element.evaluate(m);
+      const kalker::HertzShape hertz =
+          kalker::hertz_from_curvatures(0.5 / kRadius, 0.5 / kRadius + 0.5 / kCrown, {false, approach}, combine(p.material));
+      ASSERT_EQ(r.status, Status::ok);
+      EXPECT_NEAR(r.normal_force, hertz.force, 5e-3 * hertz.force);
+      EXPECT_NEAR(-r.least_gap, approach, 3e-3 * approach);
+      EXPECT_NEAR(r.elastic_energy, 0.4 * hertz.force * approach, 1e-2 * r.elastic_energy);
+      EXPECT_NEAR(r.area, pi * hertz.semi_axis_x * hertz.semi_axis_y, 1e-2 * r.area);
+      EXPECT_NEAR(r.max_pressure, kalker::hertz_max_pressure(hertz), 1e-2 * r.max_pressure);
+      EXPECT_NEAR(contact_angle(r), angle, 2e-6);
+      EXPECT_NEAR(r.contact_y, 0.75 + kCrown * std::sin(angle), 2e-5);
+      EXPECT_NEAR(rolling_radius(r, m), kRadius * std::cos(angle), 2e-6);
+    }
+}
+
+class AgainstPair : public testing::TestWithParam<double> {
+ protected:
+  wheelrail::PairSolution solve(double y, double load, bool creeps, const wheelrail::SixMotion& velocity = {}) {
+    wheelrail::Problem p = standard_problem(GetParam());
+    p.state.position.y = y;
+    p.state.velocity = velocity;
+    p.vertical_force = load;
+    p.regime = creeps ? kalker::Regime::steady : kalker::Regime::frictionless;
+    return wheelrail::Pair(standard_geometry()).solve(p);
+  }
+};
+
+TEST_P(AgainstPair, ElasticForcesAndPlacesOfContact) {
+  const auto table = standard_table(GetParam());
+  TableContact element(table, Side::right);
+  for (const double y_mm : {-10.1, -6.1, -3.1, -1.1, 0.1, 1.1, 2.1, 3.1, 6.1, 9.1})
+    for (const double load : {2e4, 5e4, 1e5, 1.5e5}) {
+      SCOPED_TRACE(testing::Message() << "y = " << y_mm << " mm, " << 1e-3 * load << " kN");
+      const wheelrail::PairSolution s = solve(1e-3 * y_mm, load, false);
+      ASSERT_EQ(s.status, Status::ok) << s.message;
+      PairMotion m;
+      m.wheelset.y = 1e-3 * y_mm;
+      m.wheelset.z = s.z;
+      const ContactReaction r = element.evaluate(m);
+      ASSERT_EQ(r.status, Status::ok) << r.message;
+      EXPECT_NEAR(r.on_rail.force.z(), load, 0.03 * load);
+      const double angle = std::atan(-s.load.track.force.y() / s.load.track.force.z());
+      EXPECT_NEAR(contact_angle(r), angle, 0.002 + 0.03 * std::abs(angle));
+      if (s.patches.size() > 1) continue;
+      const wheelrail::PatchSolution& patch = s.patches.front();
+      const double radius = patch.frame.X_TC.apply({0.0, 0.0, patch.approach}).z() - (s.z - kRadius);
+      EXPECT_NEAR(rolling_radius(r, m), radius, 1.5e-4 * (1.0 + std::abs(std::tan(angle))));
+      EXPECT_NEAR(r.area, patch.contact.elements_contact * patch.grid.cell_area(), 0.15 * r.area);
+    }
+}
+
+TEST_P(AgainstPair, LateralCreepForces) {
+  const auto table = standard_table(GetParam());
+  TableContact element(table, Side::right);
+  for (const double y_mm : {-6.1, -3.1, 3.1})
+    for (const double eta : {-1e-2, -2e-3, -6e-4, 1.2e-3, 3e-3}) {
+      SCOPED_TRACE(testing::Message() << "y = " << y_mm << " mm, eta = " << eta);
+      PairMotion m = pressed(*table, 1e-3 * y_mm, 1e-4);
+      // Rolling without longitudinal creepage.
+      const double radius = rolling_radius(element.evaluate(m), m);
+      m.wheelset_velocity = {kSpeed, -eta * kSpeed, 0.0, 0.0, 0.0, -kSpeed / radius};
+      const wheelrail::PairSolution s = solve(m.wheelset.y, kLoad, true, m.wheelset_velocity);
+      ASSERT_EQ(s.status, Status::ok) << s.message;
+      m.wheelset.z = s.z;
+      const ContactReaction r = element.evaluate(m);
+      double lateral = 0.0;
+      for (const wheelrail::PatchSolution& patch : s.patches) lateral += patch.contact.force_y;
+      // On the gauge side spin counts as much as the creepage and may cancel it out.
+      EXPECT_NEAR(r.lateral_creep_force, lateral, y_mm < 0.0 ? 0.15 * std::abs(lateral) : 0.1 * 0.3 * kLoad);
+    }
+}
+
+INSTANTIATE_TEST_SUITE_P(Cants, AgainstPair, testing::Values(0.0, 1.0 / 40.0));
+
+TEST(TableContact, ClosedLoopsGainNoWork) {
+  const auto table = standard_table();
+  TableContact element(table, Side::right);
+  constexpr int kSteps = 200000;
+  double gained = 0.0, moved = 0.0;
+  // Across tread and flange root, at loads of all levels.
+  const auto place = [&](double t) { return pressed(*table, 1e-3 + 5.6e-3 * std::cos(t), 8e-5 + 6e-5 * std::sin(2.0 * t + 0.4)); };
+  for (int i = 0; i < kSteps; ++i) {
+    const double t = 2.0 * pi * i / kSteps, dt = 2.0 * pi / kSteps;
+    const PairMotion from = place(t), to = place(t + dt);
+    PairMotion middle = from;
+    middle.wheelset.y = 0.5 * (from.wheelset.y + to.wheelset.y);
+    middle.wheelset.z = 0.5 * (from.wheelset.z + to.wheelset.z);
+    const Vec3 force = element.evaluate(middle).on_wheelset.force;
+    const double work = force.y() * (to.wheelset.y - from.wheelset.y) + force.z() * (to.wheelset.z - from.wheelset.z);
+    gained += work;
+    moved += std::abs(work);
+  }
+  EXPECT_NEAR(gained, 0.0, 1e-6 * moved);
+}
+
+TEST(TableContact, ForcesAreTheGradientOfTheEnergyInEveryCoordinate) {
+  TableContact element(standard_table(), Side::right);
+  for (const double y : {-5.2e-3, 0.3e-3, 2.3e-3, 5.9e-3}) {
+    PairMotion m = general_motion(y);
+    m.wheelset_velocity = {};
+    const ContactReaction r = element.evaluate(m);
+    PairVector force = generalised_force(r, m);
+    // Yaw moves the contact along the rail, which the energy does not know of.
+    const double profile_x = -standard_table()->nominal().X_TW.origin.y() * std::sin(m.wheelset.yaw);
+    force(5) -= (r.contact_x - profile_x) * r.on_wheelset.force.y();
+    const auto energy = [&](int i, double step) {
+      PairMotion moved = m;
+      wheelrail::SixMotion& w = moved.wheelset;
+      double* coordinates[] = {&w.x, &w.y, &w.z, &w.roll, &w.pitch, &w.yaw, &moved.rail.y, &moved.rail.z, &moved.rail.roll};
+      *coordinates[i] += step;
+      return element.evaluate(moved).elastic_energy;
+    };
+    for (int i = 0; i < kPairCoordinates; ++i) {
+      const double h = 1e-9;
+      const double gradient = (energy(i, h) - energy(i, -h)) / (2.0 * h);
+      EXPECT_NEAR(force(i), -gradient, 2e-5 * force.cwiseAbs().maxCoeff()) << "coordinate " << i << ", y = " << y;
+    }
+  }
+}
+
+TEST(TableContact, ActionIsReaction) {
+  TableContact element(standard_table(), Side::right);
+  const PairMotion m = general_motion();
+  const ContactReaction r = element.evaluate(m);
+  ASSERT_EQ(r.status, Status::ok);
+  EXPECT_EQ(r.on_wheelset.force, -r.on_rail.force);
+  const Vec3 marker = standard_table()->nominal().X_TR.origin + Vec3(0.0, m.rail.y, m.rail.z);
+  const Vec3 centre(0.0, m.wheelset.y, m.wheelset.z - kRadius);
+  const Vec3 sum = r.on_rail.moment + marker.cross(r.on_rail.force) + r.on_wheelset.moment + centre.cross(r.on_wheelset.force);
+  EXPECT_NEAR(sum.norm(), 0.0, 1e-9 * r.on_rail.moment.norm());
+}
+
+TEST(TableContact, FrictionTakesWhatTheForcesDoAndTheSpringDoesNotStore) {
+  TableContact element(standard_table(), Side::right);
+  const PairMotion m = general_motion();
+  const ContactReaction r = element.evaluate(m);
+  const wheelrail::SixMotion& v = m.wheelset_velocity;
+  PairVector rates;
+  rates << v.x, v.y, v.z, v.roll, v.pitch, v.yaw, m.rail.vy, m.rail.vz, m.rail.vroll;
+  PairMotion later = m;
+  const double dt = 1e-7;
+  later.wheelset.y += v.y * dt, later.wheelset.z += v.z * dt, later.wheelset.roll += v.roll * dt, later.wheelset.yaw += v.yaw * dt;
+  later.rail.y += m.rail.vy * dt, later.rail.z += m.rail.vz * dt, later.rail.roll += m.rail.vroll * dt;
+  const double stored = (element.evaluate(later).elastic_energy - r.elastic_energy) / dt;
+  const double power = generalised_force(r, m).dot(rates);
+  // Creepages are those of the wheel at the depth of its penetration, where it runs a little faster than at the point of the force.
+  const double deeper = -r.longitudinal_creep_force * v.pitch * r.least_gap * r.tangents[0].X_TC.rotation(2, 2);
+  EXPECT_GT(r.frictional_power, 0.0);
+  EXPECT_NEAR(power + stored + r.frictional_power, deeper, 1e-3 * r.frictional_power);
+}
+
+TEST(TableContact, LeftIsTheExactMirrorImage) {
+  TableContact right(standard_table(), Side::right), left(standard_table(), Side::left);
+  const PairMotion m = general_motion();
+  const ContactReaction r = right.evaluate(m), l = left.evaluate(mirror_image(m));
+  const auto flipped = [](Vec3 v) { return Vec3(v.x(), -v.y(), v.z()); };
+  EXPECT_EQ(l.on_rail.force, flipped(r.on_rail.force));
+  EXPECT_EQ(l.on_wheelset.moment, Vec3(-flipped(r.on_wheelset.moment)));
+  EXPECT_EQ(l.on_rail.moment, Vec3(-flipped(r.on_rail.moment)));
+  EXPECT_EQ(l.lateral_creep_force, -r.lateral_creep_force);
+  EXPECT_EQ(l.longitudinal_creep_force, r.longitudinal_creep_force);
+  EXPECT_EQ(l.frictional_power, r.frictional_power);
+  EXPECT_EQ(l.contact_y, -r.contact_y);
+  EXPECT_EQ(l.tangents[0].X_TC.origin, flipped(r.tangents[0].X_TC.origin));
+  EXPECT_EQ(roll_yaw_pitch(l.tangents[0].X_TC.rotation).roll, -contact_angle(r));
+  // Tangents too belong to the mirrored point: both give the same stiffness in the mirrored coordinates.
+  const Vec3 marker = standard_table()->nominal().X_TR.origin;
+  const PairTangent tr = pair_tangent(r, m, marker, kRadius), tl = pair_tangent(l, mirror_image(m), flipped(marker), kRadius);
+  EXPECT_NEAR(tl.stiffness(1, 2), -tr.stiffness(1, 2), 1e-9 * tr.stiffness(2, 2));
+}
+
+TEST(TableContact, RadiusDifferenceIsOdd) {
+  const auto table = standard_table();
+  TableContact right(table, Side::right), left(table, Side::left);
+  const auto difference = [&](double y) {
+    const PairMotion at_right = pressed(*table, y, 1e-4), at_left = mirror_image(pressed(*table, -y, 1e-4));
+    return rolling_radius(right.evaluate(at_right), at_right) - rolling_radius(left.evaluate(at_left), at_left);
+  };
+  EXPECT_EQ(difference(0.0), 0.0);
+  for (const double y : {1e-3, 3e-3, 5.5e-3}) {
+    EXPECT_EQ(difference(y), -difference(-y));
+    // The wheel that comes closer to its flange rolls on the larger circle: on the right that of a wheelset moved to the right.
+    EXPECT_GT(difference(y), 0.0);
+  }
+}
+
+TEST(TableContact, BodiesThatMoveTogetherStayAsTheyAre) {
+  TableContact element(standard_table(), Side::right);
+  const PairMotion m = pressed(*standard_table(), 1.4e-3, 1e-4);
+  const ContactReaction before = element.evaluate(m);
+  // Rolled about the track's origin.
+  const double roll = 2e-3;
+  const auto turned = [&](const Vec3& p) { return Vec3(rotation_x(roll) * p - p); };
+  PairMotion together = m;
+  const Vec3 wheelset = turned({0.0, m.wheelset.y, m.wheelset.z - kRadius}), rail = turned(standard_table()->nominal().X_TR.origin);
+  together.wheelset.y += wheelset.y(), together.wheelset.z += wheelset.z(), together.wheelset.roll = roll;
+  together.rail.y = rail.y(), together.rail.z = rail.z(), together.rail.roll = roll;
+  const ContactReaction after = element.evaluate(together);
+  EXPECT_NEAR(after.normal_force, before.normal_force, 1e-8 * before.normal_force);
+  EXPECT_NEAR(contact_angle(after), contact_angle(before) + roll, 1e-9);
+}
+
+TEST(TableContact, RollInclinesTheWheelLikeTheSolvedContact) {
+  // A wheelset rolled about its centre, the height found again for the same load.
+  TableContact element(standard_table(0.0), Side::right);
+  for (const double roll : {-1e-3, 1e-3})
+    for (const double y : {-4e-3, 0.0, 2e-3}) {
+      wheelrail::Problem p = standard_problem(0.0);
+      p.regime = kalker::Regime::frictionless;
+      p.state.position.y = y;
+      p.state.position.roll = roll;
+      p.vertical_force = kLoad;
+      const wheelrail::PairSolution s = wheelrail::Pair(standard_geometry()).solve(p);
+      ASSERT_EQ(s.status, Status::ok);
+      PairMotion m;
+      m.wheelset = p.state.position;
+      m.wheelset.z = s.z;
+      const ContactReaction r = element.evaluate(m);
+      EXPECT_NEAR(r.on_rail.force.z(), kLoad, 0.03 * kLoad);
+      EXPECT_NEAR(contact_angle(r), s.patches.at(0).frame.angle, 2e-3);
+      EXPECT_NEAR(r.contact_y, s.patches[0].frame.X_TC.origin.y(), 2e-3);
+    }
+}
+
+TEST(TableContact, StiffnessIsTheDerivativeOfTheForce) {
+  const auto table = standard_table();
+  TableContact element(table, Side::right);
+  for (const double depth : {1e-5, 9e-5, 2.5e-4})
+    for (const double y : {-3.2e-3, 1.7e-3, 8e-3}) {
+      PairMotion m = pressed(*table, y, depth);
+      const ContactReaction r = element.evaluate(m);
+      const double h = 1e-9;
+      m.wheelset.z += h;
+      const double above = element.evaluate(m).on_rail.force.z();
+      m.wheelset.z -= 2.0 * h;
+      const double derivative = (above - element.evaluate(m).on_rail.force.z()) / (2.0 * h);
+      const double cosine = r.tangents[0].X_TC.rotation(2, 2);
+      EXPECT_NEAR(r.tangents[0].stiffness_n * cosine * cosine, derivative, 1e-4 * derivative);
+    }
+}
+
+TEST(TableContact, TheTableDoesNotDependOnThreads) {
+  const auto build = [](int threads) {
+    const ThreadLimit limit(threads);
+    return build_contact_table(standard_geometry(), standard_problem(0.025), kLoad, {.lateral_range = 3e-3, .step = 1e-3});
+  };
+  const auto one = build(1), two = build(2);
+  for (double y = -3e-3; y <= 3e-3; y += 0.17e-3) {
+    EXPECT_EQ(one->energy_height().at(y).value, two->energy_height().at(y).value);
+    EXPECT_EQ(one->wheel_y().at(y).value, two->wheel_y().at(y).value);
+    for (std::size_t k = 0; k < one->levels().size(); ++k) {
+      EXPECT_EQ(one->levels()[k].compression.at(y).value, two->levels()[k].compression.at(y).value);
+      EXPECT_EQ(one->levels()[k].area.at(y).slope, two->levels()[k].area.at(y).slope);
+    }
+  }
+}
+
+TEST(TableContact, OutsideTheTableAndInTheAir) {
+  TableContact element(standard_table(), Side::right);
+  PairMotion m = pressed(*standard_table(), 0.0, 1e-4);
+  m.wheelset.y = 0.02;
+  const ContactReaction off = element.evaluate(m);
+  EXPECT_EQ(off.status, Status::failed);
+  EXPECT_NE(off.message.find("flange"), std::string::npos);
+
+  const ContactReaction lifted = element.evaluate(pressed(*standard_table(), 0.0, -2e-4));
+  EXPECT_EQ(lifted.status, Status::no_contact);
+  EXPECT_NEAR(lifted.least_gap, 2e-4, 2e-6);
+  EXPECT_EQ(lifted.on_rail.force.norm(), 0.0);
+  EXPECT_TRUE(lifted.tangents.empty());
+
+  m.wheelset.roll = std::numeric_limits<double>::quiet_NaN();
+  EXPECT_THROW(element.evaluate(m), Error);
+}
+
+TEST(TableContact, SavedStatesAreTheirOwn) {
+  TableContact element(standard_table(), Side::right);
+  ByteWriter saved, other;
+  element.save(saved);
+  other.put(3.0);
+  ByteReader own(saved.bytes()), foreign(other.bytes());
+  EXPECT_NO_THROW(element.restore(own));
+  EXPECT_TRUE(own.at_end());
+  EXPECT_THROW(element.restore(foreign), Error);
+}
+
+TEST(TableContact, WrongInputIsRefused) {
+  EXPECT_THROW(TableContact(nullptr, Side::left), Error);
+  const wheelrail::Problem good = standard_problem(0.025);
+  const auto refused = [&](const wheelrail::Problem& p, double load, const ContactTableOptions& options, bool round = true) {
+    wheelrail::Geometry g = standard_geometry();
+    g.round_wheel = round;
+    EXPECT_THROW(build_contact_table(g, p, load, options), Error);
+  };
+  refused(good, 0.0, {});
+  refused(good, kLoad, {}, false);
+  refused(good, kLoad, {.step = -1e-3});
+  refused(good, kLoad, {.relative_loads = {1.0, 0.5}});
+  refused(good, kLoad, {.relative_loads = {}});
+  wheelrail::Problem left = good, curved = good, far = good;
+  left.side = Side::left;
+  curved.track.curvature = 1e-3;
+  far.track.gauge_width = 2.0;
+  refused(left, kLoad, {});
+  refused(curved, kLoad, {});
+  refused(far, kLoad, {});
+}
+
+}  // namespace
+}  // namespace treadmark::vehicle
