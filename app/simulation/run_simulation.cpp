@@ -201,11 +201,21 @@ class Run {
     partial.snapshots = {};
     partial.snapshot_times.clear();
     partial.checkpoint = out.bytes();
+    const auto lock = lock_stores();
     io::write_simulation(options_.checkpoint_file, partial);
   }
 
+  std::unique_lock<std::mutex> lock_stores() const {
+    return options_.store_mutex ? std::unique_lock(*options_.store_mutex) : std::unique_lock<std::mutex>();
+  }
+
+  io::SimulationCheckpoint read_kept() const {
+    const auto lock = lock_stores();
+    return io::read_checkpoint(options_.checkpoint_file);
+  }
+
   void restore() {
-    const io::SimulationCheckpoint kept = io::read_checkpoint(options_.checkpoint_file);
+    const io::SimulationCheckpoint kept = read_kept();
     if (kept.version != result_.version || kept.input_sha256 != result_.input_sha256 || kept.settings != result_.settings)
       throw Error(ErrorKind::configuration, fmt::format("{} belongs to another simulation", options_.checkpoint_file.string()), {},
                   "resume with the same input and settings, or start anew in another folder");

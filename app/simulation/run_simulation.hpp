@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <mutex>
 #include <string>
 #include <vector>
 
@@ -20,6 +21,7 @@ struct SimulationOptions {
   /// Where unfinished results are kept, with what it takes to go on; empty: nowhere. The file is removed by nobody here.
   std::filesystem::path checkpoint_file;
   bool resume = false;                       ///< go on from that file, if there is one
+  std::mutex* store_mutex = nullptr;         ///< held while files are written: the HDF5 library may not be thread-safe
 };
 
 /// Time of the computer that a simulation took; not part of its results.

@@ -20,6 +20,7 @@ ALLOWED = {
     "detection": ["core", "detection"],
     "solvers/kalker": ["core", "solvers/kalker"],
     "solvers/wheelrail": ["core", "detection", "solvers/kalker", "solvers/wheelrail"],
+    "solvers/vehicle": ["core", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
     "app": ["core", "io", "backends", "scans", "detection", "solvers", "app"],
     "examples": ["core", "io", "backends", "scans", "detection", "solvers", "app"],
     "bench": ["core", "io", "backends", "scans", "detection", "solvers", "app", "bench"],

@@ -1,0 +1,68 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/simulation/run_study.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+void print_table(const io::StudyResult& study) {
+  for (const io::SimulationRun& run : study.runs) {
+    std::cout << fmt::format("{:>4}  {:<40} {:<10}", run.number, run.label, run.status);
+    for (const char* name : {"q_max_N", "q_max_over_static", "ty_max_N", "pmax_Pa"}) {
+      const double value = io::summary_value(run, name);
+      if (value == value) std::cout << fmt::format("  {} {:.5g}", name, value);
+    }
+    std::cout << (run.message.empty() ? "" : "  " + run.message) << '\n';
+  }
+}
+
+}  // namespace
+
+int sweep_command(const SweepOptions& options, const CommonOptions& common) {
+  if (!io::is_study_file(options.file))
+    throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {}, "treadmark simulate runs one simulation");
+  const app::ProcessPlace place = app::process_place();
+  const bool speaks = place.rank == 0 && !common.quiet;
+  // Processes that were started together share the cores.
+  const ThreadLimit limit(place.count > 1 && !options.threads_given ? 1 : common.threads);
+  const io::StudyFile study = io::read_study_file(options.file, options.overrides);
+  if (speaks)
+    for (const std::string& note : study.notes) std::cerr << "note: " << note << '\n';
+
+  app::StudyOptions wanted;
+  wanted.folder = options.output_folder;
+  wanted.settings = options.overrides;
+  wanted.must_exist = options.resume;
+  wanted.workers = std::min(thread_count(), std::max(1, static_cast<int>(study.runs.size())));
+  catch_interrupt();
+  app::StudyOutcome outcome;
+  {
+    ProgressLine line(!speaks);
+    Progress progress;
+    progress.stop = &interrupted();
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    outcome = app::run_study(study, wanted, progress);
+  }
+  if (speaks && outcome.found_finished > 0)
+    std::cerr << fmt::format("{} of {} runs were finished already\n", outcome.found_finished, outcome.runs_total);
+  if (!outcome.complete) {
+    std::cerr << fmt::format("stopped: {} of {} runs finished; the same command goes on\n", outcome.study.runs.size(), outcome.runs_total);
+    return kFailed;
+  }
+  app::write_study_folder(study, wanted, outcome.study);
+  if (place.rank == 0) print_table(outcome.study);
+  const bool all_good = std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
+  return all_good ? kOk : kFailed;
+}
+
+}  // namespace treadmark::cli

@@ -1,0 +1,145 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/simulation/study_figures.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/histories/history_svg.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/histories/summary_svg.hpp"
+
+namespace treadmark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// How quantities of a unit are drawn.
+struct ShownUnit {
+  double factor = 1.0;
+  std::string name;
+};
+ShownUnit shown_unit(const std::string& column) {
+  const auto ends = [&](const char* unit) { return column.ends_with(unit); };
+  if (ends("_Pa")) return {1e-6, "MPa"};
+  if (ends("_N")) return {1e-3, "kN"};
+  if (ends("_m2")) return {1e6, "mm2"};
+  const auto unit = column.rfind('_');
+  return {1.0, unit == std::string::npos ? "" : column.substr(unit + 1)};
+}
+
+std::string label_of(const std::string& column, const std::string& given) {
+  if (!given.empty()) return given;
+  const auto unit = column.rfind('_');
+  const ShownUnit shown = shown_unit(column);
+  return column.substr(0, unit) + (shown.name.empty() ? "" : " [" + shown.name + "]");
+}
+
+io::HistoryAxis axis(const std::string& column, const std::string& label) { return {column, label_of(column, label), shown_unit(column).factor}; }
+
+fs::path csv_of(fs::path svg) { return svg.replace_extension(".csv"); }
+
+class Figures {
+ public:
+  Figures(const io::StudyFile& file, const fs::path& folder, const io::StudyResult& study) : file_(file), folder_(folder), study_(study) {}
+
+  void draw(const io::StudyFigure& figure) {
+    switch (figure.kind) {
+      case io::StudyFigure::Kind::history: draw_history(figure); break;
+      case io::StudyFigure::Kind::summary: draw_summary(figure); break;
+      case io::StudyFigure::Kind::patches:
+        throw Error(ErrorKind::configuration, "contact patches are drawn by `treadmark simulate` of one run", {},
+                    "use kind = \"history\" or \"summary\" in a study");
+    }
+  }
+
+ private:
+  const io::SimulationResult& result_of(const io::SimulationRun& run) {
+    const auto found = results_.find(run.number);
+    if (found != results_.end()) return found->second;
+    return results_.emplace(run.number, io::read_simulation(run.store)).first->second;
+  }
+
+  /// The value that a run has of the variation that stands for the lines.
+  std::string series_of(const io::StudyFigure& figure, const io::SimulationRun& run) const {
+    std::string label = run.label;
+    for (const auto& [key, value] : run.swept)
+      if (key == figure.series) label = value;
+    for (std::size_t v = 0; v < file_.variations.size(); ++v) {
+      const io::Variation& variation = file_.variations[v];
+      if (variation.key != figure.series && variation.label != figure.series) continue;
+      for (std::size_t i = 0; i < variation.values.size() && i < figure.labels.size(); ++i)
+        if (variation.values[i].label == label) return figure.labels[i];
+    }
+    return label;
+  }
+
+  void draw_history(const io::StudyFigure& figure) {
+    io::HistoryChart chart;
+    chart.title = figure.title;
+    chart.x = axis(figure.x.empty() ? "t_s" : figure.x, figure.x_label);
+    for (const std::string& column : figure.y) chart.y.push_back(axis(column, figure.y.size() == 1 ? figure.y_label : ""));
+    if (figure.x_range) chart.x_range = {(*figure.x_range)[0], (*figure.x_range)[1]};
+    std::vector<io::HistoryRun> runs;
+    for (const io::SimulationRun& run : study_.runs) {
+      const io::SimulationResult& result = result_of(run);
+      if (result.rows() < 2) continue;
+      runs.push_back({&result, figure.series.empty() ? run.label : series_of(figure, run), panel_of(figure, run)});
+    }
+    if (runs.empty()) return;
+    const bool multiples = std::ranges::any_of(runs, [&](const io::HistoryRun& r) { return r.panel != runs.front().panel; });
+    if (multiples) io::write_history_multiples_svg(folder_ / figure.file, runs, chart);
+    else io::write_history_svg(folder_ / figure.file, runs, chart);
+    io::write_history_chart_csv(csv_of(folder_ / figure.file), runs, chart);
+  }
+
+  /// Runs that differ in more than the lines' variation stand in panels of their own, where one quantity is drawn.
+  std::string panel_of(const io::StudyFigure& figure, const io::SimulationRun& run) const {
+    if (figure.series.empty() || figure.y.size() != 1) return {};
+    std::string panel;
+    for (std::size_t v = 0; v < file_.variations.size() && v < run.swept.size(); ++v) {
+      const io::Variation& variation = file_.variations[v];
+      if (variation.key == figure.series || variation.label == figure.series) continue;
+      panel += (panel.empty() ? "" : ", ") + run.swept[v].second;
+    }
+    return panel;
+  }
+
+  void draw_summary(const io::StudyFigure& figure) {
+    if (figure.y.size() != 1) throw Error(ErrorKind::configuration, fmt::format("{}: a summary shows one quantity", figure.file.string()));
+    io::SummaryChart chart;
+    chart.title = figure.title;
+    chart.key = figure.x;
+    chart.x_label = figure.x_label.empty() ? figure.x : figure.x_label;
+    chart.quantity = figure.y.front();
+    chart.y_label = label_of(chart.quantity, figure.y_label);
+    chart.y_factor = shown_unit(chart.quantity).factor;
+    for (const io::FigureMark& mark : figure.marks) chart.references.push_back({mark.x, mark.y, mark.label});
+    if (chart.quantity == "q_max_N" && !study_.runs.empty()) {
+      const double at_rest = io::summary_value(study_.runs.front(), "q_static_N");
+      if (at_rest > 0.0) {
+        chart.level = at_rest;
+        chart.level_label = "at rest";
+      }
+    }
+    io::write_summary_svg(folder_ / figure.file, study_, chart);
+    io::write_summary_chart_csv(csv_of(folder_ / figure.file), study_, chart);
+  }
+
+  const io::StudyFile& file_;
+  const fs::path& folder_;
+  const io::StudyResult& study_;
+  std::map<int, io::SimulationResult> results_;
+};
+
+}  // namespace
+
+void write_study_figures(const io::StudyFile& file, const fs::path& folder, const io::StudyResult& study) {
+  Figures figures(file, folder, study);
+  for (const io::StudyFigure& figure : file.figures) figures.draw(figure);
+}
+
+}  // namespace treadmark::app
