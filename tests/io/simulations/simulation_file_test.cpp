@@ -160,6 +160,8 @@ TEST_F(SimulationText, ErrorsOfSettings) {
   EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 0"), HasSubstr("s.toml:6:13: simulation.speed_m_s = 0: a simulation needs a speed"));
   EXPECT_THAT(error("speed_m_s = 20\n", ""), HasSubstr("s.toml:3:1: simulation.speed_m_s is missing (a simulation needs a speed)"));
   EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = -1"), HasSubstr("must be at least 0"));
+  EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 1e6"), HasSubstr("must be at most 1000"));
+  EXPECT_THAT(error("speed_m_s = 20\ndistance_m = 3", "speed_m_s = 1e-300\ndistance_m = 1e300"), HasSubstr("s.toml:3:1: the simulation has no end"));
   EXPECT_THAT(error("speed_m_s", "speed"), HasSubstr("s.toml:6:1: unknown key 'simulation.speed' (did you mean 'simulation.speed_m_s'?)"));
   EXPECT_THAT(error("distance_m = 3\n", ""), HasSubstr("simulation.distance_m is missing"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nduration_s = 1"), HasSubstr("distance_m and simulation.duration_s exclude each other"));
@@ -239,6 +241,18 @@ TEST_F(SimulationText, ErrorsOfOverrides) {
   EXPECT_THAT(override_error("track_model.scale_stiffness=-1"), HasSubstr("track.scale_stiffness = -1 must be greater than 0"));
   EXPECT_THAT(override_error("wheel.flats.0.dept_mm=1"), HasSubstr("did you mean 'depth_mm'?"));
   EXPECT_THAT(error("track = \"track.toml\"\n", "", {"track_model.scale_mass=2"}), HasSubstr("there is no track to change"));
+}
+
+TEST_F(SimulationText, ShippedVehiclesRunOnShippedTracks) {
+  const std::string examples = std::string(TREADMARK_SOURCE_DIR) + "/examples/";
+  for (const char* vehicle : {"manchester", "single-wheelset", "wheel-on-mass"})
+    for (const char* track : {"zhai-equivalent", "gm-tt0088"}) {
+      const SimulationFile file = parse(kSimulation, {"simulation.vehicle=" + examples + "vehicles/" + vehicle + ".toml",
+                                                      "simulation.track=" + examples + "tracks/" + track + ".toml"});
+      EXPECT_EQ(file.wheels.size(), 2 * file.vehicle.wheelsets.size());
+      EXPECT_EQ(file.vehicle_file.path.stem(), vehicle);
+      EXPECT_TRUE(file.track);
+    }
 }
 
 TEST_F(SimulationText, KindsOfFilesAreTold) {
