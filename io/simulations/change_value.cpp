@@ -88,7 +88,11 @@ void change_within(CaseValue& value, std::string_view path, const CaseOverride& 
 
 }  // namespace
 
-void change_value(CaseTable& root, std::string_view path, const CaseOverride& change) { change_table(root, path, change); }
+void change_value(CaseTable& root, std::string_view path, const CaseOverride& change) {
+  constexpr std::size_t kLongestPath = 1000;
+  if (path.size() > kLongestPath) throw Error(ErrorKind::configuration, "the path of a key is too long", change.value.where);
+  change_table(root, path, change);
+}
 
 const CaseEntry* find_entry(const CaseTable& root, std::string_view path) {
   const std::size_t dot = path.find('.');

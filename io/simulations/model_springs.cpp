@@ -95,7 +95,7 @@ void check_characteristic(const TableReader& part, const BumpStopSpec& stop) {
   const auto fail = [&](std::string_view key, const std::string& what) {
     throw Error(ErrorKind::configuration, fmt::format("{} {}", part.path_of(key), what), part.need(key).where);
   };
-  const std::vector<double>&d = stop.displacement, &f = stop.force;
+  const auto &d = stop.displacement, &f = stop.force;
   if (d.size() < 2) fail("displacement_mm", "needs at least 2 values");
   if (d.size() != f.size()) fail("force_N", fmt::format("has {} values for {} displacements", f.size(), d.size()));
   if (std::adjacent_find(d.begin(), d.end(), std::greater_equal<>()) != d.end()) fail("displacement_mm", "must increase");

@@ -76,21 +76,19 @@ std::optional<SourcePosition> given_at(const ContactPart& part, std::string_view
   return entry->value.where;
 }
 
-void put(CaseTable& tables, const std::string& path, double value) {
-  change_value(tables, path, {path, {{}, value}, {}});
-}
-
 /// The tables as a complete case: with what the simulation knows, and a load for the checks.
 CaseTable completed(const ContactPart& part, const SimulationFile& out) {
   constexpr double kAnyLoad = 1.0;
   CaseTable tables = part.tables;
   const CaseEntry* wheelset = find_entry(tables, "wheelset");
   if (wheelset != nullptr && !wheelset->value.is_table()) return tables;  // the reader of cases tells what is wrong
+  const SourcePosition top{part.name.string(), 1, 1};
+  const auto put = [&](const std::string& path, double value) { change_value(tables, path, {path, {top, value}, {}}); };
   const double radius = out.vehicle.wheelsets.front().nominal_radius;
-  put(tables, "wheelset.vertical_force_N", kAnyLoad);
-  put(tables, "wheelset.velocity_m_s", out.settings.speed);
-  put(tables, "wheelset.vpitch_rad_s", -out.settings.speed / radius);
-  if (!given_at(part, "wheelset.nominal_radius_mm")) put(tables, "wheelset.nominal_radius_mm", radius * 1e3);
+  put("wheelset.vertical_force_N", kAnyLoad);
+  put("wheelset.velocity_m_s", out.settings.speed);
+  put("wheelset.vpitch_rad_s", -out.settings.speed / radius);
+  if (!given_at(part, "wheelset.nominal_radius_mm")) put("wheelset.nominal_radius_mm", radius * 1e3);
   return tables;
 }
 

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
+#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -19,7 +20,8 @@ namespace {
 
 double read_speed(const TableReader& simulation) {
   const CaseValue& value = simulation.need("speed_m_s", "a simulation needs a speed");
-  const double speed = simulation.number("speed_m_s", kNotNegative);
+  constexpr KeyLimits kSpeeds{{}, 0.0, 1000.0};
+  const double speed = simulation.number("speed_m_s", kSpeeds);
   if (!(speed > 0.0))
     throw Error(ErrorKind::configuration, "simulation.speed_m_s = 0: a simulation needs a speed", value.where,
                 "for a wheel that stands still use a case file");
@@ -62,6 +64,7 @@ SimulationSettings read_settings(const TableReader& simulation) {
     s.distance = simulation.number("distance_m", kPositive);
     s.duration = s.distance / s.speed;
   }
+  if (!std::isfinite(s.duration) || !std::isfinite(s.distance)) simulation.fail("the simulation has no end");
   s.gravity = simulation.number_or("gravity_m_s2", kPositive, s.gravity);
   s.tolerance = simulation.number_or("tolerance_um", kPositive, s.tolerance);
   s.max_step = simulation.number_if("max_step_us", kPositive);
