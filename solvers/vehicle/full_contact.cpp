@@ -80,7 +80,7 @@ wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& m
     p.history = kalker::HistoryUse::keep_going;
     p.discretisation.dq_relative = std::abs(travelled) / p.discretisation.dx;
   } else {
-    p.regime = kalker::Regime::steady;
+    if (p.regime == kalker::Regime::transient) p.regime = kalker::Regime::steady;
     p.history = kalker::HistoryUse::start;
   }
   pair_.restore(past.state);

@@ -1,0 +1,199 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "small_vehicles.hpp"
+#include "treadmark/backends/create.hpp"
+#include "treadmark/solvers/vehicle/full_contact.hpp"
+#include "treadmark/solvers/vehicle/simulation.hpp"
+
+namespace treadmark::vehicle {
+namespace {
+
+constexpr double kRadius = 0.46;
+
+wheelrail::Geometry bodies(bool flat) {
+  SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  SurfaceSpec wheel{Body::wheel, kRadius, StandardProfile{"S1002"}, {}};
+  if (flat) wheel.defects.flats = {{.length = 0.10, .depth = 0.9e-3, .theta_center = 0.0, .y_center = 0.006}};
+  return {create_surface(rail), create_surface(wheel), true, !flat};
+}
+
+wheelrail::Problem prototype(wheelrail::Side side, kalker::Regime regime, double element = 1e-3) {
+  wheelrail::Problem p;
+  p.side = side;
+  p.track.cant = 1.0 / 40.0;
+  p.wheelset.nominal_radius = kRadius;
+  p.regime = regime;
+  p.discretisation.dx = p.discretisation.ds = element;
+  return p;
+}
+
+PairMotion rolling(double speed, double z, double pitch = 1.0) {
+  PairMotion m;
+  m.wheelset.z = z;
+  m.wheelset.pitch = pitch;
+  m.wheelset_velocity.x = speed;
+  m.wheelset_velocity.pitch = -speed / kRadius * 1.001;
+  return m;
+}
+
+/// Power of the reaction on both bodies, from velocities of the points at which it acts.
+double power(const ContactReaction& r, const PairMotion& m) {
+  const auto& v = m.wheelset_velocity;
+  const Vec3 pitch_axis = (rotation_x(m.wheelset.roll) * rotation_z(m.wheelset.yaw)).col(1);
+  const Vec3 spin = v.roll * Vec3::UnitX() + v.yaw * rotation_x(m.wheelset.roll).col(2) + v.pitch * pitch_axis;
+  return r.on_wheelset.force.dot(Vec3(v.x, v.y, v.z)) + r.on_wheelset.moment.dot(spin) + r.on_rail.force.y() * m.rail.vy +
+         r.on_rail.force.z() * m.rail.vz + r.on_rail.moment.x() * m.rail.vroll;
+}
+
+TEST(FullContact, IsTheSolutionOfAPair) {
+  FullContact element(bodies(false), prototype(wheelrail::Side::right, kalker::Regime::steady));
+  const PairMotion m = rolling(20.0, 1.2e-4);
+  const ContactReaction r = element.evaluate(m);
+  ASSERT_EQ(r.status, Status::ok) << r.message;
+
+  wheelrail::Pair pair(bodies(false));
+  wheelrail::Problem p = prototype(wheelrail::Side::right, kalker::Regime::steady);
+  p.state.position = m.wheelset;
+  p.state.velocity = m.wheelset_velocity;
+  const wheelrail::PairSolution s = pair.solve(p);
+  EXPECT_NEAR(r.on_rail.force.z(), s.load.track.force.z(), 1e-6 * s.load.track.force.z());
+  EXPECT_NEAR(r.on_rail.force.y(), s.load.track.force.y(), 1e-5 * s.load.track.force.z());
+  EXPECT_NEAR(r.on_rail.force.x(), s.load.track.force.x(), 1e-5 * s.load.track.force.z());
+  // The wheel feels the opposite, about the axle's middle: by the wheel marker of the other solution.
+  const Vec3 arm = s.placement.X_TW.origin - s.placement.X_TWs.origin;
+  const Mat3& R = s.placement.X_TWs.rotation;
+  const Vec3 expected = -(R * s.load.wheelset.moment + arm.cross(s.load.track.force));
+  EXPECT_LT((r.on_wheelset.moment - expected).norm(), 1e-5 * s.load.track.force.norm());
+}
+
+TEST(FullContact, SidesAreMirrorImages) {
+  FullContact right(bodies(false), prototype(wheelrail::Side::right, kalker::Regime::steady));
+  FullContact left(bodies(false), prototype(wheelrail::Side::left, kalker::Regime::steady));
+  PairMotion m = rolling(20.0, 1.3e-4), mirrored = m;
+  m.wheelset.y = 1e-3, mirrored.wheelset.y = -1e-3;
+  m.wheelset.yaw = 1e-3, mirrored.wheelset.yaw = -1e-3;
+  m.rail.roll = 5e-4, mirrored.rail.roll = -5e-4;
+  m.rail.y = 2e-4, mirrored.rail.y = -2e-4;
+  m.rail.vy = 0.01, mirrored.rail.vy = -0.01;
+  const ContactReaction r = right.evaluate(m), l = left.evaluate(mirrored);
+  EXPECT_GT(r.normal_force, 1e4);
+  EXPECT_DOUBLE_EQ(r.on_rail.force.y(), -l.on_rail.force.y());
+  EXPECT_DOUBLE_EQ(r.on_rail.force.z(), l.on_rail.force.z());
+  EXPECT_DOUBLE_EQ(r.on_rail.moment.x(), -l.on_rail.moment.x());
+  EXPECT_NEAR(r.on_wheelset.moment.x(), -l.on_wheelset.moment.x(), 1e-9 * r.normal_force);
+  EXPECT_NEAR(r.on_wheelset.moment.y(), l.on_wheelset.moment.y(), 1e-9 * r.normal_force);
+  EXPECT_NEAR(r.contact_y, -l.contact_y, 1e-12);
+}
+
+TEST(FullContact, SteadyRollingDissipatesWhatItTakes) {
+  FullContact element(bodies(false), prototype(wheelrail::Side::right, kalker::Regime::steady, 0.5e-3));
+  PairMotion m = rolling(20.0, 1.2e-4);
+  m.wheelset.yaw = 2e-3;
+  const ContactReaction r = element.evaluate(m);
+  ASSERT_EQ(r.status, Status::ok);
+  EXPECT_GT(r.frictional_power, 100.0);
+  EXPECT_NEAR(-power(r, m), r.frictional_power, 0.02 * r.frictional_power);
+}
+
+TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
+  const auto make = [] { return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient)); };
+  FullContact disturbed = make(), plain = make();
+  PairMotion m = rolling(20.0, 1.2e-4, 0.12);
+  const double dx = 1e-3;
+  for (int i = 0; i < 30; ++i) {
+    if (i > 0) {
+      PairMotion other = m;
+      other.wheelset.z += 4e-5;
+      other.wheelset.x += dx;
+      disturbed.evaluate(other);
+      other.wheelset.z -= 3e-3;
+      disturbed.evaluate(other);
+    }
+    const ContactReaction a = disturbed.evaluate(m), b = plain.evaluate(m);
+    ASSERT_EQ(a.on_rail.force, b.on_rail.force) << i;
+    ASSERT_EQ(a.least_gap, b.least_gap);
+    disturbed.accept();
+    plain.accept();
+    m.wheelset.x += dx;
+    m.wheelset.pitch -= dx / kRadius;
+    m.wheelset.y += 2e-6;
+  }
+}
+
+TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
+  const auto make = [] { return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient)); };
+  FullContact element = make();
+  PairMotion m = rolling(20.0, 1.2e-4, 0.12);
+  ContactReaction last;
+  ByteWriter state, instant;
+  for (int i = 0; i < 20; ++i) {
+    last = element.evaluate(m);
+    element.accept();
+    m.wheelset.x += 7e-4;
+    m.wheelset.pitch -= 7e-4 / kRadius;
+  }
+  element.save(state);
+  FullContact::write(element.accepted(), instant);
+  const ContactReaction next = element.evaluate(m);
+
+  FullContact other = make();
+  ByteReader read_state(state.bytes()), read_instant(instant.bytes());
+  other.restore(read_state);
+  EXPECT_TRUE(read_state.at_end());
+  const wheelrail::PairSolution again = other.repeat(FullContact::read(read_instant));
+  EXPECT_EQ(again.load.track.force, last.on_rail.force);
+  EXPECT_EQ(other.evaluate(m).on_rail.force, next.on_rail.force);
+}
+
+/// A wheel pressed onto the rail so that it rolls without leaving it, slowly: its centre follows the flat. Chord flats of a rigid wheel
+/// drop it by (x + L/2)^2/(2 R) on the way in (Newton and Clark 1979).
+TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
+  // Light load, so that the bodies are nearly rigid.
+  SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  SurfaceSpec wheel{Body::wheel, kRadius, StandardProfile{"S1002"}, {}};
+  constexpr double kLength = 0.04, kLoad = 400.0, kDepth = kLength * kLength / (8.0 * kRadius);
+  WheelFlat flat;
+  flat.shape = WheelFlat::Shape::fresh;
+  flat.length = kLength;
+  wheel.defects.flats = {flat};
+  const wheelrail::Geometry geometry{create_surface(rail), create_surface(wheel), true, false};
+  VehicleModel model = wheel_on_mass(1000.0, 0.01, 1e3, 0.0);
+  VehicleOnTrack v;
+  constexpr double kSpeed = 0.05;
+  v.system = assemble(model, {}, kSpeed, 2.0 * kLoad / 1000.0);
+  v.speed = kSpeed;
+  v.pitch_at_start = {0.05};
+  for (const auto side : {wheelrail::Side::left, wheelrail::Side::right}) {
+    const wheelrail::Problem p = prototype(side, kalker::Regime::frictionless, 0.5e-3);
+    v.wheels.push_back({0, side, side == wheelrail::Side::left ? "left" : "right", std::make_shared<FullContact>(geometry, p),
+                        rail_marker_at_rest(geometry, p)});
+  }
+  v.connect();
+  const Equilibrium e = find_equilibrium(v);
+  ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
+  SimulationSettings settings;
+  settings.duration = 0.046 / kSpeed;
+  settings.max_step = 5e-3;
+  settings.max_travel = 0.5e-3;
+  Simulation s(v, e.state, settings);
+  double worst = 0.0, deepest = 0.0;
+  const double z0 = s.state().q[1];
+  while (!s.finished()) {
+    s.advance();
+    // Pivoting about an edge of the flat, the wheel's centre falls by half the square of the way it is off the edge.
+    const double x = std::abs(kSpeed * s.state().time - 0.05 * kRadius), drop = s.state().q[1] - z0;
+    const double rigid = x < 0.5 * kLength ? (0.5 * kLength - x) * (0.5 * kLength - x) / (2.0 * kRadius) : 0.0;
+    worst = std::max(worst, std::abs(drop - rigid));
+    deepest = std::max(deepest, drop);
+  }
+  EXPECT_GT(deepest, 0.9 * kDepth);
+  EXPECT_LT(worst, 0.06 * kDepth);
+}
+
+}  // namespace
+}  // namespace treadmark::vehicle
