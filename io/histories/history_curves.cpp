@@ -23,15 +23,16 @@ Point between(const Point& a, const Point& b, double x) {
 /// Parts of a curve, put together with a NaN between them.
 class Parts {
  public:
-  void part() {
-    if (!out.empty() && finite(out.back())) out.push_back({kNone, kNone});
-  }
+  void part() { parted_ = !out.empty(); }
   void add(const Point& point) {
+    if (parted_) out.push_back({kNone, kNone});
+    parted_ = false;
     if (out.empty() || out.back() != point) out.push_back(point);
   }
   Curve out;
 
  private:
+  bool parted_ = false;
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
 
