@@ -9,7 +9,7 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kWidest = 2.4, kNarrowest = 1.1;  // [px]
+constexpr double kWidest = 3.0, kNarrowest = 1.3;  // [px]
 constexpr const char* kDashes = "7 3.5";
 
 using Point = std::array<double, 2>;
@@ -82,7 +82,7 @@ void set_look(ChartSeries& series, std::size_t index, std::size_t count) {
 double legend_width(const std::vector<ChartSeries>& series) {
   double widest = 0.0;
   for (const ChartSeries& one : series) widest = std::max(widest, text_width(one.name, kChartFont));
-  return series.empty() ? 0.0 : widest + 40.0;
+  return series.empty() ? 0.0 : widest + 46.0;
 }
 
 }  // namespace treadmark::io

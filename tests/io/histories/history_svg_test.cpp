@@ -87,7 +87,7 @@ class HistorySvg : public ::testing::Test {
   HistorySvg() {
     for (const double speed : {10.0, 40.0}) results_.push_back(testing::sample_simulation(speed));
     chart_.title = "Q & T_y <test>";
-    chart_.y = {{"ws1_right.Q_N", "Q [kN]", 1e-3, {62e3}}, {"ws1_right.Ty_N", "", 1.0, {}}};
+    chart_.y = {{"ws1_right.Q_N", "Q [kN]", 1e-3, {62e3}, "static <load>"}, {"ws1_right.Ty_N", "", 1.0}};
     runs_ = {{&results_[0], "V < 20", "slow & \"low\""}, {&results_[1], "V = 40", "fast"}};
   }
 
@@ -118,6 +118,7 @@ TEST_F(HistorySvg, PanelsCurvesAndLegend) {
     EXPECT_EQ(std::count(texts.begin(), texts.end(), words), 1) << words;
   EXPECT_EQ(std::count(texts.begin(), texts.end(), "ws1_right.Ty_N"), 1);
   EXPECT_EQ(std::count(texts.begin(), texts.end(), "t [s]"), 1);
+  EXPECT_EQ(std::count(texts.begin(), texts.end(), "dotted: static &lt;load&gt;"), 1);
 }
 
 TEST_F(HistorySvg, ThePeakCanBeReadOffThePicture) {
