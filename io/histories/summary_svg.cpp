@@ -29,7 +29,8 @@ double number(const std::string& text, const std::string& key, int run) {
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) refuse(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
+  if (error != std::errc() || rest != end || !std::isfinite(value))
+    refuse(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
   return value;
 }
 

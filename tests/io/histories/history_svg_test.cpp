@@ -100,7 +100,8 @@ class HistorySvg : public ::testing::Test {
 double read_y(const testing::XmlElement& chart, double pixel) {
   std::vector<std::array<double, 2>> ticks;
   for (const auto* text : chart.find("text", "text-anchor", "end"))
-    if (std::regex_match(text->text, std::regex("-?[0-9.]+"))) ticks.push_back({std::stod(text->attributes.at("y")) - 4.0, std::stod(text->text)});
+    if (std::regex_match(text->text, std::regex("-?[0-9.]+")))
+      ticks.push_back({std::stod(text->attributes.at("y")) - 4.0, std::stod(text->text)});
   const auto &a = ticks.front(), &b = ticks.back();
   return a[1] + (pixel - a[0]) / (b[0] - a[0]) * (b[1] - a[1]);
 }
