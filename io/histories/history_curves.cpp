@@ -9,7 +9,7 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kWidest = 2.4, kNarrowest = 1.1;  // [px]
+constexpr double kWidest = 3.0, kNarrowest = 1.3;  // [px]
 constexpr const char* kDashes = "7 3.5";
 
 using Point = std::array<double, 2>;
@@ -23,15 +23,16 @@ Point between(const Point& a, const Point& b, double x) {
 /// Parts of a curve, put together with a NaN between them.
 class Parts {
  public:
-  void part() {
-    if (!out.empty() && finite(out.back())) out.push_back({kNone, kNone});
-  }
+  void part() { parted_ = !out.empty(); }
   void add(const Point& point) {
+    if (parted_) out.push_back({kNone, kNone});
+    parted_ = false;
     if (out.empty() || out.back() != point) out.push_back(point);
   }
   Curve out;
 
  private:
+  bool parted_ = false;
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 };
 
@@ -81,7 +82,7 @@ void set_look(ChartSeries& series, std::size_t index, std::size_t count) {
 double legend_width(const std::vector<ChartSeries>& series) {
   double widest = 0.0;
   for (const ChartSeries& one : series) widest = std::max(widest, text_width(one.name, kChartFont));
-  return series.empty() ? 0.0 : widest + 40.0;
+  return series.empty() ? 0.0 : widest + 46.0;
 }
 
 }  // namespace treadmark::io

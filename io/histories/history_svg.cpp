@@ -87,6 +87,15 @@ std::array<double, 2> shown_y(const std::vector<Chart>& charts) {
   return {axis.low(), axis.high()};
 }
 
+/// What the dotted lines are.
+std::string level_remark(const HistoryChart& spec, double bottom) {
+  std::string words;
+  for (const HistoryAxis& y : spec.y)
+    if (!y.levels.empty() && !y.level_label.empty() && words.find(y.level_label) == std::string::npos)
+      words += (words.empty() ? "dotted: " : ", ") + y.level_label;
+  return words.empty() ? "" : svg_text(kLeft, bottom - 14.0, words, "start", " class=\"remark\"");
+}
+
 std::string title(const std::string& words, double middle) { return svg_text(middle, 22.0, words, "middle", " class=\"title\""); }
 
 std::vector<std::string> panel_names(std::span<const HistoryRun> runs) {
@@ -136,8 +145,8 @@ std::string history_svg(std::span<const HistoryRun> runs, const HistoryChart& sp
   const double height = std::max(kTop + count * kHeight + (count - 1.0) * kBetween + kBottom,
                                  kTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
   const double beside = legend.empty() ? 0.0 : kLegend + legend_width(legend);
-  std::string out = svg_head(kLeft + kWidth + kRight + beside, height, kChartFont, kChartStyle);
-  out += title(spec.title, kLeft + 0.5 * kWidth);
+  std::string out = svg_head(kLeft + kWidth + (legend.empty() ? kRight : beside), height, kChartFont, kChartStyle);
+  out += title(spec.title, kLeft + 0.5 * kWidth) + level_remark(spec, height);
   const auto range = shown_x(charts, spec);
   double y = kTop - 16.0;
   for (Chart& chart : charts) {
@@ -159,9 +168,10 @@ std::string history_multiples_svg(std::span<const HistoryRun> runs, const Histor
   const std::size_t rows = (count + columns - 1) / columns;
   const double across = static_cast<double>(columns), down = static_cast<double>(rows);
   const double panel = count == 1 ? kWidth : kSmall, panel_height = count == 1 ? 1.7 * kHeight : kSmallHeight;
-  std::string out = svg_head(kLeft + across * panel + (across - 1.0) * kSmallGapX + kRight,
-                             kTop + down * panel_height + (down - 1.0) * kSmallGapY + kBottom, kChartFont, kChartStyle);
-  out += title(spec.title, kLeft + 0.5 * (across * panel + (across - 1.0) * kSmallGapX));
+  const double width = across * panel + (across - 1.0) * kSmallGapX;
+  const double height = kTop + down * panel_height + (down - 1.0) * kSmallGapY + kBottom;
+  std::string out = svg_head(kLeft + width + kRight, height, kChartFont, kChartStyle);
+  out += title(spec.title, kLeft + 0.5 * width) + level_remark(spec, height);
   const auto x_range = shown_x(charts, spec);
   const std::array<double, 2> y_range = shown_y(charts);
   for (std::size_t i = 0; i < count; ++i) {

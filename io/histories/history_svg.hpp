@@ -16,6 +16,7 @@ struct HistoryAxis {
   std::string column, label;  ///< "ws1_right.Q_N", "Q [kN]"; an empty label: the name of the column
   double factor = 1.0;        ///< what is drawn over what the column holds
   std::vector<double> levels = {};  ///< values of the column, drawn as dotted lines: a static load
+  std::string level_label = {};     ///< what they are; may be empty
 };
 
 /// A simulation in a chart.

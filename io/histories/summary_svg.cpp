@@ -20,6 +20,7 @@ namespace {
 // Sizes in pixels.
 constexpr double kLeft = 78.0, kTop = 46.0, kBottom = 56.0, kWidth = 560.0, kHeight = 380.0, kLegend = 24.0, kRight = 24.0;
 constexpr double kRemarkLine = 15.0;
+constexpr double kMargin = 0.04;  // of x, beyond the values
 constexpr int kBlack = 4;  // style of levels and references
 
 [[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::configuration, "chart of a study: " + message); }
@@ -28,7 +29,8 @@ double number(const std::string& text, const std::string& key, int run) {
   double value = 0.0;
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
-  if (error != std::errc() || rest != end || !std::isfinite(value)) refuse(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
+  if (error != std::errc() || rest != end || !std::isfinite(value))
+    refuse(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
   return value;
 }
 
@@ -80,6 +82,19 @@ SummaryLines make_lines(const StudyResult& study, const SummaryChart& spec) {
   return out;
 }
 
+/// Around the values with a little room, but not below zero where none of them is.
+std::optional<std::array<double, 2>> shown_x(const Chart& chart) {
+  double low = INFINITY, high = -INFINITY;
+  for (const ChartSeries& series : chart.series)
+    for (const ChartPoint& point : series.points) {
+      low = std::min(low, point.x);
+      high = std::max(high, point.x);
+    }
+  if (chart.x_scale == AxisScale::log || !(low < high) || !std::isfinite(high - low)) return {};
+  const double room = kMargin * (high - low), begin = low - room;
+  return std::array{low >= 0.0 ? std::max(0.0, begin) : begin, high + room};
+}
+
 Chart make_chart(const SummaryLines& all, const SummaryChart& spec) {
   Chart chart;
   chart.title = spec.title;
@@ -109,6 +124,7 @@ Chart make_chart(const SummaryLines& all, const SummaryChart& spec) {
   for (const SummaryReference& one : spec.references)
     references.points.push_back({one.x * spec.x_factor, one.y * spec.y_factor, 4.5, one.label, one.label});
   if (!references.points.empty()) chart.series.push_back(std::move(references));
+  chart.x_range = shown_x(chart);
   return chart;
 }
 
@@ -128,7 +144,7 @@ std::string summary_svg(const StudyResult& study, const SummaryChart& spec) {
   const double below = kRemarkLine * static_cast<double>(all.missing.size());
   const double height = std::max(kTop + kHeight + kBottom + below, kTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
   const double beside = legend.empty() ? 0.0 : kLegend + legend_width(legend);
-  std::string out = svg_head(kLeft + kWidth + kRight + beside, height, kChartFont, kChartStyle);
+  std::string out = svg_head(kLeft + kWidth + (legend.empty() ? kRight : beside), height, kChartFont, kChartStyle);
   out += draw_chart(chart, {kLeft, kTop, kWidth, kHeight});
   if (!legend.empty()) out += draw_chart_legend(legend, kLeft + kWidth + kLegend, kTop + 12.0);
   double y = kTop + kHeight + kBottom - 4.0;

@@ -143,12 +143,7 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, bool by
 
   out += svg_text(0.5 * width, -20.0, title_of(result, by_place), "middle", " class=\"title\"");
   if (picture.contact) {
-    double force = 0.0, pressure = 0.0;
-    for (const PatchResult& patch : result.patches) {
-      force += patch.fn;
-      pressure = std::max(pressure, patch.pmax);
-    }
-    out += svg_text(0.5 * width, -7.0, three_digits(force * 1e-3) + " kN, " + three_digits(pressure * 1e-6) + " MPa");
+    out += svg_text(0.5 * width, -7.0, force_and_pressure(result));
     for (const PatchPicture& patch : picture.patches) out += draw_patch(patch, top_pressure, panel);
   } else {
     std::string words(to_string(result.status));

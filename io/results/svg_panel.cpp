@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "treadmark/io/results/svg_text.hpp"
@@ -29,6 +30,15 @@ std::string draw_panel_axes(const PanelScale& panel, bool numbers_of_y) {
     if (numbers_of_y) out += svg_text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
   });
   return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
+}
+
+std::string force_and_pressure(const CaseResult& result) {
+  double force = 0.0, pressure = 0.0;
+  for (const PatchResult& patch : result.patches) {
+    force += patch.fn;
+    pressure = std::max(pressure, patch.pmax);
+  }
+  return three_digits(force * 1e-3) + " kN, " + three_digits(pressure * 1e-6) + " MPa";
 }
 
 std::string draw_pressure_bar(double top_pressure, double height) {

@@ -39,7 +39,8 @@ TEST(HistoryCsv, EveryNumberReadsBackExactly) {
 
 TEST(HistoryCsv, EventsAndModesHaveTheirTables) {
   const testing::TemporaryFolder folder;
-  const io::SimulationResult result = testing::sample_simulation(10.0, 11);
+  io::SimulationResult result = testing::sample_simulation(10.0, 11);
+  result.events[0].position = 0.45;
   io::write_events_csv(folder.path() / "events.csv", result);
   io::write_modes_csv(folder.path() / "modes.csv", result);
   EXPECT_EQ(testing::read_text(folder.path() / "events.csv"),

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <limits>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/hdf5/hdf5_reader.hpp"
+#include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/tests/io/results/sample_run.hpp"
+
+namespace treadmark {
+namespace {
+
+template <class Action>
+ErrorKind kind_of_error(Action action) {
+  try {
+    action();
+  } catch (const Error& error) {
+    EXPECT_FALSE(error.message().empty());
+    return error.kind();
+  }
+  ADD_FAILURE() << "no error";
+  return ErrorKind::numerical;
+}
+
+class Hdf5File : public ::testing::Test {
+ protected:
+  testing::TemporaryFolder folder_;
+  std::filesystem::path path_ = folder_.path() / "a.h5";
+};
+
+TEST_F(Hdf5File, ValuesOfEveryKindComeBack) {
+  std::vector<double> numbers;
+  for (int i = 0; i < 40000; ++i) numbers.push_back(i / 7.0);  // more than a chunk
+  numbers[3] = -std::numeric_limits<double>::infinity();
+  const std::vector<std::uint8_t> bytes{0, 255, 7};
+  const std::vector<std::string> texts{"", "µ <x>", std::string(100000, 'a')};
+  {
+    io::Hdf5Writer file(path_, "a.h5");
+    const io::Hdf5GroupWriter group = file.root().make_group("group").make_group("inner.one");
+    group.add({"word", std::string("größe")});
+    group.add({"words", texts});
+    group.write({"numbers", {200, 200}, "m", "what they are", true}, numbers);
+    group.write({"bytes", {3}, "1", "", true}, bytes);
+    group.write({"texts", {3}, "1", ""}, texts);
+    group.write({"none", {0}, "1", "", true}, std::span<const double>());
+    group.write({"no texts", {0}, "1", ""}, std::vector<std::string>());
+    const double one = 5.0;
+    group.write({"one", {}, "s", ""}, {&one, 1});
+    file.close();
+  }
+  const io::Hdf5Reader file(path_);
+  EXPECT_TRUE(file.root().has("group"));
+  EXPECT_FALSE(file.root().has("inner.one"));
+  const io::Hdf5GroupReader group = file.root().open_group("group").open_group("inner.one");
+  EXPECT_EQ(group.text("word"), "größe");
+  EXPECT_EQ(group.texts("words"), texts);
+  EXPECT_EQ(group.numbers("numbers"), numbers);
+  EXPECT_EQ(group.text_of("numbers", "meaning"), "what they are");
+  EXPECT_EQ(group.bytes("bytes"), bytes);
+  EXPECT_EQ(group.strings("texts"), texts);
+  EXPECT_TRUE(group.numbers("none").empty());
+  EXPECT_TRUE(group.strings("no texts").empty());
+  EXPECT_EQ(group.numbers("one"), std::vector<double>{5.0});
+}
+
+TEST_F(Hdf5File, ACopiedFileIsAGroup) {
+  for (const char* name : {"one.h5", "two.h5"}) {
+    io::Hdf5Writer file(folder_.path() / name, name);
+    file.root().add({"name", std::string(name)});
+    file.root().make_group("part").write({"texts", {1}, "1", ""}, std::vector<std::string>{name});
+    file.close();
+  }
+  io::Hdf5Writer file(path_, "a.h5");
+  file.root().copy_file(folder_.path() / "one.h5", "first");
+  file.root().copy_file(folder_.path() / "two.h5", "second");
+  EXPECT_EQ(kind_of_error([&] { file.root().copy_file(folder_.path() / "three.h5", "third"); }), ErrorKind::input_data);
+  file.close();
+  const io::Hdf5Reader read(path_);
+  EXPECT_EQ(read.root().open_group("second").text("name"), "two.h5");
+  EXPECT_EQ(read.root().open_group("first").open_group("part").strings("texts"), std::vector<std::string>{"one.h5"});
+}
+
+TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
+  const std::vector<double> two{1.0, 2.0};
+  {
+    io::Hdf5Writer file(path_, "a.h5");
+    for (const std::string name : {"", ".", "a/b", "/"}) {
+      EXPECT_EQ(kind_of_error([&] { file.root().make_group(name); }), ErrorKind::configuration);
+      EXPECT_EQ(kind_of_error([&] { file.root().write({name, {2}, "1", ""}, two); }), ErrorKind::configuration);
+    }
+    EXPECT_EQ(kind_of_error([&] { file.root().write({"two", {3}, "1", ""}, two); }), ErrorKind::configuration);
+    EXPECT_EQ(kind_of_error([&] { file.root().write({"two", {}, "1", ""}, two); }), ErrorKind::configuration);
+    file.root().write({"two", {2}, "1", ""}, two);
+    EXPECT_EQ(kind_of_error([&] { file.root().make_group("two"); }), ErrorKind::configuration);  // there already
+    file.root().add({"number", 2});
+    file.close();
+  }
+  const io::Hdf5Reader file(path_);
+  EXPECT_EQ(kind_of_error([&] { file.root().strings("two"); }), ErrorKind::input_data);
+  EXPECT_EQ(kind_of_error([&] { file.root().numbers("three"); }), ErrorKind::input_data);
+  EXPECT_EQ(kind_of_error([&] { file.root().open_group("two"); }), ErrorKind::input_data);
+  EXPECT_EQ(kind_of_error([&] { file.root().text("number"); }), ErrorKind::input_data);
+  EXPECT_EQ(kind_of_error([&] { file.root().text("none"); }), ErrorKind::input_data);
+  EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer other(folder_.path() / "none" / "a.h5", "a"); }), ErrorKind::configuration);
+}
+
+}  // namespace
+}  // namespace treadmark
