@@ -58,7 +58,7 @@ std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const R
 }
 
 InverseCompliance::InverseCompliance(int nx, int ny, const ComplianceKernel& kernel)
-    : nx_(nx), ny_(ny), fft_(ring_size(nx), ny == 1 ? 1 : fast_columns(ring_size(ny)), ny) {
+    : nx_(nx), ny_(ny), fft_(ring_size(nx), ny == 1 ? 1 : ring_size(ny), ny) {
   symbol_ = ring_symbol(kernel, fft_);
   const double scale = 1.0 / (static_cast<double>(fft_.nx()) * fft_.ny());
   for (ComplianceBlock& b : symbol_) {
