@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
 #include <optional>
 
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::detection {
+
+struct SampledProfile;
 
 /// Undeformed distances are to be found with a mesh of the wheel and sections of the rail, as in the reference program (CONTACT).
 struct DistanceMesh {
@@ -20,6 +23,7 @@ struct BodyPair {
   Pose X_TR;                       ///< rail frame in T
   Pose X_TW;                       ///< wheel surface frame (origin on the axle, pitched with the wheel) in T
   std::optional<DistanceMesh> distance_mesh = std::nullopt;  ///< empty: distances between the surfaces themselves
+  std::shared_ptr<const SampledProfile> wheel_profile = nullptr;  ///< whole_profile() of the wheel, made once for many searches; null: made when needed
 };
 
 }  // namespace treadmark::detection

@@ -12,7 +12,6 @@ namespace treadmark::detection {
 namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kProfileStep = 0.25e-3;  // [m]; cubics between the points are good to a nanometre, kinks apart
 constexpr int kFineRows = 240;
 
 /// The silhouette of the wheel along x of T, at one point of its profile.
@@ -93,16 +92,13 @@ bool ContactLocus::applies(const BodyPair& bodies) {
 
 ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)
     : bodies_(bodies), x_low_(g.x(0)), x_high_(g.x(g.nx - 1)) {
-  const Box3 box = bodies.wheel->bounds();
-  const double width = box.max.y() - box.min.y();
-  const int count = std::clamp(static_cast<int>(width / kProfileStep) + 2, 16, 20000);
-  outline_ = trace({g.y0, g.dy, g.ny}, {box.min.y(), width / (count - 1), count}, false);
+  const auto profile = bodies.wheel_profile ? bodies.wheel_profile : whole_profile(*bodies.wheel);
+  outline_ = trace({g.y0, g.dy, g.ny}, *profile, false);
 }
 
-ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s, bool curves) {
-  const auto n = static_cast<std::size_t>(s.count), m = static_cast<std::size_t>(rows.count);
-  std::vector<double> r(n), by_y(n);
-  bodies_.wheel->heights({Pose{}, {0.0, s.first, 1.0, s.step, 1, s.count}}, {r, {}, by_y});
+ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile& s, bool curves) {
+  const auto n = s.radius.size(), m = static_cast<std::size_t>(rows.count);
+  const std::vector<double>&r = s.radius, &by_y = s.slope;
   Outline line;
   line.rows = rows;
   line.rail_z.resize(m), line.rail_slope.resize(m);
@@ -118,7 +114,7 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const Samples& s, bo
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t before = i > 0 && !std::isnan(r[i - 1]) ? i - 1 : i, after = i + 1 < n && !std::isnan(r[i + 1]) ? i + 1 : i;
     const double by_yy = after > before ? (by_y[after] - by_y[before]) / (s.step * static_cast<double>(after - before)) : 0.0;
-    const SilhouettePoint b = silhouette.at(s.first + static_cast<double>(i) * s.step, r[i], by_y[i], by_yy);
+    const SilhouettePoint b = silhouette.at(s.y(i), r[i], by_y[i], by_yy);
     const double rise = b.y - a.y;
     if (std::abs(rise) > 1e-3 * s.step) {
       const double low = std::min(a.y, b.y), high = std::max(a.y, b.y);
@@ -181,12 +177,14 @@ const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_
     y_min = std::fmin(y_min, wheel_y_[static_cast<std::size_t>(row)]);
     y_max = std::fmax(y_max, wheel_y_[static_cast<std::size_t>(row)]);
   }
-  const double margin = coarse.step + 2.0 * kProfileStep;
+  constexpr double kMargin = 0.5e-3;  // [m]
+  const double margin = coarse.step + kMargin;
   y_min -= margin, y_max += margin;
   constexpr std::size_t kKept = 8;
   if (fine_.size() >= kKept) fine_.erase(fine_.begin());
   fine_.push_back({first_row, last_row,
-                   trace({low, (high - low) / (kFineRows - 1), kFineRows}, {y_min, (y_max - y_min) / (kFineRows - 1), kFineRows}, true)});
+                   trace({low, (high - low) / (kFineRows - 1), kFineRows},
+                         sample_profile(*bodies_.wheel, y_min, (y_max - y_min) / (kFineRows - 1), kFineRows), true)});
   return fine_.back().outline;
 }
 

@@ -7,6 +7,7 @@
 #include "treadmark/detection/body_pair.hpp"
 #include "treadmark/detection/contact_patch.hpp"
 #include "treadmark/detection/interpenetration.hpp"
+#include "treadmark/detection/sampled_profile.hpp"
 
 namespace treadmark::detection {
 
@@ -41,11 +42,6 @@ class ContactLocus {
     double y(int i) const { return first + i * step; }
     friend bool operator==(const Rows&, const Rows&) = default;
   };
-  /// The wheel's profile sampled at equal steps of its own y.
-  struct Samples {
-    double first = 0.0, step = 0.0;
-    int count = 0;
-  };
   /// Per row: gap there, where along x, the wheel's curve along x as a circle with a cubic part (a yawed wheel is askew), and
   /// the rail. NaN gap: none.
   struct Outline {
@@ -54,7 +50,7 @@ class ContactLocus {
     double least = 0.0;
     double closest = 0.0;   ///< least gap, between the rows as well [m]
   };
-  Outline trace(const Rows& rows, const Samples& samples, bool curves);
+  Outline trace(const Rows& rows, const SampledProfile& profile, bool curves);
   const Outline& fine_outline(int first_row, int last_row);
   void weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest, Found& found) const;
 

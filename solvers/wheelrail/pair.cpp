@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/detection/sampled_profile.hpp"
 #include "treadmark/solvers/wheelrail/damping.hpp"
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
@@ -114,6 +115,7 @@ void complete(const Problem& p, PairSolution& solution) {
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
   require_facing(geometry_.wheel, Facing::down, "wheel");
+  wheel_profile_ = detection::whole_profile(*geometry_.wheel);
 }
 
 Pair::~Pair() = default;
@@ -159,7 +161,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
     note(solution, Status::ok, violated);
   }
 
-  PairStep step(geometry_, p, next->previous, solvers_, solution.times);
+  PairStep step(geometry_, p, next->previous, solvers_, solution.times, wheel_profile_);
   const double known = next->previous.stiffness;
   Balance balance = find_balance(step, p, known > 0.0 ? known : stiffness_guess(p.material));
   solution.z = balance.z + balance.rail_dz;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cmath>
+#include <utility>
 
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/part_slip.hpp"
@@ -31,8 +32,8 @@ constexpr double kDeepestOfRadius = 0.02;
 }  // namespace
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
-                   PhaseTimes& times)
-    : geometry_(geometry), problem_(problem), previous_(previous), solvers_(solvers), times_(times), tangential_share_(previous.shares) {}
+                   PhaseTimes& times, std::shared_ptr<const detection::SampledProfile> wheel_profile)
+    : geometry_(geometry), wheel_profile_(std::move(wheel_profile)), problem_(problem), previous_(previous), solvers_(solvers), times_(times), tangential_share_(previous.shares) {}
 
 bool PairStep::aligned() const {
   return problem_.regime == kalker::Regime::shift || problem_.regime == kalker::Regime::transient;
@@ -44,7 +45,7 @@ bool PairStep::place(double rail_dy) {
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
-  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS, start_.X_TA};
+  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS, start_.X_TA, std::nullopt, wheel_profile_};
   const Stopwatch watch(times_.search_s);
   search_.emplace(bodies, search_settings(geometry_, moved, start_));
   const double gap = search_->least_gap();

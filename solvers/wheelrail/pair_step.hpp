@@ -3,6 +3,7 @@
 #pragma once
 
 #include <limits>
+#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -15,11 +16,11 @@ namespace treadmark::wheelrail {
 
 /// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail, patches
 /// with their normal problems per height of the wheel over the rail, tangential problems per pitch rate.
-/// A right-hand problem. previous, the solvers and times must outlive this.
+/// A right-hand problem. wheel_profile: detection::whole_profile() of the wheel or null. The others must outlive this.
 class PairStep {
  public:
   PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
-           PhaseTimes& times);
+           PhaseTimes& times, std::shared_ptr<const detection::SampledProfile> wheel_profile);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other.
   bool place(double rail_dy);
@@ -73,6 +74,7 @@ class PairStep {
   void resolve_forces(Patch& patch) const;
 
   const Geometry& geometry_;
+  std::shared_ptr<const detection::SampledProfile> wheel_profile_;
   Problem problem_;
   const Instant& previous_;
   std::vector<kalker::ContactSolver>& solvers_;

@@ -121,4 +121,10 @@ int good_fft_size(int n) {
   return 5 * power <= 6 * size ? power : size;
 }
 
+int fast_columns(int ny) {
+  constexpr int kSmallest = 32, kLargest = 128;
+  const int power = static_cast<int>(std::bit_ceil(static_cast<unsigned>(ny)));
+  return power >= kSmallest && power <= kLargest ? power : ny;
+}
+
 }  // namespace treadmark::kalker

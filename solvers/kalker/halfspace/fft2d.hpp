@@ -51,6 +51,10 @@ class RealFft2d {
 /// if that is at most a fifth larger.
 int good_fft_size(int n);
 
+/// A number of rows >= ny for which transforms along columns are fast: columns of 32, 64 or 128 values are one kernel of FFTW each,
+/// several times faster than the lengths between them. Rows that are not active cost nothing else.
+int fast_columns(int ny);
+
 /// "FFTW" or "KISS FFT": the library that was compiled in.
 const char* fft_library();
 

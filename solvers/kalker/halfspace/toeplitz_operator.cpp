@@ -15,7 +15,7 @@ namespace {
 constexpr int kDirectSize = 64;
 
 int padded(int n) { return good_fft_size(2 * n - 1); }
-int padded_rows(int n) { return n == 1 ? 1 : padded(n); }
+int padded_rows(int n) { return n == 1 ? 1 : fast_columns(padded(n)); }
 
 std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
 

@@ -3,6 +3,7 @@
 #include "treadmark/solvers/kalker/tangential/patch.hpp"
 
 #include <algorithm>
+#include <cstring>
 #include <utility>
 
 namespace treadmark::kalker {
@@ -53,9 +54,7 @@ Patch make_patch(const Grid2& grid, Transport transport, const std::vector<Eleme
 PatchOperator::PatchOperator(const Patch& patch, Compliance& compliance, std::optional<RowInclination> rows)
     : patch_(patch), compliance_(compliance), rows_(std::move(rows)) {
   in_x_.assign(compliance.size(), 0.0);
-  in_y_ = in_x_;
-  out_x_ = in_x_;
-  out_y_ = in_x_;
+  in_y_ = out_x_ = out_y_ = inverse_x_ = inverse_y_ = in_x_;
   const Compliance::Entry own = compliance.at(0, 0), ahead = compliance.at(patch.transport == Transport::backward ? -1 : 1, 0);
   diagonal_ = 0.5 * (own.xx + own.yy);
   if (patch.transport != Transport::none) diagonal_ -= 0.5 * (ahead.xx + ahead.yy);
@@ -69,29 +68,38 @@ void PatchOperator::scatter(std::span<const double> field) {
   }
 }
 
-void PatchOperator::gather(std::span<double> field) const {
+void PatchOperator::gather(std::span<const double> x, std::span<const double> y, std::span<double> field) const {
   const std::size_t n = patch_.cell.size();
   for (std::size_t i = 0; i < n; ++i) {
-    field[i] = out_x_[patch_.cell[i]];
-    field[n + i] = out_y_[patch_.cell[i]];
+    field[i] = x[patch_.cell[i]];
+    field[n + i] = y[patch_.cell[i]];
   }
 }
 
-void PatchOperator::apply(Transport transport, std::span<const double> p, std::span<double> s) {
+void PatchOperator::multiply(Transport transport, std::span<const double> p) {
+  // The same tractions are asked for again when an iteration ends: bits are compared, so that nothing changes by this.
+  if (transport == last_transport_ && p.size() == last_.size() && std::memcmp(p.data(), last_.data(), p.size_bytes()) == 0) return;
   scatter(p);
   compliance_.apply(transport, in_x_, in_y_, out_x_, out_y_, rows());
-  gather(s);
+  last_.assign(p.begin(), p.end());
+  last_transport_ = transport;
+}
+
+void PatchOperator::apply(Transport transport, std::span<const double> p, std::span<double> s) {
+  multiply(transport, p);
+  gather(out_x_, out_y_, s);
 }
 
 void PatchOperator::displacement_of_box(std::span<const double> p, std::span<double> ux, std::span<double> uy) {
-  scatter(p);
-  compliance_.apply(Transport::none, in_x_, in_y_, ux, uy, rows());
+  multiply(Transport::none, p);
+  std::ranges::copy(out_x_, ux.begin());
+  std::ranges::copy(out_y_, uy.begin());
 }
 
 void PatchOperator::inverse_displacement(std::span<const double> u, std::span<double> p) {
   scatter(u);
-  compliance_.inverse().apply(in_x_, in_y_, out_x_, out_y_);
-  gather(p);
+  compliance_.inverse().apply(in_x_, in_y_, inverse_x_, inverse_y_);
+  gather(inverse_x_, inverse_y_, p);
 }
 
 }  // namespace treadmark::kalker

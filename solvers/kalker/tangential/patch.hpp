@@ -57,14 +57,18 @@ class PatchOperator {
 
  private:
   void apply(Transport transport, std::span<const double> p, std::span<double> s);
+  /// The product over the box, in out.
+  void multiply(Transport transport, std::span<const double> p);
   void scatter(std::span<const double> field);
-  void gather(std::span<double> field) const;
+  void gather(std::span<const double> x, std::span<const double> y, std::span<double> field) const;
 
   const Patch& patch_;
   Compliance& compliance_;
   std::optional<RowInclination> rows_;
   double diagonal_ = 0.0;
-  AlignedVector<double> in_x_, in_y_, out_x_, out_y_;
+  AlignedVector<double> in_x_, in_y_, out_x_, out_y_, inverse_x_, inverse_y_;
+  Field2 last_;                                ///< tractions of out; empty = none
+  Transport last_transport_ = Transport::none;
 };
 
 }  // namespace treadmark::kalker

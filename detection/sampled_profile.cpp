@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/detection/sampled_profile.hpp"
+
+#include <algorithm>
+
+namespace treadmark::detection {
+
+SampledProfile sample_profile(const Surface& wheel, double first, double step, int count) {
+  SampledProfile p{first, step, std::vector<double>(static_cast<std::size_t>(count)), std::vector<double>(static_cast<std::size_t>(count))};
+  wheel.heights({Pose{}, {0.0, first, 1.0, step, 1, count}}, {p.radius, {}, p.slope});
+  return p;
+}
+
+std::shared_ptr<const SampledProfile> whole_profile(const Surface& wheel) {
+  if (!wheel.constant_profile() || wheel.facing() != Facing::down) return nullptr;
+  constexpr double kStep = 0.25e-3;  // [m]; cubics between the points are good to a nanometre, kinks apart
+  const Box3 box = wheel.bounds();
+  const double width = box.max.y() - box.min.y();
+  const int count = std::clamp(static_cast<int>(width / kStep) + 2, 16, 20000);
+  return std::make_shared<SampledProfile>(sample_profile(wheel, box.min.y(), width / (count - 1), count));
+}
+
+}  // namespace treadmark::detection
