@@ -44,6 +44,33 @@ PatchTangent tangent_of(const wheelrail::PatchSolution& patch, const wheelrail::
   return t;
 }
 
+/// Traction of a row at a place between element centres, 0 outside.
+double traction_at(const std::vector<double>& field, const Grid2& grid, double ix, int iy) {
+  const int low = static_cast<int>(std::floor(ix));
+  const double share = ix - low;
+  const auto at = [&](int i) { return i >= 0 && i < grid.nx ? field[grid.index(i, iy)] : 0.0; };
+  return (1.0 - share) * at(low) + share * at(low + 1);
+}
+
+/// Power that friction dissipates: slip times the mean of the tractions where material is and where it was a rolling step before. With those
+/// at the end of the step alone it would be of first order in the step only.
+double dissipated(const wheelrail::PatchSolution& patch) {
+  const kalker::ContactSolution& c = patch.contact;
+  if (c.traction_x.empty() || c.slip_x.empty()) return 0.0;
+  const Grid2& g = patch.grid;
+  const double upstream = (std::cos(patch.kinematics.chi) > 0.0 ? 1.0 : -1.0) * c.rolling_step / g.dx;
+  double sum = 0.0;
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const auto i = g.index(ix, iy);
+      if (c.slip_x[i] == 0.0 && c.slip_y[i] == 0.0) continue;
+      const double before = ix + upstream;
+      sum += c.slip_x[i] * (c.traction_x[i] + traction_at(c.traction_x, g, before, iy)) +
+             c.slip_y[i] * (c.traction_y[i] + traction_at(c.traction_y, g, before, iy));
+    }
+  return std::max(0.0, -0.5 * sum * g.cell_area() * patch.kinematics.velocity);
+}
+
 }  // namespace
 
 Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::Problem& problem) {
@@ -100,8 +127,6 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
   out.message = solution.message;
   out.least_gap = solution.least_gap;
   out.on_rail = solution.load.track;
-  const Vec3 arm = solution.placement.X_TR.origin - solution.placement.X_TWs.origin;
-  out.on_wheelset = {-out.on_rail.force, -(out.on_rail.moment + arm.cross(out.on_rail.force))};
   double most_loaded = 0.0;
   for (const wheelrail::PatchSolution& patch : solution.patches) {
     const kalker::ContactSolution& c = patch.contact;
@@ -111,8 +136,12 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
     out.max_pressure = std::max(out.max_pressure, c.max_pressure);
     out.area += c.elements_contact * patch.grid.cell_area();
     out.elastic_energy += c.elastic_energy;
-    out.frictional_power -= c.frictional_power;
+    out.frictional_power += dissipated(patch);
     out.tangents.push_back(tangent_of(patch, problem_, motion.wheelset.x - past_.x));
+    // Each body feels the force where its creep is measured, the wheel at the depth of the approach: their power is that of the creep.
+    const Vec3 arm = patch.frame.X_TC.apply({0.0, 0.0, patch.approach}) - solution.placement.X_TWs.origin;
+    const Vec3 force = patch.frame.X_TC.rotation * patch.force_C, moment = patch.frame.X_TC.rotation * patch.moment_C;
+    out.on_wheelset += {-force, -(moment + arm.cross(force))};
     ++out.patches;
     if (c.force_n <= most_loaded) continue;
     most_loaded = c.force_n;

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+
+#include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/solvers/vehicle/eigenmodes.hpp"
+
+namespace treadmark::app {
+namespace {
+
+const std::string kExample = std::string(TREADMARK_SOURCE_DIR) + "/examples/flat-at-speed.toml";
+
+io::SimulationFile example(std::vector<std::string> overrides) { return io::read_simulation_file(kExample, overrides); }
+
+double value(const std::vector<io::NamedValue>& values, const std::string& name) {
+  for (const io::NamedValue& v : values)
+    if (v.name == name) return v.value;
+  ADD_FAILURE() << "no " << name;
+  return 0.0;
+}
+
+double column(const io::SimulationResult& r, std::size_t row, const std::string& name) {
+  return r.values[row * r.columns.size() + io::column_index(r, name)];
+}
+
+TEST(Manchester, StandsOnItsWheelsWith54p55Kilonewton) {
+  SurfaceStore store;
+  const io::SimulationResult r = static_results(example({"simulation.wheels.0.contact=table"}), store, {});
+  constexpr double kLoad = 44482.0 * 9.81 / 8.0;
+  for (int set = 1; set <= 4; ++set) {
+    EXPECT_NEAR(value(r.statics, "wheelset" + std::to_string(set) + ".load_N"), 2.0 * kLoad, 1.0);
+    for (const char* side : {"_left", "_right"}) EXPECT_NEAR(value(r.statics, "ws" + std::to_string(set) + side + ".Q_N"), kLoad, 10.0);
+  }
+  EXPECT_NEAR(kLoad, 54.55e3, 5.0);
+}
+
+/// Heavy bodies on soft springs move by themselves: frequencies by hand, damping left out.
+TEST(Manchester, EigenfrequenciesByHand) {
+  SurfaceStore store;
+  const auto file = example({"simulation.wheels.0.contact=table", "vehicle.scale_damping=1e-3", "track_model.scale_damping=1e-3"});
+  BuiltVehicle built = build_vehicle(file, store);
+  const vehicle::Equilibrium e = vehicle::find_equilibrium(built.vehicle);
+  ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
+  const auto modes = vehicle::eigenmodes(built.vehicle, e.state);
+  const auto frequency = [&](const std::string& most, double share) {
+    for (const auto& m : modes)
+      if (built.vehicle.system.coordinates[static_cast<std::size_t>(m.shares[0].first)].name.starts_with(most) && m.shares[0].second > share)
+        return m.frequency;
+    ADD_FAILURE() << "no mode of " << most;
+    return 0.0;
+  };
+  const auto hertz = [](double stiffness, double mass) { return std::sqrt(stiffness / mass) / (2.0 * std::numbers::pi); };
+  // The car on 4 secondary springs in series with the primary ones of both bogies.
+  const double secondary = 4 * 0.43e6, primary = 16 / 2.0 * 1.22e6;
+  EXPECT_NEAR(frequency("car.z", 0.9), hertz(secondary * primary / (secondary + primary), 32000.0), 0.02);
+  const double pitch_secondary = secondary * 9.5 * 9.5, pitch_primary = primary * 9.5 * 9.5;
+  EXPECT_NEAR(frequency("car.pitch", 0.9), hertz(pitch_secondary * pitch_primary / (pitch_secondary + pitch_primary), 1.97e6), 0.03);
+  // Bogies bounce between their springs, both alike.
+  double bounce = 0.0;
+  for (const auto& m : modes) {
+    const std::string& name = built.vehicle.system.coordinates[static_cast<std::size_t>(m.shares[0].first)].name;
+    if (name.starts_with("bogie") && name.ends_with(".z") && bounce == 0.0) bounce = m.frequency;
+  }
+  EXPECT_NEAR(bounce, hertz(4 * 1.22e6 + 2 * 0.43e6, 2615.0), 0.15);
+}
+
+/// Nothing excites it but its own displacement from equilibrium.
+void check_energy_of_a_free_run(std::vector<std::string> overrides, double tolerance) {
+  SurfaceStore store;
+  const auto file = example(overrides);
+  BuiltVehicle built = build_vehicle(file, store);
+  vehicle::SystemState start = vehicle::find_equilibrium(built.vehicle).state;
+  const auto& coordinates = built.vehicle.system.coordinates;
+  for (std::size_t i = 0; i < coordinates.size(); ++i) {
+    if (coordinates[i].name == "car.z") start.q[static_cast<Eigen::Index>(i)] += 0.02;
+    if (coordinates[i].name == "bogie1.y") start.v[static_cast<Eigen::Index>(i)] += 0.05;
+    if (coordinates[i].name == "wheelset1.z") start.v[static_cast<Eigen::Index>(i)] += 0.02;
+    if (coordinates[i].name == "wheelset3.yaw") start.q[static_cast<Eigen::Index>(i)] += 1e-4;
+  }
+  vehicle::SimulationSettings settings = integration_settings(file);
+  settings.position_tolerance = tolerance;
+  vehicle::Simulation s(built.vehicle, start, settings);
+  while (!s.finished()) s.advance();
+  const vehicle::EnergyBalance& e = s.energy();
+  EXPECT_GT(e.turnover, 10.0);
+  EXPECT_GT(e.dampers, 1.0);
+  EXPECT_GT(e.friction, 1.0);
+  EXPECT_LT(std::abs(e.integration_error(s.energy_at_start())), 1e-4 * e.turnover);
+  EXPECT_LT(std::abs(e.contact_error(s.energy_at_start())), 1e-4 * e.turnover);
+}
+
+TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
+  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10);
+}
+
+TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFullContact) {
+  check_energy_of_a_free_run({"simulation.wheels.0.defects=false", "simulation.distance_m=1", "case.regime=steady"}, 1e-9);
+}
+
+/// One passage of the flat in each representation of the wheel: the same forces within 2 % of the largest.
+TEST(FlatAtSpeed, RepresentationsGiveTheSameForces) {
+  const std::vector<std::string> common{"simulation.distance_m=0.36", "simulation.wheels.0.pitch_deg=25",
+                                        "discretisation.dx_mm=1.0", "discretisation.ds_mm=1.0", "wheel.resolution_mm=1.0"};
+  const auto run = [&](const std::string& backend) {
+    std::vector<std::string> overrides = common;
+    if (!backend.empty()) overrides.push_back("wheel.backend=" + backend);
+    SurfaceStore store;
+    io::SimulationResult r = run_simulation(example(overrides), store, {}, {});
+    EXPECT_EQ(r.status, "complete") << r.message;
+    return r;
+  };
+  const io::SimulationResult truth = run("");
+  const double q_max = value(truth.summary, "q_max_N");
+  EXPECT_GT(q_max, 80e3);
+  // At instants of its own each: compared at the same distance.
+  const auto at = [](const io::SimulationResult& r, double x) {
+    std::size_t row = 1;
+    while (row + 1 < r.rows() && column(r, row, "x_m") < x) ++row;
+    const double x0 = column(r, row - 1, "x_m"), x1 = column(r, row, "x_m"), share = (x - x0) / (x1 - x0);
+    return (1.0 - share) * column(r, row - 1, "Q_N") + share * column(r, row, "Q_N");
+  };
+  for (const std::string backend : {"spline", "mesh", "offset"}) {
+    const io::SimulationResult r = run(backend);
+    double worst = 0.0;
+    for (double x = 0.01; x < 0.36; x += 0.5e-3) worst = std::max(worst, std::abs(at(r, x) - at(truth, x)));
+    EXPECT_LT(worst, 0.02 * q_max) << backend;
+    EXPECT_NEAR(value(r.summary, "q_max_N"), q_max, 0.01 * q_max) << backend;
+  }
+}
+
+}  // namespace
+}  // namespace treadmark::app
