@@ -53,6 +53,9 @@ std::vector<io::PatchesPanel> patches_panels(const io::SimulationResult& result)
     constexpr double kDegree = std::numbers::pi / 180.0;
     io::PatchesPanel panel{&snapshot, round_wheel, scene.depth_grid, scene.depth};
     panel.title = fmt::format("{:.1f}°, Q = {:.0f} kN", wrap_angle(snapshot.pitch) / kDegree + 0.0, snapshot.force_tr.z() * 1e-3 + 0.0);
+    double pmax = 0.0;
+    for (const io::PatchResult& patch : snapshot.patches) pmax = std::max(pmax, patch.pmax);
+    panel.remark = fmt::format("at most {:.0f} MPa", pmax * 1e-6);
     panels.push_back(std::move(panel));
   }
   return panels;
