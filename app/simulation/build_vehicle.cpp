@@ -37,6 +37,19 @@ class Builder {
     return geometry(wheel_source, file_.contact.rail);
   }
 
+  /// As the wheels are given, whatever represents them in the analysis.
+  std::shared_ptr<const DefectDepth> defect_depth() {
+    io::SurfaceSource given = file_.contact.wheel;
+    given.backend = "";
+    given.resolution = 0.0;
+    const auto natural = [&] { return store_.get(given, Body::wheel, file_.contact.wheelset.nominal_radius, Region{}).natural; };
+    const auto wheel = natural();
+    if (wheel->constant_profile()) return nullptr;
+    if (given.defects.empty()) return std::make_shared<const DefectDepth>(wheel->surface, nullptr);
+    given.defects = {};
+    return std::make_shared<const DefectDepth>(wheel->surface, natural()->surface);
+  }
+
   /// Round wheel, rail without defects, both as they are given.
   std::shared_ptr<const vehicle::ContactTable> table(double wheel_load) {
     if (table_) return table_;
@@ -109,6 +122,9 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
     v.wheels.push_back(std::move(on));
   }
   v.connect();
+  const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();
+  const auto damaged = [](const io::WheelContactInput& w) { return w.model == io::ContactModelInput::full && w.defects; };
+  if (fields && std::ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
   return built;
 }
 

@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/app/simulation/defect_depth.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/solvers/vehicle/full_contact.hpp"
@@ -17,6 +18,8 @@ struct BuiltVehicle {
   vehicle::VehicleOnTrack vehicle;
   /// By wheel: the element, where the contact is solved in full; else null.
   std::vector<std::shared_ptr<vehicle::FullContact>> full;
+  /// Of the wheels with defects; null where there are none.
+  std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;   ///< spent on contact tables
 };
 

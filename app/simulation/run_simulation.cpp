@@ -185,7 +185,7 @@ class Run {
       result_.events.push_back({e.time, e.time * built_.vehicle.speed, built_.vehicle.wheels[e.wheel].name,
                                 e.regained ? "contact regained" : "contact lost"});
     result_.summary = summarise(result_, *simulation_);
-    result_.snapshots = snapshots_.results(result_.snapshot_times);
+    snapshots_.put_results(result_);
     result_.snapshots.version = result_.version;
     result_.snapshots.git = result_.git;
   }
@@ -200,6 +200,7 @@ class Run {
     if (partial.status == "complete") partial.status = "interrupted";
     partial.snapshots = {};
     partial.snapshot_times.clear();
+    partial.snapshot_scenes.clear();
     partial.checkpoint = out.bytes();
     const auto lock = lock_stores();
     io::write_simulation(options_.checkpoint_file, partial);

@@ -3,9 +3,11 @@
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 
 #include <algorithm>
+#include <numbers>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/pose.hpp"
 #include "treadmark/io/histories/history_csv.hpp"
 #include "treadmark/io/histories/history_svg.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -28,6 +30,7 @@ io::SimulationResult wheel_columns(const io::SimulationResult& result) {
   part.values.clear();
   part.snapshots = {};
   part.snapshot_times.clear();
+  part.snapshot_scenes.clear();
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < result.columns.size(); ++i)
     if (is_of_a_wheel(result.columns[i].name)) {
@@ -37,6 +40,25 @@ io::SimulationResult wheel_columns(const io::SimulationResult& result) {
   for (std::size_t row = 0; row < result.rows(); ++row)
     for (const std::size_t i : kept) part.values.push_back(result.values[row * result.columns.size() + i]);
   return part;
+}
+
+std::vector<io::PatchesPanel> patches_panels(const io::SimulationResult& result) {
+  std::vector<io::PatchesPanel> panels;
+  const io::CaseResult* round_wheel = nullptr;
+  for (std::size_t i = 0; i < result.snapshot_scenes.size(); ++i) {
+    const io::SnapshotScene& scene = result.snapshot_scenes[i];
+    const io::CaseResult& snapshot = result.snapshots.cases[i];
+    if (scene.nominal) round_wheel = &snapshot;
+    if (!scene.drawn) continue;
+    constexpr double kDegree = std::numbers::pi / 180.0;
+    io::PatchesPanel panel{&snapshot, round_wheel, scene.depth_grid, scene.depth};
+    panel.title = fmt::format("{:.1f}°, Q = {:.0f} kN", wrap_angle(snapshot.pitch) / kDegree + 0.0, snapshot.force_tr.z() * 1e-3 + 0.0);
+    double pmax = 0.0;
+    for (const io::PatchResult& patch : snapshot.patches) pmax = std::max(pmax, patch.pmax);
+    panel.remark = fmt::format("at most {:.0f} MPa", pmax * 1e-6);
+    panels.push_back(std::move(panel));
+  }
+  return panels;
 }
 
 void write_simulation_folder(const std::filesystem::path& folder, const io::SimulationResult& result) {
@@ -55,6 +77,10 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
     io::write_history_svg(folder / "history.svg", std::span(&run, 1), chart);
   }
   if (!result.snapshots.cases.empty()) io::write_pressure_svg(folder / "pressure.svg", result.snapshots);
+  if (const std::vector<io::PatchesPanel> panels = patches_panels(result); !panels.empty()) {
+    io::write_patches_svg(folder / "patches.svg", panels, result.title);
+    io::write_patches_csv(folder / "patches.csv", panels);
+  }
   io::write_simulation(folder / "simulation.h5", result);
 }
 

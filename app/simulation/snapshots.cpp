@@ -33,14 +33,21 @@ io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, co
   return input;
 }
 
-}  // namespace
+/// Where the depth of defects is looked for, about the most loaded patch.
+Grid2 depth_window(const wheelrail::PairSolution& s) {
+  constexpr double kStep = 1e-3;               // [m]
+  constexpr int kAhead = 60, kAside = 35;      // steps
+  const auto most_loaded = std::ranges::max_element(s.patches, {}, [](const wheelrail::PatchSolution& p) { return p.contact.force_n; });
+  const double y = most_loaded != s.patches.end() ? most_loaded->frame.X_TC.origin.y() : s.placement.X_TR.origin.y();
+  return {-kAhead * kStep, y - kAside * kStep, kStep, kStep, 2 * kAhead + 1, 2 * kAside + 1};
+}
 
-void Snapshots::keep(std::size_t wheel) { kept_.push_back({wheel, built_.full[wheel]->accepted()}); }
+}  // namespace
 
 void Snapshots::take_start(const vehicle::Simulation&) {
   if (!wanted()) return;
   for (std::size_t i = 0; i < built_.full.size(); ++i)
-    if (built_.full[i]) keep(i);
+    if (built_.full[i]) kept_.push_back({i, {}, false, built_.full[i]->accepted()});
 }
 
 void Snapshots::take_passed(const vehicle::Simulation& simulation, const vehicle::SystemState& before) {
@@ -48,10 +55,12 @@ void Snapshots::take_passed(const vehicle::Simulation& simulation, const vehicle
   for (std::size_t i = 0; i < built_.full.size(); ++i) {
     if (!built_.full[i]) continue;
     const vehicle::PairMotion was = simulation.vehicle().motion(i, before), is = simulation.vehicle().motion(i, simulation.state());
-    const bool wanted_now =
-        std::ranges::any_of(file_.fields.pitch, [&](double p) { return passed(was.wheelset.pitch, is.wheelset.pitch, p); }) ||
+    std::vector<std::size_t> angles;
+    for (std::size_t k = 0; k < file_.fields.pitch.size(); ++k)
+      if (passed(was.wheelset.pitch, is.wheelset.pitch, file_.fields.pitch[k])) angles.push_back(k);
+    const bool at_position =
         std::ranges::any_of(file_.fields.position, [&](double x) { return was.wheelset.x < x && x <= is.wheelset.x; });
-    if (wanted_now) keep(i);
+    if (!angles.empty() || at_position) kept_.push_back({i, std::move(angles), at_position, built_.full[i]->accepted()});
   }
 }
 
@@ -59,6 +68,8 @@ void Snapshots::save(ByteWriter& out) const {
   out.put(kept_.size());
   for (const Kept& k : kept_) {
     out.put(k.wheel);
+    out.put(std::span<const std::size_t>(k.angles));
+    out.put(k.at_position);
     vehicle::FullContact::write(k.instant, out);
   }
 }
@@ -70,16 +81,53 @@ void Snapshots::restore(ByteReader& in) {
     const auto wheel = in.get<std::size_t>();
     if (wheel >= built_.full.size() || !built_.full[wheel])
       throw Error(ErrorKind::input_data, "a saved state belongs to another simulation", {}, "start anew");
-    kept_.push_back({wheel, vehicle::FullContact::read(in)});
+    Kept& k = kept_.emplace_back();
+    k.wheel = wheel;
+    in.get(k.angles);
+    in.get(k.at_position);
+    k.instant = vehicle::FullContact::read(in);
   }
 }
 
-io::RunResult Snapshots::results(std::vector<double>& times) const {
+/// Which instants a picture shows: the first of the first wheel is where it has not come to its defects yet.
+void Snapshots::describe_scenes(io::SimulationResult& result) const {
+  result.snapshot_scenes.assign(kept_.size(), {});
+  std::vector<bool> seen(file_.fields.pitch.size(), false);
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    if (kept_[i].wheel != kept_.front().wheel) continue;
+    io::SnapshotScene& scene = result.snapshot_scenes[i];
+    scene.nominal = i == 0;
+    scene.drawn = kept_[i].at_position;
+    for (const std::size_t angle : kept_[i].angles) {
+      scene.drawn = scene.drawn || !seen.at(angle);
+      seen.at(angle) = true;
+    }
+  }
+}
+
+std::vector<double> Snapshots::depth_of(const Kept& kept, const Grid2& grid, const wheelrail::PairSolution& solution) const {
+  if (!built_.defect_depth || !file_.wheels[kept.wheel].defects) return {};
+  const auto side = file_.wheels[kept.wheel].side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right;
+  return built_.defect_depth->over(grid, solution.placement, side);
+}
+
+void Snapshots::put_results(io::SimulationResult& result) const {
   io::RunResult run;
+  std::vector<double>& times = result.snapshot_times;
   times.clear();
-  for (const Kept& k : kept_) {
+  describe_scenes(result);
+  Grid2 around;
+  for (std::size_t i = 0; i < kept_.size(); ++i) {
+    const Kept& k = kept_[i];
     const vehicle::PairMotion& m = k.instant.motion;
-    io::CaseResult c = to_result(input_of(file_, k.wheel, m), built_.full[k.wheel]->repeat(k.instant));
+    const wheelrail::PairSolution solution = built_.full[k.wheel]->repeat(k.instant);
+    io::SnapshotScene& scene = result.snapshot_scenes[i];
+    if (scene.nominal) around = depth_window(solution);
+    if (scene.drawn) {
+      scene.depth_grid = around;
+      scene.depth = depth_of(k, around, solution);
+    }
+    io::CaseResult c = to_result(input_of(file_, k.wheel, m), solution);
     c.number = static_cast<int>(run.cases.size()) + 1;
     c.search_s = c.distance_s = c.normal_s = c.tangential_s = 0.0;
     if (c.message.empty()) c.message = fmt::format("{}, t = {:.6g} s, x = {:.6g} m", wheel_name(file_.wheels[k.wheel]), m.time, m.wheelset.x);
@@ -87,7 +135,7 @@ io::RunResult Snapshots::results(std::vector<double>& times) const {
     run.cases.push_back(std::move(c));
   }
   run.cases_total = static_cast<int>(run.cases.size());
-  return run;
+  result.snapshots = std::move(run);
 }
 
 }  // namespace treadmark::app

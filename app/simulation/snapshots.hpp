@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
-#include "treadmark/io/results/result_model.hpp"
+#include "treadmark/io/histories/history_model.hpp"
 
 namespace treadmark::app {
 
@@ -24,15 +24,18 @@ class Snapshots {
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 
-  /// Solves the instants again: a case each, in order of time. times: of the cases [s].
-  io::RunResult results(std::vector<double>& times) const;
+  /// Solves the instants again: snapshots, a case each in order of time, with their times and scenes.
+  void put_results(io::SimulationResult& result) const;
 
  private:
   struct Kept {
     std::size_t wheel = 0;
+    std::vector<std::size_t> angles;   ///< which of the requested pitch angles it is for
+    bool at_position = false;          ///< it is for a requested position
     vehicle::FullContact::Instant instant;
   };
-  void keep(std::size_t wheel);
+  void describe_scenes(io::SimulationResult& result) const;
+  std::vector<double> depth_of(const Kept& kept, const Grid2& grid, const wheelrail::PairSolution& solution) const;
 
   const io::SimulationFile& file_;
   const BuiltVehicle& built_;

@@ -42,6 +42,15 @@ io::HistoryAxis axis(const std::string& column, const std::string& label) { retu
 
 fs::path csv_of(fs::path svg) { return svg.replace_extension(".csv"); }
 
+/// "V = 6 m/s" of a variation called "V [m/s]".
+std::string named_value(const io::Variation& variation, const std::string& value) {
+  const std::string& name = variation.label;
+  if (name.empty()) return value;
+  const auto unit = name.rfind(" [");
+  if (unit == std::string::npos || !name.ends_with(']')) return name + " = " + value;
+  return name.substr(0, unit) + " = " + value + ' ' + name.substr(unit + 2, name.size() - unit - 3);
+}
+
 class Figures {
  public:
   Figures(const io::StudyFile& file, const fs::path& folder, const io::StudyResult& study) : file_(file), folder_(folder), study_(study) {}
@@ -61,6 +70,13 @@ class Figures {
     const auto found = results_.find(run.number);
     if (found != results_.end()) return found->second;
     return results_.emplace(run.number, io::read_simulation(run.store)).first->second;
+  }
+
+  bool is_drawn(const io::StudyFigure& figure, const io::SimulationRun& run) const {
+    const auto& values = file_.runs.at(static_cast<std::size_t>(run.number - 1)).values;
+    for (std::size_t v = 0; v < figure.only.size(); ++v)
+      if (!figure.only[v].empty() && std::ranges::find(figure.only[v], values.at(v)) == figure.only[v].end()) return false;
+    return true;
   }
 
   /// The value that a run has of the variation that stands for the lines.
@@ -85,6 +101,7 @@ class Figures {
     if (figure.x_range) chart.x_range = {(*figure.x_range)[0], (*figure.x_range)[1]};
     std::vector<io::HistoryRun> runs;
     for (const io::SimulationRun& run : study_.runs) {
+      if (!is_drawn(figure, run)) continue;
       const io::SimulationResult& result = result_of(run);
       if (result.rows() < 2) continue;
       runs.push_back({&result, figure.series.empty() ? run.label : series_of(figure, run), panel_of(figure, run)});
@@ -103,7 +120,7 @@ class Figures {
     for (std::size_t v = 0; v < file_.variations.size() && v < run.swept.size(); ++v) {
       const io::Variation& variation = file_.variations[v];
       if (variation.key == figure.series || variation.label == figure.series) continue;
-      panel += (panel.empty() ? "" : ", ") + run.swept[v].second;
+      panel += (panel.empty() ? "" : ", ") + named_value(variation, run.swept[v].second);
     }
     return panel;
   }
@@ -125,8 +142,10 @@ class Figures {
         chart.level_label = "at rest";
       }
     }
-    io::write_summary_svg(folder_ / figure.file, study_, chart);
-    io::write_summary_chart_csv(csv_of(folder_ / figure.file), study_, chart);
+    io::StudyResult drawn = study_;
+    std::erase_if(drawn.runs, [&](const io::SimulationRun& run) { return !is_drawn(figure, run); });
+    io::write_summary_svg(folder_ / figure.file, drawn, chart);
+    io::write_summary_chart_csv(csv_of(folder_ / figure.file), drawn, chart);
   }
 
   const io::StudyFile& file_;

@@ -34,6 +34,8 @@ void check_simulation(const SimulationResult& result) {
     refuse(fmt::format("{} values are no whole rows of {} columns", result.values.size(), width));
   if (!result.snapshot_times.empty() && result.snapshot_times.size() != result.snapshots.cases.size())
     refuse(fmt::format("{} times for {} snapshots", result.snapshot_times.size(), result.snapshots.cases.size()));
+  if (!result.snapshot_scenes.empty() && result.snapshot_scenes.size() != result.snapshots.cases.size())
+    refuse(fmt::format("{} scenes for {} snapshots", result.snapshot_scenes.size(), result.snapshots.cases.size()));
   std::set<int> numbers;
   for (const CaseResult& one : result.snapshots.cases)
     if (!numbers.insert(one.number).second) refuse(fmt::format("two snapshots have the number {}", one.number));

@@ -27,6 +27,7 @@ constexpr double kTitleWidth = 116.0;  // of the words above a panel
 constexpr double kShape = 1.7;         // wished width over height of the picture
 constexpr double kMilli = 1e3;
 constexpr int kMostContours = 8;
+constexpr double kTickShare = 0.75;    // steps of an axis this long part the greatest depth into at most kMostContours
 
 constexpr const char* kStyle =
     ".round{fill:none;stroke:#9b0000;stroke-width:1.6}.under{fill:none;stroke:#ffffff;stroke-width:3;stroke-opacity:.75}"
@@ -68,7 +69,7 @@ double contour_step(std::span<const PatchesPanel> panels) {
   for (const PatchesPanel& panel : panels)
     for (const double depth : panel.depth)
       if (std::isfinite(depth)) deepest = std::max(deepest, depth * kMilli);
-  return deepest > 0.0 ? tick_step(deepest) : 0.0;
+  return deepest > 0.0 ? tick_step(kTickShare * deepest) : 0.0;
 }
 
 std::string draw_depth(const PatchesPanel& panel, double step_mm, const PanelScale& scale) {
@@ -115,7 +116,7 @@ std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const
     std::replace(words.begin(), words.end(), '_', ' ');
     out += svg_text(0.5 * width, -7.0, panel.result->status == Status::ok ? "no fields" : words);
   } else {
-    out += svg_text(0.5 * width, -7.0, force_and_pressure(*panel.result));
+    out += svg_text(0.5 * width, -7.0, panel.remark.empty() ? force_and_pressure(*panel.result) : panel.remark);
   }
   out += draw_panel_axes(sheet.panel, column == 0);
   if (column == 0)

@@ -20,6 +20,7 @@ struct PatchesPanel {
   std::vector<double> depth = {};           ///< of the defect at the grid's points [m]; NaN = not known; may be empty
   double x_origin = 0.0;                    ///< x of the track that is drawn as 0: the wheelset's [m]
   std::string title = {};                   ///< empty: the pitch angle
+  std::string remark = {};                  ///< below the title; empty: normal force and largest pressure
 };
 
 /// Contact patches at several instants as an SVG picture seen from above: x of the track upwards, the rolling direction, y to the

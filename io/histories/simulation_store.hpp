@@ -17,7 +17,8 @@ namespace treadmark::io {
 /// fields that do not match their grid and files that cannot be written. Not to be called from two threads at once.
 void write_simulation(const std::filesystem::path& path, const SimulationResult& result);
 
-/// The simulation in a file, without its snapshots and their times. Errors: Error(input_data). Not to be called from two threads at once.
+/// The simulation in a file, without its snapshots, their times and scenes. Errors: Error(input_data). Not to be called from two
+/// threads at once.
 SimulationResult read_simulation(const std::filesystem::path& path);
 
 /// A checkpoint, and what must be the same for a simulation that goes on from it.

@@ -30,7 +30,7 @@ inline constexpr std::string_view kStudyKeys[] = {"title", "base", "vary", "figu
 inline constexpr std::string_view kVaryKeys[] = {"key", "label", "values", "from", "to", "count", "spacing"};
 inline constexpr std::string_view kVaryValueKeys[] = {"label", "set"};
 inline constexpr std::string_view kFigureKeys[] = {"file",    "kind",    "title",  "x",      "y",   "x_label",
-                                                   "y_label", "x_range", "series", "labels", "mark"};
+                                                   "y_label", "x_range", "series", "labels", "only", "mark"};
 inline constexpr std::string_view kMarkKeys[] = {"x", "y", "label"};
 
 }  // namespace treadmark::io

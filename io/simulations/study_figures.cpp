@@ -50,6 +50,38 @@ void read_series(const TableReader& figure, const std::vector<Variation>& variat
                 figure.need("labels").where);
 }
 
+/// Which value of a variation a text means: its label, or its number.
+std::size_t value_of(const Variation& variation, const std::string& text, const SourcePosition& where) {
+  const auto named = std::find_if(variation.values.begin(), variation.values.end(), [&](const VariedValue& value) {
+    return value.label == text || (value.number && fmt::format("{:.15g}", *value.number) == text);
+  });
+  if (named == variation.values.end())
+    throw Error(ErrorKind::configuration, fmt::format("{} has no value '{}'", variation.label, text), where,
+                "the values are those of study.vary, as they stand there");
+  return static_cast<std::size_t>(named - variation.values.begin());
+}
+
+/// "key=value" texts: of each variation named only these values are drawn.
+void read_only(const TableReader& figure, const std::vector<Variation>& variations, StudyFigure& out) {
+  out.only.assign(variations.size(), {});
+  const std::vector<std::string> texts = figure.words("only");
+  std::vector<std::string> known;
+  for (const Variation& variation : variations)
+    for (const std::string& name : {variation.key, variation.label})
+      if (!name.empty()) known.push_back(name);
+  for (std::size_t i = 0; i < texts.size(); ++i) {
+    const SourcePosition& where = figure.need("only").list()[i].where;
+    const auto sign = texts[i].find('=');
+    if (sign == std::string::npos)
+      throw Error(ErrorKind::configuration, fmt::format("{}: '{}' is not \"key=value\"", figure.path_of("only"), texts[i]), where);
+    const std::string name = texts[i].substr(0, sign);
+    check_name(fmt::format("{}: the variation", figure.path_of("only")), name, known, where);
+    const auto variation =
+        std::find_if(variations.begin(), variations.end(), [&](const Variation& v) { return v.key == name || v.label == name; });
+    out.only[static_cast<std::size_t>(variation - variations.begin())].push_back(value_of(*variation, texts[i].substr(sign + 1), where));
+  }
+}
+
 StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& variations) {
   using Kind = StudyFigure::Kind;
   StudyFigure figure;
@@ -72,6 +104,7 @@ StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& 
   figure.y_label = table.text_or("y_label", {});
   figure.x_range = read_range(table);
   read_series(table, variations, figure);
+  read_only(table, variations, figure);
   figure.marks = read_marks(table);
   return figure;
 }

@@ -55,6 +55,7 @@ struct StudyFigure {
   std::optional<std::array<double, 2>> x_range;
   std::string series;                 ///< key or label of the variation whose values get a line each; empty: all runs
   std::vector<std::string> labels;    ///< of the lines, in place of the values; empty: the values
+  std::vector<std::vector<std::size_t>> only;  ///< by variation: its values that are drawn; empty: all of them
   std::vector<FigureMark> marks;
 };
 
