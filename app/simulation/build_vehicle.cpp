@@ -119,7 +119,8 @@ void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   Builder builder(file, store);
   vehicle::assemble(file.vehicle, file.track, file.settings.speed, file.settings.gravity);
   for (const io::WheelContactInput& wheel : file.wheels) {
-    const wheelrail::Geometry geometry = wheel.model == io::ContactModelInput::full ? builder.full_geometry(wheel) : builder.table_geometry();
+    const bool full = wheel.model == io::ContactModelInput::full;
+    const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry();
     io::WheelRailCase input = file.contact;
     input.side = wheel.side;
     vehicle::rail_marker_at_rest(geometry, to_problem(input, geometry.constant_profiles()));

@@ -120,8 +120,8 @@ SimulationResult read_simulation(const std::filesystem::path& path) {
 SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
   const Store store(path);
   const Hdf5GroupReader& root = store.root();
-  return {root.text("version"),   root.text("git"), root.text("sha256"), root.texts("settings"), pairs(store, "geometry_files", "geometry_sha256"),
-          read_bytes(store)};
+  return {root.text("version"),   root.text("git"), root.text("sha256"),
+          root.texts("settings"), pairs(store, "geometry_files", "geometry_sha256"), read_bytes(store)};
 }
 
 }  // namespace treadmark::io

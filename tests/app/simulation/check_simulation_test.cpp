@@ -38,9 +38,11 @@ TEST(CheckSimulation, TablesNeedRoundWheels) {
   const std::vector<std::string> check{"check", input.path("simulation.toml"), "--set", "simulation.wheels.1.contact=table"};
   const ProgramResult good = run_program(check);
   EXPECT_EQ(good.status, 0) << good.err;
-  input.edit("simulation.toml", "shape.standard = \"60E1\"", "shape.standard = \"60E1\"\nsquats = [{ length_mm = 30, width_mm = 20, depth_mm = 0.2 }]");
+  input.edit("simulation.toml", "shape.standard = \"60E1\"",
+             "shape.standard = \"60E1\"\nsquats = [{ length_mm = 30, width_mm = 20, depth_mm = 0.2 }]");
   EXPECT_EQ(run_program(check).status, 0) << "tables are of rails without defects";
-  input.edit("simulation.toml", "[simulation.other_wheel]\nshape.standard = \"S1002\"", "[simulation.other_wheel]\nshape.file = \"wheel.slcw\"");
+  input.edit("simulation.toml", "[simulation.other_wheel]\nshape.standard = \"S1002\"",
+             "[simulation.other_wheel]\nshape.file = \"wheel.slcw\"");
   const ProgramResult uneven = run_program(check);
   EXPECT_EQ(uneven.status, 2) << uneven.out;
   EXPECT_THAT(uneven.err, HasSubstr("must be round"));

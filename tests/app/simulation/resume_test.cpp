@@ -60,6 +60,7 @@ TEST_F(Resume, AfterKillsTheResultIsThatOfAnUndisturbedRun) {
     ++resumed;
   }
   EXPECT_GE(resumed, 1) << "never killed between the first checkpoint and the end";
+  input.write("killed/.history.csv.part1-0", "what a kill in the middle of writing leaves");
   const ProgramResult last = RunningProgram(command("killed", {"--resume"})).wait();
   ASSERT_EQ(last.status, 0) << last.err;
   expect_same("undisturbed", "killed");

@@ -80,7 +80,8 @@ TEST_F(RunStudy, LeavesTheRunThatSomebodyElseHoldsToThem) {
 TEST_F(RunStudy, ResultsDoNotTellWhatElseTheWorkerRead) {
   fs::copy_file(input.path("rail.prr"), input.path("other.prr"));
   input.edit("simulation.toml", "shape.standard = \"60E1\"", "shape.file = \"rail.prr\"");
-  input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]", "key = \"rail.shape.file\"\nvalues = [\"rail.prr\", \"other.prr\"]");
+  input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]",
+             "key = \"rail.shape.file\"\nvalues = [\"rail.prr\", \"other.prr\"]");
   input.edit("study.toml", "series = \"wheel.flats.0.depth_mm\"", "series = \"rail.shape.file\"");
   const StudyOutcome outcome = run_study(study(), options, {});
   ASSERT_TRUE(outcome.complete);
