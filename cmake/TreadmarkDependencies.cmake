@@ -59,6 +59,7 @@ endif()
 
 if(TREADMARK_BUILD_TESTS)
   treadmark_require(GTest libgtest-dev)
+  treadmark_require(Boost libboost-dev)
 endif()
 if(TREADMARK_BUILD_BENCH)
   treadmark_require(benchmark libbenchmark-dev)

@@ -8,7 +8,7 @@ packages=(
   g++ cmake ninja-build ccache git ca-certificates python3
   libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libhdf5-dev libfftw3-dev zlib1g-dev
   libembree-dev libopenvdb-dev libboost-iostreams-dev libcgal-dev libgmp-dev libmpfr-dev
-  libgtest-dev libgmock-dev libbenchmark-dev
+  libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
 
 missing=()

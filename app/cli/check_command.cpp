@@ -4,7 +4,8 @@
 
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/run_cases.hpp"
-#include "treadmark/app/simulation/run_simulation.hpp"
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
@@ -12,8 +13,8 @@
 namespace treadmark::cli {
 namespace {
 
-void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run) {
-  if (const auto* simulation = std::get_if<io::SimulationFile>(&run)) app::check_simulation_input(*simulation);
+void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run, app::SurfaceStore& surfaces) {
+  if (const auto* simulation = std::get_if<io::SimulationFile>(&run)) app::check_vehicle(*simulation, surfaces);
   else app::check_geometry(std::get<io::CaseFile>(run));
 }
 
@@ -23,13 +24,16 @@ int check_command(const RunOptions& options) {
   for (const std::string& name : options.cases) {
     if (io::is_study_file(name)) {
       const io::StudyFile study = io::read_study_file(name, options.overrides);
-      for (const io::StudyRun& run : study.runs) check_run(io::read_study_run(study, run));
+      app::check_study_figures(study);
+      app::SurfaceStore surfaces;
+      for (const io::StudyRun& run : study.runs) check_run(io::read_study_run(study, run), surfaces);
       std::cout << name << ": " << study.runs.size() << (study.runs.size() == 1 ? " run" : " runs") << ", no errors\n";
       continue;
     }
     if (io::is_simulation_file(name)) {
+      app::SurfaceStore surfaces;
       const io::SimulationFile file = io::read_simulation_file(name, options.overrides);
-      app::check_simulation_input(file);
+      check_run(file, surfaces);
       for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
       std::cout << name << ": a simulation, no errors\n";
       continue;

@@ -15,6 +15,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -29,6 +30,11 @@ void choose_backends(io::CaseFile& file, const RunOptions& options) {
       if (!rail.empty()) input->rail.backend = rail;
       if (options.resolution_mm > 0.0) input->wheel.resolution = input->rail.resolution = kMetres * options.resolution_mm;
     }
+}
+
+void refuse_other_files(const std::string& name) {
+  if (io::is_study_file(name)) throw Error(ErrorKind::configuration, name + " is a study", {}, "use treadmark sweep");
+  if (io::is_simulation_file(name)) throw Error(ErrorKind::configuration, name + " is a simulation", {}, "use treadmark simulate");
 }
 
 std::vector<std::string> settings_of(const RunOptions& options) {
@@ -59,6 +65,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
 
   int status = kOk;
   for (const std::string& name : options.cases) {
+    refuse_other_files(name);
     io::CaseFile file = io::read_any_case(name, options.overrides);
     choose_backends(file, options);
     io::RunResult result;

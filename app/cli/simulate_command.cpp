@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <filesystem>
 #include <iostream>
+#include <optional>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -19,11 +21,22 @@ namespace {
 
 int exit_status(const io::SimulationResult& result) { return result.status == "complete" ? kOk : kFailed; }
 
-/// Whether a finished result of the same input lies there.
+/// Whether a finished result lies there. Errors: Error(configuration) where it belongs to another simulation.
 bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file, const std::vector<std::string>& settings) {
   if (!std::filesystem::exists(store)) return false;
-  const io::SimulationResult found = io::read_simulation(store);
-  return found.status == "complete" && found.input_sha256 == file.sha256 && found.settings == settings;
+  app::require_same_simulation(store, io::read_checkpoint(store), file, settings);
+  return io::read_simulation(store).status == "complete";
+}
+
+/// Nobody else writes into the folder as long as this lives.
+app::FileLock claim(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+  auto lock = app::FileLock::attempt(folder / "lock");
+  if (!lock) throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {}, "choose another folder");
+  io::remove_leftovers(folder);
+  return std::move(*lock);
 }
 
 }  // namespace
@@ -52,10 +65,9 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   }
 
   const std::filesystem::path folder = options.output_folder;
+  std::optional<app::FileLock> lock;
   if (!folder.empty()) {
-    std::error_code failure;
-    std::filesystem::create_directories(folder, failure);
-    if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+    lock.emplace(claim(folder));
     run.checkpoint_file = folder / "unfinished.h5";
     run.resume = options.resume;
     if (options.resume && is_finished(folder / "simulation.h5", file, overrides)) {
@@ -63,6 +75,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       return kOk;
     }
     if (!options.resume) {
+      std::error_code failure;
       std::filesystem::remove(folder / "simulation.h5", failure);
       std::filesystem::remove(run.checkpoint_file, failure);
     }

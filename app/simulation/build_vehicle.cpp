@@ -51,8 +51,7 @@ class Builder {
   }
 
   /// Round wheel, rail without defects, both as they are given.
-  std::shared_ptr<const vehicle::ContactTable> table(double wheel_load) {
-    if (table_) return table_;
+  wheelrail::Geometry table_geometry() {
     io::SurfaceSource wheel = round_wheel(file_), rail = file_.contact.rail;
     rail.defects = {};
     wheel.backend = rail.backend = "";
@@ -62,7 +61,11 @@ class Builder {
       throw Error(ErrorKind::configuration,
                   bodies.round_wheel ? "wheels with table contact need a rail of one section" : "wheels with table contact must be round", wheel.where,
                   bodies.round_wheel ? "give every wheel contact = \"full\"" : "give the shape of the round wheels as simulation.other_wheel");
-    table_ = vehicle::build_contact_table(bodies, to_problem(file_.contact, true), wheel_load);
+    return bodies;
+  }
+
+  std::shared_ptr<const vehicle::ContactTable> table(double wheel_load) {
+    if (!table_) table_ = vehicle::build_contact_table(table_geometry(), to_problem(file_.contact, true), wheel_load);
     return table_;
   }
 
@@ -126,6 +129,18 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
   const auto damaged = [](const io::WheelContactInput& w) { return w.model == io::ContactModelInput::full && w.defects; };
   if (fields && std::ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
   return built;
+}
+
+void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
+  Builder builder(file, store);
+  vehicle::assemble(file.vehicle, file.track, file.settings.speed, file.settings.gravity);
+  for (const io::WheelContactInput& wheel : file.wheels) {
+    const bool full = wheel.model == io::ContactModelInput::full;
+    const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry();
+    io::WheelRailCase input = file.contact;
+    input.side = wheel.side;
+    vehicle::rail_marker_at_rest(geometry, to_problem(input, geometry.constant_profiles()));
+  }
 }
 
 vehicle::SimulationSettings integration_settings(const io::SimulationFile& file) {

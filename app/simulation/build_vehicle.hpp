@@ -30,6 +30,9 @@ std::string wheel_name(const io::WheelContactInput& wheel);
 /// Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot have.
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store);
 
+/// Finds the errors of build_vehicle without solving contact tables.
+void check_vehicle(const io::SimulationFile& file, SurfaceStore& store);
+
 /// Settings of the integration.
 vehicle::SimulationSettings integration_settings(const io::SimulationFile& file);
 

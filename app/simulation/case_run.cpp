@@ -6,6 +6,7 @@
 #include <functional>
 
 #include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/simulation/input_files.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -48,8 +49,7 @@ io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store
   result.git = run.git;
   result.input_file = file.path.filename().string();
   result.input_sha256 = run.input_sha256;
-  result.geometry_sha256 = run.geometry_sha256;
-  for (auto& [name, hash] : result.geometry_sha256) name = std::filesystem::path(name).filename().string();
+  result.geometry_sha256 = input_hashes(file);
   result.title = file.title;
   result.settings = options.settings;
   result.swept = options.swept;

@@ -36,9 +36,9 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   const std::string of = prefix.empty() ? " (" + simulation_.vehicle().wheels[wheel].name + ")" : "";
   const auto reaction = [this, wheel]() -> const ContactReaction& { return simulation_.reactions()[wheel]; };
   add(prefix + "Q_N", "N", "vertical force on the rail" + of, [=] { return reaction().on_rail.force.z(); });
-  add(prefix + "Y_N", "N", "lateral force on the rail" + of, [=] { return reaction().on_rail.force.y(); });
-  add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of, [=] { return reaction().longitudinal_creep_force; });
   add(prefix + "Ty_N", "N", "lateral creep force on the rail" + of, [=] { return reaction().lateral_creep_force; });
+  add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of, [=] { return reaction().longitudinal_creep_force; });
+  add(prefix + "Y_N", "N", "lateral force on the rail" + of, [=] { return reaction().on_rail.force.y(); });
   if (!full) return;
   add(prefix + "Fn_N", "N", "normal force" + of, [=] { return reaction().normal_force; });
   add(prefix + "pmax_Pa", "Pa", "largest contact pressure" + of, [=] { return reaction().max_pressure; });

@@ -9,10 +9,10 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/history_record.hpp"
+#include "treadmark/app/simulation/input_files.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
 
 namespace treadmark::app {
@@ -30,16 +30,13 @@ class Stopwatch {
   Clock::time_point start_ = Clock::now();
 };
 
-io::SimulationResult head(const io::SimulationFile& file, const SurfaceStore& store, const SimulationOptions& options) {
+io::SimulationResult head(const io::SimulationFile& file, const SimulationOptions& options) {
   io::SimulationResult result;
   result.version = version();
   result.git = git_revision();
   result.input_file = file.path.filename().string();
   result.input_sha256 = file.sha256;
-  result.geometry_sha256 = store.hashes();
-  for (auto& [name, hash] : result.geometry_sha256) name = std::filesystem::path(name).filename().string();
-  result.geometry_sha256.emplace_back(file.vehicle_file.path.filename().string(), file.vehicle_file.sha256);
-  if (file.track_file) result.geometry_sha256.emplace_back(file.track_file->path.filename().string(), file.track_file->sha256);
+  result.geometry_sha256 = input_hashes(file);
   result.title = file.title;
   result.settings = options.settings;
   result.swept = options.swept;
@@ -50,8 +47,8 @@ io::SimulationResult head(const io::SimulationFile& file, const SurfaceStore& st
 class Run {
  public:
   Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, SimulationTimes& times)
-      : file_(file), options_(options), times_(times), built_(build(file, store, times)), snapshots_(file, built_),
-        result_(head(file, store, options)) {
+      : file_(file), options_(options), times_(times), result_(head(file, options)), kept_(find_kept()), built_(build(file, store, times)),
+        snapshots_(file, built_) {
     equilibrium_ = balance();
     describe_statics();
     {
@@ -135,7 +132,7 @@ class Run {
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
     record_.emplace(built_, *simulation_);
     result_.columns = record_->columns();
-    if (options_.resume && !options_.checkpoint_file.empty() && std::filesystem::exists(options_.checkpoint_file)) {
+    if (kept_) {
       restore();
       times_.resumed_at_s = simulation_->state().time;
       return;
@@ -210,31 +207,32 @@ class Run {
     return options_.store_mutex ? std::unique_lock(*options_.store_mutex) : std::unique_lock<std::mutex>();
   }
 
-  io::SimulationCheckpoint read_kept() const {
+  std::optional<io::SimulationCheckpoint> find_kept() const {
+    if (!options_.resume || options_.checkpoint_file.empty() || !std::filesystem::exists(options_.checkpoint_file)) return {};
     const auto lock = lock_stores();
-    return io::read_checkpoint(options_.checkpoint_file);
+    io::SimulationCheckpoint kept = io::read_checkpoint(options_.checkpoint_file);
+    require_same_simulation(options_.checkpoint_file, kept, file_, options_.settings);
+    return kept;
   }
 
   void restore() {
-    const io::SimulationCheckpoint kept = read_kept();
-    if (kept.version != result_.version || kept.input_sha256 != result_.input_sha256 || kept.settings != result_.settings)
-      throw Error(ErrorKind::configuration, fmt::format("{} belongs to another simulation", options_.checkpoint_file.string()), {},
-                  "resume with the same input and settings, or start anew in another folder");
-    ByteReader in(kept.bytes);
+    ByteReader in(kept_->bytes);
     simulation_->restore(in);
     in.get(result_.values);
     snapshots_.restore(in);
+    kept_.reset();
   }
 
   const io::SimulationFile& file_;
   const SimulationOptions& options_;
   SimulationTimes& times_;
+  io::SimulationResult result_;
+  std::optional<io::SimulationCheckpoint> kept_;
   BuiltVehicle built_;
   vehicle::Equilibrium equilibrium_;
   std::optional<vehicle::Simulation> simulation_;
   std::optional<HistoryRecord> record_;
   Snapshots snapshots_;
-  io::SimulationResult result_;
 };
 
 }  // namespace
@@ -252,9 +250,13 @@ io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore
   return Run(file, store, options, unasked).take();
 }
 
-void check_simulation_input(const io::SimulationFile& file) {
-  SurfaceStore store;
-  build_vehicle(file, store);
+void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept, const io::SimulationFile& file,
+                             const std::vector<std::string>& settings) {
+  if (kept.version == version() && kept.git == git_revision() && kept.input_sha256 == file.sha256 && kept.settings == settings &&
+      kept.geometry_sha256 == input_hashes(file))
+    return;
+  throw Error(ErrorKind::configuration, fmt::format("{} belongs to another simulation", store.string()), {},
+              "resume with the same files, settings and build of Treadmark, or start anew in another folder");
 }
 
 }  // namespace treadmark::app

@@ -9,7 +9,7 @@
 
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
-#include "treadmark/io/histories/history_model.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
@@ -39,10 +39,11 @@ struct SimulationTimes {
 io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options,
                                     const Progress& progress, SimulationTimes* times = nullptr);
 
+/// Throws Error(configuration) unless a file with results or a checkpoint comes from this build, these files and settings.
+void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept, const io::SimulationFile& file,
+                             const std::vector<std::string>& settings);
+
 /// Vehicle, track and contacts in equilibrium, without integration: static values and modes.
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options);
-
-/// Reads the geometry and builds everything that a simulation needs, to find errors before it runs.
-void check_simulation_input(const io::SimulationFile& file);
 
 }  // namespace treadmark::app

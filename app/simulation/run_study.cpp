@@ -3,7 +3,6 @@
 #include "treadmark/app/simulation/run_study.hpp"
 
 #include <algorithm>
-#include <array>
 #include <atomic>
 #include <chrono>
 #include <cstdlib>
@@ -19,11 +18,11 @@
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 
@@ -33,6 +32,7 @@ namespace {
 namespace fs = std::filesystem;
 
 constexpr const char* kIdentityFile = "study.id";
+constexpr const char* kLockFile = "lock";
 constexpr auto kPoll = std::chrono::milliseconds(200);
 
 std::string text_of(const fs::path& file) {
@@ -42,30 +42,7 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-/// What results in a folder belong to.
-std::string identity_of(const io::StudyFile& study, const StudyOptions& options) {
-  std::string text = "treadmark " + version() + "\nstudy " + study.sha256 + "\nbase " + io::sha256_hex(text_of(study.base)) + '\n';
-  for (const std::string& setting : options.settings) text += setting + '\n';
-  return text;
-}
-
 fs::path folder_of(const StudyOptions& options, const io::StudyRun& run) { return options.folder / "runs" / fmt::format("run_{:04}", run.number); }
-
-std::vector<std::pair<std::string, std::string>> swept_of(const io::StudyFile& study, const io::StudyRun& run) {
-  std::vector<std::pair<std::string, std::string>> swept;
-  for (std::size_t i = 0; i < study.variations.size(); ++i) {
-    const io::Variation& v = study.variations[i];
-    const std::string& key = !v.key.empty() ? v.key : v.label;
-    swept.emplace_back(key.empty() ? fmt::format("vary.{}", i) : key, v.values[run.values[i]].label);
-  }
-  return swept;
-}
-
-std::string label_of(const io::StudyFile& study, const io::StudyRun& run) {
-  std::string label;
-  for (std::size_t i = 0; i < study.variations.size(); ++i) label += (i > 0 ? ", " : "") + study.variations[i].values[run.values[i]].label;
-  return label;
-}
 
 /// The HDF5 library is for one thread at a time.
 std::mutex& store_mutex() {
@@ -139,9 +116,10 @@ class Workers {
     const io::StudyRun& run = study_.runs[i];
     const fs::path folder = folder_of(options_, run);
     fs::create_directories(folder);
-    const auto lock = FileLock::attempt(folder / "lock");
+    const auto lock = FileLock::attempt(folder / kLockFile);
     if (!lock) return false;
     if (is_finished(i)) return true;
+    io::remove_leftovers(folder);
     const auto input = io::read_study_run(study_, run);
     SimulationOptions wanted;
     wanted.settings = run.overrides;
@@ -200,20 +178,19 @@ class Workers {
 
 /// The folder belongs to this study from here on.
 void claim_folder(const io::StudyFile& study, const StudyOptions& options) {
+  const fs::path file = options.folder / kIdentityFile;
+  if (options.must_exist && !fs::exists(file))
+    throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {}, "leave --resume out to begin one");
+  const std::string identity = study_identity(study);
   std::error_code failure;
   fs::create_directories(options.folder / "runs", failure);
   if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {options.folder.string()});
-  const FileLock lock = FileLock::wait(options.folder / "lock");
-  const fs::path file = options.folder / kIdentityFile;
-  const std::string identity = identity_of(study, options);
-  if (!fs::exists(file)) {
-    if (options.must_exist)
-      throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {}, "leave --resume out to begin one");
+  const FileLock lock = FileLock::wait(options.folder / kLockFile);
+  if (!fs::exists(file))
     io::write_text_file(file, identity);
-  } else if (text_of(file) != identity) {
+  else if (text_of(file) != identity)
     throw Error(ErrorKind::configuration, options.folder.string() + " holds the results of another study", {},
-                "choose another folder, or remove this one; files, settings and version of Treadmark must be the same to go on");
-  }
+                "choose another folder, or remove this one; runs, files, settings and build of Treadmark must be the same to go on");
 }
 
 io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) {
@@ -237,6 +214,7 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
 }  // namespace
 
 StudyOutcome run_study(const io::StudyFile& study, const StudyOptions& options, const Progress& progress) {
+  check_study_figures(study);
   claim_folder(study, options);
   StudyOutcome outcome;
   outcome.runs_total = study.runs.size();
@@ -249,14 +227,20 @@ StudyOutcome run_study(const io::StudyFile& study, const StudyOptions& options, 
 }
 
 void write_study_folder(const io::StudyFile& file, const StudyOptions& options, const io::StudyResult& study) {
-  const FileLock lock = FileLock::wait(options.folder / "lock");
+  const FileLock lock = FileLock::wait(options.folder / kLockFile);
+  // The runs are those of this study file; what was written of them may belong to an earlier version of its figures and titles.
   const fs::path marker = options.folder / "written.id";
-  const std::string identity = identity_of(file, options) + fmt::format("runs {}\n", study.runs.size());
-  if (fs::exists(marker) && text_of(marker) == identity && fs::exists(options.folder / "sweep.h5")) return;
+  std::string written = file.sha256;
+  for (const std::string& setting : options.settings) written += '\n' + setting;
+  std::vector<fs::path> outputs{"sweep.csv", "sweep.h5"};
+  for (const io::StudyFigure& figure : file.figures) outputs.push_back(figure.file);
+  const bool all_there = std::ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
+  if (all_there && fs::exists(marker) && text_of(marker) == written) return;
+  io::remove_leftovers(options.folder);
   io::write_sweep_csv(options.folder / "sweep.csv", study);
-  write_study_figures(file, options.folder, study);
   io::write_study_store(options.folder / "sweep.h5", study);
-  io::write_text_file(marker, identity);
+  write_study_figures(file, options.folder, study);
+  io::write_text_file(marker, written);
 }
 
 ProcessPlace process_place() {
@@ -266,7 +250,7 @@ ProcessPlace process_place() {
     return otherwise;
   };
   ProcessPlace place;
-  place.count = number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_NTASKS"}, 1);
+  place.count = number({"OMPI_COMM_WORLD_SIZE", "PMI_SIZE", "SLURM_STEP_NUM_TASKS"}, 1);
   place.rank = number({"OMPI_COMM_WORLD_RANK", "PMI_RANK", "SLURM_PROCID"}, 0);
   return place;
 }

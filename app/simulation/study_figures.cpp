@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/history_svg.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -59,9 +60,7 @@ class Figures {
     switch (figure.kind) {
       case io::StudyFigure::Kind::history: draw_history(figure); break;
       case io::StudyFigure::Kind::summary: draw_summary(figure); break;
-      case io::StudyFigure::Kind::patches:
-        throw Error(ErrorKind::configuration, "contact patches are drawn by `treadmark simulate` of one run", {},
-                    "use kind = \"history\" or \"summary\" in a study");
+      case io::StudyFigure::Kind::patches: break;  // refused beforehand
     }
   }
 
@@ -126,7 +125,6 @@ class Figures {
   }
 
   void draw_summary(const io::StudyFigure& figure) {
-    if (figure.y.size() != 1) throw Error(ErrorKind::configuration, fmt::format("{}: a summary shows one quantity", figure.file.string()));
     io::SummaryChart chart;
     chart.title = figure.title;
     chart.key = figure.x;
@@ -156,7 +154,25 @@ class Figures {
 
 }  // namespace
 
+void check_study_figures(const io::StudyFile& file) {
+  std::vector<std::string> keys;
+  if (!file.runs.empty())
+    for (const auto& [key, value] : swept_of(file, file.runs.front())) keys.push_back(key);
+  const auto refuse = [&](const io::StudyFigure& figure, const std::string& what, const std::string& advice) {
+    throw Error(ErrorKind::configuration, fmt::format("figure {}: {}", figure.file.string(), what), {file.path.string()}, advice);
+  };
+  for (const io::StudyFigure& figure : file.figures) {
+    if (figure.kind == io::StudyFigure::Kind::patches)
+      refuse(figure, "contact patches are drawn by `treadmark simulate` of one run", "use kind = \"history\" or \"summary\" in a study");
+    if (figure.kind == io::StudyFigure::Kind::summary && figure.y.size() != 1)
+      refuse(figure, "a summary shows one quantity", "make a figure for each");
+    if (figure.kind == io::StudyFigure::Kind::summary && std::ranges::find(keys, figure.x) == keys.end())
+      refuse(figure, fmt::format("x = '{}' is no varied key", figure.x), fmt::format("varied keys: {}", fmt::join(keys, ", ")));
+  }
+}
+
 void write_study_figures(const io::StudyFile& file, const fs::path& folder, const io::StudyResult& study) {
+  check_study_figures(file);
   Figures figures(file, folder, study);
   for (const io::StudyFigure& figure : file.figures) figures.draw(figure);
 }

@@ -9,6 +9,9 @@
 
 namespace treadmark::app {
 
+/// What can be told of figures before anything runs. Errors: Error(configuration) for those that no study can draw.
+void check_study_figures(const io::StudyFile& file);
+
 /// Draws the figures that a study asks for, each as SVG with its numbers as CSV beside it, from the stores of its runs.
 /// Errors: Error(configuration) for columns, keys and quantities that the runs do not have.
 void write_study_figures(const io::StudyFile& file, const std::filesystem::path& folder, const io::StudyResult& study);

@@ -119,7 +119,9 @@ SimulationResult read_simulation(const std::filesystem::path& path) {
 
 SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
   const Store store(path);
-  return {store.root().text("version"), store.root().text("sha256"), store.root().texts("settings"), read_bytes(store)};
+  const Hdf5GroupReader& root = store.root();
+  return {root.text("version"),   root.text("git"), root.text("sha256"),
+          root.texts("settings"), pairs(store, "geometry_files", "geometry_sha256"), read_bytes(store)};
 }
 
 }  // namespace treadmark::io

@@ -23,8 +23,9 @@ SimulationResult read_simulation(const std::filesystem::path& path);
 
 /// A checkpoint, and what must be the same for a simulation that goes on from it.
 struct SimulationCheckpoint {
-  std::string version, input_sha256;
+  std::string version, git, input_sha256;
   std::vector<std::string> settings;
+  std::vector<std::pair<std::string, std::string>> geometry_sha256;
   std::vector<std::byte> bytes;  ///< empty: the file has none
 };
 

@@ -16,6 +16,8 @@
 namespace treadmark::io {
 namespace {
 
+constexpr const char* kPart = ".part";
+
 [[noreturn]] void fail(const std::filesystem::path& path, const std::string& why) {
   throw Error(ErrorKind::configuration, fmt::format("cannot write {}: {}", path.string(), why), {},
               "choose another output path or make the folder writable");
@@ -32,7 +34,7 @@ AtomicFile::AtomicFile(std::filesystem::path target) : target_(std::move(target)
 
   static std::atomic<unsigned> count{0};
   temporary_ = target_;
-  temporary_.replace_filename(fmt::format(".{}.part{}-{}", target_.filename().string(), ::getpid(), count++));
+  temporary_.replace_filename(fmt::format(".{}{}{}-{}", target_.filename().string(), kPart, ::getpid(), count++));
 }
 
 AtomicFile::~AtomicFile() {
@@ -46,6 +48,14 @@ void AtomicFile::commit() {
   std::filesystem::rename(temporary_, target_, error);
   if (error) fail(target_, error.message());
   committed_ = true;
+}
+
+void remove_leftovers(const std::filesystem::path& folder) {
+  std::error_code ignored;
+  for (const auto& entry : std::filesystem::directory_iterator(folder, ignored)) {
+    const std::string name = entry.path().filename().string();
+    if (name.starts_with('.') && name.find(kPart) != std::string::npos) std::filesystem::remove(entry.path(), ignored);
+  }
 }
 
 void write_text_file(const std::filesystem::path& path, std::string_view text) {

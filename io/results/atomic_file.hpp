@@ -28,6 +28,9 @@ class AtomicFile {
   bool committed_ = false;
 };
 
+/// Removes what processes that died have left behind: unfinished files of this kind. Nobody may be writing into the folder.
+void remove_leftovers(const std::filesystem::path& folder);
+
 /// Writes a whole text in this manner.
 void write_text_file(const std::filesystem::path& path, std::string_view text);
 

@@ -89,6 +89,11 @@ void read_models(const TableReader& simulation, const std::filesystem::path& fol
   out.track_file = track.file;
 }
 
+/// With steps of more than an element the elements at the leading edge stick or slip at random.
+void choose_steps(const TableReader& simulation, SimulationFile& out) {
+  if (out.contact.regime == RegimeInput::transient && simulation.find("max_step_elements") == nullptr) out.settings.max_step_elements = 1.0;
+}
+
 /// Histories of transient rolling reach two elements back.
 void check_steps(const TableReader& simulation, const SimulationFile& out) {
   const SimulationSettings& s = out.settings;

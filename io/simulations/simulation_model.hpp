@@ -39,10 +39,10 @@ struct SimulationSettings {
   double distance = 0.0;          ///< travelled in the whole simulation [m]; > 0
   double duration = 0.0;          ///< [s]; distance/speed
   double gravity = 9.81;          ///< [m/s2]
-  double tolerance = 1e-8;        ///< local error of displacements in a step [m]
+  double tolerance = 1e-7;        ///< local error of displacements in a step [m]
   std::optional<double> max_step; ///< [s]
   double min_step = 1e-9;         ///< [s]
-  double max_step_elements = 2.0; ///< distance travelled in a step over dx
+  double max_step_elements = 2.0; ///< distance travelled in a step over dx; without a wish 1 with transient rolling, else 2
   double spectral_radius = 0.8;   ///< of the time integration at infinite frequency, 0 ... 1
   double checkpoint = 10.0;       ///< time of the computer between two checkpoints [s]
   double output_every = 0.0;      ///< distance between two lines of output [m]; 0 = every step

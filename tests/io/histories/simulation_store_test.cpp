@@ -108,8 +108,10 @@ TEST_F(SimulationStore, TheCheckpointComesWithItsIdentity) {
   io::SimulationCheckpoint read = io::read_checkpoint(path_);
   EXPECT_EQ(read.bytes, result_.checkpoint);
   EXPECT_EQ(read.version, result_.version);
+  EXPECT_EQ(read.git, result_.git);
   EXPECT_EQ(read.input_sha256, result_.input_sha256);
   EXPECT_EQ(read.settings, result_.settings);
+  EXPECT_EQ(read.geometry_sha256, result_.geometry_sha256);
   result_.checkpoint.clear();
   io::write_simulation(path_, result_);
   EXPECT_TRUE(io::read_checkpoint(path_).bytes.empty());

@@ -1,0 +1,143 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+#include <signal.h>
+
+#include <chrono>
+#include <filesystem>
+#include <thread>
+
+#include "treadmark/tests/app/running_program.hpp"
+#include "treadmark/tests/app/simulation/sample_simulation.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+class Resume : public ::testing::Test {
+ protected:
+  void SetUp() override { input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.15"); }
+
+  std::vector<std::string> command(const std::string& folder, std::vector<std::string> options = {}) const {
+    options.insert(options.begin(), {"treadmark", "simulate", input.path("simulation.toml"), "--quiet", "-o", input.path(folder)});
+    return options;
+  }
+  /// Lets the program run until it has written a checkpoint that was not there before, and a little longer. False: it ended before.
+  bool wait_for_checkpoint(RunningProgram& program, const std::string& folder) const {
+    const fs::path file = input.path(folder + "/unfinished.h5");
+    std::error_code none;
+    const auto before = fs::last_write_time(file, none);
+    const bool was_there = !none;
+    while (program.running()) {
+      std::this_thread::sleep_for(std::chrono::milliseconds(5));
+      const auto now = fs::last_write_time(file, none);
+      if (!none && (!was_there || now != before)) return true;
+    }
+    return false;
+  }
+  void expect_same(const std::string& one, const std::string& other) const {
+    for (const char* file : {"simulation.h5", "history.csv", "events.csv", "history.svg"}) {
+      const std::string bytes = input.read(one + '/' + file);
+      EXPECT_FALSE(bytes.empty()) << file;
+      EXPECT_TRUE(bytes == input.read(other + '/' + file)) << file << " differs";
+    }
+  }
+  SampleSimulation input;
+};
+
+TEST_F(Resume, AfterKillsTheResultIsThatOfAnUndisturbedRun) {
+  ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
+  int resumed = 0;
+  for (const int delay_ms : {0, 20, 60, 150}) {
+    RunningProgram program(command("killed", resumed > 0 ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
+    if (!wait_for_checkpoint(program, "killed")) break;
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    program.send(SIGKILL);
+    program.wait();
+    ++resumed;
+  }
+  EXPECT_GE(resumed, 1) << "never killed between the first checkpoint and the end";
+  input.write("killed/.history.csv.part1-0", "what a kill in the middle of writing leaves");
+  const ProgramResult last = RunningProgram(command("killed", {"--resume"})).wait();
+  ASSERT_EQ(last.status, 0) << last.err;
+  expect_same("undisturbed", "killed");
+  for (const auto& entry : fs::directory_iterator(input.path("killed")))
+    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << "left behind: " << entry.path();
+}
+
+TEST_F(Resume, KilledBeforeTheFirstCheckpoint) {
+  ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
+  for (const int delay_ms : {0, 30, 120}) {
+    RunningProgram program(command("killed", {"--resume"}));
+    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+    program.send(SIGKILL);
+    program.wait();
+  }
+  ASSERT_EQ(RunningProgram(command("killed", {"--resume"})).wait().status, 0);
+  expect_same("undisturbed", "killed");
+}
+
+TEST_F(Resume, AfterAnInterruptTheMessageSaysHowToGoOn) {
+  ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
+  RunningProgram program(command("stopped"));
+  ASSERT_TRUE(wait_for_checkpoint(program, "stopped"));
+  program.send(SIGINT);
+  const ProgramResult stopped = program.wait();
+  EXPECT_EQ(stopped.status, 1);
+  EXPECT_THAT(stopped.err, HasSubstr("--resume"));
+  EXPECT_THAT(stopped.out, HasSubstr("interrupted"));
+  EXPECT_TRUE(fs::exists(input.path("stopped/history.csv"))) << "what there is";
+  const ProgramResult resumed = RunningProgram(command("stopped", {"--resume"})).wait();
+  ASSERT_EQ(resumed.status, 0) << resumed.err;
+  expect_same("undisturbed", "stopped");
+}
+
+TEST_F(Resume, OtherInputIsRefused) {
+  RunningProgram program(command("stopped"));
+  ASSERT_TRUE(wait_for_checkpoint(program, "stopped"));
+  program.send(SIGKILL);
+  program.wait();
+  const std::string kept = input.read("stopped/unfinished.h5");
+  const auto expect_refused = [&](const std::vector<std::string>& options) {
+    const ProgramResult r = RunningProgram(command("stopped", options)).wait();
+    EXPECT_EQ(r.status, 2) << r.out;
+    EXPECT_THAT(r.err, HasSubstr("another simulation"));
+    EXPECT_TRUE(kept == input.read("stopped/unfinished.h5")) << "the checkpoint must stay";
+  };
+  expect_refused({"--resume", "--set", "simulation.speed_m_s=21"});
+  input.edit("vehicle.toml", "mass_kg = 9000", "mass_kg = 9100");
+  expect_refused({"--resume"});
+  input.edit("vehicle.toml", "mass_kg = 9100", "mass_kg = 9000");
+  input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.16");
+  expect_refused({"--resume"});
+  input.edit("simulation.toml", "distance_m = 0.16", "distance_m = 0.15");
+  EXPECT_EQ(RunningProgram(command("stopped", {"--resume"})).wait().status, 0);
+}
+
+TEST_F(Resume, AFinishedResultStaysAsItIs) {
+  input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.02");
+  ASSERT_EQ(RunningProgram(command("done")).wait().status, 0);
+  const std::string before = input.read("done/simulation.h5");
+  const ProgramResult again = RunningProgram(command("done", {"--resume"})).wait();
+  EXPECT_EQ(again.status, 0);
+  EXPECT_THAT(again.err, HasSubstr("complete already"));
+  const ProgramResult other = RunningProgram(command("done", {"--resume", "--set", "simulation.speed_m_s=21"})).wait();
+  EXPECT_EQ(other.status, 2);
+  EXPECT_THAT(other.err, HasSubstr("another simulation"));
+  EXPECT_TRUE(before == input.read("done/simulation.h5"));
+}
+
+TEST_F(Resume, TwoSimulationsDoNotShareAFolder) {
+  RunningProgram first(command("shared"));
+  ASSERT_TRUE(wait_for_checkpoint(first, "shared"));
+  const ProgramResult second = RunningProgram(command("shared", {"--resume"})).wait();
+  EXPECT_EQ(second.status, 2);
+  EXPECT_THAT(second.err, HasSubstr("another simulation is writing"));
+  EXPECT_EQ(first.wait().status, 0);
+}
+
+}  // namespace
+}  // namespace treadmark::testing

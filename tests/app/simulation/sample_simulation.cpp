@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/tests/app/simulation/sample_simulation.hpp"
+
+#include "treadmark/tests/io/simulations/samples.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+const char* kStudy = R"([study]
+title = "Two flats at two speeds"
+base = "simulation.toml"
+
+[[study.vary]]
+key = "simulation.speed_m_s"
+label = "speed [m/s]"
+values = [20, 40]
+
+[[study.vary]]
+key = "wheel.flats.0.depth_mm"
+values = [0.5, 0.9]
+
+[[study.figures]]
+file = "force-by-distance.svg"
+kind = "history"
+x = "x_m"
+y = ["Q_N"]
+
+[[study.figures]]
+file = "force-by-speed.svg"
+kind = "summary"
+x = "simulation.speed_m_s"
+y = ["q_max_N"]
+series = "wheel.flats.0.depth_mm"
+)";
+
+// Dearer than a table in the long run, but there is no long run here.
+const char* kRoundWheel = R"([[simulation.wheels]]
+wheelset = 1
+side = "right"
+contact = "full"
+defects = false
+)";
+
+}  // namespace
+
+SampleSimulation::SampleSimulation() {
+  write("vehicle.toml", io::samples::kVehicle);
+  write("track.toml", io::samples::kTrack);
+  write("simulation.toml", io::samples::kSimulation);
+  edit("simulation.toml", "distance_m = 3", "distance_m = 0.06\ncheckpoint_s = 0.02");
+  edit("simulation.toml", "pitch_deg = 30\n", "pitch_deg = 4\n\n" + std::string(kRoundWheel));
+  edit("simulation.toml", "dx_mm = 0.5", "dx_mm = 2\nds_mm = 2");
+  write("study.toml", kStudy);
+}
+
+}  // namespace treadmark::testing

@@ -1,0 +1,141 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <nlohmann/json.hpp>
+#include <numbers>
+#include <sstream>
+
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/simulation/sample_simulation.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::StartsWith;
+
+class Simulate : public ::testing::Test {
+ protected:
+  ProgramResult run(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"simulate", input.path("simulation.toml")});
+    return run_program(options);
+  }
+  std::string out() const { return input.path("out"); }
+  SampleSimulation input;
+};
+
+struct Table {
+  std::vector<std::string> names;
+  std::vector<std::vector<double>> rows;
+  std::vector<double> column(const std::string& name) const {
+    const auto at = static_cast<std::size_t>(std::ranges::find(names, name) - names.begin());
+    std::vector<double> values;
+    for (const auto& row : rows) values.push_back(row.at(at));
+    return values;
+  }
+};
+
+Table read_table(const std::string& text) {
+  std::istringstream lines(text);
+  std::string line, field;
+  Table table;
+  std::getline(lines, line);
+  for (std::istringstream fields(line); std::getline(fields, field, ',');) table.names.push_back(field);
+  while (std::getline(lines, line)) {
+    table.rows.emplace_back();
+    for (std::istringstream fields(line); std::getline(fields, field, ',');) table.rows.back().push_back(std::stod(field));
+  }
+  return table;
+}
+
+TEST_F(Simulate, WritesEveryFileAndASummary) {
+  const ProgramResult r = run({"-o", out()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  for (const char* word : {"A flat: complete", "q_max", "integration"}) EXPECT_THAT(r.out, HasSubstr(word));
+  for (const char* file : {"simulation.h5", "history.csv", "events.csv", "modes.csv", "history.svg"})
+    EXPECT_TRUE(std::filesystem::exists(out() + '/' + file)) << file;
+  EXPECT_FALSE(std::filesystem::exists(out() + "/unfinished.h5"));
+  EXPECT_THAT(input.read("out/history.csv"), StartsWith("t_s,x_m,Q_N,Ty_N,"));
+  EXPECT_THAT(input.read("out/events.csv"), StartsWith("t_s,x_m,wheel,kind\n"));
+}
+
+TEST_F(Simulate, JsonSumsUpTheHistory) {
+  const ProgramResult r = run({"-o", out(), "--json", "-"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const auto json = nlohmann::json::parse(r.out);
+  EXPECT_EQ(json["status"], "complete");
+  const Table history = read_table(input.read("out/history.csv"));
+  const auto q = history.column("Q_N"), x = history.column("x_m");
+  const auto highest = std::ranges::max_element(q);
+  EXPECT_EQ(json["summary"]["q_max_N"], *highest);
+  EXPECT_EQ(json["summary"]["q_max_x_m"], x.at(static_cast<std::size_t>(highest - q.begin())));
+  EXPECT_EQ(json["rows"], history.rows.size());
+  EXPECT_GE(x.back(), 0.06 - 1e-9);
+  EXPECT_EQ(json["static"]["ws1_left.Q_N"], q.front());
+}
+
+TEST_F(Simulate, JsonGoesToAFileBesideTheTable) {
+  const ProgramResult r = run({"--json", input.path("summary.json"), "--set", "simulation.distance_m=0.01"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("complete"));
+  EXPECT_EQ(nlohmann::json::parse(input.read("summary.json"))["status"], "complete");
+}
+
+TEST_F(Simulate, ModesOnly) {
+  const ProgramResult text = run({"--modes", "-o", out()});
+  ASSERT_EQ(text.status, 0) << text.err;
+  EXPECT_THAT(text.out, HasSubstr("f [Hz]"));
+  EXPECT_THAT(text.out, HasSubstr("mass.z"));
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  const auto json = nlohmann::json::parse(run({"--modes", "--json", "-"}).out);
+  const double bounce = std::sqrt(2.0 * 1.2e6 / 9000.0) / (2.0 * std::numbers::pi);  // the mass on its two springs
+  EXPECT_NEAR(json["modes"].at(0)["frequency_Hz"], bounce, 0.01 * bounce) << "all below is much stiffer";
+  EXPECT_EQ(json["rows"], 0);
+}
+
+TEST_F(Simulate, SetChangesAKey) {
+  const ProgramResult r = run({"-o", out(), "--set", "simulation.speed_m_s=10", "--set", "simulation.distance_m=0.02", "--json", "-"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Table history = read_table(input.read("out/history.csv"));
+  EXPECT_NEAR(history.column("x_m").back() / history.column("t_s").back(), 10.0, 1e-9);
+  EXPECT_THAT(nlohmann::json::parse(r.out)["input"]["settings"].dump(), HasSubstr("simulation.speed_m_s=10"));
+}
+
+TEST_F(Simulate, QuietSaysNothingButResults) {
+  input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.01");
+  const ProgramResult r = run({"--quiet"});
+  EXPECT_EQ(r.status, 0);
+  EXPECT_EQ(r.err, "");
+  EXPECT_THAT(r.out, HasSubstr("complete"));
+}
+
+TEST_F(Simulate, FieldsAreDrawnAndStored) {
+  const ProgramResult r = run({"-o", out(), "--set", "simulation.fields.position_m=[0.005]", "--set", "simulation.distance_m=0.01"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_TRUE(std::filesystem::exists(out() + "/pressure.svg"));
+}
+
+TEST_F(Simulate, AnyNumberOfThreadsGivesTheSameBytes) {
+  ASSERT_EQ(run({"-o", input.path("one"), "--threads", "1"}).status, 0);
+  ASSERT_EQ(run({"-o", input.path("three"), "--threads", "3"}).status, 0);
+  for (const char* file : {"simulation.h5", "history.csv"})
+    EXPECT_TRUE(input.read(std::string("one/") + file) == input.read(std::string("three/") + file)) << file;
+}
+
+TEST_F(Simulate, AFailureOnTheWayKeepsWhatThereIs) {
+  // Half a picometre of local error cannot be met with steps that may not become shorter than a microsecond.
+  const ProgramResult r = run({"-o", out(), "--set", "simulation.tolerance_um=1e-9", "--set", "simulation.min_step_us=1", "--set",
+                               "simulation.max_step_us=2"});
+  EXPECT_EQ(r.status, 1) << r.out;
+  EXPECT_THAT(r.err, StartsWith("treadmark: "));
+  EXPECT_TRUE(std::filesystem::exists(out() + "/simulation.h5"));
+  EXPECT_TRUE(std::filesystem::exists(out() + "/unfinished.h5"));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
