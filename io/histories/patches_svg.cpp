@@ -12,6 +12,7 @@
 #include "treadmark/io/histories/patches_view.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/chart_curve.hpp"
+#include "treadmark/io/results/chart_labels.hpp"
 #include "treadmark/io/results/csv_text.hpp"
 #include "treadmark/io/results/svg_panel.hpp"
 #include "treadmark/io/results/svg_text.hpp"
@@ -23,7 +24,8 @@ namespace {
 constexpr double kLongest = 230.0;  // side of a panel
 constexpr double kLeft = 62.0, kTop = 76.0, kBottom = 48.0, kLegend = 190.0;
 constexpr double kGapX = 20.0, kGapY = 72.0;
-constexpr double kTitleWidth = 116.0;  // of the words above a panel
+constexpr double kTitleWidth = 116.0;  // of the words above a panel, at least
+constexpr double kTitleFont = 13.0, kTitleGap = 10.0;
 constexpr double kShape = 1.7;         // wished width over height of the picture
 constexpr double kMilli = 1e3;
 constexpr int kMostContours = 8;
@@ -36,17 +38,25 @@ constexpr const char* kStyle =
 struct Sheet {
   PanelScale panel;
   int columns = 1, rows = 1;
+  double title_width = kTitleWidth;
 
   double width() const { return panel.window.width() * panel.scale_x; }
   double height() const { return panel.window.height() * panel.scale_y; }
-  double step_x() const { return std::max(width() + kGapX, kTitleWidth); }
+  double step_x() const { return std::max(width() + kGapX, title_width); }
   double step_y() const { return height() + kGapY; }
-  double picture_width() const { return kLeft + (columns - 1) * step_x() + std::max(width(), kTitleWidth) + kLegend; }
+  double picture_width() const { return kLeft + (columns - 1) * step_x() + std::max(width(), title_width) + kLegend; }
   double picture_height() const { return kTop + (rows - 1) * step_y() + height() + kBottom; }
 };
 
-Sheet make_sheet(const Window& window, int count) {
+std::string title_of(const PatchesPanel& panel) {
+  return panel.title.empty() ? fmt::format("pitch {:.2f}°", panel.result->pitch * 180.0 / std::numbers::pi + 0.0) : panel.title;
+}
+
+Sheet make_sheet(const Window& window, std::span<const PatchesPanel> panels) {
+  const int count = static_cast<int>(panels.size());
   Sheet sheet;
+  for (const PatchesPanel& panel : panels)
+    sheet.title_width = std::max(sheet.title_width, text_width(title_of(panel), kTitleFont) + kTitleGap);
   const double scale = kLongest / std::max(window.width(), window.height());
   sheet.panel = {window, scale, scale};
   double best = 0.0;
@@ -95,10 +105,6 @@ std::string draw_round_wheel(const std::vector<PatchPicture>& patches, const Pan
                     (scale.window.y_high - one.y_low) * scale.scale_y, one.dx * scale.scale_x, -one.dy * scale.scale_y);
   if (path.empty()) return {};
   return fmt::format("<path class=\"under\" d=\"{0}\"/>\n<path class=\"round\" d=\"{0}\"/>\n", path);
-}
-
-std::string title_of(const PatchesPanel& panel) {
-  return panel.title.empty() ? fmt::format("pitch {:.2f}°", panel.result->pitch * 180.0 / std::numbers::pi + 0.0) : panel.title;
 }
 
 std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const Sheet& sheet, double step_mm, int index, int count) {
@@ -156,7 +162,7 @@ bool inside(const Window& window, double x, double y) {
 std::string patches_svg(std::span<const PatchesPanel> panels, const std::string& title) {
   const PatchesView view = make_patches_view(panels);
   const int count = static_cast<int>(panels.size());
-  const Sheet sheet = make_sheet(view.window, count);
+  const Sheet sheet = make_sheet(view.window, panels);
   const double step_mm = contour_step(panels);
   std::string out = svg_head(sheet.picture_width(), sheet.picture_height(), 10, std::string(kPanelStyle) + kStyle);
   out += fmt::format("<clipPath id=\"panel\"><rect width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n", sheet.width(), sheet.height());
