@@ -146,6 +146,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
   read_contact(contact, result);
   read_other_wheel(contact, simulation, result);
+  choose_steps(simulation, result);
   check_steps(simulation, result);
   return result;
 }
