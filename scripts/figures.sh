@@ -3,7 +3,7 @@
 # SPDX-FileCopyrightText: Treadmark contributors
 # Runs the studies of a wheel flat in a vehicle (examples/figure*.toml) and writes their results and pictures into out/figures.
 #   scripts/figures.sh [SLICES.slcw]
-# With a measured wheel all round, that one is used; S1002_flat.slcw is looked for in ../shared/data/contact_examples. Without it the
+# A measured wheel takes the place of the generated flat; S1002_flat.slcw is looked for in ../shared/data/contact_examples. Without it the
 # generated flat of the examples is used. Environment: PROGRAM (default build/release/app/treadmark, else build/app/treadmark),
 # OUT (default out/figures), WORKERS (processor cores to use), PITCH_DEG (the angle at which the measured flat is down), SMOOTHING_MM3.
 #
@@ -39,8 +39,10 @@ else
   echo "generated flat" >&2
 fi
 
-"$program" simulate "$root/examples/figure7.toml" -o "$out/figure7" --threads "$workers" "${wheel[@]}" "${angles[@]}"
+status=0
+"$program" simulate "$root/examples/figure7.toml" -o "$out/figure7" --threads "$workers" "${wheel[@]}" "${angles[@]}" || status=$?
 for study in figure5 figure6-track figure6; do
-  "$program" sweep "$root/examples/$study.toml" -o "$out/$study" --threads "$workers" "${wheel[@]}"
+  "$program" sweep "$root/examples/$study.toml" -o "$out/$study" --threads "$workers" "${wheel[@]}" || status=$?
 done
 find "$out" -maxdepth 2 -name '*.svg' | sort
+exit "$status"  # of a run that failed; the pictures show the others
