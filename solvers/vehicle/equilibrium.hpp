@@ -9,7 +9,7 @@ namespace treadmark::vehicle {
 
 struct EquilibriumSettings {
   double tolerance = 1e-6;     ///< of every force over the largest wheelset load
-  double acceptable = 1e-4;    ///< where grids let forces not come nearer
+  double acceptable = 1e-3;    ///< where forces jump with the elements in contact and let no state come nearer
   int max_iterations = 60;
 };
 
