@@ -69,6 +69,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   if (!folder.empty()) {
     lock.emplace(claim(folder));
     run.checkpoint_file = folder / "unfinished.h5";
+    run.table_file = folder / "history.csv";
     run.resume = options.resume;
     if (options.resume && is_finished(folder / "simulation.h5", file, overrides)) {
       std::cerr << "the simulation in " << folder.string() << " is complete already\n";

@@ -10,9 +10,12 @@
 
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/input_files.hpp"
+#include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/histories/history_csv.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
 
 namespace treadmark::app {
@@ -201,6 +204,7 @@ class Run {
     partial.checkpoint = out.bytes();
     const auto lock = lock_stores();
     io::write_simulation(options_.checkpoint_file, partial);
+    if (!options_.table_file.empty()) io::write_history_csv(options_.table_file, wheel_columns(partial));
   }
 
   std::unique_lock<std::mutex> lock_stores() const {

@@ -20,6 +20,7 @@ struct SimulationOptions {
   std::vector<std::pair<std::string, std::string>> swept;
   /// Where unfinished results are kept, with what it takes to go on; empty: nowhere. The file is removed by nobody here.
   std::filesystem::path checkpoint_file;
+  std::filesystem::path table_file;          ///< history so far as text, written with every checkpoint; empty: none
   bool resume = false;                       ///< go on from that file, if there is one
   std::mutex* store_mutex = nullptr;         ///< held while files are written: the HDF5 library may not be thread-safe
 };

@@ -171,7 +171,7 @@ TEST_F(SimulationText, ErrorsOfSettings) {
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nfields.pich_deg = [3]"), HasSubstr("did you mean 'simulation.fields.pitch_deg'?"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nmax_step_elements = 2.5"),
               HasSubstr("s.toml:8:21: simulation.max_step_elements = 2.5: steps of transient rolling must not exceed dt = 2 dx / V"));
-  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nmin_step_us = 60"), HasSubstr("simulation.min_step_us = 60 exceeds the longest step of 50 us"));
+  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nmin_step_us = 60"), HasSubstr("simulation.min_step_us = 60 exceeds the longest step of 25 us"));
   EXPECT_THAT(samples::error_of([&] { parse("rail.shape.standard = \"60E1\"\n"); }), HasSubstr("s.toml:1:1: [simulation] is missing"));
   EXPECT_THAT(samples::error_of([&] { parse("simulation = 3\n"); }), HasSubstr("s.toml:1:14: [simulation] is missing"));
   EXPECT_THAT(error("title = \"A flat\"", "title = 3"), HasSubstr("s.toml:1:9: title must be text"));
