@@ -60,7 +60,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
     if (options.json_file == "-") std::cout << app::to_json(result, {});
-    else std::cout << app::modes_text(result);
+    else std::cout << app::statics_text(result) << '\n' << app::modes_text(result);
     return kOk;
   }
 

@@ -111,6 +111,12 @@ std::string times_text(const SimulationTimes& t) {
   return text;
 }
 
+std::string statics_text(const io::SimulationResult& result) {
+  std::string text;
+  for (const io::NamedValue& v : result.statics) text += fmt::format("{:<24} {:>14.6g}  {}\n", v.name, v.value, v.description);
+  return text;
+}
+
 std::string modes_text(const io::SimulationResult& result) {
   std::string text = fmt::format("{:>12} {:>9}  {}\n", "f [Hz]", "damping", "kinetic energy");
   for (const io::ModeRow& mode : result.modes) text += fmt::format("{:>12.4f} {:>9.4f}  {}\n", mode.frequency_Hz, mode.damping_ratio, mode.shape);

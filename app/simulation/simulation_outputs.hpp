@@ -28,6 +28,8 @@ std::string to_json(const io::SimulationResult& result, const SimulationTimes& t
 std::string summary_text(const io::SimulationResult& result);
 /// Where the time went, with the share of geometry, normal and tangential problem.
 std::string times_text(const SimulationTimes& times);
+/// Forces and displacements in static equilibrium.
+std::string statics_text(const io::SimulationResult& result);
 /// Eigenfrequencies, damping and what moves.
 std::string modes_text(const io::SimulationResult& result);
 

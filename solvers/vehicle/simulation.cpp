@@ -213,8 +213,12 @@ void Simulation::restore(ByteReader& in) {
   motion_ = std::move(m);
   for (ContactReaction& r : reactions_)
     for (double* value : {&r.least_gap, &r.frictional_power, &r.elastic_energy, &r.normal_force}) in.get(*value);
-  events_.resize(in.get<std::size_t>());
-  for (ContactEvent& e : events_) in.get(e.time), in.get(e.wheel), in.get(e.regained);
+  events_.clear();
+  for (auto left = in.get<std::size_t>(); left > 0; --left) {
+    ContactEvent& e = events_.emplace_back();
+    in.get(e.time), in.get(e.wheel), in.get(e.regained);
+    if (e.wheel >= vehicle_->wheels.size()) throw Error(ErrorKind::input_data, "a saved state belongs to another vehicle", {}, "start anew");
+  }
   for (EnergyBalance* e : {&energy_, &energy_at_start_})
     for (double* value : {&e->mechanical, &e->dampers, &e->contact_work, &e->drive, &e->friction, &e->elastic, &e->turnover}) in.get(*value);
   in.get(counts_.steps), in.get(counts_.rejected), in.get(counts_.evaluations);

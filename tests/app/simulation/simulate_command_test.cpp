@@ -88,6 +88,7 @@ TEST_F(Simulate, JsonGoesToAFileBesideTheTable) {
 
 TEST_F(Simulate, ModesOnly) {
   const ProgramResult text = run({"--modes", "-o", out()});
+  EXPECT_THAT(text.out, HasSubstr("ws1_right.Q_N"));
   ASSERT_EQ(text.status, 0) << text.err;
   EXPECT_THAT(text.out, HasSubstr("f [Hz]"));
   EXPECT_THAT(text.out, HasSubstr("mass.z"));
