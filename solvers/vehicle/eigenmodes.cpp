@@ -25,14 +25,7 @@ struct FirstOrder {
 
 FirstOrder first_order(const VehicleOnTrack& vehicle, const SystemState& state) {
   const Multibody& s = vehicle.system;
-  Matrix k = s.stiffness, c = s.damping;
-  for (const CharacteristicForce& f : s.characteristics)
-    k += characteristic(f, f.direction.dot(state.q)).stiffness * f.direction * f.direction.transpose();
-  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    const PairTangent t = linearised(vehicle, i, state);
-    k += vehicle.maps[i].transpose() * t.stiffness * vehicle.maps[i];
-    c += vehicle.maps[i].transpose() * t.damping * vehicle.maps[i];
-  }
+  const auto [k, c] = linearised_system(vehicle, state);
   FirstOrder out;
   for (Index i = 0; i < s.mass.size(); ++i) (s.mass[i] > 0.0 ? out.heavy : out.light).push_back(i);
   const auto n = static_cast<Index>(out.heavy.size()), m = static_cast<Index>(out.light.size());

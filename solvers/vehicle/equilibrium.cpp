@@ -91,17 +91,10 @@ class Balance {
   }
 
   /// Derivative of -imbalance by the unknowns.
-  Matrix jacobian(const SystemState& state) const {
-    Matrix positions = system_.stiffness, rates = system_.damping;
-    for (const CharacteristicForce& c : system_.characteristics)
-      positions += characteristic(c, c.direction.dot(state.q)).stiffness * c.direction * c.direction.transpose();
-    for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
-      const PairTangent t = linearised(vehicle_, i, state);
-      positions += vehicle_.maps[i].transpose() * t.stiffness * vehicle_.maps[i];
-      rates += vehicle_.maps[i].transpose() * t.damping * vehicle_.maps[i];
-    }
-    for (const int c : rolling_) positions.col(c) = rates.col(c);
-    return positions;
+  Matrix jacobian(const SystemState& state, double coarseness) const {
+    LinearSystem system = linearised_system(vehicle_, state, coarseness);
+    for (const int c : rolling_) system.stiffness.col(c) = system.damping.col(c);
+    return system.stiffness;
   }
 
   SystemState moved(SystemState state, const Vector& step) const {
@@ -123,15 +116,27 @@ class Balance {
 
 }  // namespace
 
-PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const SystemState& state) {
+PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const SystemState& state, double coarseness) {
   const PairMotion m = vehicle.motion(i, state);
   PairTangent t;
   for (int c = 0; c < kPairCoordinates; ++c) {
     if (vehicle.maps[i].row(c).isZero(0.0)) continue;
-    t.stiffness.col(c) = -slope(vehicle, i, m, kSteps[c], [c](PairMotion& changed, double by) { displace(changed, c, by); });
-    t.damping.col(c) = -slope(vehicle, i, m, kRateSteps[c] * vehicle.speed, [c](PairMotion& changed, double by) { accelerate(changed, c, by); });
+    t.stiffness.col(c) = -slope(vehicle, i, m, coarseness * kSteps[c], [c](PairMotion& changed, double by) { displace(changed, c, by); });
+    t.damping.col(c) = -slope(vehicle, i, m, coarseness * kRateSteps[c] * vehicle.speed, [c](PairMotion& changed, double by) { accelerate(changed, c, by); });
   }
   return t;
+}
+
+LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness) {
+  LinearSystem system{vehicle.system.stiffness, vehicle.system.damping};
+  for (const CharacteristicForce& c : vehicle.system.characteristics)
+    system.stiffness += characteristic(c, c.direction.dot(state.q)).stiffness * c.direction * c.direction.transpose();
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const PairTangent t = linearised(vehicle, i, state, coarseness);
+    system.stiffness += vehicle.maps[i].transpose() * t.stiffness * vehicle.maps[i];
+    system.damping += vehicle.maps[i].transpose() * t.damping * vehicle.maps[i];
+  }
+  return system;
 }
 
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
@@ -145,8 +150,10 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
     return found;
   }
   found.residual = balance.measure(r);
+  constexpr double kWider = 10.0, kWidest = 100.0;
+  double coarseness = 1.0;
   for (; found.residual > settings.tolerance && found.iterations < settings.max_iterations; ++found.iterations) {
-    const Vector step = balance.jacobian(found.state).fullPivLu().solve(r);
+    const Vector step = balance.jacobian(found.state, coarseness).fullPivLu().solve(r);
     constexpr double kShortest = 1e-3;
     bool better = false;
     for (double share = 1.0; share > kShortest && !better; share *= 0.5) {
@@ -162,7 +169,8 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
       found.reactions = std::move(reactions);
       r = r_trial;
     }
-    if (!better) break;
+    // Slopes over wider differences pass over jumps of the forces.
+    if (!better && (coarseness *= kWider) > kWidest) break;
   }
   if (found.residual > settings.acceptable)
     found.report = {Status::not_converged, found.iterations, found.residual,

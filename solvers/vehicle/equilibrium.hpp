@@ -9,7 +9,7 @@ namespace treadmark::vehicle {
 
 struct EquilibriumSettings {
   double tolerance = 1e-6;     ///< of every force over the largest wheelset load
-  double acceptable = 1e-3;    ///< where forces jump with the elements in contact and let no state come nearer
+  double acceptable = 1e-4;    ///< where forces jump with the elements in contact and let no state come nearer
   int max_iterations = 60;
 };
 
@@ -26,7 +26,15 @@ struct Equilibrium {
 /// Accepts nothing in the elements.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 
-/// -d(generalised force of a wheel)/d(pair coordinates) and /d(their rates) by differences, about a motion.
-PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t wheel, const SystemState& state);
+/// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).
+struct LinearSystem {
+  Matrix stiffness, damping;                  ///< K, C
+};
+/// coarseness: see linearised.
+LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness = 1.0);
+
+/// -d(generalised force of a wheel)/d(pair coordinates) and /d(their rates) by central differences about a motion: some 1e-6 m and rad (heights 5e-8 m)
+/// wide, times coarseness.
+PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t wheel, const SystemState& state, double coarseness = 1.0);
 
 }  // namespace treadmark::vehicle

@@ -82,9 +82,8 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
   return marker;
 }
 
-FullContact::FullContact(wheelrail::Geometry geometry, wheelrail::Problem problem)
-    : geometry_(std::move(geometry)), problem_(std::move(problem)), pair_(geometry_) {
-  const Vec3 marker = rail_marker_at_rest(geometry_, problem_);
+FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem) : problem_(std::move(problem)), pair_(geometry) {
+  const Vec3 marker = rail_marker_at_rest(geometry, problem_);
   problem_.track.gauge_based = false;
   problem_.track.rail_y0 = marker.y();
   problem_.track.rail_z0 = marker.z();
@@ -117,10 +116,7 @@ wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& m
 ContactReaction FullContact::evaluate(const PairMotion& motion) {
   const wheelrail::PairSolution solution = solve(past_, motion);
   tried_ = motion;
-  const wheelrail::PhaseTimes& t = solution.times;
-  times_.search_s += t.search_s, times_.distance_s += t.distance_s, times_.normal_s += t.normal_s, times_.tangential_s += t.tangential_s;
-  times_.searches += t.searches, times_.distances += t.distances;
-  times_.normal_solves += t.normal_solves, times_.tangential_solves += t.tangential_solves;
+  times_ += solution.times;
 
   ContactReaction out;
   out.status = solution.status;

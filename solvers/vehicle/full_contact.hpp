@@ -16,7 +16,7 @@ class FullContact : public ContactElement {
  public:
   /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling.
   /// Errors: Error(configuration).
-  FullContact(wheelrail::Geometry geometry, wheelrail::Problem problem);
+  FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem);
 
   ContactReaction evaluate(const PairMotion& motion) override;
   void accept() override;
@@ -43,13 +43,10 @@ class FullContact : public ContactElement {
 
   /// Time spent in all evaluations since construction.
   const wheelrail::PhaseTimes& times() const { return times_; }
-  const wheelrail::Problem& problem() const { return problem_; }
-  const wheelrail::Geometry& geometry() const { return geometry_; }
 
  private:
   wheelrail::PairSolution solve(const Past& past, const PairMotion& motion);
 
-  wheelrail::Geometry geometry_;
   wheelrail::Problem problem_;
   wheelrail::Pair pair_;
   Past past_;

@@ -48,8 +48,6 @@ class ImplicitStep {
   /// Evaluates the contact elements, accepts nothing.
   Step take(const Motion& from, double length);
 
-  double alpha() const { return alpha_; }
-
  private:
   struct Factors;
   const Factors& factors(double length);

@@ -210,7 +210,6 @@ class Assembly {
       const int z = w.coordinate[2];
       if (z < 0) throw Error(ErrorKind::configuration, "a wheelset must be free to move in z");
       system_.wheelset_load.push_back(system_.weight[z]);
-      system_.wheelset_mass.push_back(system_.mass[z]);
     }
   }
 

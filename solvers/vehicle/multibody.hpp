@@ -39,7 +39,7 @@ struct Multibody {
   Matrix dissipation;                  ///< symmetric part of C: q' . D q' is the power of the dampers
   Vector weight;                       ///< f: what wheelsets carry beyond the preloads of their springs
   std::vector<CharacteristicForce> characteristics;
-  std::vector<double> wheelset_mass, wheelset_load;   ///< vertical load of each wheelset on its two rails [N]
+  std::vector<double> wheelset_load;   ///< vertical load of each wheelset on its two rails [N]
 
   struct Wheelset {
     std::array<int, kFreedoms> coordinate;    ///< -1: not free

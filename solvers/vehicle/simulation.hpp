@@ -57,7 +57,6 @@ class Simulation {
 
   const VehicleOnTrack& vehicle() const { return *vehicle_; }
   const SystemState& state() const { return motion_.state; }
-  const Vector& accelerations() const { return motion_.a; }
   const std::vector<ContactReaction>& reactions() const { return reactions_; }
   const std::vector<ContactEvent>& events() const { return events_; }
   const EnergyBalance& energy() const { return energy_; }

@@ -112,6 +112,13 @@ void complete(const Problem& p, PairSolution& solution) {
 
 }  // namespace
 
+PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
+  search_s += other.search_s, distance_s += other.distance_s, normal_s += other.normal_s, tangential_s += other.tangential_s;
+  searches += other.searches, distances += other.distances;
+  normal_solves += other.normal_solves, tangential_solves += other.tangential_solves;
+  return *this;
+}
+
 Pair::Pair(Geometry geometry) : geometry_(std::move(geometry)), state_(std::make_shared<State>()) {
   require_facing(geometry_.rail, Facing::up, "rail");
   require_facing(geometry_.wheel, Facing::down, "wheel");

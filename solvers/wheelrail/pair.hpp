@@ -48,6 +48,8 @@ struct PatchSolution {
 struct PhaseTimes {
   double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;
   int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;
+
+  PhaseTimes& operator+=(const PhaseTimes& other);
 };
 
 struct PairSolution {
