@@ -1,0 +1,9 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import type { ContactView } from "../data";
+import type { Store } from "../store";
+
+export function mountContact(figure: HTMLElement, view: ContactView, store: Store): void {
+  const plot = figure.querySelector(".plot") ?? figure;
+  plot.textContent = `${view.type} of ${store.data.title}`;
+}

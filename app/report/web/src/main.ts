@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import { mountChart } from "./chart/index";
+import { mountContact } from "./contact/index";
+import type { ReportData, View } from "./data";
+import { mountMap } from "./map";
+import { mountPicture } from "./picture";
+import { mountScene } from "./scene/index";
+import { Store } from "./store";
+
+function mountView(figure: HTMLElement, view: View, store: Store): void {
+  switch (view.type) {
+    case "chart":
+      return mountChart(figure, view, store);
+    case "contact":
+      return mountContact(figure, view, store);
+    case "scene":
+      return mountScene(figure, view, store);
+    case "map":
+      return mountMap(figure, view, store);
+    case "picture":
+      return mountPicture(figure, view);
+  }
+}
+
+/** A view that fails says so in its own figure; the others go on. */
+function mountAll(store: Store): void {
+  for (const view of store.data.views) {
+    const figure = document.getElementById(view.id);
+    if (!figure) continue;
+    try {
+      mountView(figure, view, store);
+    } catch (error) {
+      const note = document.createElement("p");
+      note.className = "view-note failed";
+      note.textContent = `This view could not be drawn: ${error instanceof Error ? error.message : String(error)}`;
+      figure.append(note);
+    }
+  }
+}
+
+function start(): void {
+  const element = document.getElementById("treadmark-data");
+  if (!element?.textContent) return;
+  const data = JSON.parse(element.textContent) as ReportData;
+  mountAll(new Store(data));
+}
+
+start();
