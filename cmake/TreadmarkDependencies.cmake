@@ -57,6 +57,15 @@ if(TREADMARK_WITH_CGAL)
   set(TREADMARK_HAVE_CGAL ON)
 endif()
 
+if(TREADMARK_REPORT_SCRIPTS)
+  find_program(TREADMARK_NODE NAMES node nodejs)
+  find_program(TREADMARK_NPM npm)
+  if(NOT TREADMARK_NODE OR NOT TREADMARK_NPM)
+    message(FATAL_ERROR "TREADMARK_REPORT_SCRIPTS is on but Node.js was not found: "
+                        "install the Debian packages nodejs and npm or configure with -DTREADMARK_REPORT_SCRIPTS=OFF")
+  endif()
+endif()
+
 if(TREADMARK_BUILD_TESTS)
   treadmark_require(GTest libgtest-dev)
   treadmark_require(Boost libboost-dev)

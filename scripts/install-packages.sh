@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Installs what building and testing needs on Debian 12. Does nothing where all of it is installed already.
+# usage: install-packages.sh [--tests]
+# Installs what building needs on Debian 12, with --tests also what only tests need. Does nothing where all of it is installed already.
 set -euo pipefail
 
 packages=(
@@ -10,6 +11,11 @@ packages=(
   libembree-dev libopenvdb-dev libboost-iostreams-dev libcgal-dev libgmp-dev libmpfr-dev
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
+
+[[ ${1:-} != --tests ]] || packages+=(chromium)
+# Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
+command -v node >/dev/null || packages+=(nodejs)
+command -v npm >/dev/null || packages+=(npm)
 
 missing=()
 for package in "${packages[@]}"; do

@@ -5,7 +5,7 @@
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-bash scripts/install-packages.sh
+bash scripts/install-packages.sh --tests
 cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON \
   -DTREADMARK_WARNINGS_AS_ERRORS=ON
 cmake --build build/test

@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/html_text.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/results/svg_text.hpp"
+
+namespace treadmark::app::report {
+
+std::string html_text(std::string_view words) {
+  const std::string safe = io::xml_text(words);
+  std::string out;
+  for (const char c : safe) {
+    if (c == '"')
+      out += "&quot;";
+    else if (c == '\'')
+      out += "&#39;";
+    else
+      out += c;
+  }
+  return out;
+}
+
+std::string shown(const Number& number) {
+  const double value = number.value;
+  if (!std::isfinite(value)) return "–";
+  if (value == 0.0) return "0";
+  constexpr double kLarge = 1e7, kSmall = 1e-4;
+  const double size = std::fabs(value);
+  if (size >= kLarge || size < kSmall) return fmt::format("{:.{}e}", value, number.digits - 1);
+  const int decimals = std::max(0, number.digits - 1 - static_cast<int>(std::floor(std::log10(size))));
+  return fmt::format("{:.{}f}", value, decimals);
+}
+
+std::string html_id(std::string_view words) {
+  std::string out;
+  for (const char c : words) {
+    const auto letter = static_cast<unsigned char>(c);
+    if (letter < 0x80 && std::isalnum(letter) != 0)
+      out += static_cast<char>(std::tolower(letter));
+    else if (!out.empty() && out.back() != '-')
+      out += '-';
+  }
+  while (!out.empty() && out.back() == '-') out.pop_back();
+  return out.empty() ? "part" : out;
+}
+
+}  // namespace treadmark::app::report

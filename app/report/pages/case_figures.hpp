@@ -1,0 +1,37 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "treadmark/app/report/page.hpp"
+
+namespace treadmark::app::report {
+
+/// Views and tables of cases that pages of runs, simulations and comparisons share.
+
+/// A frame a case; the frames keep the run alive. name: of the set.
+FrameSet frames_of(const std::shared_ptr<const io::RunResult>& run, std::string name);
+
+/// What varies from case to case: pitch, position ... in the order in which people would choose it; the number of the case comes last.
+std::vector<Axis> case_axes(const io::RunResult& run);
+
+/// A step a case.
+Timeline case_timeline(const io::RunResult& run);
+
+/// Largest pressure, forces, contact area and approach over the steps of case_timeline.
+ChartView case_chart(const io::RunResult& run);
+
+/// A line a case, and a line a patch.
+Table case_table(const io::RunResult& run);
+Table patch_table(const io::RunResult& run);
+
+/// Whether any patch of the run has contact fields.
+bool has_fields(const io::RunResult& run);
+
+/// "case 3", and the value of the first axis that varies.
+std::string step_name(const io::RunResult& run, std::size_t index);
+
+}  // namespace treadmark::app::report

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/pages/page_parts.hpp"
+
+#include <cmath>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+namespace treadmark::app::report {
+
+Facts origin_facts(const Origin& origin) {
+  Facts facts;
+  facts.entries.emplace_back("Version", origin.git.empty() ? origin.version : fmt::format("{} ({})", origin.version, origin.git));
+  facts.entries.emplace_back("Input", origin.input_file);
+  facts.entries.emplace_back("SHA-256 of the input", origin.input_sha256);
+  for (const auto& [file, sha256] : origin.geometry_sha256) facts.entries.emplace_back(file, sha256);
+  std::string settings;
+  for (const std::string& setting : origin.settings) settings += (settings.empty() ? "" : ", ") + setting;
+  facts.entries.emplace_back("Settings", settings.empty() ? "as in the input" : settings);
+  return facts;
+}
+
+std::string title_of(const std::string& input_file) {
+  const std::string stem = std::filesystem::path(input_file).stem().string();
+  return stem.empty() ? "result" : stem;
+}
+
+std::string counted(std::size_t count, const std::string& word) { return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s"); }
+
+std::string duration_text(double seconds) {
+  if (!std::isfinite(seconds) || seconds < 0.0) return "–";
+  if (seconds < 60.0) return fmt::format("{:.3g} s", seconds);
+  const long whole = std::lround(seconds);
+  if (whole < 3600) return fmt::format("{} min {} s", whole / 60, whole % 60);
+  return fmt::format("{} h {} min", whole / 3600, whole % 3600 / 60);
+}
+
+std::pair<double, std::string> force_unit(const std::vector<double>& newtons) {
+  constexpr double kFewest = 2e3;  // [N]
+  for (const double force : newtons)
+    if (std::fabs(force) > kFewest) return {1e-3, "kN"};
+  return {1.0, "N"};
+}
+
+}  // namespace treadmark::app::report

@@ -1,0 +1,110 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/pages/run_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/case_figures.hpp"
+#include "treadmark/app/report/pages/page_parts.hpp"
+
+namespace treadmark::app::report {
+namespace {
+
+/// What went wrong comes first.
+void add_banners(const io::RunResult& run, Section& overview) {
+  if (!run.complete)
+    overview.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
+                                        fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total)});
+  const auto list = [&](Status status) {
+    std::string numbers;
+    std::size_t count = 0;
+    for (const io::CaseResult& c : run.cases)
+      if (c.status == status && ++count <= 12) numbers += fmt::format("{}{}", numbers.empty() ? "" : ", ", c.number);
+    return std::pair(count, count > 12 ? numbers + " ..." : numbers);
+  };
+  if (const auto [count, numbers] = list(Status::failed); count > 0) {
+    std::string first;
+    for (const io::CaseResult& c : run.cases)
+      if (first.empty() && c.status == Status::failed) first = c.message;
+    overview.blocks.emplace_back(Banner{Banner::Kind::failed, counted(count, "case") + " failed.", fmt::format("Case {}. First message: {}", numbers, first)});
+  }
+  if (const auto [count, numbers] = list(Status::not_converged); count > 0)
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.", fmt::format("Judge the results with care: case {}.", numbers)});
+  if (const auto [count, numbers] = list(Status::no_contact); count > 0)
+    overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
+}
+
+Cards::Card extreme(const io::RunResult& run, const char* label, const char* unit, double factor, double (*value)(const io::CaseResult&)) {
+  double best = NAN;
+  int number = 0;
+  for (const io::CaseResult& c : run.cases) {
+    const double here = value(c);
+    if (std::isfinite(here) && !(here <= best)) {
+      best = here;
+      number = c.number;
+    }
+  }
+  return {label, std::isnan(best) ? "–" : fmt::format("{} {}", shown({factor * best}), unit), number > 0 ? fmt::format("case {}", number) : ""};
+}
+
+Cards cards_of(const io::RunResult& run) {
+  Cards cards;
+  std::size_t solved = 0, patches = 0;
+  for (const io::CaseResult& c : run.cases) {
+    if (c.status == Status::ok) ++solved;
+    patches = std::max(patches, c.patches.size());
+  }
+  cards.cards.push_back({"Cases solved", fmt::format("{} of {}", solved, run.cases_total), run.complete ? "" : "interrupted"});
+  cards.cards.push_back(extreme(run, "Largest pressure", "MPa", 1e-6, [](const io::CaseResult& c) {
+    double most = NAN;
+    for (const io::PatchResult& p : c.patches) most = std::isnan(most) ? p.pmax : std::max(most, p.pmax);
+    return most;
+  }));
+  cards.cards.push_back(extreme(run, "Largest normal force", "kN", 1e-3, [](const io::CaseResult& c) {
+    double sum = c.patches.empty() ? NAN : 0.0;
+    for (const io::PatchResult& p : c.patches) sum += p.fn;
+    return sum;
+  }));
+  cards.cards.push_back({"Patches at once", fmt::format("{}", patches), "at most"});
+  cards.cards.push_back({"Wall-clock time", duration_text(run.seconds), counted(static_cast<std::size_t>(run.threads), "thread")});
+  return cards;
+}
+
+Section overview(const io::RunResult& run) {
+  Section section{"overview", "Overview"};
+  add_banners(run, section);
+  section.blocks.emplace_back(cards_of(run));
+  section.blocks.emplace_back(
+      origin_facts({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings}));
+  return section;
+}
+
+}  // namespace
+
+Page run_page(std::shared_ptr<const io::RunResult> run, std::string document) {
+  Page page{"run", title_of(run->input_file), ""};
+  page.lead = fmt::format("{} {}", counted(run->cases.size(), "case"),
+                          std::ranges::any_of(run->cases, &io::CaseResult::has_wheelset) ? "of a wheel on a rail" : "of a contact patch");
+  page.document = std::move(document);
+  page.full_data = "fields.h5";
+  page.sections.push_back(overview(*run));
+  if (run->cases.empty()) return page;
+
+  page.timeline = case_timeline(*run);
+  page.sets.push_back(frames_of(run, "result"));
+  page.surfaces = run->sampled;
+  Section contact{"contact", "Contact"};
+  if (has_fields(*run)) contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}}});
+  if (!run->sampled.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
+  if (run->cases.size() > 1) contact.blocks.emplace_back(Figure{"forces", "Forces and pressures", case_chart(*run)});
+  if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
+  page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});
+  return page;
+}
+
+}  // namespace treadmark::app::report

@@ -1,0 +1,15 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "treadmark/app/report/page.hpp"
+
+namespace treadmark::app::report {
+
+/// Report of a run: cases of a wheel on a rail, or of one patch. document: JSON text of the result, may be empty.
+Page run_page(std::shared_ptr<const io::RunResult> run, std::string document);
+
+}  // namespace treadmark::app::report
