@@ -8,6 +8,7 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -60,7 +61,11 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
   report.settings = echo(options);
   if (!common.quiet)
     for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
-  if (!options.output_folder.empty()) app::write_bench_folder(options.output_folder, report);
+  {
+    const ResultFolder folder(options.output_folder, options.report_file);
+    if (folder.wanted()) app::write_bench_folder(folder.path(), report);
+    folder.write_report();
+  }
   if (!options.json_file.empty() && options.json_file != "-") io::write_text_file(options.json_file, app::bench_json(report));
   if (options.json_file == "-")
     std::cout << app::bench_json(report);

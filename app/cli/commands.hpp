@@ -24,6 +24,7 @@ struct RunOptions {
   std::string backend, wheel_backend, rail_backend;
   double resolution_mm = 0.0;          ///< of re-represented surfaces, 0 = their default
   std::vector<std::string> overrides;  ///< key=value
+  std::string report_file;             ///< HTML; empty = none
 };
 
 struct CompareOptions {
@@ -33,6 +34,7 @@ struct CompareOptions {
   std::vector<double> resolutions_mm;
   std::string bodies = "auto";
   std::vector<std::string> overrides;
+  std::string report_file;             ///< HTML; empty = none
 };
 
 struct BenchOptions {
@@ -44,6 +46,7 @@ struct BenchOptions {
   bool markdown = false;
   bool threads_given = false;  ///< else one thread
   std::vector<std::string> overrides;
+  std::string report_file;             ///< HTML; empty = none
 };
 
 struct ConvertOptions {
@@ -91,6 +94,7 @@ struct SimulateOptions {
   bool resume = false;
   bool modes_only = false;                ///< print eigenfrequencies, do not integrate
   std::vector<std::string> overrides;
+  std::string report_file;             ///< HTML; empty = none
 };
 
 struct SweepOptions {
@@ -99,6 +103,19 @@ struct SweepOptions {
   bool resume = false;
   bool threads_given = false;             ///< else one for each process that was started together with others
   std::vector<std::string> overrides;
+  std::string report_file;             ///< HTML; empty = none
+};
+
+struct ReportOptions {
+  std::string folder;
+  std::string output_file;                ///< empty = report.html in the folder
+  bool static_pictures = false;           ///< in place of live views
+};
+
+struct PlotOptions {
+  std::string folder, output_file;        ///< "-" = stdout
+  std::string what;                       ///< empty: list what can be drawn
+  std::vector<int> cases;                 ///< numbers; empty = all
 };
 
 // Each command returns an exit status or throws treadmark::Error.
@@ -110,6 +127,8 @@ int scan_command(const ScanOptions& options, const CommonOptions& common);
 int import_command(const ImportOptions& options, const CommonOptions& common);
 int simulate_command(const SimulateOptions& options, const CommonOptions& common);
 int sweep_command(const SweepOptions& options, const CommonOptions& common);
+int report_command(const ReportOptions& options, const CommonOptions& common);
+int plot_command(const PlotOptions& options, const CommonOptions& common);
 int check_command(const RunOptions& options);
 int list_command(const std::string& what);
 int schema_command();

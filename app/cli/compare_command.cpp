@@ -7,6 +7,7 @@
 
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/compare_cases.hpp"
 #include "treadmark/core/error.hpp"
@@ -78,7 +79,11 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   result.settings = echo(options);
   if (!common.quiet)
     for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
-  if (!options.output_folder.empty()) write_comparison_folder(options.output_folder, result);
+  {
+    const ResultFolder folder(options.output_folder, options.report_file);
+    if (folder.wanted()) write_comparison_folder(folder.path(), result);
+    folder.write_report();
+  }
   if (options.json_file == "-")
     std::cout << io::to_json(result);
   else

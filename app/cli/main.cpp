@@ -38,6 +38,10 @@ void add_case_options(CLI::App& verb, cli::RunOptions& options) {
   add_overrides(verb, options.overrides);
 }
 
+void add_report(CLI::App& verb, std::string& file) {
+  verb.add_option("--report", file, "Write a report here that opens in any browser, offline")->type_name("FILE.html");
+}
+
 }  // namespace
 
 int main(int argc, char** argv) {
@@ -68,6 +72,8 @@ int main(int argc, char** argv) {
       ->check(CLI::PositiveNumber)
       ->type_name("MM");
 
+  add_report(*run, options.report_file);
+
   cli::CompareOptions comparison;
   CLI::App* compare = program.add_subcommand("compare", "Solve the same cases through several surface representations");
   compare->add_option("CASE", comparison.case_file, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
@@ -86,6 +92,7 @@ int main(int argc, char** argv) {
   compare->add_option("-o,--output", comparison.output_folder, "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
       ->type_name("FOLDER");
   compare->add_option("--json", comparison.json_file, "Write the rows here; - for standard output instead of the table")->type_name("FILE");
+  add_report(*compare, comparison.report_file);
   add_overrides(*compare, comparison.overrides);
 
   cli::BenchOptions measured;
@@ -99,6 +106,7 @@ int main(int argc, char** argv) {
   CLI::Option* bench_json =
       bench->add_option("--json", measured.json_file, "Write the rows here; - for standard output instead of the table")->type_name("FILE");
   bench->add_flag("--markdown", measured.markdown, "Print the table in Markdown")->excludes(bench_json);
+  add_report(*bench, measured.report_file);
   add_overrides(*bench, measured.overrides);
 
   cli::ConvertOptions conversion;
@@ -138,6 +146,7 @@ int main(int argc, char** argv) {
   simulate->add_option("--rail-backend", simulated.rail_backend, "Surface backend for the rail");
   simulate->add_flag("--resume", simulated.resume, "Go on with an interrupted simulation in the output folder");
   simulate->add_flag("--modes", simulated.modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
+  add_report(*simulate, simulated.report_file);
   add_overrides(*simulate, simulated.overrides);
 
   cli::SweepOptions swept;
@@ -145,7 +154,21 @@ int main(int argc, char** argv) {
   sweep->add_option("STUDY", swept.file, "Study file (.toml)")->required();
   sweep->add_option("-o,--output", swept.output_folder, "Folder for sweep.h5, sweep.csv, figures and the runs")->type_name("FOLDER")->required();
   sweep->add_flag("--resume", swept.resume, "Go on with a study that was stopped; there must be one in the folder");
+  add_report(*sweep, swept.report_file);
   add_overrides(*sweep, swept.overrides);
+
+  cli::ReportOptions reported;
+  CLI::App* report = program.add_subcommand("report", "One HTML file of a result folder, to be opened in any browser, offline");
+  report->add_option("FOLDER", reported.folder, "What run, compare, bench, import --report, simulate or sweep wrote")->required();
+  report->add_option("-o,--output", reported.output_file, "The report, default FOLDER/report.html")->type_name("FILE.html");
+  report->add_flag("--static", reported.static_pictures, "Fixed pictures in place of live views: a smaller file without scripts");
+
+  cli::PlotOptions plotted;
+  CLI::App* plot = program.add_subcommand("plot", "One picture (SVG) of a result folder");
+  plot->add_option("FOLDER", plotted.folder, "What run, compare, bench, import --report, simulate or sweep wrote")->required();
+  plot->add_option("--what", plotted.what, "pressure, traction, slip, gap, forces, section ...; without it: a list of what can be drawn");
+  plot->add_option("-o,--output", plotted.output_file, "The picture; - for standard output")->type_name("FILE.svg");
+  plot->add_option("--case", plotted.cases, "Numbers of the cases that are drawn, default all")->delimiter(',')->allow_extra_args(false)->type_name("N,...");
 
   CLI::App* check = program.add_subcommand("check", "Read and validate case files and their geometry without solving");
   add_case_options(*check, options);
@@ -176,6 +199,8 @@ int main(int argc, char** argv) {
     }
     swept.threads_given = threads->count() > 0;
     if (sweep->parsed()) return cli::sweep_command(swept, common);
+    if (report->parsed()) return cli::report_command(reported, common);
+    if (plot->parsed()) return cli::plot_command(plotted, common);
     if (check->parsed()) return cli::check_command(options);
     if (list->parsed()) return cli::list_command(what);
     if (schema->parsed()) return cli::schema_command();

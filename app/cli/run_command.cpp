@@ -8,7 +8,9 @@
 
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/run_cases.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -60,6 +62,8 @@ int exit_status(const io::RunResult& result) {
 int run_command(const RunOptions& options, const CommonOptions& common) {
   if (options.cases.size() > 1 && !options.json_file.empty())
     throw Error(ErrorKind::configuration, "--json takes the results of one case file only", {}, "use -o FOLDER for several");
+  if (options.cases.size() > 1 && !options.report_file.empty())
+    throw Error(ErrorKind::configuration, "--report shows the results of one case file only", {}, "use -o FOLDER, then treadmark report for each");
   const ThreadLimit limit(common.threads);
   catch_interrupt();
 
@@ -90,6 +94,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
       if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
       write_result_folder(folder, result);
     }
+    write_report_file(options.report_file, [&] { return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result)); });
     if (options.json_file == "-")
       std::cout << io::to_json(result);
     else

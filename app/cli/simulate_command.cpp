@@ -7,7 +7,10 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/core/error.hpp"
@@ -73,6 +76,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     run.resume = options.resume;
     if (options.resume && is_finished(folder / "simulation.h5", file, overrides)) {
       std::cerr << "the simulation in " << folder.string() << " is complete already\n";
+      write_report_file(options.report_file, [&] { return app::report::read_report(folder); });
       return kOk;
     }
     if (!options.resume) {
@@ -97,6 +101,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     std::error_code ignored;
     if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
   }
+  write_report_file(options.report_file, [&] { return app::report::simulation_page(std::make_shared<io::SimulationResult>(result), {}); });
   const std::string json = options.json_file.empty() ? "" : app::to_json(result, times);
   if (options.json_file == "-") std::cout << json;
   else std::cout << app::summary_text(result) << app::times_text(times);

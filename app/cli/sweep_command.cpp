@@ -5,7 +5,9 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -55,11 +57,16 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   }
   if (speaks && outcome.found_finished > 0)
     std::cerr << fmt::format("{} of {} runs were finished already\n", outcome.found_finished, outcome.runs_total);
+  const auto write_report = [&] {
+    if (place.rank == 0) write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
+  };
   if (!outcome.complete) {
+    write_report();
     std::cerr << fmt::format("stopped: {} of {} runs finished; the same command goes on\n", outcome.study.runs.size(), outcome.runs_total);
     return kFailed;
   }
   app::write_study_folder(study, wanted, outcome.study);
+  write_report();
   if (place.rank == 0) print_table(outcome.study);
   const bool all_good = std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
   return all_good ? kOk : kFailed;

@@ -1,0 +1,29 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <filesystem>
+#include <iostream>
+
+#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/report/assets.hpp"
+#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/report/write_page.hpp"
+#include "treadmark/io/results/atomic_file.hpp"
+
+namespace treadmark::cli {
+
+int report_command(const ReportOptions& options, const CommonOptions& common) {
+  namespace fs = std::filesystem;
+  const app::report::Page page = app::report::read_report(options.folder);
+  const fs::path folder = fs::is_directory(options.folder) ? fs::path(options.folder) : fs::path(options.folder).parent_path();
+  const fs::path file = options.output_file.empty() ? folder / "report.html" : fs::path(options.output_file);
+  app::report::PageOptions how;
+  how.live = !options.static_pictures;
+  const std::string html = app::report::to_html(page, how);
+  io::write_text_file(file, html);
+  if (how.live && app::report::page_script().empty() && !common.quiet)
+    std::cerr << "note: this build has no Node.js: the report shows fixed pictures\n";
+  std::cout << file.string() << '\n';
+  return kOk;
+}
+
+}  // namespace treadmark::cli

@@ -1,0 +1,16 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <string>
+
+#include "treadmark/app/report/page.hpp"
+#include "treadmark/io/histories/history_model.hpp"
+
+namespace treadmark::app::report {
+
+/// Report of a simulation in time, complete or not, with its snapshots if it has any. document: JSON text, may be empty.
+Page simulation_page(std::shared_ptr<const io::SimulationResult> result, std::string document);
+
+}  // namespace treadmark::app::report

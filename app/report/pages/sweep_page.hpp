@@ -1,0 +1,25 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "treadmark/app/report/page.hpp"
+#include "treadmark/io/histories/study_model.hpp"
+
+namespace treadmark::app::report {
+
+/// A study as it lies in its folder, finished or not.
+struct StudyOnDisk {
+  io::StudyResult study;                                      ///< runs that left a store
+  std::vector<std::size_t> unfinished;                        ///< numbers of the others
+  std::vector<std::pair<std::string, std::string>> pictures;  ///< (file name, SVG)
+};
+
+/// Report of a study: summaries over the swept keys, the history of the chosen run, the pictures that the study asked for.
+/// Reads the histories from the stores of the runs. Errors: Error(input_data). Not to be called from two threads at once.
+Page sweep_page(const StudyOnDisk& study);
+
+}  // namespace treadmark::app::report

@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/plot.hpp"
+
+#include <algorithm>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/report/field_catalogue.hpp"
+#include "treadmark/app/report/field_picture.hpp"
+#include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/static_figure.hpp"
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::app::report {
+namespace {
+
+constexpr const char* kSection = "section";
+
+bool has_field(const Page& page, const FieldInfo& field) {
+  for (const FrameSet& set : page.sets)
+    for (const Frame& frame : set.frames)
+      for (const io::PatchResult& patch : frame.result->patches)
+        if (field.kind == FieldInfo::Kind::state ? !patch.fields.state.empty() : !field.values(patch).empty()) return true;
+  return false;
+}
+
+template <class Function>
+void each_figure(const Page& page, Function&& use) {
+  for (const Section& section : page.sections)
+    for (const Block& block : section.blocks)
+      if (const auto* figure = std::get_if<Figure>(&block)) use(*figure);
+}
+
+bool is_chart_like(const Figure& figure) {
+  return !std::holds_alternative<ContactView>(figure.view) && !std::holds_alternative<SceneView>(figure.view);
+}
+
+std::vector<Frame> chosen(const Page& page, const std::vector<int>& cases) {
+  std::vector<Frame> frames;
+  std::string known;
+  for (const FrameSet& set : page.sets) {
+    for (const Frame& frame : set.frames) {
+      const int number = frame.result->number;
+      if (&set == &page.sets.front()) known += fmt::format("{}{}", known.empty() ? "" : ", ", number);
+      if (!cases.empty() && std::ranges::find(cases, number) == cases.end()) continue;
+      frames.push_back(frame);
+      if (page.sets.size() > 1) frames.back().name = fmt::format("{}: {}", set.name, frame.name);
+    }
+  }
+  for (const int wanted : cases)
+    if (std::ranges::none_of(frames, [&](const Frame& frame) { return frame.result->number == wanted; }))
+      throw Error(ErrorKind::configuration, fmt::format("there is no case {}", wanted), {}, "there are " + known);
+  return frames;
+}
+
+}  // namespace
+
+std::vector<std::pair<std::string, std::string>> plots_of(const Page& page) {
+  std::vector<std::pair<std::string, std::string>> out;
+  for (const FieldInfo& field : field_catalogue())
+    if (has_field(page, field)) out.emplace_back(field.name, fmt::format("{} in the contact patches", field.label));
+  if (!page.surfaces.empty()) out.emplace_back(kSection, "wheel and rail cut across the track at the contact");
+  each_figure(page, [&](const Figure& figure) {
+    if (is_chart_like(figure)) out.emplace_back(html_id(figure.id), figure.title);
+  });
+  return out;
+}
+
+std::string plot(const Page& page, const std::string& what, const std::vector<int>& cases) {
+  if (const FieldInfo* field = find_field(what); field && has_field(page, *field)) return field_svg(chosen(page, cases), *field, page.title);
+  if (!cases.empty()) throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
+  if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SceneView{0}}, page).front();
+  std::string svg;
+  each_figure(page, [&](const Figure& figure) {
+    if (svg.empty() && is_chart_like(figure) && html_id(figure.id) == what) svg = static_figure(figure, page).front();
+  });
+  if (!svg.empty()) return svg;
+  std::string known;
+  for (const auto& [name, meaning] : plots_of(page)) known += (known.empty() ? "" : ", ") + name;
+  throw Error(ErrorKind::configuration, fmt::format("these results have no plot \"{}\"", what), {}, known.empty() ? "there is nothing to draw" : "there are " + known);
+}
+
+}  // namespace treadmark::app::report
