@@ -132,8 +132,8 @@ std::string import_times_json(const ImportReport& report);
 /// A page of text for people: what was read, removed, placed, fitted, written; warnings first.
 std::string import_summary(const ImportReport& report);
 
-/// Writes report.json, times.json, summary.txt, settings.toml and the pictures before.svg, removed.svg, fitted.svg, residual.svg
-/// into a folder, report.json last. Errors: Error(configuration) if a file cannot be written.
+/// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 and the pictures before.svg, removed.svg, fitted.svg, residual.svg
+/// into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors: Error(configuration) if a file cannot be written.
 void write_import_report(const std::string& folder, const ImportReport& report);
 
 }  // namespace treadmark::io

@@ -168,7 +168,7 @@ TEST_F(ImportCommand, WheelWithAFlatFromADirtyScanInEveryBackend) {
   const Json schema = Json::parse(schema_file);
   EXPECT_EQ(treadmark::testing::first_violation(found, schema, schema), "");
   for (const char* file : {"report.json", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg",
-                           "fitted.svg", "residual.svg"})
+                           "fitted.svg", "residual.svg", "maps.h5"})
     EXPECT_TRUE(fs::exists(fs::path(path("audit")) / file)) << file;
   EXPECT_THAT(bytes("found.slcw"), HasSubstr("SHA-256")) << "the surface carries a summary";
   EXPECT_THAT(bytes("found.ply").substr(0, 2000), HasSubstr("comment from wheel.ply"));
@@ -203,7 +203,7 @@ TEST_F(ImportCommand, TheSameInputGivesTheSameBytes) {
     ASSERT_EQ(r.status, 0) << r.err;
   }
   EXPECT_EQ(bytes("same1.ply"), bytes("same2.ply"));
-  for (const char* file : {"fitted.svg", "residual.svg", "before.svg", "removed.svg", "settings.toml"})
+  for (const char* file : {"fitted.svg", "residual.svg", "before.svg", "removed.svg", "settings.toml", "maps.h5"})
     EXPECT_EQ(bytes("audit1/" + std::string(file)), bytes("audit2/" + std::string(file))) << file;
 }
 

@@ -205,7 +205,7 @@ TEST(ImportFiles, TheSameReportGivesTheSameFiles) {
     EXPECT_FALSE(one.empty());
     EXPECT_EQ(one == two, entry.path().filename() != "times.json") << entry.path();
   }
-  EXPECT_EQ(files, 8u);
+  EXPECT_EQ(files, 9u);
   EXPECT_EQ(content(place / "one" / "settings.toml"), report.settings_toml);
   EXPECT_EQ(content(place / "one" / "summary.txt"), io::import_summary(report));
   EXPECT_EQ(content(place / "one" / "report.json"), io::import_json(report, false));

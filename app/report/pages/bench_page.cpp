@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/pages/bench_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/json_tree.hpp"
+#include "treadmark/app/report/pages/page_parts.hpp"
+
+namespace treadmark::app::report {
+namespace {
+
+constexpr double kMilli = 1e3;        // s -> ms
+constexpr double kMegabytes = 1e-6;   // bytes -> MB
+
+/// A row of the file and what names it.
+struct Row {
+  JsonTree node;
+  std::string label;  ///< "mesh 0.5 mm"
+  bool wheel = false;
+};
+
+std::vector<Row> rows_of(const JsonTree& bench) {
+  std::vector<Row> rows;
+  for (const JsonTree& node : bench.at("rows").items()) {
+    const double resolution = node.number("resolution_mm");
+    const std::string backend = node.text("backend"), body = node.text("body");
+    if (body != "wheel" && body != "rail") node.at("body").refuse(fmt::format("is \"{}\" where wheel or rail is expected", body));
+    rows.push_back({node, resolution > 0.0 ? fmt::format("{} {:.4g} mm", backend, resolution) : backend, body == "wheel"});
+  }
+  return rows;
+}
+
+std::string joined(const std::vector<std::string>& parts) {
+  std::string out;
+  for (const std::string& part : parts) out += (out.empty() ? "" : ", ") + part;
+  return out;
+}
+
+void add_banners(const JsonTree& bench, const std::vector<Row>& rows, Section& overview) {
+  if (!bench.flag("complete"))
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::failed, "Interrupted.", fmt::format("Only what was finished is here: {}.", counted(rows.size(), "row"))});
+  std::size_t wrong = 0;
+  std::string reasons;
+  for (const Row& row : rows) {
+    if (row.node.flag("agrees")) continue;
+    reasons += fmt::format("{}{}, {}: {}", wrong++ == 0 ? "" : "; ", row.label, row.node.text("body"), row.node.text("reason"));
+  }
+  if (wrong > 0)
+    overview.blocks.emplace_back(Banner{
+        Banner::Kind::failed, fmt::format("{} of {} without figures:", wrong, counted(rows.size(), "row")),
+        fmt::format("what does not agree, or could not be built, is not timed. {}.", reasons)});
+  if (rows.empty()) overview.blocks.emplace_back(Banner{Banner::Kind::note, "No rows.", "Nothing was measured."});
+}
+
+/// The least of a quantity over rows, and whose it is.
+Cards::Card least(const std::vector<Row>& rows, const char* label, const char* key, double factor, const char* unit, bool rail_too) {
+  double best = NAN;
+  std::string whose;
+  for (const Row& row : rows) {
+    const double value = row.node.number(key);
+    if ((!row.wheel && !rail_too) || !std::isfinite(value) || value >= best) continue;
+    best = value;
+    whose = row.label;
+  }
+  return {label, std::isnan(best) ? "–" : fmt::format("{} {}", shown({factor * best, 3}), unit), whose};
+}
+
+Cards cards_of(const JsonTree& bench, const std::vector<Row>& rows) {
+  const auto agree = std::ranges::count_if(rows, [](const Row& row) { return row.node.flag("agrees"); });
+  Cards cards;
+  cards.cards = {{"Rows that agree", fmt::format("{} of {}", agree, rows.size()), "with the surfaces as given and with single heights"},
+                 least(rows, "Fastest height on the wheel", "ns_per_height", 1.0, "ns", false),
+                 least(rows, "Fastest first search", "search_cold_s", kMilli, "ms", false),
+                 least(rows, "Fastest distance", "distance_s", kMilli, "ms", false),
+                 {"Threads", fmt::format("{}", bench.at("threads").integer()), bench.text("machine")}};
+  return cards;
+}
+
+Facts facts_of(const JsonTree& bench) {
+  const JsonTree made = bench.at("treadmark"), input = bench.at("input");
+  const std::string file = input.text("file"), git = made.text("git");
+  Facts facts;
+  facts.entries = {{"Machine", bench.text("machine")},
+                   {"Date", bench.text("date")},
+                   {"Version", git.empty() ? made.text("version") : fmt::format("{} ({})", made.text("version"), git)},
+                   {"Compiler", bench.text("compiler")}};
+  for (const auto& [library, version] : bench.at("libraries").entries()) facts.entries.emplace_back(library, version.text());
+  facts.entries.emplace_back("Input", file.empty() ? "the built-in case" : file);
+  if (!file.empty()) facts.entries.emplace_back("SHA-256 of the input", input.text("sha256"));
+  const std::string settings = joined(bench.at("settings").texts());
+  facts.entries.emplace_back("Settings", settings.empty() ? "as in the input" : settings);
+  facts.entries.emplace_back("Surfaces as given", bench.text("truth"));
+  facts.entries.emplace_back("Time for a measure", duration_text(bench.number("seconds_per_measure")));
+  facts.entries.emplace_back("Time of the whole run", duration_text(made.number("seconds")));
+  return facts;
+}
+
+/// The names of representations in the order of the file; one a pair of rows.
+std::vector<std::string> names_of(const std::vector<Row>& rows) {
+  std::vector<std::string> names;
+  for (const Row& row : rows)
+    if (std::ranges::find(names, row.label) == names.end()) names.push_back(row.label);
+  return names;
+}
+
+struct Quantity {
+  const char* name;
+  const char* key;
+};
+
+/// Points over the representations, a series a quantity of one body.
+Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit, double factor, const std::vector<Quantity>& quantities, bool wheel) {
+  const std::vector<std::string> names = names_of(rows);
+  Panel panel{label, unit, true};
+  for (const Quantity& quantity : quantities) {
+    Series series{quantity.name, std::vector<double>(names.size(), NAN), {}, Series::Marks::points, false, std::vector<std::string>(names.size())};
+    for (const Row& row : rows) {
+      if (row.wheel != wheel) continue;
+      const auto place = static_cast<std::size_t>(std::ranges::find(names, row.label) - names.begin());
+      const double value = factor * row.node.number(quantity.key);
+      series.y[place] = value > 0.0 ? value : NAN;
+      series.texts[place] = fmt::format("{}, {}: {} {}", row.label, quantity.name, shown({value, 3}), unit);
+    }
+    if (std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); })) panel.series.push_back(std::move(series));
+  }
+  return panel;
+}
+
+/// The same quantity of wheel and rail.
+Panel both_bodies(const std::vector<Row>& rows, const char* label, const char* unit, double factor, const char* key) {
+  Panel panel = panel_of(rows, label, unit, factor, {{"wheel", key}}, true);
+  Panel rail = panel_of(rows, label, unit, factor, {{"rail", key}}, false);
+  panel.series.insert(panel.series.end(), rail.series.begin(), rail.series.end());
+  return panel;
+}
+
+ChartView chart_of(const std::vector<Row>& rows, std::vector<Panel> panels) {
+  ChartView view;
+  Axis axis{"representation", ""};
+  axis.labels = names_of(rows);
+  for (std::size_t i = 0; i < axis.labels.size(); ++i) axis.values.push_back(static_cast<double>(i));
+  view.x = std::move(axis);
+  for (Panel& panel : panels)
+    if (!panel.series.empty()) view.panels.push_back(std::move(panel));
+  return view;
+}
+
+Section charts_of(const std::vector<Row>& rows) {
+  const std::vector<Quantity> heights{{"level", "ns_per_height"},
+                                      {"tilted", "ns_per_height_tilted"},
+                                      {"tilted, with slopes", "ns_per_normal"},
+                                      {"what the offsets lie on", "base_ns_per_height"}};
+  const std::vector<Quantity> detection{{"first search", "search_cold_s"}, {"after a small move", "search_warm_s"}, {"undeformed distance", "distance_s"}};
+  Section section{"costs", "Costs"};
+  const auto add = [&](const char* id, const char* title, ChartView view, const char* note) {
+    if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
+  };
+  add("heights", "Time of a height",
+      chart_of(rows, {panel_of(rows, "on the wheel", "ns", 1.0, heights, true), panel_of(rows, "on the rail", "ns", 1.0, heights, false)}),
+      "Level: the plane is level with the body. Tilted: rolled, yawed and pitched by 0.05, 0.03 and 0.02 rad.");
+  add("detection", "Contact detection", chart_of(rows, {panel_of(rows, "wheel on rail", "ms", kMilli, detection, true)}),
+      "Wheel and rail both in this representation.");
+  add("memory", "Size, construction and accuracy",
+      chart_of(rows, {both_bodies(rows, "memory", "MB", kMegabytes, "memory_bytes"), both_bodies(rows, "time to build", "ms", kMilli, "build_s"),
+                      both_bodies(rows, "largest deviation", "µm", 1.0, "difference_um")}),
+      "Deviation: largest normal distance from the surface as given. Zero is not shown.");
+  return section;
+}
+
+Table table_of(const std::vector<Row>& rows) {
+  const std::vector<std::pair<const char*, Column>> quantities{{"difference_um", {"differs", "µm"}},
+                                                               {"build_s", {"build", "s"}},
+                                                               {"memory_bytes", {"memory", "bytes"}},
+                                                               {"points", {"points"}},
+                                                               {"ns_per_height", {"height, level", "ns"}},
+                                                               {"ns_per_height_tilted", {"height, tilted", "ns"}},
+                                                               {"ns_per_normal", {"with slopes", "ns"}},
+                                                               {"base_ns_per_height", {"base of offsets", "ns"}},
+                                                               {"search_cold_s", {"first search", "s"}},
+                                                               {"search_warm_s", {"after a small move", "s"}},
+                                                               {"distance_s", {"distance", "s"}},
+                                                               {"patches", {"patches"}}};
+  Table table{"rows", "All figures. Times stand only where everything agrees.", {{"representation"}, {"resolution", "mm"}, {"body"}, {"agrees"}}};
+  for (const auto& [key, column] : quantities) table.columns.push_back(column);
+  table.columns.push_back({"reason"});
+  for (const Row& row : rows) {
+    Table::Row line;
+    line.cells = {row.node.text("backend"), Number{row.node.number("resolution_mm")}, row.node.text("body"),
+                  std::string(row.node.flag("agrees") ? "yes" : "no")};
+    for (const auto& [key, column] : quantities)
+      line.cells.emplace_back(Number{row.node.number(key), column.unit == "bytes" || column.unit.empty() ? 9 : 3});
+    line.cells.emplace_back(row.node.text("reason"));
+    table.rows.push_back(std::move(line));
+  }
+  return table;
+}
+
+}  // namespace
+
+Page bench_page(const std::filesystem::path& folder) {
+  JsonFile file = read_json_file(folder / "bench.json");
+  const JsonTree& bench = file.root;
+  const std::vector<Row> rows = rows_of(bench);
+  const std::string input = bench.at("input").text("file");
+  Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
+            fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"), bench.text("machine"))};
+  page.document = std::move(file.text);
+  Section overview{"overview", "Overview"};
+  add_banners(bench, rows, overview);
+  overview.blocks.emplace_back(cards_of(bench, rows));
+  overview.blocks.emplace_back(facts_of(bench));
+  page.sections.push_back(std::move(overview));
+  if (Section charts = charts_of(rows); !charts.blocks.empty()) page.sections.push_back(std::move(charts));
+  page.sections.push_back({"figures", "Figures", {table_of(rows)}});
+  return page;
+}
+
+}  // namespace treadmark::app::report

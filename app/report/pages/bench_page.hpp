@@ -1,0 +1,14 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+
+#include "treadmark/app/report/page.hpp"
+
+namespace treadmark::app::report {
+
+/// Report of a folder of `treadmark bench`: its bench.json. Errors: Error(input_data) for a file that is missing, broken or lacks keys.
+Page bench_page(const std::filesystem::path& folder);
+
+}  // namespace treadmark::app::report

@@ -1,0 +1,224 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/pages/compare_figures.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/report/html_text.hpp"
+
+namespace treadmark::app::report {
+namespace {
+
+using Candidate = ComparedCandidate;
+using Value = double (*)(const Candidate&);
+constexpr double kMilli = 1e3;  // s -> ms
+constexpr std::size_t kFew = 8;
+
+double pmax_error(const Candidate& c) { return c.pmax_error_percent; }
+double height(const Candidate& c) { return c.height_max_um; }
+double time_ms(const Candidate& c) { return kMilli * c.mean_seconds(); }
+double memory(const Candidate& c) { return c.memory_MB(); }
+double build_ms(const Candidate& c) { return kMilli * c.build_s; }
+
+std::string with_unit(double value, const char* unit) { return std::isfinite(value) ? fmt::format("{} {}", shown({value, 3}), unit) : "–"; }
+
+std::string hover(const Candidate& c) {
+  return fmt::format("{}: error of the largest pressure {}, surface {}, {} a case, {}", c.label, with_unit(c.pmax_error_percent, "%"),
+                     with_unit(c.height_max_um, "µm"), with_unit(time_ms(c), "ms"), with_unit(c.memory_MB(), "MB"));
+}
+
+/// Candidates with a resolution by their backends, coarse before fine, in the order in which the backends appear.
+std::vector<std::vector<const Candidate*>> by_backend(const ComparedCandidates& all) {
+  std::vector<std::vector<const Candidate*>> groups;
+  for (const Candidate& c : all.candidates) {
+    if (c.as_given()) continue;
+    const auto known = std::ranges::find_if(groups, [&](const auto& group) { return group.front()->backend == c.backend; });
+    if (known == groups.end())
+      groups.push_back({&c});
+    else
+      known->push_back(&c);
+  }
+  for (auto& group : groups)
+    std::ranges::stable_sort(group, [](const Candidate* a, const Candidate* b) { return a->resolution_mm > b->resolution_mm; });
+  return groups;
+}
+
+/// Where a value lies on a logarithmic axis; NaN = nowhere.
+double placed(double value, double least) {
+  if (value >= 0.0 && value < least) return least;
+  return value > 0.0 ? value : Candidate::kNone;
+}
+
+/// A curve a backend; what has no resolution becomes a level.
+Panel over_resolution(const ComparedCandidates& all, const char* label, const char* unit, Value value, double least, bool with_truth) {
+  Panel panel{label, unit, true};
+  for (const auto& group : by_backend(all)) {
+    Series series{group.front()->backend, {}, {}, Series::Marks::both};
+    for (const Candidate* c : group) {
+      const double y = placed(value(*c), least);
+      if (std::isnan(y)) continue;
+      series.x.push_back(c->resolution_mm);
+      series.y.push_back(y);
+      series.texts.push_back(hover(*c));
+    }
+    if (!series.y.empty()) panel.series.push_back(std::move(series));
+  }
+  for (const Candidate& c : all.candidates) {
+    if (!c.as_given() || (!with_truth && &c == all.truth())) continue;
+    const double y = placed(value(c), least);
+    if (!std::isnan(y)) panel.levels.push_back({y, c.label + (&c == all.truth() ? " (truth)" : " (as given)")});
+  }
+  return panel;
+}
+
+Axis resolution_axis() { return {"resolution", "mm", true}; }
+
+}  // namespace
+
+ChartView accuracy_chart(const ComparedCandidates& all) {
+  ChartView view;
+  view.x = resolution_axis();
+  view.panels = {over_resolution(all, "largest error of the largest pressure", "%", pmax_error, kLeastShown, false),
+                 over_resolution(all, "largest deviation of the surface", "µm", height, kLeastShown, false)};
+  return view;
+}
+
+ChartView cost_chart(const ComparedCandidates& all) {
+  ChartView view;
+  view.x = resolution_axis();
+  view.panels = {over_resolution(all, "search and distance a case", "ms", time_ms, 0.0, true),
+                 over_resolution(all, "memory", "MB", memory, 0.0, true), over_resolution(all, "time to build", "ms", build_ms, 0.0, true)};
+  return view;
+}
+
+ChartView trade_chart(const ComparedCandidates& all) {
+  ChartView view;
+  view.x = Axis{"mean time of search and distance a case", "ms", true};
+  Panel panel{"largest error of the largest pressure", "%", true};
+  const auto add = [&](const std::vector<const Candidate*>& group, const std::string& name) {
+    Series series{name, {}, {}, Series::Marks::both};
+    for (const Candidate* c : group) {
+      const double x = placed(time_ms(*c), 0.0), y = placed(c->pmax_error_percent, kLeastShown);
+      if (std::isnan(x) || std::isnan(y)) continue;
+      series.x.push_back(x);
+      series.y.push_back(y);
+      series.texts.push_back(hover(*c));
+    }
+    if (!series.y.empty()) panel.series.push_back(std::move(series));
+  };
+  for (const auto& group : by_backend(all)) add(group, group.front()->backend);
+  for (const Candidate& c : all.candidates)
+    if (c.as_given() && &c != all.truth()) add({&c}, c.label + " (as given)");
+  view.panels.push_back(std::move(panel));
+  return view;
+}
+
+std::vector<const Candidate*> drawn_over_cases(const ComparedCandidates& all) {
+  std::vector<const Candidate*> solved;
+  for (const Candidate& c : all.candidates)
+    if (c.solved > 0) solved.push_back(&c);
+  if (solved.size() <= kFew) return solved;
+  std::vector<const Candidate*> out;
+  for (const Candidate* c : solved) {
+    const bool finest = std::ranges::none_of(
+        solved, [&](const Candidate* other) { return other->backend == c->backend && other->resolution_mm < c->resolution_mm; });
+    if (c == all.truth() || c->as_given() || finest) out.push_back(c);
+  }
+  return out;
+}
+
+ChartView case_errors_chart(const ComparedCandidates& all) {
+  ChartView view;
+  view.linked = true;
+  const std::vector<const Candidate*> candidates = drawn_over_cases(all);
+  const auto panel = [&](const char* label, const char* unit, const char* key, double factor, bool with_truth) {
+    Panel out{label, unit};
+    for (const Candidate* c : candidates) {
+      const bool truth = c == all.truth();
+      if (truth && !with_truth) continue;
+      Series series{c->label + (truth ? " (truth)" : ""), {}, {}, Series::Marks::both, truth};
+      for (const auto& row : c->rows) series.y.push_back(row ? factor * row->number_or_nan(key) : Candidate::kNone);
+      out.series.push_back(std::move(series));
+    }
+    return out;
+  };
+  view.panels = {panel("largest pressure", "MPa", "pmax_MPa", 1.0, true), panel("error of the largest pressure", "%", "pmax_error_percent", 1.0, false),
+                 panel("normal force", "kN", "fn_N", 1e-3, true), panel("error of the force", "%", "force_error_percent", 1.0, false),
+                 panel("error of the position", "mm", "position_error_mm", 1.0, false)};
+  return view;
+}
+
+Table candidate_table(const ComparedCandidates& all) {
+  Table table{"candidates",
+              "Representations. Errors are the largest in size over the cases, deviations those of the worse of wheel and rail, times of search "
+              "and distance means per case; build and memory are of wheel and rail together.",
+              {{"representation"}, {"resolution", "mm"}, {"wheel"}, {"rail"}, {"cases"}, {"ok"}, {"error of p_max", "%"}, {"error of area", "%"},
+               {"error of force", "%"}, {"error of position", "mm"}, {"largest deviation", "µm"}, {"rms deviation", "µm"}, {"slope", "mrad"},
+               {"curvature", "1/m"}, {"search", "ms"}, {"distance", "ms"}, {"build", "s"}, {"memory", "MB"}, {"notes"}}};
+  for (const Candidate& c : all.candidates) {
+    Table::Row row;
+    row.cells = {c.backend + (&c == all.truth() ? " (truth)" : ""), Number{c.resolution_mm}, c.wheel.text("backend"), c.rail.text("backend"),
+                 Number{static_cast<double>(c.solved)}, Number{static_cast<double>(c.ok)}};
+    for (const double value : {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm, c.height_max_um,
+                               c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m, kMilli * c.mean_search_s, kMilli * c.mean_distance_s,
+                               c.build_s, c.memory_MB()})
+      row.cells.emplace_back(Number{value, 3});
+    std::string notes = c.failure.empty() ? "" : "failed: " + c.failure;
+    for (const auto& [body, node] : {std::pair{"wheel", &c.wheel}, {"rail", &c.rail}})
+      if (const std::string note = node->text("note"); !note.empty()) notes += fmt::format("{}{}: {}", notes.empty() ? "" : "; ", body, note);
+    row.cells.emplace_back(std::move(notes));
+    table.rows.push_back(std::move(row));
+  }
+  return table;
+}
+
+Table compared_row_table(const ComparedCandidates& all) {
+  struct Quantity {
+    const char* key;
+    Column column;
+    int digits = 4;
+  };
+  const std::vector<Quantity> quantities{{"patches", {"patches"}},
+                                         {"pmax_MPa", {"p_max", "MPa"}},
+                                         {"pmax_error_percent", {"error of p_max", "%"}, 3},
+                                         {"area_mm2", {"area", "mm²"}},
+                                         {"area_error_percent", {"error of area", "%"}, 3},
+                                         {"fn_N", {"F_n", "N"}, 6},
+                                         {"fx_N", {"F_x", "N"}, 6},
+                                         {"fs_N", {"F_s", "N"}, 6},
+                                         {"force_error_percent", {"error of force", "%"}, 3},
+                                         {"x_tr_mm", {"x", "mm"}},
+                                         {"y_tr_mm", {"y", "mm"}},
+                                         {"position_error_mm", {"error of position", "mm"}, 3},
+                                         {"approach_mm", {"approach", "mm"}},
+                                         {"approach_error_percent", {"error of approach", "%"}, 3},
+                                         {"ncon", {"elements in contact"}, 6},
+                                         {"search_s", {"search", "s"}, 3},
+                                         {"distance_s", {"distance", "s"}, 3},
+                                         {"height_max_um", {"largest deviation", "µm"}, 3},
+                                         {"height_rms_um", {"rms deviation", "µm"}, 3},
+                                         {"slope_max_mrad", {"slope", "mrad"}, 3},
+                                         {"curvature_max_per_m", {"curvature", "1/m"}, 3},
+                                         {"build_s", {"build", "s"}, 3},
+                                         {"memory_bytes", {"memory", "bytes"}, 9}};
+  Table table{"rows",
+              "Every case with every representation. Pressure to elements in contact are of the patch that carries most of the load; x and y are its "
+              "reference in track axes, forces act on the rail. Errors exist where both this representation and the truth have contact.",
+              {{"case"}, {"representation"}, {"wheel"}, {"rail"}, {"status"}}};
+  for (const Quantity& q : quantities) table.columns.push_back(q.column);
+  for (std::size_t i = 0; i < all.cases.size(); ++i)
+    for (const Candidate& c : all.candidates) {
+      if (!c.rows[i]) continue;
+      const JsonTree& node = *c.rows[i];
+      Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"), node.text("rail_backend"), node.text("status")},
+                     static_cast<int>(i)};
+      for (const Quantity& q : quantities) row.cells.emplace_back(Number{node.number_or_nan(q.key), q.digits});
+      table.rows.push_back(std::move(row));
+    }
+  return table;
+}
+
+}  // namespace treadmark::app::report

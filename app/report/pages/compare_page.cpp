@@ -1,0 +1,184 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/pages/compare_page.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/case_figures.hpp"
+#include "treadmark/app/report/pages/compare_fields.hpp"
+#include "treadmark/app/report/pages/compare_figures.hpp"
+#include "treadmark/app/report/pages/folder_files.hpp"
+#include "treadmark/app/report/pages/page_parts.hpp"
+
+namespace treadmark::app::report {
+namespace {
+
+using Candidate = ComparedCandidate;
+
+/// "case 1, 2, 3 ...".
+std::string listed(const std::vector<int>& cases) {
+  constexpr std::size_t kMost = 12;
+  std::string out = "case ";
+  for (std::size_t i = 0; i < std::min(cases.size(), kMost); ++i) out += fmt::format("{}{}", i == 0 ? "" : ", ", cases[i]);
+  return cases.size() > kMost ? out + " ..." : out;
+}
+
+/// Cases of a candidate that ended with this status, or, for nullptr, that it lacks.
+std::vector<int> cases_with(const ComparedCandidates& all, const Candidate& candidate, const char* status) {
+  std::vector<int> out;
+  for (std::size_t i = 0; i < all.cases.size(); ++i) {
+    const auto& row = candidate.rows[i];
+    if (status == nullptr ? !row : row && row->text("status") == status) out.push_back(all.cases[i]);
+  }
+  return out;
+}
+
+void add_status(const ComparedCandidates& all, const char* status, Banner::Kind kind, const char* heading, Section& overview) {
+  std::string text;
+  for (const Candidate& candidate : all.candidates) {
+    if (!candidate.failure.empty()) continue;
+    const std::vector<int> cases = cases_with(all, candidate, status);
+    if (!cases.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", candidate.label, listed(cases));
+  }
+  if (!text.empty()) overview.blocks.emplace_back(Banner{kind, heading, text + "."});
+}
+
+void add_banners(const JsonTree& comparison, const ComparedCandidates& all, Section& overview) {
+  if (!comparison.flag("complete"))
+    overview.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
+                                        fmt::format("{} finished; representations or cases are missing here.",
+                                                    counted(all.candidates.size(), "representation") + (all.candidates.size() == 1 ? " was" : " were"))});
+  for (const Candidate& candidate : all.candidates)
+    if (!candidate.failure.empty())
+      overview.blocks.emplace_back(Banner{Banner::Kind::failed, candidate.label + " failed.", candidate.failure});
+  add_status(all, "failed", Banner::Kind::failed, "Cases that failed:", overview);
+  add_status(all, nullptr, Banner::Kind::failed, "Cases that are missing:", overview);
+  add_status(all, "not_converged", Banner::Kind::warning, "Cases that did not converge; judge them with care:", overview);
+  add_status(all, "no_contact", Banner::Kind::note, "Cases without contact:", overview);
+}
+
+/// The candidates whose errors tell how good the representations can be: those of the finest resolution, or those as given.
+std::vector<const Candidate*> finest(const ComparedCandidates& all) {
+  double least = INFINITY;
+  for (const Candidate& c : all.candidates)
+    if (!c.as_given() && std::isfinite(c.pmax_error_percent)) least = std::fmin(least, c.resolution_mm);
+  std::vector<const Candidate*> out;
+  for (const Candidate& c : all.candidates)
+    if (&c != all.truth() && std::isfinite(c.pmax_error_percent) && (std::isinf(least) ? c.as_given() : c.resolution_mm == least)) out.push_back(&c);
+  return out;
+}
+
+Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
+  std::size_t failed = 0;
+  const Candidate* fastest = nullptr;
+  for (const Candidate& c : all.candidates) {
+    if (!c.failure.empty()) ++failed;
+    if (std::isfinite(c.mean_seconds()) && (fastest == nullptr || c.mean_seconds() < fastest->mean_seconds())) fastest = &c;
+  }
+  Cards cards;
+  cards.cards = {{"Representations", fmt::format("{}", all.candidates.size()), failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
+                 {"Cases", fmt::format("{}", all.cases.size()), ""}};
+  const std::vector<const Candidate*> judged = finest(all);
+  if (!judged.empty()) {
+    const auto [best, worst] = std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->pmax_error_percent; });
+    const auto error = [](const Candidate* c) { return fmt::format("{} %", shown({c->pmax_error_percent, 3})); };
+    cards.cards.push_back({"Least error of pressure", error(*best), (*best)->label});
+    if (judged.size() > 1) cards.cards.push_back({"Greatest error of pressure", error(*worst), (*worst)->label});
+  }
+  if (fastest != nullptr)
+    cards.cards.push_back({"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})), fastest->label + ", a case"});
+  cards.cards.push_back({"Wall-clock time", duration_text(comparison.at("treadmark").number("seconds")),
+                         counted(comparison.at("treadmark").count("threads"), "thread")});
+  return cards;
+}
+
+Facts facts_of(const JsonTree& comparison) {
+  const JsonTree made = comparison.at("treadmark"), input = comparison.at("input");
+  Origin origin{made.text("version"), made.text("git"), input.text("file"), input.text("sha256"), {}, comparison.at("settings").texts()};
+  for (const JsonTree& file : input.at("geometry").items()) origin.geometry_sha256.emplace_back(file.text("file"), file.text("sha256"));
+  Facts facts = origin_facts(origin);
+  facts.entries.insert(facts.entries.begin() + 1, {"Truth", comparison.text("truth")});
+  return facts;
+}
+
+/// Without fields the number of the case is all that is known of it.
+Timeline timeline_of(const ComparedCandidates& all, const ComparedFields* fields) {
+  if (fields != nullptr) return case_timeline(*fields->truth);
+  Timeline timeline{"case"};
+  Axis axis{"case", ""};
+  for (const int number : all.cases) {
+    timeline.names.push_back(fmt::format("case {}", number));
+    axis.values.push_back(static_cast<double>(number));
+  }
+  timeline.axes.push_back(std::move(axis));
+  return timeline;
+}
+
+Section accuracy_section(const ComparedCandidates& all) {
+  Section section{"accuracy", "Accuracy against cost"};
+  const auto add = [&](const char* id, const char* title, ChartView view, const char* note) {
+    std::erase_if(view.panels, [](const Panel& panel) { return panel.series.empty(); });
+    if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
+  };
+  add("accuracy-chart", "Accuracy over resolution", accuracy_chart(all),
+      "Largest values over the cases. Those below 0.001, zero included, are shown at 0.001. Levels belong to data as given, which is not sampled.");
+  add("trade-chart", "Accuracy against time", trade_chart(all), "Towards the lower left it is faster and more accurate. Errors below 0.001 % are shown there.");
+  add("cost-chart", "Cost over resolution", cost_chart(all), "Search and distance: mean over the cases. Memory and time to build: wheel and rail together.");
+  return section;
+}
+
+}  // namespace
+
+Page compare_page(const std::filesystem::path& folder) {
+  JsonFile file = read_json_file(folder / "compare.json");
+  const JsonTree& comparison = file.root;
+  const ComparedCandidates all = read_compared(comparison);
+  OptionalFiles files(folder);
+  Page page{"compare", title_of(comparison.at("input").text("file")),
+            fmt::format("{} on {}, measured against {}", counted(all.candidates.size(), "representation"), counted(all.cases.size(), "case"),
+                        comparison.text("truth"))};
+  page.document = std::move(file.text);
+  page.full_data = "fields.h5";
+
+  std::optional<ComparedFields> fields;
+  if (!all.cases.empty() && files.has("fields.h5", "contact fields")) fields = read_compared_fields(files.path("fields.h5"), all);
+  Section contact{"contact", "Contact"};
+  if (!all.cases.empty()) page.timeline = timeline_of(all, fields ? &*fields : nullptr);
+  if (fields) {
+    page.sets = std::move(fields->sets);
+    ContactView view;
+    for (std::size_t i = 0; i < page.sets.size(); ++i) view.sets.push_back(static_cast<int>(i));
+    contact.blocks.emplace_back(Figure{"contact-view", "Contact patches", std::move(view)});
+  } else {
+    if (page.timeline) page.timeline->frames.clear();
+    append(contact.blocks, files.picture("pressures.svg", "pressures", "Contact pressures",
+                                         "The first case, and those in which the errors of the largest pressure differ most."));
+  }
+  if (all.cases.size() > 1) {
+    const std::vector<const Candidate*> drawn = drawn_over_cases(all);
+    const auto solved = std::ranges::count_if(all.candidates, [](const Candidate& c) { return c.solved > 0; });
+    contact.blocks.emplace_back(Figure{"cases-chart", "Results over the cases", case_errors_chart(all),
+                                       static_cast<std::size_t>(solved) > drawn.size()
+                                           ? "Of every representation the finest resolution; the others are in the table below."
+                                           : "Of the patch that carries most of the load."});
+  }
+
+  Section overview{"overview", "Overview"};
+  add_banners(comparison, all, overview);
+  append(overview.blocks, files.note());
+  overview.blocks.emplace_back(cards_of(comparison, all));
+  overview.blocks.emplace_back(facts_of(comparison));
+  page.sections.push_back(std::move(overview));
+  for (Section section : {accuracy_section(all), std::move(contact)})
+    if (!section.blocks.empty()) page.sections.push_back(std::move(section));
+  Section tables{"tables", "Figures", {candidate_table(all)}};
+  if (!all.cases.empty()) tables.blocks.emplace_back(compared_row_table(all));
+  page.sections.push_back(std::move(tables));
+  return page;
+}
+
+}  // namespace treadmark::app::report
