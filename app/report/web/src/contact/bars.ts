@@ -15,6 +15,8 @@ export interface BarContent {
   colour: (t: number) => [number, number, number];
   lines: number[];
   title: string;
+  /** Values may lie beyond the ends, which then are pointed. */
+  beyond: boolean;
 }
 
 /** Draws a colour bar anew. */
@@ -24,6 +26,13 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
   const gradient = svg("linearGradient", { id, x1: 0, x2: vertical ? 0 : 1, y1: vertical ? 1 : 0, y2: 0 }, svg("defs", {}, parent));
   for (let k = 0; k <= 32; ++k) svg("stop", { offset: (k / 32).toFixed(4), "stop-color": css(colour(k / 32)) }, gradient);
   const { x, y, width, height } = place;
+  if (content.beyond)
+    for (const t of [0, 1]) {
+      const tip = vertical
+        ? `M${x} ${t ? y : y + height}h${width}l${-width / 2} ${t ? -9 : 9}z`
+        : `M${t ? x + width : x} ${y}v${height}l${t ? 9 : -9} ${-height / 2}z`;
+      svg("path", { d: tip, fill: css(colour(t)), stroke: "var(--line-strong)", "stroke-width": 0.8 }, parent);
+    }
   svg("rect", { x, y, width, height, fill: `url(#${id})`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" }, parent);
   const length = vertical ? height : width;
   const at = (value: number): number => ((value - range.low) / (range.high - range.low)) * length;

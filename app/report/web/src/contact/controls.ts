@@ -131,7 +131,9 @@ export function makeControls(options: Options, offer: Offer, changed: () => void
   if (offer.slip) second.push(check("Slip hatched", "slip", options.slip, (v) => ((options.slip = v), changed())));
   if (offer.tractions) second.push(check("Tractions", "arrows", options.arrows, (v) => ((options.arrows = v), changed())));
   if (offer.other !== null) second.push(check(`Outline of ${offer.other}`, "other", options.other, (v) => ((options.other = v), changed())));
-  root.append(row(...first), row(...second));
+  const choices = row(...first);
+  choices.classList.add("contact-choices");
+  root.append(choices, row(...second));
   if (offer.sets.length > 1) root.append(setsRow(options, offer, changed));
   return root;
 }

@@ -35,7 +35,7 @@ export function csvOf(parts: readonly { name: string; item: Item }[], fields: re
 }
 
 export function quoted(text: string): string {
-  return /[",\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text;
+  return /[",\n]/.test(text) ? `"${text.replace(/"/g, '""')}"` : text;
 }
 
 /** Centre of an element in the axes of the picture [mm]. */

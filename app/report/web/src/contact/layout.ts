@@ -45,14 +45,16 @@ const LEFT = 50;
 const RIGHT = 8;
 const TITLE = 22;
 const TOP = 8;
-const BOTTOM = 40;
+const BOTTOM = 46;
 const GAP_X = 16;
 const GAP_Y = 12;
 const BAR = 13;
 /** Room of a colour bar with its numbers and title. */
 const BAR_RIGHT = 82;
-const BAR_BELOW = 50;
+const BAR_BELOW = 56;
 const NARROW = 520;
+/** Room that a legend gets also beside a narrow picture. */
+const LEGEND_WIDTH = 620;
 
 interface Tiling {
   columns: number;
@@ -95,14 +97,14 @@ export function layOut(wish: LayoutWish): Layout {
   }
   const right = LEFT + columns * w + (columns - 1) * GAP_X;
   const bottom = title + rows * h + (rows - 1) * (GAP_Y + (wish.titles ? TITLE : 0)) + BOTTOM;
-  const barLength = Math.min(rows * h, 340);
+  const barLength = Math.min(rows * h, 480);
   const barPlaces = Array.from({ length: bars }, (_, k) =>
     below
       ? { x: LEFT, y: bottom + 2 + k * BAR_BELOW, width: Math.max(60, right - LEFT), height: BAR, vertical: false }
       : { x: right + 16 + k * BAR_RIGHT, y: title, width: BAR, height: Math.max(60, barLength), vertical: true },
   );
   const legendY = bottom + (below ? bars * BAR_BELOW : 0) + 12;
-  const needed = below ? wish.width : Math.max(right + RIGHT + barsWidth, 320);
+  const needed = below ? wish.width : Math.max(right + RIGHT + barsWidth, LEGEND_WIDTH);
   return {
     width: Math.min(wish.width, Math.ceil(needed)),
     height: Math.ceil(legendY - 12 + wish.legendRows * LEGEND_ROW + (wish.legendRows > 0 ? 6 : 0)),

@@ -5,7 +5,7 @@ import { decode } from "../packed";
 import { difference } from "./difference";
 import type { Box } from "./fields";
 import { byLoad, inAxesOf, itemsOf, matchedItems, nominalItem, toTrack, type Choice, type Item } from "./place";
-import { around, EMPTY_WINDOW, extent, itemBox, rangeOf, union, withMargin, type Range } from "./scales";
+import { around, EMPTY_WINDOW, itemBox, mostOf, rangeOf, union, withMargin, type Range } from "./scales";
 
 /** A panel of the picture: one set's patches at a step. */
 export interface PanelModel {
@@ -84,7 +84,7 @@ export class Model {
     );
   }
 
-  /** The same of the differences to the first set. */
+  /** Range of nearly all differences to the first set. */
   differenceRange(name: string, frames: readonly number[], choice: Choice): Range {
     return this.over(`${name} difference ${JSON.stringify(choice)}`, frames, (_, k, frame) => {
       if (k === 0) return NOTHING;
@@ -92,7 +92,7 @@ export class Model {
       const truth = panels[0]?.items ?? [];
       return (panels[k]?.items ?? []).reduce((range, item) => {
         const values = this.difference(item, truth, name);
-        return values ? union(range, extent(values)) : range;
+        return values ? union(range, mostOf(values)) : range;
       }, NOTHING);
     });
   }

@@ -36,9 +36,11 @@ const looks: { name: LineName; attributes: Record<string, string | number> }[] =
   { name: "dark", attributes: { stroke: "#000000", "stroke-opacity": 0.5, "stroke-width": 0.9 } },
   { name: "light", attributes: { stroke: "#ffffff", "stroke-opacity": 0.62, "stroke-width": 0.9 } },
   { name: "cross", attributes: { stroke: INK, "stroke-opacity": 0.55, "stroke-width": 1, "stroke-dasharray": "1 3" } },
+  { name: "outline", attributes: { stroke: "var(--surface)", "stroke-width": 3.4, "stroke-opacity": 0.55, "stroke-linejoin": "miter" } },
   { name: "outline", attributes: { stroke: INK, "stroke-width": 1.5, "stroke-linejoin": "miter" } },
   { name: "division", attributes: { stroke: "#10151a", "stroke-width": 3.2, "stroke-opacity": 0.75 } },
   { name: "division", attributes: { stroke: "#ffffff", "stroke-width": 1.5 } },
+  { name: "reference", attributes: { stroke: "var(--surface)", "stroke-width": 3.6, "stroke-opacity": 0.5 } },
   { name: "reference", attributes: { stroke: OTHER, "stroke-width": 1.8, "stroke-dasharray": "6 3" } },
   { name: "arrows", attributes: { stroke: "#ffffff", "stroke-width": 2.8, "stroke-opacity": 0.8 } },
   { name: "arrows", attributes: { stroke: "#10151a", "stroke-width": 1.15 } },
@@ -47,7 +49,6 @@ const looks: { name: LineName; attributes: Record<string, string | number> }[] =
 /** The drawing of one panel: axes, lines over the picture, texts. */
 export class PanelNodes {
   readonly group: SVGGElement;
-  readonly image: SVGGElement;
   private readonly clip: SVGRectElement;
   private readonly frame: SVGRectElement;
   private readonly axes: SVGGElement;
@@ -65,7 +66,7 @@ export class PanelNodes {
     this.clip = svg("rect", {}, path);
     this.axes = svg("g", { fill: "var(--muted)", "font-size": 11.5 }, this.group);
     const inside = svg("g", { "clip-path": `url(#${id})`, fill: "none", "stroke-linejoin": "round" }, this.group);
-    this.image = svg("g", {}, inside);
+    svg("g", { class: "cells" }, inside);
     this.slip = svg("path", { fill: `url(#${hatch})`, "fill-rule": "evenodd" }, inside);
     this.lines = looks.map(({ name, attributes }) => ({ name, path: svg("path", attributes, inside) }));
     this.origin = svg("path", { stroke: INK, "stroke-width": 1.4 }, inside);

@@ -40,6 +40,19 @@ export function rangeOf(patch: Patch, name: string, blobs: string[]): Range {
   return range;
 }
 
+/** Share of the values that the colours of differences cover: at edges of contact single elements differ much more. */
+const COVERED = 0.98;
+
+/** A range about zero that holds nearly all finite values. */
+export function mostOf(values: ArrayLike<number>): Range {
+  const sizes: number[] = [];
+  for (let i = 0; i < values.length; ++i) if (Number.isFinite(values[i])) sizes.push(Math.abs(values[i]!));
+  if (sizes.length === 0) return { low: Infinity, high: -Infinity };
+  sizes.sort((a, b) => a - b);
+  const size = sizes[Math.min(sizes.length - 1, Math.ceil(COVERED * sizes.length) - 1)]!;
+  return { low: -size, high: size };
+}
+
 export function union(a: Range, b: Range): Range {
   return { low: Math.min(a.low, b.low), high: Math.max(a.high, b.high) };
 }

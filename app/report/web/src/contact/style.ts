@@ -24,10 +24,11 @@ export interface Style {
 }
 
 const LEVELS = 7;
+const SIGNED_LEVELS = 10;
 
 /** Levels at which lines are drawn: not the ends, and not zero of signed fields, where large areas lie. */
 function linesAt(range: Range, signed: boolean): number[] {
-  return levels(range, LEVELS).filter((v) => v > range.low && v < range.high && (!signed || v !== 0));
+  return levels(range, signed ? SIGNED_LEVELS : LEVELS).filter((v) => v > range.low && v < range.high && (!signed || v !== 0));
 }
 
 export function styleOf(model: Model, options: Options, field: FieldInfo, frames: readonly number[], differences: boolean): Style {
@@ -37,13 +38,13 @@ export function styleOf(model: Model, options: Options, field: FieldInfo, frames
   const range = own ? options.own : colourRange(model.range(field.name, frames), field.kind);
   const colouring: Colouring = { table: states ? stateTable() : lut(kind), range, states };
   const at = states || !options.isolines ? [] : linesAt(range, kind === "diverging");
-  const bars: BarContent[] = states ? [] : [{ range, colour: colourMap(kind), lines: at, title: titled(field.label, field.unit) }];
+  const bars: BarContent[] = states ? [] : [{ range, colour: colourMap(kind), lines: at, title: titled(field.label, field.unit), beyond: own }];
   let difference: Style["difference"] = null;
   if (differences && !states) {
     const span = colourRange(model.differenceRange(field.name, frames, options.choice), "diverging");
     const lines = options.isolines ? linesAt(span, true) : [];
     difference = { colouring: { table: lut("diverging"), range: span, states: false }, levels: lines };
-    bars.push({ range: span, colour: colourMap("diverging"), lines, title: titled(`Difference to ${model.sets[0]?.name ?? ""}`, field.unit) });
+    bars.push({ range: span, colour: colourMap("diverging"), lines, title: titled(`Difference to ${model.sets[0]?.name ?? ""}`, field.unit), beyond: true });
   }
   return { field, colouring, levels: at, difference, bars, everywhere: isEverywhere(field.name) };
 }

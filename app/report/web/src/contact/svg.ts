@@ -72,7 +72,7 @@ export function standalone(drawing: SVGSVGElement, prepare: (copy: SVGSVGElement
   const text = new XMLSerializer().serializeToString(copy);
   return inLight(() => {
     const style = getComputedStyle(document.documentElement);
-    return text.replace(/var\((--[\w-]+)\)/g, (_, name: string) => style.getPropertyValue(name).trim().replaceAll('"', "'") || "#000000");
+    return text.replace(/var\((--[\w-]+)\)/g, (_, name: string) => style.getPropertyValue(name).trim().replace(/"/g, "'") || "#000000");
   });
 }
 
