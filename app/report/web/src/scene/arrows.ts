@@ -12,7 +12,7 @@ export interface ArrowMesh {
   count: number;
 }
 
-const acrossPatch = 18;
+const acrossPatch = 13;
 const dark = [20, 24, 32, 255];
 const light = [255, 255, 255, 255];
 
@@ -81,7 +81,7 @@ export function arrowsOfPatch(
   const positions = new Float32Array(2 * 21 * wanted.length);
   const colours = new Uint8Array(2 * 28 * wanted.length);
   const index = new Uint32Array(2 * 9 * wanted.length);
-  const width = 0.11 * cell;
+  const width = 0.12 * cell;
   wanted.forEach((sum, k) => {
     const scale = (1.7 * cell) / (greatest * sum.count);
     [0.45 * width, 0].forEach((rim, layer) => {

@@ -72,7 +72,7 @@ export class Body {
     this.style = style;
     for (const part of this.drawn) {
       part.visible = style !== "hidden";
-      part.material = style === "glass" ? this.materials.glass : this.materials.solid;
+      part.material = style === "hidden" ? this.materials.solid : this.materials[style];
       part.renderOrder = style === "glass" ? 2 * order + 1 : 0;
     }
     for (const part of this.depths) {

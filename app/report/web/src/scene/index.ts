@@ -105,7 +105,7 @@ export function mountScene(figure: HTMLElement, view: SceneView, store: Store): 
   let stage: Stage | null = null;
   const watch = new IntersectionObserver(
     (entries) => {
-      const visible = entries.some((entry) => entry.isIntersecting);
+      const visible = entries[entries.length - 1]?.isIntersecting ?? false;
       if (visible) stage ??= start(figure, frame, view, store, kind === "software");
       stage?.setVisible(visible);
     },

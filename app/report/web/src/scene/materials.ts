@@ -12,6 +12,7 @@ import {
   ShaderMaterial,
   Vector2,
   Vector3,
+  Vector4,
 } from "three";
 
 import { lut, type Rgb } from "../colours";
@@ -49,6 +50,7 @@ uniform float span;
 uniform vec3 sectionAt;
 uniform vec3 sectionNormal;
 uniform float section;
+uniform vec4 cut;
 varying vec3 atEye;
 varying vec3 facing;
 varying vec3 place;
@@ -56,6 +58,8 @@ varying vec2 cell;
 varying float excess;
 float thin(float distance, float width) { return 1.0 - smoothstep(width, width + 1.0, distance); }
 void main() {
+  float beyond = dot(vec4(place - sectionAt, 1.0), cut);
+  if (beyond < 0.0) discard;
   vec3 n = normalize(facing);
   vec3 v = normalize(-atEye);
   float side = dot(n, v);
@@ -77,7 +81,9 @@ void main() {
   vec2 margin = min(cell, lastCell - cell) / width;
   lines = max(lines, 0.6 * max(thin(margin.y, 0.6), openEnds * thin(margin.x, 0.6)));
   float across = dot(place - sectionAt, sectionNormal);
-  lines = max(lines, 0.85 * section * thin(abs(across) / max(fwidth(across), 1e-6), 0.7));
+  float nearby = 1.0 - smoothstep(140.0, 200.0, length(place - sectionAt));
+  lines = max(lines, 0.85 * section * nearby * thin(abs(across) / max(fwidth(across), 1e-6), 0.7));
+  lines = max(lines, 0.9 * thin(beyond / max(fwidth(beyond), 1e-6), 1.4));
   colour = mix(colour, line, lines);
   gl_FragColor = vec4(colour, min(1.0, max(alpha, lines)));
 }`;
@@ -133,6 +139,8 @@ export interface SharedUniforms {
   section: { value: number };
   sectionAt: { value: Vector3 };
   sectionNormal: { value: Vector3 };
+  /** Cut bodies are drawn where this (normal, distance) times (place - sectionAt, 1) is positive. */
+  cut: { value: Vector4 };
 }
 
 export function sharedUniforms(): SharedUniforms {
@@ -145,6 +153,7 @@ export function sharedUniforms(): SharedUniforms {
     section: { value: 1 },
     sectionAt: { value: new Vector3() },
     sectionNormal: { value: new Vector3(1, 0, 0) },
+    cut: { value: new Vector4(1, 0, 0, 0) },
   };
 }
 
@@ -157,6 +166,7 @@ export interface GridShape {
 export interface BodyMaterials {
   base: { value: Vector3 };
   solid: ShaderMaterial;
+  cut: ShaderMaterial;
   glass: ShaderMaterial;
   /** Only depth: of the see-through body just the nearest layer is drawn. */
   depth: ShaderMaterial;
@@ -165,7 +175,9 @@ export interface BodyMaterials {
 /** The patch marks its pixels in the stencil; see-through bodies leave these alone, so that its colours stay those of the colour bar. */
 export function bodyMaterials(shape: GridShape, shared: SharedUniforms): BodyMaterials {
   const base = { value: new Vector3() };
-  const uniforms = (opacity: number): ShaderMaterial["uniforms"] => ({
+  const whole = { value: new Vector4(0, 0, 0, 1e6) };
+  const uniforms = (opacity: number, cut = whole): ShaderMaterial["uniforms"] => ({
+    cut,
     base,
     mesh: shared.mesh,
     line: shared.line,
@@ -192,18 +204,20 @@ export function bodyMaterials(shape: GridShape, shared: SharedUniforms): BodyMat
   return {
     base,
     solid: new ShaderMaterial({ ...shader, uniforms: uniforms(1) }),
-    glass: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(0.2), transparent: true, depthWrite: false }),
+    cut: new ShaderMaterial({ ...shader, uniforms: uniforms(1, shared.cut) }),
+    glass: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(0.14), transparent: true, depthWrite: false }),
     depth: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(1), transparent: true, colorWrite: false }),
   };
 }
 
-/** `bias`: how much nearer to the camera than it is the patch counts as [mm]. */
-export function patchMaterial(mesh: { value: number }, bias: number): ShaderMaterial {
+/** `bias`: how much nearer to the camera than it is the patch counts as [mm]. `layered`: later triangles lie over earlier ones. */
+export function patchMaterial(mesh: { value: number }, bias: number, layered: boolean): ShaderMaterial {
   return new ShaderMaterial({
     vertexShader: patchVertex,
     fragmentShader: patchFragment,
     uniforms: { mesh, bias: { value: bias } },
     side: DoubleSide,
+    depthWrite: !layered,
     stencilWrite: true,
     stencilRef: 1,
     stencilFunc: AlwaysStencilFunc,

@@ -10,7 +10,7 @@ export interface Orbit {
   elevation: number;
 }
 
-export const fieldOfView = 28;
+export const fieldOfView = 20;
 const steepest = 89.5;
 const nearest = 2;
 const farthest = 30000;
@@ -59,7 +59,8 @@ export function distanceFor(width: number, height: number, aspect: number): numb
 }
 
 export type ViewName = "contact" | "along" | "above" | "below" | "whole";
-export type BodyStyle = "solid" | "glass" | "hidden";
+/** cut: solid, but only beyond the contact as the camera sees it; glass: see-through. */
+export type BodyStyle = "solid" | "cut" | "glass" | "hidden";
 
 export interface ViewPreset {
   name: ViewName;
@@ -72,10 +73,10 @@ export interface ViewPreset {
 }
 
 export const presets: readonly ViewPreset[] = [
-  { name: "contact", label: "Contact", title: "The patch between rail and see-through wheel", azimuth: 32, elevation: 38, wheel: "glass", rail: "solid" },
-  { name: "along", label: "Along track", title: "Forward along the track", azimuth: 0, elevation: 5, wheel: "glass", rail: "solid" },
+  { name: "contact", label: "Contact", title: "The patch on the rail, the wheel cut away in front", azimuth: 32, elevation: 34, wheel: "cut", rail: "solid" },
+  { name: "along", label: "Along track", title: "Forward along the track", azimuth: 0, elevation: 7, wheel: "cut", rail: "solid" },
   { name: "above", label: "From above", title: "Straight down, forward is upwards", azimuth: 0, elevation: steepest, wheel: "glass", rail: "solid" },
-  { name: "below", label: "From below", title: "Through the rail at the wheel", azimuth: 32, elevation: -48, wheel: "solid", rail: "glass" },
+  { name: "below", label: "From below", title: "The patch on the wheel, the rail cut away in front", azimuth: 32, elevation: -40, wheel: "solid", rail: "cut" },
   { name: "whole", label: "Whole wheel", title: "The wheel on the rail", azimuth: 58, elevation: 14, wheel: "solid", rail: "solid" },
 ];
 
@@ -96,12 +97,12 @@ export function orbitOf(preset: ViewPreset, subject: Subject, aspect: number): O
   switch (name) {
     case "contact":
     case "below":
-      return { azimuth, elevation, target: subject.contact, distance: distanceFor(3.6 * size, 2.3 * size, aspect) };
+      return { azimuth, elevation, target: subject.contact, distance: distanceFor(3.4 * size, 2.6 * size, aspect) };
     case "above":
-      return { azimuth, elevation, target: subject.contact, distance: distanceFor(2.6 * size, 1.5 * size, aspect) };
+      return { azimuth, elevation, target: subject.contact, distance: distanceFor(1.9 * size, 1.5 * size, aspect) };
     case "along": {
-      const target: Vec3 = [...subject.contact];
-      return { azimuth, elevation, target, distance: distanceFor(1.5 * subject.railWidth, 0.8 * subject.railWidth, aspect) };
+      const target: Vec3 = [subject.contact[0], subject.contact[1], subject.contact[2]];
+      return { azimuth, elevation, target, distance: distanceFor(1.7 * subject.railWidth, 1.1 * subject.railWidth, aspect) };
     }
     case "whole": {
       const across = 2.05 * subject.wheelRadius;

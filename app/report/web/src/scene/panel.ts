@@ -70,9 +70,10 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
   more.open = window.matchMedia("(min-width: 700px)").matches;
   bar.append(more);
 
-  const choice = (label: string, entries: readonly (readonly [string, string])[], get: () => string, set: (value: string) => void): void => {
+  const choice = (name: string, label: string, entries: readonly (readonly [string, string])[], get: () => string, set: (value: string) => void): void => {
     const frame = element("label", "scene-choice", `${label} `);
     const select = element("select", "");
+    select.name = name;
     for (const [value, text] of entries) {
       const option = element("option", "", text);
       option.value = value;
@@ -86,10 +87,11 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
     frame.append(select);
     list.append(frame);
   };
-  const tick = (label: string, title: string, get: () => boolean, set: (value: boolean) => void): void => {
+  const tick = (name: string, label: string, title: string, get: () => boolean, set: (value: boolean) => void): void => {
     const frame = element("label", "scene-tick");
     const box = element("input", "");
     box.type = "checkbox";
+    box.name = name;
     box.addEventListener("change", () => {
       set(box.checked);
       changed();
@@ -102,12 +104,14 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
 
   const styles = [
     ["solid", "solid"],
+    ["cut", "cut away"],
     ["glass", "see-through"],
     ["hidden", "hidden"],
   ] as const;
   if (offered.fields.length > 0) {
-    choice("Patch", offered.fields.map((field) => [field.name, field.label] as const), () => options.field, (v) => (options.field = v));
+    choice("field", "Patch", offered.fields.map((field) => [field.name, field.label] as const), () => options.field, (v) => (options.field = v));
     choice(
+      "scale",
       "Scale",
       [
         ["all", "of all steps"],
@@ -117,15 +121,15 @@ export function makePanel(options: Options, offered: Offered, changed: () => voi
       (v) => (options.sameScale = v === "all"),
     );
   }
-  if (offered.wheel) choice("Wheel", styles, () => options.wheel, (v) => (options.wheel = v as BodyStyle));
-  if (offered.rail) choice("Rail", styles, () => options.rail, (v) => (options.rail = v as BodyStyle));
-  if (offered.arrows) tick("Tractions", "Arrows of the tractions on the rail", () => options.arrows, (v) => (options.arrows = v));
-  tick("Section", "The bodies' sections across the track at the contact", () => options.section, (v) => (options.section = v));
-  tick("Mesh", "Lines of the surfaces' points and edges of the elements", () => options.mesh, (v) => (options.mesh = v));
+  if (offered.wheel) choice("wheel", "Wheel", styles, () => options.wheel, (v) => (options.wheel = v as BodyStyle));
+  if (offered.rail) choice("rail", "Rail", styles, () => options.rail, (v) => (options.rail = v as BodyStyle));
+  if (offered.arrows) tick("arrows", "Tractions", "Arrows of the tractions on the rail", () => options.arrows, (v) => (options.arrows = v));
+  tick("section", "Section", "The bodies' sections across the track at the contact", () => options.section, (v) => (options.section = v));
+  tick("mesh", "Mesh", "Lines of the surfaces' points and edges of the elements", () => options.mesh, (v) => (options.mesh = v));
   if (offered.deviation) {
-    tick("Deviation", "Surfaces coloured by their deviation from the mean section", () => options.deviation, (v) => (options.deviation = v));
+    tick("deviation", "Deviation", "Surfaces coloured by their deviation from the mean section", () => options.deviation, (v) => (options.deviation = v));
     const factors = [1, 10, 50].map((factor) => [String(factor), `× ${factor}`] as const);
-    choice("Deviation shown", factors, () => String(options.exaggeration), (v) => (options.exaggeration = Number(v)));
+    choice("exaggeration", "Deviation shown", factors, () => String(options.exaggeration), (v) => (options.exaggeration = Number(v)));
   }
   return { element: bar, refresh: (current) => refreshers.forEach((refresh) => refresh(current)) };
 }

@@ -18,7 +18,7 @@ export function graphics(): Graphics {
   return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name) ? "software" : "hardware";
 }
 
-const restAfter = 220;
+const restAfter = 250;
 const slowFrame = 30;
 
 /**
@@ -50,7 +50,7 @@ export class Stage {
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !software, stencil: true, powerPreference: "high-performance" });
     this.camera.up.set(0, 0, -1);
-    this.movingRatio = this.fullRatio(1);
+    this.movingRatio = software ? 1 : this.fullRatio();
     canvas.addEventListener("webglcontextlost", (event) => {
       event.preventDefault();
       this.lost = true;
@@ -61,9 +61,9 @@ export class Stage {
     });
   }
 
-  /** Pixels of the picture a pixel of the page: the processor smooths edges by more of them, and only at rest. */
-  private fullRatio(limit = 2): number {
-    return Math.min(limit, this.software ? 2 : window.devicePixelRatio);
+  /** Pixels of the picture a pixel of the page, at rest; the processor smooths edges by more of them. */
+  private fullRatio(): number {
+    return Math.min(2, this.software ? Math.max(1.5, window.devicePixelRatio) : window.devicePixelRatio);
   }
 
   setBackground([r, g, b]: Rgb): void {
@@ -83,21 +83,23 @@ export class Stage {
     if (visible) this.invalidate();
   }
 
+  /** Asks for a picture, quick first; once nothing was asked for some time one more follows in full resolution. */
   invalidate(): void {
+    clearTimeout(this.rest);
     if (this.asked || !this.visible) return;
     this.asked = requestAnimationFrame((time) => {
       this.asked = 0;
-      const passed = time - this.lastTime;
+      this.adapt(time - this.lastTime);
       this.lastTime = time;
-      const moving = passed < restAfter;
-      if (moving) this.adapt(passed);
-      this.draw(moving ? this.movingRatio : this.fullRatio());
+      this.draw(this.movingRatio);
       clearTimeout(this.rest);
-      if (moving) this.rest = setTimeout(() => this.draw(this.fullRatio()), restAfter);
+      if (this.movingRatio < this.fullRatio()) this.rest = setTimeout(() => this.visible && this.draw(this.fullRatio()), restAfter);
     });
   }
 
+  /** Pictures that follow each other too slowly get fewer pixels. */
   private adapt(passed: number): void {
+    if (passed > 1000) return;
     this.slow = passed > slowFrame ? this.slow + 1 : Math.max(0, this.slow - 0.25);
     if (this.slow < 4) return;
     this.slow = 0;

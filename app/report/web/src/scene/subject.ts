@@ -46,6 +46,12 @@ export function boxOfPatches(patches: readonly Patch[]): Box | null {
   return box;
 }
 
+/** How far patches go forward or back from a place along the track [mm]. */
+export function reachAlong(patches: readonly Patch[], x: number): number {
+  const box = boxOfPatches(patches);
+  return box ? Math.max(box.high[0] - x, x - box.low[0]) : 0;
+}
+
 /** The reference of the patch that carries most, in track axes. */
 export function contactPoint(patches: readonly Patch[]): Vec3 | null {
   const patch = mainPatch(patches);

@@ -18,7 +18,7 @@ import { PatchLayer } from "./patches";
 import { pickElement } from "./picking";
 import { colourRange, rangeOf, rangeOfSet, union, type Range } from "./ranges";
 import type { Stage } from "./stage";
-import { contactPoint, subjectOf, type PlacedMesh } from "./subject";
+import { contactPoint, reachAlong, subjectOf, type PlacedMesh } from "./subject";
 import { add, dot, length, sub, toOuter, turn, type Place, type Vec3 } from "./vec";
 
 const here: Place = { origin: [0, 0, 0], rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
@@ -49,6 +49,8 @@ export class Viewer implements ControlTarget {
   private view: ViewName | null = "contact";
   private ordered = "";
   private exaggeration = 1;
+  /** How far the patches go along the track from the contact point [mm]. */
+  private cutReach = 0;
 
   constructor(
     private readonly figure: HTMLElement,
@@ -62,7 +64,7 @@ export class Viewer implements ControlTarget {
     const { data } = store;
     this.set = data.sets[sceneView.set];
     this.palette = paletteOf(store.theme);
-    this.patches = new PatchLayer(data.blobs, patchMaterial(this.shared.mesh, patchBias), patchMaterial({ value: 0 }, 1.3 * patchBias));
+    this.patches = new PatchLayer(data.blobs, patchMaterial(this.shared.mesh, patchBias, false), patchMaterial({ value: 0 }, 1.3 * patchBias, true));
     const frames = this.set?.frames ?? [];
     const present = (name: string): boolean => frames.some((frame) => frame.patches.some((patch) => patch.values[name]));
     this.fields = data.fields.filter((field) => present(field.name));
@@ -79,7 +81,7 @@ export class Viewer implements ControlTarget {
     this.options = {
       field: this.fields.find((field) => field.name === "pressure")?.name ?? this.fields[0]?.name ?? "",
       sameScale: true,
-      wheel: contact && offered.rail ? "glass" : "solid",
+      wheel: contact && offered.rail ? "cut" : "solid",
       rail: "solid",
       arrows: offered.arrows,
       mesh: false,
@@ -231,6 +233,7 @@ export class Viewer implements ControlTarget {
     this.patches.show(frame, shape, ground, { field: info, range: this.range, key }, greatest, this.anchor);
     const contact = frame ? contactPoint(frame.patches) : null;
     if (contact) this.shared.sectionAt.value.set(...sub(contact, this.anchor));
+    this.cutReach = contact && frame ? reachAlong(frame.patches, contact[0]) : 0;
     this.tellPoint();
   }
 
@@ -281,6 +284,8 @@ export class Viewer implements ControlTarget {
 
   private prepare(): void {
     this.styleBodies();
+    const forward = outlook(this.orbit)[0] <= 0 ? 1 : -1;
+    this.shared.cut.value.set(forward, 0, 0, -1.04 * this.cutReach);
     let reach = 100;
     for (const body of this.bodies.values()) {
       if (!body.place) continue;
