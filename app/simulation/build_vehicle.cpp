@@ -3,13 +3,12 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
 
 namespace treadmark::app {
@@ -113,14 +112,13 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem));
       on.element = built.full.back();
     } else {
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch(built.table_seconds);
       const double load = *std::ranges::max_element(v.system.wheelset_load) / 2.0;
       const auto table = builder.table(load);
       on.element = std::make_shared<vehicle::TableContact>(table, on.side);
       on.rail_marker = table->nominal().X_TR.origin;
       if (on.side == wheelrail::Side::left) on.rail_marker.y() = -on.rail_marker.y();
       built.full.push_back(nullptr);
-      built.table_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     v.wheels.push_back(std::move(on));
   }

@@ -14,6 +14,7 @@
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/io/histories/history_csv.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
@@ -22,16 +23,6 @@ namespace treadmark::app {
 namespace {
 
 using Clock = std::chrono::steady_clock;
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  double& total_;
-  Clock::time_point start_ = Clock::now();
-};
 
 io::SimulationResult head(const io::SimulationFile& file, const SimulationOptions& options) {
   io::SimulationResult result;
@@ -121,13 +112,8 @@ class Run {
 
   wheelrail::PhaseTimes contact_times() const {
     wheelrail::PhaseTimes sum;
-    for (const auto& full : built_.full) {
-      if (!full) continue;
-      const wheelrail::PhaseTimes& t = full->times();
-      sum.search_s += t.search_s, sum.distance_s += t.distance_s, sum.normal_s += t.normal_s, sum.tangential_s += t.tangential_s;
-      sum.searches += t.searches, sum.distances += t.distances;
-      sum.normal_solves += t.normal_solves, sum.tangential_solves += t.tangential_solves;
-    }
+    for (const auto& full : built_.full)
+      if (full) sum += full->times();
     return sum;
   }
 
