@@ -10,6 +10,7 @@
 
 #include "treadmark/app/simulation/history_record.hpp"
 #include "treadmark/app/simulation/input_files.hpp"
+#include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
@@ -24,24 +25,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-io::SimulationResult head(const io::SimulationFile& file, const SimulationOptions& options) {
-  io::SimulationResult result;
-  result.version = version();
-  result.git = git_revision();
-  result.input_file = file.path.filename().string();
-  result.input_sha256 = file.sha256;
-  result.geometry_sha256 = input_hashes(file);
-  result.title = file.title;
-  result.settings = options.settings;
-  result.swept = options.swept;
-  return result;
-}
-
 /// A simulation with everything that is written down of it.
 class Run {
  public:
   Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, SimulationTimes& times)
-      : file_(file), options_(options), times_(times), result_(head(file, options)), kept_(find_kept()), built_(build(file, store, times)),
+      : file_(file), options_(options), times_(times), result_(result_head(file, options)), kept_(find_kept()), built_(build(file, store, times)),
         snapshots_(file, built_) {
     equilibrium_ = balance();
     describe_statics();
