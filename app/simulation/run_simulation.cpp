@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/history_record.hpp"
+#include "treadmark/app/simulation/history_summary.hpp"
 #include "treadmark/app/simulation/input_files.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
@@ -108,14 +109,12 @@ class Run {
   void begin() {
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
     record_.emplace(built_, *simulation_);
+    summary_.emplace(built_, *simulation_);
     result_.columns = record_->columns();
-    if (kept_) {
-      restore();
-      times_.resumed_at_s = simulation_->state().time;
-      return;
-    }
+    if (kept_) return restore();
     record_->append(result_.values);
-    snapshots_.take_start(*simulation_);
+    summary_->note();
+    snapshots_.take_start();
   }
 
   void loop(const Progress& progress) {
@@ -130,6 +129,7 @@ class Run {
       }
       const vehicle::SystemState before = simulation_->state();
       simulation_->advance();
+      summary_->note();
       snapshots_.take_passed(*simulation_, before);
       if (due(simulation_->state().time * built_.vehicle.speed)) record_->append(result_.values);
       const auto now = Clock::now();
@@ -158,7 +158,7 @@ class Run {
     for (const vehicle::ContactEvent& e : simulation_->events())
       result_.events.push_back({e.time, e.time * built_.vehicle.speed, built_.vehicle.wheels[e.wheel].name,
                                 e.regained ? "contact regained" : "contact lost"});
-    result_.summary = summarise(result_, *simulation_);
+    result_.summary = summary_->values();
     snapshots_.put_results(result_);
     result_.snapshots.version = result_.version;
     result_.snapshots.git = result_.git;
@@ -169,6 +169,7 @@ class Run {
     ByteWriter out;
     simulation_->save(out);
     out.put(result_.values);
+    summary_->save(out);
     snapshots_.save(out);
     io::SimulationResult partial = result_;
     if (partial.status == "complete") partial.status = "interrupted";
@@ -197,6 +198,7 @@ class Run {
     ByteReader in(kept_->bytes);
     simulation_->restore(in);
     in.get(result_.values);
+    summary_->restore(in);
     snapshots_.restore(in);
     kept_.reset();
   }
@@ -210,6 +212,7 @@ class Run {
   vehicle::Equilibrium equilibrium_;
   std::optional<vehicle::Simulation> simulation_;
   std::optional<HistoryRecord> record_;
+  std::optional<HistorySummary> summary_;
   Snapshots snapshots_;
 };
 
