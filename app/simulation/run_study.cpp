@@ -194,7 +194,7 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
     const fs::path store = folder_of(options, run) / "simulation.h5";
     if (!fs::exists(store)) continue;
     const std::lock_guard lock(store_mutex());
-    const io::SimulationResult simulation = io::read_simulation(store);
+    const io::SimulationResult simulation = io::read_simulation_head(store);
     result.runs.push_back({run.number, swept_of(study, run), label_of(study, run), simulation.status, simulation.message, simulation.summary, store});
   }
   return result;
