@@ -112,6 +112,15 @@ TEST_F(Simulate, ModesOnly) {
   EXPECT_EQ(json["rows"], 0);
 }
 
+TEST_F(Simulate, ModesGoToAFileBesideTheText) {
+  const ProgramResult r = run({"--modes", "--json", input.path("modes.json")});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("f [Hz]"));
+  EXPECT_FALSE(nlohmann::json::parse(input.read("modes.json"))["modes"].empty());
+  const ProgramResult nowhere = run({"--modes", "--json", input.path("no such folder/modes.json")});
+  EXPECT_EQ(nowhere.status, 2) << nowhere.err;
+}
+
 TEST_F(Simulate, SetChangesAKey) {
   const ProgramResult r = run({"-o", out(), "--set", "simulation.speed_m_s=10", "--set", "simulation.distance_m=0.02", "--json", "-"});
   ASSERT_EQ(r.status, 0) << r.err;
