@@ -46,10 +46,11 @@ std::vector<io::NamedValue> HistorySummary::values() const {
   if (has_pressure_) add("pmax_Pa", pmax_.value, "Pa", "largest contact pressure");
   add("contact_lost", static_cast<double>(std::ranges::count(simulation_.events(), false, &vehicle::ContactEvent::regained)), "1",
       "how often a wheel lost contact");
-  const vehicle::EnergyBalance& e = simulation_.energy();
+  const vehicle::EnergyBalance &e = simulation_.energy(), &start = simulation_.energy_at_start();
+  const double turnover = std::max(e.turnover, 1e-300);
   add("energy_turnover_J", e.turnover, "J", "work of contacts and dampers, all counted positive");
-  add("energy_integration_error", e.integration_error(simulation_.energy_at_start()) / std::max(e.turnover, 1e-300), "1", "over the turnover");
-  add("energy_contact_error", e.contact_error(simulation_.energy_at_start()) / std::max(e.turnover, 1e-300), "1", "over the turnover");
+  add("energy_integration_error", e.integration_error(start) / turnover, "1", "over the turnover");
+  add("energy_contact_error", e.contact_error(start) / turnover, "1", "over the turnover");
   add("steps", static_cast<double>(simulation_.counts().steps), "1", "accepted time steps");
   add("steps_rejected", static_cast<double>(simulation_.counts().rejected), "1", "time steps that were repeated");
   add("contact_rounds", static_cast<double>(simulation_.counts().evaluations), "1", "evaluations of all contacts");
