@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/app/sampled_region.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/app/wheelrail_case.hpp"
@@ -216,6 +217,10 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
         out.git = run.git;
         out.threads = run.threads;
         for (io::ComparisonRow& row : out.candidates.front().rows) row.comparable = row.patches > 0;
+        if (settings.sample_surfaces) {
+          io::ComparisonCandidate& truth = out.candidates.front();
+          truth.surfaces = sample_surfaces(truth.results, used_bodies(with(file, choice), truth.results, store));
+        }
       }
     } catch (const Error& e) {
       if (is_first) throw;

@@ -22,6 +22,7 @@ struct CompareSettings {
   Bodies bodies = Bodies::automatic;
   /// Not empty: every one of these for the wheel with every one for the rail, instead of the same backend for both.
   std::vector<std::string> wheel_backends, rail_backends;
+  bool sample_surfaces = false;   ///< those of the truth become part of the result, for pictures
 };
 
 /// Solves the same cases with the surfaces as given (the truth) and in every representation at every resolution. Formulas and

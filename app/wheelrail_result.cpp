@@ -110,6 +110,7 @@ io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSo
   result.loads = to_loads(s.load);
   if (input.rail_springs) result.rail_deflection = Vec2(s.rail_deflection_y, s.rail_deflection_z);
   if (input.roller) result.roller = {input.roller->nominal_radius, input.roller->pitch_rate};
+  result.bodies = io::CaseResult::Bodies{s.placement.X_TA, s.placement.X_TS};
   result.search_s = s.times.search_s;
   result.distance_s = s.times.distance_s;
   result.normal_s = s.times.normal_s;

@@ -5,25 +5,16 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
+#include "treadmark/io/results/csv_text.hpp"
 
 namespace treadmark::app {
 namespace {
-
-std::string quoted(const std::string& text) {
-  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
-  std::string out = "\"";
-  for (const char c : text) {
-    if (c == '"') out += '"';
-    out += c;
-  }
-  return out + '"';
-}
 
 struct Cell {
   std::string operator()(std::monostate) const { return {}; }
   std::string operator()(double value) const { return std::isfinite(value) ? fmt::format("{:.6g}", value) : ""; }
   std::string operator()(std::int64_t value) const { return fmt::format("{}", value); }
-  std::string operator()(const std::string& value) const { return quoted(value); }
+  std::string operator()(const std::string& value) const { return io::csv_cell(value); }
 };
 
 template <class Text>

@@ -33,6 +33,7 @@ app::CompareSettings settings_of(const CompareOptions& options) {
     settings.resolutions.clear();
     for (const double r : options.resolutions_mm) settings.resolutions.push_back(1e-3 * r);
   }
+  settings.sample_surfaces = !options.output_folder.empty();
   return settings;
 }
 

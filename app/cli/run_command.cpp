@@ -12,6 +12,7 @@
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -73,6 +74,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     io::CaseFile file = io::read_any_case(name, options.overrides);
     choose_backends(file, options);
     io::RunResult result;
+    app::SurfaceStore store;
     {
       ProgressLine line(common.quiet);
       Progress progress;
@@ -80,7 +82,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
       progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
         line.update(finished, total, what);
       };
-      result = app::run_cases(file, progress);
+      result = app::run_cases(file, store, progress);
     }
     result.settings = settings_of(options);
 
@@ -92,6 +94,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!options.output_folder.empty()) {
       std::filesystem::path folder = options.output_folder;
       if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
+      app::add_surfaces(result, file, store);
       write_result_folder(folder, result);
     }
     write_report_file(options.report_file, [&] { return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result)); });

@@ -28,7 +28,7 @@ int exit_status(const io::SimulationResult& result) { return result.status == "c
 bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file, const std::vector<std::string>& settings) {
   if (!std::filesystem::exists(store)) return false;
   app::require_same_simulation(store, io::read_checkpoint(store), file, settings);
-  return io::read_simulation(store).status == "complete";
+  return io::read_simulation_head(store).status == "complete";
 }
 
 /// Nobody else writes into the folder as long as this lives.
@@ -40,6 +40,15 @@ app::FileLock claim(const std::filesystem::path& folder) {
   if (!lock) throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {}, "choose another folder");
   io::remove_leftovers(folder);
   return std::move(*lock);
+}
+
+/// JSON to standard output in place of the text, or into a file beside it.
+void print(const std::string& json_file, const std::string& json, const std::string& text) {
+  const bool instead = json_file == "-";
+  std::cout << (instead ? json : text);
+  std::cout.flush();
+  if (!instead && !json_file.empty()) io::write_text_file(json_file, json);
+  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
 }
 
 }  // namespace
@@ -62,8 +71,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   run.settings = overrides;
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
-    if (options.json_file == "-") std::cout << app::to_json(result, {});
-    else std::cout << app::statics_text(result) << '\n' << app::modes_text(result);
+    print(options.json_file, app::to_json(result, {}), app::statics_text(result) + '\n' + app::modes_text(result));
     return kOk;
   }
 
@@ -102,15 +110,10 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
   }
   write_report_file(options.report_file, [&] { return app::report::simulation_page(std::make_shared<io::SimulationResult>(result), {}); });
-  const std::string json = options.json_file.empty() ? "" : app::to_json(result, times);
-  if (options.json_file == "-") std::cout << json;
-  else std::cout << app::summary_text(result) << app::times_text(times);
-  if (!json.empty() && options.json_file != "-") io::write_text_file(options.json_file, json);
+  print(options.json_file, app::to_json(result, times), app::summary_text(result) + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
   return exit_status(result);
 }
 

@@ -14,14 +14,14 @@ namespace {
 constexpr int kMargin = 4;  // elements
 
 /// How much is kept.
-struct Level {
+struct Detail {
   Precision precision;
   std::size_t fields;   ///< the first ones of the catalogue
   int every;            ///< frame
 };
 
 // The catalogue has 14 quantities; with 5 there are pressure, state and tractions.
-constexpr Level kLevels[] = {{Precision::two_bytes, 14, 1}, {Precision::byte, 14, 1}, {Precision::byte, 5, 1}, {Precision::byte, 2, 1},
+constexpr Detail kDetails[] = {{Precision::two_bytes, 14, 1}, {Precision::byte, 14, 1}, {Precision::byte, 5, 1}, {Precision::byte, 2, 1},
                              {Precision::byte, 2, 4},       {Precision::byte, 2, 16}, {Precision::byte, 2, 64}};
 
 template <class T>
@@ -35,10 +35,10 @@ std::vector<T> part_of(const std::vector<T>& values, const Grid2& grid, const Gr
   return out;
 }
 
-PackedPatch pack_patch(const io::PatchResult& patch, const Level& level, BlobStore& blobs) {
+PackedPatch pack_patch(const io::PatchResult& patch, const Detail& detail, BlobStore& blobs) {
   PackedPatch out{shown_part(patch.fields), {}};
   const std::size_t size = patch.fields.grid.size();
-  for (const FieldInfo& field : field_catalogue().first(level.fields)) {
+  for (const FieldInfo& field : field_catalogue().first(detail.fields)) {
     if (field.kind == FieldInfo::Kind::state) {
       if (patch.fields.state.size() == size && size > 0)
         out.values.emplace_back(field.name, blobs.add_codes(part_of(patch.fields.state, patch.fields.grid, out.part)));
@@ -46,28 +46,28 @@ PackedPatch pack_patch(const io::PatchResult& patch, const Level& level, BlobSto
     }
     const std::vector<double> values = field.values(patch);
     if (values.size() == size && size > 0)
-      out.values.emplace_back(field.name, blobs.add(part_of(values, patch.fields.grid, out.part), level.precision));
+      out.values.emplace_back(field.name, blobs.add(part_of(values, patch.fields.grid, out.part), detail.precision));
   }
   return out;
 }
 
-std::string trimmed_words(const Level& level, bool without_fields) {
+std::string trimmed_words(const Detail& detail, bool without_fields) {
   if (without_fields) return "The fields of this step are not in this file, to keep it small.";
-  if (level.fields < field_catalogue().size()) return "Only the main fields are in this file, to keep it small.";
+  if (detail.fields < field_catalogue().size()) return "Only the main fields are in this file, to keep it small.";
   return {};
 }
 
-PackedSets pack(const std::vector<FrameSet>& sets, BlobStore& blobs, const Level& level) {
+PackedSets pack(const std::vector<FrameSet>& sets, BlobStore& blobs, const Detail& detail) {
   PackedSets out;
   for (const FrameSet& set : sets) {
     std::vector<PackedFrame>& frames = out.emplace_back();
     for (std::size_t i = 0; i < set.frames.size(); ++i) {
       PackedFrame& frame = frames.emplace_back();
-      const bool left_out = i % static_cast<std::size_t>(level.every) != 0;
-      frame.trimmed = trimmed_words(level, left_out);
+      const bool left_out = i % static_cast<std::size_t>(detail.every) != 0;
+      frame.trimmed = trimmed_words(detail, left_out);
       if (left_out) continue;
       blobs.begin_blob();
-      for (const io::PatchResult& patch : set.frames[i].result->patches) frame.patches.push_back(pack_patch(patch, level, blobs));
+      for (const io::PatchResult& patch : set.frames[i].result->patches) frame.patches.push_back(pack_patch(patch, detail, blobs));
     }
   }
   return out;
@@ -92,11 +92,11 @@ GridPart shown_part(const io::PatchFields& fields) {
 }
 
 PackedSets pack_frames(const std::vector<FrameSet>& sets, BlobStore& blobs, std::size_t budget) {
-  for (const Level& level : kLevels) {
+  for (const Detail& detail : kDetails) {
     BlobStore attempt = blobs;
-    PackedSets packed = pack(sets, attempt, level);
+    PackedSets packed = pack(sets, attempt, detail);
     attempt.finish();
-    if (attempt.text_size() <= budget || &level == std::end(kLevels) - 1) {
+    if (attempt.text_size() <= budget || &detail == std::end(kDetails) - 1) {
       blobs = std::move(attempt);
       return packed;
     }

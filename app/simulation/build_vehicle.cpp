@@ -3,13 +3,12 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 
 #include <algorithm>
-#include <chrono>
-#include <limits>
 
 #include <fmt/format.h>
 
 #include "treadmark/app/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
 
 namespace treadmark::app {
@@ -90,6 +89,11 @@ class Builder {
 
 }  // namespace
 
+std::size_t BuiltVehicle::watched_wheel() const {
+  const auto first_full = std::ranges::find_if(full, [](const auto& element) { return element != nullptr; });
+  return first_full != full.end() ? static_cast<std::size_t>(first_full - full.begin()) : 0;
+}
+
 std::string wheel_name(const io::WheelContactInput& wheel) {
   return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == io::Side::left ? "left" : "right");
 }
@@ -113,14 +117,13 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem));
       on.element = built.full.back();
     } else {
-      const auto start = std::chrono::steady_clock::now();
+      const Stopwatch watch(built.table_seconds);
       const double load = *std::ranges::max_element(v.system.wheelset_load) / 2.0;
       const auto table = builder.table(load);
       on.element = std::make_shared<vehicle::TableContact>(table, on.side);
       on.rail_marker = table->nominal().X_TR.origin;
       if (on.side == wheelrail::Side::left) on.rail_marker.y() = -on.rail_marker.y();
       built.full.push_back(nullptr);
-      built.table_seconds += std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
     }
     v.wheels.push_back(std::move(on));
   }

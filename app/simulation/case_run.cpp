@@ -6,7 +6,7 @@
 #include <functional>
 
 #include "treadmark/app/run_cases.hpp"
-#include "treadmark/app/simulation/input_files.hpp"
+#include "treadmark/app/simulation/result_head.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -44,15 +44,7 @@ std::vector<CaseColumn> case_columns() {
 
 io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options, const Progress& progress) {
   io::RunResult run = run_cases(file, store, progress);
-  io::SimulationResult result;
-  result.version = run.version;
-  result.git = run.git;
-  result.input_file = file.path.filename().string();
-  result.input_sha256 = run.input_sha256;
-  result.geometry_sha256 = input_hashes(file);
-  result.title = file.title;
-  result.settings = options.settings;
-  result.swept = options.swept;
+  io::SimulationResult result = result_head(file, options);
   if (!run.complete) result.status = "interrupted";
   const std::vector<CaseColumn> columns = case_columns();
   for (const CaseColumn& column : columns) result.columns.push_back(column.head);

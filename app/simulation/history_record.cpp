@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/history_record.hpp"
 
-#include <algorithm>
-
 namespace treadmark::app {
 namespace {
 
@@ -15,15 +13,13 @@ const char* unit_of(const vehicle::Coordinate& c) { return static_cast<int>(c.fr
 
 HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation) : simulation_(simulation) {
   const auto& wheels = simulation.vehicle().wheels;
-  const auto first_full = std::ranges::find_if(built.full, [](const auto& element) { return element != nullptr; });
-  if (first_full != built.full.end()) watched_ = static_cast<std::size_t>(first_full - built.full.begin());
+  const std::size_t watched = built.watched_wheel();
 
   add("t_s", "s", "time", [&] { return simulation_.state().time; });
   add("x_m", "m", "distance travelled", [&] { return simulation_.state().time * simulation_.vehicle().speed; });
-  add_wheel(watched_, "", built.full[watched_] != nullptr);
+  add_wheel(watched, "", built.full[watched] != nullptr);
   for (std::size_t i = 0; i < wheels.size(); ++i)
-    if (i != watched_) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
-  leading_ = columns_.size();
+    if (i != watched) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
   add_energies();
   add_bodies();
 }
@@ -87,49 +83,6 @@ std::vector<io::HistoryColumn> HistoryRecord::columns() const {
 
 void HistoryRecord::append(std::vector<double>& values) const {
   for (const Column& column : columns_) values.push_back(column.value());
-}
-
-std::vector<io::NamedValue> summarise(const io::SimulationResult& result, const vehicle::Simulation& simulation, const std::string& prefix) {
-  std::vector<io::NamedValue> summary;
-  const auto add = [&](const std::string& name, double value, const char* unit, const char* description) {
-    summary.push_back({prefix + name, value, unit, description});
-  };
-  const std::size_t rows = result.rows(), columns = result.columns.size();
-  const auto value = [&](std::size_t row, std::size_t column) { return result.values[row * columns + column]; };
-  const auto find = [&](const std::string& name) -> std::size_t {
-    const auto at = std::ranges::find(result.columns, prefix + name, &io::HistoryColumn::name);
-    return static_cast<std::size_t>(at - result.columns.begin());
-  };
-  const auto extreme = [&](std::size_t column, bool largest) {
-    std::size_t best = 0;
-    for (std::size_t row = 1; row < rows; ++row)
-      if (largest ? value(row, column) > value(best, column) : value(row, column) < value(best, column)) best = row;
-    return best;
-  };
-  if (rows == 0) return summary;
-  const std::size_t q = find("Q_N"), ty = find("Ty_N"), pressure = find("pmax_Pa");
-  const std::size_t highest = extreme(q, true), lowest = extreme(q, false);
-  const double at_rest = value(0, q);
-  add("q_max_N", value(highest, q), "N", "largest vertical force");
-  add("q_max_t_s", value(highest, 0), "s", "when");
-  add("q_max_x_m", value(highest, 1), "m", "where");
-  add("q_min_N", value(lowest, q), "N", "least vertical force");
-  add("q_static_N", at_rest, "N", "vertical force at the start");
-  add("q_max_over_static", value(highest, q) / at_rest, "1", "largest vertical force over that at the start");
-  add("ty_max_N", value(extreme(ty, true), ty), "N", "largest lateral creep force");
-  add("ty_min_N", value(extreme(ty, false), ty), "N", "least lateral creep force");
-  if (pressure < columns) add("pmax_Pa", value(extreme(pressure, true), pressure), "Pa", "largest contact pressure");
-  if (!prefix.empty()) return summary;
-  add("contact_lost", static_cast<double>(std::ranges::count(simulation.events(), false, &vehicle::ContactEvent::regained)), "1",
-      "how often a wheel lost contact");
-  const vehicle::EnergyBalance& e = simulation.energy();
-  add("energy_turnover_J", e.turnover, "J", "work of contacts and dampers, all counted positive");
-  add("energy_integration_error", e.integration_error(simulation.energy_at_start()) / std::max(e.turnover, 1e-300), "1", "over the turnover");
-  add("energy_contact_error", e.contact_error(simulation.energy_at_start()) / std::max(e.turnover, 1e-300), "1", "over the turnover");
-  add("steps", static_cast<double>(simulation.counts().steps), "1", "accepted time steps");
-  add("steps_rejected", static_cast<double>(simulation.counts().rejected), "1", "time steps that were repeated");
-  add("contact_rounds", static_cast<double>(simulation.counts().evaluations), "1", "evaluations of all contacts");
-  return summary;
 }
 
 }  // namespace treadmark::app

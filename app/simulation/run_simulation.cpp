@@ -9,11 +9,14 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/history_record.hpp"
+#include "treadmark/app/simulation/history_summary.hpp"
 #include "treadmark/app/simulation/input_files.hpp"
+#include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/io/histories/history_csv.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
@@ -23,34 +26,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  double& total_;
-  Clock::time_point start_ = Clock::now();
-};
-
-io::SimulationResult head(const io::SimulationFile& file, const SimulationOptions& options) {
-  io::SimulationResult result;
-  result.version = version();
-  result.git = git_revision();
-  result.input_file = file.path.filename().string();
-  result.input_sha256 = file.sha256;
-  result.geometry_sha256 = input_hashes(file);
-  result.title = file.title;
-  result.settings = options.settings;
-  result.swept = options.swept;
-  return result;
-}
-
 /// A simulation with everything that is written down of it.
 class Run {
  public:
   Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, SimulationTimes& times)
-      : file_(file), options_(options), times_(times), result_(head(file, options)), kept_(find_kept()), built_(build(file, store, times)),
+      : file_(file), options_(options), times_(times), result_(result_head(file, options)), kept_(find_kept()), built_(build(file, store, times)),
         snapshots_(file, built_) {
     equilibrium_ = balance();
     describe_statics();
@@ -121,27 +101,20 @@ class Run {
 
   wheelrail::PhaseTimes contact_times() const {
     wheelrail::PhaseTimes sum;
-    for (const auto& full : built_.full) {
-      if (!full) continue;
-      const wheelrail::PhaseTimes& t = full->times();
-      sum.search_s += t.search_s, sum.distance_s += t.distance_s, sum.normal_s += t.normal_s, sum.tangential_s += t.tangential_s;
-      sum.searches += t.searches, sum.distances += t.distances;
-      sum.normal_solves += t.normal_solves, sum.tangential_solves += t.tangential_solves;
-    }
+    for (const auto& full : built_.full)
+      if (full) sum += full->times();
     return sum;
   }
 
   void begin() {
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
     record_.emplace(built_, *simulation_);
+    summary_.emplace(built_, *simulation_);
     result_.columns = record_->columns();
-    if (kept_) {
-      restore();
-      times_.resumed_at_s = simulation_->state().time;
-      return;
-    }
+    if (kept_) return restore();
     record_->append(result_.values);
-    snapshots_.take_start(*simulation_);
+    summary_->note();
+    snapshots_.take_start();
   }
 
   void loop(const Progress& progress) {
@@ -156,6 +129,7 @@ class Run {
       }
       const vehicle::SystemState before = simulation_->state();
       simulation_->advance();
+      summary_->note();
       snapshots_.take_passed(*simulation_, before);
       if (due(simulation_->state().time * built_.vehicle.speed)) record_->append(result_.values);
       const auto now = Clock::now();
@@ -184,7 +158,7 @@ class Run {
     for (const vehicle::ContactEvent& e : simulation_->events())
       result_.events.push_back({e.time, e.time * built_.vehicle.speed, built_.vehicle.wheels[e.wheel].name,
                                 e.regained ? "contact regained" : "contact lost"});
-    result_.summary = summarise(result_, *simulation_);
+    result_.summary = summary_->values();
     snapshots_.put_results(result_);
     result_.snapshots.version = result_.version;
     result_.snapshots.git = result_.git;
@@ -195,6 +169,7 @@ class Run {
     ByteWriter out;
     simulation_->save(out);
     out.put(result_.values);
+    summary_->save(out);
     snapshots_.save(out);
     io::SimulationResult partial = result_;
     if (partial.status == "complete") partial.status = "interrupted";
@@ -223,6 +198,7 @@ class Run {
     ByteReader in(kept_->bytes);
     simulation_->restore(in);
     in.get(result_.values);
+    summary_->restore(in);
     snapshots_.restore(in);
     kept_.reset();
   }
@@ -236,6 +212,7 @@ class Run {
   vehicle::Equilibrium equilibrium_;
   std::optional<vehicle::Simulation> simulation_;
   std::optional<HistoryRecord> record_;
+  std::optional<HistorySummary> summary_;
   Snapshots snapshots_;
 };
 

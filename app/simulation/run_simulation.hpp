@@ -29,7 +29,6 @@ struct SimulationOptions {
 struct SimulationTimes {
   double build_s = 0.0, tables_s = 0.0, equilibrium_s = 0.0, modes_s = 0.0, integration_s = 0.0;
   wheelrail::PhaseTimes contact;             ///< of the wheels with full contact, in the integration
-  double resumed_at_s = 0.0;                 ///< simulated time at which it went on
 };
 
 /// Runs a simulation from static equilibrium to its end. A numerical failure on the way gives status "failed" and the history up to there,

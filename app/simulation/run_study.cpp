@@ -16,6 +16,7 @@
 
 #include "treadmark/app/simulation/case_run.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
+#include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
@@ -135,7 +136,9 @@ class Workers {
         result = run_simulation(*simulation, surfaces, wanted, inner);
       } catch (const Error& e) {
         if (e.kind() != ErrorKind::numerical) throw;
-        result = failed(e, *simulation, wanted);
+        result = result_head(*simulation, wanted);
+        result.status = "failed";
+        result.message = e.what();
       }
     } else {
       result = run_case_file(std::get<io::CaseFile>(input), surfaces, wanted, inner);
@@ -150,20 +153,6 @@ class Workers {
     const std::lock_guard guard(mutex_);
     if (!finished_[i]) note_finished(i);
     return true;
-  }
-
-  static io::SimulationResult failed(const Error& e, const io::SimulationFile& file, const SimulationOptions& wanted) {
-    io::SimulationResult result;
-    result.version = version();
-    result.git = git_revision();
-    result.input_file = file.path.filename().string();
-    result.input_sha256 = file.sha256;
-    result.title = file.title;
-    result.settings = wanted.settings;
-    result.swept = wanted.swept;
-    result.status = "failed";
-    result.message = e.what();
-    return result;
   }
 
   const io::StudyFile& study_;
@@ -205,7 +194,7 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
     const fs::path store = folder_of(options, run) / "simulation.h5";
     if (!fs::exists(store)) continue;
     const std::lock_guard lock(store_mutex());
-    const io::SimulationResult simulation = io::read_simulation(store);
+    const io::SimulationResult simulation = io::read_simulation_head(store);
     result.runs.push_back({run.number, swept_of(study, run), label_of(study, run), simulation.status, simulation.message, simulation.summary, store});
   }
   return result;

@@ -25,18 +25,14 @@ bool is_of_a_wheel(const std::string& name) {
 }  // namespace
 
 io::SimulationResult wheel_columns(const io::SimulationResult& result) {
-  io::SimulationResult part = result;
-  part.columns.clear();
-  part.values.clear();
-  part.snapshots = {};
-  part.snapshot_times.clear();
-  part.snapshot_scenes.clear();
+  io::SimulationResult part;
   std::vector<std::size_t> kept;
   for (std::size_t i = 0; i < result.columns.size(); ++i)
     if (is_of_a_wheel(result.columns[i].name)) {
       kept.push_back(i);
       part.columns.push_back(result.columns[i]);
     }
+  part.values.reserve(result.rows() * kept.size());
   for (std::size_t row = 0; row < result.rows(); ++row)
     for (const std::size_t i : kept) part.values.push_back(result.values[row * result.columns.size() + i]);
   return part;

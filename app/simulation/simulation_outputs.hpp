@@ -11,7 +11,7 @@
 
 namespace treadmark::app {
 
-/// Forces of all wheels of a history, without the motions of the bodies: what a table in text holds.
+/// Columns and values of a history, and nothing else, without the motions of the bodies: what a table in text holds.
 io::SimulationResult wheel_columns(const io::SimulationResult& result);
 
 /// Panels of the snapshots of the watched wheel, with the contact at the start as that of a round wheel. They point into the result.

@@ -44,7 +44,7 @@ Grid2 depth_window(const wheelrail::PairSolution& s) {
 
 }  // namespace
 
-void Snapshots::take_start(const vehicle::Simulation&) {
+void Snapshots::take_start() {
   if (!wanted()) return;
   for (std::size_t i = 0; i < built_.full.size(); ++i)
     if (built_.full[i]) kept_.push_back({i, {}, false, built_.full[i]->accepted()});

@@ -15,7 +15,7 @@ class Snapshots {
   Snapshots(const io::SimulationFile& file, const BuiltVehicle& built) : file_(file), built_(built) {}
 
   /// The instant at the start, of every wheel.
-  void take_start(const vehicle::Simulation& simulation);
+  void take_start();
   /// Where a wheelset has passed one of the requested pitch angles, or a requested position, since `before`.
   void take_passed(const vehicle::Simulation& simulation, const vehicle::SystemState& before);
 

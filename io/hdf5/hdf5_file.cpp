@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 #include <hdf5.h>
 
 #include <algorithm>
@@ -9,6 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/hdf5/text_heaps.hpp"
 
 // Writer and reader share this file because it alone knows the HDF5 library.
 namespace treadmark::io {
@@ -18,6 +20,9 @@ constexpr int kDeflateLevel = 4;
 constexpr hsize_t kLongestChunk = 16384;  // elements of a dataset of one dimension
 constexpr hsize_t kMaxChunk = 512;        // elements along a side: chunks stay below 3 MiB
 constexpr hssize_t kMostValues = hssize_t{1} << 34;
+constexpr unsigned kMostAttributes = 1000;  // in the header of an object
+constexpr long kLongestName = 4096;
+constexpr double kDensest = 1100.0;       // deflate packs no closer
 
 [[noreturn]] void cannot_write(std::string_view what) {
   throw Error(ErrorKind::configuration, fmt::format("HDF5: cannot write {}", what), {},
@@ -50,10 +55,10 @@ Hdf5Id make_space(const std::vector<hsize_t>& size, const std::string& name) {
   return written(size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), name);
 }
 
-/// Properties of a new object: without times, so that equal contents give equal bytes.
+/// Properties of a new object: without times, so that equal contents give equal bytes; attributes in its header, which has a check sum.
 Hdf5Id timeless(hid_t kind, const std::string& name) {
   Hdf5Id creation = written(H5Pcreate(kind), name);
-  if (H5Pset_obj_track_times(creation.get(), false) < 0) cannot_write(name);
+  if (H5Pset_obj_track_times(creation.get(), false) < 0 || H5Pset_attr_phase_change(creation.get(), kMostAttributes, 0) < 0) cannot_write(name);
   return creation;
 }
 
@@ -120,13 +125,15 @@ void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* 
   AttributeWriter{dataset.get(), "meaning"}(what.meaning);
 }
 
+/// The oldest format with check sums, so that damage does not mislead the library.
 Hdf5Id open_to_write(const std::filesystem::path& file, const std::string& name) {
   const Hdf5Id creation = timeless(H5P_FILE_CREATE, name), access = written(H5Pcreate(H5P_FILE_ACCESS), name);
-  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_EARLIEST, H5F_LIBVER_V18) < 0) cannot_write(name);
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0) cannot_write(name);
   return written(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
 }
 
 Hdf5Id open_to_read(const std::filesystem::path& file) {
+  if (!text_heaps_sound(file)) cannot_read(file.string(), "the file: it is damaged");
   Hdf5Id id(H5Fopen(file.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT));
   if (id.get() < 0) cannot_read(file.string(), "the file");
   return id;
@@ -166,6 +173,30 @@ std::string first_text(std::vector<std::string> texts, const std::string& name, 
   return std::move(texts.front());
 }
 
+/// Numbers of an attribute, exactly so many.
+void read_attribute(hid_t object, const std::string& name, H5T_class_t kind, hid_t type, hssize_t count, void* out, const std::string& file) {
+  const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
+  if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
+  const Hdf5Id stored(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
+  if (stored.get() < 0 || H5Tget_class(stored.get()) != kind || count_of(space) != count || H5Aread(attribute.get(), type, out) < 0)
+    cannot_read(file, "the attribute " + name);
+}
+
+std::vector<std::size_t> shape_of(hid_t group, const std::string& name, const std::string& file) {
+  const Hdf5Id dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
+  if (dataset.get() < 0) cannot_read(file, name);
+  const Hdf5Id space(H5Dget_space(dataset.get()));
+  hsize_t size[H5S_MAX_RANK] = {};
+  const int rank = space.get() < 0 ? -1 : H5Sget_simple_extent_dims(space.get(), size, nullptr);
+  if (rank < 0) cannot_read(file, name);
+  return {size, size + rank};
+}
+
+void require_shape(const std::vector<std::size_t>& found, const std::vector<std::size_t>& wanted, const std::string& name,
+                   const std::string& file) {
+  if (found != wanted) cannot_read(file, fmt::format("{}: it has the shape [{}], not [{}]", name, fmt::join(found, ", "), fmt::join(wanted, ", ")));
+}
+
 template <class Value>
 std::vector<Value> read_values(hid_t group, const std::string& name, hid_t type, const std::string& file) {
   const Hdf5Id dataset(H5Dopen2(group, name.c_str(), H5P_DEFAULT));
@@ -173,6 +204,9 @@ std::vector<Value> read_values(hid_t group, const std::string& name, hid_t type,
   const Hdf5Id space(H5Dget_space(dataset.get()));
   const hssize_t count = count_of(space);
   if (count < 0) cannot_read(file, name);
+  // A damaged file may claim any number of values.
+  const double stored = static_cast<double>(H5Dget_storage_size(dataset.get()));
+  if (static_cast<double>(count) * static_cast<double>(sizeof(Value)) > kDensest * stored) cannot_read(file, name);
   std::vector<Value> out(static_cast<std::size_t>(count));
   if (count > 0 && H5Dread(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, out.data()) < 0) cannot_read(file, name);
   return out;
@@ -241,6 +275,48 @@ Hdf5GroupReader Hdf5GroupReader::open_group(const std::string& name) const {
   return {std::move(id), file_};
 }
 
+std::vector<std::string> Hdf5GroupReader::names() const {
+  H5G_info_t info;
+  if (H5Gget_info(id_.get(), &info) < 0) cannot_read(file_, "the names in a group");
+  std::vector<std::string> out;
+  for (hsize_t i = 0; i < info.nlinks; ++i) {
+    const auto name_of = [&](char* text, std::size_t size) {
+      return H5Lget_name_by_idx(id_.get(), ".", H5_INDEX_NAME, H5_ITER_INC, i, text, size, H5P_DEFAULT);
+    };
+    const auto length = name_of(nullptr, 0);
+    if (length < 0 || length > kLongestName) cannot_read(file_, "the names in a group");
+    std::string& name = out.emplace_back(static_cast<std::size_t>(length), '\0');
+    if (name_of(name.data(), name.size() + 1) != length) cannot_read(file_, "the names in a group");
+  }
+  return out;
+}
+
+bool Hdf5GroupReader::has_attribute(const std::string& name) const { return H5Aexists(id_.get(), name.c_str()) > 0; }
+
+int Hdf5GroupReader::integer(const std::string& name) const {
+  int value = 0;
+  read_attribute(id_.get(), name, H5T_INTEGER, H5T_NATIVE_INT, 1, &value, file_);
+  return value;
+}
+
+double Hdf5GroupReader::number(const std::string& name) const {
+  double value = 0.0;
+  read_attribute(id_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE, 1, &value, file_);
+  return value;
+}
+
+Vec3 Hdf5GroupReader::vector(const std::string& name) const {
+  Vec3 value;
+  read_attribute(id_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE, 3, value.data(), file_);
+  return value;
+}
+
+Mat3 Hdf5GroupReader::matrix(const std::string& name) const {
+  Mat3 rows;  // stored by columns: HDF5 counts by rows
+  read_attribute(id_.get(), name, H5T_FLOAT, H5T_NATIVE_DOUBLE, 9, rows.data(), file_);
+  return rows.transpose();
+}
+
 std::string Hdf5GroupReader::text(const std::string& name) const { return first_text(texts(name), name, file_); }
 
 std::vector<std::string> Hdf5GroupReader::texts(const std::string& name) const { return attribute_texts(id_.get(), name, file_); }
@@ -257,6 +333,18 @@ std::vector<double> Hdf5GroupReader::numbers(const std::string& dataset) const {
 
 std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset) const {
   return read_values<std::uint8_t>(id_.get(), dataset, H5T_NATIVE_UINT8, file_);
+}
+
+std::vector<std::size_t> Hdf5GroupReader::shape(const std::string& dataset) const { return shape_of(id_.get(), dataset, file_); }
+
+std::vector<double> Hdf5GroupReader::numbers(const std::string& dataset, const std::vector<std::size_t>& wanted) const {
+  require_shape(shape(dataset), wanted, dataset, file_);
+  return numbers(dataset);
+}
+
+std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset, const std::vector<std::size_t>& wanted) const {
+  require_shape(shape(dataset), wanted, dataset, file_);
+  return bytes(dataset);
 }
 
 std::vector<std::string> Hdf5GroupReader::strings(const std::string& dataset) const {

@@ -40,12 +40,18 @@ std::vector<std::pair<std::string, std::string>> pairs(const Store& store, const
   return out;
 }
 
-void read_history(const Store& store, SimulationResult& result) {
+std::vector<HistoryColumn> read_columns(const Store& store) {
+  const Hdf5GroupReader group = store.root().open_group("history");
+  std::vector<HistoryColumn> out;
+  for (const std::string& name : group.texts(kNames)) out.push_back({name, group.text_of(name, "unit"), group.text_of(name, "meaning")});
+  return out;
+}
+
+void read_values(const Store& store, SimulationResult& result) {
   const Hdf5GroupReader group = store.root().open_group("history");
   std::vector<std::vector<double>> columns;
-  for (const std::string& name : group.texts(kNames)) {
-    result.columns.push_back({name, group.text_of(name, "unit"), group.text_of(name, "meaning")});
-    columns.push_back(group.numbers(name));
+  for (const HistoryColumn& column : result.columns) {
+    columns.push_back(group.numbers(column.name));
     store.require(columns.back().size() == columns.front().size(), "history");
   }
   if (columns.empty()) return;
@@ -92,10 +98,7 @@ std::vector<std::byte> read_bytes(const Store& store) {
   return out;
 }
 
-}  // namespace
-
-SimulationResult read_simulation(const std::filesystem::path& path) {
-  const Store store(path);
+SimulationResult read_head(const Store& store) {
   const Hdf5GroupReader& root = store.root();
   SimulationResult result;
   result.version = root.text("version");
@@ -108,14 +111,25 @@ SimulationResult read_simulation(const std::filesystem::path& path) {
   result.message = root.text("message");
   result.geometry_sha256 = pairs(store, "geometry_files", "geometry_sha256");
   result.swept = pairs(store, "swept_keys", "swept_values");
-  read_history(store, result);
+  result.columns = read_columns(store);
   result.events = read_events(store);
   result.statics = read_named(store, "static");
   result.summary = read_named(store, "summary");
   result.modes = read_modes(store);
+  return result;
+}
+
+}  // namespace
+
+SimulationResult read_simulation(const std::filesystem::path& path) {
+  const Store store(path);
+  SimulationResult result = read_head(store);
+  read_values(store, result);
   result.checkpoint = read_bytes(store);
   return result;
 }
+
+SimulationResult read_simulation_head(const std::filesystem::path& path) { return read_head(Store(path)); }
 
 SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
   const Store store(path);

@@ -21,6 +21,10 @@ void write_simulation(const std::filesystem::path& path, const SimulationResult&
 /// threads at once.
 SimulationResult read_simulation(const std::filesystem::path& path);
 
+/// The same without the values of the history and the checkpoint, however long they are: what was run, how it ended, names of the
+/// columns, events, static values, summary, modes. Errors and threads: as read_simulation.
+SimulationResult read_simulation_head(const std::filesystem::path& path);
+
 /// A checkpoint, and what must be the same for a simulation that goes on from it.
 struct SimulationCheckpoint {
   std::string version, git, input_sha256;

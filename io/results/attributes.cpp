@@ -6,6 +6,8 @@
 
 #include <utility>
 
+#include "treadmark/io/results/file_layout.hpp"
+
 namespace treadmark::io {
 namespace {
 
@@ -45,8 +47,15 @@ std::vector<Attribute> attributes_of(const PatchResult& patch) {
                                                     {"pmax", patch.pmax},
                                                     {"elastic_energy", patch.elastic_energy},
                                                     {"frictional_power", patch.frictional_power},
-                                                    {"shear_modulus", patch.shear_modulus}};
+                                                    {"shear_modulus", patch.shear_modulus},
+                                                    {"fx_relative", patch.fx_relative},
+                                                    {"fs_relative", patch.fs_relative}};
   for (const auto& [name, value] : numbers) add(name, value);
+  add("elements_in_contact", patch.ncon);
+  add("elements_in_adhesion", patch.nadh);
+  add("elements_in_slip", patch.nslip);
+  if (patch.max_temperature_1) add("max_temperature_1", *patch.max_temperature_1);
+  if (patch.max_temperature_2) add("max_temperature_2", *patch.max_temperature_2);
   if (patch.has_rolling) {
     add("chi", patch.chi);
     add("dq", patch.dq);
@@ -100,13 +109,21 @@ std::vector<Attribute> attributes_of(const CaseResult& result) {
     add("roller_nominal_radius", result.roller->nominal_radius);
     add("roller_pitch_rate", result.roller->pitch_rate);
   }
+  if (result.bodies) {
+    add("X_TW_origin", result.bodies->X_TW.origin);
+    add("X_TW_rotation", result.bodies->X_TW.rotation);
+    add("X_TR_origin", result.bodies->X_TR.origin);
+    add("X_TR_rotation", result.bodies->X_TR.rotation);
+  }
+  if (!result.wheel_surface.empty()) add("wheel_surface", result.wheel_surface);
+  if (!result.rail_surface.empty()) add("rail_surface", result.rail_surface);
   return list;
 }
 
 std::vector<Attribute> attributes_of(const RunResult& run) {
   std::vector<Attribute> list;
   const auto add = [&](std::string name, Attribute::Value value) { list.push_back({std::move(name), std::move(value)}); };
-  add("format", "treadmark result 1");
+  add("format", kResultFormat);
   add("units", "SI");
   add("axes", "x forward, y right, z down; forces and tractions act on the rail");
   add("version", run.version);

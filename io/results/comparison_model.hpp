@@ -49,6 +49,7 @@ struct ComparisonCandidate {
   std::string failure;           ///< not empty: could not be built or solved, why; then there are no rows
   std::vector<ComparisonRow> rows;   ///< one per case, in order
   std::vector<CaseResult> results;   ///< with fields, for pictures
+  std::vector<SampledSurface> surfaces;   ///< of the truth only, where asked for
 };
 
 struct Comparison {

@@ -12,6 +12,7 @@
 #include "treadmark/core/report.hpp"
 #include "treadmark/core/surface_difference.hpp"
 #include "treadmark/io/results/mat_file_head.hpp"
+#include "treadmark/io/results/sampled_surface.hpp"
 #include "treadmark/io/results/subsurface_block.hpp"
 
 namespace treadmark::io {
@@ -110,6 +111,13 @@ struct CaseResult {
     double nominal_radius = 0.0, pitch_rate = 0.0;  ///< [m], [rad/s]
   };
   std::optional<Roller> roller;       ///< in place of the rail
+  /// Poses of the axes of the sampled surfaces in track axes: the wheel's are on its axle and turn with its pitch, the rail's are those of
+  /// its profile, moved back by the wheelset's position along the track.
+  struct Bodies {
+    Pose X_TW, X_TR;
+  };
+  std::optional<Bodies> bodies;
+  std::string wheel_surface, rail_surface;  ///< names of sampled surfaces; empty = none
   double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< times [s]
   int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;
   std::vector<std::pair<double, double>> force_iterations;  ///< (z_ws [m], F_z [N])
@@ -138,6 +146,7 @@ struct RunResult {
   bool complete = true;                ///< false when interrupted: then fewer cases than asked
   int cases_total = 0;
   std::vector<CaseResult> cases;
+  std::vector<SampledSurface> sampled;  ///< of what the cases used; empty where nobody asked for them
 };
 
 }  // namespace treadmark::io

@@ -15,25 +15,36 @@ void append(const Vec3& vector, std::vector<double>& out) { out.insert(out.end()
 
 const std::array<SubsurfaceColumn, 9> kSubsurfaceColumns{{
     {"x", "m", "place of the point, longitudinal", 1,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.x()); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.x()); },
+     [](const double* in, SubsurfaceValue& v) { v.point.x() = *in; }},
     {"s", "m", "place of the point, lateral", 1,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.y()); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.y()); },
+     [](const double* in, SubsurfaceValue& v) { v.point.y() = *in; }},
     {"n", "m", "place of the point, depth: negative in the wheel", 1,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.z()); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.point.z()); },
+     [](const double* in, SubsurfaceValue& v) { v.point.z() = *in; }},
     {"displacement", "m", "of the body that has the point: x, s, n", 3,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { append(v.displacement, out); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { append(v.displacement, out); },
+     [](const double* in, SubsurfaceValue& v) { v.displacement = Vec3(in); }},
     {"stress", "Pa", "tensor by rows: xx xs xn sx ss sn nx ns nn, tension positive", 9,
      [](const SubsurfaceValue& v, std::vector<double>& out) {
        for (int row = 0; row < 3; ++row) append(v.stress.row(row), out);
+     },
+     [](const double* in, SubsurfaceValue& v) {
+       for (int row = 0; row < 3; ++row) v.stress.row(row) = Vec3(in + 3 * row);
      }},
     {"hydrostatic", "Pa", "mean of the normal stresses", 1,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.hydrostatic); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.hydrostatic); },
+     [](const double* in, SubsurfaceValue& v) { v.hydrostatic = *in; }},
     {"von_mises", "Pa", "equivalent stress of von Mises", 1,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.von_mises); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.von_mises); },
+     [](const double* in, SubsurfaceValue& v) { v.von_mises = *in; }},
     {"tresca", "Pa", "greatest minus least principal stress", 1,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.tresca); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { out.push_back(v.tresca); },
+     [](const double* in, SubsurfaceValue& v) { v.tresca = *in; }},
     {"principal", "Pa", "principal stresses, the greatest first", 3,
-     [](const SubsurfaceValue& v, std::vector<double>& out) { append(v.principal, out); }},
+     [](const SubsurfaceValue& v, std::vector<double>& out) { append(v.principal, out); },
+     [](const double* in, SubsurfaceValue& v) { v.principal = Vec3(in); }},
 }};
 
 std::vector<double> column_values(const SubsurfaceBlock& block, const SubsurfaceColumn& column) {

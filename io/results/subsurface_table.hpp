@@ -17,6 +17,7 @@ struct SubsurfaceColumn {
   std::string_view name, unit, meaning;
   int components;
   void (*append)(const SubsurfaceValue& value, std::vector<double>& out);
+  void (*put)(const double* components, SubsurfaceValue& value);  ///< the way back
 };
 
 extern const std::array<SubsurfaceColumn, 9> kSubsurfaceColumns;

@@ -9,6 +9,7 @@
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/attributes.hpp"
 #include "treadmark/io/results/field_table.hpp"
+#include "treadmark/io/results/file_layout.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
 namespace treadmark::io {
@@ -72,12 +73,36 @@ void write_case(const Hdf5GroupWriter& group, const CaseResult& result, CaseTime
   }
 }
 
+void write_surfaces(const Hdf5GroupWriter& parent, std::span<const SampledSurface> surfaces) {
+  check_surfaces(surfaces);
+  if (surfaces.empty()) return;
+  const Hdf5GroupWriter all = parent.make_group(kSurfaces);
+  std::vector<std::string> names;
+  for (const SampledSurface& s : surfaces) names.push_back(s.name);
+  all.add({kSurfaceNames, names});
+  for (const SampledSurface& s : surfaces) {
+    const Hdf5GroupWriter group = all.make_group(s.name);
+    group.add({"body", s.body});
+    group.add({"name", s.name});
+    group.add({"closed", s.closed ? 1 : 0});
+    const bool angle = s.body == "wheel" || s.closed;
+    group.write({"u", {s.u.size()}, angle ? "rad" : "m", angle ? "stations: angle round the axle" : "stations: x along the rail"}, s.u);
+    const std::vector<std::size_t> size{s.u.size(), static_cast<std::size_t>(s.nv)};
+    group.write({"x", size, "m", "forward, in the axes of the body; NaN where there is no surface", true}, s.x);
+    group.write({"y", size, "m", "to the right", true}, s.y);
+    group.write({"z", size, "m", "down", true}, s.z);
+    if (!s.deviation.empty())
+      group.write({"deviation", size, "m", "along the outward normal from the median of the sections", true}, s.deviation);
+  }
+}
+
 void write_hdf5(const std::filesystem::path& path, const RunResult& run) {
   AtomicFile target(path);
   Hdf5Writer file(target.temporary(), path.string());
   file.root().add(attributes_of(run));
   for (const CaseResult& result : run.cases)
     write_case(file.root().make_group(fmt::format("case_{:04}", result.number)), result, CaseTimes::written);
+  write_surfaces(file.root(), run.sampled);
   file.close();
   target.commit();
 }

@@ -3,10 +3,10 @@
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 
 #include <algorithm>
-#include <chrono>
 #include <cmath>
 #include <utility>
 
+#include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/part_slip.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
@@ -14,17 +14,6 @@
 
 namespace treadmark::wheelrail {
 namespace {
-
-class Stopwatch {
- public:
-  explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}
-  ~Stopwatch() { total_ += std::chrono::duration<double>(Clock::now() - start_).count(); }
-
- private:
-  using Clock = std::chrono::steady_clock;
-  double& total_;
-  Clock::time_point start_;
-};
 
 /// Interpenetration half as long as the search window: the bodies do not touch, they lie in each other.
 constexpr double kDeepestOfRadius = 0.02;

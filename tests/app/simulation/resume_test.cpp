@@ -45,27 +45,34 @@ class Resume : public ::testing::Test {
       EXPECT_TRUE(bytes == input.read(other + '/' + file)) << file << " differs";
     }
   }
+  /// A run that is killed and resumed several times gives the bytes of an undisturbed one.
+  void expect_kills_to_change_nothing() const {
+    ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
+    int resumed = 0;
+    for (const int delay_ms : {0, 20, 60, 150}) {
+      RunningProgram program(command("killed", resumed > 0 ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
+      if (!wait_for_checkpoint(program, "killed")) break;
+      std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
+      program.send(SIGKILL);
+      program.wait();
+      ++resumed;
+    }
+    EXPECT_GE(resumed, 1) << "never killed between the first checkpoint and the end";
+    input.write("killed/.history.csv.part1-0", "what a kill in the middle of writing leaves");
+    const ProgramResult last = RunningProgram(command("killed", {"--resume"})).wait();
+    ASSERT_EQ(last.status, 0) << last.err;
+    expect_same("undisturbed", "killed");
+    for (const auto& entry : fs::directory_iterator(input.path("killed")))
+      EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << "left behind: " << entry.path();
+  }
   SampleSimulation input;
 };
 
-TEST_F(Resume, AfterKillsTheResultIsThatOfAnUndisturbedRun) {
-  ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
-  int resumed = 0;
-  for (const int delay_ms : {0, 20, 60, 150}) {
-    RunningProgram program(command("killed", resumed > 0 ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
-    if (!wait_for_checkpoint(program, "killed")) break;
-    std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
-    program.send(SIGKILL);
-    program.wait();
-    ++resumed;
-  }
-  EXPECT_GE(resumed, 1) << "never killed between the first checkpoint and the end";
-  input.write("killed/.history.csv.part1-0", "what a kill in the middle of writing leaves");
-  const ProgramResult last = RunningProgram(command("killed", {"--resume"})).wait();
-  ASSERT_EQ(last.status, 0) << last.err;
-  expect_same("undisturbed", "killed");
-  for (const auto& entry : fs::directory_iterator(input.path("killed")))
-    EXPECT_EQ(entry.path().string().find(".part"), std::string::npos) << "left behind: " << entry.path();
+TEST_F(Resume, AfterKillsTheResultIsThatOfAnUndisturbedRun) { expect_kills_to_change_nothing(); }
+
+TEST_F(Resume, PeaksBetweenTheLinesOutliveKills) {
+  input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.15\noutput_every_mm = 60");
+  expect_kills_to_change_nothing();
 }
 
 TEST_F(Resume, KilledBeforeTheFirstCheckpoint) {

@@ -79,6 +79,19 @@ TEST_F(Simulate, JsonSumsUpTheHistory) {
   EXPECT_EQ(json["static"]["ws1_left.Q_N"], q.front());
 }
 
+TEST_F(Simulate, TheSummaryCountsStepsThatAreNotWrittenDown) {
+  const ProgramResult every = run({"-o", out(), "--json", "-"});
+  const ProgramResult some = run({"-o", input.path("some"), "--json", "-", "--set", "simulation.output_every_mm=25"});
+  ASSERT_EQ(every.status, 0) << every.err;
+  ASSERT_EQ(some.status, 0) << some.err;
+  const auto all_steps = nlohmann::json::parse(every.out), few_lines = nlohmann::json::parse(some.out);
+  EXPECT_EQ(few_lines["summary"], all_steps["summary"]);
+  const Table history = read_table(input.read("some/history.csv"));
+  EXPECT_EQ(few_lines["rows"], history.rows.size());
+  EXPECT_LT(5 * history.rows.size(), all_steps["rows"]);
+  EXPECT_LT(std::ranges::max(history.column("Q_N")), few_lines["summary"]["q_max_N"]) << "no peak is missing: the test says nothing";
+}
+
 TEST_F(Simulate, JsonGoesToAFileBesideTheTable) {
   const ProgramResult r = run({"--json", input.path("summary.json"), "--set", "simulation.distance_m=0.01"});
   ASSERT_EQ(r.status, 0) << r.err;
@@ -97,6 +110,15 @@ TEST_F(Simulate, ModesOnly) {
   const double bounce = std::sqrt(2.0 * 1.2e6 / 9000.0) / (2.0 * std::numbers::pi);  // the mass on its two springs
   EXPECT_NEAR(json["modes"].at(0)["frequency_Hz"], bounce, 0.01 * bounce) << "all below is much stiffer";
   EXPECT_EQ(json["rows"], 0);
+}
+
+TEST_F(Simulate, ModesGoToAFileBesideTheText) {
+  const ProgramResult r = run({"--modes", "--json", input.path("modes.json")});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("f [Hz]"));
+  EXPECT_FALSE(nlohmann::json::parse(input.read("modes.json"))["modes"].empty());
+  const ProgramResult nowhere = run({"--modes", "--json", input.path("no such folder/modes.json")});
+  EXPECT_EQ(nowhere.status, 2) << nowhere.err;
 }
 
 TEST_F(Simulate, SetChangesAKey) {

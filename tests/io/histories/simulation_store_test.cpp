@@ -79,6 +79,22 @@ TEST_F(SimulationStore, ReadsBackWhatWasWritten) {
   EXPECT_EQ(read.modes[0].damping_ratio, 0.15);
 }
 
+TEST_F(SimulationStore, TheHeadIsAllButHistoryAndCheckpoint) {
+  io::write_simulation(path_, result_);
+  const io::SimulationResult head = io::read_simulation_head(path_);
+  EXPECT_TRUE(head.values.empty() && head.checkpoint.empty());
+  // Written again it equals a simulation that has neither.
+  io::SimulationResult rest = io::read_simulation(path_);
+  rest.values.clear();
+  rest.checkpoint.clear();
+  const std::filesystem::path other = folder_.path() / "rest.h5";
+  io::write_simulation(other, rest);
+  io::write_simulation(path_, head);
+  EXPECT_EQ(head.columns.size(), 4u);
+  EXPECT_EQ(head.summary.size(), 2u);
+  EXPECT_TRUE(testing::read_text(path_) == testing::read_text(other));
+}
+
 TEST_F(SimulationStore, EqualResultsGiveEqualBytes) {
   io::write_simulation(path_, result_);
   const std::string first = testing::read_text(path_);
@@ -166,6 +182,7 @@ void expect_unreadable(const std::filesystem::path& path) {
     EXPECT_EQ(error.kind(), ErrorKind::input_data);
     EXPECT_EQ(error.where().file, path.string());
   }
+  EXPECT_THROW(io::read_simulation_head(path), Error);
   EXPECT_THROW(io::read_checkpoint(path), Error);
 }
 

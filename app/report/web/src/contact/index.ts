@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { ContactView } from "../data";
 import type { Store } from "../store";
+import { ContactFigure } from "./view";
 
+/** Fills a figure with the pictures of contact patches. */
 export function mountContact(figure: HTMLElement, view: ContactView, store: Store): void {
-  const plot = figure.querySelector(".plot") ?? figure;
-  plot.textContent = `${view.type} of ${store.data.title}`;
+  new ContactFigure(figure, view, store);
 }

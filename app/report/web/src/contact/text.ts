@@ -1,0 +1,53 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Numbers and names as readers see them.
+
+/** Four significant digits, with a minus sign; "–" where there is none. */
+export function brief(value: number | null | undefined): string {
+  if (value === null || value === undefined || !Number.isFinite(value)) return "–";
+  if (value === 0) return "0";
+  const size = Math.abs(value);
+  const text = size >= 1e6 || size < 1e-3 ? power(value) : size >= 1e4 ? value.toFixed(0) : trimmed(value.toPrecision(4));
+  return text.replace("-", "−");
+}
+
+function trimmed(text: string): string {
+  return text.includes(".") ? text.replace(/\.?0+$/, "") : text;
+}
+
+function power(value: number): string {
+  const [mantissa = "", exponent = "0"] = value.toExponential(2).split("e");
+  const digits = String(Math.abs(Number(exponent))).replace(/\d/g, (d) => "⁰¹²³⁴⁵⁶⁷⁸⁹"[Number(d)] ?? d);
+  return `${trimmed(mantissa)}·10${Number(exponent) < 0 ? "⁻" : ""}${digits}`;
+}
+
+/** A tick's number: no digits that all ticks of a step share as zeros. */
+export function tick(value: number, step: number): string {
+  const digits = Math.max(0, Math.min(6, -Math.floor(Math.log10(Math.abs(step) || 1) + 1e-9)));
+  const large = Math.abs(value) >= 1e6;
+  return (large || (digits >= 5 && value !== 0) ? power(value) : value.toFixed(digits)).replace("-", "−");
+}
+
+/** "Pressure [MPa]". */
+export function titled(label: string, unit: string): string {
+  return unit === "" || unit === "1" ? label : `${label} [${unit}]`;
+}
+
+const symbols: Record<string, string> = {
+  fn: "Fₙ",
+  fx: "Fₓ",
+  fs: "Fₛ",
+  mn: "Mₙ",
+  pmax: "pₘₐₓ",
+  xi: "ξ",
+  eta: "η",
+  phi: "φ",
+};
+
+/** "pmax_MPa" as symbol and unit. */
+export function numberName(key: string): { label: string; unit: string } {
+  const match = /^(.+?)_(k?N|Nmm|Nm|mm2|mm_s|rad_mm|mm|um|MPa|GPa|Pa|J|W|rad_s|mrad|rad|deg|C|percent|s|kB|MB)$/.exec(key);
+  const name = match?.[1] ?? key;
+  const unit = { mm2: "mm²", um: "µm", mm_s: "mm/s", rad_s: "rad/s", rad_mm: "rad/mm", deg: "°", C: "°C", percent: "%", Nmm: "N·mm" }[match?.[2] ?? ""] ?? match?.[2] ?? "";
+  return { label: symbols[name] ?? name.replace(/_/g, " "), unit };
+}

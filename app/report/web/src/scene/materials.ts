@@ -1,0 +1,226 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import {
+  ClampToEdgeWrapping,
+  DataTexture,
+  DoubleSide,
+  KeepStencilOp,
+  LinearFilter,
+  NotEqualStencilFunc,
+  AlwaysStencilFunc,
+  ReplaceStencilOp,
+  ShaderMaterial,
+  Vector2,
+  Vector3,
+  Vector4,
+} from "three";
+
+import { lut, type Rgb } from "../colours";
+
+const bodyVertex = `
+uniform int columns;
+attribute float deviation;
+varying vec3 atEye;
+varying vec3 facing;
+varying vec3 place;
+varying vec2 cell;
+varying float excess;
+void main() {
+  vec4 world = modelMatrix * vec4(position, 1.0);
+  vec4 eye = viewMatrix * world;
+  gl_Position = projectionMatrix * eye;
+  atEye = eye.xyz;
+  facing = normalMatrix * normal;
+  place = world.xyz;
+  cell = vec2(float(gl_VertexID / columns), float(gl_VertexID % columns));
+  excess = deviation;
+}`;
+
+// Lit from above the camera's left shoulder and from the camera itself; both sides of the surface are lit, the inner one darker.
+const bodyFragment = `
+uniform vec3 base;
+uniform vec3 line;
+uniform float opacity;
+uniform float mesh;
+uniform vec2 lastCell;
+uniform float openEnds;
+uniform sampler2D colours;
+uniform float coloured;
+uniform float span;
+uniform vec3 sectionAt;
+uniform vec3 sectionNormal;
+uniform float section;
+uniform vec4 cut;
+varying vec3 atEye;
+varying vec3 facing;
+varying vec3 place;
+varying vec2 cell;
+varying float excess;
+float thin(float distance, float width) { return 1.0 - smoothstep(width, width + 1.0, distance); }
+void main() {
+  float beyond = dot(vec4(place - sectionAt, 1.0), cut);
+  if (beyond < 0.0) discard;
+  vec3 n = normalize(facing);
+  vec3 v = normalize(-atEye);
+  float side = dot(n, v);
+  float inside = step(side, 0.0);
+  n *= 1.0 - 2.0 * inside;
+  float straight = abs(side);
+  vec3 lamp = normalize(vec3(-0.45, 0.8, 0.55));
+  float shade = 0.40 + 0.46 * max(dot(n, lamp), 0.0) + 0.20 * straight;
+  float gloss = 0.10 * pow(max(dot(reflect(-lamp, n), v), 0.0), 18.0);
+  float t = clamp(0.5 + 0.5 * excess / span, 0.0, 1.0);
+  vec3 colour = mix(base, texture2D(colours, vec2(t, 0.5)).rgb, coloured);
+  colour = colour * (shade - 0.10 * inside) + gloss;
+  float alpha = opacity;
+  if (opacity < 1.0) alpha = mix(opacity, 0.82, pow(1.0 - straight, 2.2)) + coloured * 0.5 * abs(2.0 * t - 1.0);
+  vec2 width = max(fwidth(cell), vec2(1e-6));
+  vec2 near = abs(fract(cell - 0.5) - 0.5) / width;
+  vec2 drawn = vec2(thin(near.x, 0.1), thin(near.y, 0.1)) * (1.0 - smoothstep(0.22, 0.45, width));
+  float lines = 0.55 * mesh * max(drawn.x, drawn.y);
+  vec2 margin = min(cell, lastCell - cell) / width;
+  lines = max(lines, 0.6 * max(thin(margin.y, 0.6), openEnds * thin(margin.x, 0.6)));
+  float across = dot(place - sectionAt, sectionNormal);
+  float nearby = 1.0 - smoothstep(140.0, 200.0, length(place - sectionAt));
+  lines = max(lines, 0.85 * section * nearby * thin(abs(across) / max(fwidth(across), 1e-6), 0.7));
+  lines = max(lines, 0.9 * thin(beyond / max(fwidth(beyond), 1e-6), 1.4));
+  colour = mix(colour, line, lines);
+  gl_FragColor = vec4(colour, min(1.0, max(alpha, lines)));
+}`;
+
+const patchVertex = `
+uniform float bias;
+attribute vec4 paint;
+varying vec4 colour;
+varying vec2 corner;
+void main() {
+  vec4 eye = modelViewMatrix * vec4(position, 1.0);
+  gl_Position = projectionMatrix * eye;
+  // Nearer to the camera in depth alone, so that neither body covers the patch where the undeformed bodies overlap.
+  float away = length(eye.xyz);
+  vec4 nearer = projectionMatrix * vec4(eye.xyz * (1.0 - min(0.3, bias / away)), 1.0);
+  gl_Position.z = nearer.z / nearer.w * gl_Position.w;
+  colour = paint;
+  int k = gl_VertexID % 4;
+  corner = vec2(k == 1 || k == 2 ? 1.0 : 0.0, k >= 2 ? 1.0 : 0.0);
+}`;
+
+const patchFragment = `
+uniform float mesh;
+varying vec4 colour;
+varying vec2 corner;
+void main() {
+  vec2 width = max(fwidth(corner), vec2(1e-6));
+  vec2 near = min(corner, 1.0 - corner) / width;
+  vec2 drawn = (1.0 - smoothstep(0.0, 1.0, near)) * (1.0 - smoothstep(0.15, 0.35, width));
+  gl_FragColor = vec4(mix(colour.rgb, vec3(0.05), 0.5 * mesh * max(drawn.x, drawn.y)), 1.0);
+}`;
+
+/** Numbers 0..1 of a colour, written to the picture as they are. */
+export function rgbVector([r, g, b]: Rgb): Vector3 {
+  return new Vector3(r / 255, g / 255, b / 255);
+}
+
+export function divergingTexture(): DataTexture {
+  const texture = new DataTexture(Uint8Array.from(lut("diverging", 256)), 256, 1);
+  texture.wrapS = texture.wrapT = ClampToEdgeWrapping;
+  texture.minFilter = texture.magFilter = LinearFilter;
+  texture.needsUpdate = true;
+  return texture;
+}
+
+/** What all bodies have in common and one assignment changes for all. */
+export interface SharedUniforms {
+  mesh: { value: number };
+  line: { value: Vector3 };
+  colours: { value: DataTexture };
+  coloured: { value: number };
+  span: { value: number };
+  section: { value: number };
+  sectionAt: { value: Vector3 };
+  sectionNormal: { value: Vector3 };
+  /** Cut bodies are drawn where this (normal, distance) times (place - sectionAt, 1) is positive. */
+  cut: { value: Vector4 };
+}
+
+export function sharedUniforms(): SharedUniforms {
+  return {
+    mesh: { value: 0 },
+    line: { value: new Vector3() },
+    colours: { value: divergingTexture() },
+    coloured: { value: 0 },
+    span: { value: 1 },
+    section: { value: 1 },
+    sectionAt: { value: new Vector3() },
+    sectionNormal: { value: new Vector3(1, 0, 0) },
+    cut: { value: new Vector4(1, 0, 0, 0) },
+  };
+}
+
+export interface GridShape {
+  nu: number;
+  nv: number;
+  closed: boolean;
+}
+
+export interface BodyMaterials {
+  base: { value: Vector3 };
+  solid: ShaderMaterial;
+  cut: ShaderMaterial;
+  glass: ShaderMaterial;
+  /** Only depth: of the see-through body just the nearest layer is drawn. */
+  depth: ShaderMaterial;
+}
+
+/** The patch marks its pixels in the stencil; see-through bodies leave these alone, so that its colours stay those of the colour bar. */
+export function bodyMaterials(shape: GridShape, shared: SharedUniforms): BodyMaterials {
+  const base = { value: new Vector3() };
+  const whole = { value: new Vector4(0, 0, 0, 1e6) };
+  const uniforms = (opacity: number, cut = whole): ShaderMaterial["uniforms"] => ({
+    cut,
+    base,
+    mesh: shared.mesh,
+    line: shared.line,
+    colours: shared.colours,
+    coloured: shared.coloured,
+    span: shared.span,
+    section: shared.section,
+    sectionAt: shared.sectionAt,
+    sectionNormal: shared.sectionNormal,
+    opacity: { value: opacity },
+    columns: { value: shape.nv },
+    lastCell: { value: new Vector2(shape.nu - 1, shape.nv - 1) },
+    openEnds: { value: shape.closed ? 0 : 1 },
+  });
+  const shader = { vertexShader: bodyVertex, fragmentShader: bodyFragment, side: DoubleSide };
+  const spared = {
+    stencilWrite: true,
+    stencilRef: 1,
+    stencilFunc: NotEqualStencilFunc,
+    stencilFail: KeepStencilOp,
+    stencilZFail: KeepStencilOp,
+    stencilZPass: KeepStencilOp,
+  };
+  return {
+    base,
+    solid: new ShaderMaterial({ ...shader, uniforms: uniforms(1) }),
+    cut: new ShaderMaterial({ ...shader, uniforms: uniforms(1, shared.cut) }),
+    glass: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(0.14), transparent: true, depthWrite: false }),
+    depth: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(1), transparent: true, colorWrite: false }),
+  };
+}
+
+/** `bias`: how much nearer to the camera than it is the patch counts as [mm]. `layered`: later triangles lie over earlier ones. */
+export function patchMaterial(mesh: { value: number }, bias: number, layered: boolean): ShaderMaterial {
+  return new ShaderMaterial({
+    vertexShader: patchVertex,
+    fragmentShader: patchFragment,
+    uniforms: { mesh, bias: { value: bias } },
+    side: DoubleSide,
+    depthWrite: !layered,
+    stencilWrite: true,
+    stencilRef: 1,
+    stencilFunc: AlwaysStencilFunc,
+    stencilZPass: ReplaceStencilOp,
+  });
+}

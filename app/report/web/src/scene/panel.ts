@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import { presets, type BodyStyle, type ViewName } from "./orbit";
+import type { FieldInfo } from "../data";
+
+/** What the reader chose to see. */
+export interface Options {
+  field: string;
+  sameScale: boolean;
+  wheel: BodyStyle;
+  rail: BodyStyle;
+  arrows: boolean;
+  mesh: boolean;
+  section: boolean;
+  deviation: boolean;
+  exaggeration: number;
+}
+
+export interface Offered {
+  fields: readonly FieldInfo[];
+  wheel: boolean;
+  rail: boolean;
+  arrows: boolean;
+  deviation: boolean;
+}
+
+export interface Panel {
+  element: HTMLElement;
+  /** Shows the options as they are now. */
+  refresh(view: ViewName | null): void;
+}
+
+function element<K extends keyof HTMLElementTagNameMap>(tag: K, className: string, text = ""): HTMLElementTagNameMap[K] {
+  const made = document.createElement(tag);
+  if (className) made.className = className;
+  if (text) made.textContent = text;
+  return made;
+}
+
+/** The row of views and the options, which change `options` and then call `changed`. */
+export function makePanel(options: Options, offered: Offered, changed: () => void, view: (name: ViewName) => void, fullScreen: () => void): Panel {
+  const bar = element("div", "scene-bar");
+  const refreshers: ((view: ViewName | null) => void)[] = [];
+
+  const views = element("div", "scene-views");
+  views.setAttribute("role", "group");
+  views.setAttribute("aria-label", "View");
+  presets.forEach((preset, k) => {
+    if (preset.name === "whole" && !offered.wheel) return;
+    const button = element("button", "", preset.label);
+    button.type = "button";
+    button.title = `${preset.title} (key ${k + 1})`;
+    button.dataset["view"] = preset.name;
+    button.addEventListener("click", () => view(preset.name));
+    refreshers.push((current) => button.setAttribute("aria-pressed", String(current === preset.name)));
+    views.append(button);
+  });
+  const large = element("button", "scene-large", "Full screen");
+  large.type = "button";
+  large.addEventListener("click", fullScreen);
+  const row = element("div", "scene-row");
+  row.append(views);
+  if (document.fullscreenEnabled) row.append(large);
+  bar.append(row);
+
+  const more = element("details", "scene-options");
+  more.append(element("summary", "", "Display"));
+  const list = element("div", "scene-row");
+  more.append(list);
+  more.open = window.matchMedia("(min-width: 700px)").matches;
+  bar.append(more);
+
+  const choice = (name: string, label: string, entries: readonly (readonly [string, string])[], get: () => string, set: (value: string) => void): void => {
+    const frame = element("label", "scene-choice", `${label} `);
+    const select = element("select", "");
+    select.name = name;
+    for (const [value, text] of entries) {
+      const option = element("option", "", text);
+      option.value = value;
+      select.append(option);
+    }
+    select.addEventListener("change", () => {
+      set(select.value);
+      changed();
+    });
+    refreshers.push(() => (select.value = get()));
+    frame.append(select);
+    list.append(frame);
+  };
+  const tick = (name: string, label: string, title: string, get: () => boolean, set: (value: boolean) => void): void => {
+    const frame = element("label", "scene-tick");
+    const box = element("input", "");
+    box.type = "checkbox";
+    box.name = name;
+    box.addEventListener("change", () => {
+      set(box.checked);
+      changed();
+    });
+    refreshers.push(() => (box.checked = get()));
+    frame.title = title;
+    frame.append(box, ` ${label}`);
+    list.append(frame);
+  };
+
+  const styles = [
+    ["solid", "solid"],
+    ["cut", "cut away"],
+    ["glass", "see-through"],
+    ["hidden", "hidden"],
+  ] as const;
+  if (offered.fields.length > 0) {
+    choice("field", "Patch", offered.fields.map((field) => [field.name, field.label] as const), () => options.field, (v) => (options.field = v));
+    choice(
+      "scale",
+      "Scale",
+      [
+        ["all", "of all steps"],
+        ["step", "of this step"],
+      ],
+      () => (options.sameScale ? "all" : "step"),
+      (v) => (options.sameScale = v === "all"),
+    );
+  }
+  if (offered.wheel) choice("wheel", "Wheel", styles, () => options.wheel, (v) => (options.wheel = v as BodyStyle));
+  if (offered.rail) choice("rail", "Rail", styles, () => options.rail, (v) => (options.rail = v as BodyStyle));
+  if (offered.arrows) tick("arrows", "Tractions", "Arrows of the tractions on the rail", () => options.arrows, (v) => (options.arrows = v));
+  tick("section", "Section", "The bodies' sections across the track at the contact", () => options.section, (v) => (options.section = v));
+  tick("mesh", "Mesh", "Lines of the surfaces' points and edges of the elements", () => options.mesh, (v) => (options.mesh = v));
+  if (offered.deviation) {
+    tick("deviation", "Deviation", "Surfaces coloured by their deviation from the mean section", () => options.deviation, (v) => (options.deviation = v));
+    const factors = [1, 10, 50].map((factor) => [String(factor), `× ${factor}`] as const);
+    choice("exaggeration", "Deviation shown", factors, () => String(options.exaggeration), (v) => (options.exaggeration = Number(v)));
+  }
+  return { element: bar, refresh: (current) => refreshers.forEach((refresh) => refresh(current)) };
+}

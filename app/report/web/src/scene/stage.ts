@@ -1,0 +1,153 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import { Color, PerspectiveCamera, Scene, Vector3, WebGLRenderer } from "three";
+
+import type { Rgb } from "../colours";
+import { eye, fieldOfView, type Orbit } from "./orbit";
+import type { Vec3 } from "./vec";
+
+/** How the browser draws WebGL: not at all, with the processor, or with a graphics card. */
+export type Graphics = "none" | "software" | "hardware";
+
+export function graphics(): Graphics {
+  const gl = document.createElement("canvas").getContext("webgl2");
+  if (!gl) return "none";
+  const about = gl.getExtension("WEBGL_debug_renderer_info");
+  const name = String(gl.getParameter(about ? about.UNMASKED_RENDERER_WEBGL : gl.RENDERER));
+  gl.getExtension("WEBGL_lose_context")?.loseContext();
+  return /swiftshader|llvmpipe|softpipe|software|basic render/i.test(name) ? "software" : "hardware";
+}
+
+const restAfter = 250;
+const slowFrame = 30;
+
+/**
+ * Draws the scene when something changed and it is in sight. While pictures follow each other the resolution falls as far as they
+ * need to keep coming; at rest one more picture has it in full.
+ */
+export class Stage {
+  readonly scene = new Scene();
+  readonly camera = new PerspectiveCamera(fieldOfView, 2, 1, 10000);
+  readonly renderer: WebGLRenderer;
+  width = 0;
+  height = 0;
+  visible = false;
+  pictures = 0;
+  lost = false;
+  /** Called before and after each picture. */
+  before: () => void = () => undefined;
+  after: () => void = () => undefined;
+  private asked = 0;
+  private lastTime = -Infinity;
+  private rest: ReturnType<typeof setTimeout> | undefined;
+  private ratio = 0;
+  private movingRatio: number;
+  private slow = 0;
+
+  constructor(
+    readonly canvas: HTMLCanvasElement,
+    private readonly software: boolean,
+  ) {
+    this.renderer = new WebGLRenderer({ canvas, antialias: !software, stencil: true, powerPreference: "high-performance" });
+    this.camera.up.set(0, 0, -1);
+    this.movingRatio = software ? 1 : this.fullRatio();
+    canvas.addEventListener("webglcontextlost", (event) => {
+      event.preventDefault();
+      this.lost = true;
+    });
+    canvas.addEventListener("webglcontextrestored", () => {
+      this.lost = false;
+      this.invalidate();
+    });
+  }
+
+  /** Pixels of the picture a pixel of the page, at rest; the processor smooths edges by more of them. */
+  private fullRatio(): number {
+    return Math.min(2, this.software ? Math.max(1.5, window.devicePixelRatio) : window.devicePixelRatio);
+  }
+
+  setBackground([r, g, b]: Rgb): void {
+    this.renderer.setClearColor(new Color(`rgb(${r},${g},${b})`), 1);
+  }
+
+  resize(width: number, height: number): void {
+    if (width === this.width && height === this.height) return;
+    this.width = width;
+    this.height = height;
+    this.ratio = 0;
+    this.invalidate();
+  }
+
+  setVisible(visible: boolean): void {
+    this.visible = visible;
+    if (visible) this.invalidate();
+  }
+
+  /** Asks for a picture, quick first; once nothing was asked for some time one more follows in full resolution. */
+  invalidate(): void {
+    clearTimeout(this.rest);
+    if (this.asked || !this.visible) return;
+    this.asked = requestAnimationFrame((time) => {
+      this.asked = 0;
+      this.adapt(time - this.lastTime);
+      this.lastTime = time;
+      this.draw(this.movingRatio);
+      clearTimeout(this.rest);
+      if (this.movingRatio < this.fullRatio()) this.rest = setTimeout(() => this.visible && this.draw(this.fullRatio()), restAfter);
+    });
+  }
+
+  /** Pictures that follow each other too slowly get fewer pixels. */
+  private adapt(passed: number): void {
+    if (passed > 1000) return;
+    this.slow = passed > slowFrame ? this.slow + 1 : Math.max(0, this.slow - 0.25);
+    if (this.slow < 4) return;
+    this.slow = 0;
+    this.movingRatio = Math.max(0.5, this.movingRatio * 0.8);
+  }
+
+  /** At full resolution, at once; the caller reads the canvas in the same task. */
+  drawNow(): void {
+    this.draw(this.fullRatio());
+  }
+
+  private draw(ratio: number): void {
+    if (this.width < 2 || this.height < 2 || this.lost) return;
+    if (ratio !== this.ratio) {
+      this.ratio = ratio;
+      this.renderer.setPixelRatio(ratio);
+      this.renderer.setSize(this.width, this.height, false);
+    }
+    this.before();
+    this.renderer.render(this.scene, this.camera);
+    this.pictures += 1;
+    this.after();
+  }
+
+  /** Aims the camera; `reach`: radius about the target beyond which there is nothing [mm]. */
+  aim(orbit: Orbit, reach: number): void {
+    const at = eye(orbit);
+    this.camera.position.set(...at);
+    this.camera.lookAt(...orbit.target);
+    this.camera.aspect = this.width / Math.max(1, this.height);
+    this.camera.near = Math.max(0.2, 0.02 * orbit.distance);
+    this.camera.far = orbit.distance + reach;
+    this.camera.updateProjectionMatrix();
+    this.camera.updateMatrixWorld();
+  }
+
+  /** Where a point of the world is in the picture, in pixels of the page from the top left; null behind the camera. */
+  project(point: Vec3): [number, number] | null {
+    const v = new Vector3(...point).applyMatrix4(this.camera.matrixWorldInverse);
+    if (v.z > -this.camera.near) return null;
+    v.applyMatrix4(this.camera.projectionMatrix);
+    return [(0.5 + 0.5 * v.x) * this.width, (0.5 - 0.5 * v.y) * this.height];
+  }
+
+  /** The ray under a pixel of the page: its start and unit direction. */
+  ray(x: number, y: number): { origin: Vec3; direction: Vec3 } {
+    const { position } = this.camera;
+    const v = new Vector3((2 * x) / this.width - 1, 1 - (2 * y) / this.height, 0.5).unproject(this.camera).sub(position).normalize();
+    return { origin: [position.x, position.y, position.z], direction: [v.x, v.y, v.z] };
+  }
+}

@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/results/read_hdf5.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/results/file_layout.hpp"
+#include "treadmark/io/results/read_patch.hpp"
+
+namespace treadmark::io {
+namespace {
+
+constexpr std::size_t kMostPoints = std::size_t{1} << 24;  // of a sampled surface
+
+Status status_of(const Hdf5GroupReader& group) {
+  const std::string word = group.text("status");
+  for (const Status status : {Status::ok, Status::no_contact, Status::not_converged, Status::failed})
+    if (word == to_string(status)) return status;
+  refuse_result(group, fmt::format("has the unknown status \"{}\"", word));
+}
+
+void read_wheelset(const Hdf5GroupReader& group, CaseResult& c) {
+  const Vec3 position = group.vector("wheelset_position"), angles = group.vector("wheelset_roll_yaw_pitch");
+  const Vec3 velocity = group.vector("wheelset_velocity"), rates = group.vector("wheelset_rates_roll_yaw_pitch");
+  c.has_wheelset = true;
+  c.s = position.x(), c.y = position.y(), c.z = position.z();
+  c.roll = angles.x(), c.yaw = angles.y(), c.pitch = angles.z();
+  c.vs = velocity.x(), c.vy = velocity.y(), c.vz = velocity.z();
+  c.vroll = rates.x(), c.vyaw = rates.y(), c.vpitch = rates.z();
+  c.force_tr = group.vector("force_on_rail_track");
+  c.force_ws = group.vector("force_on_rail_wheelset");
+  c.moment_rail = group.vector("moment_on_rail_at_rail");
+  c.moment_wheel = group.vector("moment_on_rail_at_wheel");
+}
+
+SampledSurface read_surface(const Hdf5GroupReader& group, const std::string& name) {
+  SampledSurface s;
+  s.name = name;
+  s.body = group.text("body");
+  s.closed = group.integer("closed") != 0;
+  const std::vector<std::size_t> size = group.shape("x");
+  if (size.size() != 2 || size[0] == 0 || size[1] == 0 || size[0] > kMostPoints || size[1] > kMostPoints || size[0] * size[1] > kMostPoints)
+    refuse_result(group, fmt::format("has a surface {} that is no table of points", name));
+  s.nu = static_cast<int>(size[0]);
+  s.nv = static_cast<int>(size[1]);
+  s.u = group.numbers("u", {size[0]});
+  s.x = group.numbers("x", size);
+  s.y = group.numbers("y", size);
+  s.z = group.numbers("z", size);
+  if (group.has("deviation")) s.deviation = group.numbers("deviation", size);
+  if (s.body != "wheel" && s.body != "rail") refuse_result(group, fmt::format("has a surface of \"{}\"", s.body));
+  return s;
+}
+
+}  // namespace
+
+void refuse_result(const Hdf5GroupReader& where, const std::string& what) {
+  throw Error(ErrorKind::input_data, "the file of results " + what, {where.file(), 0, 0}, "give a file that this program wrote");
+}
+
+CaseResult read_case(const Hdf5GroupReader& group) {
+  CaseResult c;
+  c.number = group.integer("number");
+  c.status = status_of(group);
+  c.message = group.text("message");
+  if (group.has_attribute("seconds")) c.seconds = group.number("seconds");
+  if (group.has_attribute("wheelset_position")) read_wheelset(group, c);
+  c.loads = read_loads(group);
+  if (group.has_attribute("rail_deflection_y")) c.rail_deflection = Vec2(group.number("rail_deflection_y"), group.number("rail_deflection_z"));
+  if (group.has_attribute("roller_nominal_radius"))
+    c.roller = {group.number("roller_nominal_radius"), group.number("roller_pitch_rate")};
+  if (group.has_attribute("X_TW_origin"))
+    c.bodies = CaseResult::Bodies{{group.vector("X_TW_origin"), group.matrix("X_TW_rotation")},
+                                  {group.vector("X_TR_origin"), group.matrix("X_TR_rotation")}};
+  if (group.has_attribute("wheel_surface")) c.wheel_surface = group.text("wheel_surface");
+  if (group.has_attribute("rail_surface")) c.rail_surface = group.text("rail_surface");
+  for (int number = 1;; ++number) {
+    const std::string name = fmt::format("patch_{}", number);
+    if (!group.has(name)) return c;
+    c.patches.push_back(read_patch(group.open_group(name)));
+  }
+}
+
+std::vector<CaseResult> read_cases(const Hdf5GroupReader& parent) {
+  std::vector<CaseResult> cases;
+  for (const std::string& name : parent.names()) {
+    if (!name.starts_with("case_")) continue;
+    cases.push_back(read_case(parent.open_group(name)));
+    if (name != fmt::format("case_{:04}", cases.back().number))
+      refuse_result(parent, fmt::format("has case {} in {}", cases.back().number, name));
+  }
+  std::sort(cases.begin(), cases.end(), [](const CaseResult& a, const CaseResult& b) { return a.number < b.number; });
+  return cases;
+}
+
+std::vector<SampledSurface> read_surfaces(const Hdf5GroupReader& parent) {
+  std::vector<SampledSurface> out;
+  if (!parent.has(kSurfaces)) return out;
+  const Hdf5GroupReader all = parent.open_group(kSurfaces);
+  for (const std::string& name : all.texts(kSurfaceNames)) out.push_back(read_surface(all.open_group(name), name));
+  return out;
+}
+
+RunResult read_hdf5(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  const Hdf5GroupReader& root = file.root();
+  if (!root.has_attribute("format")) refuse_result(root, "does not say what it holds");
+  if (const std::string format = root.text("format"); format != kResultFormat)
+    refuse_result(root, fmt::format("holds \"{}\" where \"{}\" is read", format, kResultFormat));
+  RunResult run;
+  run.version = root.text("version");
+  run.git = root.text("git");
+  run.threads = root.integer("threads");
+  run.seconds = root.number("seconds");
+  run.input_file = root.text("input");
+  run.input_sha256 = root.text("sha256");
+  const std::vector<std::string> files = root.texts("geometry_files"), hashes = root.texts("geometry_sha256");
+  if (files.size() != hashes.size()) refuse_result(root, "has another number of geometry files than of their hashes");
+  for (std::size_t i = 0; i < files.size(); ++i) run.geometry_sha256.emplace_back(files[i], hashes[i]);
+  run.settings = root.texts("settings");
+  run.complete = root.integer("complete") != 0;
+  run.cases_total = root.integer("cases_total");
+  run.cases = read_cases(root);
+  run.sampled = read_surfaces(root);
+  for (const CaseResult& c : run.cases)
+    for (const std::string* name : {&c.wheel_surface, &c.rail_surface})
+      if (!name->empty() && surface_index(run.sampled, *name) < 0)
+        refuse_result(root, fmt::format("has no surface {}, which case {} names", *name, c.number));
+  return run;
+}
+
+}  // namespace treadmark::io
