@@ -109,7 +109,12 @@ std::pair<std::string, double> length_unit_of(const io::BandMap& map) {
 
 std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what, std::vector<MapView::Mark> marks) {
   if (!io::is_drawable(map)) return {};
-  MapView view{{body == Body::wheel ? "along the circumference" : "along the track", "mm"}, {"along the section", "mm"}, what.label, what.unit, what.diverging};
+  MapView view;
+  view.x = {body == Body::wheel ? "along the circumference" : "along the track", "mm"};
+  view.y = {"along the section", "mm"};
+  view.label = what.label;
+  view.unit = what.unit;
+  view.diverging = what.diverging;
   const std::size_t nx = std::min(map.rows, kMostAlong), ny = std::min(map.columns, kMostAcross);
   view.nx = static_cast<int>(nx);
   view.ny = static_cast<int>(ny);
