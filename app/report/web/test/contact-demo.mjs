@@ -1,10 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 // Writes pages that hold the contact view alone, and with --shots pictures of them; prints how long a step takes to draw.
-// usage: node test/contact-demo.mjs --out DIR [--shots] [--browser FILE]
+// usage: node test/contact-demo.mjs --out DIR [--shots] [--check] [--browser FILE]      (--check: uses the view and checks what it shows)
 import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
+import assert from "node:assert/strict";
 import { parseArgs } from "node:util";
 
 import { build } from "esbuild";
@@ -12,7 +13,7 @@ import { chromium } from "playwright-core";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
-  options: { out: { type: "string", default: "dist" }, shots: { type: "boolean", default: false }, browser: { type: "string", default: "/usr/bin/chromium" } },
+  options: { out: { type: "string", default: "dist" }, shots: { type: "boolean", default: false }, check: { type: "boolean", default: false }, browser: { type: "string", default: "/usr/bin/chromium" } },
 });
 const out = resolve(values.out);
 mkdirSync(out, { recursive: true });
@@ -113,4 +114,92 @@ if (values.shots) {
   await shot("compare-difference", wide, all(step(2), tick("difference")));
   await shot("compare-phone", { ...phone, colorScheme: "dark" }, step(2));
 }
+
+/** Uses the view as a reader does. */
+async function check() {
+  const context = await browser.newContext({ viewport: { width: 1280, height: 1400 }, acceptDownloads: true });
+  const tab = await context.newPage();
+  const failures = [];
+  tab.on("pageerror", (error) => failures.push(error.message));
+  await tab.goto(pathToFileURL(join(out, "contact-run.html")).href);
+  await tab.waitForSelector("#contact .cells", { state: "attached" });
+  const settle = () => tab.evaluate("new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)))");
+  const value = (field) => tab.locator(`[data-readout="${field}"]`).first().getAttribute("data-value");
+  const text = (field) => tab.locator(`[data-readout="${field}"]`).first().textContent();
+  const report = contactReport("run", 26);
+
+  await tab.locator('[data-control="peak"]').click();
+  await settle();
+  const exact = report.sets[0].frames[0].patches[0].numbers.pmax_MPa;
+  assert.ok(Math.abs(Number(await value("pressure")) / exact - 1) < 1e-3, "the peak is the largest pressure");
+  assert.ok(Math.abs(Number(await tab.locator('[data-number="pmax_MPa"]').getAttribute("data-value")) - exact) === 0, "numbers are exact");
+  const picked = await tab.evaluate("store.point");
+  assert.equal(picked.set, 0);
+
+  const picture = tab.locator(".contact-picture");
+  await picture.focus();
+  const x = Number(await value("x"));
+  for (const key of ["ArrowRight", "ArrowRight", "ArrowUp"]) await picture.press(key);
+  await settle();
+  assert.ok(Math.abs(Number(await value("x")) - x - 0.5) < 1e-6, "arrow keys move by elements");
+  assert.deepEqual(await tab.evaluate("store.point"), { ...picked, ix: picked.ix + 2, iy: picked.iy + 1 });
+  await picture.press("PageDown");
+  await settle();
+  assert.equal(await tab.evaluate("store.step"), 1);
+  assert.deepEqual(await tab.evaluate("store.point"), { ...picked, ix: picked.ix + 2, iy: picked.iy + 1 }, "the picked place stays");
+  await picture.press("Home");
+  await picture.press("Escape");
+  await settle();
+  assert.equal(await tab.evaluate("store.point"), null);
+
+  await tab.evaluate("store.setPoint({ set: 0, patch: 0, ix: 30, iy: 25 })");
+  await settle();
+  assert.ok(Math.abs(Number(await value("x")) - (-9.875 + 30 * 0.25)) < 1e-6, "another view picks");
+
+  const box = await tab.locator(".contact-picture svg").boundingBox();
+  await tab.mouse.click(box.x + box.width * 0.35, box.y + box.height * 0.45);
+  await settle();
+  const here = await value("x");
+  assert.equal(await value("x"), here);
+  assert.equal(await text("state"), await value("state"));
+  await tab.mouse.move(5, 5);
+  await settle();
+  assert.equal(await value("x"), here, "what was clicked stays when the pointer leaves");
+
+  await tab.evaluate("store.setStep(3)");
+  await settle();
+  assert.equal(await value("pressure"), null);
+  assert.match(await tab.locator(".contact-picture").textContent(), /no contact/);
+  await tab.evaluate("store.setStep(4)");
+  await settle();
+  assert.match(await tab.locator(".contact-status").textContent(), /not converged.*residual.*left out/);
+
+  for (const [part, names] of [["left", ["SVG", "PNG", "CSV"]], ["sections", ["SVG", "PNG", "CSV"]]])
+    for (const name of names) {
+      const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(`.contact-${part} .downloads button`, { hasText: name }).click()]);
+      const file = join(out, `file-${part}.${name.toLowerCase()}`);
+      await download.saveAs(file);
+      const bytes = readFileSync(file);
+      assert.ok(bytes.length > 1000, `${file} holds something`);
+      if (name === "PNG") assert.equal(bytes.toString("latin1", 1, 4), "PNG");
+      if (name === "SVG") {
+        assert.ok(!bytes.includes("var(--"), "a file has no variables of the page");
+        assert.equal(bytes.includes("data:image/png;base64,"), part === "left");
+      }
+    }
+  assert.equal(readFileSync(join(out, "file-left.csv"), "utf8").trimEnd().split("\n").length, 1 + 80 * 60);
+  assert.deepEqual(failures, []);
+  await context.close();
+
+  const hand = await browser.newContext({ viewport: { width: 390, height: 844 }, hasTouch: true, isMobile: true });
+  const phone = await hand.newPage();
+  await phone.goto(pathToFileURL(join(out, "contact-compare.html")).href);
+  await phone.waitForSelector("#contact .cells", { state: "attached" });
+  assert.ok(await phone.evaluate("document.documentElement.scrollWidth <= innerWidth"), "nothing is wider than a phone");
+  await phone.locator('[data-control="difference"]').check();
+  for (const field of ["state", "gap", "traction_s"]) await phone.locator('[data-control="field"]').selectOption(field);
+  await hand.close();
+  console.log("checks passed");
+}
+if (values.check) await check();
 await browser.close();

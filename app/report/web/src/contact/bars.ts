@@ -36,7 +36,7 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
   svg("rect", { x, y, width, height, fill: `url(#${id})`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" }, parent);
   const length = vertical ? height : width;
   const at = (value: number): number => ((value - range.low) / (range.high - range.low)) * length;
-  const ticks = levels(range, vertical ? Math.max(2, length / 38) : Math.max(2, length / 62));
+  const ticks = levels(range, vertical ? Math.max(2, length / 55) : Math.max(2, length / 62));
   const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
   const numbers = svg("g", { fill: "var(--muted)", "font-size": 11.5 }, parent);
   for (const value of content.lines) {
