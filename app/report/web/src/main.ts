@@ -3,10 +3,15 @@
 import { mountChart } from "./chart/index";
 import { mountContact } from "./contact/index";
 import type { ReportData, View } from "./data";
+import { mountLicences } from "./licences";
 import { mountMap } from "./map";
+import { mountNavigation } from "./navigation";
 import { mountPicture } from "./picture";
 import { mountScene } from "./scene/index";
 import { Store } from "./store";
+import { mountTables } from "./tables";
+import { mountTheme } from "./theme";
+import { mountTimeline } from "./timeline";
 
 function mountView(figure: HTMLElement, view: View, store: Store): void {
   switch (view.type) {
@@ -43,7 +48,16 @@ function start(): void {
   const element = document.getElementById("treadmark-data");
   if (!element?.textContent) return;
   const data = JSON.parse(element.textContent) as ReportData;
-  mountAll(new Store(data));
+  const store = new Store(data);
+  const toolbar = document.getElementById("toolbar");
+  if (toolbar) mountTheme(toolbar, store);
+  const bar = document.getElementById("timeline");
+  if (bar) mountTimeline(bar, store);
+  mountTables(store);
+  mountAll(store);
+  mountNavigation();
+  const footer = document.querySelector<HTMLElement>("body > footer");
+  if (footer) mountLicences(footer);
 }
 
 start();
