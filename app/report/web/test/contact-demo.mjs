@@ -13,12 +13,25 @@ import { chromium } from "playwright-core";
 
 const here = dirname(fileURLToPath(import.meta.url));
 const { values } = parseArgs({
-  options: { out: { type: "string", default: "dist" }, shots: { type: "boolean", default: false }, check: { type: "boolean", default: false }, browser: { type: "string", default: "/usr/bin/chromium" } },
+  options: {
+    out: { type: "string", default: "dist" },
+    shots: { type: "boolean", default: false },
+    check: { type: "boolean", default: false },
+    browser: { type: "string", default: "/usr/bin/chromium" },
+  },
 });
 const out = resolve(values.out);
 mkdirSync(out, { recursive: true });
 const made = join(out, "contact-demo.mjs");
-await build({ absWorkingDir: here, entryPoints: ["contact-demo.ts"], outfile: made, bundle: true, platform: "node", format: "esm", target: "node18" });
+await build({
+  absWorkingDir: here,
+  entryPoints: ["contact-demo.ts"],
+  outfile: made,
+  bundle: true,
+  platform: "node",
+  format: "esm",
+  target: "node18",
+});
 const { contactReport } = await import(pathToFileURL(made).href);
 const starter = `
   import { mountContact } from "../src/contact/index";
@@ -28,7 +41,15 @@ const starter = `
   window.store = store;
   if (matchMedia("(prefers-color-scheme: dark)").matches) store.setTheme("dark");
   for (const view of data.views) mountContact(document.getElementById(view.id), view, store);`;
-const bundle = await build({ stdin: { contents: starter, resolveDir: here, loader: "ts" }, bundle: true, minify: true, format: "iife", charset: "ascii", target: "es2020", write: false });
+const bundle = await build({
+  stdin: { contents: starter, resolveDir: here, loader: "ts" },
+  bundle: true,
+  minify: true,
+  format: "iife",
+  charset: "ascii",
+  target: "es2020",
+  write: false,
+});
 const script = bundle.outputFiles[0].text;
 const style = ["style.css", "contact.css"].map((name) => readFileSync(join(here, "..", "..", name), "utf8")).join("\n");
 
@@ -59,7 +80,10 @@ const timeSteps = `new Promise((done) => {
   next();
 })`;
 
-const browser = await chromium.launch({ executablePath: values.browser, args: ["--no-sandbox", "--disable-gpu", "--disable-frame-rate-limit", "--disable-gpu-vsync"] });
+const browser = await chromium.launch({
+  executablePath: values.browser,
+  args: ["--no-sandbox", "--disable-gpu", "--disable-frame-rate-limit", "--disable-gpu-vsync"],
+});
 for (const name of Object.keys(pages)) {
   const tab = await browser.newPage({ viewport: { width: 1280, height: 1000 } });
   const failures = [];
@@ -71,13 +95,18 @@ for (const name of Object.keys(pages)) {
   const cdp = await tab.context().newCDPSession(tab);
   await cdp.send("Performance.setTimeDomain", { timeDomain: "threadTicks" });
   await cdp.send("Performance.enable");
-  const metrics = async () => Object.fromEntries((await cdp.send("Performance.getMetrics")).metrics.map(({ name, value }) => [name, value]));
+  const metrics = async () =>
+    Object.fromEntries((await cdp.send("Performance.getMetrics")).metrics.map(({ name, value }) => [name, value]));
   const cold = await tab.evaluate(timeSteps);
   const before = await metrics();
   const warm = await tab.evaluate(timeSteps);
   const after = await metrics();
-  const parts = ["ScriptDuration", "RecalcStyleDuration", "LayoutDuration", "TaskDuration"].map((part) => `${part.replace("Duration", "").toLowerCase()} ${((1000 * (after[part] - before[part])) / 200).toFixed(1)}`);
-  console.log(`${name}: opened in ${opened} ms, step ${cold.toFixed(1)} ms first, ${warm.toFixed(1)} ms again (${parts.join(", ")})${failures.map((text) => `; FAILED: ${text}`).join("")}`);
+  const parts = ["ScriptDuration", "RecalcStyleDuration", "LayoutDuration", "TaskDuration"].map(
+    (part) => `${part.replace("Duration", "").toLowerCase()} ${((1000 * (after[part] - before[part])) / 200).toFixed(1)}`,
+  );
+  console.log(
+    `${name}: opened in ${opened} ms, step ${cold.toFixed(1)} ms first, ${warm.toFixed(1)} ms again (${parts.join(", ")})${failures.map((text) => `; FAILED: ${text}`).join("")}`,
+  );
   await tab.close();
 }
 if (values.shots) {
@@ -96,13 +125,19 @@ if (values.shots) {
   const step = (k) => (tab) => tab.evaluate(`store.setStep(${k})`);
   const set = (control, value) => (tab) => tab.locator(`[data-control="${control}"]`).selectOption(value);
   const tick = (control) => (tab) => tab.locator(`[data-control="${control}"]`).check();
-  const all = (...tasks) => async (tab) => {
-    for (const task of tasks) await task(tab);
-  };
+  const all =
+    (...tasks) =>
+    async (tab) => {
+      for (const task of tasks) await task(tab);
+    };
   const wide = { viewport: { width: 1280, height: 1000 } };
   const phone = { viewport: { width: 390, height: 844 }, deviceScaleFactor: 2, isMobile: true, hasTouch: true };
   await shot("run-first", wide);
-  await shot("run-flat", wide, all(step(13), tick("arrows"), (tab) => tab.locator('[data-control="peak"]').click()));
+  await shot(
+    "run-flat",
+    wide,
+    all(step(13), tick("arrows"), (tab) => tab.locator('[data-control="peak"]').click()),
+  );
   await shot("run-state", wide, all(step(9), set("field", "state"), tick("arrows")));
   await shot("run-traction", wide, all(step(16), set("field", "traction_x"), tick("slip")));
   await shot("run-all", wide, all(step(24), set("patch", "2")));
@@ -174,9 +209,15 @@ async function check() {
   await settle();
   assert.match(await tab.locator(".contact-status").textContent(), /not converged.*residual.*left out/);
 
-  for (const [part, names] of [["left", ["SVG", "PNG", "CSV"]], ["sections", ["SVG", "PNG", "CSV"]]])
+  for (const [part, names] of [
+    ["left", ["SVG", "PNG", "CSV"]],
+    ["sections", ["SVG", "PNG", "CSV"]],
+  ])
     for (const name of names) {
-      const [download] = await Promise.all([tab.waitForEvent("download"), tab.locator(`.contact-${part} .downloads button`, { hasText: name }).click()]);
+      const [download] = await Promise.all([
+        tab.waitForEvent("download"),
+        tab.locator(`.contact-${part} .downloads button`, { hasText: name }).click(),
+      ]);
       const file = join(out, `file-${part}.${name.toLowerCase()}`);
       await download.saveAs(file);
       const bytes = readFileSync(file);
