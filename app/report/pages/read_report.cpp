@@ -38,7 +38,10 @@ Page run_in(const fs::path& folder) {
 /// simulation.h5: of a simulation that ended, be it by Ctrl-C; unfinished.h5: what a killed one left at its last checkpoint.
 Page simulation_in(const fs::path& store) {
   auto result = std::make_shared<io::SimulationResult>(io::read_simulation(store));
-  io::read_snapshots(store, *result);
+  io::SnapshotSeries snapshots = io::read_snapshots(store);
+  result->snapshots = std::move(snapshots.run);
+  result->snapshot_times = std::move(snapshots.times);
+  result->snapshot_scenes = std::move(snapshots.scenes);
   return simulation_page(result, {});
 }
 

@@ -88,7 +88,17 @@ export function contactPatch(plan: Plan, packer: Packer): Patch {
         tx = ts = 0;
         heat = 60 + (heat - 60) * 0.97;
       }
-      const row: Record<string, number> = { pressure: p, traction: Math.hypot(tx, ts), traction_x: tx, traction_s: ts, slip, friction: mu, gap: 1e3 * gap, temperature_1: heat, state };
+      const row: Record<string, number> = {
+        pressure: p,
+        traction: Math.hypot(tx, ts),
+        traction_x: tx,
+        traction_s: ts,
+        slip,
+        friction: mu,
+        gap: 1e3 * gap,
+        temperature_1: heat,
+        state,
+      };
       for (const name of names) columns[name]![i] = row[name]!;
       numbers.fn_N += p * dx * ds;
       numbers.fx_N += tx * dx * ds;
@@ -98,7 +108,8 @@ export function contactPatch(plan: Plan, packer: Packer): Patch {
     }
   }
   const values: Patch["values"] = {};
-  for (const { name, kind } of contactFields) values[name] = kind === "state" ? packer.bytes(columns[name]!) : packer.codes(columns[name]!, "u16");
+  for (const { name, kind } of contactFields)
+    values[name] = kind === "state" ? packer.bytes(columns[name]!) : packer.codes(columns[name]!, "u16");
   const c = Math.cos(plan.tilt);
   const s = Math.sin(plan.tilt);
   return {
@@ -142,10 +153,33 @@ export function flatFrame(k: number, count: number, blobs: string[], change: Par
   const packer = new Packer(blobs);
   const at = 18 - (36 * k) / Math.max(1, count - 1);
   const away = k === 0;
-  const plan: Plan = { ...basePlan, flat: away ? null : { at, half: 9, depth: 0.09 }, overlap: 0.075 + 0.03 * Math.exp(-((at / 6) ** 2)), ...change };
+  const plan: Plan = {
+    ...basePlan,
+    flat: away ? null : { at, half: 9, depth: 0.09 },
+    overlap: 0.075 + 0.03 * Math.exp(-((at / 6) ** 2)),
+    ...change,
+  };
   const patches = [contactPatch(plan, packer)];
   if (k > (2 * count) / 3)
-    patches.push(contactPatch({ ...plan, name: "patch 2", rx: 250, rs: 40, overlap: 0.02 + 0.03 * (k / count), y: -31, tilt: -1.05, flat: null, nx: 60, ny: 50, ds: 0.12, creep: [-0.004, 0.002, 0.001] }, packer));
+    patches.push(
+      contactPatch(
+        {
+          ...plan,
+          name: "patch 2",
+          rx: 250,
+          rs: 40,
+          overlap: 0.02 + 0.03 * (k / count),
+          y: -31,
+          tilt: -1.05,
+          flat: null,
+          nx: 60,
+          ny: 50,
+          ds: 0.12,
+          creep: [-0.004, 0.002, 0.001],
+        },
+        packer,
+      ),
+    );
   packer.close();
   const angle = ((1.2 * at) / 460) * (180 / Math.PI);
   const name = away ? "no flat" : `pitch ${angle.toFixed(2)}°`;
@@ -166,7 +200,12 @@ export function contactReport(kind: "run" | "compare", count: number): ReportDat
   } else if (count > 5) {
     const run = sets[0]!.frames;
     run[3] = { ...run[3]!, status: "no_contact", patches: [], message: "" };
-    run[4] = { ...run[4]!, status: "not_converged", message: "the residual stayed at 3e-4 after 200 iterations", trimmed: "slip and friction left out for size" };
+    run[4] = {
+      ...run[4]!,
+      status: "not_converged",
+      message: "the residual stayed at 3e-4 after 200 iterations",
+      trimmed: "slip and friction left out for size",
+    };
   }
   return {
     format: "treadmark report 1",

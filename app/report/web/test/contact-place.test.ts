@@ -60,7 +60,10 @@ function simple(blobs: string[], plan: Simple): Patch {
 }
 
 function frame(patches: Patch[], wheelX: number | null = null): Frame {
-  const wheel = wheelX === null ? null : { surface: 0, origin_mm: [wheelX, 0, -460] as [number, number, number], rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
+  const wheel =
+    wheelX === null
+      ? null
+      : { surface: 0, origin_mm: [wheelX, 0, -460] as [number, number, number], rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
   return { name: "case", status: "ok", message: "", patches, wheel, rail: null };
 }
 
@@ -88,7 +91,14 @@ test("patches of one picture lie as far apart as in track", () => {
   const blobs: string[] = [];
   const a = 0.6;
   const tread = simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 90, origin: [2, 10, 1], reference: [0.5, 0] });
-  const flange = simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 10, origin: [4, -20, 41], rotation: [1, 0, 0, 0, Math.cos(a), -Math.sin(a), 0, Math.sin(a), Math.cos(a)] });
+  const flange = simple(blobs, {
+    nx: 5,
+    ny: 5,
+    pressure: bump,
+    fn: 10,
+    origin: [4, -20, 41],
+    rotation: [1, 0, 0, 0, Math.cos(a), -Math.sin(a), 0, Math.sin(a), Math.cos(a)],
+  });
   const [, other] = itemsOf(frame([tread, flange]), { kind: "all" });
   near(other!.ox, 4 - 2.5);
   near(other!.os, -Math.hypot(30, 40));
@@ -96,7 +106,10 @@ test("patches of one picture lie as far apart as in track", () => {
 
 test("the same contact through another representation is found by its place in track", () => {
   const blobs: string[] = [];
-  const truth = itemsOf(frame([simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 5, origin: [0, 10, 0], reference: [1, 0] })]), { kind: "load", rank: 0 });
+  const truth = itemsOf(frame([simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 5, origin: [0, 10, 0], reference: [1, 0] })]), {
+    kind: "load",
+    rank: 0,
+  });
   const far = simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 99, origin: [0, -30, 0] });
   const same = simple(blobs, { nx: 5, ny: 5, pressure: bump, fn: 1, origin: [0.25, 10.5, 0], reference: [1, 0] });
   const [found, ...others] = matchedItems(truth, frame([far, same]), { kind: "load", rank: 0 });
@@ -174,7 +187,14 @@ test("values outside contact are shown of those fields alone that mean something
 
 test("the peak is the value that is largest in size, and the element of a place the nearest", () => {
   const blobs: string[] = [];
-  const patch = simple(blobs, { nx: 21, ny: 15, dx: 0.5, ds: 0.4, pressure: (x, s) => 30 - (x - 2) ** 2 - (s + 1.2) ** 2, reference: [1, 0.4] });
+  const patch = simple(blobs, {
+    nx: 21,
+    ny: 15,
+    dx: 0.5,
+    ds: 0.4,
+    pressure: (x, s) => 30 - (x - 2) ** 2 - (s + 1.2) ** 2,
+    reference: [1, 0.4],
+  });
   const items = itemsOf(frame([patch]), { kind: "load", rank: 0 });
   const panel = { k: 0, set: 0, name: "run", frame: frame([patch]), items, other: null };
   const peak = peakOf(panel, (item, i) => -shownValue(item.patch, "pressure", i, blobs), blobs)!;
@@ -192,7 +212,11 @@ test("sections run through the element, with zero pressure outside contact", () 
   const section = sectionOf(item, "x", 10, 4, "pressure", blobs)!;
   assert.equal(section.at[0], -12);
   section.values.forEach((v, k) => near(v, Math.max(0, 50 - (k - 10) ** 2), 1e-4));
-  const path = curvePath({ at: [0, 1, 2, 3, 4, 5], values: [0, 0, 3, 4, NaN, 2] }, (x) => x, (v) => v);
+  const path = curvePath(
+    { at: [0, 1, 2, 3, 4, 5], values: [0, 0, 3, 4, NaN, 2] },
+    (x) => x,
+    (v) => v,
+  );
   assert.equal(path, "M1.0 0.0L2.0 3.0L3.0 4.0M5.0 2.0");
 });
 
@@ -200,12 +224,23 @@ test("CSV: a line an element with every field, places as in the picture", () => 
   const blobs: string[] = [];
   const patch = simple(blobs, { nx: 3, ny: 2, pressure: () => 7, reference: [0.5, 0] });
   const item = itemsOf(frame([patch]), { kind: "load", rank: 0 })[0]!;
-  const lines = csvOf([{ name: "patch 1", item }], contactFields, blobs).trimEnd().split("\n");
+  const lines = csvOf([{ name: "patch 1", item }], contactFields, blobs)
+    .trimEnd()
+    .split("\n");
   assert.equal(lines[0], "x_mm,s_mm,pressure_MPa,traction_MPa,traction_x_MPa,traction_s_MPa,gap_um,state");
   assert.equal(lines.length, 7);
   assert.deepEqual(lines[1]!.split(",").slice(0, 3), ["-1.5", "-0.5", "7"]);
   assert.deepEqual(lines[6]!.split(",").slice(0, 3), ["0.5", "0.5", "7"]);
-  const two = csvOf([{ name: 'a, "b"', item }, { name: "c", item }], contactFields, blobs).trimEnd().split("\n");
+  const two = csvOf(
+    [
+      { name: 'a, "b"', item },
+      { name: "c", item },
+    ],
+    contactFields,
+    blobs,
+  )
+    .trimEnd()
+    .split("\n");
   assert.equal(two.length, 13);
   assert.ok(two[1]!.startsWith('"a, ""b""",'));
 });

@@ -71,11 +71,17 @@ test("outlines have the length and the area of the elements they enclose", () =>
     const [nx, ny] = [5 + (seed % 7), 3 + (seed % 5)];
     const state = randomStates(nx, ny, seed);
     const contact = contactOutline(state, nx, ny);
-    assert.equal(length(contact), countEdges(state, nx, ny, (a, b) => a > 0 !== b > 0));
+    assert.equal(
+      length(contact),
+      countEdges(state, nx, ny, (a, b) => a > 0 !== b > 0),
+    );
     assert.equal(area(contact), state.filter((v) => v > 0).length);
     const slip = slipOutline(state, nx, ny);
     assert.equal(area(slip), state.filter((v) => v >= 2).length);
-    assert.equal(length(division(state, nx, ny)), countEdges(state, nx, ny, (a, b) => a > 0 && b > 0 && a !== b));
+    assert.equal(
+      length(division(state, nx, ny)),
+      countEdges(state, nx, ny, (a, b) => a > 0 && b > 0 && a !== b),
+    );
   }
 });
 
@@ -151,7 +157,10 @@ test("arrows: every n-th element of contact, from the same elements whatever the
   }
   for (let i = 0; i < nx * ny; ++i) state[i] = i % nx < 10 ? 0 : 2;
   const half = sampleArrows(tx, ts, state, nx, ny, 4, 3);
-  assert.deepEqual(half, all.filter(({ ix }) => ix >= 10));
+  assert.deepEqual(
+    half,
+    all.filter(({ ix }) => ix >= 10),
+  );
   assert.equal(strideOf(2.1, 19), 9);
   assert.equal(strideOf(40, 19), 1);
 });
@@ -159,7 +168,10 @@ test("arrows: every n-th element of contact, from the same elements whatever the
 test("an arrow lies about its element and points along the traction, s upwards", () => {
   const path = arrowPath([{ ix: 0, iy: 0, x: 0, s: 10 }], () => [100, 50], 2);
   assert.ok(path.startsWith("M100.0 60.0L100.0 40.0"), path);
-  assert.equal(arrowPath([{ ix: 0, iy: 0, x: 0.1, s: 0 }], () => [0, 0], 2), "");
+  assert.equal(
+    arrowPath([{ ix: 0, iy: 0, x: 0.1, s: 0 }], () => [0, 0], 2),
+    "",
+  );
 });
 
 test("ranges of colours begin at zero or are symmetric, and are round", () => {
@@ -175,7 +187,10 @@ test("ranges of colours begin at zero or are symmetric, and are round", () => {
 
 test("extent leaves out what is not a number; differences keep nearly all", () => {
   assert.deepEqual(extent([NaN, 4, -2, Infinity]), { low: -2, high: 4 });
-  assert.deepEqual(extent([1, 9, 5], (i) => i !== 1), { low: 1, high: 5 });
+  assert.deepEqual(
+    extent([1, 9, 5], (i) => i !== 1),
+    { low: 1, high: 5 },
+  );
   const values = Float32Array.from({ length: 1000 }, (_, i) => (i < 5 ? -900 : i / 1000));
   const { low, high } = mostOf(values);
   assert.equal(low, -high);
@@ -201,7 +216,8 @@ test("panels have one scale, fit the width and do not overlap", () => {
         assert.ok(Math.abs(p.width / 18 - layout.scale) < 1e-9 && Math.abs(p.height / 14 - layout.scale) < 1e-9);
         assert.ok(p.x + p.width <= layout.width + 1e-9 && p.y + p.height <= layout.height);
         assert.ok(p.height <= 300 + 1e-9);
-        for (const q of layout.panels) assert.ok(p === q || p.x + p.width < q.x || q.x + q.width < p.x || p.y + p.height < q.y || q.y + q.height < p.y);
+        for (const q of layout.panels)
+          assert.ok(p === q || p.x + p.width < q.x || q.x + q.width < p.x || p.y + p.height < q.y || q.y + q.height < p.y);
       }
       for (const bar of layout.bars) assert.ok(bar.x + bar.width <= layout.width && bar.y + bar.height <= layout.height);
     }

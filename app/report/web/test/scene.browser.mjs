@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+/* global document, window, performance, requestAnimationFrame */
 // The view in space in a browser that draws with the processor: pictures of its views, pictures a second while stepping, picking.
 // usage: node test/scene.browser.mjs [--out DIR] [--browser FILE] [--only rate,light,dark,phone,phone-dark]
-import { mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";
 import { dirname, join, resolve } from "node:path";
 import { fileURLToPath, pathToFileURL } from "node:url";
 import { parseArgs } from "node:util";
@@ -100,6 +101,25 @@ async function pictures(theme, name, width, height, scale) {
   await tab.context().close();
 }
 
+/** Processor time of all processes of the browser so far [ms]; Linux counts it in hundredths of a second. */
+function processorTime(root) {
+  const all = readdirSync("/proc").filter((name) => /^\d+$/.test(name)).map((id) => {
+    try {
+      const text = readFileSync(`/proc/${id}/stat`, "utf8");
+      const words = text.slice(text.lastIndexOf(")") + 2).split(" ");
+      return { id, parent: words[1], time: 10 * (Number(words[11]) + Number(words[12])) };
+    } catch {
+      return null;
+    }
+  }).filter((process) => process);
+  const family = new Set([String(root)]);
+  for (let size = 0; size < family.size; ) {
+    size = family.size;
+    for (const { id, parent } of all) if (family.has(parent)) family.add(id);
+  }
+  return all.filter(({ id }) => family.has(id)).reduce((sum, { time }) => sum + time, 0);
+}
+
 async function rate(options) {
   const tab = await open("light", 990, 900);
   const box = await tab.locator(".scene-canvas").boundingBox();
@@ -107,6 +127,7 @@ async function rate(options) {
     await tab.click(`[data-view="${view}"]`);
     if (style) await tab.locator("[name=wheel]").selectOption(style);
     await settle(tab);
+    const [countBefore, timeBefore] = [Number(await tab.getAttribute("#scene", "data-pictures")), processorTime(process.pid)];
     const measured = await tab.evaluate(
       () =>
         new Promise((resolve) => {
@@ -125,8 +146,9 @@ async function rate(options) {
           requestAnimationFrame(next);
         }),
     );
+    const each = (processorTime(process.pid) - timeBefore) / (Number(await tab.getAttribute("#scene", "data-pictures")) - countBefore);
     const drawn = await tab.evaluate(() => document.querySelector(".scene-canvas").width);
-    check(measured >= 30, `${box.width.toFixed(0)} x ${box.height.toFixed(0)}, ${view} ${style ?? ""}: ${measured.toFixed(1)} pictures a second while stepping, drawn ${drawn} wide`);
+    check(measured >= 30, `${box.width.toFixed(0)} x ${box.height.toFixed(0)}, ${view} ${style ?? ""}: ${measured.toFixed(1)} pictures a second while stepping, ${each.toFixed(0)} ms of processor time each, drawn ${drawn} wide`);
   }
   await tab.context().close();
 }

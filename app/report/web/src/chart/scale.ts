@@ -109,7 +109,8 @@ export function logTicks(domain: Domain, count: number): Tick[] {
 
 export function makeScale(domain: Domain, range: Domain, log: boolean): Scale {
   const inner = (log ? scaleLog() : scaleLinear()).domain(domain).range(range);
-  const scale = (value: number): number => (log && value <= 0 ? NaN : inner(value));
+  // The library answers undefined where there is no number.
+  const scale = (value: number): number => (Number.isNaN(value) || (log && value <= 0) ? NaN : inner(value));
   return Object.assign(scale, {
     log,
     domain,

@@ -12,7 +12,15 @@ export interface Arrow {
  * Every n-th element of contact in each direction, with its traction. The elements hit the middle of the grid's blocks, whatever
  * the contact is, so that arrows stay where they are from step to step.
  */
-export function sampleArrows(tx: ArrayLike<number>, ts: ArrayLike<number>, state: ArrayLike<number>, nx: number, ny: number, strideX: number, strideY: number): Arrow[] {
+export function sampleArrows(
+  tx: ArrayLike<number>,
+  ts: ArrayLike<number>,
+  state: ArrayLike<number>,
+  nx: number,
+  ny: number,
+  strideX: number,
+  strideY: number,
+): Arrow[] {
   const out: Arrow[] = [];
   for (let iy = Math.floor((strideY - 1) / 2); iy < ny; iy += strideY)
     for (let ix = Math.floor((strideX - 1) / 2); ix < nx; ix += strideX) {

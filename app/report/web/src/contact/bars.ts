@@ -36,18 +36,35 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
   svg("rect", { x, y, width, height, fill: `url(#${id})`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" }, parent);
   const length = vertical ? height : width;
   const at = (value: number): number => ((value - range.low) / (range.high - range.low)) * length;
-  const ticks = levels(range, vertical ? Math.max(2, length / 38) : Math.max(2, length / 62));
+  const ticks = levels(range, vertical ? Math.max(2, length / 55) : Math.max(2, length / 62));
   const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
   const numbers = svg("g", { fill: "var(--muted)", "font-size": 11.5 }, parent);
   for (const value of content.lines) {
     const [px, py] = vertical ? [x, y + height - at(value)] : [x + at(value), y];
     const light = luminance(colour(at(value) / length)) < 0.4;
-    svg("path", { d: `M${px.toFixed(1)} ${py.toFixed(1)}${vertical ? `h${width}` : `v${height}`}`, stroke: light ? "#ffffff" : "#000000", "stroke-opacity": 0.6, "stroke-width": 0.9 }, parent);
+    svg(
+      "path",
+      {
+        d: `M${px.toFixed(1)} ${py.toFixed(1)}${vertical ? `h${width}` : `v${height}`}`,
+        stroke: light ? "#ffffff" : "#000000",
+        "stroke-opacity": 0.6,
+        "stroke-width": 0.9,
+      },
+      parent,
+    );
   }
   for (const value of ticks) {
     const [px, py] = vertical ? [x + width, y + height - at(value)] : [x + at(value), y + height];
-    svg("path", { d: `M${px.toFixed(1)} ${py.toFixed(1)}${vertical ? "h4" : "v4"}`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" }, parent);
-    const text = svg("text", vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: px.toFixed(1), y: py + 16, "text-anchor": "middle" }, numbers);
+    svg(
+      "path",
+      { d: `M${px.toFixed(1)} ${py.toFixed(1)}${vertical ? "h4" : "v4"}`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" },
+      parent,
+    );
+    const text = svg(
+      "text",
+      vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: px.toFixed(1), y: py + 16, "text-anchor": "middle" },
+      numbers,
+    );
     text.textContent = tick(value, step);
   }
   const wide = Math.max(...ticks.map((value) => textWidth(tick(value, step), "11.5px system-ui, sans-serif")));

@@ -49,7 +49,9 @@ export function cellsOf(scene: Scene, panel: PanelModel): Cells[] {
 /** Value of an element as the panel shows it, for the search of the peak. */
 export function panelValue(scene: Scene, panel: PanelModel, item: Item, element: number): number {
   const { model, style } = scene;
-  const values = isDifference(scene, panel) ? model.difference(item, scene.truth, style.field.name) : lineValues(item.patch, style.field.name, model.data.blobs);
+  const values = isDifference(scene, panel)
+    ? model.difference(item, scene.truth, style.field.name)
+    : lineValues(item.patch, style.field.name, model.data.blobs);
   return values?.[element] ?? NaN;
 }
 
@@ -78,9 +80,13 @@ function isolinePaths(scene: Scene, panel: PanelModel, to: ToPixels): { light: s
   if (levels.length === 0) return out;
   for (const item of panel.items) {
     const { nx, ny } = item.patch;
-    const values = difference ? model.difference(item, scene.truth, style.field.name) : lineValues(item.patch, style.field.name, model.data.blobs);
+    const values = difference
+      ? model.difference(item, scene.truth, style.field.name)
+      : lineValues(item.patch, style.field.name, model.data.blobs);
     if (!values) continue;
-    levelLines(values, nx, ny, levels).forEach((lines, k) => (out[isLight(levels[k]!, colouring, kind) ? "light" : "dark"] += pathOf(lines, item, to)));
+    levelLines(values, nx, ny, levels).forEach(
+      (lines, k) => (out[isLight(levels[k]!, colouring, kind) ? "light" : "dark"] += pathOf(lines, item, to)),
+    );
   }
   return out;
 }
@@ -107,7 +113,14 @@ function markOf({ item, ix, iy }: Found, to: ToPixels): string {
 }
 
 /** Everything that lies over the picture of a panel. */
-export function contentOf(scene: Scene, panel: PanelModel, place: number, cells: readonly Cells[], cut: { x: number; s: number }, picked: Found | null): PanelContent {
+export function contentOf(
+  scene: Scene,
+  panel: PanelModel,
+  place: number,
+  cells: readonly Cells[],
+  cut: { x: number; s: number },
+  picked: Found | null,
+): PanelContent {
   const { options, model, window, layout } = scene;
   const { blobs } = model.data;
   const rect = layout.panels[place]!;

@@ -87,7 +87,12 @@ export function button(text: string, control: string, hint: string, pressed: () 
 }
 
 /** The controls above the pictures. `changed` is called after every change of `options`; `limits` gives the limits of the colours now. */
-export function makeControls(options: Options, offer: Offer, changed: () => void, limits: () => { low: number; high: number }): HTMLElement {
+export function makeControls(
+  options: Options,
+  offer: Offer,
+  changed: () => void,
+  limits: () => { low: number; high: number },
+): HTMLElement {
   const root = document.createElement("div");
   root.className = "contact-controls";
   const low = limit("Lower limit of the colours", 0, (v) => ((options.own.low = v), changed()));
@@ -96,21 +101,51 @@ export function makeControls(options: Options, offer: Offer, changed: () => void
   own.className = "contact-limits";
   own.append(low, "to", high);
   own.hidden = true;
-  const scales: [string, string][] = offer.steps ? [["all", "same in all steps"], ["step", "this step"], ["own", "own limits"]] : [["all", "all values"], ["own", "own limits"]];
-  const windows: [string, string][] = offer.steps ? [["all", "same in all steps"], ["step", "this step"], ["grid", "whole grid"]] : [["all", "contact"], ["grid", "whole grid"]];
+  const scales: [string, string][] = offer.steps
+    ? [
+        ["all", "same in all steps"],
+        ["step", "this step"],
+        ["own", "own limits"],
+      ]
+    : [
+        ["all", "all values"],
+        ["own", "own limits"],
+      ];
+  const windows: [string, string][] = offer.steps
+    ? [
+        ["all", "same in all steps"],
+        ["step", "this step"],
+        ["grid", "whole grid"],
+      ]
+    : [
+        ["all", "contact"],
+        ["grid", "whole grid"],
+      ];
   const first: HTMLElement[] = [
-    select("Field", offer.fields.map(({ name, label }) => [name, label]), options.field, (v) => {
-      options.field = v;
-      changed();
-      const now = limits();
-      options.own = { ...now };
-      low.value = String(now.low);
-      high.value = String(now.high);
-    }),
+    select(
+      "Field",
+      offer.fields.map(({ name, label }) => [name, label]),
+      options.field,
+      (v) => {
+        options.field = v;
+        changed();
+        const now = limits();
+        options.own = { ...now };
+        low.value = String(now.low);
+        high.value = String(now.high);
+      },
+    ),
   ];
   if (offer.choices.length > 0) {
     const all = offer.choices;
-    first.push(select("Patch", all.map(({ label }, k) => [String(k), label]), "0", (v) => ((options.choice = all[Number(v)]!.choice), changed())));
+    first.push(
+      select(
+        "Patch",
+        all.map(({ label }, k) => [String(k), label]),
+        "0",
+        (v) => ((options.choice = all[Number(v)]!.choice), changed()),
+      ),
+    );
   }
   first.push(
     select("Colours", scales, options.scale, (v) => {
@@ -130,7 +165,8 @@ export function makeControls(options: Options, offer: Offer, changed: () => void
   second.push(check("Adhesion and slip", "division", options.division, (v) => ((options.division = v), changed())));
   if (offer.slip) second.push(check("Slip hatched", "slip", options.slip, (v) => ((options.slip = v), changed())));
   if (offer.tractions) second.push(check("Tractions", "arrows", options.arrows, (v) => ((options.arrows = v), changed())));
-  if (offer.other !== null) second.push(check(`Outline of ${offer.other}`, "other", options.other, (v) => ((options.other = v), changed())));
+  if (offer.other !== null)
+    second.push(check(`Outline of ${offer.other}`, "other", options.other, (v) => ((options.other = v), changed())));
   const choices = row(...first);
   choices.classList.add("contact-choices");
   root.append(choices, row(...second));
@@ -152,6 +188,9 @@ function setsRow(options: Options, offer: Offer, changed: () => void): HTMLEleme
   legend.textContent = "Shown";
   group.append(legend, ...boxes);
   const wrap = document.createElement("div");
-  wrap.append(group, row(check(`Difference to ${offer.sets[0]}`, "difference", options.difference, (v) => ((options.difference = v), changed()))));
+  wrap.append(
+    group,
+    row(check(`Difference to ${offer.sets[0]}`, "difference", options.difference, (v) => ((options.difference = v), changed()))),
+  );
   return wrap;
 }

@@ -12,7 +12,11 @@ export function plain(value: number): string {
 /** A head of a column: the name with its unit, in ASCII. */
 function head(field: FieldInfo): string {
   const unit = field.unit === "1" || field.unit === "" ? "" : `_${field.unit}`;
-  return `${field.name}${unit}`.replace(/[µμ]/g, "u").replace(/°/g, "").replace(/²/g, "2").replace(/[^\w./-]+/g, "_");
+  return `${field.name}${unit}`
+    .replace(/[µμ]/g, "u")
+    .replace(/°/g, "")
+    .replace(/²/g, "2")
+    .replace(/[^\w./-]+/g, "_");
 }
 
 /**

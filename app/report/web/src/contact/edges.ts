@@ -14,7 +14,10 @@ class Edges {
   private readonly arriving: Int32Array;
   count = 0;
 
-  constructor(private readonly stride: number, corners: number) {
+  constructor(
+    private readonly stride: number,
+    corners: number,
+  ) {
     this.arriving = new Int32Array(corners);
   }
 
@@ -29,7 +32,7 @@ class Edges {
   /** Takes edges from a corner on until there is none. */
   private walk(start: number): Line {
     const line = [start];
-    for (let at = start; ; ) {
+    for (let at = start; ;) {
       const next = this.from[at]?.pop();
       if (next === undefined) break;
       this.arriving[next] = this.arriving[next]! - 1;
@@ -93,7 +96,12 @@ export function edgeLines(kinds: ArrayLike<number>, nx: number, ny: number, sepa
 
 /** Outline of contact: between elements with a state and those without. */
 export function contactOutline(state: Decoded, nx: number, ny: number): Line[] {
-  return edgeLines(Uint8Array.from(state, (v) => (v > 0 ? 1 : 0)), nx, ny, () => true);
+  return edgeLines(
+    Uint8Array.from(state, (v) => (v > 0 ? 1 : 0)),
+    nx,
+    ny,
+    () => true,
+  );
 }
 
 /** Lines between adhesion, slip and plastic elements. */
@@ -103,5 +111,10 @@ export function division(state: Decoded, nx: number, ny: number): Line[] {
 
 /** Outline of the elements that slide. */
 export function slipOutline(state: Decoded, nx: number, ny: number): Line[] {
-  return edgeLines(Uint8Array.from(state, (v) => (v >= 2 ? 1 : 0)), nx, ny, () => true);
+  return edgeLines(
+    Uint8Array.from(state, (v) => (v >= 2 ? 1 : 0)),
+    nx,
+    ny,
+    () => true,
+  );
 }

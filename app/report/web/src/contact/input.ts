@@ -38,7 +38,8 @@ export function listen(target: HTMLElement, drawing: SVGSVGElement, actions: Act
   target.addEventListener("pointerup", (event) => {
     if (start?.id !== event.pointerId) return;
     const dx = event.clientX - start.x;
-    const quick = event.timeStamp - start.at < FLICK_MS && Math.abs(dx) > FLICK_PIXELS && Math.abs(event.clientY - start.y) < 0.5 * Math.abs(dx);
+    const quick =
+      event.timeStamp - start.at < FLICK_MS && Math.abs(dx) > FLICK_PIXELS && Math.abs(event.clientY - start.y) < 0.5 * Math.abs(dx);
     start = null;
     if (!quick || event.pointerType === "mouse") return;
     actions.recall();

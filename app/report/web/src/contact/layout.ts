@@ -62,13 +62,18 @@ interface Tiling {
   scale: number;
 }
 
-/** The number of columns with the largest panels; of equal ones the widest. */
+/** Greatest height of all rows together, in heights of a panel: panels to compare should be in sight together. */
+const TOTAL_HEIGHT = 2.2;
+
+/** The number of columns with the largest panels that are not too high together; of equal ones the widest. */
 function tile(count: number, width: number, window: Box, panelHeight: number): Tiling {
-  let best: Tiling = { columns: 1, rows: count, scale: 0 };
+  let best: Tiling = { columns: count, rows: 1, scale: 0 };
   for (let columns = 1; columns <= count; ++columns) {
     const panelWidth = (width - GAP_X * (columns - 1)) / columns;
     const scale = Math.min(panelWidth / (window.x1 - window.x0), panelHeight / (window.y1 - window.y0));
-    if (scale >= best.scale) best = { columns, rows: Math.ceil(count / columns), scale };
+    const rows = Math.ceil(count / columns);
+    const fits = rows * scale * (window.y1 - window.y0) <= TOTAL_HEIGHT * panelHeight || columns === count;
+    if (scale >= best.scale && fits) best = { columns, rows, scale };
   }
   return best;
 }

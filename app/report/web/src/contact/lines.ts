@@ -58,7 +58,8 @@ export function pathOf(lines: readonly Line[], item: Item, to: ToPixels): string
   const ay = to.y - (p.s0_mm + item.os) * to.scale - 0.5 * by;
   let path = "";
   for (const { points, closed } of lines) {
-    for (let i = 0; i < points.length; i += 2) path += `${i === 0 ? "M" : "L"}${tenth(ax + bx * points[i]!)} ${tenth(ay + by * points[i + 1]!)}`;
+    for (let i = 0; i < points.length; i += 2)
+      path += `${i === 0 ? "M" : "L"}${tenth(ax + bx * points[i]!)} ${tenth(ay + by * points[i + 1]!)}`;
     if (closed) path += "Z";
   }
   return path;

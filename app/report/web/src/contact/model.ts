@@ -182,7 +182,8 @@ export function choicesOf(model: Model): { label: string; choice: Choice }[] {
   const ranks = ["most loaded", "second by load", "third by load"];
   const out: { label: string; choice: Choice }[] = ranks.slice(0, most).map((label, rank) => ({ label, choice: { kind: "load", rank } }));
   out.push({ label: "all patches", choice: { kind: "all" } });
-  if (names.size > 1 && names.size <= 40) for (const name of [...names].sort(byNumber)) out.push({ label: name, choice: { kind: "name", name } });
+  if (names.size > 1 && names.size <= 40)
+    for (const name of [...names].sort(byNumber)) out.push({ label: name, choice: { kind: "name", name } });
   return out;
 }
 

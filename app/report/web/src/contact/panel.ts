@@ -100,25 +100,34 @@ export class PanelNodes {
 
   private drawX(place: PanelPlace, window: Box, scale: number): void {
     const bottom = place.y + place.height;
-    const ticks = levels({ low: window.x0, high: window.x1 }, Math.max(2, place.width / 60));
+    const ticks = levels({ low: window.x0, high: window.x1 }, Math.max(3, place.width / 60));
     const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
     for (const value of ticks) {
       const x = place.x + (value - window.x0) * scale;
       svg("path", { d: `M${x.toFixed(1)} ${bottom.toFixed(1)}v5`, stroke: AXIS, "shape-rendering": "crispEdges" }, this.axes);
-      if (place.labelX) svg("text", { x: x.toFixed(1), y: (bottom + 17).toFixed(1), "text-anchor": "middle" }, this.axes).textContent = tick(value, step);
+      if (place.labelX)
+        svg("text", { x: x.toFixed(1), y: (bottom + 17).toFixed(1), "text-anchor": "middle" }, this.axes).textContent = tick(value, step);
     }
     if (!place.labelX) return;
     const middle = place.x + place.width / 2;
-    svg("text", { x: middle.toFixed(1), y: (bottom + 34).toFixed(1), "text-anchor": "middle", fill: INK, "font-size": 12 }, this.axes).textContent = "x, forward [mm]";
+    svg(
+      "text",
+      { x: middle.toFixed(1), y: (bottom + 34).toFixed(1), "text-anchor": "middle", fill: INK, "font-size": 12 },
+      this.axes,
+    ).textContent = "x, forward [mm]";
   }
 
   private drawS(place: PanelPlace, window: Box, scale: number): void {
-    const ticks = levels({ low: window.y0, high: window.y1 }, Math.max(2, place.height / 45));
+    const ticks = levels({ low: window.y0, high: window.y1 }, Math.max(4, place.height / 45));
     const step = (ticks[1] ?? 1) - (ticks[0] ?? 0);
     for (const value of ticks) {
       const y = place.y + (window.y1 - value) * scale;
       svg("path", { d: `M${place.x.toFixed(1)} ${y.toFixed(1)}h-5`, stroke: AXIS, "shape-rendering": "crispEdges" }, this.axes);
-      if (place.labelS) svg("text", { x: (place.x - 8).toFixed(1), y: (y + 4).toFixed(1), "text-anchor": "end" }, this.axes).textContent = tick(value, step);
+      if (place.labelS)
+        svg("text", { x: (place.x - 8).toFixed(1), y: (y + 4).toFixed(1), "text-anchor": "end" }, this.axes).textContent = tick(
+          value,
+          step,
+        );
     }
     if (!place.labelS) return;
     const middle = place.y + place.height / 2;

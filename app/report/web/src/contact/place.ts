@@ -34,7 +34,11 @@ export function toTrack(patch: Patch, x: number, s: number): Vector {
 /** Components of a vector of the track in the axes (x, s, n) of a patch. */
 export function inAxesOf(patch: Patch, v: Vector): Vector {
   const r = patch.rotation;
-  return [r[0]! * v[0] + r[3]! * v[1] + r[6]! * v[2], r[1]! * v[0] + r[4]! * v[1] + r[7]! * v[2], r[2]! * v[0] + r[5]! * v[1] + r[8]! * v[2]];
+  return [
+    r[0]! * v[0] + r[3]! * v[1] + r[6]! * v[2],
+    r[1]! * v[0] + r[4]! * v[1] + r[7]! * v[2],
+    r[2]! * v[0] + r[5]! * v[1] + r[8]! * v[2],
+  ];
 }
 
 /** x and s in the grid of a patch of a place in track. */

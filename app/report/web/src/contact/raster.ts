@@ -20,7 +20,14 @@ export function stateTable(): Uint8Array {
  * Writes the colours of elements, four bytes each, the row of the greatest s first (pictures grow downwards). Without value or
  * outside contact (`contact` given and 0 there) an element is transparent.
  */
-export function paint(pixels: Uint8ClampedArray, values: ArrayLike<number>, contact: ArrayLike<number> | null, nx: number, ny: number, colouring: Colouring): void {
+export function paint(
+  pixels: Uint8ClampedArray,
+  values: ArrayLike<number>,
+  contact: ArrayLike<number> | null,
+  nx: number,
+  ny: number,
+  colouring: Colouring,
+): void {
   const words = new Uint32Array(pixels.buffer, pixels.byteOffset, nx * ny);
   const table = new Uint32Array(colouring.table.slice().buffer);
   const last = table.length - 1;

@@ -35,17 +35,27 @@ export class Readout {
     const rows = this.numberRows;
     const only = panels.length === 1 ? panels[0] : undefined;
     const title = (only?.items[0]?.patch.name ?? "") || "Patch";
-    this.numbers.fill(title, rows, panels.map(({ name }) => name), (r, c) => panels[c]?.items[0]?.patch.numbers[rows[r]?.key ?? ""] ?? null);
+    this.numbers.fill(
+      title,
+      rows,
+      panels.map(({ name }) => name),
+      (r, c) => panels[c]?.items[0]?.patch.numbers[rows[r]?.key ?? ""] ?? null,
+    );
   }
 
   /** Values of the element at a place in every panel; `caption` says what place that is. */
   fillElement(panels: readonly PanelModel[], place: Omit<Place, "set">, caption: string): void {
     const { blobs } = this.model.data;
     const found = panels.map((panel) => elementOf(panel, place.x, place.s, blobs));
-    this.element.fill(caption, this.fieldRows, panels.map(({ name }) => name), (r, c) => {
-      const at = found[c];
-      return at ? this.value(at, r) : null;
-    });
+    this.element.fill(
+      caption,
+      this.fieldRows,
+      panels.map(({ name }) => name),
+      (r, c) => {
+        const at = found[c];
+        return at ? this.value(at, r) : null;
+      },
+    );
   }
 
   private value(at: Found, row: number): number | string | null {

@@ -47,7 +47,12 @@ export class SectionCharts {
   private drawn: string[] = ["", ""];
 
   constructor(private readonly id: string) {
-    this.drawing = svg("svg", { role: "img", "aria-label": "Sections through the picked element", "font-family": "var(--sans)", "font-size": 12 });
+    this.drawing = svg("svg", {
+      role: "img",
+      "aria-label": "Sections through the picked element",
+      "font-family": "var(--sans)",
+      "font-size": 12,
+    });
     this.legend = svg("g", {}, this.drawing);
     this.charts = [0, 1].map((k) => {
       const clip = svg("clipPath", { id: `${id}-section-${k}` }, this.drawing);
@@ -142,8 +147,13 @@ export class SectionCharts {
       label(px, bottom + 17, "middle", tick(value, (places[1] ?? 1) - (places[0] ?? 0)));
     }
     line(`M${x} ${y}V${bottom}H${x + width}`, "var(--line-strong)");
-    svg("text", { x: x + width / 2, y: bottom + 34, "text-anchor": "middle", fill: "var(--text)", "font-size": 12 }, g).textContent = section.axis;
-    svg("text", { transform: `translate(${x - 42} ${y + height / 2}) rotate(-90)`, "text-anchor": "middle", fill: "var(--text)", "font-size": 12 }, g).textContent = valueTitle;
+    svg("text", { x: x + width / 2, y: bottom + 34, "text-anchor": "middle", fill: "var(--text)", "font-size": 12 }, g).textContent =
+      section.axis;
+    svg(
+      "text",
+      { transform: `translate(${x - 42} ${y + height / 2}) rotate(-90)`, "text-anchor": "middle", fill: "var(--text)", "font-size": 12 },
+      g,
+    ).textContent = valueTitle;
   }
 }
 

@@ -24,7 +24,14 @@ export interface Sections {
 /** Whether sections show pressure, traction and friction bound together: of one set, for the fields that these belong to. */
 function isTriple(model: Model, options: Options, fields: readonly FieldInfo[]): boolean {
   const has = (name: string): boolean => fields.some((field) => field.name === name);
-  return options.shown.size === 1 && has("pressure") && has("traction_x") && has("traction_s") && /^(pressure|traction|friction|state)/.test(options.field) && model.sets.length > 0;
+  return (
+    options.shown.size === 1 &&
+    has("pressure") &&
+    has("traction_x") &&
+    has("traction_s") &&
+    /^(pressure|traction|friction|state)/.test(options.field) &&
+    model.sets.length > 0
+  );
 }
 
 function curve(found: Found | null, along: "x" | "s", name: string, field: string, blobs: string[]): Curve | null {
@@ -32,7 +39,16 @@ function curve(found: Found | null, along: "x" | "s", name: string, field: strin
   return section && { name, ...section };
 }
 
-export function sectionsOf(model: Model, options: Options, style: Style, fields: readonly FieldInfo[], panels: readonly PanelModel[], frames: readonly number[], window: Box, place: { x: number; s: number }): Sections {
+export function sectionsOf(
+  model: Model,
+  options: Options,
+  style: Style,
+  fields: readonly FieldInfo[],
+  panels: readonly PanelModel[],
+  frames: readonly number[],
+  window: Box,
+  place: { x: number; s: number },
+): Sections {
   const { blobs } = model.data;
   const found = panels.map((panel) => elementOf(panel, place.x, place.s, blobs));
   const triple = isTriple(model, options, fields);
@@ -48,7 +64,11 @@ export function sectionsOf(model: Model, options: Options, style: Style, fields:
   const looks = wanted.map(({ name }, k) => ({ name, colour: seriesColour(k), dash: seriesDash(k) }));
   let range = style.colouring.range;
   if (style.colouring.states) range = { low: 0, high: 3 };
-  if (triple) range = colourRange(wanted.reduce((sum, { field }) => union(sum, model.range(field, frames)), { low: 0, high: 0 }), "sequential");
+  if (triple)
+    range = colourRange(
+      wanted.reduce((sum, { field }) => union(sum, model.range(field, frames)), { low: 0, high: 0 }),
+      "sequential",
+    );
   const at = found.find((f) => f !== null);
   const [x, s] = at ? centre(at.item, at.ix, at.iy) : [place.x, place.s];
   const curves = (along: "x" | "s"): Curve[] =>
@@ -59,7 +79,13 @@ export function sectionsOf(model: Model, options: Options, style: Style, fields:
     range,
     title: triple ? titled("Pressure, traction", unit) : titled(style.field.label, style.field.unit),
     contents: [
-      { title: `Along x at s = ${said(s)} mm`, axis: "x, forward [mm]", domain: { low: window.x0, high: window.x1 }, at: x, curves: curves("x") },
+      {
+        title: `Along x at s = ${said(s)} mm`,
+        axis: "x, forward [mm]",
+        domain: { low: window.x0, high: window.x1 },
+        at: x,
+        curves: curves("x"),
+      },
       { title: `Along s at x = ${said(x)} mm`, axis: "s [mm]", domain: { low: window.y0, high: window.y1 }, at: s, curves: curves("s") },
     ],
   };

@@ -11,7 +11,14 @@ export interface Curve {
 }
 
 /** Values of a field along the row (along x) or the column (along s) of an element, at the places of the picture. */
-export function sectionOf(item: Item, along: "x" | "s", ix: number, iy: number, field: string, blobs: string[]): Omit<Curve, "name"> | null {
+export function sectionOf(
+  item: Item,
+  along: "x" | "s",
+  ix: number,
+  iy: number,
+  field: string,
+  blobs: string[],
+): Omit<Curve, "name"> | null {
   const { patch } = item;
   const values = fieldOf(patch, field, blobs);
   if (!values) return null;

@@ -52,7 +52,11 @@ export function makeSkeleton(figure: HTMLElement, controls: HTMLElement, id: str
 
 /** Thin light and dark lines side by side, to be seen on any colour. */
 function hatch(drawing: SVGSVGElement, id: string): void {
-  const pattern = svg("pattern", { id: `${id}-hatch`, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" }, svg("defs", {}, drawing));
+  const pattern = svg(
+    "pattern",
+    { id: `${id}-hatch`, width: 6, height: 6, patternUnits: "userSpaceOnUse", patternTransform: "rotate(45)" },
+    svg("defs", {}, drawing),
+  );
   svg("rect", { x: 0, y: 0, width: 1, height: 6, fill: "#ffffff", "fill-opacity": 0.75 }, pattern);
   svg("rect", { x: 1, y: 0, width: 0.8, height: 6, fill: "#10151a", "fill-opacity": 0.6 }, pattern);
 }

@@ -38,13 +38,21 @@ export function styleOf(model: Model, options: Options, field: FieldInfo, frames
   const range = own ? options.own : colourRange(model.range(field.name, frames), field.kind);
   const colouring: Colouring = { table: states ? stateTable() : lut(kind), range, states };
   const at = states || !options.isolines ? [] : linesAt(range, kind === "diverging");
-  const bars: BarContent[] = states ? [] : [{ range, colour: colourMap(kind), lines: at, title: titled(field.label, field.unit), beyond: own }];
+  const bars: BarContent[] = states
+    ? []
+    : [{ range, colour: colourMap(kind), lines: at, title: titled(field.label, field.unit), beyond: own }];
   let difference: Style["difference"] = null;
   if (differences && !states) {
     const span = colourRange(model.differenceRange(field.name, frames, options.choice), "diverging");
     const lines = options.isolines ? linesAt(span, true) : [];
     difference = { colouring: { table: lut("diverging"), range: span, states: false }, levels: lines };
-    bars.push({ range: span, colour: colourMap("diverging"), lines, title: titled(`Difference to ${model.sets[0]?.name ?? ""}`, field.unit), beyond: true });
+    bars.push({
+      range: span,
+      colour: colourMap("diverging"),
+      lines,
+      title: titled(`Difference to ${model.sets[0]?.name ?? ""}`, field.unit),
+      beyond: true,
+    });
   }
   return { field, colouring, levels: at, difference, bars, everywhere: isEverywhere(field.name) };
 }
@@ -75,11 +83,16 @@ export function legendOf(style: Style, options: Options, other: string | null, a
   if (style.colouring.states)
     for (const { name, rgb, alpha } of STATE_COLOURS)
       if (alpha > 0)
-        out.push({ text: name, width: 16, draw: (parent, x, y) => void svg("rect", { x, y: y - 6, width: 16, height: 12, fill: css(rgb) }, parent) });
+        out.push({
+          text: name,
+          width: 16,
+          draw: (parent, x, y) => void svg("rect", { x, y: y - 6, width: 16, height: 12, fill: css(rgb) }, parent),
+        });
   out.push({ text: "edge of contact", width: 22, draw: lineSample({ stroke: "var(--text)", "stroke-width": 1.5 }) });
   if (options.division && !style.colouring.states)
     out.push({ text: "adhesion | slip", width: 22, draw: lineSample({ stroke: "#ffffff", "stroke-width": 1.6 }, true) });
-  if (other !== null && options.other) out.push({ text: other, width: 22, draw: lineSample({ stroke: OTHER, "stroke-width": 1.8, "stroke-dasharray": "6 3" }) });
+  if (other !== null && options.other)
+    out.push({ text: other, width: 22, draw: lineSample({ stroke: OTHER, "stroke-width": 1.8, "stroke-dasharray": "6 3" }) });
   if (arrows && options.arrows) {
     const length = arrows.reference * arrows.pixels;
     out.push({
@@ -88,14 +101,24 @@ export function legendOf(style: Style, options: Options, other: string | null, a
       draw: (parent, x, y) => {
         const end = x + length;
         const head = Math.min(4.5, length / 2);
-        svg("path", { d: `M${x} ${y}H${end}M${end - head} ${y - head / 2}L${end} ${y}L${end - head} ${y + head / 2}`, fill: "none", stroke: "var(--text)", "stroke-width": 1.15 }, parent);
+        svg(
+          "path",
+          {
+            d: `M${x} ${y}H${end}M${end - head} ${y - head / 2}L${end} ${y}L${end - head} ${y + head / 2}`,
+            fill: "none",
+            stroke: "var(--text)",
+            "stroke-width": 1.15,
+          },
+          parent,
+        );
       },
     });
   }
   out.push({
     text: "contact reference",
     width: 12,
-    draw: (parent, x, y) => void svg("path", { d: `M${x} ${y}h12M${x + 6} ${y - 6}v12`, stroke: "var(--text)", "stroke-width": 1.4 }, parent),
+    draw: (parent, x, y) =>
+      void svg("path", { d: `M${x} ${y}h12M${x + 6} ${y - 6}v12`, stroke: "var(--text)", "stroke-width": 1.4 }, parent),
   });
   return out;
 }

@@ -48,6 +48,11 @@ const symbols: Record<string, string> = {
 export function numberName(key: string): { label: string; unit: string } {
   const match = /^(.+?)_(k?N|Nmm|Nm|mm2|mm_s|rad_mm|mm|um|MPa|GPa|Pa|J|W|rad_s|mrad|rad|deg|C|percent|s|kB|MB)$/.exec(key);
   const name = match?.[1] ?? key;
-  const unit = { mm2: "mm²", um: "µm", mm_s: "mm/s", rad_s: "rad/s", rad_mm: "rad/mm", deg: "°", C: "°C", percent: "%", Nmm: "N·mm" }[match?.[2] ?? ""] ?? match?.[2] ?? "";
+  const unit =
+    { mm2: "mm²", um: "µm", mm_s: "mm/s", rad_s: "rad/s", rad_mm: "rad/mm", deg: "°", C: "°C", percent: "%", Nmm: "N·mm" }[
+      match?.[2] ?? ""
+    ] ??
+    match?.[2] ??
+    "";
   return { label: symbols[name] ?? name.replace(/_/g, " "), unit };
 }

@@ -62,7 +62,12 @@ export class ValueTable {
   }
 
   /** Shows numbers (or texts), row by row; those that do not exist have no data-value. */
-  fill(caption: string, rows: readonly ValueRow[], columns: readonly string[], value: (row: number, column: number) => number | string | null): void {
+  fill(
+    caption: string,
+    rows: readonly ValueRow[],
+    columns: readonly string[],
+    value: (row: number, column: number) => number | string | null,
+  ): void {
     this.make(rows, columns);
     if (this.caption.textContent !== caption) this.caption.textContent = caption;
     this.element.hidden = rows.length === 0;

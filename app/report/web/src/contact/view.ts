@@ -74,7 +74,12 @@ export class ContactFigure {
       difference: false,
       shown: new Set(sets.map((_, k) => k).filter((k) => k < FIRST_SHOWN)),
     };
-    const controls = makeControls(this.options, this.offer(), () => this.refresh(), () => this.scene?.style.colouring.range ?? { low: 0, high: 1 });
+    const controls = makeControls(
+      this.options,
+      this.offer(),
+      () => this.refresh(),
+      () => this.scene?.style.colouring.range ?? { low: 0, high: 1 },
+    );
     this.parts = makeSkeleton(figure, controls, view.id, sets.length > 1);
     // Where any step has something to say, its line stays, so that the picture does not jump.
     this.parts.status.hidden = this.model.frames.every((k) => statusText(this.model.panels(k, this.options.choice), true).text === "");
@@ -206,11 +211,21 @@ export class ContactFigure {
     const { scene, parts, view, nodes } = this;
     if (!scene) return;
     const { layout, style, options, arrows } = scene;
-    while (nodes.length < layout.panels.length) nodes.push(new PanelNodes(parts.drawing, `${view.id}-panel-${nodes.length}`, `${view.id}-hatch`));
+    while (nodes.length < layout.panels.length)
+      nodes.push(new PanelNodes(parts.drawing, `${view.id}-panel-${nodes.length}`, `${view.id}-hatch`));
     while (nodes.length > layout.panels.length) nodes.pop()?.group.remove();
     layout.panels.forEach((place, k) => nodes[k]!.place(place, scene.window, layout.scale));
     const bars = style.bars.map(({ range, lines, title }) => [range, lines, title]);
-    const key = JSON.stringify([layout.width, layout.height, layout.bars, layout.legend, bars, options, arrows, legend.map(({ text }) => text)]);
+    const key = JSON.stringify([
+      layout.width,
+      layout.height,
+      layout.bars,
+      layout.legend,
+      bars,
+      options,
+      arrows,
+      legend.map(({ text }) => text),
+    ]);
     if (key === this.furnished) return;
     this.furnished = key;
     put(parts.drawing, "width", String(layout.width));
@@ -353,7 +368,10 @@ export class ContactFigure {
     const { field } = scene.style;
     const i = found.iy * found.item.patch.nx + found.ix;
     const value = field.kind === "state" ? null : panelValue(scene, panel, found.item, i);
-    const said = value === null ? (stateNames[shownValue(found.item.patch, "state", i, this.store.data.blobs)] ?? "–") : `${brief(value)} ${field.unit}`;
+    const said =
+      value === null
+        ? (stateNames[shownValue(found.item.patch, "state", i, this.store.data.blobs)] ?? "–")
+        : `${brief(value)} ${field.unit}`;
     tip.textContent = `${said}\nx ${brief(x)}, s ${brief(s)} mm`;
     const left = pixel[0] > scene.layout.width - 150 ? pixel[0] - 140 : pixel[0] + 14;
     tip.style.transform = `translate(${Math.max(0, left).toFixed(0)}px, ${(pixel[1] + 14).toFixed(0)}px)`;
@@ -377,7 +395,15 @@ export class ContactFigure {
       copy.querySelectorAll(".cells").forEach((slot, k) => {
         for (const one of this.cells[k] ?? []) {
           const { x, y, width, height } = rectOf(one.item, scene.layout.panels[k]!, scene.window, scene.layout.scale);
-          const image = svg("image", { x, y, width, height, preserveAspectRatio: "none", style: "image-rendering:pixelated", href: this.painter.toDataUrl(one) });
+          const image = svg("image", {
+            x,
+            y,
+            width,
+            height,
+            preserveAspectRatio: "none",
+            style: "image-rendering:pixelated",
+            href: this.painter.toDataUrl(one),
+          });
           slot.append(image);
         }
       });
@@ -385,10 +411,15 @@ export class ContactFigure {
   }
 
   private addFiles(): void {
-    const size = (drawing: SVGSVGElement): [number, number] => [Number(drawing.getAttribute("width")), Number(drawing.getAttribute("height"))];
+    const size = (drawing: SVGSVGElement): [number, number] => [
+      Number(drawing.getAttribute("width")),
+      Number(drawing.getAttribute("height")),
+    ];
     const many = this.model.sets.length > 1;
     const csv = (): string => {
-      const parts = this.panels.flatMap((panel) => panel.items.map((item) => ({ name: many ? `${panel.name} ${item.patch.name}`.trim() : item.patch.name, item })));
+      const parts = this.panels.flatMap((panel) =>
+        panel.items.map((item) => ({ name: many ? `${panel.name} ${item.patch.name}`.trim() : item.patch.name, item })),
+      );
       return csvOf(parts, this.fields, this.store.data.blobs);
     };
     addDownloads(
@@ -399,7 +430,11 @@ export class ContactFigure {
     const charts = this.charts.drawing;
     addDownloads(
       this.parts.sections,
-      { svg: () => standalone(charts), png: () => pngOf(standalone(charts), ...size(charts)), csv: () => sectionsCsv(this.sections?.contents ?? []) },
+      {
+        svg: () => standalone(charts),
+        png: () => pngOf(standalone(charts), ...size(charts)),
+        csv: () => sectionsCsv(this.sections?.contents ?? []),
+      },
       `${this.view.id}-sections`,
     );
   }

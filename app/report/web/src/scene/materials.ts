@@ -17,8 +17,18 @@ import {
 
 import { lut, type Rgb } from "../colours";
 
-const bodyVertex = `
+// Depth of a point as if it lay nearer to the camera. The undeformed bodies overlap in the contact: so neither covers the patch, and a
+// body that is cut away does not sink into the other one.
+const nearerDepth = `
+float nearerDepth(vec3 eye, float bias) {
+  vec4 nearer = projectionMatrix * vec4(eye * (1.0 - min(0.3, bias / length(eye))), 1.0);
+  return nearer.z / nearer.w;
+}`;
+const cutBias = 0.4;
+
+const bodyVertex = `${nearerDepth}
 uniform int columns;
+uniform float bias;
 attribute float deviation;
 varying vec3 atEye;
 varying vec3 facing;
@@ -29,6 +39,7 @@ void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   vec4 eye = viewMatrix * world;
   gl_Position = projectionMatrix * eye;
+  if (bias > 0.0) gl_Position.z = nearerDepth(eye.xyz, bias) * gl_Position.w;
   atEye = eye.xyz;
   facing = normalMatrix * normal;
   place = world.xyz;
@@ -66,8 +77,8 @@ void main() {
   float inside = step(side, 0.0);
   n *= 1.0 - 2.0 * inside;
   float straight = abs(side);
-  vec3 lamp = normalize(vec3(-0.45, 0.8, 0.55));
-  float shade = 0.40 + 0.46 * max(dot(n, lamp), 0.0) + 0.20 * straight;
+  vec3 lamp = normalize(vec3(-0.45, 0.5, 0.75));
+  float shade = 0.44 + 0.42 * max(dot(n, lamp), 0.0) + 0.18 * straight;
   float gloss = 0.10 * pow(max(dot(reflect(-lamp, n), v), 0.0), 18.0);
   float t = clamp(0.5 + 0.5 * excess / span, 0.0, 1.0);
   vec3 colour = mix(base, texture2D(colours, vec2(t, 0.5)).rgb, coloured);
@@ -77,7 +88,7 @@ void main() {
   vec2 width = max(fwidth(cell), vec2(1e-6));
   vec2 near = abs(fract(cell - 0.5) - 0.5) / width;
   vec2 drawn = vec2(thin(near.x, 0.1), thin(near.y, 0.1)) * (1.0 - smoothstep(0.22, 0.45, width));
-  float lines = 0.55 * mesh * max(drawn.x, drawn.y);
+  float lines = 0.38 * mesh * max(drawn.x, drawn.y);
   vec2 margin = min(cell, lastCell - cell) / width;
   lines = max(lines, 0.6 * max(thin(margin.y, 0.6), openEnds * thin(margin.x, 0.6)));
   float across = dot(place - sectionAt, sectionNormal);
@@ -88,7 +99,7 @@ void main() {
   gl_FragColor = vec4(colour, min(1.0, max(alpha, lines)));
 }`;
 
-const patchVertex = `
+const patchVertex = `${nearerDepth}
 uniform float bias;
 attribute vec4 paint;
 varying vec4 colour;
@@ -96,10 +107,7 @@ varying vec2 corner;
 void main() {
   vec4 eye = modelViewMatrix * vec4(position, 1.0);
   gl_Position = projectionMatrix * eye;
-  // Nearer to the camera in depth alone, so that neither body covers the patch where the undeformed bodies overlap.
-  float away = length(eye.xyz);
-  vec4 nearer = projectionMatrix * vec4(eye.xyz * (1.0 - min(0.3, bias / away)), 1.0);
-  gl_Position.z = nearer.z / nearer.w * gl_Position.w;
+  gl_Position.z = nearerDepth(eye.xyz, bias) * gl_Position.w;
   colour = paint;
   int k = gl_VertexID % 4;
   corner = vec2(k == 1 || k == 2 ? 1.0 : 0.0, k >= 2 ? 1.0 : 0.0);
@@ -178,6 +186,7 @@ export function bodyMaterials(shape: GridShape, shared: SharedUniforms): BodyMat
   const whole = { value: new Vector4(0, 0, 0, 1e6) };
   const uniforms = (opacity: number, cut = whole): ShaderMaterial["uniforms"] => ({
     cut,
+    bias: { value: cut === whole ? 0 : cutBias },
     base,
     mesh: shared.mesh,
     line: shared.line,

@@ -97,7 +97,7 @@ export function orbitOf(preset: ViewPreset, subject: Subject, aspect: number): O
   switch (name) {
     case "contact":
     case "below":
-      return { azimuth, elevation, target: subject.contact, distance: distanceFor(3.4 * size, 2.6 * size, aspect) };
+      return { azimuth, elevation, target: subject.contact, distance: distanceFor(3 * size, 2.1 * size, aspect) };
     case "above":
       return { azimuth, elevation, target: subject.contact, distance: distanceFor(1.9 * size, 1.5 * size, aspect) };
     case "along": {

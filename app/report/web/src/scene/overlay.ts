@@ -98,11 +98,12 @@ export function drawColourBar(pen: Pen, palette: Palette, field: FieldInfo, rang
 
 /** Lying, of the deviation from the mean section, at the bottom right. */
 export function drawDeviationBar(pen: Pen, palette: Palette, span: number, title: string, right: number, bottom: number, width: number): void {
-  plate(pen, palette, right - width - 12, bottom - 46, width + 18, 50);
+  pen.font = font(12, 600);
+  const wide = Math.max(width, pen.measureText(title).width);
+  plate(pen, palette, right - wide - 8, bottom - 47, wide + 14, 52);
   mapStrip(pen, "diverging", right - width, bottom - 28, width, 11, false);
   pen.textBaseline = "middle";
   pen.fillStyle = palette.text;
-  pen.font = font(12, 600);
   pen.textAlign = "right";
   pen.fillText(title, right, bottom - 37);
   pen.font = font(12);

@@ -1,0 +1,81 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+import assert from "node:assert/strict";
+import { test } from "node:test";
+
+import { colourMap, css, lut, toLab } from "../src/colours";
+import { toCsv, toTsv } from "../src/csv";
+import { fileName } from "../src/download";
+import { decimalsFor, fixed, formatNumber } from "../src/numbers";
+import { nextDirection, sortedOrder } from "../src/table-sort";
+import { nextChoice, parseChoice } from "../src/theme";
+import { playRate, stepNamer } from "../src/timeline";
+
+test("CSV: quotes, commas and line ends are quoted; numbers in full; no value is empty", () => {
+  const rows = [["p, max", 'a "b"', "two\nlines"], [1 / 3, NaN, null], ["", -1e-30, Infinity]];
+  assert.equal(toCsv(rows), '"p, max","a ""b""","two\nlines"\r\n0.3333333333333333,,\r\n,-1e-30,inf\r\n');
+});
+
+test("TSV has no tabs or line ends within cells", () => {
+  assert.equal(toTsv([["a\tb", "c\nd", 2.5]]), "a b\tc d\t2.5\n");
+});
+
+test("names of files are plain", () => {
+  assert.equal(fileName("Druck / p₀ (größte)", "csv"), "Druck-p0-gro-te.csv");
+  assert.equal(fileName("../..", "svg"), "treadmark.svg");
+});
+
+test("rows are sorted by number, without a value last both ways, equal ones in place", () => {
+  const keys = [3, NaN, -1, 10, 3];
+  assert.deepEqual(sortedOrder(keys, "ascending"), [2, 0, 4, 3, 1]);
+  assert.deepEqual(sortedOrder(keys, "descending"), [3, 0, 4, 2, 1]);
+  assert.deepEqual(sortedOrder(["case 10", "case 9", "", "Case 1"], "ascending"), [3, 1, 0, 2]);
+  assert.equal(nextDirection(nextDirection(nextDirection(null))), null);
+});
+
+test("names of steps: given, or from the first axis with enough decimals", () => {
+  const axis = { label: "t", unit: "s", scale: "linear" as const, values: [0, 0.00025, 0.0005] };
+  const timeline = { label: "instant", names: null, count: 3, frames: null, axes: [axis] };
+  assert.equal(stepNamer(timeline, [])(1), "t = 0.00025 s");
+  assert.equal(stepNamer(timeline, [])(0), "t = 0.00000 s");
+  assert.equal(stepNamer({ ...timeline, names: ["first"] }, [])(0), "first");
+  assert.equal(stepNamer({ ...timeline, names: ["first"] }, [])(2), "instant 3");
+  assert.equal(stepNamer({ ...timeline, axes: [{ ...axis, values: [null, 1, 2] }] }, [])(0), "instant 1");
+});
+
+test("a long timeline plays within 20 s, a short one slowly", () => {
+  assert.equal(20000 / playRate(20000), 20);
+  assert.equal(playRate(10), 5);
+});
+
+test("numbers as people read them", () => {
+  assert.equal(formatNumber(1234.5678), "1235");
+  assert.equal(formatNumber(123456), "123456");
+  assert.equal(formatNumber(-0.00123456), "−0.001235");
+  assert.equal(formatNumber(1.234567e-7), "1.235·10⁻⁷");
+  assert.equal(formatNumber(NaN), "–");
+  assert.equal(formatNumber(0.5), "0.5");
+  assert.equal(fixed(-0.0001, 2), "0.00");
+  assert.equal(decimalsFor([0, 0.25, 0.5]), 2);
+  assert.equal(decimalsFor([1, 2, 3]), 0);
+});
+
+test("the sequential colours grow in lightness evenly; the diverging ones are neutral in the middle", () => {
+  const sequential = colourMap("sequential");
+  const lightness = Array.from({ length: 65 }, (_, k) => toLab(sequential(k / 64))[0]);
+  const mean = (lightness[64]! - lightness[0]!) / 64;
+  lightness.slice(1).forEach((l, k) => {
+    const gain = l - lightness[k]!;
+    assert.ok(gain > 0.3 * mean && gain < 2 * mean, `at ${k}: ${gain} of ${mean}`);
+  });
+  const diverging = colourMap("diverging");
+  const [, a, b] = toLab(diverging(0.5));
+  assert.ok(Math.hypot(a, b) < 0.01);
+  assert.ok(toLab(diverging(0.5))[0] > toLab(diverging(0))[0] && toLab(diverging(0.5))[0] > toLab(diverging(1))[0]);
+  assert.equal(css(sequential(1)), `rgb(${[...lut("sequential").slice(-4, -1)].join(",")})`);
+});
+
+test("the theme: unknown choices are auto; three in turn", () => {
+  assert.equal(parseChoice("purple"), "auto");
+  assert.equal(nextChoice(nextChoice(nextChoice("auto"))), "auto");
+});
