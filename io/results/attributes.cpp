@@ -125,7 +125,7 @@ std::vector<Attribute> attributes_of(const RunResult& run) {
   const auto add = [&](std::string name, Attribute::Value value) { list.push_back({std::move(name), std::move(value)}); };
   add("format", kResultFormat);
   add("units", "SI");
-  add("axes", "x forward, y right, z down; forces and tractions act on the rail");
+  add("axes", kAxes);
   add("version", run.version);
   add("git", run.git);
   add("threads", run.threads);

@@ -104,12 +104,23 @@ std::vector<SampledSurface> read_surfaces(const Hdf5GroupReader& parent) {
   return out;
 }
 
+void require_format(const Hdf5GroupReader& root, const std::string& format) {
+  if (!root.has_attribute("format")) refuse_result(root, "does not say what it holds");
+  if (const std::string found = root.text("format"); found != format)
+    refuse_result(root, fmt::format("holds \"{}\" where \"{}\" is read", found, format));
+}
+
+void check_surface_names(const Hdf5GroupReader& where, std::span<const CaseResult> cases, std::span<const SampledSurface> surfaces) {
+  for (const CaseResult& c : cases)
+    for (const std::string* name : {&c.wheel_surface, &c.rail_surface})
+      if (!name->empty() && surface_index(surfaces, *name) < 0)
+        refuse_result(where, fmt::format("has no surface {}, which case {} names", *name, c.number));
+}
+
 RunResult read_hdf5(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   const Hdf5GroupReader& root = file.root();
-  if (!root.has_attribute("format")) refuse_result(root, "does not say what it holds");
-  if (const std::string format = root.text("format"); format != kResultFormat)
-    refuse_result(root, fmt::format("holds \"{}\" where \"{}\" is read", format, kResultFormat));
+  require_format(root, kResultFormat);
   RunResult run;
   run.version = root.text("version");
   run.git = root.text("git");
@@ -125,10 +136,7 @@ RunResult read_hdf5(const std::filesystem::path& path) {
   run.cases_total = root.integer("cases_total");
   run.cases = read_cases(root);
   run.sampled = read_surfaces(root);
-  for (const CaseResult& c : run.cases)
-    for (const std::string* name : {&c.wheel_surface, &c.rail_surface})
-      if (!name->empty() && surface_index(run.sampled, *name) < 0)
-        refuse_result(root, fmt::format("has no surface {}, which case {} names", *name, c.number));
+  check_surface_names(root, run.cases, run.sampled);
   return run;
 }
 

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
@@ -22,6 +24,10 @@ RunResult read_hdf5(const std::filesystem::path& path);
 std::vector<CaseResult> read_cases(const Hdf5GroupReader& parent);
 CaseResult read_case(const Hdf5GroupReader& group);
 std::vector<SampledSurface> read_surfaces(const Hdf5GroupReader& parent);
+
+/// Throws Error(input_data) unless the file says that it holds this, or all surfaces that cases name are there.
+void require_format(const Hdf5GroupReader& root, const std::string& format);
+void check_surface_names(const Hdf5GroupReader& where, std::span<const CaseResult> cases, std::span<const SampledSurface> surfaces);
 
 /// Throws Error(input_data): the file is none of ours. what goes on from "the file of results ...".
 [[noreturn]] void refuse_result(const Hdf5GroupReader& where, const std::string& what);
