@@ -9,6 +9,7 @@
 
 #include "treadmark/app/report/pages/case_figures.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/results/comparison_store.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -70,6 +71,10 @@ ComparedFields compared_fields(std::vector<io::ComparisonCandidate> stored, cons
   }
   if (!out.truth) refuse(file, "there are none of the truth");
   return out;
+}
+
+ComparedFields read_compared_fields(const std::filesystem::path& file, const ComparedCandidates& all) {
+  return compared_fields(io::read_comparison_fields(file).candidates, all, file.string());
 }
 
 }  // namespace treadmark::app::report

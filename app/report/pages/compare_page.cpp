@@ -153,6 +153,8 @@ Page compare_page(const std::filesystem::path& folder) {
     ContactView view;
     for (std::size_t i = 0; i < page.sets.size(); ++i) view.sets.push_back(static_cast<int>(i));
     contact.blocks.emplace_back(Figure{"contact-view", "Contact patches", std::move(view)});
+    page.surfaces = std::move(fields->surfaces);
+    if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail, the truth", SceneView{0}});
   } else {
     if (page.timeline) page.timeline->frames.clear();
     append(contact.blocks, files.picture("pressures.svg", "pressures", "Contact pressures",

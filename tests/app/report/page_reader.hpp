@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <functional>
+#include <string>
+#include <vector>
+
+#include "treadmark/app/report/page.hpp"
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::testing {
+
+/// Parts of a page, found by their names. What is not there is an exception, which fails the test.
+
+const app::report::Table& table_of(const app::report::Page& page, const std::string& id);
+const app::report::Figure& figure_of(const app::report::Page& page, const std::string& id);
+bool has_figure(const app::report::Page& page, const std::string& id);
+std::vector<std::string> section_ids(const app::report::Page& page);
+std::string fact_of(const app::report::Page& page, const std::string& label);
+std::string card_of(const app::report::Page& page, const std::string& label);  ///< value | note
+
+/// "failed: heading text", a line each, of the whole page.
+std::string banners_of(const app::report::Page& page);
+
+/// Cells of a column, by its label.
+std::vector<double> numbers_in(const app::report::Table& table, const std::string& column);
+std::vector<std::string> texts_in(const app::report::Table& table, const std::string& column);
+
+/// What an action that must fail says: "kind: file: message"; empty if it does not fail.
+std::string error_of(const std::function<void()>& action);
+
+}  // namespace treadmark::testing
