@@ -101,7 +101,7 @@ TEST_F(RunStudy, ARunWithoutEquilibriumTellsWhereItComesFrom) {
   EXPECT_EQ(outcome.study.runs[0].status, "failed");
   const io::SimulationResult result = io::read_simulation(outcome.study.runs[0].store);
   EXPECT_EQ(result.rows(), 0u);
-  EXPECT_EQ(result.settings, (std::vector<std::string>{"simulation.speed_m_s=20", "simulation.gravity_m_s2=1e5"}));
+  EXPECT_EQ(result.settings, (std::vector<std::string>{"simulation.speed_m_s=20", "simulation.gravity_m_s2=100000"}));
   std::vector<std::string> files;
   for (const auto& [name, hash] : result.geometry_sha256) files.push_back(name);
   EXPECT_EQ(files, (std::vector<std::string>{"vehicle.toml", "track.toml"}));

@@ -117,7 +117,7 @@ TEST_F(Simulate, ModesGoToAFileBesideTheText) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("f [Hz]"));
   EXPECT_FALSE(nlohmann::json::parse(input.read("modes.json"))["modes"].empty());
-  const ProgramResult nowhere = run({"--modes", "--json", input.path("no such folder/modes.json")});
+  const ProgramResult nowhere = run({"--modes", "--json", input.path("simulation.toml/modes.json")});  // a file, no folder
   EXPECT_EQ(nowhere.status, 2) << nowhere.err;
 }
 
