@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 // Results of all kinds, small but real, made by the treadmark program in a folder.
 import { spawn, spawnSync } from "node:child_process";
-import { cpSync, mkdirSync, readFileSync, writeFileSync } from "node:fs";
+import { cpSync, readFileSync, writeFileSync } from "node:fs";
 import { join } from "node:path";
 
 export class Results {
@@ -19,7 +19,7 @@ export class Results {
 
   /** Runs the program; statuses: those that are right. */
   treadmark(args, statuses = [0]) {
-    const done = spawnSync(this.program, ["--quiet", ...args], { encoding: "utf8" });
+    const done = spawnSync(this.program, ["--quiet", ...args], { encoding: "utf8", maxBuffer: 1 << 28 });
     if (!statuses.includes(done.status)) throw new Error(`treadmark ${args.join(" ")} ended with ${done.status}\n${done.stderr}`);
     return done;
   }
@@ -53,7 +53,7 @@ export class Results {
   /** The same steps, stopped by Ctrl-C when some are done. */
   async interrupted() {
     const steps = this.input("many-steps.toml", "wheel-flat.toml", [["[-14, -10, -8, -6, -4, -2, 0, 2, 4, 6, 8, 10, 14]", `[${Array.from({ length: 3000 }, (_, k) => (k % 300) / 100).join(", ")}]`]]);
-    const child = spawn(this.program, ["--quiet", "--threads", "1", "run", steps, "-o", this.path("interrupted"), "--report", this.path("interrupted.html"), "--set", "discretisation.dx_mm=1", "--set", "discretisation.ds_mm=1"]);
+    const child = spawn(this.program, ["--quiet", "--threads", "1", "run", steps, "-o", this.path("interrupted"), "--report", this.path("interrupted.html"), "--set", "discretisation.dx_mm=1", "--set", "discretisation.ds_mm=1"], { stdio: "ignore" });
     const ended = new Promise((resolve) => child.on("exit", resolve));
     await new Promise((resolve) => setTimeout(resolve, 3000));
     child.kill("SIGINT");
@@ -86,7 +86,7 @@ export class Results {
 
   import() {
     const flat = join(this.examples, "wheel-flat.toml");
-    this.treadmark(["scan", flat, "-o", this.path("scan.ply"), "--body", "wheel", "--range-deg", "-20,20", "--points", "60000", "--noise-mm", "0.02", "--outliers", "0.002", "--seed", "5"]);
+    this.treadmark(["scan", flat, "-o", this.path("scan.ply"), "--body", "wheel", "--range-deg", "-90,90", "--points", "150000", "--noise-mm", "0.02", "--outliers", "0.002", "--seed", "5"]);
     this.treadmark(["import", this.path("scan.ply"), "-o", this.path("imported.slcw"), "--body", "wheel", "--nominal", "S1002", "--nominal-radius", "490", "--report", this.path("import")]);
     return join("import", "report.html");
   }
@@ -97,7 +97,7 @@ export class Results {
       ['regime = "transient"', 'regime = "steady"'],
       ["dx_mm = 0.5", "dx_mm = 1"],
       ["ds_mm = 0.5", "ds_mm = 1"],
-      ["pitch_deg = 60.0", "pitch_deg = 60.0\nsnapshots_deg = [-4, 0, 4]"],
+      ["[case]", "[simulation.fields]\npitch_deg = [-4, 0, 4]\n\n[case]"],
     ]);
     this.treadmark(["simulate", input, "-o", this.path("simulation"), "--report", this.path("simulation.html")]);
     return "simulation.html";
@@ -113,7 +113,4 @@ export class Results {
     return "sweep.html";
   }
 
-  makeFolder() {
-    mkdirSync(this.folder, { recursive: true });
-  }
 }
