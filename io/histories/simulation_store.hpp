@@ -21,8 +21,8 @@ void write_simulation(const std::filesystem::path& path, const SimulationResult&
 /// threads at once.
 SimulationResult read_simulation(const std::filesystem::path& path);
 
-/// Contact fields at chosen instants: cases, version and sampled surfaces, with their times and flags as far as the file has them. The grids
-/// of depths in their scenes are empty.
+/// Contact fields at chosen instants: cases, version and sampled surfaces, with their times and flags as far as the file has them. The
+/// grids of depths in their scenes are empty.
 struct SnapshotSeries {
   RunResult run;
   std::vector<double> times;          ///< [s] one a case, or none
