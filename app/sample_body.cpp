@@ -79,7 +79,8 @@ std::vector<double> rail_stations(bool constant, const std::vector<double>& cont
     const auto per_coarse = static_cast<std::size_t>(kCoarseAlong / kDenseAlong);
     std::vector<bool> wanted(fine.size(), false);
     for (const double contact : contacts) {
-      const auto begin = std::lower_bound(fine.begin(), fine.end(), contact - kWindow), end = std::upper_bound(begin, fine.end(), contact + kWindow);
+      const auto begin = std::lower_bound(fine.begin(), fine.end(), contact - kWindow);
+      const auto end = std::upper_bound(begin, fine.end(), contact + kWindow);
       std::fill(wanted.begin() + (begin - fine.begin()), wanted.begin() + (end - fine.begin()), true);
     }
     std::vector<double> u;
@@ -121,16 +122,22 @@ std::vector<double> nodes_across(const UsedBody& b, const std::vector<double>& c
   return sampling::lateral_nodes(*b.surface, b.body, stations, spacing, y[first], y[last]);
 }
 
-/// Middle of the values, each counting by its weight; values may be NaN.
+/// Middle of the values, each counting by its weight, interpolated between the two nearest; values may be NaN.
 double weighted_median(std::vector<std::pair<double, double>>& value_weight) {
   std::erase_if(value_weight, [](const auto& v) { return std::isnan(v.first); });
   if (value_weight.empty()) return std::numeric_limits<double>::quiet_NaN();
   std::sort(value_weight.begin(), value_weight.end());
-  const double half = 0.5 * std::accumulate(value_weight.begin(), value_weight.end(), 0.0, [](double s, const auto& v) { return s + v.second; });
-  double sum = 0.0;
-  for (const auto& [value, weight] : value_weight)
-    if ((sum += weight) >= half) return value;
-  return value_weight.back().first;
+  const auto add = [](double sum, const auto& v) { return sum + v.second; };
+  const double half = 0.5 * std::accumulate(value_weight.begin(), value_weight.end(), 0.0, add);
+  double sum = 0.0, place = -1.0, value = value_weight.front().first;
+  for (const auto& [next, weight] : value_weight) {
+    const double next_place = sum + 0.5 * weight;
+    if (next_place >= half) return place < 0.0 ? next : value + (next - value) * (half - place) / (next_place - place);
+    sum += weight;
+    place = next_place;
+    value = next;
+  }
+  return value;
 }
 
 std::vector<double> weights_of(const std::vector<double>& u, bool closed) {
@@ -145,7 +152,8 @@ std::vector<double> weights_of(const std::vector<double>& u, bool closed) {
 }
 
 /// Deviations of heights h of stations u at nodes y; empty where they say nothing.
-std::vector<double> deviations(const UsedBody& b, const std::vector<double>& u, const std::vector<double>& y, const std::vector<double>& h) {
+std::vector<double> deviations(const UsedBody& b, const std::vector<double>& u, const std::vector<double>& y,
+                               const std::vector<double>& h) {
   if (b.constant || b.radius < 0.0) return {};
   const std::size_t ny = y.size();
   const std::vector<double> weights = weights_of(u, is_closed(b));

@@ -58,7 +58,8 @@ Hdf5Id make_space(const std::vector<hsize_t>& size, const std::string& name) {
 /// Properties of a new object: without times, so that equal contents give equal bytes; attributes in its header, which has a check sum.
 Hdf5Id timeless(hid_t kind, const std::string& name) {
   Hdf5Id creation = written(H5Pcreate(kind), name);
-  if (H5Pset_obj_track_times(creation.get(), false) < 0 || H5Pset_attr_phase_change(creation.get(), kMostAttributes, 0) < 0) cannot_write(name);
+  if (H5Pset_obj_track_times(creation.get(), false) < 0 || H5Pset_attr_phase_change(creation.get(), kMostAttributes, 0) < 0)
+    cannot_write(name);
   return creation;
 }
 
@@ -174,7 +175,8 @@ std::string first_text(std::vector<std::string> texts, const std::string& name, 
 }
 
 /// Numbers of an attribute, exactly so many.
-void read_attribute(hid_t object, const std::string& name, H5T_class_t kind, hid_t type, hssize_t count, void* out, const std::string& file) {
+void read_attribute(hid_t object, const std::string& name, H5T_class_t kind, hid_t type, hssize_t count, void* out,
+                    const std::string& file) {
   const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
   const Hdf5Id stored(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
@@ -194,7 +196,8 @@ std::vector<std::size_t> shape_of(hid_t group, const std::string& name, const st
 
 void require_shape(const std::vector<std::size_t>& found, const std::vector<std::size_t>& wanted, const std::string& name,
                    const std::string& file) {
-  if (found != wanted) cannot_read(file, fmt::format("{}: it has the shape [{}], not [{}]", name, fmt::join(found, ", "), fmt::join(wanted, ", ")));
+  if (found == wanted) return;
+  cannot_read(file, fmt::format("{}: it has the shape [{}], not [{}]", name, fmt::join(found, ", "), fmt::join(wanted, ", ")));
 }
 
 template <class Value>

@@ -28,8 +28,8 @@ bool sound(std::string_view heap) {
   std::set<std::uint64_t> seen;
   std::uint64_t at = kHead;
   while (at + kHead <= heap.size()) {
-    const std::uint64_t index = little_endian(heap, at, 2), reserved = little_endian(heap, at + 4, 4), size = little_endian(heap, at + 8, 8);
-    const std::uint64_t left = heap.size() - at;
+    const std::uint64_t index = little_endian(heap, at, 2), reserved = little_endian(heap, at + 4, 4);
+    const std::uint64_t size = little_endian(heap, at + 8, 8), left = heap.size() - at;
     if (index == 0) return size == left;
     if (reserved != 0 || !seen.insert(index).second || size > left - kHead) return false;
     at += kHead + (size + 7) / 8 * 8;

@@ -25,8 +25,8 @@ SimulationResult read_simulation(const std::filesystem::path& path);
 /// columns, events, static values, summary, modes. Errors and threads: as read_simulation.
 SimulationResult read_simulation_head(const std::filesystem::path& path);
 
-/// Contact fields at chosen instants: cases, version and sampled surfaces, with their times and flags as far as the file has them. The grids
-/// of depths in their scenes are empty.
+/// Contact fields at chosen instants: cases, version and sampled surfaces, with their times and flags as far as the file has them. The
+/// grids of depths in their scenes are empty.
 struct SnapshotSeries {
   RunResult run;
   std::vector<double> times;          ///< [s] one a case, or none

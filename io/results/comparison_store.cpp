@@ -66,7 +66,8 @@ Comparison read_comparison_fields(const std::filesystem::path& path) {
   out.settings = root.texts("settings");
   out.truth = root.text("truth");
   out.complete = root.integer("complete") != 0;
-  while (root.has(group_name(out.candidates.size()))) out.candidates.push_back(read_candidate(root.open_group(group_name(out.candidates.size()))));
+  for (std::string name = group_name(0); root.has(name); name = group_name(out.candidates.size()))
+    out.candidates.push_back(read_candidate(root.open_group(name)));
   return out;
 }
 

@@ -42,7 +42,8 @@ SampledSurface read_surface(const Hdf5GroupReader& group, const std::string& nam
   s.body = group.text("body");
   s.closed = group.integer("closed") != 0;
   const std::vector<std::size_t> size = group.shape("x");
-  if (size.size() != 2 || size[0] == 0 || size[1] == 0 || size[0] > kMostPoints || size[1] > kMostPoints || size[0] * size[1] > kMostPoints)
+  const auto fits = [](std::size_t n) { return n > 0 && n <= kMostPoints; };
+  if (size.size() != 2 || !fits(size[0]) || !fits(size[1]) || size[0] * size[1] > kMostPoints)
     refuse_result(group, fmt::format("has a surface {} that is no table of points", name));
   s.nu = static_cast<int>(size[0]);
   s.nv = static_cast<int>(size[1]);
@@ -69,7 +70,8 @@ CaseResult read_case(const Hdf5GroupReader& group) {
   if (group.has_attribute("seconds")) c.seconds = group.number("seconds");
   if (group.has_attribute("wheelset_position")) read_wheelset(group, c);
   c.loads = read_loads(group);
-  if (group.has_attribute("rail_deflection_y")) c.rail_deflection = Vec2(group.number("rail_deflection_y"), group.number("rail_deflection_z"));
+  if (group.has_attribute("rail_deflection_y"))
+    c.rail_deflection = Vec2(group.number("rail_deflection_y"), group.number("rail_deflection_z"));
   if (group.has_attribute("roller_nominal_radius"))
     c.roller = {group.number("roller_nominal_radius"), group.number("roller_pitch_rate")};
   if (group.has_attribute("X_TW_origin"))

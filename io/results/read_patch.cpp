@@ -46,7 +46,8 @@ void read_reference(const Hdf5GroupReader& group, PatchResult& p) {
 }
 
 Grid2 read_grid(const Hdf5GroupReader& group) {
-  const Grid2 grid{group.number("x0"), group.number("s0"), group.number("dx"), group.number("ds"), group.integer("nx"), group.integer("ny")};
+  const Grid2 grid{group.number("x0"), group.number("s0"),  group.number("dx"),
+                   group.number("ds"), group.integer("nx"), group.integer("ny")};
   if (grid.nx < 0 || grid.ny < 0 || static_cast<double>(grid.nx) * grid.ny > kMostElements)
     refuse_result(group, fmt::format("has a patch of {} by {} elements", grid.nx, grid.ny));
   const bool placed = std::isfinite(grid.x0) && std::isfinite(grid.y0) && std::isfinite(grid.dx) && std::isfinite(grid.dy);
