@@ -7,6 +7,7 @@
 #include "treadmark/io/results/comparison_csv.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_pictures.hpp"
+#include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
 #include "treadmark/io/results/picture_svg.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -62,6 +63,7 @@ void write_comparison_folder(const std::filesystem::path& folder, const io::Comp
   io::write_pressures_svg(folder / "pressures.svg", comparison);
   io::write_error_svg(folder / "errors.svg", comparison);
   io::write_cost_svg(folder / "costs.svg", comparison);
+  io::write_comparison_fields(folder / "fields.h5", comparison);
   io::write_text_file(folder / "table.txt", io::comparison_table(comparison));
   io::write_csv(folder / "compare.csv", comparison);
   io::write_json(folder / "compare.json", comparison);

@@ -74,7 +74,7 @@ std::string fill_of(double value, const FieldInfo& field, const Range& range) {
 
 /// Rows of cells, equal neighbours as one rectangle.
 std::string cells(const Shown& shown, const FieldInfo& field, const Range& range, const io::PanelScale& panel) {
-  std::string out;
+  std::string out = "<g shape-rendering=\"crispEdges\">\n";  // no seams between neighbours
   const GridPart& part = shown.part;
   const double x0 = (shown.window.x_low - panel.window.x_low) * panel.scale_x, y0 = (panel.window.y_high - shown.window.y_low) * panel.scale_y;
   const double width = kMilli * shown.patch->fields.grid.dx * panel.scale_x, height = kMilli * shown.patch->fields.grid.dy * panel.scale_y;
@@ -95,6 +95,7 @@ std::string cells(const Shown& shown, const FieldInfo& field, const Range& range
     }
     flush(part.nx);
   }
+  out += "</g>\n";
   const auto edge = [&](const char* style, auto&& inside) {
     io::CellMask mask{part.nx, part.ny, {}};
     for (int iy = 0; iy < part.ny; ++iy)
@@ -171,6 +172,9 @@ std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, 
     out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kLeft + (k % columns) * (width + kGapX), kTop + (k / columns) * (height + kGapY));
     out += io::svg_text(0.0, -8.0, frame->name, "start");
     for (const Shown& one : patches) out += cells(one, field, range, panel_scale);
+    if (k + columns >= count) out += io::svg_text(0.5 * width, height + 30.0, "x [mm]");
+    if (k % columns == 0)
+      out += io::svg_text(-42.0, 0.5 * height, "y [mm]", "middle", fmt::format(" transform=\"rotate(-90 -42 {:.1f})\"", 0.5 * height).c_str());
     if (patches.empty()) out += io::svg_text(0.5 * width, 0.5 * height, std::string(to_string(frame->result->status)));
     out += io::draw_panel_axes(panel_scale) + "</g>\n";
   }

@@ -16,6 +16,14 @@ namespace {
 
 constexpr double kRailBeyond = 0.5;  // [m], ahead of and behind what the wheels pass
 
+UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFile& file, io::Side side) {
+  UsedBodies used;
+  used.wheel = {Body::wheel, geometry.wheel, nullptr, geometry.round_wheel, file.contact.wheelset.nominal_radius};
+  used.rail = {Body::rail, geometry.rail, nullptr, geometry.prismatic_rail, 0.0};
+  used.left = side == io::Side::left;
+  return used;
+}
+
 wheelrail::Side side_of(io::Side side) { return side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right; }
 
 io::SurfaceSource round_wheel(const io::SimulationFile& file) {
@@ -115,6 +123,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       const wheelrail::Problem problem = to_problem(input, geometry.constant_profiles());
       on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
       built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem));
+      built.bodies.push_back(bodies_of(geometry, file, wheel.side));
       on.element = built.full.back();
     } else {
       const Stopwatch watch(built.table_seconds);
@@ -124,6 +133,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       on.rail_marker = table->nominal().X_TR.origin;
       if (on.side == wheelrail::Side::left) on.rail_marker.y() = -on.rail_marker.y();
       built.full.push_back(nullptr);
+      built.bodies.emplace_back();
     }
     v.wheels.push_back(std::move(on));
   }

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/app/simulation/defect_depth.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
@@ -19,6 +20,7 @@ struct BuiltVehicle {
   vehicle::VehicleOnTrack vehicle;
   /// By wheel: the element, where the contact is solved in full; else null.
   std::vector<std::shared_ptr<vehicle::FullContact>> full;
+  std::vector<UsedBodies> bodies;   ///< by wheel, as its full contact sees them
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
   double table_seconds = 0.0;   ///< spent on contact tables

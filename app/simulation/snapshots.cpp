@@ -135,6 +135,9 @@ void Snapshots::put_results(io::SimulationResult& result) const {
     run.cases.push_back(std::move(c));
   }
   run.cases_total = static_cast<int>(run.cases.size());
+  std::vector<UsedBodies> used;
+  for (const Kept& k : kept_) used.push_back(built_.bodies[k.wheel]);
+  run.sampled = sample_surfaces(run.cases, used);
   result.snapshots = std::move(run);
 }
 

@@ -24,7 +24,7 @@ class Snapshots {
   void save(ByteWriter& out) const;
   void restore(ByteReader& in);
 
-  /// Solves the instants again: snapshots, a case each in order of time, with their times and scenes.
+  /// Solves the instants again: snapshots, a case each in order of time, with their times, scenes and sampled surfaces.
   void put_results(io::SimulationResult& result) const;
 
  private:

@@ -36,7 +36,7 @@ struct ModeRow {
   std::string shape;  ///< in words
 };
 
-/// What pictures show of a snapshot beside its fields. Not in stores: a simulation finds it anew, after a resumption too.
+/// What pictures show of a snapshot beside its fields. Of it stores have the flags only: a simulation finds it anew, after a resumption too.
 struct SnapshotScene {
   bool nominal = false;        ///< the instant at the start of the watched wheel
   bool drawn = false;          ///< of the watched wheel: a first passage of a pitch angle that was asked for, or a position

@@ -6,6 +6,7 @@
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/store_names.hpp"
+#include "treadmark/io/results/read_hdf5.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -130,6 +131,27 @@ SimulationResult read_simulation(const std::filesystem::path& path) {
 }
 
 SimulationResult read_simulation_head(const std::filesystem::path& path) { return read_head(Store(path)); }
+
+SnapshotSeries read_snapshots(const std::filesystem::path& path) {
+  const Store store(path);
+  SnapshotSeries series;
+  RunResult& run = series.run;
+  run.version = store.root().text("version");
+  run.git = store.root().text("git");
+  const Hdf5GroupReader fields = store.root().open_group(kFields);
+  run.cases = read_cases(fields);
+  run.cases_total = static_cast<int>(run.cases.size());
+  run.sampled = read_surfaces(fields);
+  check_surface_names(fields, run.cases, run.sampled);
+  for (const CaseResult& one : run.cases) {
+    const Hdf5GroupReader group = fields.open_group(fmt::format("case_{:04}", one.number));
+    if (group.has_attribute(kTime)) series.times.push_back(group.number(kTime));
+    if (group.has_attribute(kNominal)) series.scenes.push_back({group.integer(kNominal) != 0, group.integer(kDrawn) != 0});
+  }
+  store.require(series.times.empty() || series.times.size() == run.cases.size(), kFields);
+  store.require(series.scenes.empty() || series.scenes.size() == run.cases.size(), kFields);
+  return series;
+}
 
 SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
   const Store store(path);

@@ -25,6 +25,17 @@ SimulationResult read_simulation(const std::filesystem::path& path);
 /// columns, events, static values, summary, modes. Errors and threads: as read_simulation.
 SimulationResult read_simulation_head(const std::filesystem::path& path);
 
+/// Contact fields at chosen instants: cases, version and sampled surfaces, with their times and flags as far as the file has them. The grids
+/// of depths in their scenes are empty.
+struct SnapshotSeries {
+  RunResult run;
+  std::vector<double> times;          ///< [s] one a case, or none
+  std::vector<SnapshotScene> scenes;  ///< one a case, or none
+};
+
+/// The snapshots in the file of a simulation. Errors: Error(input_data), as read_hdf5. Not to be called from two threads at once.
+SnapshotSeries read_snapshots(const std::filesystem::path& path);
+
 /// A checkpoint, and what must be the same for a simulation that goes on from it.
 struct SimulationCheckpoint {
   std::string version, git, input_sha256;

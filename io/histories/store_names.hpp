@@ -9,5 +9,9 @@ inline constexpr const char* kSimulationFormat = "treadmark simulation 1";
 inline constexpr const char* kStudyFormat = "treadmark study 1";
 inline constexpr const char* kNames = "names";  // attribute of a group: its datasets in their order
 inline constexpr const char* kCheckpoint = "checkpoint";
+inline constexpr const char* kFields = "fields";
+inline constexpr const char* kTime = "time";        // attributes of a snapshot
+inline constexpr const char* kNominal = "nominal";
+inline constexpr const char* kDrawn = "drawn";
 
 }  // namespace treadmark::io

@@ -86,13 +86,18 @@ void write_modes(const Hdf5GroupWriter& root, const std::vector<ModeRow>& modes)
 }
 
 void write_snapshots(const Hdf5GroupWriter& root, const SimulationResult& result) {
-  const Hdf5GroupWriter fields = root.make_group("fields");
+  const Hdf5GroupWriter fields = root.make_group(kFields);
   for (std::size_t i = 0; i < result.snapshots.cases.size(); ++i) {
     const CaseResult& one = result.snapshots.cases[i];
     const Hdf5GroupWriter group = fields.make_group(fmt::format("case_{:04}", one.number));
-    if (!result.snapshot_times.empty()) group.add({"time", result.snapshot_times[i]});
+    if (!result.snapshot_times.empty()) group.add({kTime, result.snapshot_times[i]});
+    if (!result.snapshot_scenes.empty()) {
+      group.add({kNominal, result.snapshot_scenes[i].nominal ? 1 : 0});
+      group.add({kDrawn, result.snapshot_scenes[i].drawn ? 1 : 0});
+    }
     write_case(group, one, CaseTimes::left_out);
   }
+  write_surfaces(fields, result.snapshots.sampled);
 }
 
 void write_bytes(const Hdf5GroupWriter& root, const std::vector<std::byte>& bytes) {

@@ -106,7 +106,7 @@ std::vector<Axis> case_axes(const io::RunResult& run) {
     const auto consider = [&](Axis axis) {
       if (varies(axis)) axes.push_back(std::move(axis));
     };
-    consider(make_axis(run, "pitch angle of the wheelset", "°", [](const Case& c) { return kDegrees * c.pitch; }));
+    consider(make_axis(run, "pitch angle", "°", [](const Case& c) { return kDegrees * c.pitch; }));
     consider(make_axis(run, "position along the track", "mm", [](const Case& c) { return kMilli * c.s; }));
     consider(make_axis(run, "lateral displacement", "mm", [](const Case& c) { return kMilli * c.y; }));
     consider(make_axis(run, "yaw angle", "°", [](const Case& c) { return kDegrees * c.yaw; }));
@@ -120,9 +120,11 @@ std::string step_name(const io::RunResult& run, std::size_t index) {
   const Case& result = run.cases[index];
   std::string name = fmt::format("case {}", result.number);
   if (!result.has_wheelset) return name;
-  const Axis first = case_axes(run).front();
+  const Axis first = case_axes(run).front();  // what tells the cases apart
   if (first.unit.empty()) return name;
-  return fmt::format("{}: {} {}{}", name, first.label, shown({first.values[index], 4}), first.unit == "°" ? "°" : " " + first.unit);
+  const char* word = first.label == "position along the track" ? "s" : first.label == "lateral displacement" ? "y" : first.label.c_str();
+  const double value = first.values[index];
+  return fmt::format("{}, {} {}{}{}", name, word, value < 0.0 ? "−" : "", shown({std::fabs(value), 4}), first.unit == "°" ? "°" : " " + first.unit);
 }
 
 Timeline case_timeline(const io::RunResult& run) {

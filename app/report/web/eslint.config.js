@@ -5,7 +5,7 @@ import { fileURLToPath } from "node:url";
 import eslint from "@eslint/js";
 import tseslint from "typescript-eslint";
 
-const nodeGlobals = { console: "readonly", process: "readonly", URL: "readonly", Buffer: "readonly", setTimeout: "readonly" };
+const nodeGlobals = { console: "readonly", process: "readonly", URL: "readonly", Buffer: "readonly", setTimeout: "readonly", document: "readonly" };
 
 export default tseslint.config(
   { ignores: ["dist/", "node_modules/"] },

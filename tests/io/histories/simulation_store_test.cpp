@@ -13,7 +13,9 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
+#include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/tests/io/histories/sample_history.hpp"
+#include "treadmark/tests/io/results/same_run.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 
 namespace treadmark {
@@ -199,6 +201,39 @@ TEST_F(SimulationStore, OtherFilesAreRefused) {
   io::write_simulation(path_, result_);
   std::filesystem::resize_file(path_, std::filesystem::file_size(path_) / 2);
   expect_unreadable(path_);
+}
+
+TEST_F(SimulationStore, SnapshotsComeBackWithTimesFlagsAndSurfaces) {
+  result_.snapshots.sampled = testing::sample_surfaces();
+  result_.snapshots.cases[0].wheel_surface = "wheel_1";
+  result_.snapshots.cases[0].bodies = io::CaseResult::Bodies{{Vec3(0.1, 0.2, 0.3), rotation_y(1.0)}, {Vec3(0.4, 0.5, 0.6), rotation_x(0.1)}};
+  result_.snapshot_scenes.resize(result_.snapshots.cases.size());
+  result_.snapshot_scenes[0].nominal = true;
+  result_.snapshot_scenes[2].drawn = true;
+  for (io::CaseResult& c : result_.snapshots.cases)
+    for (io::PatchResult& patch : c.patches) patch.npot = static_cast<int>(patch.fields.grid.size());
+  io::write_simulation(path_, result_);
+  const io::SnapshotSeries read = io::read_snapshots(path_);
+  EXPECT_EQ(read.run.version, result_.version);
+  EXPECT_EQ(read.run.git, result_.git);
+  EXPECT_EQ(read.times, result_.snapshot_times);
+  ASSERT_EQ(read.scenes.size(), 4u);
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(read.scenes[i].nominal, i == 0);
+    EXPECT_EQ(read.scenes[i].drawn, i == 2);
+    testing::expect_same_case(read.run.cases[i], result_.snapshots.cases[i], false);
+    EXPECT_EQ(read.run.cases[i].seconds, 0.0);
+  }
+  ASSERT_EQ(read.run.sampled.size(), 2u);
+  for (std::size_t i = 0; i < 2; ++i) testing::expect_same_surface(read.run.sampled[i], result_.snapshots.sampled[i]);
+
+  result_.snapshots = {};
+  result_.snapshot_times.clear();
+  result_.snapshot_scenes.clear();
+  io::write_simulation(path_, result_);
+  EXPECT_TRUE(io::read_snapshots(path_).run.cases.empty());
+  io::write_hdf5(path_, testing::sample_run());
+  EXPECT_THROW(io::read_snapshots(path_), Error);
 }
 
 }  // namespace
