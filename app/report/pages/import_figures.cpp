@@ -76,6 +76,7 @@ Points rectangle(double a, double s, double length, double width) {
 std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::ImportMaps& maps) {
   std::vector<MapView::Mark> marks;
   const io::BandMap& map = maps.fitted;
+  if (!io::is_drawable(map)) return marks;
   const bool wheel = maps.body == Body::wheel;
   const double round_mm = wheel && report.at("range").flag("closed") ? 2.0 * std::numbers::pi * kMilli * maps.nominal_radius : 0.0;
   const auto along = [&](const JsonTree& node) {

@@ -102,10 +102,10 @@ TEST_F(BenchPage, HasTheNumbersOfTheFile) {
     const std::vector<double> shown = numbers_in(table, column);
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const Json& value = document["rows"][i][key];
-      if (value.is_null())
-        EXPECT_TRUE(std::isnan(shown[i])) << column;
-      else
+      EXPECT_EQ(std::isnan(shown[i]), value.is_null()) << column;
+      if (value.is_number()) {
         EXPECT_EQ(shown[i], value.get<double>()) << column;
+      }
     }
   }
   EXPECT_EQ(fact_of(page, "Machine"), document["machine"].get<std::string>());
@@ -125,8 +125,8 @@ TEST_F(BenchPage, ChartsHaveAPlaceForEveryRepresentation) {
   EXPECT_NEAR(heights.panels[0].series[0].y[1], 50.0, 1e-9);
   const auto& detection = std::get<ChartView>(figure_of(page, "detection").view);
   EXPECT_NEAR(detection.panels[0].series[0].y[1], 4.0, 1e-9);
-  EXPECT_EQ(detection.panels[0].series[0].texts[1], "mesh 1 mm, first search: 4.00 ms");
-  EXPECT_EQ(card_of(page, "Fastest first search"), "4.00 ms | mesh 1 mm");
+  EXPECT_EQ(detection.panels[0].series[0].texts[1], "mesh 1 mm, first search: 4 ms");
+  EXPECT_EQ(card_of(page, "Fastest first search"), "4 ms | mesh 1 mm");
   EXPECT_EQ(card_of(page, "Rows that agree"), "4 of 4 | with the surfaces as given and with single heights");
   const std::string html = to_html(page, {.live = false});
   EXPECT_THAT(html, HasSubstr("a &lt;fast&gt; processor"));
