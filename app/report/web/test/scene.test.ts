@@ -5,6 +5,7 @@ import { test } from "node:test";
 
 import type { Patch } from "../src/data";
 import { arrowsOfPatch } from "../src/scene/arrows";
+import { coarseIndex, meanSpacing, strideFor } from "../src/scene/detail";
 import { drape } from "../src/scene/drape";
 import { eye, orbitOf, panned, pictureAxes, presets, turned, type Subject } from "../src/scene/orbit";
 import { roundLength, shortNumber, ticks } from "../src/scene/overlay";
@@ -263,4 +264,37 @@ test("round numbers for scales", () => {
   assert.equal(roundLength(0.0051), 0.005);
   assert.equal(shortNumber(1234.567), "1235");
   assert.equal(shortNumber(-0.5), "\u22120.5");
+});
+
+test("joined cells cover the same area with the same way round, and holes stay", () => {
+  const grid = plate(12, 9, 0, true);
+  (grid.x as number[])[5 * 9 + 3] = NaN;
+  const mesh = meshOfGrid(grid);
+  const block = mesh.blocks[0]!;
+  const area = (index: Uint32Array): number => {
+    let sum = 0;
+    for (let f = 0; f < index.length; f += 3) {
+      const [a, b, c] = [0, 1, 2].map((k) => mesh.positions.slice(3 * index[f + k]!, 3 * index[f + k]! + 2)) as [Float32Array, Float32Array, Float32Array];
+      const twice = (b[0]! - a[0]!) * (c[1]! - a[1]!) - (b[1]! - a[1]!) * (c[0]! - a[0]!);
+      assert.ok(twice < 0);
+      sum -= 0.5 * twice;
+    }
+    return sum;
+  };
+  near(area(block.index), 110 * 40 - 4 * 25, 1e-3);
+  for (const stride of [
+    { stations: 2, points: 1 },
+    { stations: 4, points: 4 },
+    { stations: 16, points: 16 },
+  ])
+    near(area(coarseIndex(mesh, block, stride)), area(block.index), 1e-3);
+  assert.ok(coarseIndex(mesh, block, { stations: 4, points: 4 }).length < 0.6 * block.index.length);
+  nearVector(meanSpacing(meshOfGrid(plate(12, 9, 0))), [10, 5], 1e-5);
+});
+
+test("cells are joined while they stay small in the picture", () => {
+  assert.equal(strideFor(2, 1.5), 1);
+  assert.equal(strideFor(0.7, 1.5), 2);
+  assert.equal(strideFor(0.7, 7), 8);
+  assert.equal(strideFor(1e-9, 7), 32);
 });

@@ -7,9 +7,10 @@ import { decode } from "../packed";
 import { bodyMaterials, rgbVector, type BodyMaterials, type SharedUniforms } from "./materials";
 import type { Rgb } from "../colours";
 import type { BodyStyle } from "./orbit";
+import { coarseIndex, meanSpacing, strideFor } from "./detail";
 import type { Ground } from "./drape";
 import { boundBlock, exaggerated, meshOfGrid, type SurfaceMesh } from "./surface";
-import { columnMajor, length, toOuter, type Place, type Vec3 } from "./vec";
+import { columnMajor, length, sub, toOuter, type Place, type Vec3 } from "./vec";
 
 /** A wheel or rail in the picture: its geometry goes to the graphics card once, a step only changes its place. */
 export class Body {
@@ -23,6 +24,9 @@ export class Body {
   private readonly materials: BodyMaterials;
   private readonly drawn: Mesh[] = [];
   private readonly depths: Mesh[] = [];
+  private readonly spacing: readonly [number, number];
+  /** Index of each block by its stride. */
+  private readonly indices: Map<string, BufferAttribute>[] = [];
   private readonly position: BufferAttribute;
   private readonly normal: BufferAttribute;
 
@@ -43,13 +47,16 @@ export class Body {
     this.position = new BufferAttribute(this.mesh.positions.slice(), 3);
     this.normal = new BufferAttribute(this.mesh.normals.slice(), 3);
     const excess = new BufferAttribute(this.mesh.deviation?.map((v) => (Number.isFinite(v) ? v : 0)) ?? new Float32Array(this.mesh.nu * nv), 1);
+    this.spacing = meanSpacing(this.mesh);
     this.group.matrixAutoUpdate = false;
     for (const block of this.mesh.blocks) {
       const geometry = new BufferGeometry();
       geometry.setAttribute("position", this.position);
       geometry.setAttribute("normal", this.normal);
       geometry.setAttribute("deviation", excess);
-      geometry.setIndex(new BufferAttribute(block.index, 1));
+      const index = new BufferAttribute(block.index, 1);
+      geometry.setIndex(index);
+      this.indices.push(new Map([["1 1", index]]));
       geometry.boundingSphere = new Sphere(new Vector3(...block.centre), block.radius);
       this.drawn.push(this.part(geometry, this.materials.solid));
       this.depths.push(this.part(geometry, this.materials.depth));
@@ -95,6 +102,31 @@ export class Body {
       sphere?.center.set(...block.centre);
       if (sphere) sphere.radius = block.radius;
     });
+  }
+
+  /**
+   * Joins cells that are small in the picture. `pixels`: of a millimetre at a distance of one; `limit`: of the joined cells [pixels];
+   * `nearest`: nothing counts as nearer than this [mm].
+   */
+  setDetail(eye: Vec3, pixels: number, limit: number, nearest: number): void {
+    if (this.style === "hidden" || !this.place) return;
+    this.mesh.blocks.forEach((block, k) => {
+      const away = length(sub(this.inWorld(block.centre), eye)) - 0.6 * block.radius;
+      const scale = pixels / Math.max(nearest, away);
+      const stride = { stations: strideFor(this.spacing[0] * scale, limit), points: strideFor(this.spacing[1] * scale, limit) };
+      const key = `${stride.stations} ${stride.points}`;
+      const known = this.indices[k]!;
+      let index = known.get(key);
+      if (!index) known.set(key, (index = new BufferAttribute(coarseIndex(this.mesh, block, stride), 1)));
+      const { geometry } = this.drawn[k]!;
+      if (geometry.index !== index) geometry.setIndex(index);
+    });
+  }
+
+  /** A point relative to the mesh's centre in the world. */
+  private inWorld(p: Vec3): Vec3 {
+    const v = new Vector3(...p).applyMatrix4(this.group.matrix);
+    return [v.x, v.y, v.z];
   }
 
   /** Places the body in track axes, drawn relative to `anchor`. Null: not in this step. */

@@ -3,6 +3,7 @@
 import type { SceneView } from "../data";
 import { addDownloads } from "../download";
 import type { Store } from "../store";
+import { Layers } from "./layers";
 import { Stage, graphics } from "./stage";
 import { Viewer } from "./viewer";
 
@@ -16,8 +17,8 @@ function make<K extends keyof HTMLElementTagNameMap>(tag: K, className: string):
   return element;
 }
 
-/** Both canvases in one. */
-function composed(stage: Stage, overlay: HTMLCanvasElement): HTMLCanvasElement {
+/** The picture and the layers over it in one. */
+function composed(stage: Stage, layers: Layers): HTMLCanvasElement {
   stage.drawNow();
   const both = document.createElement("canvas");
   both.width = stage.canvas.width;
@@ -25,7 +26,7 @@ function composed(stage: Stage, overlay: HTMLCanvasElement): HTMLCanvasElement {
   const pen = both.getContext("2d");
   if (!pen) throw new Error("the browser gives no canvas to draw on");
   pen.drawImage(stage.canvas, 0, 0);
-  pen.drawImage(overlay, 0, 0, both.width, both.height);
+  layers.copyTo(pen, both.width / stage.width);
   return both;
 }
 
@@ -43,24 +44,18 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   canvas.setAttribute("role", "img");
   const caption = figure.querySelector("figcaption")?.textContent ?? "";
   canvas.setAttribute("aria-label", `${caption ? `${caption}. ` : ""}Three-dimensional view of wheel, rail and contact. ${help}`);
-  const overlay = make("canvas", "scene-overlay");
-  overlay.setAttribute("aria-hidden", "true");
   const printed = make("img", "scene-print");
   printed.alt = caption;
   const output = make("output", "scene-value");
   const hint = make("p", "scene-hint");
   hint.textContent = help;
-  box.append(canvas, overlay);
-  const pen = overlay.getContext("2d");
-  if (!pen) throw new Error("the browser gives no canvas to draw on");
+  box.append(canvas);
 
   const stage = new Stage(canvas, software);
+  const layers = new Layers(box);
   const measure = (): void => {
     const { width, height } = box.getBoundingClientRect();
     if (width < 2 || height < 2) return;
-    const ratio = Math.min(2, Math.max(1, window.devicePixelRatio));
-    overlay.width = Math.round(width * ratio);
-    overlay.height = Math.round(height * ratio);
     stage.resize(Math.round(width), Math.round(height));
   };
   const fullScreen = (): void => {
@@ -69,7 +64,7 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   };
   frame.append(box);
   measure();
-  const viewer = new Viewer(figure, stage, pen, output, view, store, fullScreen);
+  const viewer = new Viewer(figure, stage, layers, output, view, store, fullScreen);
   frame.replaceChildren(viewer.panel.element, box, output, hint, printed);
   measure();
   new ResizeObserver(() => {
@@ -82,10 +77,10 @@ function start(figure: HTMLElement, frame: HTMLElement, view: SceneView, store: 
   store.onTheme((theme) => viewer.setTheme(theme));
   window.addEventListener("beforeprint", () => {
     viewer.setTheme("light");
-    printed.src = composed(stage, overlay).toDataURL("image/png");
+    printed.src = composed(stage, layers).toDataURL("image/png");
     viewer.setTheme(store.theme);
   });
-  addDownloads(figure, { png: () => toBlob(composed(stage, overlay)) }, view.id);
+  addDownloads(figure, { png: () => toBlob(composed(stage, layers)) }, view.id);
   return stage;
 }
 

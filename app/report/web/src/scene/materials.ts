@@ -79,16 +79,23 @@ void main() {
   float straight = abs(side);
   vec3 lamp = normalize(vec3(-0.45, 0.5, 0.75));
   float shade = 0.44 + 0.42 * max(dot(n, lamp), 0.0) + 0.18 * straight;
-  float gloss = 0.10 * pow(max(dot(reflect(-lamp, n), v), 0.0), 18.0);
+  float gloss = max(dot(reflect(-lamp, n), v), 0.0);
+  gloss *= gloss;
+  gloss *= gloss;
+  gloss *= 0.10 * gloss * gloss * gloss;
   float t = clamp(0.5 + 0.5 * excess / span, 0.0, 1.0);
-  vec3 colour = mix(base, texture2D(colours, vec2(t, 0.5)).rgb, coloured);
+  vec3 colour = base;
+  if (coloured > 0.0) colour = texture2D(colours, vec2(t, 0.5)).rgb;
   colour = colour * (shade - 0.10 * inside) + gloss;
   float alpha = opacity;
   if (opacity < 1.0) alpha = mix(opacity, 0.82, pow(1.0 - straight, 2.2)) + coloured * 0.5 * abs(2.0 * t - 1.0);
   vec2 width = max(fwidth(cell), vec2(1e-6));
-  vec2 near = abs(fract(cell - 0.5) - 0.5) / width;
-  vec2 drawn = vec2(thin(near.x, 0.1), thin(near.y, 0.1)) * (1.0 - smoothstep(0.22, 0.45, width));
-  float lines = 0.38 * mesh * max(drawn.x, drawn.y);
+  float lines = 0.0;
+  if (mesh > 0.0) {
+    vec2 near = abs(fract(cell - 0.5) - 0.5) / width;
+    vec2 drawn = vec2(thin(near.x, 0.1), thin(near.y, 0.1)) * (1.0 - smoothstep(0.22, 0.45, width));
+    lines = 0.38 * max(drawn.x, drawn.y);
+  }
   vec2 margin = min(cell, lastCell - cell) / width;
   lines = max(lines, 0.6 * max(thin(margin.y, 0.6), openEnds * thin(margin.x, 0.6)));
   float across = dot(place - sectionAt, sectionNormal);

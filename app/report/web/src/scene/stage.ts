@@ -34,8 +34,10 @@ export class Stage {
   visible = false;
   pictures = 0;
   lost = false;
-  /** Called before and after each picture. */
-  before: () => void = () => undefined;
+  /** How much larger than usual the cells of surfaces may be while pictures follow each other. */
+  coarseness = 1;
+  /** Called before and after each picture; moving: more pictures may follow soon. */
+  before: (moving: boolean) => void = () => undefined;
   after: () => void = () => undefined;
   private asked = 0;
   private lastTime = -Infinity;
@@ -46,7 +48,7 @@ export class Stage {
 
   constructor(
     readonly canvas: HTMLCanvasElement,
-    private readonly software: boolean,
+    readonly software: boolean,
   ) {
     this.renderer = new WebGLRenderer({ canvas, antialias: !software, stencil: true, powerPreference: "high-performance" });
     this.camera.up.set(0, 0, -1);
@@ -91,9 +93,9 @@ export class Stage {
       this.asked = 0;
       this.adapt(time - this.lastTime);
       this.lastTime = time;
-      this.draw(this.movingRatio);
+      this.draw(true);
       clearTimeout(this.rest);
-      if (this.movingRatio < this.fullRatio()) this.rest = setTimeout(() => this.visible && this.draw(this.fullRatio()), restAfter);
+      this.rest = setTimeout(() => this.visible && this.draw(false), restAfter);
     });
   }
 
@@ -103,22 +105,24 @@ export class Stage {
     this.slow = passed > slowFrame ? this.slow + 1 : Math.max(0, this.slow - 0.25);
     if (this.slow < 4) return;
     this.slow = 0;
-    this.movingRatio = Math.max(0.5, this.movingRatio * 0.8);
+    if (this.coarseness < 2) this.coarseness *= 1.42;
+    else this.movingRatio = Math.max(0.6, this.movingRatio * 0.8);
   }
 
   /** At full resolution, at once; the caller reads the canvas in the same task. */
   drawNow(): void {
-    this.draw(this.fullRatio());
+    this.draw(false);
   }
 
-  private draw(ratio: number): void {
+  private draw(moving: boolean): void {
     if (this.width < 2 || this.height < 2 || this.lost) return;
+    const ratio = moving ? this.movingRatio : this.fullRatio();
     if (ratio !== this.ratio) {
       this.ratio = ratio;
       this.renderer.setPixelRatio(ratio);
       this.renderer.setSize(this.width, this.height, false);
     }
-    this.before();
+    this.before(moving);
     this.renderer.render(this.scene, this.camera);
     this.pictures += 1;
     this.after();

@@ -22,6 +22,10 @@ export interface SurfaceMesh {
   deviation: Float32Array | null;
   blocks: Block[];
   triangles: number;
+  /** 1 where there is a point. */
+  there: Uint8Array;
+  /** Whether faces go round the other way than stations and points do. */
+  turned: boolean;
 }
 
 export interface SurfaceGrid {
@@ -35,7 +39,7 @@ export interface SurfaceGrid {
   closed: boolean;
 }
 
-const trianglesPerBlock = 12000;
+const trianglesPerBlock = 5000;
 
 function middle(values: ArrayLike<number>): number {
   let low = Infinity;
@@ -112,6 +116,7 @@ function pointsInwards(grid: SurfaceGrid, mesh: SurfaceMesh): boolean {
 }
 
 function turnOver(mesh: SurfaceMesh): void {
+  mesh.turned = true;
   for (let k = 0; k < mesh.normals.length; ++k) mesh.normals[k] = -mesh.normals[k]!;
   for (const { index } of mesh.blocks)
     for (let f = 0; f < index.length; f += 3) [index[f + 1], index[f + 2]] = [index[f + 2]!, index[f + 1]!];
@@ -150,7 +155,7 @@ export function meshOfGrid(grid: SurfaceGrid): SurfaceMesh {
     there[k] = 1;
     positions.set([x, y, z], 3 * k);
   }
-  const mesh: SurfaceMesh = { nu, nv, centre, positions, normals: new Float32Array(0), deviation, blocks: [], triangles: 0 };
+  const mesh: SurfaceMesh = { nu, nv, centre, positions, normals: new Float32Array(0), deviation, blocks: [], triangles: 0, there, turned: false };
   const stations = Math.max(1, Math.floor(trianglesPerBlock / Math.max(1, 2 * (nv - 1))));
   for (let first = 0; first + 1 < nu; first += stations) {
     const last = Math.min(nu - 1, first + stations);

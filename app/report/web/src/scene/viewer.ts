@@ -8,8 +8,9 @@ import { decode } from "../packed";
 import { Body } from "./body";
 import { addControls, type ControlTarget } from "./controls";
 import { placeOf } from "./drape";
+import type { Layers } from "./layers";
 import { patchMaterial, rgbVector, sharedUniforms } from "./materials";
-import { millimetresPerPixel, orbitOf, outlook, pictureAxes, presets, type Orbit, type ViewName } from "./orbit";
+import { eye, millimetresPerPixel, orbitOf, outlook, pictureAxes, presets, type Orbit, type ViewName } from "./orbit";
 import { drawCaption, drawColourBar, drawDeviationBar, drawMarker, drawScale, drawTriad, shortNumber, titleOf } from "./overlay";
 import { paletteOf, type Palette } from "./palette";
 import { makePanel, type Options, type Panel } from "./panel";
@@ -23,6 +24,9 @@ import { add, dot, length, sub, toOuter, turn, type Place, type Vec3 } from "./v
 
 const here: Place = { origin: [0, 0, 0], rotation: [1, 0, 0, 0, 1, 0, 0, 0, 1] };
 const patchBias = 0.6;
+/** Cells of the surfaces smaller than this are joined [pixels]. */
+const restCell = 2.5;
+const movingCell = 14;
 
 /** Wheel, rail and patches of the current step, with the camera and what the reader chose to see. */
 export class Viewer implements ControlTarget {
@@ -55,7 +59,7 @@ export class Viewer implements ControlTarget {
   constructor(
     private readonly figure: HTMLElement,
     private readonly stage: Stage,
-    private readonly pen: CanvasRenderingContext2D,
+    private readonly layers: Layers,
     private readonly output: HTMLOutputElement,
     private readonly sceneView: SceneView,
     private readonly store: Store,
@@ -97,7 +101,7 @@ export class Viewer implements ControlTarget {
     this.world.matrixAutoUpdate = false;
     this.world.add(this.patches.group);
     this.stage.scene.add(this.world);
-    this.stage.before = () => this.prepare();
+    this.stage.before = (moving) => this.prepare(moving);
     this.stage.after = () => this.finish();
     addControls(stage.canvas, this);
     this.setTheme(store.theme);
@@ -282,7 +286,7 @@ export class Viewer implements ControlTarget {
     }
   }
 
-  private prepare(): void {
+  private prepare(moving: boolean): void {
     this.styleBodies();
     const forward = outlook(this.orbit)[0] <= 0 ? 1 : -1;
     this.shared.cut.value.set(forward, 0, 0, -1.04 * this.cutReach);
@@ -293,38 +297,59 @@ export class Viewer implements ControlTarget {
       reach = Math.max(reach, length(sub(centre, this.orbit.target)) + body.radius);
     }
     this.stage.aim(this.orbit, reach);
+    const pixels = 1 / millimetresPerPixel({ ...this.orbit, distance: 1 }, this.stage.height);
+    const limit = moving && this.stage.software ? movingCell * this.stage.coarseness : restCell;
+    for (const body of this.bodies.values()) body.setDetail(eye(this.orbit), pixels, limit, 0.5 * this.orbit.distance);
   }
 
   private finish(): void {
-    this.drawOverlay();
+    this.drawLayers();
     const { dataset } = this.figure;
     let triangles = this.patches.triangles;
     for (const body of this.bodies.values()) if (body.place && body.style !== "hidden") triangles += body.mesh.triangles;
     dataset["ready"] = "true";
     dataset["triangles"] = String(triangles);
+    dataset["drawn"] = String(this.stage.renderer.info.render.triangles);
     dataset["pictures"] = String(this.stage.pictures);
     dataset["frame"] = String(this.frameIndex);
   }
 
   /** Text and signs over the picture, in pixels of the page. */
-  drawOverlay(): void {
-    const { pen, palette, stage, field } = this;
+  private drawLayers(): void {
+    const { layers, palette, stage, field, options } = this;
     const { width, height } = stage;
-    const scale = pen.canvas.width / Math.max(1, width);
-    pen.setTransform(scale, 0, 0, scale, 0, 0);
-    pen.clearRect(0, 0, width, height);
+    const style = `${this.store.theme} ${palette.text}`;
     this.drawPoint();
-    if (field && this.patches.shown.length > 0) drawColourBar(pen, palette, field, this.range, width - 12, 14, Math.min(200, 0.42 * height));
-    if (this.options.deviation && [...this.bodies.values()].some((body) => body.place && body.deviationSize > 0)) {
+
+    const caption = this.caption();
+    const captionBox = { x: 4, y: 4, width: Math.min(0.62 * width + 16, width - 8), height: 8 + 20 * Math.max(1, caption.length) };
+    layers.show("caption", caption.length > 0 ? captionBox : null, `${style} ${caption.join("\n")}`, (pen) =>
+      drawCaption(pen, palette, caption, 14, 18, 0.6 * width),
+    );
+
+    const barHeight = Math.min(200, 0.42 * height);
+    const bar = field && this.patches.shown.length > 0 ? { x: width - 190, y: 4, width: 186, height: barHeight + 56 } : null;
+    layers.show("bar", bar, `${style} ${field?.name} ${this.range.low} ${this.range.high}`, (pen) => {
+      if (field) drawColourBar(pen, palette, field, this.range, width - 12, 14, barHeight);
+    });
+
+    const deviates = options.deviation && [...this.bodies.values()].some((body) => body.place && body.deviationSize > 0);
+    const span = this.shared.span.value;
+    layers.show("deviation", deviates ? { x: width - 270, y: height - 64, width: 266, height: 62 } : null, `${style} ${span}`, (pen) => {
       const title = width > 620 ? "deviation from mean section [mm]" : "deviation [mm]";
-      drawDeviationBar(pen, palette, this.shared.span.value, title, width - 12, height - 10, Math.min(210, 0.42 * width));
-    }
+      drawDeviationBar(pen, palette, span, title, width - 12, height - 10, Math.min(210, 0.42 * width));
+    });
+
     const { right, up } = pictureAxes(this.orbit);
     const out = outlook(this.orbit);
     const axes = [0, 1, 2].map((k) => [right[k]!, up[k]!, out[k]!] as const);
-    drawTriad(pen, palette, axes, 46, height - 48);
-    drawScale(pen, palette, millimetresPerPixel(this.orbit, height), 104, height - 14, Math.min(120, 0.22 * width));
-    drawCaption(pen, palette, this.caption(), 14, 18, 0.6 * width);
+    const scale = millimetresPerPixel(this.orbit, height);
+    layers.show("triad", { x: 0, y: height - 96, width: 96, height: 96 }, `${style} ${axes.flat().join(" ")}`, (pen) =>
+      drawTriad(pen, palette, axes, 46, height - 48),
+    );
+    layers.show("scale", { x: 96, y: height - 40, width: 150, height: 36 }, `${style} ${scale}`, (pen) =>
+      drawScale(pen, palette, scale, 104, height - 14, Math.min(120, 0.22 * width)),
+    );
   }
 
   private caption(): string[] {
@@ -351,11 +376,15 @@ export class Viewer implements ControlTarget {
   }
 
   private drawPoint(): void {
+    const { layers, palette, stage } = this;
+    const { width, height } = stage;
     const picked = this.picked();
-    if (!picked) return;
-    const corners = picked.corners.map((corner) => this.stage.project(sub(toOuter(picked.place, corner), this.anchor)));
+    const corners = picked?.corners.map((corner) => stage.project(sub(toOuter(picked.place, corner), this.anchor))) ?? [];
     const seen = corners.filter((corner): corner is [number, number] => corner !== null);
-    if (seen.length === 4) drawMarker(this.pen, this.palette, seen, picked.text, this.stage.width);
+    const key = `${this.store.theme} ${picked?.text} ${seen.flat().join(" ")}`;
+    layers.show("point", seen.length === 4 ? { x: 0, y: 0, width, height } : null, key, (pen) =>
+      drawMarker(pen, palette, seen, picked?.text ?? "", width),
+    );
   }
 
   /** Says the value of the picked element below the picture. */
