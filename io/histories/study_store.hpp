@@ -14,6 +14,9 @@ namespace treadmark::io {
 /// Error(configuration) for files that cannot be written. Not to be called from two threads at once.
 void write_study_store(const std::filesystem::path& path, const StudyResult& study);
 
+/// What a store of a study says of it, without its runs. Errors: Error(input_data). Not to be called from two threads at once.
+StudyResult read_study_head(const std::filesystem::path& path);
+
 /// Table with commas, a run a line in the order of the numbers: swept keys, then the summary (SI; exact; empty = none), then run,
 /// label, status, message. The file appears only when complete. Errors: as study_table; Error(configuration). Thread-safe.
 void write_sweep_csv(const std::filesystem::path& path, const StudyResult& study);

@@ -26,7 +26,7 @@ ShownUnit shown_unit(const std::string& column) {
   if (ends("_W")) return {1.0, "W"};
   if (ends("_J")) return {1.0, "J"};
   if (ends("_s")) return {1.0, "s"};
-  if (ends("x_m") && !ends("cp_m")) return {1.0, "m"};  // distance travelled
+  if (column == "x_m" || ends("_x_m")) return {1.0, "m"};  // distance travelled
   if (ends("_m")) return {1e3, "mm"};
   return {1.0, ""};
 }

@@ -11,6 +11,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/histories/study_store.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -51,7 +52,9 @@ std::string label_of(const std::vector<std::pair<std::string, std::string>>& swe
 
 StudyOnDisk read_study_folder(const fs::path& folder) {
   StudyOnDisk out;
-  out.study.input_file = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
+  const fs::path whole = folder / "sweep.h5";  // written when all runs are finished
+  if (fs::exists(whole)) out.study = io::read_study_head(whole);
+  if (out.study.input_file.empty()) out.study.input_file = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   for (const int number : runs_of(folder / "study.id")) {
     const fs::path store = folder / "runs" / fmt::format("run_{:04}", number) / "simulation.h5";
     if (!fs::exists(store)) {

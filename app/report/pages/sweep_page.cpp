@@ -126,7 +126,7 @@ bool has_history(const ChartView& view) {
 
 Table run_table(const io::StudyTable& table) {
   Table out{"runs", "Runs of the study", {{"run"}}};
-  for (const std::string& key : table.keys) out.columns.push_back({key, unit_of_key(key)});
+  for (const std::string& key : table.keys) out.columns.push_back({key});
   for (const io::NamedValue& quantity : table.quantities) out.columns.push_back({quantity.name, shown_unit(quantity.name).name});
   out.columns.push_back({"status"});
   out.columns.push_back({"message"});

@@ -46,6 +46,20 @@ class StudyStore : public ::testing::Test {
   io::StudyResult study_;
 };
 
+TEST_F(StudyStore, ItsHeadReadsBack) {
+  study_.title = "Speeds <and> cants";
+  study_.input_sha256 = "abc";
+  study_.settings = {"a=1", "b=\"2\""};
+  io::write_study_store(path_, study_);
+  const io::StudyResult head = io::read_study_head(path_);
+  EXPECT_EQ(head.title, study_.title);
+  EXPECT_EQ(head.version, study_.version);
+  EXPECT_EQ(head.input_file, "study.toml");
+  EXPECT_EQ(head.input_sha256, "abc");
+  EXPECT_EQ(head.settings, study_.settings);
+  EXPECT_THROW(io::read_study_head(study_.runs.front().store), Error);
+}
+
 TEST_F(StudyStore, HoldsTheRunsAndTheTable) {
   io::write_study_store(path_, study_);
   const io::Hdf5Reader file(path_);

@@ -1,0 +1,325 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+// Opens reports of all kinds, made by the program from real results, in a browser and uses them as a reader would.
+// usage: node --test test/reports.browser.mjs, with TREADMARK (program), TREADMARK_EXAMPLES and OUT (folders) and CHROMIUM in the environment
+import assert from "node:assert/strict";
+import { mkdirSync, readFileSync, rmSync, statSync } from "node:fs";
+import { join, resolve } from "node:path";
+import test, { after, before } from "node:test";
+import { pathToFileURL } from "node:url";
+
+import { chromium } from "playwright-core";
+
+import { Results } from "./results.mjs";
+
+const folder = resolve(process.env.OUT ?? "dist/reports");
+const pictures = join(folder, "screenshots");
+const sizes = { desktop: { width: 1280, height: 900 }, phone: { width: 390, height: 844 } };
+rmSync(folder, { recursive: true, force: true });
+mkdirSync(pictures, { recursive: true });
+const results = new Results(process.env.TREADMARK ?? "treadmark", process.env.TREADMARK_EXAMPLES, folder);
+
+let browser;
+before(async () => {
+  browser = await chromium.launch({
+    executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
+    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+  });
+});
+after(() => browser?.close());
+
+const read = (name) => JSON.parse(readFileSync(join(folder, name), "utf8"));
+const near = (value, wanted, bound, what) => assert.ok(Math.abs(value - wanted) <= bound, `${what}: ${value}, not ${wanted}`);
+
+/** A page that complains about errors and requests when it is closed. */
+class Tab {
+  static async open(file, { size = "desktop", theme = "light", scripts = true } = {}) {
+    const tab = new Tab();
+    tab.context = await browser.newContext({ viewport: sizes[size], colorScheme: theme, acceptDownloads: true, javaScriptEnabled: scripts });
+    tab.page = await tab.context.newPage();
+    tab.wrong = [];
+    tab.requests = [];
+    tab.page.on("pageerror", (error) => tab.wrong.push(String(error)));
+    tab.page.on("dialog", (dialog) => {
+      tab.wrong.push(`dialog ${dialog.message()}`);
+      void dialog.dismiss();
+    });
+    // What the processor's drawing says of its own slowness is not the page's fault.
+    tab.page.on("console", (message) => ["error", "warning"].includes(message.type()) && !/GPU stall|GL Driver/.test(message.text()) && tab.wrong.push(message.text()));
+    tab.page.on("request", (request) => tab.requests.push(request.url()));
+    await tab.page.goto(pathToFileURL(join(folder, file)).href);
+    return tab;
+  }
+
+  async close() {
+    assert.deepEqual(this.wrong, [], "errors of the page");
+    assert.deepEqual(this.requests.filter((url) => !/^(data:|blob:)/.test(url)).slice(1), [], "requests besides the page itself");
+    await this.context.close();
+  }
+
+  step() {
+    return this.page.locator(".timeline-slider").evaluate((slider) => slider.valueAsNumber);
+  }
+
+  async key(selector, key) {
+    await this.page.locator(selector).first().focus();
+    await this.page.keyboard.press(key);
+  }
+
+  value(field) {
+    return this.page.locator(`[data-readout="${field}"]`).first().getAttribute("data-value");
+  }
+
+  async waitForValue(field, wanted, bound) {
+    await this.page.waitForFunction(
+      ([name, value, most]) => Math.abs(Number(document.querySelector(`[data-readout="${name}"]`)?.getAttribute("data-value") ?? NaN) - value) <= most,
+      [field, wanted, bound],
+      { timeout: 10000 },
+    );
+  }
+
+  /** Full-precision number of a table: row of a step, column by its heading. */
+  cell(table, step, heading) {
+    return this.page.locator(`#table-${table}`).evaluate(
+      (element, [k, name]) => {
+        const column = [...element.tHead.rows[0].cells].findIndex((cell) => cell.textContent.trim().startsWith(name));
+        const row = [...element.tBodies[0].rows].find((one) => one.dataset.step === String(k));
+        return Number(row.cells[column].dataset.value);
+      },
+      [step, heading],
+    );
+  }
+}
+
+/** Pictures of the page at both widths in both themes; nothing sticks out at the side. */
+async function photograph(file, name, selector) {
+  for (const size of Object.keys(sizes))
+    for (const theme of ["light", "dark"]) {
+      const tab = await Tab.open(file, { size, theme });
+      if (selector) {
+        await tab.page.locator(selector).waitFor();
+        await tab.page.evaluate((s) => document.querySelector(s).scrollIntoView({ block: "start" }), selector);
+        await tab.page.mouse.wheel(0, -90);
+      }
+      await tab.page.waitForTimeout(1200);
+      const [wide, window] = await tab.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+      assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
+      const dark = await tab.page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380);
+      assert.equal(dark, theme === "dark", `${name}, ${theme}`);
+      await tab.page.screenshot({ path: join(pictures, `${name}-${size}-${theme}.png`) });
+      await tab.close();
+    }
+}
+
+test("a wheel flat in 26 positions", async () => {
+  const file = results.run();
+  assert.ok(statSync(join(folder, file)).size < 8e6);
+  const json = read("run/result.json");
+  const tab = await Tab.open(file);
+  const { page } = tab;
+  assert.equal(await page.locator(".banner.failed").count(), 0);
+  for (let k = 0; k < 26; ++k) {
+    const patch = json.cases[k].patches.reduce((a, b) => (a.fn_N > b.fn_N ? a : b));
+    const most = Math.max(...json.cases[k].patches.map((one) => one.pmax_MPa));
+    near(await tab.cell("cases", k, "p_max"), most, 1e-9 * most, `largest pressure of case ${k + 1}`);
+    near(await tab.cell("patches", k, "F_n"), json.cases[k].patches[0].fn_N / 1e3, 1e-9 * patch.fn_N, `force of case ${k + 1}`);
+  }
+  // The slider moves the patches: the peak of each position that is chosen has the pressure of the result file.
+  await page.locator("#patches-view [data-control='peak']").waitFor();
+  for (const [key, k] of [["Home", 0], ["End", 25], ["PageUp", undefined], ["ArrowLeft", undefined]]) {
+    await tab.key(".timeline-slider", key);
+    const step = await tab.step();
+    if (k !== undefined) assert.equal(step, k);
+    await page.waitForTimeout(150);
+    await page.locator("#patches-view [data-control='peak']").click();
+    const patch = json.cases[step].patches.reduce((a, b) => (a.fn_N > b.fn_N ? a : b));
+    await tab.waitForValue("pressure", patch.pmax_MPa, 2e-4 * patch.pmax_MPa);
+    assert.equal(await page.locator("#table-cases tr.current").getAttribute("data-step"), String(step));
+  }
+  // A row of the table chooses its case, another quantity is shown.
+  await page.locator("#table-cases tr[data-step='12'] td").first().click();
+  assert.equal(await tab.step(), 12);
+  await page.locator("#patches-view [data-control='field']").selectOption("traction");
+  await page.locator("#patches-view [data-control='peak']").click();
+  const traction = Number(await tab.value("traction"));
+  const patch = json.cases[12].patches[0];
+  assert.ok(traction > 0 && traction <= 0.3001 * patch.pmax_MPa, `traction ${traction}`);
+  // Files: pictures and numbers.
+  for (const kind of ["SVG", "PNG", "CSV"]) {
+    const [file] = await Promise.all([page.waitForEvent("download"), page.locator("#patches-view .downloads button", { hasText: kind }).first().click()]);
+    assert.ok(statSync(await file.path()).size > 500, kind);
+  }
+  await tab.close();
+  await photograph(file, "run", "#contact");
+});
+
+test("the view in space shows wheel, rail and patch and is picked", async () => {
+  const tab = await Tab.open("run.html");
+  const { page } = tab;
+  await page.locator("#scene").scrollIntoViewIfNeeded();
+  await page.waitForSelector("#scene[data-ready='true']", { timeout: 30000 });
+  assert.ok(Number(await page.locator("#scene").getAttribute("data-triangles")) > 2000);
+  const canvas = page.locator("#scene canvas").first();
+  const box = await canvas.boundingBox();
+  // Somewhere near the middle there is the patch.
+  let picked = null;
+  for (const [dx, dy] of [[0, 0], [0, -15], [0, 15], [20, 0], [-20, 0], [30, -20], [-30, 20], [40, 10], [-40, -10], [0, 40], [0, -40]]) {
+    await page.mouse.click(box.x + box.width / 2 + dx, box.y + box.height / 2 + dy);
+    await page.waitForTimeout(200);
+    picked = await page.locator("#scene").getAttribute("data-picked");
+    if (picked) break;
+  }
+  assert.ok(Number(picked) > 0, `picked ${picked}`);
+  await tab.close();
+  await photograph("run.html", "scene", "#scene");
+});
+
+test("26 positions open and follow the slider without delay", async () => {
+  const tab = await Tab.open("run.html");
+  const opened = await tab.page.evaluate(() => {
+    const [entry] = performance.getEntriesByType("navigation");
+    return entry.loadEventEnd - entry.startTime;
+  });
+  await tab.page.waitForSelector("#scene[data-ready='true'], #patches-view [data-readout]", { timeout: 30000 });
+  const rate = await tab.page.evaluate(async () => {
+    const slider = document.querySelector(".timeline-slider");
+    const pictures = [];
+    const from = performance.now();
+    for (let k = 0; performance.now() - from < 3000; ++k) {
+      slider.value = String(k % 26);
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+      await new Promise(requestAnimationFrame);
+      pictures.push(performance.now());
+    }
+    return (1000 * (pictures.length - 1)) / (pictures.at(-1) - pictures[0]);
+  });
+  console.log(`opened in ${opened.toFixed(0)} ms, ${rate.toFixed(0)} pictures a second`);  // times decide no test: machines are busy
+  await tab.close();
+});
+
+test("400 steps in time", async () => {
+  const file = results.long();
+  assert.ok(statSync(join(folder, file)).size < 8e6);
+  const json = read("long/result.json");
+  assert.equal(json.cases.length, 401);
+  const tab = await Tab.open(file);
+  await tab.page.locator("#patches-view [data-control='peak']").waitFor();
+  for (const step of [0, 133, 400]) {
+    await tab.page.evaluate((k) => {
+      const slider = document.querySelector(".timeline-slider");
+      slider.value = String(k);
+      slider.dispatchEvent(new Event("input", { bubbles: true }));
+    }, step);
+    await tab.page.waitForTimeout(200);
+    await tab.page.locator("#patches-view [data-control='peak']").click();
+    const pressure = json.cases[step].patches.reduce((a, b) => (a.fn_N > b.fn_N ? a : b)).pmax_MPa;
+    await tab.waitForValue("pressure", pressure, 6e-3 * pressure);  // one byte a number at this length
+  }
+  await tab.close();
+});
+
+test("an interrupted run says so on top and shows what there is", async () => {
+  const file = await results.interrupted();
+  const json = read("interrupted/result.json");
+  assert.equal(json.complete, false);
+  const tab = await Tab.open(file);
+  const banner = tab.page.locator("main .banner").first();
+  assert.match(await banner.textContent(), new RegExp(`Interrupted\\. ${json.cases.length} of 3000 cases`));
+  assert.match(await banner.getAttribute("class"), /failed/);
+  assert.equal(await tab.page.locator("#table-cases tbody tr").count(), json.cases.length);
+  await tab.close();
+});
+
+test("names and messages with markup are text; cases without contact are named", async () => {
+  const file = results.nasty();
+  const tab = await Tab.open(file);
+  assert.equal(await tab.page.locator("h1").textContent(), "<img src=x onerror=alert(1)> & 'q'");
+  assert.equal(await tab.page.locator("img[src='x']").count(), 0);
+  assert.ok((await tab.page.locator("main .banner").count()) > 0);
+  assert.match(await tab.page.locator("main .banner").first().textContent(), /1 case/);
+  await tab.key(".timeline-slider", "End");
+  await tab.page.locator("#patches-view").scrollIntoViewIfNeeded();
+  await tab.page.waitForTimeout(300);
+  assert.match(await tab.page.locator("#patches-view").textContent(), /no contact|failed/i);
+  await tab.close();
+});
+
+test("a comparison of representations", async () => {
+  const file = results.compare();
+  const json = read("compare/compare.json");
+  const tab = await Tab.open(file);
+  const rows = await tab.page.locator("table.data").last().locator("tbody tr").count();
+  assert.equal(rows, json.rows.length);
+  await tab.page.locator("[data-view='contact'] [data-control='peak']").first().waitFor();
+  await tab.key(".timeline-slider", "End");
+  await tab.page.locator("[data-view='contact'] [data-control='peak']").first().click();
+  const truth = json.rows.find((row) => row.case === 3);
+  await tab.waitForValue("pressure", truth.pmax_MPa, 2e-4 * truth.pmax_MPa);
+  assert.ok((await tab.page.locator("[data-view='chart'] path.line, [data-view='chart'] .mark").count()) > 0);
+  await tab.close();
+  await photograph(file, "compare", "[data-view='contact']");
+});
+
+test("a benchmark", async () => {
+  const file = results.bench();
+  const json = read("bench/bench.json");
+  const tab = await Tab.open(file);
+  assert.ok((await tab.page.locator("table.data tbody tr").count()) >= json.rows.length);
+  await tab.page.locator("[data-view='chart']").first().scrollIntoViewIfNeeded();
+  await tab.page.waitForTimeout(300);
+  await tab.close();
+  await photograph(file, "bench");
+});
+
+test("the audit of an import", async () => {
+  const file = results.import();
+  const tab = await Tab.open(file);
+  const pictures = await tab.page.locator("img.picture").evaluateAll((images) => images.map((image) => image.complete && image.naturalWidth > 0));
+  assert.ok(pictures.length >= 4 && pictures.every(Boolean), "pictures of the audit");
+  await tab.page.locator("[data-view='map']").first().scrollIntoViewIfNeeded();
+  await tab.page.locator("[data-view='map'] svg").first().waitFor();
+  await tab.close();
+  await photograph(file, "import", "[data-view='map']");
+});
+
+test("a simulation in time", async () => {
+  const file = results.simulation();
+  const tab = await Tab.open(file);
+  await tab.page.locator("#forces").scrollIntoViewIfNeeded();
+  await tab.page.waitForSelector("#forces path.line", { state: "attached" });
+  const csv = readFileSync(join(folder, "simulation", "history.csv"), "utf8").trim().split("\n");
+  const column = csv[0].split(",").indexOf("Q_N");
+  const largest = Math.max(...csv.slice(1).map((line) => Number(line.split(",")[column])));
+  const summary = await tab.page.locator("#table-summary tbody tr").evaluateAll((rows) => {
+    const row = rows.find((one) => one.cells[0].textContent === "q_max_N");
+    return Number([...row.cells].find((cell) => cell.dataset.value).dataset.value);
+  });
+  near(summary, largest, 1e-9 * largest, "largest force");
+  assert.equal(await tab.page.locator(".timeline-slider").getAttribute("max"), String(csv.length - 2));
+  await tab.key(".timeline-slider", "End");
+  await tab.close();
+  await photograph(file, "simulation", "#forces");
+});
+
+test("a study", async () => {
+  const file = results.sweep();
+  const tab = await Tab.open(file);
+  assert.equal(await tab.page.locator("h1").textContent(), "Loads and depths");
+  assert.equal(await tab.page.locator("#table-runs tbody tr").count(), 6);
+  await tab.page.locator("#summary-1").scrollIntoViewIfNeeded();
+  await tab.page.waitForSelector("#summary-1 path.line", { state: "attached" });
+  await tab.page.locator("#table-runs tr[data-step='4'] td").first().click();
+  assert.equal(await tab.step(), 4);
+  await tab.close();
+  await photograph(file, "sweep", "#summaries");
+});
+
+test("fixed pictures need no scripts", async () => {
+  results.treadmark(["report", results.path("run"), "--static", "-o", results.path("static.html")]);
+  const tab = await Tab.open("static.html", { scripts: false });
+  assert.match(await tab.page.locator(".banner").first().textContent(), /Static pictures/);
+  assert.equal(await tab.page.locator("script").count(), 0);
+  assert.ok((await tab.page.locator("figure.view img.picture").count()) >= 3);
+  assert.equal(await tab.page.locator("#table-cases tbody tr").count(), 26);
+  await tab.close();
+});
