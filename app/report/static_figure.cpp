@@ -74,6 +74,28 @@ const FrameSet& set_of(const Page& page, int index) {
   return page.sets[static_cast<std::size_t>(index)];
 }
 
+constexpr double kTilt = 35.0;  // of the names of categories [degrees]
+constexpr double kSine = 0.574;
+
+/// Room for the names of categories below a chart [px].
+double category_height(const Axis* axis) {
+  double widest = 0.0;
+  if (axis)
+    for (const std::string& label : axis->labels) widest = std::max(widest, io::text_width(label, io::kChartFont));
+  return widest > 0.0 ? kSine * widest + 8.0 : 0.0;
+}
+
+/// Names of categories below the place where each is.
+std::string category_names(const Axis& axis, double y) {
+  std::string out;
+  const double each = kWidth / static_cast<double>(axis.labels.size());
+  for (std::size_t i = 0; i < axis.labels.size(); ++i) {
+    const double x = kLeft + (static_cast<double>(i) + 0.5) * each + 4.0;
+    out += io::svg_text(x, y, axis.labels[i], "end", fmt::format(" transform=\"rotate(-{} {:.1f} {:.1f})\"", kTilt, x, y).c_str());
+  }
+  return out;
+}
+
 /// All frames or, of many, some at equal distances.
 std::string contact_svg(const FrameSet& set) {
   io::RunResult some;
@@ -103,21 +125,25 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
       for (const auto& point : series.points) all_x.push_back(point.x);
     }
   const double count = static_cast<double>(charts.size());
-  const double height = kTop + count * kHeight + (count - 1.0) * kBetween + kBottom;
+  const double height = kTop + count * kHeight + (count - 1.0) * kBetween + kBottom + category_height(axis);
   std::string out = io::svg_head(kLeft + kWidth + std::max(kRight, beside), height, io::kChartFont, io::kChartStyle);
   out += io::svg_text(kLeft + 0.5 * kWidth, 22.0, title, "middle", " class=\"title\"");
   const io::ChartAxis range(axis && axis->logarithmic ? io::AxisScale::log : io::AxisScale::linear, all_x);
   double y = kTop - 10.0;
   for (io::Chart& chart : charts) {
     const bool last = &chart == &charts.back();
-    chart.x_numbers = last;
-    if (last && axis) chart.x_label = axis_label(axis->label, axis->unit);
-    if (chart.x_scale == io::AxisScale::linear) chart.x_range = {range.low(), range.high()};
+    const bool categories = axis && !axis->labels.empty();
+    chart.x_numbers = last && !categories;
+    if (last && axis && !categories) chart.x_label = axis_label(axis->label, axis->unit);
+    if (categories)
+      chart.x_range = {-0.5, static_cast<double>(axis->labels.size()) - 0.5};
+    else if (chart.x_scale == io::AxisScale::linear) chart.x_range = {range.low(), range.high()};
     out += io::draw_chart(chart, {kLeft, y, kWidth, kHeight});
     std::vector<io::ChartSeries> named;
     for (const io::ChartSeries& series : chart.series)
       if (!series.name.empty()) named.push_back(series);
     if (named.size() > 1) out += io::draw_chart_legend(named, kLeft + kWidth + kLegend, y + 10.0);
+    if (last && categories) out += category_names(*axis, y + kHeight + 16.0);
     y += kHeight + kBetween;
   }
   return out + "</svg>\n";

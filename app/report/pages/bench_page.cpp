@@ -176,7 +176,7 @@ Section charts_of(const std::vector<Row>& rows) {
 Table table_of(const std::vector<Row>& rows) {
   const std::vector<std::pair<const char*, Column>> quantities{{"difference_um", {"differs", "µm"}},
                                                                {"build_s", {"build", "s"}},
-                                                               {"memory_bytes", {"memory", "bytes"}},
+                                                               {"memory_bytes", {"memory", "MB"}},
                                                                {"points", {"points"}},
                                                                {"ns_per_height", {"height, level", "ns"}},
                                                                {"ns_per_height_tilted", {"height, tilted", "ns"}},
@@ -194,7 +194,7 @@ Table table_of(const std::vector<Row>& rows) {
     line.cells = {row.node.text("backend"), Number{row.node.number("resolution_mm")}, row.node.text("body"),
                   std::string(row.node.flag("agrees") ? "yes" : "no")};
     for (const auto& [key, column] : quantities)
-      line.cells.emplace_back(Number{row.node.number(key), column.unit == "bytes" || column.unit.empty() ? 9 : 3});
+      line.cells.emplace_back(Number{(column.unit == "MB" ? kMegabytes : 1.0) * row.node.number(key), column.unit.empty() ? 12 : 3});
     line.cells.emplace_back(row.node.text("reason"));
     table.rows.push_back(std::move(line));
   }

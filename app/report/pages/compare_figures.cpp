@@ -81,15 +81,15 @@ Axis resolution_axis() { return {"resolution", "mm", true}; }
 ChartView accuracy_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = resolution_axis();
-  view.panels = {over_resolution(all, "largest error of the largest pressure", "%", pmax_error, kLeastShown, false),
-                 over_resolution(all, "largest deviation of the surface", "µm", height, kLeastShown, false)};
+  view.panels = {over_resolution(all, "error of p_max", "%", pmax_error, kLeastShown, false),
+                 over_resolution(all, "surface deviation", "µm", height, kLeastShown, false)};
   return view;
 }
 
 ChartView cost_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = resolution_axis();
-  view.panels = {over_resolution(all, "search and distance a case", "ms", time_ms, 0.0, true),
+  view.panels = {over_resolution(all, "detection", "ms", time_ms, 0.0, true),
                  over_resolution(all, "memory", "MB", memory, 0.0, true), over_resolution(all, "time to build", "ms", build_ms, 0.0, true)};
   return view;
 }
@@ -97,7 +97,7 @@ ChartView cost_chart(const ComparedCandidates& all) {
 ChartView trade_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = Axis{"mean time of search and distance a case", "ms", true};
-  Panel panel{"largest error of the largest pressure", "%", true};
+  Panel panel{"error of p_max", "%", true};
   const auto add = [&](const std::vector<const Candidate*>& group, const std::string& name) {
     Series series{name, {}, {}, Series::Marks::both};
     for (const Candidate* c : group) {
@@ -145,7 +145,7 @@ ChartView case_errors_chart(const ComparedCandidates& all) {
     }
     return out;
   };
-  view.panels = {panel("largest pressure", "MPa", "pmax_MPa", 1.0, true), panel("error of the largest pressure", "%", "pmax_error_percent", 1.0, false),
+  view.panels = {panel("largest pressure", "MPa", "pmax_MPa", 1.0, true), panel("error of p_max", "%", "pmax_error_percent", 1.0, false),
                  panel("normal force", "kN", "fn_N", 1e-3, true), panel("error of the force", "%", "force_error_percent", 1.0, false),
                  panel("error of the position", "mm", "position_error_mm", 1.0, false)};
   return view;
@@ -180,6 +180,7 @@ Table compared_row_table(const ComparedCandidates& all) {
     const char* key;
     Column column;
     int digits = 4;
+    double factor = 1.0;
   };
   const std::vector<Quantity> quantities{{"patches", {"patches"}},
                                          {"pmax_MPa", {"p_max", "MPa"}},
@@ -203,7 +204,7 @@ Table compared_row_table(const ComparedCandidates& all) {
                                          {"slope_max_mrad", {"slope", "mrad"}, 3},
                                          {"curvature_max_per_m", {"curvature", "1/m"}, 3},
                                          {"build_s", {"build", "s"}, 3},
-                                         {"memory_bytes", {"memory", "bytes"}, 9}};
+                                         {"memory_bytes", {"memory", "MB"}, 3, 1e-6}};
   Table table{"rows",
               "Every case with every representation. Pressure to elements in contact are of the patch that carries most of the load; x and y are its "
               "reference in track axes, forces act on the rail. Errors exist where both this representation and the truth have contact.",
@@ -215,7 +216,7 @@ Table compared_row_table(const ComparedCandidates& all) {
       const JsonTree& node = *c.rows[i];
       Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"), node.text("rail_backend"), node.text("status")},
                      static_cast<int>(i)};
-      for (const Quantity& q : quantities) row.cells.emplace_back(Number{node.number_or_nan(q.key), q.digits});
+      for (const Quantity& q : quantities) row.cells.emplace_back(Number{q.factor * node.number_or_nan(q.key), q.digits});
       table.rows.push_back(std::move(row));
     }
   return table;

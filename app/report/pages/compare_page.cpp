@@ -125,9 +125,9 @@ Section accuracy_section(const ComparedCandidates& all) {
     if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
   };
   add("accuracy-chart", "Accuracy over resolution", accuracy_chart(all),
-      "Largest values over the cases. Those below 0.001, zero included, are shown at 0.001. Levels belong to data as given, which is not sampled.");
-  add("trade-chart", "Accuracy against time", trade_chart(all), "Towards the lower left it is faster and more accurate. Errors below 0.001 % are shown there.");
-  add("cost-chart", "Cost over resolution", cost_chart(all), "Search and distance: mean over the cases. Memory and time to build: wheel and rail together.");
+      "Largest error of the largest pressure and largest deviation of wheel and rail, over all cases. Values below 0.001, zero included, are shown at 0.001. Levels belong to data as given, which is not sampled.");
+  add("trade-chart", "Accuracy against time", trade_chart(all), "p_max: largest error of the largest pressure over the cases. Towards the lower left it is faster and more accurate. Errors below 0.001 % are shown there.");
+  add("cost-chart", "Cost over resolution", cost_chart(all), "Detection: contact search and undeformed distance, mean over the cases. Memory and time to build: wheel and rail together.");
   return section;
 }
 

@@ -59,7 +59,8 @@ Cards cards_of(const JsonTree& report) {
                  {"Error of the surface", with_unit(kMicro * fit.number("held_out_error_mm"), "µm"), "by points that were held out"},
                  {"Holes", fmt::format("{}", holes.size()), fmt::format("{} in all", with_unit(coverage.number("hole_area_mm2"), "mm²"))},
                  {"Damage", fmt::format("{}", damage.size()),
-                  damage.empty() ? "" : fmt::format("largest {} deep", with_unit(damage.front().number("depth_mm"), "mm"))}};
+                  damage.empty() ? "" : fmt::format("the largest {} {}", with_unit(std::fabs(damage.front().number("depth_mm")), "mm"),
+                                                    damage.front().number("depth_mm") < 0.0 ? "high" : "deep")}};
   return cards;
 }
 

@@ -12,6 +12,7 @@
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
+#include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -19,6 +20,7 @@
 namespace treadmark::app::report {
 namespace {
 
+using ::testing::AllOf;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::Not;
@@ -96,7 +98,7 @@ TEST_F(BenchPage, HasTheNumbersOfTheFile) {
   ASSERT_EQ(table.rows.size(), document["rows"].size());
   ASSERT_EQ(table.rows.size(), 4u);
   for (const auto& [column, key] :
-       {std::pair{"differs", "difference_um"}, {"build", "build_s"}, {"memory", "memory_bytes"}, {"points", "points"}, {"height, level", "ns_per_height"},
+       {std::pair{"differs", "difference_um"}, {"build", "build_s"}, {"points", "points"}, {"height, level", "ns_per_height"},
         {"height, tilted", "ns_per_height_tilted"}, {"with slopes", "ns_per_normal"}, {"base of offsets", "base_ns_per_height"},
         {"first search", "search_cold_s"}, {"after a small move", "search_warm_s"}, {"distance", "distance_s"}, {"patches", "patches"}}) {
     const std::vector<double> shown = numbers_in(table, column);
@@ -108,6 +110,7 @@ TEST_F(BenchPage, HasTheNumbersOfTheFile) {
       }
     }
   }
+  EXPECT_NEAR(1e6 * numbers_in(table, "memory")[3], document["rows"][3]["memory_bytes"].get<double>(), 1e-3);
   EXPECT_EQ(fact_of(page, "Machine"), document["machine"].get<std::string>());
   EXPECT_EQ(fact_of(page, "OpenVDB"), document["libraries"]["OpenVDB"].get<std::string>());
   EXPECT_EQ(fact_of(page, "Input"), "the built-in case");
@@ -129,6 +132,7 @@ TEST_F(BenchPage, ChartsHaveAPlaceForEveryRepresentation) {
   EXPECT_EQ(card_of(page, "Fastest first search"), "4 ms | mesh 1 mm");
   EXPECT_EQ(card_of(page, "Rows that agree"), "4 of 4 | with the surfaces as given and with single heights");
   const std::string html = to_html(page, {.live = false});
+  EXPECT_THAT(chart_svg(heights, page, "heights"), AllOf(HasSubstr(">mesh 1 mm</text>"), HasSubstr("rotate(-35")));
   EXPECT_THAT(html, HasSubstr("a &lt;fast&gt; processor"));
   EXPECT_THAT(html, Not(HasSubstr("<fast>")));
 }
