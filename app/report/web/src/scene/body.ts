@@ -106,19 +106,23 @@ export class Body {
 
   /**
    * Joins cells that are small in the picture. `pixels`: of a millimetre at a distance of one; `limit`: of the joined cells [pixels];
-   * `nearest`: nothing counts as nearer than this [mm].
+   * `nearest`: nothing counts as nearer than this [mm]; `cut`: distance beyond the plane before which bodies are cut away [mm].
    */
-  setDetail(eye: Vec3, pixels: number, limit: number, nearest: number): void {
+  setDetail(eye: Vec3, pixels: number, limit: number, nearest: number, cut: (p: Vec3) => number): void {
     if (this.style === "hidden" || !this.place) return;
     this.mesh.blocks.forEach((block, k) => {
-      const away = length(sub(this.inWorld(block.centre), eye)) - 0.6 * block.radius;
+      const centre = this.inWorld(block.centre);
+      const drawn = this.drawn[k]!;
+      drawn.visible = this.style !== "cut" || cut(centre) > -block.radius;
+      if (!drawn.visible) return;
+      const away = length(sub(centre, eye)) - 0.6 * block.radius;
       const scale = pixels / Math.max(nearest, away);
       const stride = { stations: strideFor(this.spacing[0] * scale, limit), points: strideFor(this.spacing[1] * scale, limit) };
       const key = `${stride.stations} ${stride.points}`;
       const known = this.indices[k]!;
       let index = known.get(key);
       if (!index) known.set(key, (index = new BufferAttribute(coarseIndex(this.mesh, block, stride), 1)));
-      const { geometry } = this.drawn[k]!;
+      const { geometry } = drawn;
       if (geometry.index !== index) geometry.setIndex(index);
     });
   }

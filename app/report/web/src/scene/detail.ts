@@ -37,8 +37,8 @@ export function meanSpacing({ nu, nv, positions, there }: SurfaceMesh): [number,
 export function coarseIndex(mesh: SurfaceMesh, block: Block, { stations, points }: Stride): Uint32Array {
   if (stations === 1 && points === 1) return block.index;
   const { nv, there, turned } = mesh;
-  const firstStation = block.firstVertex / nv;
-  const lastStation = (block.lastVertex + 1) / nv - 1;
+  const [firstStation, lastStation] = block.stations;
+  const [firstPoint, lastPoint] = block.points;
   const faces: number[] = [];
   const face = (a: number, b: number, c: number): void => void (turned ? faces.push(a, c, b) : faces.push(a, b, c));
   const cell = (i0: number, i1: number, j0: number, j1: number): void => {
@@ -52,8 +52,8 @@ export function coarseIndex(mesh: SurfaceMesh, block: Block, { stations, points 
   };
   for (let i0 = firstStation; i0 < lastStation; i0 += stations) {
     const i1 = Math.min(lastStation, i0 + stations);
-    for (let j0 = 0; j0 + 1 < nv; j0 += points) {
-      const j1 = Math.min(nv - 1, j0 + points);
+    for (let j0 = firstPoint; j0 < lastPoint; j0 += points) {
+      const j1 = Math.min(lastPoint, j0 + points);
       if (complete(i0, i1, j0, j1)) cell(i0, i1, j0, j1);
       else for (let i = i0; i < i1; ++i) for (let j = j0; j < j1; ++j) cell(i, i + 1, j, j + 1);
     }

@@ -63,13 +63,14 @@ export function drape(patch: Patch, ground: Ground | null): Float32Array {
       block.centre[2] + ground.centre[2],
     ]);
     if (length(sub(centre, middle)) > block.radius + 1.5 * reach) continue;
-    const points: Vec3[] = [];
-    for (let k = block.firstVertex; k <= block.lastVertex; ++k) points.push(vertex(ground.positions, k));
-    const { index, firstVertex } = block;
-    for (let f = 0; f < index.length; f += 3) {
-      const [a, b, c] = [points[index[f]! - firstVertex]!, points[index[f + 1]! - firstVertex]!, points[index[f + 2]! - firstVertex]!];
-      rasterise(heights, patch, reach, a, b, c);
-    }
+    const { index } = block;
+    const known = new Map<number, Vec3>();
+    const point = (k: number): Vec3 => {
+      let p = known.get(k);
+      if (!p) known.set(k, (p = vertex(ground.positions, k)));
+      return p;
+    };
+    for (let f = 0; f < index.length; f += 3) rasterise(heights, patch, reach, point(index[f]!), point(index[f + 1]!), point(index[f + 2]!));
   }
   for (let k = 0; k < heights.length; ++k) if (Number.isNaN(heights[k])) heights[k] = 0;
   return heights;

@@ -69,8 +69,10 @@ varying vec2 cell;
 varying float excess;
 float thin(float distance, float width) { return 1.0 - smoothstep(width, width + 1.0, distance); }
 void main() {
+#ifdef CUT
   float beyond = dot(vec4(place - sectionAt, 1.0), cut);
   if (beyond < 0.0) discard;
+#endif
   vec3 n = normalize(facing);
   vec3 v = normalize(-atEye);
   float side = dot(n, v);
@@ -83,12 +85,15 @@ void main() {
   gloss *= gloss;
   gloss *= gloss;
   gloss *= 0.10 * gloss * gloss * gloss;
-  float t = clamp(0.5 + 0.5 * excess / span, 0.0, 1.0);
   vec3 colour = base;
+  float t = 0.5;
+  if (coloured > 0.0) t = clamp(0.5 + 0.5 * excess / span, 0.0, 1.0);
   if (coloured > 0.0) colour = texture2D(colours, vec2(t, 0.5)).rgb;
   colour = colour * (shade - 0.10 * inside) + gloss;
   float alpha = opacity;
-  if (opacity < 1.0) alpha = mix(opacity, 0.82, pow(1.0 - straight, 2.2)) + coloured * 0.5 * abs(2.0 * t - 1.0);
+#ifdef GLASS
+  alpha = mix(opacity, 0.82, pow(1.0 - straight, 2.2)) + coloured * 0.5 * abs(2.0 * t - 1.0);
+#endif
   vec2 width = max(fwidth(cell), vec2(1e-6));
   float lines = 0.0;
   if (mesh > 0.0) {
@@ -98,10 +103,14 @@ void main() {
   }
   vec2 margin = min(cell, lastCell - cell) / width;
   lines = max(lines, 0.6 * max(thin(margin.y, 0.6), openEnds * thin(margin.x, 0.6)));
-  float across = dot(place - sectionAt, sectionNormal);
-  float nearby = 1.0 - smoothstep(140.0, 200.0, length(place - sectionAt));
-  lines = max(lines, 0.85 * section * nearby * thin(abs(across) / max(fwidth(across), 1e-6), 0.7));
+  if (section > 0.0) {
+    float across = dot(place - sectionAt, sectionNormal);
+    float nearby = 1.0 - smoothstep(140.0, 200.0, length(place - sectionAt));
+    lines = max(lines, 0.85 * nearby * thin(abs(across) / max(fwidth(across), 1e-6), 0.7));
+  }
+#ifdef CUT
   lines = max(lines, 0.9 * thin(beyond / max(fwidth(beyond), 1e-6), 1.4));
+#endif
   colour = mix(colour, line, lines);
   gl_FragColor = vec4(colour, min(1.0, max(alpha, lines)));
 }`;
@@ -220,8 +229,8 @@ export function bodyMaterials(shape: GridShape, shared: SharedUniforms): BodyMat
   return {
     base,
     solid: new ShaderMaterial({ ...shader, uniforms: uniforms(1) }),
-    cut: new ShaderMaterial({ ...shader, uniforms: uniforms(1, shared.cut) }),
-    glass: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(0.14), transparent: true, depthWrite: false }),
+    cut: new ShaderMaterial({ ...shader, defines: { CUT: "" }, uniforms: uniforms(1, shared.cut) }),
+    glass: new ShaderMaterial({ ...shader, ...spared, defines: { GLASS: "" }, uniforms: uniforms(0.14), transparent: true, depthWrite: false }),
     depth: new ShaderMaterial({ ...shader, ...spared, uniforms: uniforms(1), transparent: true, colorWrite: false }),
   };
 }

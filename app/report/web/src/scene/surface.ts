@@ -2,11 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 import type { Vec3 } from "./vec";
 
-/** A run of stations with its faces: small enough that what is out of sight need not be drawn. */
+/** A rectangle of a grid with its faces: small enough that what is out of sight need not be drawn. */
 export interface Block {
   index: Uint32Array;
-  firstVertex: number;
-  lastVertex: number;
+  /** First and last ones, both included. */
+  stations: [number, number];
+  points: [number, number];
   centre: Vec3;
   radius: number;
 }
@@ -39,7 +40,8 @@ export interface SurfaceGrid {
   closed: boolean;
 }
 
-const trianglesPerBlock = 5000;
+const cellsAlong = 24;
+const cellsAcross = 32;
 
 function middle(values: ArrayLike<number>): number {
   let low = Infinity;
@@ -53,8 +55,8 @@ function middle(values: ArrayLike<number>): number {
 }
 
 /** Faces of the quads between two stations: two triangles, one where a corner is missing, none where more are. */
-function stripFaces(out: number[], station: number, nv: number, there: Uint8Array): void {
-  for (let j = 0; j + 1 < nv; ++j) {
+function stripFaces(out: number[], station: number, [first, last]: [number, number], nv: number, there: Uint8Array): void {
+  for (let j = first; j < last; ++j) {
     const corners = [station * nv + j, (station + 1) * nv + j, (station + 1) * nv + j + 1, station * nv + j + 1];
     const present = corners.filter((corner) => there[corner]);
     if (present.length === 4) out.push(corners[0]!, corners[1]!, corners[2]!, corners[0]!, corners[2]!, corners[3]!);
@@ -156,23 +158,18 @@ export function meshOfGrid(grid: SurfaceGrid): SurfaceMesh {
     positions.set([x, y, z], 3 * k);
   }
   const mesh: SurfaceMesh = { nu, nv, centre, positions, normals: new Float32Array(0), deviation, blocks: [], triangles: 0, there, turned: false };
-  const stations = Math.max(1, Math.floor(trianglesPerBlock / Math.max(1, 2 * (nv - 1))));
-  for (let first = 0; first + 1 < nu; first += stations) {
-    const last = Math.min(nu - 1, first + stations);
-    const faces: number[] = [];
-    for (let i = first; i < last; ++i) stripFaces(faces, i, nv, there);
-    if (faces.length === 0) continue;
-    const block: Block = {
-      index: Uint32Array.from(faces),
-      firstVertex: first * nv,
-      lastVertex: (last + 1) * nv - 1,
-      centre: [0, 0, 0],
-      radius: 0,
-    };
-    boundBlock(block, positions);
-    mesh.blocks.push(block);
-    mesh.triangles += faces.length / 3;
-  }
+  for (let i0 = 0; i0 + 1 < nu; i0 += cellsAlong)
+    for (let j0 = 0; j0 + 1 < nv; j0 += cellsAcross) {
+      const stations: Block["stations"] = [i0, Math.min(nu - 1, i0 + cellsAlong)];
+      const points: Block["points"] = [j0, Math.min(nv - 1, j0 + cellsAcross)];
+      const faces: number[] = [];
+      for (let i = i0; i < stations[1]; ++i) stripFaces(faces, i, points, nv, there);
+      if (faces.length === 0) continue;
+      const block: Block = { index: Uint32Array.from(faces), stations, points, centre: [0, 0, 0], radius: 0 };
+      boundBlock(block, positions);
+      mesh.blocks.push(block);
+      mesh.triangles += faces.length / 3;
+    }
   const closes = closed && nu > grid.nu;
   mesh.normals = vertexNormals(positions, mesh.blocks, nv, closes);
   if (pointsInwards(grid, mesh)) turnOver(mesh);

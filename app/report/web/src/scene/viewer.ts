@@ -289,7 +289,10 @@ export class Viewer implements ControlTarget {
   private prepare(moving: boolean): void {
     this.styleBodies();
     const forward = outlook(this.orbit)[0] <= 0 ? 1 : -1;
-    this.shared.cut.value.set(forward, 0, 0, -1.04 * this.cutReach);
+    const cutAt = 1.04 * this.cutReach;
+    this.shared.cut.value.set(forward, 0, 0, -cutAt);
+    const { x } = this.shared.sectionAt.value;
+    const beyond = (p: Vec3): number => forward * (p[0] - x) - cutAt;
     let reach = 100;
     for (const body of this.bodies.values()) {
       if (!body.place) continue;
@@ -299,7 +302,7 @@ export class Viewer implements ControlTarget {
     this.stage.aim(this.orbit, reach);
     const pixels = 1 / millimetresPerPixel({ ...this.orbit, distance: 1 }, this.stage.height);
     const limit = moving && this.stage.software ? movingCell * this.stage.coarseness : restCell;
-    for (const body of this.bodies.values()) body.setDetail(eye(this.orbit), pixels, limit, 0.5 * this.orbit.distance);
+    for (const body of this.bodies.values()) body.setDetail(eye(this.orbit), pixels, limit, 0.5 * this.orbit.distance, beyond);
   }
 
   private finish(): void {
