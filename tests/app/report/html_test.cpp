@@ -83,7 +83,7 @@ TEST(Html, TheSamePageHasTheSameBytes) { EXPECT_EQ(to_html(nasty_page()), to_htm
 
 TEST(Html, NumbersAsPeopleReadThem) {
   EXPECT_EQ(shown({1234.5678}), "1235");
-  EXPECT_EQ(shown({0.0012345}), "0.001235");
+  EXPECT_EQ(shown({0.00123456}), "0.001235");
   EXPECT_EQ(shown({-99.994}), "-99.99");
   EXPECT_EQ(shown({12}), "12");
   EXPECT_EQ(shown({1.5e9}), "1.500e+09");

@@ -61,6 +61,10 @@ class Tab {
     return this.page.locator(".timeline-slider").evaluate((slider) => slider.valueAsNumber);
   }
 
+  async waitForStep(step) {
+    await this.page.waitForFunction((k) => document.querySelector(".timeline-slider").valueAsNumber === k, step);
+  }
+
   async key(selector, key) {
     await this.page.locator(selector).first().focus();
     await this.page.keyboard.press(key);
@@ -93,22 +97,26 @@ class Tab {
 
 /** Pictures of the page at both widths in both themes; nothing sticks out at the side. */
 async function photograph(file, name, selector) {
-  for (const size of Object.keys(sizes))
+  for (const size of Object.keys(sizes)) {
+    const tab = await Tab.open(file, { size });
+    if (selector) {
+      const place = tab.page.locator(selector).first();
+      await place.evaluate((element) => {
+        element.scrollIntoView({ block: "start" });
+        window.scrollBy(0, -60);
+      });
+    }
+    const [wide, window] = await tab.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
+    assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
     for (const theme of ["light", "dark"]) {
-      const tab = await Tab.open(file, { size, theme });
-      if (selector) {
-        await tab.page.locator(selector).waitFor();
-        await tab.page.evaluate((s) => document.querySelector(s).scrollIntoView({ block: "start" }), selector);
-        await tab.page.mouse.wheel(0, -90);
-      }
-      await tab.page.waitForTimeout(1200);
-      const [wide, window] = await tab.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
-      assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
+      await tab.page.emulateMedia({ colorScheme: theme });
+      await tab.page.waitForTimeout(700);
       const dark = await tab.page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380);
       assert.equal(dark, theme === "dark", `${name}, ${theme}`);
       await tab.page.screenshot({ path: join(pictures, `${name}-${size}-${theme}.png`) });
-      await tab.close();
     }
+    await tab.close();
+  }
 }
 
 test("a wheel flat in 26 positions", async () => {
@@ -138,7 +146,7 @@ test("a wheel flat in 26 positions", async () => {
   }
   // A row of the table chooses its case, another quantity is shown.
   await page.locator("#table-cases tr[data-step='12'] td").first().click();
-  assert.equal(await tab.step(), 12);
+  await tab.waitForStep(12);
   await page.locator("#patches-view [data-control='field']").selectOption("traction");
   await page.locator("#patches-view [data-control='peak']").click();
   const traction = Number(await tab.value("traction"));
@@ -309,7 +317,7 @@ test("a study", async () => {
   await tab.page.locator("#summary-1").scrollIntoViewIfNeeded();
   await tab.page.waitForSelector("#summary-1 path.line", { state: "attached" });
   await tab.page.locator("#table-runs tr[data-step='4'] td").first().click();
-  assert.equal(await tab.step(), 4);
+  await tab.waitForStep(4);
   await tab.close();
   await photograph(file, "sweep", "#summaries");
 });
