@@ -18,7 +18,7 @@ int list_command(const std::string& what) {
     std::cout << "normal: full (half-space, constant elements), elliptic, parabolic\n"
                  "tangential: full (Kalker's exact theory: shift, steady rolling), fastsim\n";
   } else if (what == "verbs") {
-    std::cout << "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\ncheck\nlist\nschema\n";
+    std::cout << "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\nreport\nplot\ncheck\nlist\nschema\n";
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {}, "choose backends, profiles, solvers or verbs");
   }

@@ -6,6 +6,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/report/field_catalogue.hpp"
+#include "treadmark/app/report/field_picture.hpp"
 #include "treadmark/app/report/map_picture.hpp"
 #include "treadmark/app/report/section_picture.hpp"
 #include "treadmark/core/error.hpp"
@@ -96,6 +98,10 @@ std::string category_names(const Axis& axis, double y) {
   return out;
 }
 
+bool has_pressure(const io::CaseResult& result) {
+  return std::ranges::any_of(result.patches, [](const io::PatchResult& patch) { return !patch.fields.pressure.empty(); });
+}
+
 /// All frames or, of many, some at equal distances.
 std::string contact_svg(const FrameSet& set) {
   io::RunResult some;
@@ -155,7 +161,12 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page) {
   if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title)};
   if (const auto* scene = std::get_if<SceneView>(&figure.view)) return {section_svg(set_of(page, scene->set), page.surfaces)};
   std::vector<std::string> pictures;
-  for (const int set : std::get<ContactView>(figure.view).sets) pictures.push_back(contact_svg(set_of(page, set)));
+  const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;
+  for (const int index : sets) {
+    const FrameSet& set = set_of(page, index);
+    const bool named = sets.size() > 1 && std::ranges::any_of(set.frames, [](const Frame& frame) { return has_pressure(*frame.result); });
+    pictures.push_back(named ? field_svg(set.frames, *find_field("pressure"), set.name) : contact_svg(set));
+  }
   return pictures;
 }
 

@@ -53,7 +53,7 @@ SKIPPED = re.compile(r"(\.git|\.cache|__pycache__)$")
 SKIPPED_AT_ROOT = re.compile(r"(build|out)")  # as in .gitignore
 INCLUDE = re.compile(r'^\s*#\s*include\s*(?:"([^"]+)"|<([^>]+)>)', re.MULTILINE)
 SOURCE = (".cpp", ".hpp", ".h", ".c", ".cc", ".cpp.in", ".hpp.in")
-LICENSED = SOURCE + (".py", ".sh", ".cmake", ".cmake.in")
+LICENSED = SOURCE + (".py", ".sh", ".cmake", ".cmake.in", ".ts", ".mjs", ".css")
 
 
 def files(folder, at_root=True):
