@@ -108,7 +108,7 @@ export function drawDeviationBar(pen: Pen, palette: Palette, span: number, title
   pen.fillText(title, right, bottom - 37);
   pen.font = font(12);
   pen.textAlign = "center";
-  for (const mark of ticks({ low: -span, high: span }, width > 150 ? 4 : 2)) {
+  for (const mark of ticks({ low: -span, high: span }, 4)) {
     const x = right - width + (width * (mark + span)) / (2 * span);
     pen.fillRect(x - 0.5, bottom - 17, 1, 4);
     pen.fillText(shortNumber(mark), Math.min(x, right - 10), bottom - 6);
