@@ -18,7 +18,9 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
     for (const auto& [name, meaning] : app::report::plots_of(page)) std::cout << fmt::format("{:<22} {}\n", name, meaning);
     return kOk;
   }
-  if (options.output_file.empty()) throw Error(ErrorKind::configuration, "there is no place for the picture", {}, "name a file with -o FILE.svg, or - for standard output");
+  if (options.output_file.empty())
+    throw Error(ErrorKind::configuration, "there is no place for the picture", {},
+                "name a file with -o FILE.svg, or - for standard output");
   const std::string svg = app::report::plot(page, options.what, options.cases);
   if (options.output_file == "-")
     std::cout << svg;

@@ -16,10 +16,12 @@ void write_report_file(const std::filesystem::path& file, const std::function<ap
   if (!file.empty()) io::write_text_file(file, app::report::to_html(page()));
 }
 
-ResultFolder::ResultFolder(const std::filesystem::path& folder, const std::filesystem::path& report_file) : path_(folder), report_file_(report_file) {
+ResultFolder::ResultFolder(const std::filesystem::path& folder, const std::filesystem::path& report_file)
+    : path_(folder), report_file_(report_file) {
   if (!path_.empty() || report_file_.empty()) return;
   std::string name = (std::filesystem::temp_directory_path() / "treadmark-XXXXXX").string();
-  if (mkdtemp(name.data()) == nullptr) throw Error(ErrorKind::configuration, "cannot make a temporary folder", {name}, "give a folder with -o");
+  if (mkdtemp(name.data()) == nullptr)
+    throw Error(ErrorKind::configuration, "cannot make a temporary folder", {name}, "give a folder with -o");
   path_ = name;
   temporary_ = true;
 }

@@ -91,10 +91,10 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!common.quiet)
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
+    if (!options.output_folder.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
     if (!options.output_folder.empty()) {
       std::filesystem::path folder = options.output_folder;
       if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
-      app::add_surfaces(result, file, store);
       write_result_folder(folder, result);
     }
     write_report_file(options.report_file, [&] { return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result)); });

@@ -11,8 +11,8 @@ namespace {
 using Values = std::vector<double>;
 using Fields = io::PatchFields;
 
-constexpr double kMega = 1e-6;   // Pa -> MPa
-constexpr double kMicro = 1e6;   // m -> um
+constexpr double kMega = 1e-6;  // Pa -> MPa
+constexpr double kMicro = 1e6;  // m -> um
 constexpr double kPercent = 1e2;
 
 template <Values Fields::*Member>
@@ -23,13 +23,19 @@ Values scaled(const io::PatchResult& patch, double factor) {
 }
 
 template <Values Fields::*Member>
-Values megapascals(const io::PatchResult& patch) { return scaled<Member>(patch, kMega); }
+Values megapascals(const io::PatchResult& patch) {
+  return scaled<Member>(patch, kMega);
+}
 
 template <Values Fields::*Member>
-Values micrometres(const io::PatchResult& patch) { return scaled<Member>(patch, kMicro); }
+Values micrometres(const io::PatchResult& patch) {
+  return scaled<Member>(patch, kMicro);
+}
 
 template <Values Fields::*Member>
-Values plain(const io::PatchResult& patch) { return patch.fields.*Member; }
+Values plain(const io::PatchResult& patch) {
+  return patch.fields.*Member;
+}
 
 Values length_of(const Values& x, const Values& s, double factor) {
   Values out;
@@ -41,9 +47,7 @@ Values length_of(const Values& x, const Values& s, double factor) {
 Values traction(const io::PatchResult& patch) { return length_of(patch.fields.traction_x, patch.fields.traction_s, kMega); }
 
 /// Of a shift these are lengths; see slip_distance.
-Values slip(const io::PatchResult& patch) {
-  return patch.shift ? Values{} : length_of(patch.fields.slip_x, patch.fields.slip_s, kPercent);
-}
+Values slip(const io::PatchResult& patch) { return patch.shift ? Values{} : length_of(patch.fields.slip_x, patch.fields.slip_s, kPercent); }
 
 Values slip_distance(const io::PatchResult& patch) {
   return patch.shift ? length_of(patch.fields.slip_x, patch.fields.slip_s, kMicro) : Values{};

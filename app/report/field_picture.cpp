@@ -48,8 +48,9 @@ Shown shown_patch(const io::PatchResult& patch, const FieldInfo& field) {
     if (patch.fields.state.size() == out.values.size() && patch.fields.state[i] == 0) out.values[i] = NAN;
   const Vec3& origin = patch.fields.X_TC.origin;
   const GridPart& part = out.part;
-  out.window = {kMilli * (origin.x() + grid.x(part.ix0) - 0.5 * grid.dx), kMilli * (origin.x() + grid.x(part.ix0 + part.nx - 1) + 0.5 * grid.dx),
-                kMilli * (origin.y() + grid.y(part.iy0) - 0.5 * grid.dy), kMilli * (origin.y() + grid.y(part.iy0 + part.ny - 1) + 0.5 * grid.dy)};
+  out.window = {
+      kMilli * (origin.x() + grid.x(part.ix0) - 0.5 * grid.dx), kMilli * (origin.x() + grid.x(part.ix0 + part.nx - 1) + 0.5 * grid.dx),
+      kMilli * (origin.y() + grid.y(part.iy0) - 0.5 * grid.dy), kMilli * (origin.y() + grid.y(part.iy0 + part.ny - 1) + 0.5 * grid.dy)};
   return out;
 }
 
@@ -76,15 +77,16 @@ std::string fill_of(double value, const FieldInfo& field, const Range& range) {
 std::string cells(const Shown& shown, const FieldInfo& field, const Range& range, const io::PanelScale& panel) {
   std::string out = "<g shape-rendering=\"crispEdges\">\n";  // no seams between neighbours
   const GridPart& part = shown.part;
-  const double x0 = (shown.window.x_low - panel.window.x_low) * panel.scale_x, y0 = (panel.window.y_high - shown.window.y_low) * panel.scale_y;
+  const double x0 = (shown.window.x_low - panel.window.x_low) * panel.scale_x,
+               y0 = (panel.window.y_high - shown.window.y_low) * panel.scale_y;
   const double width = kMilli * shown.patch->fields.grid.dx * panel.scale_x, height = kMilli * shown.patch->fields.grid.dy * panel.scale_y;
   for (int iy = 0; iy < part.ny; ++iy) {
     std::string last;
     int from = 0;
     const auto flush = [&](int to) {
       if (!last.empty())
-        out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x0 + from * width, y0 - (iy + 1) * height,
-                           (to - from) * width + 0.04, height + 0.04, last);
+        out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x0 + from * width,
+                           y0 - (iy + 1) * height, (to - from) * width + 0.04, height + 0.04, last);
       from = to;
     };
     for (int ix = 0; ix < part.nx; ++ix) {
@@ -112,7 +114,8 @@ std::string cells(const Shown& shown, const FieldInfo& field, const Range& range
 }
 
 std::string legend(const FieldInfo& field, const Range& range) {
-  std::string out = io::svg_text(0.0, -8.0, field.unit.empty() ? std::string(field.label) : fmt::format("{} [{}]", field.label, field.unit), "start");
+  std::string out =
+      io::svg_text(0.0, -8.0, field.unit.empty() ? std::string(field.label) : fmt::format("{} [{}]", field.label, field.unit), "start");
   if (field.kind == FieldInfo::Kind::state) {
     for (std::size_t k = 1; k < kStateNames.size(); ++k) {
       out += fmt::format("<rect x=\"0\" y=\"{}\" width=\"14\" height=\"12\" fill=\"{}\"/>\n", 20 * k - 16, kStateColours[k]);
@@ -169,16 +172,19 @@ std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, 
   out += io::svg_text(kLeft, 22.0, title, "start", " class=\"title\"");
   for (int k = 0; k < count; ++k) {
     const auto& [frame, patches] = panels[static_cast<std::size_t>(k)];
-    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kLeft + (k % columns) * (width + kGapX), kTop + (k / columns) * (height + kGapY));
+    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kLeft + (k % columns) * (width + kGapX),
+                       kTop + (k / columns) * (height + kGapY));
     out += io::svg_text(0.0, -8.0, frame->name, "start");
     for (const Shown& one : patches) out += cells(one, field, range, panel_scale);
     if (k + columns >= count) out += io::svg_text(0.5 * width, height + 30.0, "x [mm]");
     if (k % columns == 0)
-      out += io::svg_text(-42.0, 0.5 * height, "y [mm]", "middle", fmt::format(" transform=\"rotate(-90 -42 {:.1f})\"", 0.5 * height).c_str());
+      out +=
+          io::svg_text(-42.0, 0.5 * height, "y [mm]", "middle", fmt::format(" transform=\"rotate(-90 -42 {:.1f})\"", 0.5 * height).c_str());
     if (patches.empty()) out += io::svg_text(0.5 * width, 0.5 * height, std::string(to_string(frame->result->status)));
     out += io::draw_panel_axes(panel_scale) + "</g>\n";
   }
-  out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kLeft + columns * width + (columns - 1) * kGapX + 32.0, kTop) + legend(field, range) + "</g>\n";
+  out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kLeft + columns * width + (columns - 1) * kGapX + 32.0, kTop) +
+         legend(field, range) + "</g>\n";
   return out + "</svg>\n";
 }
 

@@ -16,13 +16,13 @@ constexpr int kMargin = 4;  // elements
 /// How much is kept.
 struct Detail {
   Precision precision;
-  std::size_t fields;   ///< the first ones of the catalogue
-  int every;            ///< frame
+  std::size_t fields;  ///< the first ones of the catalogue
+  int every;           ///< frame
 };
 
 // The catalogue has 14 quantities; with 5 there are pressure, state and tractions.
 constexpr Detail kDetails[] = {{Precision::two_bytes, 14, 1}, {Precision::byte, 14, 1}, {Precision::byte, 5, 1}, {Precision::byte, 2, 1},
-                             {Precision::byte, 2, 4},       {Precision::byte, 2, 16}, {Precision::byte, 2, 64}};
+                               {Precision::byte, 2, 4},       {Precision::byte, 2, 16}, {Precision::byte, 2, 64}};
 
 template <class T>
 std::vector<T> part_of(const std::vector<T>& values, const Grid2& grid, const GridPart& part) {

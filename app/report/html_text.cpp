@@ -33,7 +33,8 @@ std::string shown(const Number& number) {
   constexpr double kLarge = 1e7, kSmall = 1e-4;
   const double size = std::fabs(value);
   // whole numbers in full, if that takes no more digits than asked for: counts
-  if (size >= kLarge && value == std::round(value) && size < std::pow(10.0, std::min(number.digits, 15))) return fmt::format("{:.0f}", value);
+  if (size >= kLarge && value == std::round(value) && size < std::pow(10.0, std::min(number.digits, 15)))
+    return fmt::format("{:.0f}", value);
   if (size >= kLarge || size < kSmall) return fmt::format("{:.{}e}", value, number.digits - 1);
   if (std::fabs(value - std::round(value)) < 1e-12 * size) return fmt::format("{:.0f}", value);
   const int decimals = std::max(0, number.digits - 1 - static_cast<int>(std::floor(std::log10(size))));

@@ -28,11 +28,11 @@ struct Series {
   enum class Marks { line, points, both };
   std::string name;
   std::vector<double> y;
-  std::vector<double> x = {};            ///< empty: those of the chart or of the timeline
+  std::vector<double> x = {};  ///< empty: those of the chart or of the timeline
   Marks marks = Marks::line;
   bool dashed = false;
-  std::vector<std::string> texts = {};   ///< of the points, shown where one points at them
-  std::vector<double> steps = {};        ///< steps of the timeline that the points stand for
+  std::vector<std::string> texts = {};  ///< of the points, shown where one points at them
+  std::vector<double> steps = {};       ///< steps of the timeline that the points stand for
 };
 
 struct Level {
@@ -72,7 +72,7 @@ struct SceneView {
 
 /// A quantity over a rectangle.
 struct MapView {
-  Axis x, y;                 ///< labels and units
+  Axis x, y;  ///< labels and units
   std::string label, unit;
   bool diverging = false;
   int nx = 0, ny = 0;
@@ -177,8 +177,8 @@ struct Page {
   std::optional<Timeline> timeline = {};
   std::vector<FrameSet> sets = {};
   std::vector<io::SampledSurface> surfaces = {};  ///< that frames name
-  std::string document = {};  ///< JSON text of the result; may be empty
-  std::string full_data = {}; ///< where all fields are in full: "fields.h5"
+  std::string document = {};                      ///< JSON text of the result; may be empty
+  std::string full_data = {};                     ///< where all fields are in full: "fields.h5"
 };
 
 }  // namespace treadmark::app::report

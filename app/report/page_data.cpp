@@ -108,7 +108,8 @@ class Writer {
   }
 
   Json axis(const Axis& axis) {
-    Json out = {{"label", axis.label}, {"unit", axis.unit}, {"scale", axis.logarithmic ? "log" : "linear"}, {"values", numbers(axis.values)}};
+    Json out = {
+        {"label", axis.label}, {"unit", axis.unit}, {"scale", axis.logarithmic ? "log" : "linear"}, {"values", numbers(axis.values)}};
     if (!axis.labels.empty()) out["labels"] = axis.labels;
     return out;
   }
@@ -143,8 +144,13 @@ class Writer {
   }
 
   static Json patch_numbers(const io::PatchResult& p) {
-    Json out = {{"fn_N", number(p.fn)},          {"fx_N", number(p.fx)},   {"fs_N", number(p.fs)},          {"pmax_MPa", number(kMega * p.pmax)},
-                {"approach_mm", number(kMilli * p.approach)}, {"elements_in_contact", p.ncon}, {"elements_in_slip", p.nslip}};
+    Json out = {{"fn_N", number(p.fn)},
+                {"fx_N", number(p.fx)},
+                {"fs_N", number(p.fs)},
+                {"pmax_MPa", number(kMega * p.pmax)},
+                {"approach_mm", number(kMilli * p.approach)},
+                {"elements_in_contact", p.ncon},
+                {"elements_in_slip", p.nslip}};
     if (!p.shift) {
       out["xi"] = number(p.xi);
       out["eta"] = number(p.eta);

@@ -68,7 +68,8 @@ std::vector<std::pair<std::string, std::string>> plots_of(const Page& page) {
 }
 
 std::string plot(const Page& page, const std::string& what, const std::vector<int>& cases) {
-  if (const FieldInfo* field = find_field(what); field && has_field(page, *field)) return field_svg(chosen(page, cases), *field, page.title);
+  if (const FieldInfo* field = find_field(what); field && has_field(page, *field))
+    return field_svg(chosen(page, cases), *field, page.title);
   if (!cases.empty()) throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
   if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SceneView{0}}, page).front();
   std::string svg;
@@ -78,7 +79,8 @@ std::string plot(const Page& page, const std::string& what, const std::vector<in
   if (!svg.empty()) return svg;
   std::string known;
   for (const auto& [name, meaning] : plots_of(page)) known += (known.empty() ? "" : ", ") + name;
-  throw Error(ErrorKind::configuration, fmt::format("these results have no plot \"{}\"", what), {}, known.empty() ? "there is nothing to draw" : "there are " + known);
+  throw Error(ErrorKind::configuration, fmt::format("these results have no plot \"{}\"", what), {},
+              known.empty() ? "there is nothing to draw" : "there are " + known);
 }
 
 }  // namespace treadmark::app::report

@@ -15,7 +15,7 @@ namespace treadmark::app::report {
 namespace {
 
 constexpr double kLeft = 70.0, kTop = 44.0, kWidth = 640.0, kBottom = 50.0;  // [px]
-constexpr double kMargin = 0.004;                                           // around what is shown [m]
+constexpr double kMargin = 0.004;                                            // around what is shown [m]
 constexpr double kMilli = 1e3;
 
 using Line = std::vector<std::array<double, 2>>;
@@ -102,8 +102,9 @@ std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurfac
   chart.y_range = {z_low - margin, z_high + margin};
   const double height = std::clamp(kWidth * (z_high - z_low + 2.0 * margin) / (y_high - y_low + 2.0 * margin), 80.0, 900.0);
   std::string out = io::svg_head(kLeft + kWidth + 180.0, kTop + height + kBottom, io::kChartFont, io::kChartStyle);
-  out += io::svg_text(kLeft + 0.5 * kWidth, 22.0, fmt::format("Wheel and rail at x = {:.1f} mm, case {}", kMilli * main->x_tr, result->number), "middle",
-                      " class=\"title\"");
+  out +=
+      io::svg_text(kLeft + 0.5 * kWidth, 22.0, fmt::format("Wheel and rail at x = {:.1f} mm, case {}", kMilli * main->x_tr, result->number),
+                   "middle", " class=\"title\"");
   out += io::draw_chart(chart, {kLeft, kTop, kWidth, height});
   out += io::draw_chart_legend(chart.series, kLeft + kWidth + 24.0, kTop + 10.0);
   return out + "</svg>\n";

@@ -24,7 +24,9 @@ constexpr double kLeft = 78.0, kTop = 44.0, kRight = 24.0, kBottom = 50.0;
 constexpr double kWidth = 640.0, kHeight = 200.0, kBetween = 18.0, kLegend = 24.0;
 constexpr std::size_t kMostPanels = 24;  // of contact patches in a picture
 
-std::string axis_label(const std::string& label, const std::string& unit) { return unit.empty() ? label : fmt::format("{} [{}]", label, unit); }
+std::string axis_label(const std::string& label, const std::string& unit) {
+  return unit.empty() ? label : fmt::format("{} [{}]", label, unit);
+}
 
 const Axis* axis_of(const ChartView& view, const Page& page) {
   if (view.linked && page.timeline && !page.timeline->axes.empty()) return &page.timeline->axes.front();
@@ -143,7 +145,8 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
     if (last && axis && !categories) chart.x_label = axis_label(axis->label, axis->unit);
     if (categories)
       chart.x_range = {-0.5, static_cast<double>(axis->labels.size()) - 0.5};
-    else if (chart.x_scale == io::AxisScale::linear) chart.x_range = {range.low(), range.high()};
+    else if (chart.x_scale == io::AxisScale::linear)
+      chart.x_range = {range.low(), range.high()};
     out += io::draw_chart(chart, {kLeft, y, kWidth, kHeight});
     std::vector<io::ChartSeries> named;
     for (const io::ChartSeries& series : chart.series)

@@ -43,7 +43,8 @@ std::string html(const Cards& cards) {
   std::string out = "<div class=\"cards\">\n";
   for (const auto& card : cards.cards)
     out += fmt::format(
-        "<div class=\"card\"><span class=\"card-label\">{}</span><span class=\"card-value\">{}</span><span class=\"card-note\">{}</span></div>\n",
+        "<div class=\"card\"><span class=\"card-label\">{}</span><span class=\"card-value\">{}</span><span "
+        "class=\"card-note\">{}</span></div>\n",
         html_text(card.label), html_text(card.value), html_text(card.note));
   return out + "</div>\n";
 }
@@ -61,8 +62,9 @@ std::string html(const Cell& cell) {
 
 std::string html(const Table& table) {
   const std::string id = html_id(table.id);
-  std::string out = fmt::format("<div class=\"table-frame\"><table class=\"data\" id=\"table-{0}\" data-name=\"{0}\"><caption>{1}</caption>\n<thead><tr>",
-                                id, html_text(table.caption));
+  std::string out =
+      fmt::format("<div class=\"table-frame\"><table class=\"data\" id=\"table-{0}\" data-name=\"{0}\"><caption>{1}</caption>\n<thead><tr>",
+                  id, html_text(table.caption));
   for (const Column& column : table.columns)
     out += fmt::format("<th scope=\"col\" data-unit=\"{}\">{}</th>", html_text(column.unit), head_of(column));
   out += "</tr></thead>\n<tbody>\n";
@@ -74,16 +76,18 @@ std::string html(const Table& table) {
   return out + "</tbody></table></div>\n";
 }
 
-std::string html(const Listing& listing) { return "<pre class=\"listing\">" + [&] {
-  std::string out;
-  std::size_t begin = 0;
-  while (begin <= listing.text.size()) {  // escaping makes blanks of line ends
-    const std::size_t end = std::min(listing.text.find('\n', begin), listing.text.size());
-    out += html_text(std::string_view(listing.text).substr(begin, end - begin)) + "\n";
-    begin = end + 1;
-  }
-  return out;
-}() + "</pre>\n"; }
+std::string html(const Listing& listing) {
+  return "<pre class=\"listing\">" + [&] {
+    std::string out;
+    std::size_t begin = 0;
+    while (begin <= listing.text.size()) {  // escaping makes blanks of line ends
+      const std::size_t end = std::min(listing.text.find('\n', begin), listing.text.size());
+      out += html_text(std::string_view(listing.text).substr(begin, end - begin)) + "\n";
+      begin = end + 1;
+    }
+    return out;
+  }() + "</pre>\n";
+}
 
 std::string html(const Paragraph& paragraph) { return fmt::format("<p>{}</p>\n", html_text(paragraph.text)); }
 
@@ -112,9 +116,11 @@ std::string html(const Figure& figure, const Page& page, bool live) {
 
 std::string html(const Section& section, const Page& page, bool live) {
   const std::string id = html_id(section.id);
-  std::string out = fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-title\"><h2 id=\"{0}-title\">{1}</h2>\n", id, html_text(section.title));
+  std::string out =
+      fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-title\"><h2 id=\"{0}-title\">{1}</h2>\n", id, html_text(section.title));
   for (const Block& block : section.blocks)
-    out += std::visit(Overload{[&](const Figure& figure) { return html(figure, page, live); }, [](const auto& other) { return html(other); }}, block);
+    out += std::visit(
+        Overload{[&](const Figure& figure) { return html(figure, page, live); }, [](const auto& other) { return html(other); }}, block);
   return out + "</section>\n";
 }
 
@@ -128,8 +134,7 @@ constexpr const char* kHead =
 constexpr const char* kWithoutScript =
     "<noscript><div class=\"banner warning\"><strong>Scripts are switched off.</strong> Tables are complete; pictures need scripts, or "
     "the command <code>treadmark report --static</code>.</div></noscript>\n";
-constexpr const char* kStatic =
-    "<div class=\"banner note\" role=\"status\"><strong>Static pictures.</strong> {}</div>\n";
+constexpr const char* kStatic = "<div class=\"banner note\" role=\"status\"><strong>Static pictures.</strong> {}</div>\n";
 
 }  // namespace
 
@@ -137,16 +142,18 @@ std::string to_html(const Page& page, const PageOptions& options) {
   const bool live = options.live && !page_script().empty();
   std::string out = fmt::format(kHead, version(), html_text(page.title));
   out += page_style();
-  out += fmt::format("</style>\n</head>\n<body data-kind=\"{}\">\n<header class=\"page-head\"><h1>{}</h1><p class=\"lead\">{}</p>\n<nav class=\"sections\" aria-label=\"Sections\">",
-                     html_text(page.kind), html_text(page.title), html_text(page.lead));
-  for (const Section& section : page.sections)
-    out += fmt::format("<a href=\"#{}\">{}</a>", html_id(section.id), html_text(section.title));
+  out += fmt::format(
+      "</style>\n</head>\n<body data-kind=\"{}\">\n<header class=\"page-head\"><h1>{}</h1><p class=\"lead\">{}</p>\n<nav "
+      "class=\"sections\" aria-label=\"Sections\">",
+      html_text(page.kind), html_text(page.title), html_text(page.lead));
+  for (const Section& section : page.sections) out += fmt::format("<a href=\"#{}\">{}</a>", html_id(section.id), html_text(section.title));
   out += "</nav></header>\n<div id=\"toolbar\"></div>\n<div id=\"timeline\" hidden></div>\n<main>\n";
   if (live)
     out += kWithoutScript;
   else
-    out += fmt::format(kStatic, options.live ? "This build of Treadmark has no Node.js: the report shows fixed pictures in place of live views."
-                                             : "They were asked for in place of live views.");
+    out += fmt::format(kStatic, options.live
+                                    ? "This build of Treadmark has no Node.js: the report shows fixed pictures in place of live views."
+                                    : "They were asked for in place of live views.");
   for (const Section& section : page.sections) out += html(section, page, live);
   out += fmt::format("</main>\n<footer><p>Made by Treadmark {} ({}).</p></footer>\n", html_text(version()), html_text(git_revision()));
   if (live) {

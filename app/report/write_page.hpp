@@ -9,8 +9,8 @@
 namespace treadmark::app::report {
 
 struct PageOptions {
-  bool live = true;                        ///< with the script, if this build has it; else static pictures
-  std::size_t field_budget = 5'500'000;    ///< for contact fields [bytes]; see pack_frames
+  bool live = true;                      ///< with the script, if this build has it; else static pictures
+  std::size_t field_budget = 5'500'000;  ///< for contact fields [bytes]; see pack_frames
 };
 
 /// The page as one HTML document that refers to nothing outside itself. Every text is escaped. The same page gives the same bytes.

@@ -14,8 +14,8 @@
 namespace treadmark::app::report {
 namespace {
 
-constexpr double kMilli = 1e3;        // s -> ms
-constexpr double kMegabytes = 1e-6;   // bytes -> MB
+constexpr double kMilli = 1e3;       // s -> ms
+constexpr double kMegabytes = 1e-6;  // bytes -> MB
 
 /// A row of the file and what names it.
 struct Row {
@@ -52,9 +52,8 @@ void add_banners(const JsonTree& bench, const std::vector<Row>& rows, Section& o
     reasons += fmt::format("{}{}, {}: {}", wrong++ == 0 ? "" : "; ", row.label, row.node.text("body"), row.node.text("reason"));
   }
   if (wrong > 0)
-    overview.blocks.emplace_back(Banner{
-        Banner::Kind::failed, fmt::format("{} of {} without figures:", wrong, counted(rows.size(), "row")),
-        fmt::format("what does not agree, or could not be built, is not timed. {}.", reasons)});
+    overview.blocks.emplace_back(Banner{Banner::Kind::failed, fmt::format("{} of {} without figures:", wrong, counted(rows.size(), "row")),
+                                        fmt::format("what does not agree, or could not be built, is not timed. {}.", reasons)});
   if (rows.empty()) overview.blocks.emplace_back(Banner{Banner::Kind::note, "No rows.", "Nothing was measured."});
 }
 
@@ -115,11 +114,13 @@ struct Quantity {
 };
 
 /// Points over the representations, a series a quantity of one body.
-Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit, double factor, const std::vector<Quantity>& quantities, bool wheel) {
+Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit, double factor, const std::vector<Quantity>& quantities,
+               bool wheel) {
   const std::vector<std::string> names = names_of(rows);
   Panel panel{label, unit, true};
   for (const Quantity& quantity : quantities) {
-    Series series{quantity.name, std::vector<double>(names.size(), NAN), {}, Series::Marks::points, false, std::vector<std::string>(names.size())};
+    Series series{quantity.name, std::vector<double>(names.size(), NAN), {}, Series::Marks::points,
+                  false,         std::vector<std::string>(names.size())};
     for (const Row& row : rows) {
       if (row.wheel != wheel) continue;
       const auto place = static_cast<std::size_t>(std::ranges::find(names, row.label) - names.begin());
@@ -156,7 +157,8 @@ Section charts_of(const std::vector<Row>& rows) {
                                       {"tilted", "ns_per_height_tilted"},
                                       {"tilted, with slopes", "ns_per_normal"},
                                       {"what the offsets lie on", "base_ns_per_height"}};
-  const std::vector<Quantity> detection{{"first search", "search_cold_s"}, {"after a small move", "search_warm_s"}, {"undeformed distance", "distance_s"}};
+  const std::vector<Quantity> detection{
+      {"first search", "search_cold_s"}, {"after a small move", "search_warm_s"}, {"undeformed distance", "distance_s"}};
   Section section{"costs", "Costs"};
   const auto add = [&](const char* id, const char* title, ChartView view, const char* note) {
     if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
@@ -167,26 +169,23 @@ Section charts_of(const std::vector<Row>& rows) {
   add("detection", "Contact detection", chart_of(rows, {panel_of(rows, "wheel on rail", "ms", kMilli, detection, true)}),
       "Wheel and rail both in this representation.");
   add("memory", "Size, construction and accuracy",
-      chart_of(rows, {both_bodies(rows, "memory", "MB", kMegabytes, "memory_bytes"), both_bodies(rows, "time to build", "ms", kMilli, "build_s"),
-                      both_bodies(rows, "largest deviation", "µm", 1.0, "difference_um")}),
+      chart_of(rows,
+               {both_bodies(rows, "memory", "MB", kMegabytes, "memory_bytes"), both_bodies(rows, "time to build", "ms", kMilli, "build_s"),
+                both_bodies(rows, "largest deviation", "µm", 1.0, "difference_um")}),
       "Deviation: largest normal distance from the surface as given. Zero is not shown.");
   return section;
 }
 
 Table table_of(const std::vector<Row>& rows) {
-  const std::vector<std::pair<const char*, Column>> quantities{{"difference_um", {"differs", "µm"}},
-                                                               {"build_s", {"build", "s"}},
-                                                               {"memory_bytes", {"memory", "MB"}},
-                                                               {"points", {"points"}},
-                                                               {"ns_per_height", {"height, level", "ns"}},
-                                                               {"ns_per_height_tilted", {"height, tilted", "ns"}},
-                                                               {"ns_per_normal", {"with slopes", "ns"}},
-                                                               {"base_ns_per_height", {"base of offsets", "ns"}},
-                                                               {"search_cold_s", {"first search", "s"}},
-                                                               {"search_warm_s", {"after a small move", "s"}},
-                                                               {"distance_s", {"distance", "s"}},
-                                                               {"patches", {"patches"}}};
-  Table table{"rows", "All figures. Times stand only where everything agrees.", {{"representation"}, {"resolution", "mm"}, {"body"}, {"agrees"}}};
+  const std::vector<std::pair<const char*, Column>> quantities{
+      {"difference_um", {"differs", "µm"}},       {"build_s", {"build", "s"}},
+      {"memory_bytes", {"memory", "MB"}},         {"points", {"points"}},
+      {"ns_per_height", {"height, level", "ns"}}, {"ns_per_height_tilted", {"height, tilted", "ns"}},
+      {"ns_per_normal", {"with slopes", "ns"}},   {"base_ns_per_height", {"base of offsets", "ns"}},
+      {"search_cold_s", {"first search", "s"}},   {"search_warm_s", {"after a small move", "s"}},
+      {"distance_s", {"distance", "s"}},          {"patches", {"patches"}}};
+  Table table{
+      "rows", "All figures. Times stand only where everything agrees.", {{"representation"}, {"resolution", "mm"}, {"body"}, {"agrees"}}};
   for (const auto& [key, column] : quantities) table.columns.push_back(column);
   table.columns.push_back({"reason"});
   for (const Row& row : rows) {
@@ -208,8 +207,9 @@ Page bench_page(const std::filesystem::path& folder) {
   const JsonTree& bench = file.root;
   const std::vector<Row> rows = rows_of(bench);
   const std::string input = bench.at("input").text("file");
-  Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
-            fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"), bench.text("machine"))};
+  Page page{
+      "bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
+      fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"), bench.text("machine"))};
   page.document = std::move(file.text);
   Section overview{"overview", "Overview"};
   add_banners(bench, rows, overview);

@@ -89,8 +89,8 @@ ChartView accuracy_chart(const ComparedCandidates& all) {
 ChartView cost_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = resolution_axis();
-  view.panels = {over_resolution(all, "detection", "ms", time_ms, 0.0, true),
-                 over_resolution(all, "memory", "MB", memory, 0.0, true), over_resolution(all, "time to build", "ms", build_ms, 0.0, true)};
+  view.panels = {over_resolution(all, "detection", "ms", time_ms, 0.0, true), over_resolution(all, "memory", "MB", memory, 0.0, true),
+                 over_resolution(all, "time to build", "ms", build_ms, 0.0, true)};
   return view;
 }
 
@@ -152,23 +152,45 @@ ChartView case_errors_chart(const ComparedCandidates& all) {
 }
 
 Table candidate_table(const ComparedCandidates& all) {
-  Table table{"candidates",
-              "Representations. Errors are the largest in size over the cases, deviations those of the worse of wheel and rail, times of search "
-              "and distance means per case; build and memory are of wheel and rail together.",
-              {{"representation"}, {"resolution", "mm"}, {"wheel"}, {"rail"}, {"cases"}, {"ok"}, {"error of p_max", "%"}, {"error of area", "%"},
-               {"error of force", "%"}, {"error of position", "mm"}, {"largest deviation", "µm"}, {"rms deviation", "µm"}, {"slope", "mrad"},
-               {"curvature", "1/m"}, {"search", "ms"}, {"distance", "ms"}, {"build", "s"}, {"memory", "MB"}, {"notes"}}};
+  Table table{
+      "candidates",
+      "Representations. Errors are the largest in size over the cases, deviations those of the worse of wheel and rail, times of search "
+      "and distance means per case; build and memory are of wheel and rail together.",
+      {{"representation"},
+       {"resolution", "mm"},
+       {"wheel"},
+       {"rail"},
+       {"cases"},
+       {"ok"},
+       {"error of p_max", "%"},
+       {"error of area", "%"},
+       {"error of force", "%"},
+       {"error of position", "mm"},
+       {"largest deviation", "µm"},
+       {"rms deviation", "µm"},
+       {"slope", "mrad"},
+       {"curvature", "1/m"},
+       {"search", "ms"},
+       {"distance", "ms"},
+       {"build", "s"},
+       {"memory", "MB"},
+       {"notes"}}};
   for (const Candidate& c : all.candidates) {
     Table::Row row;
-    row.cells = {c.backend + (&c == all.truth() ? " (truth)" : ""), Number{c.resolution_mm}, c.wheel.text("backend"), c.rail.text("backend"),
-                 Number{static_cast<double>(c.solved)}, Number{static_cast<double>(c.ok)}};
-    for (const double value : {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm, c.height_max_um,
-                               c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m, kMilli * c.mean_search_s, kMilli * c.mean_distance_s,
-                               c.build_s, c.memory_MB()})
+    row.cells = {c.backend + (&c == all.truth() ? " (truth)" : ""),
+                 Number{c.resolution_mm},
+                 c.wheel.text("backend"),
+                 c.rail.text("backend"),
+                 Number{static_cast<double>(c.solved)},
+                 Number{static_cast<double>(c.ok)}};
+    for (const double value :
+         {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm, c.height_max_um, c.height_rms_um,
+          c.slope_max_mrad, c.curvature_max_per_m, kMilli * c.mean_search_s, kMilli * c.mean_distance_s, c.build_s, c.memory_MB()})
       row.cells.emplace_back(Number{value, 3});
     std::string notes = c.failure.empty() ? "" : "failed: " + c.failure;
     for (const auto& [body, node] : {std::pair{"wheel", &c.wheel}, {"rail", &c.rail}})
-      if (const std::string note = node->text("note"); !note.empty()) notes += fmt::format("{}{}: {}", notes.empty() ? "" : "; ", body, note);
+      if (const std::string note = node->text("note"); !note.empty())
+        notes += fmt::format("{}{}: {}", notes.empty() ? "" : "; ", body, note);
     row.cells.emplace_back(std::move(notes));
     table.rows.push_back(std::move(row));
   }
@@ -206,7 +228,8 @@ Table compared_row_table(const ComparedCandidates& all) {
                                          {"build_s", {"build", "s"}, 3},
                                          {"memory_bytes", {"memory", "MB"}, 3, 1e-6}};
   Table table{"rows",
-              "Every case with every representation. Pressure to elements in contact are of the patch that carries most of the load; x and y are its "
+              "Every case with every representation. Pressure to elements in contact are of the patch that carries most of the load; x and "
+              "y are its "
               "reference in track axes, forces act on the rail. Errors exist where both this representation and the truth have contact.",
               {{"case"}, {"representation"}, {"wheel"}, {"rail"}, {"status"}}};
   for (const Quantity& q : quantities) table.columns.push_back(q.column);
@@ -214,8 +237,9 @@ Table compared_row_table(const ComparedCandidates& all) {
     for (const Candidate& c : all.candidates) {
       if (!c.rows[i]) continue;
       const JsonTree& node = *c.rows[i];
-      Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"), node.text("rail_backend"), node.text("status")},
-                     static_cast<int>(i)};
+      Table::Row row{
+          {Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"), node.text("rail_backend"), node.text("status")},
+          static_cast<int>(i)};
       for (const Quantity& q : quantities) row.cells.emplace_back(Number{q.factor * node.number_or_nan(q.key), q.digits});
       table.rows.push_back(std::move(row));
     }

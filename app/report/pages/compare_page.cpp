@@ -49,9 +49,10 @@ void add_status(const ComparedCandidates& all, const char* status, Banner::Kind 
 
 void add_banners(const JsonTree& comparison, const ComparedCandidates& all, Section& overview) {
   if (!comparison.flag("complete"))
-    overview.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
-                                        fmt::format("{} finished; representations or cases are missing here.",
-                                                    counted(all.candidates.size(), "representation") + (all.candidates.size() == 1 ? " was" : " were"))});
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::failed, "Interrupted.",
+               fmt::format("{} finished; representations or cases are missing here.",
+                           counted(all.candidates.size(), "representation") + (all.candidates.size() == 1 ? " was" : " were"))});
   for (const Candidate& candidate : all.candidates)
     if (!candidate.failure.empty())
       overview.blocks.emplace_back(Banner{Banner::Kind::failed, candidate.label + " failed.", candidate.failure});
@@ -68,7 +69,8 @@ std::vector<const Candidate*> finest(const ComparedCandidates& all) {
     if (!c.as_given() && std::isfinite(c.pmax_error_percent)) least = std::fmin(least, c.resolution_mm);
   std::vector<const Candidate*> out;
   for (const Candidate& c : all.candidates)
-    if (&c != all.truth() && std::isfinite(c.pmax_error_percent) && (std::isinf(least) ? c.as_given() : c.resolution_mm == least)) out.push_back(&c);
+    if (&c != all.truth() && std::isfinite(c.pmax_error_percent) && (std::isinf(least) ? c.as_given() : c.resolution_mm == least))
+      out.push_back(&c);
   return out;
 }
 
@@ -80,8 +82,9 @@ Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
     if (std::isfinite(c.mean_seconds()) && (fastest == nullptr || c.mean_seconds() < fastest->mean_seconds())) fastest = &c;
   }
   Cards cards;
-  cards.cards = {{"Representations", fmt::format("{}", all.candidates.size()), failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
-                 {"Cases", fmt::format("{}", all.cases.size()), ""}};
+  cards.cards = {
+      {"Representations", fmt::format("{}", all.candidates.size()), failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
+      {"Cases", fmt::format("{}", all.cases.size()), ""}};
   const std::vector<const Candidate*> judged = finest(all);
   if (!judged.empty()) {
     const auto [best, worst] = std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->pmax_error_percent; });
@@ -90,7 +93,8 @@ Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
     if (judged.size() > 1) cards.cards.push_back({"Greatest error of pressure", error(*worst), (*worst)->label});
   }
   if (fastest != nullptr)
-    cards.cards.push_back({"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})), fastest->label + ", a case"});
+    cards.cards.push_back(
+        {"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})), fastest->label + ", a case"});
   cards.cards.push_back({"Wall-clock time", duration_text(comparison.at("treadmark").number("seconds")),
                          counted(comparison.at("treadmark").count("threads"), "thread")});
   return cards;
@@ -125,9 +129,13 @@ Section accuracy_section(const ComparedCandidates& all) {
     if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
   };
   add("accuracy-chart", "Accuracy over resolution", accuracy_chart(all),
-      "Largest error of the largest pressure and largest deviation of wheel and rail, over all cases. Values below 0.001, zero included, are shown at 0.001. Levels belong to data as given, which is not sampled.");
-  add("trade-chart", "Accuracy against time", trade_chart(all), "p_max: largest error of the largest pressure over the cases. Towards the lower left it is faster and more accurate. Errors below 0.001 % are shown there.");
-  add("cost-chart", "Cost over resolution", cost_chart(all), "Detection: contact search and undeformed distance, mean over the cases. Memory and time to build: wheel and rail together.");
+      "Largest error of the largest pressure and largest deviation of wheel and rail, over all cases. Values below 0.001, zero included, "
+      "are shown at 0.001. Levels belong to data as given, which is not sampled.");
+  add("trade-chart", "Accuracy against time", trade_chart(all),
+      "p_max: largest error of the largest pressure over the cases. Towards the lower left it is faster and more accurate. Errors below "
+      "0.001 % are shown there.");
+  add("cost-chart", "Cost over resolution", cost_chart(all),
+      "Detection: contact search and undeformed distance, mean over the cases. Memory and time to build: wheel and rail together.");
   return section;
 }
 
@@ -139,8 +147,8 @@ Page compare_page(const std::filesystem::path& folder) {
   const ComparedCandidates all = read_compared(comparison);
   OptionalFiles files(folder);
   Page page{"compare", title_of(comparison.at("input").text("file")),
-            fmt::format("{} on {}, measured against {}", counted(all.candidates.size(), "representation"), counted(all.cases.size(), "case"),
-                        comparison.text("truth"))};
+            fmt::format("{} on {}, measured against {}", counted(all.candidates.size(), "representation"),
+                        counted(all.cases.size(), "case"), comparison.text("truth"))};
   page.document = std::move(file.text);
   page.full_data = "fields.h5";
 

@@ -16,9 +16,9 @@ namespace treadmark::app::report {
 struct ComparedCandidate {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
-  std::string backend, label;       ///< "mesh", "mesh 0.5 mm"
-  std::string failure;              ///< why it could not be built or solved; empty if it could
-  double resolution_mm = kNone;     ///< NaN: the data as given
+  std::string backend, label;    ///< "mesh", "mesh 0.5 mm"
+  std::string failure;           ///< why it could not be built or solved; empty if it could
+  double resolution_mm = kNone;  ///< NaN: the data as given
   JsonTree wheel, rail;
   std::vector<std::optional<JsonTree>> rows;  ///< of each case of the comparison; nothing where it is missing
   // the largest in size over the cases
@@ -27,7 +27,7 @@ struct ComparedCandidate {
   // of wheel and rail the worse, and their sums
   double height_max_um = kNone, height_rms_um = kNone, slope_max_mrad = kNone, curvature_max_per_m = kNone;
   double build_s = kNone, memory_bytes = kNone;
-  std::size_t ok = 0, solved = 0;   ///< cases that ended as "ok", and all that have a row
+  std::size_t ok = 0, solved = 0;  ///< cases that ended as "ok", and all that have a row
 
   double mean_seconds() const { return mean_search_s + mean_distance_s; }
   double memory_MB() const { return 1e-6 * memory_bytes; }

@@ -17,7 +17,8 @@ bool OptionalFiles::has(const std::string& file, const std::string& what) {
   return false;
 }
 
-std::vector<Block> OptionalFiles::picture(const std::string& file, const std::string& id, const std::string& title, const std::string& note) {
+std::vector<Block> OptionalFiles::picture(const std::string& file, const std::string& id, const std::string& title,
+                                          const std::string& note) {
   if (!has(file, "a picture")) return {};
   return {Figure{id, title, PictureView{io::profiles::read_text(path(file), "picture", {})}, note}};
 }

@@ -60,7 +60,8 @@ std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const 
   return {kept.begin(), kept.end()};
 }
 
-std::optional<std::vector<double>> column_at(const io::SimulationResult& result, const std::string& column, const std::vector<std::size_t>& rows) {
+std::optional<std::vector<double>> column_at(const io::SimulationResult& result, const std::string& column,
+                                             const std::vector<std::size_t>& rows) {
   const auto index = find(result, column);
   if (!index) return {};
   const double factor = shown_unit(column).factor;

@@ -26,7 +26,8 @@ ShownUnit shown_unit(const std::string& column);
 std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns, std::size_t most);
 
 /// Values of a column at these rows in the shown unit; nothing where there is no such column.
-std::optional<std::vector<double>> column_at(const io::SimulationResult& result, const std::string& column, const std::vector<std::size_t>& rows);
+std::optional<std::vector<double>> column_at(const io::SimulationResult& result, const std::string& column,
+                                             const std::vector<std::size_t>& rows);
 
 /// A panel with the columns that exist, as curves; nothing where none does. names: of the curves.
 struct NamedColumn {

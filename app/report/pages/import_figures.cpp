@@ -95,8 +95,8 @@ std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::Import
                  depth = damage.number("depth_mm");
     if (++count > kMostDamage) break;
     if (std::isfinite(a + s + length + width))
-      add_mark(marks, rectangle(a, s, length, width), fmt::format("{}: {} mm {}", count, shown({std::fabs(depth), 3}), depth < 0.0 ? "high" : "deep"),
-               map, round_mm);
+      add_mark(marks, rectangle(a, s, length, width),
+               fmt::format("{}: {} mm {}", count, shown({std::fabs(depth), 3}), depth < 0.0 ? "high" : "deep"), map, round_mm);
   }
   return marks;
 }

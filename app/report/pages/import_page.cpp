@@ -29,7 +29,8 @@ std::size_t removed_count(const JsonTree& report) {
 }
 
 void add_banners(const JsonTree& report, Section& overview) {
-  for (const std::string& warning : report.at("warnings").texts()) overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Warning.", warning});
+  for (const std::string& warning : report.at("warnings").texts())
+    overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Warning.", warning});
   std::size_t open = 0;
   double widest = 0.0;
   for (const JsonTree& hole : report.at("coverage").at("holes").items()) {
@@ -41,7 +42,8 @@ void add_banners(const JsonTree& report, Section& overview) {
     overview.blocks.emplace_back(Banner{Banner::Kind::warning, counted(open, "hole") + (open == 1 ? " stays open." : " stay open."),
                                         fmt::format("There is no surface there; the widest is {} across.", with_unit(widest, "mm"))});
   if (report.flag("from_map"))
-    overview.blocks.emplace_back(Banner{Banner::Kind::note, "From a map of deviations.", "It was not placed: it lies over the nominal profile as it is."});
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::note, "From a map of deviations.", "It was not placed: it lies over the nominal profile as it is."});
 }
 
 Cards cards_of(const JsonTree& report) {
@@ -59,8 +61,9 @@ Cards cards_of(const JsonTree& report) {
                  {"Error of the surface", with_unit(kMicro * fit.number("held_out_error_mm"), "µm"), "by points that were held out"},
                  {"Holes", fmt::format("{}", holes.size()), fmt::format("{} in all", with_unit(coverage.number("hole_area_mm2"), "mm²"))},
                  {"Damage", fmt::format("{}", damage.size()),
-                  damage.empty() ? "" : fmt::format("the largest {} {}", with_unit(std::fabs(damage.front().number("depth_mm")), "mm"),
-                                                    damage.front().number("depth_mm") < 0.0 ? "high" : "deep")}};
+                  damage.empty() ? ""
+                                 : fmt::format("the largest {} {}", with_unit(std::fabs(damage.front().number("depth_mm")), "mm"),
+                                               damage.front().number("depth_mm") < 0.0 ? "high" : "deep")}};
   return cards;
 }
 
@@ -105,10 +108,10 @@ std::vector<Block> placement_of(const JsonTree& report) {
                                                               with_unit(frame->number("axis_direction_error_mrad"), "mrad"))},
                    {"Scatter about the section", with_unit(kMicro * frame->number("scatter_mm"), "µm")},
                    {"Undamaged points", with_unit(frame->number("undamaged_percent"), "%")},
-                   {"Section from the nominal profile", fmt::format("{} where both agree, {} of it", with_unit(kMicro * frame->number("match_residual_mm"), "µm"),
-                                                                    with_unit(frame->number("match_agreeing_percent"), "%"))}};
-  if (report.text("body") != "wheel")
-    std::erase_if(facts.entries, [](const auto& entry) { return entry.first == "Nominal radius"; });
+                   {"Section from the nominal profile",
+                    fmt::format("{} where both agree, {} of it", with_unit(kMicro * frame->number("match_residual_mm"), "µm"),
+                                with_unit(frame->number("match_agreeing_percent"), "%"))}};
+  if (report.text("body") != "wheel") std::erase_if(facts.entries, [](const auto& entry) { return entry.first == "Nominal radius"; });
   std::vector<Block> out{std::move(facts)};
   if (Table passes = pass_table(*frame); passes.rows.size() > 1) {
     out.emplace_back(Paragraph{fmt::format("Passes lay {} apart where they overlap (rms), and {} after they were moved.",
@@ -146,12 +149,12 @@ Section fit_section(const JsonTree& report, const io::ImportMaps& maps, Optional
   Section section{"fit", "Fit"};
   const JsonTree fit = report.at("fit");
   if (const auto kept = fit.find("kept_sections"))
-    section.blocks.emplace_back(
-        Banner{Banner::Kind::note, "The scan's own sections are the surface.",
-               fmt::format("{} sections of {} to {} points; the fit below serves pictures, damage and zero alone.", kept->count("count"),
-                           kept->count("fewest_points"), kept->count("most_points"))});
-  section.blocks.emplace_back(Paragraph{fmt::format("{} points were fitted, {} held out; these lie {} (rms) from the surface.", fit.count("fitted_points"),
-                                                    fit.count("held_out_points"), with_unit(kMicro * fit.number("held_out_rms_mm"), "µm"))});
+    section.blocks.emplace_back(Banner{Banner::Kind::note, "The scan's own sections are the surface.",
+                                       fmt::format("{} sections of {} to {} points; the fit below serves pictures, damage and zero alone.",
+                                                   kept->count("count"), kept->count("fewest_points"), kept->count("most_points"))});
+  section.blocks.emplace_back(
+      Paragraph{fmt::format("{} points were fitted, {} held out; these lie {} (rms) from the surface.", fit.count("fitted_points"),
+                            fit.count("held_out_points"), with_unit(kMicro * fit.number("held_out_rms_mm"), "µm"))});
   append(section.blocks, map_figure(maps.residual, maps.body, {"residual-map", "Mean residual", "measured less fitted", "µm", 1e6, true}));
   append(section.blocks, map_figure(maps.noise, maps.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
   if (ChartView chart = residual_chart(fit); !chart.panels.empty())
@@ -170,9 +173,9 @@ Page import_page(const std::filesystem::path& folder) {
   io::ImportMaps maps;
   if (files.has("maps.h5", "maps over the band")) maps = io::read_import_maps(files.path("maps.h5"));
   const std::string body = report.text("body");
-  Page page{"import", fmt::format("Import of {}", report.text("input")),
-            fmt::format("A {} from {}", body,
-                        report.flag("from_map") ? "a map of deviations" : counted(report.count("points_read"), "point"))};
+  Page page{
+      "import", fmt::format("Import of {}", report.text("input")),
+      fmt::format("A {} from {}", body, report.flag("from_map") ? "a map of deviations" : counted(report.count("points_read"), "point"))};
   page.document = std::move(file.text);
 
   Section overview{"overview", "Overview"};
@@ -181,8 +184,10 @@ Page import_page(const std::filesystem::path& folder) {
   overview.blocks.emplace_back(cards_of(report));
   overview.blocks.emplace_back(facts_of(report));
   overview.blocks.emplace_back(input_table(report));
-  Section surface = surface_section(report, maps, files), points = points_section(report, maps, files), fit = fit_section(report, maps, files);
-  Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"}, settings{"settings", "Settings"}, summary{"summary", "Summary"};
+  Section surface = surface_section(report, maps, files), points = points_section(report, maps, files),
+          fit = fit_section(report, maps, files);
+  Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"}, settings{"settings", "Settings"},
+      summary{"summary", "Summary"};
   if (files.has("times.json", "times of the steps")) steps.blocks.emplace_back(step_table(read_json_file(files.path("times.json")).root));
   settings.blocks.emplace_back(Listing{report.text("settings_toml")});
   if (std::string text = files.text("summary.txt", "the summary"); !text.empty()) summary.blocks.emplace_back(Listing{std::move(text)});

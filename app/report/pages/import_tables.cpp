@@ -24,7 +24,8 @@ Table input_table(const JsonTree& report) {
 }
 
 Table removed_table(const JsonTree& report) {
-  Table table{"removed", "Points that are not in the surface, in the order of the steps.", {{"reason"}, {"points"}, {"of all", "%"}, {"rule"}}};
+  Table table{
+      "removed", "Points that are not in the surface, in the order of the steps.", {{"reason"}, {"points"}, {"of all", "%"}, {"rule"}}};
   const double all = static_cast<double>(report.count("points_read"));
   const JsonTree why = report.at("removed_why");
   for (const auto& [reason, count] : report.at("removed").entries()) {
@@ -35,22 +36,33 @@ Table removed_table(const JsonTree& report) {
 }
 
 Table hole_table(const JsonTree& report) {
-  Table table{"holes", "Places without points, largest first.", {along_column(report), {"y", "mm"}, {"s", "mm"}, {"diameter", "mm"}, {"area", "mm²"}, {"filled"}}};
+  Table table{"holes",
+              "Places without points, largest first.",
+              {along_column(report), {"y", "mm"}, {"s", "mm"}, {"diameter", "mm"}, {"area", "mm²"}, {"filled"}}};
   for (const JsonTree& hole : report.at("coverage").at("holes").items())
-    table.rows.push_back({{along(report, hole), Number{hole.number("y_mm")}, Number{hole.number("s_mm")}, Number{hole.number("diameter_mm"), 3},
-                           Number{hole.number("area_mm2"), 3}, std::string(hole.flag("filled") ? "by the fit" : "stays open")}});
+    table.rows.push_back(
+        {{along(report, hole), Number{hole.number("y_mm")}, Number{hole.number("s_mm")}, Number{hole.number("diameter_mm"), 3},
+          Number{hole.number("area_mm2"), 3}, std::string(hole.flag("filled") ? "by the fit" : "stays open")}});
   return table;
 }
 
 Table damage_table(const JsonTree& report) {
   Table table{"damage",
               "Damage, largest first. Negative depths and volumes stand out of the surface.",
-              {{"number"}, along_column(report), {"y", "mm"}, {"s", "mm"}, {"length", "mm"}, {"width", "mm"}, {"depth", "mm"}, {"missing volume", "mm³"}}};
+              {{"number"},
+               along_column(report),
+               {"y", "mm"},
+               {"s", "mm"},
+               {"length", "mm"},
+               {"width", "mm"},
+               {"depth", "mm"},
+               {"missing volume", "mm³"}}};
   double number = 0.0;
   for (const JsonTree& part : report.at("damage").items()) {
     number += 1.0;
-    table.rows.push_back({{Number{number}, along(report, part), Number{part.number("y_mm")}, Number{part.number("s_mm")}, Number{part.number("length_mm")},
-                           Number{part.number("width_mm")}, Number{part.number("depth_mm")}, Number{part.number("volume_mm3")}}});
+    table.rows.push_back(
+        {{Number{number}, along(report, part), Number{part.number("y_mm")}, Number{part.number("s_mm")}, Number{part.number("length_mm")},
+          Number{part.number("width_mm")}, Number{part.number("depth_mm")}, Number{part.number("volume_mm3")}}});
   }
   return table;
 }
@@ -58,7 +70,14 @@ Table damage_table(const JsonTree& report) {
 Table pass_table(const JsonTree& frame) {
   Table table{"passes",
               "Passes and what they were moved by, in the axes of the surface.",
-              {{"pass"}, {"points"}, {"shift x", "mm"}, {"shift y", "mm"}, {"shift z", "mm"}, {"turn x", "mrad"}, {"turn y", "mrad"}, {"turn z", "mrad"}}};
+              {{"pass"},
+               {"points"},
+               {"shift x", "mm"},
+               {"shift y", "mm"},
+               {"shift z", "mm"},
+               {"turn x", "mrad"},
+               {"turn y", "mrad"},
+               {"turn z", "mrad"}}};
   for (const JsonTree& pass : frame.at("passes").items()) {
     Table::Row row{{whole(pass, "pass"), whole(pass, "points")}};
     for (const char* key : {"shift_mm", "turn_mrad"})
@@ -74,8 +93,8 @@ Table level_table(const JsonTree& report) {
               "The sum of splines, from coarse to fine along and across. Functions are used only where the points call for them.",
               {{"knots along", "mm"}, {"knots across", "mm"}, {"functions"}, {"used"}, {"iterations"}}};
   for (const JsonTree& level : report.at("fit").at("levels").items())
-    table.rows.push_back({{Number{level.number("knot_a_mm")}, Number{level.number("knot_s_mm")}, whole(level, "functions"), whole(level, "used"),
-                           whole(level, "iterations")}});
+    table.rows.push_back({{Number{level.number("knot_a_mm")}, Number{level.number("knot_s_mm")}, whole(level, "functions"),
+                           whole(level, "used"), whole(level, "iterations")}});
   return table;
 }
 
@@ -84,8 +103,8 @@ Table output_table(const JsonTree& report) {
               "Surfaces that were written, read back and compared with the fitted one.",
               {{"file"}, {"kind"}, {"content"}, {"size", "bytes"}, {"largest distance", "µm"}, {"rms distance", "µm"}, {"SHA-256"}}};
   for (const JsonTree& output : report.at("outputs").items())
-    table.rows.push_back({{output.text("file"), output.text("kind"), output.text("details"), whole(output, "bytes"), Number{output.number("height_max_um"), 3},
-                           Number{output.number("height_rms_um"), 3}, output.text("sha256")}});
+    table.rows.push_back({{output.text("file"), output.text("kind"), output.text("details"), whole(output, "bytes"),
+                           Number{output.number("height_max_um"), 3}, Number{output.number("height_rms_um"), 3}, output.text("sha256")}});
   return table;
 }
 

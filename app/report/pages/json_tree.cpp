@@ -54,7 +54,7 @@ const char* name_of(Kind kind) {
 class Builder final : public nlohmann::json_sax<Json> {
  public:
   JsonNode root;
-  std::size_t error_at = 0;   ///< byte, from 1; 0 = none
+  std::size_t error_at = 0;  ///< byte, from 1; 0 = none
   bool too_deep = false;
 
   bool null() override { return add({}); }
@@ -111,9 +111,7 @@ SourcePosition position(const std::string& file, const std::string& text, std::s
 
 }  // namespace
 
-void JsonTree::fail(const std::string& what) const {
-  throw Error(ErrorKind::input_data, what, {*file_, 0, 0}, kAdvice);
-}
+void JsonTree::fail(const std::string& what) const { throw Error(ErrorKind::input_data, what, {*file_, 0, 0}, kAdvice); }
 
 void JsonTree::refuse(const std::string& what) const { fail(fmt::format("{} {}", place_.empty() ? "the file" : place_, what)); }
 
@@ -228,8 +226,8 @@ JsonFile read_json_file(const std::filesystem::path& file) {
   const bool read = Json::sax_parse(text, &builder);
   if (builder.too_deep) throw Error(ErrorKind::input_data, "the file is nested too deeply", {file.string(), 0, 0}, kAdvice);
   if (!read || builder.error_at > 0)
-    throw Error(ErrorKind::input_data, "the file is no JSON, or was cut off", position(file.string(), text, std::max<std::size_t>(1, builder.error_at)),
-                kAdvice);
+    throw Error(ErrorKind::input_data, "the file is no JSON, or was cut off",
+                position(file.string(), text, std::max<std::size_t>(1, builder.error_at)), kAdvice);
   if (builder.root.kind != Kind::object)
     throw Error(ErrorKind::input_data, wrong_kind(builder.root, {}, "an object"), {file.string(), 0, 0}, kAdvice);
   return {JsonTree(std::make_shared<const JsonNode>(std::move(builder.root)), std::make_shared<const std::string>(file.string()), {}),

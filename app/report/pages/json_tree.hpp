@@ -25,17 +25,17 @@ class JsonTree {
   bool is_null() const;
 
   JsonTree at(std::string_view key) const;
-  std::optional<JsonTree> find(std::string_view key) const;  ///< nothing where the key is missing or null
-  std::vector<JsonTree> items() const;                       ///< of a list
+  std::optional<JsonTree> find(std::string_view key) const;       ///< nothing where the key is missing or null
+  std::vector<JsonTree> items() const;                            ///< of a list
   std::vector<std::pair<std::string, JsonTree>> entries() const;  ///< of an object, in the order of the file
 
-  double number() const;       ///< null = NaN
-  std::size_t count() const;   ///< a whole number that is not negative
+  double number() const;      ///< null = NaN
+  std::size_t count() const;  ///< a whole number that is not negative
   int integer() const;
   std::string text() const;
   bool flag() const;
-  std::vector<double> numbers() const;      ///< of a list
-  std::vector<std::string> texts() const;   ///< of a list
+  std::vector<double> numbers() const;     ///< of a list
+  std::vector<std::string> texts() const;  ///< of a list
 
   double number(std::string_view key) const { return at(key).number(); }
   std::size_t count(std::string_view key) const { return at(key).count(); }

@@ -49,7 +49,8 @@ Page simulation_in(const fs::path& store) {
 
 Page read_report(const fs::path& given) {
   const fs::path folder = fs::is_regular_file(given) ? (given.has_parent_path() ? given.parent_path() : fs::path(".")) : given;
-  if (!fs::is_directory(folder)) throw Error(ErrorKind::input_data, "there is no such folder", {given.string()}, "give a folder that a command wrote with -o");
+  if (!fs::is_directory(folder))
+    throw Error(ErrorKind::input_data, "there is no such folder", {given.string()}, "give a folder that a command wrote with -o");
   const auto has = [&](const char* name) { return fs::exists(folder / name); };
   if (has("compare.json")) return compare_page(folder);
   if (has("bench.json")) return bench_page(folder);

@@ -17,8 +17,9 @@ namespace {
 /// What went wrong comes first.
 void add_banners(const io::RunResult& run, Section& overview) {
   if (!run.complete)
-    overview.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
-                                        fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total)});
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::failed, "Interrupted.",
+               fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total)});
   const auto list = [&](Status status) {
     std::string numbers;
     std::size_t count = 0;
@@ -30,11 +31,12 @@ void add_banners(const io::RunResult& run, Section& overview) {
     std::string first;
     for (const io::CaseResult& c : run.cases)
       if (first.empty() && c.status == Status::failed) first = c.message;
-    overview.blocks.emplace_back(Banner{Banner::Kind::failed, counted(count, "case") + " failed.", fmt::format("Case {}. First message: {}", numbers, first)});
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::failed, counted(count, "case") + " failed.", fmt::format("Case {}. First message: {}", numbers, first)});
   }
   if (const auto [count, numbers] = list(Status::not_converged); count > 0)
-    overview.blocks.emplace_back(
-        Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.", fmt::format("Judge the results with care: case {}.", numbers)});
+    overview.blocks.emplace_back(Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.",
+                                        fmt::format("Judge the results with care: case {}.", numbers)});
   if (const auto [count, numbers] = list(Status::no_contact); count > 0)
     overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
 }
@@ -49,7 +51,8 @@ Cards::Card extreme(const io::RunResult& run, const char* label, const char* uni
       number = c.number;
     }
   }
-  return {label, std::isnan(best) ? "–" : fmt::format("{} {}", shown({factor * best}), unit), number > 0 ? fmt::format("case {}", number) : ""};
+  return {label, std::isnan(best) ? "–" : fmt::format("{} {}", shown({factor * best}), unit),
+          number > 0 ? fmt::format("case {}", number) : ""};
 }
 
 Cards cards_of(const io::RunResult& run) {
@@ -79,8 +82,7 @@ Section overview(const io::RunResult& run) {
   Section section{"overview", "Overview"};
   add_banners(run, section);
   section.blocks.emplace_back(cards_of(run));
-  section.blocks.emplace_back(
-      origin_facts({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings}));
+  section.blocks.emplace_back(origin_facts({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings}));
   return section;
 }
 

@@ -33,17 +33,19 @@ std::string value_text(double value, const std::string& name) {
 void add_banners(const Result& result, Section& section) {
   if (result.status == "interrupted")
     section.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
-                                       fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.", result.message,
-                                                   result.message.empty() ? "" : ". ")});
+                                       fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.",
+                                                   result.message, result.message.empty() ? "" : ". ")});
   if (result.status == "failed") section.blocks.emplace_back(Banner{Banner::Kind::failed, "Failed.", result.message});
   if (!result.events.empty())
-    section.blocks.emplace_back(Banner{Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below."});
+    section.blocks.emplace_back(
+        Banner{Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below."});
 }
 
 Cards cards_of(const Result& result) {
   Cards cards;
   const auto card = [&](const char* label, const char* name, std::string note) {
-    if (const double value = summary_of(result, name); std::isfinite(value)) cards.cards.push_back({label, value_text(value, name), std::move(note)});
+    if (const double value = summary_of(result, name); std::isfinite(value))
+      cards.cards.push_back({label, value_text(value, name), std::move(note)});
   };
   const double at = summary_of(result, "q_max_x_m");
   card("Largest vertical force", "q_max_N", std::isfinite(at) ? fmt::format("at x = {} m", shown({at})) : "");
@@ -109,12 +111,14 @@ Section histories(const Result& result, const Rows& rows) {
   add(contact, history_panel(result, "least distance", {{"gap_m", "gap"}}, rows));
   add(contact, history_panel(result, "contact ahead of the axle", {{"x_cp_m", "x"}}, rows));
   add(contact, history_panel(result, "vertical displacement of the rail", {{"rail_z_m", "rail"}}, rows));
-  if (!contact.panels.empty()) section.blocks.emplace_back(Figure{"contact-history", fmt::format("Contact of {}", watched), std::move(contact)});
+  if (!contact.panels.empty())
+    section.blocks.emplace_back(Figure{"contact-history", fmt::format("Contact of {}", watched), std::move(contact)});
 
   ChartView all{true};
   add(all, history_panel(result, "vertical force Q", of_all_wheels(result, "Q_N", watched), rows));
   add(all, history_panel(result, "lateral creep force T_y", of_all_wheels(result, "Ty_N", watched), rows));
-  if (!all.panels.empty() && all.panels.front().series.size() > 1) section.blocks.emplace_back(Figure{"wheels", "All wheels", std::move(all)});
+  if (!all.panels.empty() && all.panels.front().series.size() > 1)
+    section.blocks.emplace_back(Figure{"wheels", "All wheels", std::move(all)});
 
   ChartView energy{true};
   add(energy, history_panel(result, "dissipated", {{"energy.friction_J", "friction"}, {"energy.dampers_J", "dampers"}}, rows));
@@ -176,7 +180,8 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document)
     page.surfaces = snapshots->sampled;
     if (!page.timeline || page.timeline->frames.empty()) page.timeline = case_timeline(*snapshots);
     Section contact{"contact", "Contact at the snapshots"};
-    contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}}, "The last snapshot taken until the chosen instant."});
+    contact.blocks.emplace_back(
+        Figure{"patches-view", "Contact patches", ContactView{{0}}, "The last snapshot taken until the chosen instant."});
     if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
     page.sections.insert(page.sections.begin() + 1, std::move(contact));
   }

@@ -36,7 +36,8 @@ std::vector<int> runs_of(const fs::path& file) {
     const char* end = line.data() + line.size();
     const auto [at, error] = std::from_chars(line.data() + 4, end, number);
     if (error != std::errc() || at != end || number < 1)
-      throw Error(ErrorKind::input_data, fmt::format("\"{}\" names no run", line), {file.string()}, "give a folder that treadmark sweep wrote");
+      throw Error(ErrorKind::input_data, fmt::format("\"{}\" names no run", line), {file.string()},
+                  "give a folder that treadmark sweep wrote");
     numbers.push_back(number);
   }
   return numbers;
@@ -54,7 +55,8 @@ StudyOnDisk read_study_folder(const fs::path& folder) {
   StudyOnDisk out;
   const fs::path whole = folder / "sweep.h5";  // written when all runs are finished
   if (fs::exists(whole)) out.study = io::read_study_head(whole);
-  if (out.study.input_file.empty()) out.study.input_file = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
+  if (out.study.input_file.empty())
+    out.study.input_file = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   for (const int number : runs_of(folder / "study.id")) {
     const fs::path store = folder / "runs" / fmt::format("run_{:04}", number) / "simulation.h5";
     if (!fs::exists(store)) {

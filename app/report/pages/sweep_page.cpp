@@ -20,7 +20,8 @@ namespace {
 
 constexpr std::size_t kMostPoints = 1200;  // of the history of a run
 const std::vector<std::string> kQuantities{"q_max_N", "q_min_N", "ty_max_N", "pmax_Pa", "Fn_max_N", "approach_max_m"};
-const std::vector<std::pair<std::string, std::string>> kColumns{{"Q_N", "vertical force Q"}, {"Ty_N", "lateral creep force T_y"}, {"pmax_Pa", "largest pressure"}};
+const std::vector<std::pair<std::string, std::string>> kColumns{
+    {"Q_N", "vertical force Q"}, {"Ty_N", "lateral creep force T_y"}, {"pmax_Pa", "largest pressure"}};
 
 const std::string kDistance = "x_m", kCase = "case";  // what histories of simulations and of case files are over
 
@@ -46,12 +47,22 @@ std::optional<std::vector<double>> numbers_of(const io::StudyTable& table, const
 
 /// The unit at the end of a key: "simulation.speed_m_s" has "m/s".
 std::string unit_of_key(const std::string& key) {
-  for (const auto& [ending, unit] : {std::pair{"_m_s", "m/s"}, {"_km_h", "km/h"}, {"_mm", "mm"}, {"_deg", "°"}, {"_rad", "rad"}, {"_N", "N"}, {"_kg", "kg"}, {"_m", "m"}, {"_s", "s"}})
+  for (const auto& [ending, unit] : {std::pair{"_m_s", "m/s"},
+                                     {"_km_h", "km/h"},
+                                     {"_mm", "mm"},
+                                     {"_deg", "°"},
+                                     {"_rad", "rad"},
+                                     {"_N", "N"},
+                                     {"_kg", "kg"},
+                                     {"_m", "m"},
+                                     {"_s", "s"}})
     if (key.ends_with(ending)) return unit;
   return "";
 }
 
-std::string run_name(const io::SimulationRun& run) { return fmt::format("run {}{}{}", run.number, run.label.empty() ? "" : ": ", run.label); }
+std::string run_name(const io::SimulationRun& run) {
+  return fmt::format("run {}{}{}", run.number, run.label.empty() ? "" : ": ", run.label);
+}
 
 /// What tells the lines of a chart over one key apart: the values of all other keys.
 std::string line_name(const io::SimulationRun& run, const io::StudyTable& table, const std::string& key) {
@@ -152,10 +163,12 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
   Section section{"overview", "Overview"};
   if (!disk.unfinished.empty()) {
     std::string numbers;
-    for (std::size_t k = 0; k < std::min<std::size_t>(12, disk.unfinished.size()); ++k) numbers += fmt::format("{}{}", k > 0 ? ", " : "", disk.unfinished[k]);
-    section.blocks.emplace_back(Banner{Banner::Kind::failed, "Not finished.",
-                                       fmt::format("{} missing: run {}{}. The same treadmark sweep command goes on.", counted(disk.unfinished.size(), "run"),
-                                                   numbers, disk.unfinished.size() > 12 ? " ..." : "")});
+    for (std::size_t k = 0; k < std::min<std::size_t>(12, disk.unfinished.size()); ++k)
+      numbers += fmt::format("{}{}", k > 0 ? ", " : "", disk.unfinished[k]);
+    section.blocks.emplace_back(
+        Banner{Banner::Kind::failed, "Not finished.",
+               fmt::format("{} missing: run {}{}. The same treadmark sweep command goes on.", counted(disk.unfinished.size(), "run"),
+                           numbers, disk.unfinished.size() > 12 ? " ..." : "")});
   }
   std::size_t failed = 0;
   std::string first;
@@ -164,7 +177,8 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
       ++failed;
       if (first.empty()) first = fmt::format("{}: {}{}{}", run_name(run), run.status, run.message.empty() ? "" : ", ", run.message);
     }
-  if (failed > 0) section.blocks.emplace_back(Banner{Banner::Kind::failed, counted(failed, "run") + " did not complete.", "The first: " + first});
+  if (failed > 0)
+    section.blocks.emplace_back(Banner{Banner::Kind::failed, counted(failed, "run") + " did not complete.", "The first: " + first});
   Cards cards;
   cards.cards.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), study.runs.size() + disk.unfinished.size())});
   for (const std::string& quantity : kQuantities) {
@@ -204,7 +218,8 @@ Page sweep_page(const StudyOnDisk& disk) {
       if (const auto x = numbers_of(table, key)) {
         timeline.axes.push_back({key, unit_of_key(key), false, *x});
         if (ChartView view = over_key(table, key, *x); !view.panels.empty())
-          summaries.blocks.emplace_back(Figure{fmt::format("summary-{}", ++number), "Over " + key, std::move(view), "A click on a point chooses its run."});
+          summaries.blocks.emplace_back(
+              Figure{fmt::format("summary-{}", ++number), "Over " + key, std::move(view), "A click on a point chooses its run."});
       }
     Axis runs{"run", ""};
     for (const io::SimulationRun* run : table.runs) runs.values.push_back(run->number);

@@ -97,10 +97,17 @@ TEST_F(BenchPage, HasTheNumbersOfTheFile) {
   const Table& table = table_of(page, "rows");
   ASSERT_EQ(table.rows.size(), document["rows"].size());
   ASSERT_EQ(table.rows.size(), 4u);
-  for (const auto& [column, key] :
-       {std::pair{"differs", "difference_um"}, {"build", "build_s"}, {"points", "points"}, {"height, level", "ns_per_height"},
-        {"height, tilted", "ns_per_height_tilted"}, {"with slopes", "ns_per_normal"}, {"base of offsets", "base_ns_per_height"},
-        {"first search", "search_cold_s"}, {"after a small move", "search_warm_s"}, {"distance", "distance_s"}, {"patches", "patches"}}) {
+  for (const auto& [column, key] : {std::pair{"differs", "difference_um"},
+                                    {"build", "build_s"},
+                                    {"points", "points"},
+                                    {"height, level", "ns_per_height"},
+                                    {"height, tilted", "ns_per_height_tilted"},
+                                    {"with slopes", "ns_per_normal"},
+                                    {"base of offsets", "base_ns_per_height"},
+                                    {"first search", "search_cold_s"},
+                                    {"after a small move", "search_warm_s"},
+                                    {"distance", "distance_s"},
+                                    {"patches", "patches"}}) {
     const std::vector<double> shown = numbers_in(table, column);
     for (std::size_t i = 0; i < shown.size(); ++i) {
       const Json& value = document["rows"][i][key];

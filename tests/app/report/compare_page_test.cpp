@@ -242,7 +242,8 @@ TEST_F(ComparePage, HasThePictureWhereFieldsAreMissing) {
 }
 
 TEST_F(ComparePage, RefusesFilesThatDoNotFit) {
-  EXPECT_THAT(error_of([&] { compare_page(folder_.path()); }), AllOf(StartsWith("input data: "), HasSubstr("compare.json' does not exist")));
+  EXPECT_THAT(error_of([&] { compare_page(folder_.path()); }),
+              AllOf(StartsWith("input data: "), HasSubstr("compare.json' does not exist")));
   io::Comparison other = made_up_comparison();
   other.candidates.pop_back();
   io::write_comparison_fields(folder_.path() / "fields.h5", other);

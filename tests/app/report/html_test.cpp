@@ -67,7 +67,8 @@ TEST(Html, RefersToNothingOutside) {
   for (const bool live : {true, false}) {
     const std::string html = to_html(nasty_page(), {live});
     const std::string page = html.substr(0, html.find("<script>"));
-    for (const char* reference : {"src=\"http", "href=\"http", "url(http", "@import", "src=\"//"}) EXPECT_THAT(page, Not(HasSubstr(reference)));
+    for (const char* reference : {"src=\"http", "href=\"http", "url(http", "@import", "src=\"//"})
+      EXPECT_THAT(page, Not(HasSubstr(reference)));
     EXPECT_THAT(html, HasSubstr("default-src 'none'"));
   }
 }

@@ -55,7 +55,8 @@ TEST_F(ImportPage, HasTheNumbersOfTheFile) {
   const Page page = page_of(treadmark::testing::sample_report());
   const Json document = json();
   EXPECT_EQ(page.kind, "import");
-  EXPECT_THAT(section_ids(page), ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "steps", "settings", "summary"));
+  EXPECT_THAT(section_ids(page),
+              ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "steps", "settings", "summary"));
   const auto same = [&](const char* table, const char* column, const Json& list, const char* key) {
     const std::vector<double> shown = numbers_in(table_of(page, table), column);
     ASSERT_EQ(shown.size(), list.size()) << table;
@@ -109,7 +110,7 @@ TEST_F(ImportPage, MapsAreThoseOfTheImport) {
     return fitted.values[static_cast<std::size_t>(iy * fitted.nx + ix)];
   };
   EXPECT_NEAR(at(1200.0, 60.0), -0.85, 0.03);  // the deepest place of the flat
-  EXPECT_NEAR(at(2300.0, 75.0), -0.4, 0.05);  // the pit, 12 mm wide, averaged over some mm
+  EXPECT_NEAR(at(2300.0, 75.0), -0.4, 0.05);   // the pit, 12 mm wide, averaged over some mm
   EXPECT_NEAR(at(700.0, 20.0), 0.025 * std::sin(3.0 * 0.7 / 0.46), 0.002);
   EXPECT_TRUE(std::isnan(at(1900.0, 50.0)));  // the hole
   for (const char* id : {"density-map", "removed-map", "residual-map", "noise-map"}) EXPECT_TRUE(has_figure(page, id)) << id;
@@ -141,7 +142,8 @@ TEST_F(ImportPage, HolesAndDamageAreOutlinedAlsoAcrossTheSeam) {
 
 TEST_F(ImportPage, WorksWithTheReportAlone) {
   page_of(treadmark::testing::sample_report());
-  for (const char* file : {"maps.h5", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg", "fitted.svg", "residual.svg"})
+  for (const char* file :
+       {"maps.h5", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg", "fitted.svg", "residual.svg"})
     std::filesystem::remove(folder_.path() / file);
   const Page page = import_page(folder_.path());
   EXPECT_THAT(banners_of(page), HasSubstr("note: Files that are not in the folder: maps.h5 (maps over the band), fitted.svg (a picture)"));

@@ -92,7 +92,9 @@ std::string error_of(const std::function<void()>& action) {
   try {
     action();
   } catch (const Error& error) {
-    const char* kind = error.kind() == ErrorKind::input_data ? "input data" : error.kind() == ErrorKind::configuration ? "configuration" : "numerical";
+    const char* kind = error.kind() == ErrorKind::input_data      ? "input data"
+                       : error.kind() == ErrorKind::configuration ? "configuration"
+                                                                  : "numerical";
     return std::string(kind) + ": " + error.where().to_string() + ": " + error.message();
   }
   return {};
