@@ -23,7 +23,7 @@ using namespace treadmark::testing;
 io::PatchResult sample_patch(int nx, int ny, int empty) {
   io::PatchResult patch;
   patch.has_reference = true;
-  patch.fields.grid = Grid2{nx + 2 * empty, ny + 2 * empty, -1e-3, -2e-3, 5e-4, 5e-4};
+  patch.fields.grid = Grid2{-1e-3, -2e-3, 5e-4, 5e-4, nx + 2 * empty, ny + 2 * empty};
   const std::size_t size = patch.fields.grid.size();
   patch.fields.pressure.assign(size, 0.0);
   patch.fields.traction_x.assign(size, 0.0);
