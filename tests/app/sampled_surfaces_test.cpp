@@ -27,12 +27,15 @@ struct Wanted {
 /// S1002 on 60E1; runs it and samples its surfaces.
 io::RunResult run(const Wanted& wanted) {
   const treadmark::testing::SampleInput input;
-  input.write("case.toml", "[case]\nside = \"" + wanted.side + "\"\nregime = \"none\"\n[wheel]\nshape.standard = \"S1002\"\n" + wanted.wheel +
+  input.write("case.toml", "[case]\nside = \"" + wanted.side + "\"\nregime = \"none\"\n[wheel]\n"
+                               "shape.standard = \"S1002\"\n" + wanted.wheel +
                                "[rail]\nshape.standard = \"60E1\"\n" + wanted.rail +
                                "[track]\ngauge_mm = 1435.0\ngauge_height_mm = 14.0\n" + wanted.more +
                                "[wheelset]\nflange_back_distance_mm = 1360.0\nflange_back_position_mm = -70.0\nnominal_radius_mm = 460.0\n"
-                               "vertical_force_N = 80e3\n[material]\nshear_modulus_GPa = 82.0\npoisson_ratio = 0.28\n[friction]\ncoefficient = 0.3\n"
-                               "[discretisation]\ndx_mm = 1.0\nds_mm = 1.0\nangle_separation_deg = 90.0\nseparation_mm = 8.0\ncombination_mm = 4.0\n"
+                               "vertical_force_N = 80e3\n[material]\nshear_modulus_GPa = 82.0\npoisson_ratio = 0.28\n"
+                               "[friction]\ncoefficient = 0.3\n"
+                               "[discretisation]\ndx_mm = 1.0\nds_mm = 1.0\nangle_separation_deg = 90.0\n"
+                               "separation_mm = 8.0\ncombination_mm = 4.0\n"
                                "[[cases]]\n" + wanted.cases + "\n");
   const io::CaseFile file = io::read_any_case(input.folder() / "case.toml", {});
   SurfaceStore store;
@@ -80,7 +83,8 @@ void expect_contacts_on_surfaces(const io::RunResult& result) {
       const Vec3 reference(p.x_tr, p.y_tr, p.z_tr);
       const Vec3 on_wheel = c.bodies->X_TW.apply_inverse(reference), on_rail = c.bodies->X_TR.apply_inverse(reference);
       const int station = nearest_station(wheel, std::atan2(on_wheel.x(), on_wheel.z()));
-      EXPECT_NEAR(wheel.u[static_cast<std::size_t>(station)], std::atan2(on_wheel.x(), on_wheel.z()), 0.6e-3 / kRadius) << "dense at contacts";
+      const double theta = std::atan2(on_wheel.x(), on_wheel.z());
+      EXPECT_NEAR(wheel.u[static_cast<std::size_t>(station)], theta, 0.6e-3 / kRadius) << "dense at contacts";
       const auto radius = between(wheel, station, on_wheel.y(), [&](std::size_t i) { return wheel_radius(wheel, i); });
       ASSERT_TRUE(radius);
       EXPECT_NEAR(*radius, std::hypot(on_wheel.x(), on_wheel.z()), p.approach + 15e-6);
@@ -166,7 +170,8 @@ TEST(SampledSurfaces, CorrugationIsADeviationOfTheRail) {
 }
 
 TEST(SampledSurfaces, ARollerIsARing) {
-  const io::RunResult result = run({.more = "[roller]\nnominal_radius_mm = 500.0\npitch_rate_rad_s = 20.0\n", .cases = "wheelset.y_mm = [0, 1]"});
+  const io::RunResult result = run({.more = "[roller]\nnominal_radius_mm = 500.0\npitch_rate_rad_s = 20.0\n",
+                                    .cases = "wheelset.y_mm = [0, 1]"});
   const io::SampledSurface& roller = surface(result, "rail_1");
   EXPECT_EQ(roller.body, "rail");
   EXPECT_TRUE(roller.closed);

@@ -146,7 +146,8 @@ TEST_F(ReadHdf5, FilesFromBeforeSurfacesAreRead) {
   remove(file, "surfaces");
   for (const char* name : {"X_TW_origin", "X_TW_rotation", "X_TR_origin", "X_TR_rotation", "wheel_surface", "rail_surface"})
     remove_attribute(file, "case_0001", name);
-  for (const char* name : {"elements_in_contact", "elements_in_adhesion", "elements_in_slip"}) remove_attribute(file, "case_0001/patch_2", name);
+  for (const char* name : {"elements_in_contact", "elements_in_adhesion", "elements_in_slip"})
+    remove_attribute(file, "case_0001/patch_2", name);
   H5Fclose(file);
   run_.sampled.clear();
   run_.cases[0].bodies.reset();
@@ -170,7 +171,8 @@ TEST_F(ReadHdf5, DamagedFilesAreRefused) {
   expect_refused([](hid_t file) { remove(file, "surfaces"); }, "no surface wheel_1");
   expect_refused([](hid_t file) { replace_dataset(file, "surfaces/rail_1/y", {4, 1}); }, "shape");
   expect_refused([](hid_t file) { replace_dataset(file, "surfaces/rail_1/x", {4}); }, "table");
-  expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_2/slip_x", {24, 20}); }, "slip_x: it has the shape [24, 20], not [20, 24]");
+  expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_2/slip_x", {24, 20}); },
+                 "slip_x: it has the shape [24, 20], not [20, 24]");
   expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_1/row_angle", {24}); }, "row_angle");
   expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_1/subsurface/block1/stress", {4, 2, 3, 8}); }, "stress");
   expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_1/subsurface/block1/x", {4, 2}); }, "box");
@@ -186,7 +188,8 @@ TEST_F(ReadHdf5, DamagedFilesAreRefused) {
   expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "nx", H5T_NATIVE_DOUBLE, {nan}); }, "nx");
   expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "dx", H5T_NATIVE_DOUBLE, {nan}); }, "no size");
   expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "x0", H5T_NATIVE_DOUBLE, {nan}); }, "no size");
-  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001", "X_TW_origin", H5T_NATIVE_DOUBLE, {1.0, 2.0}); }, "X_TW_origin");
+  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001", "X_TW_origin", H5T_NATIVE_DOUBLE, {1.0, 2.0}); },
+                 "X_TW_origin");
 }
 
 TEST_F(ReadHdf5, FilesCutOffAreRefused) {
@@ -203,7 +206,8 @@ TEST_F(ReadHdf5, DatasetsThatClaimMoreThanTheyStoreAreRefused) {
   expect_refused(
       [](hid_t file) {
         replace_dataset(file, "surfaces/wheel_1/u", {4000});
-        for (const char* name : {"x", "y", "z", "deviation"}) replace_dataset(file, (std::string("surfaces/wheel_1/") + name).c_str(), {4000, 4000});
+        for (const char* name : {"x", "y", "z", "deviation"})
+          replace_dataset(file, (std::string("surfaces/wheel_1/") + name).c_str(), {4000, 4000});
       },
       "u");
 }

@@ -15,7 +15,8 @@ bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)
 
 void expect_same(std::span<const double> read, std::span<const double> written, const char* what) {
   ASSERT_EQ(read.size(), written.size()) << what;
-  for (std::size_t i = 0; i < read.size(); ++i) ASSERT_TRUE(same(read[i], written[i])) << what << " " << i << ": " << read[i] << " " << written[i];
+  for (std::size_t i = 0; i < read.size(); ++i)
+    ASSERT_TRUE(same(read[i], written[i])) << what << " " << i << ": " << read[i] << " " << written[i];
 }
 
 void expect_same(const Vec3& read, const Vec3& written, const char* what) {
@@ -44,8 +45,8 @@ void expect_same(const io::PatchFields& read, const io::PatchFields& written) {
   using F = io::PatchFields;
   EXPECT_EQ(read.grid, written.grid);
   expect_same(read.X_TC, written.X_TC, "X_TC");
-  for (const auto field : {&F::gap, &F::pressure, &F::traction_x, &F::traction_s, &F::displacement_n, &F::displacement_x, &F::displacement_s,
-                           &F::slip_x, &F::slip_s, &F::friction, &F::plastic_x, &F::plastic_s, &F::yield_stress, &F::temperature_1,
+  for (const auto field : {&F::gap, &F::pressure, &F::traction_x, &F::traction_s, &F::displacement_n, &F::displacement_x,
+                           &F::displacement_s, &F::slip_x, &F::slip_s, &F::friction, &F::plastic_x, &F::plastic_s, &F::yield_stress, &F::temperature_1,
                            &F::temperature_2, &F::extra_slip_x, &F::extra_slip_s, &F::row_angle})
     expect_same(read.*field, written.*field, "a field");
   EXPECT_EQ(read.state, written.state);
@@ -73,8 +74,8 @@ void expect_same(const io::PatchResult& read, const io::PatchResult& written) {
   for (const auto member : {&P::has_reference, &P::has_rolling, &P::shift}) EXPECT_EQ(read.*member, written.*member);
   for (const auto number :
        {&P::x_tr, &P::y_tr, &P::z_tr, &P::angle, &P::x_rail, &P::y_rail, &P::z_rail, &P::s_rail, &P::x_wheel, &P::y_wheel, &P::z_wheel,
-        &P::x_wheelset, &P::y_wheelset, &P::z_wheelset, &P::angle_rail, &P::angle_wheelset, &P::angle_wheel, &P::reference_x, &P::reference_s,
-        &P::chi, &P::dq, &P::velocity, &P::xi, &P::eta, &P::phi, &P::fn, &P::fx, &P::fs, &P::mn, &P::fx_relative, &P::fs_relative,
+        &P::x_wheelset, &P::y_wheelset, &P::z_wheelset, &P::angle_rail, &P::angle_wheelset, &P::angle_wheel, &P::reference_x,
+        &P::reference_s, &P::chi, &P::dq, &P::velocity, &P::xi, &P::eta, &P::phi, &P::fn, &P::fx, &P::fs, &P::mn, &P::fx_relative, &P::fs_relative,
         &P::shear_modulus, &P::elastic_energy, &P::frictional_power, &P::approach, &P::pmax})
     EXPECT_TRUE(same(read.*number, written.*number)) << read.*number << " " << written.*number;
   for (const auto count : {&P::npot, &P::ncon, &P::nadh, &P::nslip}) EXPECT_EQ(read.*count, written.*count);
@@ -85,7 +86,8 @@ void expect_same(const io::PatchResult& read, const io::PatchResult& written) {
   expect_same(read.loads, written.loads);
   ASSERT_EQ(read.local.has_value(), written.local.has_value());
   if (read.local)
-    expect_same(Vec3(read.local->fx, read.local->fs, read.local->fn), Vec3(written.local->fx, written.local->fs, written.local->fn), "local");
+    expect_same(Vec3(read.local->fx, read.local->fs, read.local->fn),
+                Vec3(written.local->fx, written.local->fs, written.local->fn), "local");
   expect_same(read.fields, written.fields);
   ASSERT_EQ(read.subsurface.size(), written.subsurface.size());
   for (std::size_t i = 0; i < read.subsurface.size(); ++i) expect_same(read.subsurface[i], written.subsurface[i]);
@@ -115,7 +117,8 @@ void expect_same_case(const io::CaseResult& read, const io::CaseResult& written,
   }
   for (const auto number : {&C::s, &C::y, &C::z, &C::roll, &C::yaw, &C::pitch, &C::vs, &C::vy, &C::vz, &C::vroll, &C::vyaw, &C::vpitch})
     EXPECT_TRUE(same(read.*number, written.*number)) << read.*number << " " << written.*number;
-  for (const auto vector : {&C::force_tr, &C::force_ws, &C::moment_rail, &C::moment_wheel}) expect_same(read.*vector, written.*vector, "a total");
+  for (const auto vector : {&C::force_tr, &C::force_ws, &C::moment_rail, &C::moment_wheel})
+    expect_same(read.*vector, written.*vector, "a total");
   expect_same(read.loads, written.loads);
   EXPECT_EQ(read.rail_deflection, written.rail_deflection);
   ASSERT_EQ(read.roller.has_value(), written.roller.has_value());
@@ -156,9 +159,10 @@ void expect_same_run(const io::RunResult& read, const io::RunResult& written) {
 
 std::vector<io::SampledSurface> sample_surfaces() {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  io::SampledSurface wheel{"wheel", "wheel_1", 3, 2, true, {-2.0, 0.1, 2.1}, {-0.41, -0.42, 0.04, none, 0.39, 0.4}, {-0.03, 0.01, -0.03, none, -0.03, 0.01},
-                           {-0.19, -0.2, 0.45, none, -0.22, -0.23}, {0.0, 1e-5, -3e-4, none, 1.0 / 3e7, 0.0}};
-  io::SampledSurface rail{"rail", "rail_1", 2, 2, false, {-0.15, 0.15}, {-0.15, -0.15, 0.15, 0.15}, {-0.03, 0.03, -0.03, 0.03}, {2e-3, 3e-3, 2e-3, 3e-3}, {}};
+  io::SampledSurface wheel{"wheel", "wheel_1", 3, 2, true, {-2.0, 0.1, 2.1}, {-0.41, -0.42, 0.04, none, 0.39, 0.4},
+                           {-0.03, 0.01, -0.03, none, -0.03, 0.01}, {-0.19, -0.2, 0.45, none, -0.22, -0.23}, {0.0, 1e-5, -3e-4, none, 1.0 / 3e7, 0.0}};
+  io::SampledSurface rail{"rail", "rail_1", 2, 2, false, {-0.15, 0.15}, {-0.15, -0.15, 0.15, 0.15},
+                          {-0.03, 0.03, -0.03, 0.03}, {2e-3, 3e-3, 2e-3, 3e-3}, {}};
   return {wheel, rail};
 }
 
