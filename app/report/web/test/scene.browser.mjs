@@ -63,7 +63,7 @@ async function open(theme, width, height, scale = 1) {
   });
   tab.on("pageerror", (error) => failures.push(`page: ${error.message}`));
   await tab.goto(pathToFileURL(file).href);
-  await tab.waitForSelector('#scene[data-ready="true"]');
+  await tab.waitForFunction(() => document.getElementById("scene").dataset.ready === "true", null, { polling: 200, timeout: 60000 });
   await settle(tab);
   return tab;
 }

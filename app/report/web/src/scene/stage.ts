@@ -39,6 +39,7 @@ export class Stage {
   /** Called before and after each picture; moving: more pictures may follow soon. */
   before: (moving: boolean) => void = () => undefined;
   after: () => void = () => undefined;
+  private background = new Color();
   private asked = 0;
   private lastTime = -Infinity;
   private rest: ReturnType<typeof setTimeout> | undefined;
@@ -59,6 +60,7 @@ export class Stage {
     });
     canvas.addEventListener("webglcontextrestored", () => {
       this.lost = false;
+      this.renderer.setClearColor(this.background, 1);
       this.invalidate();
     });
   }
@@ -69,7 +71,8 @@ export class Stage {
   }
 
   setBackground([r, g, b]: Rgb): void {
-    this.renderer.setClearColor(new Color(`rgb(${r},${g},${b})`), 1);
+    this.background = new Color(`rgb(${r},${g},${b})`);
+    this.renderer.setClearColor(this.background, 1);
   }
 
   resize(width: number, height: number): void {
