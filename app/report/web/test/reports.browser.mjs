@@ -23,7 +23,7 @@ let browser;
 before(async () => {
   browser = await chromium.launch({
     executablePath: process.env.CHROMIUM ?? "/usr/bin/chromium",
-    args: ["--no-sandbox", "--use-gl=angle", "--use-angle=swiftshader", "--enable-unsafe-swiftshader"],
+    args: ["--no-sandbox", "--disable-gpu", "--enable-unsafe-swiftshader"],
   });
 });
 after(() => browser?.close());
@@ -188,20 +188,32 @@ test("26 positions open and follow the slider without delay", async () => {
     const [entry] = performance.getEntriesByType("navigation");
     return entry.loadEventEnd - entry.startTime;
   });
-  await tab.page.waitForSelector("#scene[data-ready='true'], #patches-view [data-readout]", { timeout: 30000 });
-  const rate = await tab.page.evaluate(async () => {
-    const slider = document.querySelector(".timeline-slider");
-    const pictures = [];
-    const from = performance.now();
-    for (let k = 0; performance.now() - from < 3000; ++k) {
-      slider.value = String(k % 26);
-      slider.dispatchEvent(new Event("input", { bubbles: true }));
-      await new Promise(requestAnimationFrame);
-      pictures.push(performance.now());
-    }
-    return (1000 * (pictures.length - 1)) / (pictures.at(-1) - pictures[0]);
-  });
-  console.log(`opened in ${opened.toFixed(0)} ms, ${rate.toFixed(0)} pictures a second`);  // times decide no test: machines are busy
+  const report = [`opened in ${opened.toFixed(0)} ms`];
+  for (const view of ["#patches-view", "#scene", "#forces"]) {
+    await tab.page.locator(view).evaluate((element) => {
+      element.scrollIntoView({ block: "start" });
+      window.scrollBy(0, -60);
+    });
+    await tab.page.waitForTimeout(800);
+    const [rate, drawn] = await tab.page.evaluate(async () => {
+      const slider = document.querySelector(".timeline-slider");
+      const scene = document.querySelector("#scene");
+      const times = [];
+      const before = Number(scene.dataset.pictures);
+      const from = performance.now();
+      for (let k = 0; performance.now() - from < 2000; ++k) {
+        slider.value = String(k % 26);
+        slider.dispatchEvent(new Event("input", { bubbles: true }));
+        await new Promise(requestAnimationFrame);
+        times.push(performance.now());
+      }
+      const seconds = (times.at(-1) - times[0]) / 1000;
+      return [(times.length - 1) / seconds, (Number(scene.dataset.pictures) - before) / seconds];
+    });
+    assert.ok(rate > 0);
+    report.push(`${view} ${rate.toFixed(0)} steps a second${drawn > 0 ? `, ${drawn.toFixed(0)} pictures in space` : ""}`);
+  }
+  console.log(report.join("; "));  // times decide no test: machines are busy
   await tab.close();
 });
 
