@@ -5,7 +5,11 @@ import { fileURLToPath } from "node:url";
 import eslint from "@eslint/js";
 import tseslint from "typescript-eslint";
 
-const nodeGlobals = { console: "readonly", process: "readonly", URL: "readonly", Buffer: "readonly", setTimeout: "readonly", document: "readonly" };
+const nodeGlobals = { console: "readonly", process: "readonly", URL: "readonly", Buffer: "readonly", setTimeout: "readonly" };
+// What browser tests hand to the page.
+const pageGlobals = Object.fromEntries(
+  ["document", "window", "performance", "requestAnimationFrame", "getComputedStyle", "Event"].map((name) => [name, "readonly"]),
+);
 
 export default tseslint.config(
   { ignores: ["dist/", "node_modules/"] },
@@ -30,6 +34,6 @@ export default tseslint.config(
   },
   {
     files: ["**/*.mjs", "*.js"],
-    languageOptions: { globals: nodeGlobals },
+    languageOptions: { globals: { ...nodeGlobals, ...pageGlobals } },
   },
 );

@@ -102,8 +102,8 @@ async function photograph(file, name, selector) {
     if (selector) {
       const place = tab.page.locator(selector).first();
       await place.evaluate((element) => {
-        element.scrollIntoView({ block: "start" });
-        window.scrollBy(0, -60);
+        element.scrollIntoView({ block: "start", behavior: "instant" });
+        window.scrollBy({ top: -60, behavior: "instant" });
       });
     }
     const [wide, window] = await tab.page.evaluate(() => [document.documentElement.scrollWidth, document.documentElement.clientWidth]);
@@ -165,7 +165,7 @@ test("the view in space shows wheel, rail and patch and is picked", async () => 
   const tab = await Tab.open("run.html");
   const { page } = tab;
   await page.locator("#scene").scrollIntoViewIfNeeded();
-  await page.waitForSelector("#scene[data-ready='true']", { timeout: 30000 });
+  await page.waitForFunction(() => document.querySelector("#scene").dataset.ready === "true", undefined, { polling: 200 });
   assert.ok(Number(await page.locator("#scene").getAttribute("data-triangles")) > 2000);
   const canvas = page.locator("#scene canvas").first();
   const box = await canvas.boundingBox();
@@ -191,9 +191,10 @@ test("26 positions open and follow the slider without delay", async () => {
   const report = [`opened in ${opened.toFixed(0)} ms`];
   for (const view of ["#patches-view", "#scene", "#forces"]) {
     await tab.page.locator(view).evaluate((element) => {
-      element.scrollIntoView({ block: "start" });
-      window.scrollBy(0, -60);
+      element.scrollIntoView({ block: "start", behavior: "instant" });
+      window.scrollBy({ top: -60, behavior: "instant" });
     });
+    if (view === "#scene") await tab.page.waitForFunction(() => document.querySelector("#scene").dataset.ready === "true", undefined, { polling: 200 });
     await tab.page.waitForTimeout(800);
     const [rate, drawn] = await tab.page.evaluate(async () => {
       const slider = document.querySelector(".timeline-slider");

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-/* global document, window, performance, requestAnimationFrame */
 // The view in space in a browser that draws with the processor: pictures of its views, pictures a second while stepping, picking.
 // usage: node test/scene.browser.mjs [--out DIR] [--browser FILE] [--only rate,light,dark,phone,phone-dark] [--fast N]: pictures a second wanted
 import { mkdirSync, readFileSync, readdirSync, writeFileSync } from "node:fs";

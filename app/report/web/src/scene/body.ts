@@ -117,7 +117,7 @@ export class Body {
       if (!drawn.visible) return;
       const away = length(sub(centre, eye)) - 0.6 * block.radius;
       const scale = pixels / Math.max(nearest, away);
-      const stride = { stations: strideFor(this.spacing[0] * scale, limit), points: strideFor(this.spacing[1] * scale, limit) };
+      const stride = { stations: strideFor(this.spacing[0] * scale, limit), points: strideFor(this.spacing[1] * scale, 0.6 * limit) };
       const key = `${stride.stations} ${stride.points}`;
       const known = this.indices[k]!;
       let index = known.get(key);

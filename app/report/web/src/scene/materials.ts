@@ -26,6 +26,24 @@ float nearerDepth(vec3 eye, float bias) {
 }`;
 const cutBias = 0.4;
 
+// Lit from above the camera's left shoulder and from the camera itself; both sides of the surface are lit, the inner one darker.
+// Shade and gloss.
+const lighting = `
+vec2 light(vec3 normal, vec3 eye, out float inside, out float straight) {
+  vec3 n = normalize(normal);
+  vec3 v = normalize(-eye);
+  float side = dot(n, v);
+  inside = step(side, 0.0);
+  n *= 1.0 - 2.0 * inside;
+  straight = abs(side);
+  vec3 lamp = normalize(vec3(-0.45, 0.5, 0.75));
+  float gloss = max(dot(reflect(-lamp, n), v), 0.0);
+  gloss *= gloss;
+  gloss *= gloss;
+  gloss *= 0.10 * gloss * gloss * gloss;
+  return vec2(0.44 + 0.42 * max(dot(n, lamp), 0.0) + 0.18 * straight - 0.10 * inside, gloss);
+}`;
+
 const bodyVertex = `${nearerDepth}
 uniform int columns;
 uniform float bias;
@@ -35,6 +53,8 @@ varying vec3 facing;
 varying vec3 place;
 varying vec2 cell;
 varying float excess;
+varying vec2 lit;
+${lighting}
 void main() {
   vec4 world = modelMatrix * vec4(position, 1.0);
   vec4 eye = viewMatrix * world;
@@ -45,10 +65,14 @@ void main() {
   place = world.xyz;
   cell = vec2(float(gl_VertexID / columns), float(gl_VertexID % columns));
   excess = deviation;
+  float inside;
+  float straight;
+  lit = light(facing, atEye, inside, straight);
 }`;
 
-// Lit from above the camera's left shoulder and from the camera itself; both sides of the surface are lit, the inner one darker.
-const bodyFragment = `
+// quick: while a processor draws moving pictures, light of the vertices and no lines but the section.
+const bodyFragment = `${lighting}
+uniform float quick;
 uniform vec3 base;
 uniform vec3 line;
 uniform float opacity;
@@ -67,29 +91,28 @@ varying vec3 facing;
 varying vec3 place;
 varying vec2 cell;
 varying float excess;
+varying vec2 lit;
 float thin(float distance, float width) { return 1.0 - smoothstep(width, width + 1.0, distance); }
 void main() {
 #ifdef CUT
   float beyond = dot(vec4(place - sectionAt, 1.0), cut);
   if (beyond < 0.0) discard;
 #endif
-  vec3 n = normalize(facing);
-  vec3 v = normalize(-atEye);
-  float side = dot(n, v);
-  float inside = step(side, 0.0);
-  n *= 1.0 - 2.0 * inside;
-  float straight = abs(side);
-  vec3 lamp = normalize(vec3(-0.45, 0.5, 0.75));
-  float shade = 0.44 + 0.42 * max(dot(n, lamp), 0.0) + 0.18 * straight;
-  float gloss = max(dot(reflect(-lamp, n), v), 0.0);
-  gloss *= gloss;
-  gloss *= gloss;
-  gloss *= 0.10 * gloss * gloss * gloss;
   vec3 colour = base;
   float t = 0.5;
   if (coloured > 0.0) t = clamp(0.5 + 0.5 * excess / span, 0.0, 1.0);
   if (coloured > 0.0) colour = texture2D(colours, vec2(t, 0.5)).rgb;
-  colour = colour * (shade - 0.10 * inside) + gloss;
+#ifndef GLASS
+  if (quick > 0.0) {
+    float off = section > 0.0 ? abs(dot(place - sectionAt, sectionNormal)) : 1.0;
+    gl_FragColor = vec4(off < 0.15 ? line : colour * lit.x + lit.y, opacity);
+    return;
+  }
+#endif
+  float inside;
+  float straight;
+  vec2 lamps = light(facing, atEye, inside, straight);
+  colour = colour * lamps.x + lamps.y;
   float alpha = opacity;
 #ifdef GLASS
   alpha = mix(opacity, 0.82, pow(1.0 - straight, 2.2)) + coloured * 0.5 * abs(2.0 * t - 1.0);
@@ -134,6 +157,10 @@ uniform float mesh;
 varying vec4 colour;
 varying vec2 corner;
 void main() {
+  if (mesh == 0.0) {
+    gl_FragColor = vec4(colour.rgb, 1.0);
+    return;
+  }
   vec2 width = max(fwidth(corner), vec2(1e-6));
   vec2 near = min(corner, 1.0 - corner) / width;
   vec2 drawn = (1.0 - smoothstep(0.0, 1.0, near)) * (1.0 - smoothstep(0.15, 0.35, width));
@@ -155,6 +182,8 @@ export function divergingTexture(): DataTexture {
 
 /** What all bodies have in common and one assignment changes for all. */
 export interface SharedUniforms {
+  /** 1: as quick as can be. */
+  quick: { value: number };
   mesh: { value: number };
   line: { value: Vector3 };
   colours: { value: DataTexture };
@@ -169,6 +198,7 @@ export interface SharedUniforms {
 
 export function sharedUniforms(): SharedUniforms {
   return {
+    quick: { value: 0 },
     mesh: { value: 0 },
     line: { value: new Vector3() },
     colours: { value: divergingTexture() },
@@ -204,6 +234,7 @@ export function bodyMaterials(shape: GridShape, shared: SharedUniforms): BodyMat
     cut,
     bias: { value: cut === whole ? 0 : cutBias },
     base,
+    quick: shared.quick,
     mesh: shared.mesh,
     line: shared.line,
     colours: shared.colours,

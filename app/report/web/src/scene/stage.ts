@@ -20,6 +20,9 @@ export function graphics(): Graphics {
 
 const restAfter = 250;
 const slowFrame = 30;
+const longestBreak = 250;
+const coarsest = 6;
+const leastRatio = 0.5;
 
 /**
  * Draws the scene when something changed and it is in sight. While pictures follow each other the resolution falls as far as they
@@ -40,8 +43,9 @@ export class Stage {
   before: (moving: boolean) => void = () => undefined;
   after: () => void = () => undefined;
   private background = new Color();
-  private asked = 0;
-  private lastTime = -Infinity;
+  private asked = false;
+  /** From drawing a moving picture until the browser is ready for the next one [ms]. */
+  private cost = 0;
   private rest: ReturnType<typeof setTimeout> | undefined;
   private ratio = 0;
   private movingRatio: number;
@@ -88,28 +92,40 @@ export class Stage {
     if (visible) this.invalidate();
   }
 
-  /** Asks for a picture, quick first; once nothing was asked for some time one more follows in full resolution. */
+  /**
+   * Asks for a picture, quick first; once nothing was asked for some time one more follows in full resolution. A picture that a
+   * processor draws slowly is followed by a longer break: the other views of the page keep up with the slider.
+   */
   invalidate(): void {
     clearTimeout(this.rest);
     if (this.asked || !this.visible) return;
-    this.asked = requestAnimationFrame((time) => {
-      this.asked = 0;
-      this.adapt(time - this.lastTime);
-      this.lastTime = time;
-      this.draw(true);
-      clearTimeout(this.rest);
-      this.rest = setTimeout(() => this.visible && this.draw(false), restAfter);
-    });
+    this.asked = true;
+    const next = (): number => requestAnimationFrame(() => this.drawMoving());
+    if (this.software && this.cost > slowFrame) setTimeout(next, Math.min(longestBreak, 1.5 * this.cost));
+    else next();
+  }
+
+  private drawMoving(): void {
+    this.asked = false;
+    this.adapt(this.cost);
+    this.draw(true);
+    const from = performance.now();
+    requestAnimationFrame(() => (this.cost = performance.now() - from));
+    clearTimeout(this.rest);
+    this.rest = setTimeout(() => {
+      this.cost = 0;
+      if (this.visible) this.draw(false);
+    }, restAfter);
   }
 
   /** Pictures that follow each other too slowly get fewer pixels. */
   private adapt(passed: number): void {
-    if (passed > 1000) return;
     this.slow = passed > slowFrame ? this.slow + 1 : Math.max(0, this.slow - 0.25);
-    if (this.slow < 4) return;
+    if (this.slow < 3) return;
     this.slow = 0;
-    if (this.coarseness < 2) this.coarseness *= 1.42;
-    else this.movingRatio = Math.max(0.6, this.movingRatio * 0.8);
+    const much = passed > 2 * slowFrame;
+    if (this.coarseness < coarsest) this.coarseness = Math.min(coarsest, this.coarseness * (much ? 2 : 1.42));
+    this.movingRatio = Math.max(leastRatio, this.movingRatio * (much ? 0.7 : 0.85));
   }
 
   /** At full resolution, at once; the caller reads the canvas in the same task. */

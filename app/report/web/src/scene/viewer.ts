@@ -288,6 +288,7 @@ export class Viewer implements ControlTarget {
 
   private prepare(moving: boolean): void {
     this.styleBodies();
+    this.shared.quick.value = moving && this.stage.software && !this.options.mesh ? 1 : 0;
     const forward = outlook(this.orbit)[0] <= 0 ? 1 : -1;
     const cutAt = 1.04 * this.cutReach;
     this.shared.cut.value.set(forward, 0, 0, -cutAt);
