@@ -42,6 +42,14 @@ Pose plane_of(const UsedBody& b, double u) {
   return X;
 }
 
+/// Whether the surface itself knows the shape at a station.
+bool has_station(const UsedBody& b, double u) {
+  if (b.beyond == nullptr) return true;
+  if (!is_closed(b)) return u >= b.low && u <= b.high;
+  const double half = 0.5 * (b.high - b.low);
+  return !(half < kPi) || std::fabs(wrap_angle(u - b.low - half)) <= half;
+}
+
 std::vector<double> round_stations(double radius, const std::vector<double>& contacts, double most) {
   for (double dense = kDenseRound;; dense *= kCoarser) {
     const int per_coarse = std::max(1, static_cast<int>(std::ceil(2.0 * kPi * radius / (kCoarseRound * dense))));
@@ -202,7 +210,8 @@ io::SampledSurface sample_body(const UsedBody& b, const std::vector<double>& con
   parallel_for(u.size(), [&](std::size_t i) {
     const std::span<double> station = std::span(h).subspan(i * ny, ny);
     const Pose plane = plane_of(b, u[i]);
-    b.surface->heights_at(plane, points, {station, {}, {}});
+    if (has_station(b, u[i])) b.surface->heights_at(plane, points, {station, {}, {}});
+    else std::fill(station.begin(), station.end(), std::numeric_limits<double>::quiet_NaN());
     if (b.beyond && is_empty(station)) b.beyond->heights_at(plane, points, {station, {}, {}});
   });
   if (!is_closed(b)) {  // a rail may end within the range

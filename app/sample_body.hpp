@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <limits>
 #include <memory>
 #include <vector>
 
@@ -15,9 +16,10 @@ namespace treadmark::app {
 struct UsedBody {
   Body body = Body::rail;
   std::shared_ptr<const Surface> surface;  ///< null: none is sampled
-  std::shared_ptr<const Surface> beyond;   ///< takes the place of stations where that one has nothing; may be null
+  std::shared_ptr<const Surface> beyond;   ///< its shape outside of low ... high, and where it has nothing; may be null
   bool constant = false;                   ///< all its sections are alike
   double radius = 0.0;                     ///< of a wheel; of a roller in place of a rail, < 0: a ring; 0: a rail [m]
+  double low = -std::numeric_limits<double>::infinity(), high = std::numeric_limits<double>::infinity();  ///< stations of surface
 };
 
 /// Station at which a point lies (body axes): angle of a wheel or roller [rad], x of a rail [m].

@@ -101,8 +101,13 @@ std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io
     const io::WheelRailCase& input = *found->second;
     used.left = input.side == io::Side::left;
     const auto body = [&](const StoredSurface& s, bool constant, double size) {
-      const bool limited = s.represented.surface != s.natural->surface;
-      return UsedBody{s.body(), s.represented.surface, limited ? s.natural->surface : nullptr, constant, size};
+      UsedBody one{s.body(), s.represented.surface, nullptr, constant, size};
+      if (!s.represented.resampled) return one;
+      const bool roller = s.body() == Body::rail && size > 0.0;  // its region is one of arc lengths
+      one.beyond = s.natural->surface;
+      one.low = s.represented.region.u_min / (roller ? size : 1.0);
+      one.high = s.represented.region.u_max / (roller ? size : 1.0);
+      return one;
     };
     const double wheel_radius = profile_radius(input, Body::wheel), rail_radius = profile_radius(input, Body::rail);
     const StoredSurface& wheel = store.get(input.wheel, Body::wheel, wheel_radius, regions.wheel);

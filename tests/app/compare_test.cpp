@@ -8,6 +8,7 @@
 #include <cmath>
 #include <filesystem>
 
+#include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/app/compare_cases.hpp"
 #include "treadmark/app/run_cases.hpp"
 #include "treadmark/core/error.hpp"
@@ -201,8 +202,15 @@ TEST(CompareCommand, WritesTableFilesAndPictures) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("analytic (truth)"));
   EXPECT_THAT(r.out, HasSubstr("mesh-flat"));
-  for (const char* file : {"compare.json", "compare.csv", "table.txt", "pressures.svg", "errors.svg", "costs.svg"})
+  for (const char* file : {"compare.json", "compare.csv", "table.txt", "fields.h5", "pressures.svg", "errors.svg", "costs.svg"})
     EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;
+  const io::Comparison fields = io::read_comparison_fields(folder / "fields.h5");
+  ASSERT_EQ(fields.candidates.size(), 5u);  // the truth, and two at two resolutions
+  for (const io::ComparisonCandidate& c : fields.candidates) {
+    ASSERT_FALSE(c.results.empty());
+    EXPECT_FALSE(c.results.front().patches.empty());
+    EXPECT_EQ(c.surfaces.size(), &c == &fields.candidates.front() ? 2u : 0u);
+  }
   EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "clay"}).status, 2);
   EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--resolutions", "-1"}).status, 2);
   EXPECT_EQ(treadmark::testing::run_program({"compare", "missing.toml"}).status, 2);

@@ -190,15 +190,22 @@ TEST(SampledSurfaces, ARollerIsARing) {
 }
 
 TEST(SampledSurfaces, APartlySampledWheelIsCompletedAsGiven) {
-  const io::RunResult result = run({.wheel = std::string("backend = \"offset\"\nresolution_mm = 0.5\n") + kChord});
-  const io::SampledSurface& wheel = surface(result, "wheel_1");
-  EXPECT_TRUE(wheel.closed);
-  const int at_flat = nearest_station(wheel, 0.0);
-  int middle = 0;
-  while (wheel.y[wheel.index(at_flat, middle)] < 0.0) ++middle;
-  for (int i = 0; i < wheel.nu; ++i) ASSERT_FALSE(std::isnan(wheel.x[wheel.index(i, middle)])) << i;
-  EXPECT_NEAR(wheel.deviation[wheel.index(at_flat, middle)], -(kRadius - std::sqrt(kRadius * kRadius - kFlat * kFlat / 4.0)), 3e-6);
-  expect_contacts_on_surfaces(result);
+  const std::string far_flat = "[[wheel.flats]]\nshape = \"fresh\"\nlength_mm = 60.0\ntheta_center_deg = 120.0\n";
+  for (const std::string backend : {"offset", "spline", "mesh"}) {
+    SCOPED_TRACE(backend);
+    const io::RunResult result = run({.wheel = "backend = \"" + backend + "\"\nresolution_mm = 0.5\n" + kChord + far_flat});
+    const io::SampledSurface& wheel = surface(result, "wheel_1");
+    EXPECT_TRUE(wheel.closed);
+    int middle = 0;
+    while (!(wheel.y[wheel.index(0, middle)] > 0.0)) ++middle;
+    for (int i = 0; i < wheel.nu; ++i) ASSERT_FALSE(std::isnan(wheel.x[wheel.index(i, middle)])) << i;
+    const double depth = kRadius - std::sqrt(kRadius * kRadius - kFlat * kFlat / 4.0);
+    for (const double degrees : {0.0, 120.0}) {
+      const int at_flat = nearest_station(wheel, degrees * std::numbers::pi / 180.0);
+      EXPECT_NEAR(wheel.deviation[wheel.index(at_flat, middle)], -depth, 3e-6) << degrees;
+    }
+    expect_contacts_on_surfaces(result);
+  }
 }
 
 TEST(SampledSurfaces, ThreadsDoNotChangeABit) {

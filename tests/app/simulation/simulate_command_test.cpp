@@ -10,6 +10,7 @@
 #include <numbers>
 #include <sstream>
 
+#include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
@@ -141,6 +142,19 @@ TEST_F(Simulate, FieldsAreDrawnAndStored) {
   const ProgramResult r = run({"-o", out(), "--set", "simulation.fields.position_m=[0.005]", "--set", "simulation.distance_m=0.01"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(std::filesystem::exists(out() + "/pressure.svg"));
+  const io::SnapshotSeries snapshots = io::read_snapshots(out() + "/simulation.h5");
+  ASSERT_GE(snapshots.run.cases.size(), 2u);
+  ASSERT_EQ(snapshots.scenes.size(), snapshots.run.cases.size());
+  EXPECT_TRUE(snapshots.scenes.front().nominal);
+  for (const io::CaseResult& c : snapshots.run.cases) {
+    ASSERT_TRUE(c.bodies);
+    EXPECT_GE(io::surface_index(snapshots.run.sampled, c.wheel_surface), 0);
+    EXPECT_GE(io::surface_index(snapshots.run.sampled, c.rail_surface), 0);
+    ASSERT_FALSE(c.patches.empty());
+    const io::PatchResult& p = c.patches.front();
+    const Vec3 on_rail = c.bodies->X_TR.apply_inverse({p.x_tr, p.y_tr, p.z_tr});
+    EXPECT_NEAR(on_rail.x(), c.s + p.x_tr, 1e-9) << "the rail passes below the wheel";
+  }
 }
 
 TEST_F(Simulate, AnyNumberOfThreadsGivesTheSameBytes) {
