@@ -151,7 +151,7 @@ template <class Read>
 bool read_texts(const Hdf5Id& stored, hssize_t count, std::vector<std::string>& out, Read read) {
   if (stored.get() < 0 || count < 0 || H5Tis_variable_str(stored.get()) <= 0) return false;
   std::vector<char*> texts(static_cast<std::size_t>(count), nullptr);
-  const bool done = count == 0 || read(string_type().get(), texts.data()) >= 0;
+  const bool done = count == 0 || read(stored.get(), texts.data()) >= 0;  // as stored: ASCII is not converted to UTF-8
   for (char* text : texts) {
     if (done) out.emplace_back(text == nullptr ? "" : text);
     H5free_memory(text);
