@@ -3,16 +3,14 @@
 #include "treadmark/app/report/page_data.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/report/blob_store.hpp"
 #include "treadmark/app/report/field_catalogue.hpp"
 #include "treadmark/app/report/frame_packer.hpp"
 #include "treadmark/app/report/html_text.hpp"
-#include "treadmark/io/results/field_table.hpp"
+#include "treadmark/io/results/twelve_digits.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -21,16 +19,11 @@ using Json = nlohmann::ordered_json;
 
 constexpr double kMilli = 1e3;  // m -> mm
 constexpr double kMega = 1e-6;  // Pa -> MPa
-constexpr double kMicro = 1e6;  // m -> um
 
 /// 12 digits, as in the result files; not finite = null.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
-  char text[32];
-  const int length = std::snprintf(text, sizeof text, "%.12g", value);
-  double rounded = value;
-  std::from_chars(text, text + length, rounded);
-  return rounded;
+  return io::twelve_digits(value);
 }
 
 Json to_json(const Packed& packed) {

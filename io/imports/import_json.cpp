@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 #include <numbers>
 
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/io/results/twelve_digits.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -21,11 +20,7 @@ constexpr double kDegrees = 180.0 / std::numbers::pi;
 /// Twelve digits, so that changes of unit leave no tail of nines; what is not finite is null.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
-  char text[32];
-  const int length = std::snprintf(text, sizeof text, "%.12g", value);
-  double rounded = value;
-  std::from_chars(text, text + length, rounded);
-  return rounded + 0.0;  // no negative zero
+  return twelve_digits(value) + 0.0;  // no negative zero
 }
 
 /// In full precision.

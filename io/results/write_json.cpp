@@ -2,12 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/results/write_json.hpp"
 
-#include <charconv>
 #include <cmath>
-#include <cstdio>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/results/twelve_digits.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -21,11 +20,7 @@ constexpr double kMicro = 1e6;  // m -> um
 /// Rounded to 12 digits, so that changes of unit leave no tail of nines; not finite = null.
 Json number(double value) {
   if (!std::isfinite(value)) return nullptr;
-  char text[32];
-  const int length = std::snprintf(text, sizeof text, "%.12g", value);
-  double rounded = value;
-  std::from_chars(text, text + length, rounded);
-  return rounded;
+  return twelve_digits(value);
 }
 
 Json hashes(const std::vector<std::pair<std::string, std::string>>& files) {

@@ -95,8 +95,9 @@ Panel one(const char* label, const char* unit, std::vector<double> values) {
 
 FrameSet frames_of(const std::shared_ptr<const io::RunResult>& run, std::string name) {
   FrameSet set{std::move(name)};
+  const std::vector<std::string> names = step_names(*run);
   for (std::size_t i = 0; i < run->cases.size(); ++i)
-    set.frames.push_back({step_name(*run, i), std::shared_ptr<const io::CaseResult>(run, &run->cases[i])});
+    set.frames.push_back({names[i], std::shared_ptr<const io::CaseResult>(run, &run->cases[i])});
   return set;
 }
 
@@ -116,25 +117,25 @@ std::vector<Axis> case_axes(const io::RunResult& run) {
   return axes;
 }
 
-std::string step_name(const io::RunResult& run, std::size_t index) {
-  const Case& result = run.cases[index];
-  std::string name = fmt::format("case {}", result.number);
-  if (!result.has_wheelset) return name;
+std::vector<std::string> step_names(const io::RunResult& run) {
   const Axis first = case_axes(run).front();  // what tells the cases apart
-  if (first.unit.empty()) return name;
   const char* word = first.label == "position along the track" ? "s" : first.label == "lateral displacement" ? "y" : first.label.c_str();
-  const double value = first.values[index];
-  return fmt::format("{}, {} {}{}{}", name, word, value < 0.0 ? "−" : "", shown({std::fabs(value), 4}),
-                     first.unit == "°" ? "°" : " " + first.unit);
+  std::vector<std::string> names;
+  for (std::size_t i = 0; i < run.cases.size(); ++i) {
+    names.push_back(fmt::format("case {}", run.cases[i].number));
+    if (!run.cases[i].has_wheelset || first.unit.empty()) continue;
+    const double value = first.values[i];
+    names.back() += fmt::format(", {} {}{}{}", word, value < 0.0 ? "−" : "", shown({std::fabs(value), 4}),
+                                first.unit == "°" ? "°" : " " + first.unit);
+  }
+  return names;
 }
 
 Timeline case_timeline(const io::RunResult& run) {
   Timeline timeline{"case"};
   timeline.axes = case_axes(run);
-  for (std::size_t i = 0; i < run.cases.size(); ++i) {
-    timeline.names.push_back(step_name(run, i));
-    timeline.frames.push_back(static_cast<int>(i));
-  }
+  timeline.names = step_names(run);
+  for (std::size_t i = 0; i < run.cases.size(); ++i) timeline.frames.push_back(static_cast<int>(i));
   return timeline;
 }
 

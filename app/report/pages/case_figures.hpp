@@ -31,7 +31,7 @@ Table patch_table(const io::RunResult& run);
 /// Whether any patch of the run has contact fields.
 bool has_fields(const io::RunResult& run);
 
-/// "case 3", and the value of the first axis that varies.
-std::string step_name(const io::RunResult& run, std::size_t index);
+/// Of all cases: "case 3", and the value of the first axis that varies.
+std::vector<std::string> step_names(const io::RunResult& run);
 
 }  // namespace treadmark::app::report
