@@ -7,8 +7,8 @@
 
 #include "treadmark/app/derived_results.hpp"
 #include "treadmark/app/gap_formula.hpp"
-#include "treadmark/app/planform.hpp"
 #include "treadmark/app/patch_result.hpp"
+#include "treadmark/app/planform.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/normal/semi_double_elliptic.hpp"

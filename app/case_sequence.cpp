@@ -31,7 +31,7 @@ bool starts_anew(const io::Case& c) {
 
 std::vector<std::vector<std::size_t>> groups_in_time(const io::CaseFile& file) {
   std::vector<std::vector<std::size_t>> groups;
-  std::map<int, std::size_t> last;   // group of the last case, by sequence
+  std::map<int, std::size_t> last;  // group of the last case, by sequence
   for (std::size_t i = 0; i < file.cases.size(); ++i) {
     const auto before = last.find(file.cases[i].sequence);
     if (before != last.end() && !starts_anew(file.cases[i])) {
@@ -60,17 +60,20 @@ wheelrail::Pair& CaseSequence::pair_for(const wheelrail::Geometry& geometry) {
   return *lease_->pair;
 }
 
-io::CaseResult CaseSequence::solve(const io::Case& c, const io::WheelRailCase& input, const wheelrail::Geometry& geometry) {
+io::CaseResult CaseSequence::solve(const io::Case& c, const io::WheelRailCase& input,
+                                   const wheelrail::Geometry& geometry) {
   const wheelrail::PairSolution solution = pair_for(geometry).solve(to_problem(input, geometry.constant_profiles()));
   io::CaseResult result = to_result(input, solution);
   if (c.element_table > 0)
-    for (std::size_t k = 0; k < result.patches.size(); ++k) result.patches[k].element_table = mat_head(input, solution, k, c.number);
+    for (std::size_t k = 0; k < result.patches.size(); ++k)
+      result.patches[k].element_table = mat_head(input, solution, k, c.number);
   return result;
 }
 
 io::CaseResult CaseSequence::solve(const io::Case& c, const wheelrail::Geometry* geometry) {
   if (std::exchange(broken_, true))
-    throw Error(ErrorKind::numerical, "the case before it in its sequence failed, so that there is no previous instant");
+    throw Error(ErrorKind::numerical,
+                "the case before it in its sequence failed, so that there is no previous instant");
   io::CaseResult result;
   if (const auto* rail = std::get_if<io::WheelRailCase>(&c.content)) {
     result = solve(c, *rail, *geometry);

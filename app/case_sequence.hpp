@@ -17,8 +17,8 @@ bool starts_anew(const io::Case& c);
 /// Indices of cases that are solved one after the other. Those of different groups do not depend on each other.
 std::vector<std::vector<std::size_t>> groups_in_time(const io::CaseFile& file);
 
-/// Cases that follow each other in time. The history outlives a change of the bodies' surfaces (a wheel in another state, another rail):
-/// it moves into the solver of the new ones.
+/// Cases that follow each other in time. The history outlives a change of the bodies' surfaces (a wheel in another
+/// state, another rail): it moves into the solver of the new ones.
 class CaseSequence {
  public:
   explicit CaseSequence(PairPool& pool) : pool_(pool) {}
@@ -27,7 +27,8 @@ class CaseSequence {
   CaseSequence& operator=(const CaseSequence&) = delete;
 
   /// geometry: of a wheel-rail case, else null.
-  /// Errors: Error for input that makes no sense, and after a case that failed, for one that depends on it. Non-convergence is a status.
+  /// Errors: Error for input that makes no sense, and after a case that failed, for one that depends on it.
+  /// Non-convergence is a status.
   io::CaseResult solve(const io::Case& c, const wheelrail::Geometry* geometry);
 
  private:

@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/run_cases.hpp"
-#include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/app/sampled_region.hpp"
+#include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/app/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
@@ -46,8 +46,10 @@ Compared compared_bodies(const NaturalSurface& wheel, const NaturalSurface& rail
   return varying;
 }
 
-bool all_natural(const std::string& backend, const NaturalSurface& wheel, const NaturalSurface& rail, Compared compared) {
-  return (!compared.wheel || wheel.surface->backend() == backend) && (!compared.rail || rail.surface->backend() == backend);
+bool all_natural(const std::string& backend, const NaturalSurface& wheel, const NaturalSurface& rail,
+                 Compared compared) {
+  return (!compared.wheel || wheel.surface->backend() == backend) &&
+         (!compared.rail || rail.surface->backend() == backend);
 }
 
 std::vector<Choice> choices(const NaturalSurface& wheel, const NaturalSurface& rail, const CompareSettings& settings) {
@@ -121,7 +123,8 @@ io::ComparisonRow row_of(const io::CaseResult& result) {
 
 double relative(double value, double truth) { return truth == 0.0 ? 0.0 : (value - truth) / truth; }
 
-void compare(io::ComparisonRow& row, const io::CaseResult& result, const io::ComparisonRow& truth, const io::CaseResult& true_result) {
+void compare(io::ComparisonRow& row, const io::CaseResult& result, const io::ComparisonRow& truth,
+             const io::CaseResult& true_result) {
   const bool solved = result.status == Status::ok || result.status == Status::not_converged;
   row.comparable = solved && row.patches > 0 && truth.patches > 0;
   if (!row.comparable) return;
@@ -142,7 +145,8 @@ io::RepresentedBody body_of(const std::vector<io::SurfaceUse>& uses, std::string
   return out;
 }
 
-io::ComparisonCandidate candidate_of(const Choice& choice, const io::RunResult& run, const io::ComparisonCandidate* truth) {
+io::ComparisonCandidate candidate_of(const Choice& choice, const io::RunResult& run,
+                                     const io::ComparisonCandidate* truth) {
   io::ComparisonCandidate c;
   c.name = choice.name;
   c.wheel = body_of(run.surfaces, "wheel");
@@ -167,7 +171,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
   require_known(settings.wheel_backends);
   require_known(settings.rail_backends);
   for (const double resolution : settings.resolutions)
-    if (!(resolution > 0.0) || !std::isfinite(resolution)) throw Error(ErrorKind::configuration, "resolutions must be positive");
+    if (!(resolution > 0.0) || !std::isfinite(resolution))
+      throw Error(ErrorKind::configuration, "resolutions must be positive");
 
   SurfaceStore store;
   const SampledRegions regions = sampled_regions(file);
@@ -199,7 +204,8 @@ io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& se
       break;
     }
     const bool is_first = out.candidates.empty();
-    const std::string name = choice.resolution > 0.0 ? fmt::format("{} {:g} mm", choice.name, 1e3 * choice.resolution) : choice.name;
+    const std::string name =
+        choice.resolution > 0.0 ? fmt::format("{} {:g} mm", choice.name, 1e3 * choice.resolution) : choice.name;
     Progress inner = progress;
     if (progress.report)
       inner.report = [&](std::size_t finished, std::size_t, const std::string& what) {

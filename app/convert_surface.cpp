@@ -19,20 +19,28 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string lower_extension(const std::filesystem::path& file) { return io::profiles::lower(file.extension().string()); }
+std::string lower_extension(const std::filesystem::path& file) {
+  return io::profiles::lower(file.extension().string());
+}
 
 }  // namespace
 
-Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output, const ConvertSettings& settings) {
+Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
+                          const ConvertSettings& settings) {
   const std::string extension = lower_extension(output);
-  const bool triangles = io::is_mesh_file(output), slices = io::is_slices_file(output), offsets = is_offset_file(output);
+  const bool triangles = io::is_mesh_file(output), slices = io::is_slices_file(output),
+             offsets = is_offset_file(output);
   if (!triangles && !slices && !offsets)
-    throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension), {output.string()},
+    throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
+                {output.string()},
                 "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets");
   Converted out;
   out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
   out.body = out.source.spec.body;
-  Representation wanted{triangles ? "mesh" : slices ? "spline" : "offset", settings.resolution, part_of(out.body, settings.range_x, settings.range_theta)};
+  Representation wanted{triangles ? "mesh"
+                        : slices  ? "spline"
+                                  : "offset",
+                        settings.resolution, part_of(out.body, settings.range_x, settings.range_theta)};
   // the same data again need a resolution to be sampled anew
   if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
   Sampled sampled;

@@ -31,8 +31,10 @@ std::vector<double> moved(std::vector<double> positions, double by) {
 io::SubsurfaceBlock block_result(const io::SubsurfaceInput::Block& input, const kalker::SurfaceTractions& tractions,
                                  const Material& material, const Vec2& origin) {
   const Grid2& grid = tractions.grid;
-  const std::vector<double> x = input.at_elements ? coordinates(input.columns, grid.nx, grid.x0, grid.dx) : moved(input.x, origin.x()),
-                            y = input.at_elements ? coordinates(input.rows, grid.ny, grid.y0, grid.dy) : moved(input.y, origin.y());
+  const std::vector<double> x = input.at_elements ? coordinates(input.columns, grid.nx, grid.x0, grid.dx)
+                                                  : moved(input.x, origin.x()),
+                            y = input.at_elements ? coordinates(input.rows, grid.ny, grid.y0, grid.dy)
+                                                  : moved(input.y, origin.y());
   const bool whole = input.at_elements && input.columns.empty() && input.rows.empty();
   const std::vector<kalker::SubsurfacePoint> points =
       whole ? kalker::subsurface_stress_on_grid(tractions, material, input.z)
@@ -48,8 +50,8 @@ io::SubsurfaceBlock block_result(const io::SubsurfaceInput::Block& input, const 
 
 }  // namespace
 
-void add_subsurface(const io::SubsurfaceInput& input, const Material& material, const Grid2& grid, const kalker::ContactSolution& solution,
-                    io::PatchResult& result, const Vec2& origin) {
+void add_subsurface(const io::SubsurfaceInput& input, const Material& material, const Grid2& grid,
+                    const kalker::ContactSolution& solution, io::PatchResult& result, const Vec2& origin) {
   const kalker::SurfaceTractions tractions = kalker::surface_tractions(grid, solution);
   for (const io::SubsurfaceInput::Block& block : input.blocks) {
     io::SubsurfaceBlock values = block_result(block, tractions, material, origin);

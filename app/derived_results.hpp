@@ -8,9 +8,10 @@
 
 namespace treadmark::app {
 
-/// Stresses below the surface at the points asked for, into the patch's result. Points under elements that the grid does not have are
-/// left out; origin: of free points, in the axes of the grid [m].
-void add_subsurface(const io::SubsurfaceInput& input, const Material& material, const Grid2& grid, const kalker::ContactSolution& solution,
-                    io::PatchResult& result, const Vec2& origin = Vec2::Zero());
+/// Stresses below the surface at the points asked for, into the patch's result. Points under elements that the grid
+/// does not have are left out; origin: of free points, in the axes of the grid [m].
+void add_subsurface(const io::SubsurfaceInput& input, const Material& material, const Grid2& grid,
+                    const kalker::ContactSolution& solution, io::PatchResult& result,
+                    const Vec2& origin = Vec2::Zero());
 
 }  // namespace treadmark::app

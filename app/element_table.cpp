@@ -72,7 +72,8 @@ io::MatFileHead mat_head(const io::BasicCase& input, int case_number) {
   return head;
 }
 
-io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSolution& solution, std::size_t patch, int case_number) {
+io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSolution& solution, std::size_t patch,
+                         int case_number) {
   io::MatFileHead head = common_head(input, case_number);
   head.friction = friction_of(input, solution.patches[patch].frame.angle);
   const io::WheelsetInput& w = input.wheelset;

@@ -12,6 +12,7 @@ namespace treadmark::app {
 io::MatFileHead mat_head(const io::BasicCase& input, int case_number);
 
 /// The same of one patch (counted from 0) of a wheel on a rail.
-io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSolution& solution, std::size_t patch, int case_number);
+io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSolution& solution, std::size_t patch,
+                         int case_number);
 
 }  // namespace treadmark::app

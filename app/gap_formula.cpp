@@ -42,7 +42,8 @@ std::vector<double> gap_of_formula(const io::GapInput& input, const Grid2& grid)
                     : input.kind == Kind::circular   ? b.size() >= 5
                     : input.kind == Kind::sinusoidal ? b.size() == 8
                                                      : b.size() == grid.size();
-  if (!fits) throw Error(ErrorKind::configuration, "the undeformed distance has " + std::to_string(b.size()) + " coefficients");
+  if (!fits)
+    throw Error(ErrorKind::configuration, "the undeformed distance has " + std::to_string(b.size()) + " coefficients");
   if (input.kind == Kind::per_element) return b;
   std::vector<double> gap;
   gap.reserve(grid.size());

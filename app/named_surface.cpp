@@ -11,7 +11,9 @@
 namespace treadmark::app {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& file) { return io::profiles::lower(file.extension().string()); }
+std::string lower_extension(const std::filesystem::path& file) {
+  return io::profiles::lower(file.extension().string());
+}
 
 Body body_of(const std::filesystem::path& input, const std::optional<Body>& asked) {
   if (asked) return *asked;
@@ -20,7 +22,8 @@ Body body_of(const std::filesystem::path& input, const std::optional<Body>& aske
     if (extension == wheel) return Body::wheel;
   for (const char* rail : {".slcs", ".prr", ".ban"})
     if (extension == rail) return Body::rail;
-  throw Error(ErrorKind::configuration, "the file does not tell whether it is a wheel or a rail", {input.string()}, "say --body wheel or --body rail");
+  throw Error(ErrorKind::configuration, "the file does not tell whether it is a wheel or a rail", {input.string()},
+              "say --body wheel or --body rail");
 }
 
 }  // namespace
@@ -30,14 +33,19 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
   io::SurfaceSource source;
   double radius = said.nominal_radius;
   const bool is_case = extension == ".toml" || extension == ".inp";
-  const auto refuse = [&](const char* what) { throw Error(ErrorKind::configuration, what, {file.string()}, "leave it out"); };
+  const auto refuse = [&](const char* what) {
+    throw Error(ErrorKind::configuration, what, {file.string()}, "leave it out");
+  };
   if (!is_case && !said.overrides.empty()) refuse("--set changes keys of case files, this is none");
-  if ((is_case || is_offset_file(file)) && said.scale_to_mm != 1.0) refuse("--scale belongs to profiles, slices and triangles");
-  if (is_offset_file(file) && radius > 0.0) refuse("offsets have their own nominal radius, --nominal-radius cannot change it");
+  if ((is_case || is_offset_file(file)) && said.scale_to_mm != 1.0)
+    refuse("--scale belongs to profiles, slices and triangles");
+  if (is_offset_file(file) && radius > 0.0)
+    refuse("offsets have their own nominal radius, --nominal-radius cannot change it");
   if (is_case) {
     const io::CaseFile cases = io::read_any_case(file.string(), said.overrides);
     const io::WheelRailCase* first = first_wheelrail_case(cases);
-    if (first == nullptr) throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {file.string()});
+    if (first == nullptr)
+      throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {file.string()});
     const Body body = body_of(file, said.body);
     source = body == Body::wheel ? first->wheel : first->rail;
     source.backend.clear();
@@ -48,12 +56,14 @@ NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurfa
   if (is_offset_file(file)) {
     NaturalSurface natural = read_offset_surface(file);
     if (said.body && *said.body != natural.spec.body)
-      throw Error(ErrorKind::configuration, "the offsets belong to the other body", {file.string()}, "leave out --body");
+      throw Error(ErrorKind::configuration, "the offsets belong to the other body", {file.string()},
+                  "leave out --body");
     return natural;
   }
   const Body body = body_of(file, said.body);
   if (body == Body::wheel && !(radius > 0.0))
-    throw Error(ErrorKind::configuration, "a wheel needs its nominal radius", {file.string()}, "say --nominal-radius in mm");
+    throw Error(ErrorKind::configuration, "a wheel needs its nominal radius", {file.string()},
+                "say --nominal-radius in mm");
   io::GeometryFile geometry{file, {}};
   geometry.options.scale = said.scale_to_mm;
   source.geometry = geometry;
@@ -67,7 +77,8 @@ Region part_of(Body body, const Range& range_x, const Range& range_theta) {
   const Range& range = body == Body::wheel ? range_theta : range_x;
   Region region;
   if (!range) return region;
-  if (!(range->first < range->second)) throw Error(ErrorKind::configuration, "a range must run from a smaller to a greater number");
+  if (!(range->first < range->second))
+    throw Error(ErrorKind::configuration, "a range must run from a smaller to a greater number");
   region.u_min = range->first;
   region.u_max = range->second;
   return region;

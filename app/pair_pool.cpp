@@ -14,8 +14,10 @@ PairPool::Lease PairPool::take(const wheelrail::Geometry& geometry) {
       idle.pop_back();
     }
   }
-  if (pair) pair->reset();
-  else pair = std::make_unique<wheelrail::Pair>(geometry);
+  if (pair)
+    pair->reset();
+  else
+    pair = std::make_unique<wheelrail::Pair>(geometry);
   return {geometry, std::move(pair)};
 }
 

@@ -90,9 +90,10 @@ kalker::InfluenceSettings to_influence(const io::InfluenceInput& input) {
   kalker::InfluenceSettings out;
   using From = io::InfluenceInput::Kind;
   using To = kalker::InfluenceSettings::Kind;
-  out.kind = input.kind == From::bilinear ? To::bilinear : input.kind == From::angle_corrected ? To::angle_corrected
-             : input.kind == From::table  ? To::table
-                                          : To::constant;
+  out.kind = input.kind == From::bilinear          ? To::bilinear
+             : input.kind == From::angle_corrected ? To::angle_corrected
+             : input.kind == From::table           ? To::table
+                                                   : To::constant;
   out.position = input.position;
   out.inclination = input.inclination;
   out.variant = input.variant;

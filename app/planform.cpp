@@ -12,13 +12,16 @@ constexpr double kNever = std::numeric_limits<double>::quiet_NaN();
 /// Number from 1 of the first rectangle that holds a point; 0: none.
 std::size_t rectangle_at(const std::vector<double>& rectangles, double x, double y) {
   for (std::size_t k = 0; 4 * k + 3 < rectangles.size(); ++k)
-    if (x >= rectangles[4 * k] && x <= rectangles[4 * k + 1] && y >= rectangles[4 * k + 2] && y <= rectangles[4 * k + 3]) return k + 1;
+    if (x >= rectangles[4 * k] && x <= rectangles[4 * k + 1] && y >= rectangles[4 * k + 2] &&
+        y <= rectangles[4 * k + 3])
+      return k + 1;
   return 0;
 }
 
 }  // namespace
 
-void restrict_contact(const io::PlanformInput& input, const Grid2& grid, std::vector<double>& gap, kalker::SubPatches& sub_patches) {
+void restrict_contact(const io::PlanformInput& input, const Grid2& grid, std::vector<double>& gap,
+                      kalker::SubPatches& sub_patches) {
   using Kind = io::PlanformInput::Kind;
   if (input.kind == Kind::free) return;
   const std::vector<double>& c = input.coefficients;

@@ -11,6 +11,7 @@
 namespace treadmark::app {
 
 /// Takes elements out of the gap (NaN) where the planform forbids contact; divides it into coupled sub-patches.
-void restrict_contact(const io::PlanformInput& input, const Grid2& grid, std::vector<double>& gap, kalker::SubPatches& sub_patches);
+void restrict_contact(const io::PlanformInput& input, const Grid2& grid, std::vector<double>& gap,
+                      kalker::SubPatches& sub_patches);
 
 }  // namespace treadmark::app

@@ -18,13 +18,15 @@
 namespace treadmark::app {
 namespace {
 
-NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSource& source, Body body, double nominal_radius) {
+NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSource& source, Body body,
+                            double nominal_radius) {
   NaturalSurface natural = read_offset_surface(file.file);
   if (body == Body::rail && nominal_radius != 0.0)
-    throw Error(ErrorKind::configuration, "a file of offsets cannot become a roller", {file.file.string()}, "use a profile, slices or triangles");
+    throw Error(ErrorKind::configuration, "a file of offsets cannot become a roller", {file.file.string()},
+                "use a profile, slices or triangles");
   if (natural.spec.body != body)
-    throw Error(ErrorKind::configuration, fmt::format("the offsets belong to a {}", body == Body::rail ? "wheel" : "rail"),
-                {file.file.string()});
+    throw Error(ErrorKind::configuration,
+                fmt::format("the offsets belong to a {}", body == Body::rail ? "wheel" : "rail"), {file.file.string()});
   constexpr double kSameRadius = 1e-9;
   if (body == Body::wheel && std::fabs(natural.spec.nominal_radius - nominal_radius) > kSameRadius)
     throw Error(ErrorKind::configuration,
@@ -44,7 +46,8 @@ SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition
 }
 
 NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double radius) {
-  if (!source.defects.empty()) throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
+  if (!source.defects.empty())
+    throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
   std::vector<SurfacePart> parts;
   for (const io::SurfaceSource& part : source.parts)
     parts.push_back({std::make_shared<const NaturalSurface>(read_surface(part, body, radius)), part.offset,
@@ -89,7 +92,8 @@ NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double r
   } else {
     spec.shape = std::get<ArcChain>(source.geometry);
   }
-  if (source.crossing.part != io::CrossingInput::Part::none) spec.shape = move_section(spec, motion_of(source.crossing));
+  if (source.crossing.part != io::CrossingInput::Part::none)
+    spec.shape = move_section(spec, motion_of(source.crossing));
   return create_natural(std::move(spec));
 }
 

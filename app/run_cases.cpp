@@ -26,7 +26,8 @@ double seconds_since(Clock::time_point start) { return std::chrono::duration<dou
 wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store, const SampledRegions& regions) {
   const StoredSurface& rail = store.get(input.rail, Body::rail, profile_radius(input, Body::rail), regions.rail);
   const StoredSurface& wheel = store.get(input.wheel, Body::wheel, profile_radius(input, Body::wheel), regions.wheel);
-  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller, wheel.constant_profile()};
+  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller,
+          wheel.constant_profile()};
 }
 
 }  // namespace
@@ -59,7 +60,8 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
       result = sequence.solve(c, geometries[i] ? &*geometries[i] : nullptr);
     } catch (const Error& e) {
       if (e.kind() != ErrorKind::numerical) {
-        errors[i] = std::make_exception_ptr(e.where().file.empty() ? Error(e.kind(), e.message(), c.where, e.advice()) : e);
+        errors[i] =
+            std::make_exception_ptr(e.where().file.empty() ? Error(e.kind(), e.message(), c.where, e.advice()) : e);
         return;
       }
       result = {};

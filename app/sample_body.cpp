@@ -22,11 +22,12 @@ constexpr int kAcross = 120;                                    // points of a s
 constexpr double kMostPoints = 60000.0, kManyPoints = 30000.0;  // at most; as many as cost little
 constexpr double kWindow = 60e-3;                               // about a contact [m]
 constexpr int kCoarseRound = 180;                               // stations
-constexpr double kDenseRound = 1e-3, kDenseAlong = 1.5e-3, kCoarseAlong = 20e-3, kPrismatic = 25e-3, kBeyond = 150e-3;  // [m]
-constexpr double kCoarser = 1.15;                               // a step towards fewer points
-constexpr double kDeep = 45e-3;                                 // below the top of a rail: no wheel comes there [m]
-constexpr double kFarthest = 0.3;                               // of surfaces without lateral ends [m]
-constexpr double kCrossing = 5e-3, kRounding = 1e-9;            // deviations that are none [m]
+constexpr double kDenseRound = 1e-3, kDenseAlong = 1.5e-3, kCoarseAlong = 20e-3, kPrismatic = 25e-3,
+                 kBeyond = 150e-3;                    // [m]
+constexpr double kCoarser = 1.15;                     // a step towards fewer points
+constexpr double kDeep = 45e-3;                       // below the top of a rail: no wheel comes there [m]
+constexpr double kFarthest = 0.3;                     // of surfaces without lateral ends [m]
+constexpr double kCrossing = 5e-3, kRounding = 1e-9;  // deviations that are none [m]
 
 bool is_closed(const UsedBody& b) { return b.body == Body::wheel || b.radius > 0.0; }
 double outward(const UsedBody& b) { return b.body == Body::wheel ? 1.0 : -1.0; }
@@ -174,7 +175,8 @@ std::vector<double> deviations(const UsedBody& b, const std::vector<double>& u, 
   }
   double largest = 0.0;
   for (std::size_t k = 0; k < ny; ++k) {
-    const std::size_t left = k > 0 && !std::isnan(mean[k - 1]) ? k - 1 : k, right = k + 1 < ny && !std::isnan(mean[k + 1]) ? k + 1 : k;
+    const std::size_t left = k > 0 && !std::isnan(mean[k - 1]) ? k - 1 : k,
+                      right = k + 1 < ny && !std::isnan(mean[k + 1]) ? k + 1 : k;
     const double slope = right > left ? (mean[right] - mean[left]) / (y[right] - y[left]) : 0.0;
     const double factor = outward(b) / std::hypot(1.0, slope);
     for (std::size_t i = 0; i < u.size(); ++i) {
@@ -186,7 +188,9 @@ std::vector<double> deviations(const UsedBody& b, const std::vector<double>& u, 
   return out;
 }
 
-double rounded(double value, int exponent) { return std::ldexp(std::nearbyint(std::ldexp(value, exponent)), -exponent) + 0.0; }
+double rounded(double value, int exponent) {
+  return std::ldexp(std::nearbyint(std::ldexp(value, exponent)), -exponent) + 0.0;
+}
 
 bool is_empty(std::span<const double> heights) {
   return std::all_of(heights.begin(), heights.end(), [](double h) { return std::isnan(h); });
@@ -202,16 +206,20 @@ double station_of(const UsedBody& b, const Vec3& p) {
 io::SampledSurface sample_body(const UsedBody& b, const std::vector<double>& contacts) {
   const std::vector<double> y = nodes_across(b, contacts);
   const std::size_t ny = y.size();
-  const double most = std::max(2.0, kMostPoints / static_cast<double>(ny)), many = kManyPoints / static_cast<double>(ny);
-  std::vector<double> u = is_closed(b) ? round_stations(b.radius, contacts, most) : rail_stations(b.constant, contacts, most, many);
+  const double most = std::max(2.0, kMostPoints / static_cast<double>(ny)),
+               many = kManyPoints / static_cast<double>(ny);
+  std::vector<double> u =
+      is_closed(b) ? round_stations(b.radius, contacts, most) : rail_stations(b.constant, contacts, most, many);
   std::vector<Vec2> points(ny);
   for (std::size_t k = 0; k < ny; ++k) points[k] = {0.0, y[k]};
   std::vector<double> h(u.size() * ny);
   parallel_for(u.size(), [&](std::size_t i) {
     const std::span<double> station = std::span(h).subspan(i * ny, ny);
     const Pose plane = plane_of(b, u[i]);
-    if (has_station(b, u[i])) b.surface->heights_at(plane, points, {station, {}, {}});
-    else std::fill(station.begin(), station.end(), std::numeric_limits<double>::quiet_NaN());
+    if (has_station(b, u[i]))
+      b.surface->heights_at(plane, points, {station, {}, {}});
+    else
+      std::fill(station.begin(), station.end(), std::numeric_limits<double>::quiet_NaN());
     if (b.beyond && is_empty(station)) b.beyond->heights_at(plane, points, {station, {}, {}});
   });
   if (!is_closed(b)) {  // a rail may end within the range

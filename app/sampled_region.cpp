@@ -13,7 +13,7 @@ namespace {
 
 constexpr double kSearchAngle = 0.2;  // of the contact search, to both sides [rad]
 constexpr double kMarginAngle = 0.05;
-constexpr double kHalfGauge = 0.8;    // lever arm of the yaw angle [m]
+constexpr double kHalfGauge = 0.8;  // lever arm of the yaw angle [m]
 
 /// Grows to hold the interval round a value.
 struct Interval {

@@ -12,8 +12,8 @@ struct SampledRegions {
   sampling::Region wheel, rail;
 };
 
-/// Wheel: angles round the lowest point of every case, as far as the contact search looks; from half a turn on the whole wheel.
-/// Rail: positions along the track likewise. Without a wheel-rail case everything.
+/// Wheel: angles round the lowest point of every case, as far as the contact search looks; from half a turn on the
+/// whole wheel. Rail: positions along the track likewise. Without a wheel-rail case everything.
 SampledRegions sampled_regions(const io::CaseFile& file);
 
 }  // namespace treadmark::app

@@ -22,7 +22,8 @@ struct Use {
   std::vector<io::CaseResult*> cases;
 };
 
-std::vector<Use> distinct(std::span<io::CaseResult> cases, std::span<const UsedBodies> used, UsedBody UsedBodies::*which) {
+std::vector<Use> distinct(std::span<io::CaseResult> cases, std::span<const UsedBodies> used,
+                          UsedBody UsedBodies::*which) {
   std::vector<Use> out;
   for (std::size_t i = 0; i < cases.size(); ++i) {
     const UsedBody& body = used[i].*which;
@@ -79,7 +80,8 @@ std::vector<io::SampledSurface> sample_surfaces(std::span<io::CaseResult> cases,
         io::SampledSurface surface = sample_body(*use.body, contacts);
         if (use.left) mirror(surface);
         surface.name = fmt::format("{}_{}", surface.body, ++number);
-        for (io::CaseResult* c : use.cases) (use.body->body == Body::wheel ? c->wheel_surface : c->rail_surface) = surface.name;
+        for (io::CaseResult* c : use.cases)
+          (use.body->body == Body::wheel ? c->wheel_surface : c->rail_surface) = surface.name;
         out.push_back(std::move(surface));
       } catch (const Error&) {
         // The results are good without a picture of it.
@@ -89,7 +91,8 @@ std::vector<io::SampledSurface> sample_surfaces(std::span<io::CaseResult> cases,
   return out;
 }
 
-std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io::CaseResult> cases, SurfaceStore& store) {
+std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io::CaseResult> cases,
+                                    SurfaceStore& store) {
   std::map<int, const io::WheelRailCase*> inputs;
   for (const io::Case& c : file.cases) inputs[c.number] = std::get_if<io::WheelRailCase>(&c.content);
   const SampledRegions regions = sampled_regions(file);

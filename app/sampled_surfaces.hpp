@@ -18,14 +18,18 @@ struct UsedBodies {
   bool left = false;
 };
 
-/// Every distinct surface once, sampled where the cases have their contacts (see sample_body), as the mirror image for left-hand pairs;
-/// the cases get its name. used: one a case. A surface that cannot be sampled is left out, and so are cases without poses.
+/// Every distinct surface once, sampled where the cases have their contacts (see sample_body), as the mirror image for
+/// left-hand pairs; the cases get its name. used: one a case. A surface that cannot be sampled is left out, and so are
+/// cases without poses.
 std::vector<io::SampledSurface> sample_surfaces(std::span<io::CaseResult> cases, std::span<const UsedBodies> used);
 
-/// The bodies of the cases of a file that are in these results. The store must be the one that the cases were solved with.
-std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io::CaseResult> cases, SurfaceStore& store);
+/// The bodies of the cases of a file that are in these results. The store must be the one that the cases were solved
+/// with.
+std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io::CaseResult> cases,
+                                    SurfaceStore& store);
 
-/// Adds what a report draws to the results of run_cases: run.sampled, and the names in its cases. Takes some 0.1 s a surface.
+/// Adds what a report draws to the results of run_cases: run.sampled, and the names in its cases. Takes some 0.1 s a
+/// surface.
 void add_surfaces(io::RunResult& run, const io::CaseFile& file, SurfaceStore& store);
 
 }  // namespace treadmark::app

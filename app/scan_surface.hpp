@@ -14,8 +14,8 @@ namespace treadmark::app {
 
 struct ScanRequest {
   NamedSurface surface;
-  scans::ScannerSettings scanner;   ///< body, nominal radius and range of u come from the surface and from below
-  Range range_x, range_theta;       ///< part that is scanned: along the track [m], round the wheel [rad]
+  scans::ScannerSettings scanner;  ///< body, nominal radius and range of u come from the surface and from below
+  Range range_x, range_theta;      ///< part that is scanned: along the track [m], round the wheel [rad]
   LengthUnit unit = LengthUnit::millimetre;
 };
 
@@ -27,10 +27,10 @@ struct Scanned {
 };
 
 /// Scans a wheel or rail (whatever named_surface reads) virtually and writes the points by the extension of the file.
-/// Errors: those of named_surface, the scanner and the writer; Error(configuration) for an extension that means nothing and a
-/// rail without a range that is needed, before any work.
-Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem::path& cloud, const ScanRequest& request,
-                     const Progress& progress = {});
+/// Errors: those of named_surface, the scanner and the writer; Error(configuration) for an extension that means nothing
+/// and a rail without a range that is needed, before any work.
+Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem::path& cloud,
+                     const ScanRequest& request, const Progress& progress = {});
 
 /// A few lines for people: how many points, what was lost, where the surface lies in the cloud.
 std::string summary(const Scanned& scanned);

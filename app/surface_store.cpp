@@ -18,22 +18,24 @@ std::string key_of(const io::SurfaceSource& source, Body body, double radius) {
   std::string key = fmt::format("{} {:.17g}", body == Body::rail ? "rail" : "wheel", radius);
   const io::CrossingInput& c = source.crossing;
   if (c.part != io::CrossingInput::Part::none)
-    key += fmt::format(" crossing {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", static_cast<int>(c.part), c.x, c.y, c.z, c.slope,
-                       c.length, c.rounding);
+    key += fmt::format(" crossing {} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g} {:.17g}", static_cast<int>(c.part), c.x,
+                       c.y, c.z, c.slope, c.length, c.rounding);
   for (const io::SurfaceSource& part : source.parts)
     key += fmt::format(" [{} at {:.17g} {:.17g} {:.17g} as {} {:.17g}]", key_of(part, body, radius), part.offset.x(),
                        part.offset.y(), part.offset.z(), part.backend, part.resolution);
   if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
     const io::ProfileOptions& o = file->options;
     const SmoothingOptions& s = o.smoothing;
-    key += fmt::format(" file {} {} {} {} {:.17g} {:.17g} {:.17g} {} {} {:.17g} {:.17g} {:.17g} {:.17g}", file->file.string(),
-                       file->open_seam, o.mirror_y, o.mirror_z, o.scale, o.zigzag_threshold, o.max_omit, o.error_handling,
-                       static_cast<int>(s.method), s.strength, s.kink_high, s.kink_low, s.kink_width);
+    key += fmt::format(" file {} {} {} {} {:.17g} {:.17g} {:.17g} {} {} {:.17g} {:.17g} {:.17g} {:.17g}",
+                       file->file.string(), file->open_seam, o.mirror_y, o.mirror_z, o.scale, o.zigzag_threshold,
+                       o.max_omit, o.error_handling, static_cast<int>(s.method), s.strength, s.kink_high, s.kink_low,
+                       s.kink_width);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
     key += " standard " + standard->name;
   } else if (const auto* arcs = std::get_if<ArcChain>(&source.geometry)) {
     key += fmt::format(" arcs {:.17g} {:.17g} {:.17g}", arcs->start_y, arcs->start_z, arcs->start_angle);
-    for (const auto& segment : arcs->segments) key += fmt::format(" {:.17g} {:.17g}", segment.length, segment.curvature);
+    for (const auto& segment : arcs->segments)
+      key += fmt::format(" {:.17g} {:.17g}", segment.length, segment.curvature);
   }
   return key;
 }
@@ -64,7 +66,8 @@ void SurfaceStore::note_hashes(const io::SurfaceSource& source) {
   const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
   if (geometry == nullptr || !source.parts.empty()) return;
   const std::string file = geometry->file.string();
-  const bool known = std::any_of(hashes_.begin(), hashes_.end(), [&](const auto& entry) { return entry.first == file; });
+  const bool known =
+      std::any_of(hashes_.begin(), hashes_.end(), [&](const auto& entry) { return entry.first == file; });
   if (!known) hashes_.emplace_back(file, io::sha256_file(file));
 }
 
@@ -72,15 +75,15 @@ std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSou
   std::string key = key_of(source, body, radius);
   for (const Natural& known : naturals_)
     if (known.key == key && known.defects == source.defects) return known.surface;
-  auto surface = located(source.where, [&] {
-    return std::make_shared<const NaturalSurface>(read_surface(source, body, radius));
-  });
+  auto surface =
+      located(source.where, [&] { return std::make_shared<const NaturalSurface>(read_surface(source, body, radius)); });
   note_hashes(source);
   naturals_.push_back({std::move(key), source.defects, surface});
   return surface;
 }
 
-const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double radius, const Region& region) {
+const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body body, double radius,
+                                       const Region& region) {
   const auto given = natural(source, body, radius);
   const Representation wanted{source.backend, source.resolution, region};
   auto found = std::find_if(stored_.begin(), stored_.end(), [&](const auto& s) {
@@ -90,7 +93,8 @@ const StoredSurface& SurfaceStore::get(const io::SurfaceSource& source, Body bod
     auto entry = std::make_unique<Stored>();
     entry->natural = given.get();
     entry->representation = wanted;
-    entry->surface = std::make_unique<StoredSurface>(StoredSurface{given, located(source.where, [&] { return represent(*given, wanted); })});
+    entry->surface = std::make_unique<StoredSurface>(
+        StoredSurface{given, located(source.where, [&] { return represent(*given, wanted); })});
     stored_.push_back(std::move(entry));
     found = stored_.end() - 1;
   }
@@ -108,8 +112,8 @@ std::vector<io::SurfaceUse> SurfaceStore::uses() {
       entry->fit_known = true;
     }
     uses.push_back({s.body() == Body::wheel ? "wheel" : "rail", std::string(s.represented.surface->backend()),
-                    s.represented.resolution, s.represented.build_seconds, s.represented.surface->memory_bytes(), entry->fit,
-                    s.represented.note});
+                    s.represented.resolution, s.represented.build_seconds, s.represented.surface->memory_bytes(),
+                    entry->fit, s.represented.note});
   }
   return uses;
 }

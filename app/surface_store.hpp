@@ -16,8 +16,8 @@ namespace treadmark::app {
 
 /// A surface ready for contact analysis.
 struct StoredSurface {
-  std::shared_ptr<const NaturalSurface> natural;   ///< as given
-  RepresentedSurface represented;                  ///< as asked for; used in the analysis
+  std::shared_ptr<const NaturalSurface> natural;                         ///< as given
+  RepresentedSurface represented;                                        ///< as asked for; used in the analysis
   bool constant_profile() const { return natural->constant_profile(); }  ///< prismatic rail (so no roller), round wheel
   Body body() const { return natural->spec.body; }
 };
@@ -30,7 +30,8 @@ class SurfaceStore {
   /// radius: nominal radius of a wheel, or of a roller in place of a rail [m]; 0 = it is a rail.
   const StoredSurface& get(const io::SurfaceSource& source, Body body, double radius, const Region& region);
 
-  /// What get() has handed out since begin_run(), in the order of the first requests, with fit errors of sampled surfaces.
+  /// What get() has handed out since begin_run(), in the order of the first requests, with fit errors of sampled
+  /// surfaces.
   std::vector<io::SurfaceUse> uses();
   void begin_run() { used_.clear(); }
 

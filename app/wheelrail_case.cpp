@@ -48,7 +48,8 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   if (input.vertical_force_prescribed) p.vertical_force = input.vertical_force;
   p.longitudinal_force = input.longitudinal_force;
   if (input.roller) p.roller = {input.roller->nominal_radius, input.roller->pitch_rate};
-  if (const auto& k = input.rail_springs) p.rail_springs = {k->stiffness_y, k->stiffness_z, k->force_y, k->force_z, k->first_step_y};
+  if (const auto& k = input.rail_springs)
+    p.rail_springs = {k->stiffness_y, k->stiffness_z, k->force_y, k->force_z, k->first_step_y};
   if (const auto& d = input.damping) p.damping = {d->normal, d->tangential, d->max_rate_normal, d->max_rate_tangential};
   p.regime = to_regime(input.regime);
   p.history = to_history(input.history);

@@ -8,7 +8,8 @@
 
 namespace treadmark::app {
 
-/// The result file's view of the solution of a wheel-rail case, with the stresses below the surface that the case asks for.
+/// The result file's view of the solution of a wheel-rail case, with the stresses below the surface that the case asks
+/// for.
 io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSolution& solution);
 
 }  // namespace treadmark::app

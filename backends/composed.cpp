@@ -21,7 +21,8 @@
 namespace treadmark {
 namespace {
 
-/// Turned over: the arc length of a roller becomes an angle; points that a straight rail would have within x are inside too.
+/// Turned over: the arc length of a roller becomes an angle; points that a straight rail would have within x are inside
+/// too.
 Region wheel_region(const Region& roller, double radius) {
   constexpr double kSteep = 0.9;
   const auto angle = [radius](double x) {
@@ -86,7 +87,8 @@ SurfaceDifference roller_fit_error(const NaturalSurface& roller, const Represent
   const double radius = roller.spec.roller_radius;
   RepresentedSurface wheel = represented;
   wheel.surface = assembly::turn_over(represented.surface, radius);
-  wheel.region = {represented.region.u_min / radius, represented.region.u_max / radius, -represented.region.y_max, -represented.region.y_min};
+  wheel.region = {represented.region.u_min / radius, represented.region.u_max / radius, -represented.region.y_max,
+                  -represented.region.y_min};
   SurfaceDifference d = fit_error(*roller.wheel_of_roller, wheel);
   d.worst_u *= radius;
   d.worst_y *= -1.0;
@@ -138,7 +140,8 @@ RepresentedSurface represent_ring(const NaturalSurface& ring, const Representati
   const auto* standard = std::get_if<StandardProfile>(&ring.spec.shape);
   if (wanted.backend != "spline" || (chain == nullptr && standard == nullptr)) {
     RepresentedSurface sampled = represent(rail_of_ring(ring), wanted);
-    if (sampled.resampled) sampled.surface = assembly::limit_along(std::move(sampled.surface), sampled.region.u_min, sampled.region.u_max);
+    if (sampled.resampled)
+      sampled.surface = assembly::limit_along(std::move(sampled.surface), sampled.region.u_min, sampled.region.u_max);
     return sampled;
   }
   RepresentedSurface out;
@@ -162,8 +165,8 @@ RepresentedSurface represent_parts(const NaturalSurface& whole, const Representa
   std::vector<std::shared_ptr<const Surface>> surfaces;
   for (const SurfacePart& part : whole.parts) {
     const bool rail = whole.spec.body == Body::rail;
-    Representation own{part.backend.empty() ? wanted.backend : part.backend, part.resolution > 0.0 ? part.resolution : wanted.resolution,
-                       wanted.region};
+    Representation own{part.backend.empty() ? wanted.backend : part.backend,
+                       part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
     const double along = rail ? part.offset.x() : 0.0;
     own.region.u_min -= along;
     own.region.u_max -= along;
@@ -189,10 +192,12 @@ NaturalSurface join_surfaces(std::vector<SurfacePart> parts) {
   for (const SurfacePart& part : parts) {
     if (part.natural == nullptr) throw Error(ErrorKind::configuration, "a part of a body has no surface");
     const SurfaceSpec &spec = part.natural->spec, &first = parts.front().natural->spec;
-    if (spec.body != first.body || spec.nominal_radius != first.nominal_radius || spec.roller_radius != first.roller_radius)
+    if (spec.body != first.body || spec.nominal_radius != first.nominal_radius ||
+        spec.roller_radius != first.roller_radius)
       throw Error(ErrorKind::configuration, "the parts of a body must be of one kind and radius");
     if ((spec.body == Body::wheel || spec.roller_radius != 0.0) && (part.offset.x() != 0.0 || part.offset.z() != 0.0))
-      throw Error(ErrorKind::configuration, "parts of a wheel or roller must keep to its axle", {}, "offset them along y only");
+      throw Error(ErrorKind::configuration, "parts of a wheel or roller must keep to its axle", {},
+                  "offset them along y only");
     surfaces.push_back(placed(part.natural->surface, part.offset));
     natural.note += part.natural->note;
   }
@@ -205,7 +210,8 @@ NaturalSurface join_surfaces(std::vector<SurfacePart> parts) {
 }
 
 SliceSet move_section(const SurfaceSpec& section, const MovingSection& motion) {
-  if (const auto* points = std::get_if<Profile>(&section.shape)) return analytic::moving_section_slices(*points, motion);
+  if (const auto* points = std::get_if<Profile>(&section.shape))
+    return analytic::moving_section_slices(*points, motion);
   if (const auto* chain = std::get_if<ArcChain>(&section.shape))
     return analytic::moving_section_slices(analytic::sample_profile(*chain, section.body, kResampleStep), motion);
   if (const auto* standard = std::get_if<StandardProfile>(&section.shape))

@@ -6,8 +6,8 @@
 
 namespace treadmark {
 
-/// What create.hpp promises for surfaces that are made of others: rollers, which are wheels turned over, rings, which are rails bent
-/// upwards, and bodies of several surfaces. natural is such a surface.
+/// What create.hpp promises for surfaces that are made of others: rollers, which are wheels turned over, rings, which
+/// are rails bent upwards, and bodies of several surfaces. natural is such a surface.
 
 NaturalSurface create_roller(SurfaceSpec spec);
 NaturalSurface create_ring(SurfaceSpec spec);

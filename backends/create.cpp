@@ -40,7 +40,8 @@ bool is_formula(const SurfaceSpec& spec) {
 
 void require_same_body(Body shape, Body wanted, std::string_view what) {
   if (shape != wanted)
-    throw Error(ErrorKind::configuration, fmt::format("{} belongs to a {}, not to a {}", what, word(shape), word(wanted)));
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} belongs to a {}, not to a {}", what, word(shape), word(wanted)));
 }
 
 void check(const SurfaceSpec& spec) {
@@ -82,18 +83,21 @@ std::string words(const mesh::MeshRepair& repair) {
 std::shared_ptr<const Surface> slice_surface(const SliceSet& slices, double nominal_radius) {
   if (slices.kinks.empty()) return spline::make_slice_surface(slices, nominal_radius);
   std::vector<std::shared_ptr<const Surface>> parts;
-  for (const SliceSet& part : spline::split_at_kinks(slices)) parts.push_back(spline::make_slice_surface(part, nominal_radius));
+  for (const SliceSet& part : spline::split_at_kinks(slices))
+    parts.push_back(spline::make_slice_surface(part, nominal_radius));
   return assembly::outermost_of(std::move(parts));
 }
 
-std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats, std::string* note = nullptr) {
+std::shared_ptr<const Surface> undamaged(const SurfaceSpec& spec, const std::vector<WheelFlat>& flats,
+                                         std::string* note = nullptr) {
   if (const auto* standard = std::get_if<StandardProfile>(&spec.shape))
     return analytic::make_standard_surface(*standard, spec.body, spec.nominal_radius, flats);
   if (const auto* chain = std::get_if<ArcChain>(&spec.shape))
     return spec.body == Body::wheel ? analytic::make_revolved_surface(*chain, spec.nominal_radius, flats)
                                     : analytic::make_prismatic_surface(*chain);
   if (const auto* slices = std::get_if<SliceSet>(&spec.shape)) return slice_surface(*slices, spec.nominal_radius);
-  if (const auto* points = std::get_if<Profile>(&spec.shape)) return spline::make_profile_surface(*points, spec.nominal_radius);
+  if (const auto* points = std::get_if<Profile>(&spec.shape))
+    return spline::make_profile_surface(*points, spec.nominal_radius);
   mesh::MeshRepair repair;
   auto surface = mesh::make_mesh_surface(std::get<TriangleMesh>(spec.shape), spec.body, {}, &repair);
   if (note != nullptr) *note = words(repair);
@@ -109,8 +113,11 @@ std::shared_ptr<const Surface> make_natural(const SurfaceSpec& spec, std::string
 class Resampling {
  public:
   Resampling(const NaturalSurface& natural, const Representation& wanted)
-      : natural_(natural), spec_(natural.spec), region_(wanted.region),
-        resolution_(wanted.resolution > 0.0 ? wanted.resolution : kDefaultResolution), asked_(wanted.resolution > 0.0) {
+      : natural_(natural),
+        spec_(natural.spec),
+        region_(wanted.region),
+        resolution_(wanted.resolution > 0.0 ? wanted.resolution : kDefaultResolution),
+        asked_(wanted.resolution > 0.0) {
     if (!(wanted.resolution >= 0.0) || !std::isfinite(wanted.resolution))
       throw Error(ErrorKind::configuration, "the resolution of a surface must be positive");
   }
@@ -124,12 +131,12 @@ class Resampling {
       const auto* chain = std::get_if<ArcChain>(&spec_.shape);
       const auto* standard = std::get_if<StandardProfile>(&spec_.shape);
       if (chain != nullptr || standard != nullptr) {
-        const Profile profile =
-            chain != nullptr ? analytic::sample_profile(*chain, spec_.body, step) : analytic::sample_profile(*standard, step);
+        const Profile profile = chain != nullptr ? analytic::sample_profile(*chain, spec_.body, step)
+                                                 : analytic::sample_profile(*standard, step);
         resolution_ = step;
         if (spec_.defects.empty()) return spline::make_profile_surface(profile, spec_.nominal_radius);
-        return spline::make_slice_surface(analytic::sample_wheel(profile, spec_.nominal_radius, spec_.defects.flats, step),
-                                          spec_.nominal_radius);
+        return spline::make_slice_surface(
+            analytic::sample_wheel(profile, spec_.nominal_radius, spec_.defects.flats, step), spec_.nominal_radius);
       }
     }
     if (natural_.constant_profile()) return spline::make_profile_surface(section(), spec_.nominal_radius);
@@ -142,8 +149,8 @@ class Resampling {
     if (spec_.defects.empty() && !asked_ && (chain != nullptr || (standard != nullptr && standard->name == "60E1"))) {
       resolution_ = 0.0;
       limit_rail();
-      return spline::make_nurbs_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), spec_.body, spec_.nominal_radius,
-                                        region_.u_min, region_.u_max);
+      return spline::make_nurbs_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), spec_.body,
+                                        spec_.nominal_radius, region_.u_min, region_.u_max);
     }
     return spline::make_nurbs_surface(points(true));
   }
@@ -172,7 +179,8 @@ class Resampling {
   }
 
   /// Offsets and the undamaged surface below them; base_spec is that surface's description.
-  offset::OffsetSample offsets(std::shared_ptr<const Surface>& base, SurfaceSpec& base_spec, const SurfaceSpec* given = nullptr) {
+  offset::OffsetSample offsets(std::shared_ptr<const Surface>& base, SurfaceSpec& base_spec,
+                               const SurfaceSpec* given = nullptr) {
     const bool known = is_formula(spec_) || std::holds_alternative<Profile>(spec_.shape);
     base_spec.body = spec_.body;
     base_spec.nominal_radius = spec_.nominal_radius;
@@ -187,10 +195,12 @@ class Resampling {
       constexpr double kStations = 200.0;
       const double length = region_.u_max - region_.u_min;
       const double whole = spec_.body == Body::wheel ? 2.0 * 3.141592653589793 * spec_.nominal_radius : length;
-      const double along = spec_.body == Body::wheel && length < 7.0 ? length * spec_.nominal_radius : std::min(whole, length);
+      const double along =
+          spec_.body == Body::wheel && length < 7.0 ? length * spec_.nominal_radius : std::min(whole, length);
       s.spacing_u = std::max(resolution_, (std::isfinite(along) ? along : whole) / kStations);
-      base_spec.shape = sampling::median_section(kept(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s)),
-                                                 spec_.nominal_radius, "median section");
+      base_spec.shape = sampling::median_section(
+          kept(sampling::sample_points(*natural_.surface, spec_.body, spec_.nominal_radius, s)), spec_.nominal_radius,
+          "median section");
     }
     base = undamaged(base_spec, {});
     limit_rail();
@@ -237,22 +247,23 @@ class Resampling {
     constexpr double kMostContinued = 0.02;
     if (sample.gaps > 0)
       throw Error(ErrorKind::input_data,
-                  fmt::format("offsets cannot represent this {}: it has no surface at {} sections between others", word(spec_.body),
-                              sample.gaps),
+                  fmt::format("offsets cannot represent this {}: it has no surface at {} sections between others",
+                              word(spec_.body), sample.gaps),
                   {}, "use the backend 'mesh' for surfaces with gaps");
     if (static_cast<double>(sample.continued) > kMostContinued * static_cast<double>(sample.nodes))
       throw Error(ErrorKind::input_data,
                   fmt::format("offsets cannot represent this {}: {} of {} nodes over the base have no surface",
                               word(spec_.body), sample.continued, sample.nodes),
                   {}, "use the backend 'mesh' or 'spline' for surfaces with gaps");
-    if (sample.continued > 0) note_ += fmt::format("{} nodes at the ends of the profile continue their neighbours. ", sample.continued);
+    if (sample.continued > 0)
+      note_ += fmt::format("{} nodes at the ends of the profile continue their neighbours. ", sample.continued);
     note_ += fmt::format("{} active voxels, {:.3g} MB. ", sample.active,
                          1e-6 * static_cast<double>(offset::memory_bytes(*sample.offsets)));
     return sample;
   }
 
-  /// A spline through sections far apart, for rails that move aside: offsets over it are small, and its sides are where the
-  /// rail's are. Sides that no wheel can touch are left out: along them offsets would be large.
+  /// A spline through sections far apart, for rails that move aside: offsets over it are small, and its sides are where
+  /// the rail's are. Sides that no wheel can touch are left out: along them offsets would be large.
   std::shared_ptr<const Surface> following_base() {
     constexpr double kStationSteps = 40.0;
     const double apart = kStationSteps * resolution_;
@@ -311,7 +322,8 @@ class Resampling {
     if (natural_.constant_profile() && spec_.body == Body::rail) s.spacing_u = kLongStep * resolution_;
     // the rows of triangles begin half a step apart: begin earlier, so that the region itself is covered
     if (staggered) {
-      const double step = (s.spacing_u > 0.0 ? s.spacing_u : resolution_) / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
+      const double step =
+          (s.spacing_u > 0.0 ? s.spacing_u : resolution_) / (spec_.body == Body::wheel ? spec_.nominal_radius : 1.0);
       s.region.u_min -= step;
       s.region.u_max += step;
     }
@@ -357,8 +369,8 @@ bool is_natural(const NaturalSurface& natural, const Representation& wanted) {
 }  // namespace
 
 std::span<const std::string_view> backend_names() {
-  static constexpr std::array<std::string_view, 8> kNames{"analytic", "spline",           "nurbs",           "mesh",
-                                                          "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"};
+  static constexpr std::array<std::string_view, 8> kNames{
+      "analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"};
   return kNames;
 }
 
@@ -384,8 +396,8 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file) {
   offset::OffsetFile content = offset::read_vdb(file);
   check(content.base);
   NaturalSurface natural;
-  natural.surface =
-      offset::make_offset_surface(undamaged(content.base, {}), content.offsets, offset::Interpolation::bicubic, "offset");
+  natural.surface = offset::make_offset_surface(undamaged(content.base, {}), content.offsets,
+                                                offset::Interpolation::bicubic, "offset");
   // what lies below is known, but not what was added: it is resampled from the surface
   natural.spec.body = content.base.body;
   natural.spec.nominal_radius = content.base.nominal_radius;
@@ -409,14 +421,16 @@ RepresentedSurface represent(const NaturalSurface& natural, const Representation
   }
   Resampling sampling(natural, wanted);
   if (wanted.backend == "analytic")
-    throw Error(ErrorKind::configuration, "the backend 'analytic' needs a formula, not measured points, slices, triangles or offsets", {},
+    throw Error(ErrorKind::configuration,
+                "the backend 'analytic' needs a formula, not measured points, slices, triangles or offsets", {},
                 "use the backend 'spline', or a standard profile or arc chain");
   if (wanted.backend == "spline") out.surface = sampling.as_spline();
   if (wanted.backend == "nurbs") out.surface = sampling.as_nurbs();
   if (wanted.backend == "mesh") out.surface = sampling.as_mesh(mesh::Refinement::smooth, "mesh");
   if (wanted.backend == "mesh-flat") out.surface = sampling.as_mesh(mesh::Refinement::facets, "mesh-flat");
   if (wanted.backend == "offset") out.surface = sampling.as_offset(Interpolation::bicubic, "offset");
-  if (wanted.backend == "offset-quadratic") out.surface = sampling.as_offset(Interpolation::quadratic, "offset-quadratic");
+  if (wanted.backend == "offset-quadratic")
+    out.surface = sampling.as_offset(Interpolation::quadratic, "offset-quadratic");
   if (wanted.backend == "offset-bilinear") out.surface = sampling.as_offset(Interpolation::bilinear, "offset-bilinear");
   out.resampled = true;
   const Sampled sampled = sampling.sampled();
@@ -435,7 +449,8 @@ SurfaceDifference fit_error(const NaturalSurface& natural, const RepresentedSurf
     if (!std::isfinite(settings.region.u_min)) settings.region.u_min = -kDefaultHalfLength;
     if (!std::isfinite(settings.region.u_max)) settings.region.u_max = kDefaultHalfLength;
   }
-  return sampling::difference(*natural.surface, *represented.surface, natural.spec.body, natural.spec.nominal_radius, settings);
+  return sampling::difference(*natural.surface, *represented.surface, natural.spec.body, natural.spec.nominal_radius,
+                              settings);
 }
 
 std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::string_view backend) {
@@ -463,7 +478,8 @@ SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, 
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled, const SurfaceSpec* given_base, const std::string& notes) {
   if (natural.wheel_of_roller != nullptr || is_ring(natural))
-    throw Error(ErrorKind::configuration, "files of offsets hold rails and wheels, not rollers", {}, "write slices or triangles");
+    throw Error(ErrorKind::configuration, "files of offsets hold rails and wheels, not rollers", {},
+                "write slices or triangles");
   Resampling sampling(natural, wanted);
   std::shared_ptr<const Surface> base;
   offset::OffsetFile content;

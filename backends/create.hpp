@@ -20,8 +20,8 @@ namespace treadmark {
 
 using sampling::Region;
 
-/// The representations of this build: "analytic", "spline", "nurbs", "mesh" (smooth over the triangles), "mesh-flat" (the
-/// triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear".
+/// The representations of this build: "analytic", "spline", "nurbs", "mesh" (smooth over the triangles), "mesh-flat"
+/// (the triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear".
 std::span<const std::string_view> backend_names();
 
 /// Errors: Error(configuration) that lists the representations if this is none of them.
@@ -32,19 +32,20 @@ std::span<const std::string_view> standard_profile_names();
 
 struct SurfacePart;
 
-/// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles a mesh.
+/// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles
+/// a mesh.
 struct NaturalSurface {
-  SurfaceSpec spec;                        ///< what it was made from; of a file of offsets body and radius only
+  SurfaceSpec spec;  ///< what it was made from; of a file of offsets body and radius only
   std::shared_ptr<const Surface> surface;
-  std::string note;                        ///< repairs worth knowing; may be empty
+  std::string note;  ///< repairs worth knowing; may be empty
   /// Of a roller only: the wheel that it is when turned over, in the wheel's own frame.
   std::shared_ptr<const NaturalSurface> wheel_of_roller{};
-  std::vector<SurfacePart> parts{};        ///< of a body of several surfaces only
+  std::vector<SurfacePart> parts{};  ///< of a body of several surfaces only
   bool constant_profile() const { return surface->constant_profile(); }
 };
 
-/// Errors: Error(configuration) for a wheel without a positive nominal radius, a shape or defect that belongs to the other
-/// body, defects that make no sense; Error(input_data) when points, slices or triangles cannot be used.
+/// Errors: Error(configuration) for a wheel without a positive nominal radius, a shape or defect that belongs to the
+/// other body, defects that make no sense; Error(input_data) when points, slices or triangles cannot be used.
 NaturalSurface create_natural(SurfaceSpec spec);
 
 /// Offsets over their base from a .vdb file. Errors: Error(input_data) for a file that is not one of ours.
@@ -52,9 +53,11 @@ NaturalSurface read_offset_surface(const std::filesystem::path& file);
 
 /// Which representation, at what resolution, where.
 struct Representation {
-  std::string backend;       ///< of backend_names(); "" = the natural one
-  double resolution = 0.0;   ///< spacing of the samples [m]; 0 = none where the data serve directly, else kDefaultResolution
-  Region region;             ///< sampled part (of a roller u is the arc length); a rail without ends is limited to +-kDefaultHalfLength if this does not limit it
+  std::string backend;  ///< of backend_names(); "" = the natural one
+  double resolution =
+      0.0;        ///< spacing of the samples [m]; 0 = none where the data serve directly, else kDefaultResolution
+  Region region;  ///< sampled part (of a roller u is the arc length); a rail without ends is limited to
+                  ///< +-kDefaultHalfLength if this does not limit it
 };
 inline constexpr double kDefaultResolution = 0.5e-3;  ///< [m]
 inline constexpr double kDefaultHalfLength = 0.5;     ///< [m]
@@ -65,31 +68,31 @@ inline constexpr double kResampleStep = 0.25e-3;
 /// One of several surfaces that make up a body.
 struct SurfacePart {
   std::shared_ptr<const NaturalSurface> natural;
-  Vec3 offset = Vec3::Zero();   ///< of its frame in that of the body [m]
-  std::string backend;          ///< of backend_names(): it goes before what the whole body is asked for; "" = no wish
-  double resolution = 0.0;      ///< [m] 0 = no wish
+  Vec3 offset = Vec3::Zero();  ///< of its frame in that of the body [m]
+  std::string backend;         ///< of backend_names(): it goes before what the whole body is asked for; "" = no wish
+  double resolution = 0.0;     ///< [m] 0 = no wish
 };
 
-/// Several surfaces as one: the outermost one counts, see assembly::outermost_of. Represented, every part is sampled by itself;
-/// triangles and slices are those of the outer skin. Errors: Error(configuration) without parts, or for rails and wheels mixed,
-/// wheels out of their axle, or different nominal radii.
+/// Several surfaces as one: the outermost one counts, see assembly::outermost_of. Represented, every part is sampled by
+/// itself; triangles and slices are those of the outer skin. Errors: Error(configuration) without parts, or for rails
+/// and wheels mixed, wheels out of their axle, or different nominal radii.
 NaturalSurface join_surfaces(std::vector<SurfacePart> parts);
 
 struct RepresentedSurface {
   std::shared_ptr<const Surface> surface;
-  bool resampled = false;      ///< false: the natural surface itself
-  double resolution = 0.0;     ///< [m] 0 = as given
-  Region region;               ///< where the surface stands for the natural one
+  bool resampled = false;   ///< false: the natural surface itself
+  double resolution = 0.0;  ///< [m] 0 = as given
+  Region region;            ///< where the surface stands for the natural one
   double build_seconds = 0.0;
-  std::string note;            ///< repairs and limits worth knowing; may be empty
+  std::string note;  ///< repairs and limits worth knowing; may be empty
 };
 
-/// A rail whose section moves along the track, as slices; section: points, a standard profile or a chain of arcs of a rail.
-/// Errors: Error(configuration) for another shape, or a motion that makes no sense.
+/// A rail whose section moves along the track, as slices; section: points, a standard profile or a chain of arcs of a
+/// rail. Errors: Error(configuration) for another shape, or a motion that makes no sense.
 SliceSet move_section(const SurfaceSpec& section, const MovingSection& motion);
 
-/// Turns a surface into a representation. Errors: Error(configuration) for an unknown backend or one that cannot represent
-/// the shape; those of sampling and of the backends.
+/// Turns a surface into a representation. Errors: Error(configuration) for an unknown backend or one that cannot
+/// represent the shape; those of sampling and of the backends.
 RepresentedSurface represent(const NaturalSurface& natural, const Representation& wanted);
 
 /// How far the representation lies from what it was sampled from, over its region.
@@ -100,17 +103,18 @@ std::shared_ptr<const Surface> create_surface(const SurfaceSpec& spec, std::stri
 
 /// What a sampling covers.
 struct Sampled {
-  double resolution = 0.0;     ///< [m] 0 = as given
+  double resolution = 0.0;  ///< [m] 0 = as given
   Region region;
   std::string note;
 };
 
-/// A surface as data for other programs and for later, sampled as wanted (backend is not looked at): triangles and slices are
-/// written by io, offsets over their base go to a .vdb file. sampled is filled in if not null.
-/// Errors: those of represent; Error(configuration) for a file that cannot be written.
+/// A surface as data for other programs and for later, sampled as wanted (backend is not looked at): triangles and
+/// slices are written by io, offsets over their base go to a .vdb file. sampled is filled in if not null. Errors: those
+/// of represent; Error(configuration) for a file that cannot be written.
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
-/// base: below the offsets, a constant section of the same body and radius; null: the section without defects, or the median one.
+/// base: below the offsets, a constant section of the same body and radius; null: the section without defects, or the
+/// median one.
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled = nullptr, const SurfaceSpec* base = nullptr, const std::string& notes = {});
 

@@ -13,17 +13,15 @@
 
 namespace treadmark {
 
-/// Values as bytes of this machine's order, to be read again by ByteReader in the same order: for checkpoints, not for exchange.
-/// Floating-point numbers keep every bit. Not thread-safe.
+/// Values as bytes of this machine's order, to be read again by ByteReader in the same order: for checkpoints, not for
+/// exchange. Floating-point numbers keep every bit. Not thread-safe.
 class ByteWriter {
  public:
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
-  void put(T value) {
-    append(&value, sizeof value);
-  }
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  void put(T value) { append(&value, sizeof value); }
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void put(std::span<const T> values) {
     put(values.size());
     if (!values.empty()) append(values.data(), values.size_bytes());
@@ -45,11 +43,11 @@ class ByteReader {
   explicit ByteReader(std::span<const std::byte> bytes) : rest_(bytes) {}
 
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void get(T& value) {
     const auto bytes = take(sizeof value);
     if constexpr (std::is_same_v<T, bool>)
-      value = bytes.front() != std::byte{0};   // no other bytes are values of it
+      value = bytes.front() != std::byte{0};  // no other bytes are values of it
     else
       std::memcpy(&value, bytes.data(), sizeof value);
   }
@@ -60,7 +58,7 @@ class ByteReader {
     return value;
   }
   template <class T>
-    requires std::is_arithmetic_v<T> || std::is_enum_v<T>
+  requires std::is_arithmetic_v<T> || std::is_enum_v<T>
   void get(std::vector<T>& values) {
     const auto count = get<std::size_t>();
     if (count > rest_.size() / sizeof(T)) end_of_bytes();
@@ -75,7 +73,9 @@ class ByteReader {
   bool at_end() const { return rest_.empty(); }
 
  private:
-  [[noreturn]] static void end_of_bytes() { throw Error(ErrorKind::input_data, "a saved state ends too early", {}, "start anew"); }
+  [[noreturn]] static void end_of_bytes() {
+    throw Error(ErrorKind::input_data, "a saved state ends too early", {}, "start anew");
+  }
   std::span<const std::byte> take(std::size_t count) {
     if (count > rest_.size()) end_of_bytes();
     const auto taken = rest_.first(count);

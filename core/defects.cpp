@@ -26,7 +26,8 @@ class Shape {
     if (!good) throw Error(ErrorKind::configuration, name_ + ": " + what, {}, advice);
   }
   void finite(std::initializer_list<double> numbers) const {
-    require(std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }), "every number must be finite");
+    require(std::all_of(numbers.begin(), numbers.end(), [](double v) { return std::isfinite(v); }),
+            "every number must be finite");
   }
   void gentle(double slope, const char* what) const {
     require(slope <= kSteepest, what, "it must not be steeper than 45 degrees");
@@ -41,7 +42,8 @@ void check(const WheelFlat& f, double R, const Shape& shape) {
   const bool fresh = f.shape == WheelFlat::Shape::fresh;
   shape.require(f.length > 0.0, "the length must be positive");
   shape.require(f.length < (fresh ? 2.0 : 2.0 * kPi) * R, "the length must fit on the wheel");
-  shape.require(fresh || (f.depth > 0.0 && f.depth < 0.5 * R), "the depth must be positive and less than half the radius");
+  shape.require(fresh || (f.depth > 0.0 && f.depth < 0.5 * R),
+                "the depth must be positive and less than half the radius");
   shape.require(f.width >= 0.0, "the width must not be negative");
   if (!fresh) shape.gentle(f.depth * kPi / f.length, "the flat is too deep for its length");
   if (!fresh && f.width > 0.0) shape.gentle(f.depth * kPi / f.width, "the flat is too deep for its width");
@@ -78,7 +80,8 @@ void check(const Squat& s, double, const Shape& shape) {
   shape.require(s.second_distance >= 0.0, "the distance of the second dip must not be negative",
                 "the first dip is the one with the greater x");
   if (s.second_depth > 0.0)
-    dip(s.second_length > 0.0 ? s.second_length : s.length, s.second_width > 0.0 ? s.second_width : s.width, s.second_depth);
+    dip(s.second_length > 0.0 ? s.second_length : s.length, s.second_width > 0.0 ? s.second_width : s.width,
+        s.second_depth);
 }
 
 template <class Stretch>
@@ -160,11 +163,14 @@ void check_defects(const Defects& d, Body body, double nominal_radius) {
   if (body == Body::rail && !d.flats.empty())
     throw Error(ErrorKind::configuration, "flats belong to wheels, not to rails");
   if (body == Body::rail && !d.polygonizations.empty())
-    throw Error(ErrorKind::configuration, "polygonizations belong to wheels, not to rails", {}, "rails have corrugations");
+    throw Error(ErrorKind::configuration, "polygonizations belong to wheels, not to rails", {},
+                "rails have corrugations");
   if (body == Body::wheel && d.on_rail())
-    throw Error(ErrorKind::configuration,
-                "squats, corrugations, gauge-corner collapses, flattened heads and milling belong to rails, not to wheels");
-  if (d.on_wheel() && !(nominal_radius > 0.0)) throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
+    throw Error(
+        ErrorKind::configuration,
+        "squats, corrugations, gauge-corner collapses, flattened heads and milling belong to rails, not to wheels");
+  if (d.on_wheel() && !(nominal_radius > 0.0))
+    throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
   check_all(d.flats, "wheel.flats", nominal_radius);
   check_all(d.polygonizations, "wheel.polygonizations", nominal_radius);
   check_all(d.squats, "rail.squats", nominal_radius);

@@ -8,9 +8,10 @@
 
 namespace treadmark {
 
-/// Damage and machining of running surfaces, as parametrised shapes on any wheel or rail. All lengths in metres, angles in
-/// radians. Wheel shapes change the radius, rail shapes the height z (down): every depth is positive where material is gone.
-/// Lateral positions are profile coordinates y; width 0 = the whole profile. Formulas and pictures: docs/defects.md.
+/// Damage and machining of running surfaces, as parametrised shapes on any wheel or rail. All lengths in metres, angles
+/// in radians. Wheel shapes change the radius, rail shapes the height z (down): every depth is positive where material
+/// is gone. Lateral positions are profile coordinates y; width 0 = the whole profile. Formulas and pictures:
+/// docs/defects.md.
 
 /// A flat worn into a wheel.
 struct WheelFlat {
@@ -27,8 +28,8 @@ struct WheelFlat {
   friend bool operator==(const WheelFlat&, const WheelFlat&) = default;
 };
 
-/// An out-of-round wheel: dr(theta) = sum of amplitude cos(order theta - phase), over the lateral band of y_center, width.
-/// Order 1 is an eccentric wheel, order 2 an oval one; polygonal wheels have orders of about 6 to 30.
+/// An out-of-round wheel: dr(theta) = sum of amplitude cos(order theta - phase), over the lateral band of y_center,
+/// width. Order 1 is an eccentric wheel, order 2 an oval one; polygonal wheels have orders of about 6 to 30.
 struct Polygonization {
   struct Harmonic {
     int order = 0;           ///< waves round the circumference, >= 1
@@ -41,15 +42,16 @@ struct Polygonization {
   friend bool operator==(const Polygonization&, const Polygonization&) = default;
 };
 
-/// A squat: a kidney-like depression of the running band, with one dip or two behind each other (the typical two lungs).
-/// Each dip is depth/4 (1 + cos(2 pi x/length)) (1 + cos(2 pi y/width)) about its middle; where they overlap they add up.
+/// A squat: a kidney-like depression of the running band, with one dip or two behind each other (the typical two
+/// lungs). Each dip is depth/4 (1 + cos(2 pi x/length)) (1 + cos(2 pi y/width)) about its middle; where they overlap
+/// they add up.
 struct Squat {
-  double length = 0.0, width = 0.0, depth = 0.0;  ///< of the first (leading, greater x) or only dip; all > 0
-  double x_center = 0.0, y_center = 0.0;          ///< middle of the first dip
+  double length = 0.0, width = 0.0, depth = 0.0;   ///< of the first (leading, greater x) or only dip; all > 0
+  double x_center = 0.0, y_center = 0.0;           ///< middle of the first dip
   double second_length = 0.0, second_width = 0.0;  ///< 0 = as the first dip
   double second_depth = 0.0;                       ///< 0 = single dip
-  double second_distance = 0.0;  ///< from the first middle back (towards -x) to the second one
-  double second_y_offset = 0.0;  ///< lateral shift of the second middle
+  double second_distance = 0.0;                    ///< from the first middle back (towards -x) to the second one
+  double second_y_offset = 0.0;                    ///< lateral shift of the second middle
   friend bool operator==(const Squat&, const Squat&) = default;
 };
 
@@ -62,13 +64,13 @@ struct Corrugation {
   };
   std::vector<Wave> waves;
   double x_start = 0.0, x_end = 0.0, ramp = 0.0;  ///< ramp > 0, at most half of the stretch
-  double y_center = 0.0, width = 0.0;  ///< fades as a flat does
+  double y_center = 0.0, width = 0.0;             ///< fades as a flat does
   friend bool operator==(const Corrugation&, const Corrugation&) = default;
 };
 
-/// Gauge-corner collapse: the corner beyond y_start (towards gauge_side) sinks; depth grows smoothly from 0 at y_start to its
-/// greatest value at y_start + gauge_side * width, by 1/2 (1 - cos), and stays there. Along x a trough of the given length,
-/// 1/2 (1 + cos(2 pi x/length)).
+/// Gauge-corner collapse: the corner beyond y_start (towards gauge_side) sinks; depth grows smoothly from 0 at y_start
+/// to its greatest value at y_start + gauge_side * width, by 1/2 (1 - cos), and stays there. Along x a trough of the
+/// given length, 1/2 (1 + cos(2 pi x/length)).
 struct GaugeCornerCollapse {
   double length = 0.0, depth = 0.0, width = 0.0;
   double x_center = 0.0;
@@ -77,20 +79,20 @@ struct GaugeCornerCollapse {
   friend bool operator==(const GaugeCornerCollapse&, const GaugeCornerCollapse&) = default;
 };
 
-/// A flattened rail head: over the running band the crown is worn down to a plane across the rail. The plane touches the
-/// highest point of the base between x_start and x_end (highest as seen along the plane's own inclination) and sinks from
-/// there to depth below it over ramp, by t^2 (3 - 2 t); what lies above it is gone.
+/// A flattened rail head: over the running band the crown is worn down to a plane across the rail. The plane touches
+/// the highest point of the base between x_start and x_end (highest as seen along the plane's own inclination) and
+/// sinks from there to depth below it over ramp, by t^2 (3 - 2 t); what lies above it is gone.
 struct FlattenedHead {
   double x_start = 0.0, x_end = 0.0, ramp = 0.0;  ///< ramp at least 1.5 depth and at most half of the stretch
-  double depth = 0.0;   ///< along z below the highest point of the base
-  double roll = 0.0;    ///< inclination of the plane about x, within +-45 degrees
+  double depth = 0.0;                             ///< along z below the highest point of the base
+  double roll = 0.0;                              ///< inclination of the plane about x, within +-45 degrees
   friend bool operator==(const FlattenedHead&, const FlattenedHead&) = default;
 };
 
-/// Material milled off a rail: a cutter section swept along a path. The section is a chain of arcs in cutter coordinates
-/// (its lowest point usually at the origin, z down); everything above it is removed, between its two ends and between the
-/// first and the last station. Positions are interpolated between the stations by natural cubic splines. The section stands
-/// perpendicular to the x axis everywhere.
+/// Material milled off a rail: a cutter section swept along a path. The section is a chain of arcs in cutter
+/// coordinates (its lowest point usually at the origin, z down); everything above it is removed, between its two ends
+/// and between the first and the last station. Positions are interpolated between the stations by natural cubic
+/// splines. The section stands perpendicular to the x axis everywhere.
 struct MillingPath {
   struct Station {
     double x = 0.0, y = 0.0, z = 0.0;  ///< where the origin of the cutter section passes
@@ -101,7 +103,7 @@ struct MillingPath {
     double length = 0.0, curvature = 0.0;  ///< arc length; d(angle)/ds [1/m], as in ArcChain: a concave cutter has < 0
     friend bool operator==(const Segment&, const Segment&) = default;
   };
-  std::vector<Station> stations;  ///< at least two, x strictly increasing
+  std::vector<Station> stations;                           ///< at least two, x strictly increasing
   double start_y = 0.0, start_z = 0.0, start_angle = 0.0;  ///< of the section, which runs with increasing y
   std::vector<Segment> section;  ///< inclined by less than 80 degrees everywhere, also when rolled
   friend bool operator==(const MillingPath&, const MillingPath&) = default;
@@ -109,9 +111,9 @@ struct MillingPath {
 
 /// Everything that is wrong with one surface. Depths of several shapes add up; milling comes last.
 struct Defects {
-  std::vector<WheelFlat> flats{};                ///< wheel only
-  std::vector<Polygonization> polygonizations{}; ///< wheel only
-  std::vector<Squat> squats{};                   ///< the rest: rail only
+  std::vector<WheelFlat> flats{};                 ///< wheel only
+  std::vector<Polygonization> polygonizations{};  ///< wheel only
+  std::vector<Squat> squats{};                    ///< the rest: rail only
   std::vector<Corrugation> corrugations{};
   std::vector<GaugeCornerCollapse> gauge_corner_collapses{};
   std::vector<FlattenedHead> flattened_heads{};
@@ -126,9 +128,10 @@ struct Defects {
   friend bool operator==(const Defects&, const Defects&) = default;
 };
 
-/// Throws Error(configuration) for parameters that make no sense, naming the list and the number of the shape in it, counted
-/// from 0 as in overrides: "rail.squats[1]: ...". Wheel shapes on a rail and the reverse are refused too. Slopes of paths
-/// between the stations of a milling path are checked when the surface is made. nominal_radius: wheel only.
+/// Throws Error(configuration) for parameters that make no sense, naming the list and the number of the shape in it,
+/// counted from 0 as in overrides: "rail.squats[1]: ...". Wheel shapes on a rail and the reverse are refused too.
+/// Slopes of paths between the stations of a milling path are checked when the surface is made. nominal_radius: wheel
+/// only.
 void check_defects(const Defects& defects, Body body, double nominal_radius);
 
 }  // namespace treadmark

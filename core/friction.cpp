@@ -20,14 +20,16 @@ double FrictionLaw::at(double w) const {
     case Kind::rational:
       return kinetic + amplitude_1 / (1.0 + r1) + amplitude_2 / (1.0 + r2 * r2);
     case Kind::exponential:
-      return kinetic + amplitude_1 * std::exp(-std::numbers::ln2 * r1) + amplitude_2 * std::exp(-std::numbers::ln2 * r2);
+      return kinetic + amplitude_1 * std::exp(-std::numbers::ln2 * r1) +
+             amplitude_2 * std::exp(-std::numbers::ln2 * r2);
   }
   return kinetic;
 }
 
 double FrictionLaw::at_temperature(double temperature) const {
-  const double share = temperature_range > 0.0 ? (temperature - reference_temperature) / temperature_range
-                                               : temperature > reference_temperature ? 1.0 : 0.0;
+  const double share = temperature_range > 0.0               ? (temperature - reference_temperature) / temperature_range
+                       : temperature > reference_temperature ? 1.0
+                                                             : 0.0;
   return kinetic + temperature_change * std::clamp(share, 0.0, 1.0);
 }
 

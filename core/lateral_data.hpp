@@ -14,7 +14,8 @@ class LateralData {
   virtual std::vector<double> data_v() const = 0;
 };
 
-/// Mark of surfaces whose lateral parameter v is arc length along their profile [m], zero where the profile's data have it.
+/// Mark of surfaces whose lateral parameter v is arc length along their profile [m], zero where the profile's data have
+/// it.
 class ArcLengthParameter {
  public:
   virtual ~ArcLengthParameter() = default;

@@ -25,8 +25,8 @@ struct ThermalProperties {
 };
 struct Thermal {
   ThermalProperties body_1, body_2;
-  double plastic_fraction = 1.0;   ///< of plastic work that becomes heat
-  bool reference_quirks = false;   ///< numbers as the reference program computes them (solvers/kalker/heat)
+  double plastic_fraction = 1.0;  ///< of plastic work that becomes heat
+  bool reference_quirks = false;  ///< numbers as the reference program computes them (solvers/kalker/heat)
 };
 
 /// The pair of half-spaces seen as one (Kalker 1990): displacement difference u = u_1 - u_2 = (1/G) C p.

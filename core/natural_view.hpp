@@ -9,8 +9,8 @@
 
 namespace treadmark {
 
-/// The plane whose heights are the natural ones at station u: z of a rail over (x - u, y), the radius of a wheel over y at
-/// theta = u (x along the circumference).
+/// The plane whose heights are the natural ones at station u: z of a rail over (x - u, y), the radius of a wheel over y
+/// at theta = u (x along the circumference).
 Pose natural_plane(Body body, double u);
 
 /// Heights z or radii r at lateral positions y of one station, NaN where there is no surface; slopes may be empty.

@@ -22,8 +22,8 @@ class ThreadLimit {
 /// Number of threads parallel_for may use now.
 int thread_count();
 
-/// Calls body(i) once for every i in [0, count), in any order, on any thread. Each call must write only its own results,
-/// so that the outcome does not depend on the number of threads. The first exception of a body is rethrown.
+/// Calls body(i) once for every i in [0, count), in any order, on any thread. Each call must write only its own
+/// results, so that the outcome does not depend on the number of threads. The first exception of a body is rethrown.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 }  // namespace treadmark

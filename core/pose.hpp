@@ -14,8 +14,8 @@ using Mat3 = Eigen::Matrix3d;
 /// Rigid pose of a frame B in a frame A: p_A = origin + rotation * p_B. Written X_AB.
 /// All frames are right-handed; see core/README.md for axes and signs.
 struct Pose {
-  Vec3 origin = Vec3::Zero();           ///< origin of B in A [m]
-  Mat3 rotation = Mat3::Identity();     ///< axes of B in A (columns)
+  Vec3 origin = Vec3::Zero();        ///< origin of B in A [m]
+  Mat3 rotation = Mat3::Identity();  ///< axes of B in A (columns)
 
   Vec3 apply(const Vec3& p_B) const { return origin + rotation * p_B; }
   Vec3 apply_inverse(const Vec3& p_A) const { return rotation.transpose() * (p_A - origin); }

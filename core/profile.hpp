@@ -17,18 +17,18 @@ struct SmoothingOptions {
     weighted_bspline = 2,  ///< weighted least-squares B-spline with f''' penalty, strength = cut-off wavelength [m]
   };
   Method method = Method::spline;
-  double strength = 0.0;                     ///< 0 = interpolate; unit by method, see above
-  double kink_high = 0.5235987755982988;     ///< turning angle above which a point may be a kink [rad]
-  double kink_low = 0.10471975511965977;     ///< turning angle below which its neighbours must stay [rad]
-  double kink_width = 2e-3;                  ///< arc length on both sides in which neighbours are looked at [m]
+  double strength = 0.0;                  ///< 0 = interpolate; unit by method, see above
+  double kink_high = 0.5235987755982988;  ///< turning angle above which a point may be a kink [rad]
+  double kink_low = 0.10471975511965977;  ///< turning angle below which its neighbours must stay [rad]
+  double kink_width = 2e-3;               ///< arc length on both sides in which neighbours are looked at [m]
 };
 
 /// A cleaned lateral cross-section in profile coordinates: y to the right [m], z down [m].
 /// Rail points run with increasing y, wheel points with decreasing y (flange at negative y with positive z).
 struct Profile {
   Body body = Body::rail;
-  std::vector<double> y, z;      ///< [m], same size >= 2
-  std::string name;              ///< where it comes from, for messages
+  std::vector<double> y, z;  ///< [m], same size >= 2
+  std::string name;          ///< where it comes from, for messages
   SmoothingOptions smoothing;
 };
 

@@ -14,16 +14,17 @@ namespace treadmark {
 struct SliceSet {
   Body body = Body::rail;
   std::string name;
-  std::vector<double> u;                      ///< strictly increasing: [m] rail, [rad] wheel
-  std::vector<Profile> profiles;              ///< one per u
-  bool approximate_u = false;                 ///< false: interpolate the slices in u; true: slices are control points
+  std::vector<double> u;          ///< strictly increasing: [m] rail, [rad] wheel
+  std::vector<Profile> profiles;  ///< one per u
+  bool approximate_u = false;     ///< false: interpolate the slices in u; true: slices are control points
   /// Arc-length positions of features, measured from the first point of each slice [m]; NaN = feature missing.
   /// Empty: one part that covers the whole profile. Otherwise features[i].size() is the same for every slice i.
   std::vector<std::vector<double>> features;
-  /// Features (indices into features[i], neither the first nor the last, increasing) along which the surface may turn sharply.
+  /// Features (indices into features[i], neither the first nor the last, increasing) along which the surface may turn
+  /// sharply.
   std::vector<int> kinks;
-  /// Wheel with slices all round: false = smooth over the seam, as if slices went on for ever; true = constant between the last and
-  /// the first slice.
+  /// Wheel with slices all round: false = smooth over the seam, as if slices went on for ever; true = constant between
+  /// the last and the first slice.
   bool open_seam = false;
 };
 

@@ -6,7 +6,8 @@
 
 namespace treadmark {
 
-/// Adds the time of the computer from its making to its end to a total [s], which must outlive it. Not to be shared between threads.
+/// Adds the time of the computer from its making to its end to a total [s], which must outlive it. Not to be shared
+/// between threads.
 class Stopwatch {
  public:
   explicit Stopwatch(double& total) : total_(total), start_(Clock::now()) {}

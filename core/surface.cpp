@@ -13,8 +13,9 @@ namespace {
 void require_sizes(const HeightsOut& out, std::size_t wanted, const char* caller) {
   for (const auto array : {out.z, out.dzdx, out.dzdy})
     if (!array.empty() && array.size() != wanted)
-      throw Error(ErrorKind::configuration, std::string("an output array of ") + caller + " has " + std::to_string(array.size()) +
-                                                " entries, wanted are " + std::to_string(wanted));
+      throw Error(ErrorKind::configuration, std::string("an output array of ") + caller + " has " +
+                                                std::to_string(array.size()) + " entries, wanted are " +
+                                                std::to_string(wanted));
 }
 
 std::span<double> one(std::span<double> array, std::size_t i) { return array.empty() ? array : array.subspan(i, 1); }
@@ -36,12 +37,12 @@ void Surface::heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const
 
 void Surface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
   for (std::size_t i = 0; i < points_P.size(); ++i)
-    do_heights({X_SP, {points_P[i].x(), points_P[i].y(), 1.0, 1.0, 1, 1}}, {one(out.z, i), one(out.dzdx, i), one(out.dzdy, i)});
+    do_heights({X_SP, {points_P[i].x(), points_P[i].y(), 1.0, 1.0, 1, 1}},
+               {one(out.z, i), one(out.dzdx, i), one(out.dzdy, i)});
 }
 
 void Surface::locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
-  if (points_P.size() != out.size())
-    throw Error(ErrorKind::configuration, "locate() needs as many results as points");
+  if (points_P.size() != out.size()) throw Error(ErrorKind::configuration, "locate() needs as many results as points");
   do_locate(X_SP, points_P, out);
 }
 
@@ -52,9 +53,11 @@ HeightBounds Surface::height_bounds(const Pose& X_SP, const Rectangle& r) const 
 }
 
 void Surface::height_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const {
-  if (!(r.first.x_max >= r.first.x_min) || !(r.first.y_max >= r.first.y_min) || !(r.step_x > 0.0) || !(r.step_y > 0.0) || r.nx < 1 || r.ny < 1)
+  if (!(r.first.x_max >= r.first.x_min) || !(r.first.y_max >= r.first.y_min) || !(r.step_x > 0.0) ||
+      !(r.step_y > 0.0) || r.nx < 1 || r.ny < 1)
     throw Error(ErrorKind::configuration, "height_bounds() needs rectangles with min <= max and positive steps");
-  if (out.size() != r.size()) throw Error(ErrorKind::configuration, "height_bounds() needs as many results as rectangles");
+  if (out.size() != r.size())
+    throw Error(ErrorKind::configuration, "height_bounds() needs as many results as rectangles");
   do_grid_bounds(X_SP, r, out);
 }
 

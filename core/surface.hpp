@@ -33,10 +33,10 @@ enum class LocateStatus : std::uint8_t {
 /// What inverse evaluation finds at one point.
 struct SurfacePoint {
   LocateStatus status = LocateStatus::outside;
-  double u = 0.0, v = 0.0;            ///< surface parameters (u longitudinal: x [m] or theta [rad]; v lateral, backend's own)
-  Vec3 position_S = Vec3::Zero();     ///< [m], surface frame
-  Vec3 normal_S = Vec3::Zero();       ///< unit, out of the material
-  double curvature_1 = 0.0;           ///< principal curvatures [1/m], positive for a convex body; curvature_1 >= curvature_2
+  double u = 0.0, v = 0.0;  ///< surface parameters (u longitudinal: x [m] or theta [rad]; v lateral, backend's own)
+  Vec3 position_S = Vec3::Zero();  ///< [m], surface frame
+  Vec3 normal_S = Vec3::Zero();    ///< unit, out of the material
+  double curvature_1 = 0.0;  ///< principal curvatures [1/m], positive for a convex body; curvature_1 >= curvature_2
   double curvature_2 = 0.0;
 };
 
@@ -70,8 +70,9 @@ struct HeightBounds {
 };
 
 /// An arbitrary 3D wheel or rail surface in its own frame S.
-/// Rail: x along the track, y to the right, z down. Wheel: origin on the axle, y along the axle, x = r sin(theta), z = r cos(theta).
-/// All queries are const, safe to call from any number of threads, and independent of the number of threads.
+/// Rail: x along the track, y to the right, z down. Wheel: origin on the axle, y along the axle, x = r sin(theta), z =
+/// r cos(theta). All queries are const, safe to call from any number of threads, and independent of the number of
+/// threads.
 class Surface {
  public:
   virtual ~Surface() = default;

@@ -20,7 +20,8 @@ struct StandardProfile {
 
 /// A tangent-continuous chain of circular arcs and straight lines, symmetric or not, in profile coordinates.
 /// Segments run with increasing y from (start_y, start_z) with initial inclination start_angle (atan(dz/dy)) [rad].
-/// curvature > 0 bends towards +z (a rail crown is convex upwards, so its z grows on both sides of the crown: curvature > 0).
+/// curvature > 0 bends towards +z (a rail crown is convex upwards, so its z grows on both sides of the crown: curvature
+/// > 0).
 struct ArcChain {
   struct Segment {
     double length = 0.0;     ///< arc length [m]
@@ -37,9 +38,10 @@ struct SurfaceSpec {
   double nominal_radius = 0.0;  ///< wheel: radius at profile z = 0 [m]; rail: unused
   std::variant<Profile, SliceSet, StandardProfile, ArcChain, TriangleMesh> shape;
   Defects defects;
-  /// Rail: 0, or the nominal radius of a roller [m]: the profile turned about an axle parallel to y at z = roller_radius, with
-  /// profile z = 0 at that radius. x of slices and defects is then the arc length at that radius, 0 at the top.
-  /// Negative: a ring with the material outside, in which a wheel runs; its axle lies above. Slices and defects do not fit it.
+  /// Rail: 0, or the nominal radius of a roller [m]: the profile turned about an axle parallel to y at z =
+  /// roller_radius, with profile z = 0 at that radius. x of slices and defects is then the arc length at that radius, 0
+  /// at the top. Negative: a ring with the material outside, in which a wheel runs; its axle lies above. Slices and
+  /// defects do not fit it.
   double roller_radius = 0.0;
 };
 

@@ -13,8 +13,8 @@ namespace treadmark {
 
 /// Triangles over shared vertices, in the surface frame. Orientation: counter-clockwise seen from outside the material.
 struct TriangleMesh {
-  std::string name;              ///< where it comes from, for messages
-  std::vector<Vec3> vertices;    ///< [m]
+  std::string name;            ///< where it comes from, for messages
+  std::vector<Vec3> vertices;  ///< [m]
   std::vector<std::array<std::uint32_t, 3>> triangles;
 };
 

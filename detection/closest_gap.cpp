@@ -31,14 +31,17 @@ double vertex(const GapField& field, int ix, int iy) {
   const Grid2& g = field.grid();
   const double here = field.gap(ix, iy);
   if (ix < 1 || iy < 1 || ix + 1 >= g.nx || iy + 1 >= g.ny) return here;
-  const double west = field.gap(ix - 1, iy), east = field.gap(ix + 1, iy), south = field.gap(ix, iy - 1), north = field.gap(ix, iy + 1);
+  const double west = field.gap(ix - 1, iy), east = field.gap(ix + 1, iy), south = field.gap(ix, iy - 1),
+               north = field.gap(ix, iy + 1);
   const double slope_x = 0.5 * (east - west), slope_y = 0.5 * (north - south);
   const double xx = east - 2.0 * here + west, yy = north - 2.0 * here + south;
-  const double xy = 0.25 * (field.gap(ix + 1, iy + 1) - field.gap(ix - 1, iy + 1) - field.gap(ix + 1, iy - 1) + field.gap(ix - 1, iy - 1));
+  const double xy = 0.25 * (field.gap(ix + 1, iy + 1) - field.gap(ix - 1, iy + 1) - field.gap(ix + 1, iy - 1) +
+                            field.gap(ix - 1, iy - 1));
   const double determinant = xx * yy - xy * xy;
   if (!(xx > 0.0 && determinant > 0.0)) return here;
-  const double step_x = -(yy * slope_x - xy * slope_y) / determinant, step_y = -(xx * slope_y - xy * slope_x) / determinant;
-  constexpr double kFarthest = 1.0;   // beyond the neighbours it is no paraboloid
+  const double step_x = -(yy * slope_x - xy * slope_y) / determinant,
+               step_y = -(xx * slope_y - xy * slope_x) / determinant;
+  constexpr double kFarthest = 1.0;  // beyond the neighbours it is no paraboloid
   if (!(std::abs(step_x) <= kFarthest && std::abs(step_y) <= kFarthest)) return here;
   return here + 0.5 * (slope_x * step_x + slope_y * step_y);
 }

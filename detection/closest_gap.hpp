@@ -8,8 +8,8 @@ namespace treadmark::detection {
 
 /// The least gap lies between the points of a grid; the gap near it is a parabola.
 
-/// Vertex of the parabola through three values at equal steps, the middle one the least; the middle one where they bend the wrong way or
-/// one is missing.
+/// Vertex of the parabola through three values at equal steps, the middle one the least; the middle one where they bend
+/// the wrong way or one is missing.
 double vertex(double before, double here, double after);
 
 /// The same of the paraboloid through a point of least gap and its eight neighbours.

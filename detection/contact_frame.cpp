@@ -12,7 +12,8 @@
 namespace treadmark::detection {
 namespace {
 
-// Arc length along the rail's section x = x_T from y_from to y_to, signed. The surface may end before y_to: straight on then.
+// Arc length along the rail's section x = x_T from y_from to y_to, signed. The surface may end before y_to: straight on
+// then.
 double arc_length(const BodyPair& bodies, double x_T, double y_from, double y_to) {
   constexpr double kStep = 5e-5;
   const double length = y_to - y_from;
@@ -39,7 +40,10 @@ ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch) {
   if (std::abs(std::abs(frame.angle) - kSteepest) < kMargin)
     frame.angle = std::copysign(kSteepest - kMargin, frame.angle);
   const double z = height_at(*bodies.rail, bodies.X_TR.inverse(), {patch.x, patch.y});
-  if (std::isnan(z)) throw Error(ErrorKind::numerical, "the rail has no surface at the contact reference point: there is a hole in its data, or contact lies beyond its edge");
+  if (std::isnan(z))
+    throw Error(ErrorKind::numerical,
+                "the rail has no surface at the contact reference point: there is a hole in its data, or contact lies "
+                "beyond its edge");
   frame.X_TC = {{patch.x, patch.y, z}, rotation_x(frame.angle)};
   return frame;
 }
@@ -56,7 +60,8 @@ Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, 
   const auto first = [](double low, double step) { return std::floor(low / step) - 1.0; };
   const auto last = [](double high, double step) { return std::ceil(high / step) + 1.0; };
   const auto count = [&](double low, double high, double step) { return last(high, step) - first(low, step) + 1.0; };
-  for (bool double_x = true; settings.max_elements > 0 && count(x_low, x_high, dx) * count(s_low, s_high, ds) >= settings.max_elements;
+  for (bool double_x = true;
+       settings.max_elements > 0 && count(x_low, x_high, dx) * count(s_low, s_high, ds) >= settings.max_elements;
        double_x = !double_x) {
     constexpr double kFewest = 10.0;
     const bool x_can = count(x_low, x_high, dx) > kFewest, s_can = count(s_low, s_high, ds) > kFewest;
@@ -68,7 +73,8 @@ Grid2 potential_contact_grid(const BodyPair& bodies, const ContactPatch& patch, 
   }
   constexpr double kMostElements = 1e7;
   if (!(count(x_low, x_high, dx) * count(s_low, s_high, ds) < kMostElements))
-    throw Error(ErrorKind::configuration, "the potential contact area would have more than 10 million elements", {}, "use larger dx, ds");
+    throw Error(ErrorKind::configuration, "the potential contact area would have more than 10 million elements", {},
+                "use larger dx, ds");
   Grid2 grid;
   grid.dx = dx;
   grid.dy = ds;

@@ -11,7 +11,7 @@ namespace treadmark::detection {
 /// profile, n into the rail; T rolled by the contact angle.
 struct ContactFrame {
   Pose X_TC;
-  double angle = 0.0;   ///< contact angle [rad]
+  double angle = 0.0;  ///< contact angle [rad]
 };
 
 /// Contact frame of a patch. Errors: Error(numerical) if the rail has no surface at the contact reference.
@@ -20,8 +20,8 @@ ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch);
 struct PotentialContactSettings {
   double dx = 0.0, ds = 0.0;  ///< element sizes [m]
   int max_elements = 20000;   ///< above it dx and ds are doubled in turn; 0: they stay as they are
-  /// Where the contact reference lies in the axes of the grid [m]: elements lie at whole multiples of dx, ds from another origin, so
-  /// that the grids of a sequence in time line up.
+  /// Where the contact reference lies in the axes of the grid [m]: elements lie at whole multiples of dx, ds from
+  /// another origin, so that the grids of a sequence in time line up.
   Vec2 reference = Vec2::Zero();
 };
 

@@ -22,7 +22,8 @@ struct SilhouettePoint {
 /// Silhouettes of circles of the wheel: R (sin t, -r', cos t) has no x part.
 class Silhouette {
  public:
-  explicit Silhouette(const Pose& X_TW) : X_(X_TW), length_(std::hypot(R(0, 0), R(0, 2))), cosine_(R(0, 0) / length_), sine_(R(0, 2) / length_) {
+  explicit Silhouette(const Pose& X_TW)
+      : X_(X_TW), length_(std::hypot(R(0, 0), R(0, 2))), cosine_(R(0, 0) / length_), sine_(R(0, 2) / length_) {
     side_ = R(2, 2) * cosine_ - R(2, 0) * sine_ >= 0.0 ? 1.0 : -1.0;  // of the two, the point that faces down
   }
 
@@ -30,7 +31,8 @@ class Silhouette {
     const double turned_sine = R(0, 1) * by_y / length_, square = 1.0 - turned_sine * turned_sine;
     if (!(square > 0.0)) return {kNaN, kNaN, kNaN, kNaN, kNaN, y};
     const double turned_cosine = side_ * std::sqrt(square);
-    const double sine = turned_sine * cosine_ - turned_cosine * sine_, cosine = turned_cosine * cosine_ + turned_sine * sine_;
+    const double sine = turned_sine * cosine_ - turned_cosine * sine_,
+                 cosine = turned_cosine * cosine_ + turned_sine * sine_;
     const Vec3 p = X_.apply({r * sine, y, r * cosine}), n = X_.rotation * Vec3(sine, -by_y, cosine);
     // Second derivative of the distance to the surface along x, over the normal's z part: the curve z(x) at one y.
     const double bend = length_ * length_ * square / r - by_yy * R(0, 1) * R(0, 1);
@@ -47,8 +49,15 @@ class Silhouette {
 /// A wheel of revolution from samples of its profile at equal steps, cubic between them.
 class SampledWheel {
  public:
-  SampledWheel(const Pose& X_TW, double first, double step, const std::vector<double>& r, const std::vector<double>& by_y)
-      : X_(X_TW), down_(X_TW.rotation.row(2)), first_(first), inverse_step_(1.0 / step), step_(step), r_(r), by_y_(by_y) {}
+  SampledWheel(const Pose& X_TW, double first, double step, const std::vector<double>& r,
+               const std::vector<double>& by_y)
+      : X_(X_TW),
+        down_(X_TW.rotation.row(2)),
+        first_(first),
+        inverse_step_(1.0 / step),
+        step_(step),
+        r_(r),
+        by_y_(by_y) {}
 
   /// Height over (x, y) by Newton's method from a near one; NaN off the profile.
   double height(double x, double y, double z) const {
@@ -58,9 +67,11 @@ class SampledWheel {
       const double place = (q.y() - first_) * inverse_step_;
       if (!(place >= 0.0 && place <= static_cast<double>(r_.size() - 1))) return kNaN;
       const std::size_t k = std::min(static_cast<std::size_t>(place), r_.size() - 2);
-      const double f = place - static_cast<double>(k), rise = r_[k + 1] - r_[k], a = by_y_[k] * step_, b = by_y_[k + 1] * step_;
+      const double f = place - static_cast<double>(k), rise = r_[k + 1] - r_[k], a = by_y_[k] * step_,
+                   b = by_y_[k + 1] * step_;
       const double c2 = 3.0 * rise - 2.0 * a - b, c3 = a + b - 2.0 * rise;
-      const double radius = r_[k] + f * (a + f * (c2 + f * c3)), slope = (a + f * (2.0 * c2 + 3.0 * f * c3)) * inverse_step_;
+      const double radius = r_[k] + f * (a + f * (c2 + f * c3)),
+                   slope = (a + f * (2.0 * c2 + 3.0 * f * c3)) * inverse_step_;
       const double distance = std::sqrt(q.x() * q.x() + q.z() * q.z());
       z -= (distance - radius) / ((q.x() * down_.x() + q.z() * down_.z()) / distance - slope * down_.y());
     }
@@ -87,7 +98,8 @@ double row_weight(PenetrationWeight weight, double c, double half) {
 bool ContactLocus::applies(const BodyPair& bodies) {
   constexpr double kStraight = 1e-12;
   const Vec3 along = bodies.X_TR.rotation.col(0);
-  return bodies.rail->constant_profile() && bodies.wheel->constant_profile() && std::hypot(along.y(), along.z()) < kStraight;
+  return bodies.rail->constant_profile() && bodies.wheel->constant_profile() &&
+         std::hypot(along.y(), along.z()) < kStraight;
 }
 
 ContactLocus::ContactLocus(const BodyPair& bodies, const Grid2& g)
@@ -112,8 +124,10 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
   const Silhouette silhouette(bodies_.X_TW);
   SilhouettePoint a{kNaN, kNaN, kNaN, kNaN, kNaN, kNaN};
   for (std::size_t i = 0; i < n; ++i) {
-    const std::size_t before = i > 0 && !std::isnan(r[i - 1]) ? i - 1 : i, after = i + 1 < n && !std::isnan(r[i + 1]) ? i + 1 : i;
-    const double by_yy = after > before ? (by_y[after] - by_y[before]) / (s.step * static_cast<double>(after - before)) : 0.0;
+    const std::size_t before = i > 0 && !std::isnan(r[i - 1]) ? i - 1 : i,
+                      after = i + 1 < n && !std::isnan(r[i + 1]) ? i + 1 : i;
+    const double by_yy =
+        after > before ? (by_y[after] - by_y[before]) / (s.step * static_cast<double>(after - before)) : 0.0;
     const SilhouettePoint b = silhouette.at(s.y(i), r[i], by_y[i], by_yy);
     const double rise = b.y - a.y;
     if (std::abs(rise) > 1e-3 * s.step) {
@@ -127,7 +141,8 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
       const double end_a = wall ? secant : a.slope * rise, end_b = wall ? secant : b.slope * rise;
       for (int row = first; row <= last; ++row) {
         const double f = std::clamp((rows.y(row) - a.y) / rise, 0.0, 1.0);
-        const double z = a.z + f * (end_a + f * (3.0 * secant - 2.0 * end_a - end_b + f * (end_a + end_b - 2.0 * secant)));
+        const double z =
+            a.z + f * (end_a + f * (3.0 * secant - 2.0 * end_a - end_b + f * (end_a + end_b - 2.0 * secant)));
         const auto k = static_cast<std::size_t>(row);
         const double x = a.x + f * (b.x - a.x);
         if (z <= wheel_z[k] || !(x >= x_low_ && x <= x_high_)) continue;
@@ -147,7 +162,8 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
     for (std::size_t k = 0; k < m; ++k) {
       if (std::isnan(wheel_z[k])) continue;
       const double y = rows.y(static_cast<int>(k)), guess = wheel_z[k] - 0.5 * kReach * kReach / line.radius[k];
-      const double before = wheel.height(line.x[k] - kReach, y, guess), behind = wheel.height(line.x[k] + kReach, y, guess);
+      const double before = wheel.height(line.x[k] - kReach, y, guess),
+                   behind = wheel.height(line.x[k] + kReach, y, guess);
       const double drop = wheel_z[k] - 0.5 * (before + behind);
       if (!(drop > 0.0)) continue;
       line.radius[k] = 0.5 * (kReach * kReach + drop * drop) / drop;
@@ -161,7 +177,9 @@ ContactLocus::Outline ContactLocus::trace(const Rows& rows, const SampledProfile
     line.least = std::fmin(line.least, line.gap[k]);
     if (line.gap[k] == line.least) deepest = k;
   }
-  line.closest = deepest > 0 && deepest + 1 < m ? vertex(line.gap[deepest - 1], line.gap[deepest], line.gap[deepest + 1]) : line.least;
+  line.closest = deepest > 0 && deepest + 1 < m
+                     ? vertex(line.gap[deepest - 1], line.gap[deepest], line.gap[deepest + 1])
+                     : line.least;
   if (wheel_y_.empty()) wheel_y_ = std::move(wheel_y);
   return line;
 }
@@ -188,8 +206,8 @@ const ContactLocus::Outline& ContactLocus::fine_outline(int first_row, int last_
   return fine_.back().outline;
 }
 
-void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
-                              Found& found) const {
+void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight,
+                              bool at_deepest, Found& found) const {
   const Rows& rows = fine.rows;
   const auto gap = [&](int i) { return fine.gap[static_cast<std::size_t>(i)] - wheel_dz; };
   const auto rail_z = [&](double y) {
@@ -228,7 +246,8 @@ void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_
     double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
     for (; i < rows.count && gap(i) < 0.0; last = i++) {
       const auto j = static_cast<std::size_t>(i);
-      const double c = -gap(i), half = std::sqrt(c * std::max(0.0, 2.0 * fine.radius[j] - c)), w = row_weight(weight, c, half);
+      const double c = -gap(i), half = std::sqrt(c * std::max(0.0, 2.0 * fine.radius[j] - c)),
+                   w = row_weight(weight, c, half);
       sum += w;
       const double shift = fine.cubic[j] * half * half * fine.radius[j];  // of both ends
       sum_x += w * (fine.x[j] + middle_share(weight) * shift);
@@ -263,7 +282,9 @@ void ContactLocus::weigh_fine(const Outline& fine, double wheel_dz, double near_
 ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight,
                                      bool reference_at_deepest) {
   const Rows& rows = outline_.rows;
-  const auto gap = [&](int i) { return i >= 0 && i < rows.count ? outline_.gap[static_cast<std::size_t>(i)] - wheel_dz : kNaN; };
+  const auto gap = [&](int i) {
+    return i >= 0 && i < rows.count ? outline_.gap[static_cast<std::size_t>(i)] - wheel_dz : kNaN;
+  };
   Found found;
   double closest = kNaN;
   // Where the bodies do not touch, all rows are looked at closely that may hold the least gap between them.
@@ -280,7 +301,8 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
     const Outline& fine = fine_outline(std::max(0, first - 1), std::min(rows.count - 1, i + 1));
     closest = std::fmin(closest, fine.closest - wheel_dz);
     // On steep flanks a shallow contact may lie deeper below the rows than that.
-    if (gap(first) < look_below || fine.closest < wheel_dz) weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
+    if (gap(first) < look_below || fine.closest < wheel_dz)
+      weigh_fine(fine, wheel_dz, near_miss_gap, weight, reference_at_deepest, found);
   }
   // As in the grid search: deepest first, two near misses at most.
   const auto deeper = [](const ContactPatch& a, const ContactPatch& b) { return a.least_gap < b.least_gap; };

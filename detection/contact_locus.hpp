@@ -11,9 +11,9 @@
 
 namespace treadmark::detection {
 
-/// Where a round wheel comes closest to a prismatic rail: on every circle of the wheel the point whose normal has no part
-/// along the rail (Li 2002; Vollebregt 2022 on 3D wheel and rail surfaces). Seen along z of T these points make the
-/// wheel's outline over the lateral position, so that the search is one-dimensional; along x the gap is that of the
+/// Where a round wheel comes closest to a prismatic rail: on every circle of the wheel the point whose normal has no
+/// part along the rail (Li 2002; Vollebregt 2022 on 3D wheel and rail surfaces). Seen along z of T these points make
+/// the wheel's outline over the lateral position, so that the search is one-dimensional; along x the gap is that of the
 /// wheel's curvature there. One per thread.
 class ContactLocus {
  public:
@@ -32,7 +32,8 @@ class ContactLocus {
     double closest = 0.0;    ///< least gap between the rows as well [m]
   };
   /// With the wheel moved by wheel_dz along z of T. Positions with a gap below look_below are looked at closely.
-  Found at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight, bool reference_at_deepest);
+  Found at(double wheel_dz, double look_below, double near_miss_gap, PenetrationWeight weight,
+           bool reference_at_deepest);
 
  private:
   /// Rows of y in T.
@@ -42,27 +43,28 @@ class ContactLocus {
     double y(int i) const { return first + i * step; }
     friend bool operator==(const Rows&, const Rows&) = default;
   };
-  /// Per row: gap there, where along x, the wheel's curve along x as a circle with a cubic part (a yawed wheel is askew), and
-  /// the rail. NaN gap: none.
+  /// Per row: gap there, where along x, the wheel's curve along x as a circle with a cubic part (a yawed wheel is
+  /// askew), and the rail. NaN gap: none.
   struct Outline {
     Rows rows;
     std::vector<double> gap, x, radius, cubic, rail_z, rail_slope;
     double least = 0.0;
-    double closest = 0.0;   ///< least gap, between the rows as well [m]
+    double closest = 0.0;  ///< least gap, between the rows as well [m]
   };
   Outline trace(const Rows& rows, const SampledProfile& profile, bool curves);
   const Outline& fine_outline(int first_row, int last_row);
-  void weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest, Found& found) const;
+  void weigh_fine(const Outline& fine, double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool at_deepest,
+                  Found& found) const;
 
   BodyPair bodies_;
   double x_low_, x_high_;
   Outline outline_;
-  std::vector<double> wheel_y_;   ///< y on the profile of the wheel that each row of the outline shows
+  std::vector<double> wheel_y_;  ///< y on the profile of the wheel that each row of the outline shows
   struct Fine {
     int first_row, last_row;
     Outline outline;
   };
-  std::vector<Fine> fine_;        ///< made before
+  std::vector<Fine> fine_;  ///< made before
 };
 
 }  // namespace treadmark::detection

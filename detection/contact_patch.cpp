@@ -69,8 +69,7 @@ double patch_distance(const PatchExtent& a, const PatchExtent& b) {
   const double dx = interval_gap(a.box.x_min, a.box.x_max, b.box.x_min, b.box.x_max);
   const double dy = interval_gap(a.box.y_min, a.box.y_max, b.box.y_min, b.box.y_max);
   double dz = 0.0;
-  if (dy > 0.0)
-    dz = a.box.y_max < b.box.y_min ? b.z_at_y_min - a.z_at_y_max : a.z_at_y_min - b.z_at_y_max;
+  if (dy > 0.0) dz = a.box.y_max < b.box.y_min ? b.z_at_y_min - a.z_at_y_max : a.z_at_y_min - b.z_at_y_max;
   return std::sqrt(dx * dx + dy * dy + dz * dz);
 }
 
@@ -80,8 +79,8 @@ double sub_patch_coupling(double distance, const PatchRules& rules) {
   return std::pow(std::max(0.0, rules.separation - distance) / (rules.separation - rules.combination), kExponent);
 }
 
-std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, const std::vector<ContactPatch>& near_misses,
-                                          const PatchRules& rules) {
+std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches,
+                                          const std::vector<ContactPatch>& near_misses, const PatchRules& rules) {
   // To the nanometre: patches behind one another at the same y must not change places by rounding.
   const auto field_side_first = [](const ContactPatch& a, const ContactPatch& b) {
     const long long y_a = std::llround(1e9 * a.y), y_b = std::llround(1e9 * b.y);
@@ -97,10 +96,12 @@ std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, con
           extend_by(miss, 1.0 - miss.least_gap / rules.near_miss, patch);
 
   merge_while(patches, false, [&](const ContactPatch& a, const ContactPatch& b) {
-    return std::abs(a.inclination - b.inclination) <= rules.angle_separation && patch_distance(a.extent, b.extent) <= rules.combination;
+    return std::abs(a.inclination - b.inclination) <= rules.angle_separation &&
+           patch_distance(a.extent, b.extent) <= rules.combination;
   });
   merge_while(patches, true, [&](const ContactPatch& a, const ContactPatch& b) {
-    return std::abs(a.inclination - b.inclination) <= rules.angle_separation && patch_distance(a.extent, b.extent) <= rules.separation;
+    return std::abs(a.inclination - b.inclination) <= rules.angle_separation &&
+           patch_distance(a.extent, b.extent) <= rules.separation;
   });
   std::stable_sort(patches.begin(), patches.end(), field_side_first);
 
@@ -113,8 +114,7 @@ std::vector<ContactPatch> combine_patches(std::vector<ContactPatch> patches, con
       const double distance = patch_distance(a.extent, b.extent);
       if (std::abs(own[i] - own[i + 1]) > rules.angle_separation || distance > rules.turning) continue;
       const double common = (a.weight * own[i] + b.weight * own[i + 1]) / (a.weight + b.weight);
-      const double fraction =
-          std::clamp((rules.turning - distance) / (rules.turning - rules.separation), 0.0, 1.0);
+      const double fraction = std::clamp((rules.turning - distance) / (rules.turning - rules.separation), 0.0, 1.0);
       a.inclination += fraction * (common - a.inclination);
       b.inclination += fraction * (common - b.inclination);
     }

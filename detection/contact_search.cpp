@@ -28,7 +28,8 @@ Grid2 refined_grid(const Grid2& g, const Region& r, const SearchSettings& s) {
   const double x_min = g.x(r.ix_min) - margin_x, x_max = g.x(r.ix_max) + margin_x;
   const double y_min = g.y(r.iy_min) - margin_y, y_max = g.y(r.iy_max) + margin_y;
   const auto points = [&](double length, double finest) {
-    const double wanted = finest > 0.0 ? std::min<double>(s.refined_points, std::ceil(length / finest)) : s.refined_points;
+    const double wanted =
+        finest > 0.0 ? std::min<double>(s.refined_points, std::ceil(length / finest)) : s.refined_points;
     return std::max(9, static_cast<int>(wanted) + 1);
   };
   Grid2 f;
@@ -45,7 +46,7 @@ ContactPatch to_patch(const GapField& field, double wheel_dz, const Region& r, b
   const Grid2& g = field.grid();
   ContactPatch p;
   p.extent.box = interpolate_ends ? crossing_extent(field, wheel_dz, r)
-                           : Rectangle{g.x(r.ix_min), g.x(r.ix_max), g.y(r.iy_min), g.y(r.iy_max)};
+                                  : Rectangle{g.x(r.ix_min), g.x(r.ix_max), g.y(r.iy_min), g.y(r.iy_max)};
   p.extent.z_at_y_min = rail_height_near(field, r.ix_deepest, p.extent.box.y_min);
   p.extent.z_at_y_max = rail_height_near(field, r.ix_deepest, p.extent.box.y_max);
   p.deepest_T = {g.x(r.ix_deepest), g.y(r.iy_deepest), field.rail_z(r.ix_deepest, r.iy_deepest)};
@@ -65,7 +66,8 @@ bool overlap(const Rectangle& a, const Rectangle& b) {
 
 }  // namespace
 
-ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& settings) : bodies_(bodies), settings_(settings) {
+ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& settings)
+    : bodies_(bodies), settings_(settings) {
   const Grid2& g = settings.grid_T;
   const double points = static_cast<double>(g.nx) * static_cast<double>(g.ny);
   if (g.nx < 2 || g.ny < 2 || points > kMaxSearchPoints)
@@ -74,11 +76,12 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
                 "use larger element sizes dx, ds");
   const bool one_profile = !settings.mesh && ContactLocus::applies(bodies);
   if ((settings.method == SearchMethod::locus || settings.locus_rows) && !one_profile)
-    throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel", {},
-                "use the grid method");
+    throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel",
+                {}, "use the grid method");
   if (settings.locus_rows) {
     reference_locus_.emplace(bodies, *settings.locus_rows);
-  } else if (settings.method == SearchMethod::locus || (settings.method == SearchMethod::automatic && one_profile && settings.refine)) {
+  } else if (settings.method == SearchMethod::locus ||
+             (settings.method == SearchMethod::automatic && one_profile && settings.refine)) {
     locus_.emplace(bodies, g);
   } else {
     if (settings_.method == SearchMethod::automatic) settings_.method = SearchMethod::pruned_grid;
@@ -107,8 +110,9 @@ SearchResult ContactSearch::at(double wheel_dz) {
 
 SearchResult ContactSearch::on_locus(double wheel_dz, double look_below) {
   const SearchSettings& s = settings_;
-  ContactLocus::Found found = reference_locus_ ? reference_locus_->at(wheel_dz, s.rules.near_miss, s.weight, s.reference_at_deepest)
-                                               : locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest);
+  ContactLocus::Found found =
+      reference_locus_ ? reference_locus_->at(wheel_dz, s.rules.near_miss, s.weight, s.reference_at_deepest)
+                       : locus_->at(wheel_dz, look_below, s.rules.near_miss, s.weight, s.reference_at_deepest);
   return {combine_patches(std::move(found.patches), found.near_misses, s.rules), found.least_gap, found.closest};
 }
 
@@ -120,11 +124,14 @@ SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
   gap_->reveal(look_below + wheel_dz);
 
   std::vector<ContactPatch> patches, near_misses;
-  for (const Region& region : find_regions(gap_->field(), wheel_dz, s.refine ? std::nullopt : std::optional(s.weight), look_below)) {
+  for (const Region& region :
+       find_regions(gap_->field(), wheel_dz, s.refine ? std::nullopt : std::optional(s.weight), look_below)) {
     if (!s.refine) {
       // Guard rows give heights too.
-      gap_->reveal({region.ix_min, region.iy_min, region.ix_max - region.ix_min + 1, region.iy_max - region.iy_min + 1});
-      (region.near_miss() ? near_misses : patches).push_back(to_patch(gap_->field(), wheel_dz, region, false, s.reference_at_deepest));
+      gap_->reveal(
+          {region.ix_min, region.iy_min, region.ix_max - region.ix_min + 1, region.iy_max - region.iy_min + 1});
+      (region.near_miss() ? near_misses : patches)
+          .push_back(to_patch(gap_->field(), wheel_dz, region, false, s.reference_at_deepest));
       continue;
     }
     const GapField& fine = refined(region);

@@ -24,11 +24,11 @@ enum class SearchMethod {
 
 struct SearchSettings {
   SearchMethod method = SearchMethod::automatic;
-  Grid2 grid_T;                      ///< first grid, seen along z of T; must cover everything that may touch
+  Grid2 grid_T;  ///< first grid, seen along z of T; must cover everything that may touch
   PenetrationWeight weight = PenetrationWeight::squared;
   PatchRules rules;
-  /// Evaluate every region again on a grid of its own, at least refined_points across in both directions and never finer
-  /// than the given steps; the extents are then the interpolated zero crossings. Off: the first grid decides.
+  /// Evaluate every region again on a grid of its own, at least refined_points across in both directions and never
+  /// finer than the given steps; the extents are then the interpolated zero crossings. Off: the first grid decides.
   bool refine = true;
   int refined_points = 64;
   double refined_dx = 0.0, refined_dy = 0.0;  ///< [m]
@@ -42,29 +42,30 @@ struct SearchSettings {
 };
 
 struct SearchResult {
-  std::vector<ContactPatch> patches;      ///< field side first
+  std::vector<ContactPatch> patches;  ///< field side first
   /// Least gap over the search grid [m]: negative with contact, NaN where the bodies nowhere face each other.
   double least_gap = 0.0;
-  /// The same between the points of the grid as well: exact to a nanometre unless the mesh or the grid of the reference program is asked
-  /// for, and without jumps where contact comes and goes [m].
+  /// The same between the points of the grid as well: exact to a nanometre unless the mesh or the grid of the reference
+  /// program is asked for, and without jumps where contact comes and goes [m].
   double closest = 0.0;
 };
 
-/// The contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid, interpenetration
-/// regions, weighted contact reference and angle, contact patches. Of the grid only what may touch is evaluated (PrunedGap);
-/// constant profiles need no grid (ContactLocus).
-/// What was evaluated stays: a wheel that moves along z of T only shifts its gap, so that a force iteration asks at() for one
-/// position after the other. The surfaces must outlive this. Deterministic; results do not depend on the questions before,
-/// but for rounding. One per thread.
+/// The contact search (Figure 3 a-h of Vollebregt's paper on 3D wheel and rail surfaces): gap on a grid,
+/// interpenetration regions, weighted contact reference and angle, contact patches. Of the grid only what may touch is
+/// evaluated (PrunedGap); constant profiles need no grid (ContactLocus). What was evaluated stays: a wheel that moves
+/// along z of T only shifts its gap, so that a force iteration asks at() for one position after the other. The surfaces
+/// must outlive this. Deterministic; results do not depend on the questions before, but for rounding. One per thread.
 class ContactSearch {
  public:
-  /// Errors: Error(configuration) if the search grid is absurdly large, or for SearchMethod::locus without constant profiles.
+  /// Errors: Error(configuration) if the search grid is absurdly large, or for SearchMethod::locus without constant
+  /// profiles.
   ContactSearch(const BodyPair& bodies, const SearchSettings& settings);
 
   /// The method in use; never automatic.
   SearchMethod method() const { return locus_ || reference_locus_ ? SearchMethod::locus : settings_.method; }
 
-  /// Least gap [m] at the position given at construction, on the first grid; NaN where the bodies nowhere face each other.
+  /// Least gap [m] at the position given at construction, on the first grid; NaN where the bodies nowhere face each
+  /// other.
   double least_gap();
 
   /// Patches with the wheel moved by wheel_dz [m] along z of T from the position given at construction.
@@ -87,7 +88,7 @@ class ContactSearch {
   std::optional<ContactLocus> locus_;
   std::optional<ReferenceLocus> reference_locus_;
   std::optional<PrunedGap> gap_;
-  std::optional<double> closest_;   ///< at the position given at construction [m]; found out when needed
+  std::optional<double> closest_;  ///< at the position given at construction [m]; found out when needed
   struct Refined {
     Grid2 grid;
     GapField field;

@@ -15,7 +15,7 @@ constexpr double kLongestStep = 0.25e-3;
 /// A point of the curve and its direction, in C.
 struct CurvePoint {
   double y = 0.0, n = 0.0, angle = 0.0;
-  bool straight = false;   ///< no surfaces to follow here
+  bool straight = false;  ///< no surfaces to follow here
 };
 
 class MidCurve {
@@ -82,7 +82,8 @@ ReferenceRows plane_reference(const Grid2& grid, const Vec2& reference_C) {
   return plane;
 }
 
-ReferenceRows curved_reference(const BodyPair& bodies, const ContactFrame& frame, const Grid2& grid, const Vec2& reference_C) {
+ReferenceRows curved_reference(const BodyPair& bodies, const ContactFrame& frame, const Grid2& grid,
+                               const Vec2& reference_C) {
   const MidCurve curve(bodies, frame.X_TC);
   ReferenceRows result{reference_C, std::vector<ReferenceRow>(static_cast<std::size_t>(grid.ny))};
   const CurvePoint start = curve.beside({}, 0.0);

@@ -14,8 +14,8 @@ struct ReferenceRow {
   double angle = 0.0;       ///< inclination of the surface against the contact plane [rad]
 };
 
-/// The surface on which elements lie: the tangent plane, or a cylinder along x over a curve across the rail. The coordinates of the grid
-/// are x and the arc length along the curve.
+/// The surface on which elements lie: the tangent plane, or a cylinder along x over a curve across the rail. The
+/// coordinates of the grid are x and the arc length along the curve.
 struct ReferenceRows {
   Vec2 reference_C = Vec2::Zero();  ///< where the contact reference lies in the grid's axes [m]
   std::vector<ReferenceRow> rows;   ///< grid.ny of them
@@ -28,9 +28,9 @@ struct ReferenceRows {
 /// Rows in the contact plane.
 ReferenceRows plane_reference(const Grid2& grid, const Vec2& reference_C = Vec2::Zero());
 
-/// Rows on the curve half-way between rail and wheel in the plane x = 0 of C (conformal contact; Vollebregt 2021). The arc length is
-/// zero beside the contact reference. The curve is followed in its own directions and may turn by any angle. Where rail or wheel is
-/// missing, or their directions differ by more than 51 degrees, it goes straight on.
+/// Rows on the curve half-way between rail and wheel in the plane x = 0 of C (conformal contact; Vollebregt 2021). The
+/// arc length is zero beside the contact reference. The curve is followed in its own directions and may turn by any
+/// angle. Where rail or wheel is missing, or their directions differ by more than 51 degrees, it goes straight on.
 /// Needs heights with slopes of the surfaces only. Thread-safe.
 ReferenceRows curved_reference(const BodyPair& bodies, const ContactFrame& frame, const Grid2& grid,
                                const Vec2& reference_C = Vec2::Zero());

@@ -9,7 +9,8 @@
 
 namespace treadmark::detection {
 
-FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid, const ReferenceRows& reference) {
+FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
+                               const ReferenceRows& reference) {
   if (reference.rows.size() != static_cast<std::size_t>(grid.ny))
     throw Error(ErrorKind::configuration, "the reference surface has another number of rows than the grid of elements");
   FacingSurfaces surfaces{std::vector<double>(grid.size()), std::vector<double>(grid.size())};
@@ -25,7 +26,8 @@ FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const G
   return surfaces;
 }
 
-UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid, const ReferenceRows& reference) {
+UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
+                                      const ReferenceRows& reference) {
   const auto width = static_cast<std::size_t>(grid.nx);
   std::vector<double> rail(grid.size()), wheel(grid.size());
   for (int iy = 0; iy < grid.ny; ++iy) {
@@ -38,6 +40,8 @@ UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, 
   return undeformed_distance(std::move(rail), wheel);
 }
 
-UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) { return undeformed_distance(surfaces.rail, surfaces.wheel); }
+UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) {
+  return undeformed_distance(surfaces.rail, surfaces.wheel);
+}
 
 }  // namespace treadmark::detection

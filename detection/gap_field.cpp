@@ -11,7 +11,8 @@ namespace treadmark::detection {
 
 Grid2 part_of(const Grid2& g, const IndexBox& b) { return {g.x(b.ix), g.y(b.iy), g.dx, g.dy, b.nx, b.ny}; }
 
-GapField::Tile::Tile(const IndexBox& points) : box(points), numbers_(std::make_unique_for_overwrite<double[]>(3 * points.size())) {
+GapField::Tile::Tile(const IndexBox& points)
+    : box(points), numbers_(std::make_unique_for_overwrite<double[]>(3 * points.size())) {
   const std::size_t n = points.size();
   rail_z = {numbers_.get(), n}, gap = {numbers_.get() + n, n}, rail_slope = {numbers_.get() + 2 * n, n};
 }
@@ -23,7 +24,11 @@ void GapField::Tile::close() {
 }
 
 GapField::GapField(const Grid2& grid, int log_x, int log_y)
-    : grid_(grid), log_x_(log_x), log_y_(log_y), tiles_x_(((grid.nx - 1) >> log_x) + 1), tiles_y_(((grid.ny - 1) >> log_y) + 1),
+    : grid_(grid),
+      log_x_(log_x),
+      log_y_(log_y),
+      tiles_x_(((grid.nx - 1) >> log_x) + 1),
+      tiles_y_(((grid.ny - 1) >> log_y) + 1),
       tiles_(static_cast<std::size_t>(tiles_x_) * static_cast<std::size_t>(tiles_y_)) {}
 
 IndexBox GapField::tile_box(int tx, int ty) const {

@@ -22,18 +22,19 @@ struct IndexBox {
 /// The part of a grid that a box of its points makes.
 Grid2 part_of(const Grid2& grid, const IndexBox& box);
 
-/// The gap between the bodies over a grid seen along z of the common frame T, kept in tiles of which only some may be known.
-/// gap = z_rail - z_wheel [m]; negative = interpenetration; NaN where a surface is missing and where nothing is known.
-/// Reading is thread-safe; different tiles may be filled by different threads.
+/// The gap between the bodies over a grid seen along z of the common frame T, kept in tiles of which only some may be
+/// known. gap = z_rail - z_wheel [m]; negative = interpenetration; NaN where a surface is missing and where nothing is
+/// known. Reading is thread-safe; different tiles may be filled by different threads.
 class GapField {
  public:
   struct Tile {
     IndexBox box;
-    std::span<double> rail_z, gap, rail_slope;  ///< [m], [m], dz/dy in T [-]; row by row
+    std::span<double> rail_z, gap, rail_slope;               ///< [m], [m], dz/dy in T [-]; row by row
     double least = std::numeric_limits<double>::infinity();  ///< gap of the tile
 
     std::size_t index(int ix, int iy) const {
-      return static_cast<std::size_t>(iy - box.iy) * static_cast<std::size_t>(box.nx) + static_cast<std::size_t>(ix - box.ix);
+      return static_cast<std::size_t>(iy - box.iy) * static_cast<std::size_t>(box.nx) +
+             static_cast<std::size_t>(ix - box.ix);
     }
     void close();  ///< after filling: finds the least gap
 
@@ -73,7 +74,7 @@ class GapField {
   std::size_t tile_index(int tx, int ty) const {
     return static_cast<std::size_t>(ty) * static_cast<std::size_t>(tiles_x_) + static_cast<std::size_t>(tx);
   }
-  double value(std::span<double> Tile::* array, int ix, int iy) const {
+  double value(std::span<double> Tile::*array, int ix, int iy) const {
     const Tile* tile = tile_of(ix, iy);
     return tile ? (tile->*array)[tile->index(ix, iy)] : std::numeric_limits<double>::quiet_NaN();
   }

@@ -40,7 +40,8 @@ GapSource::GapSource(const BodyPair& bodies, const Grid2& grid_T, const std::opt
   const Grid2& g = grid_T;
   const int n = (g.ny - 1) / kRowsPerLean + 1;
   lean_.resize(static_cast<std::size_t>(n));
-  bodies.rail->heights({X_RT_, {g.x(g.nx / 2), g.y(0) + 0.5 * kRowsPerLean * g.dy, 1.0, kRowsPerLean * g.dy, 1, n}}, {{}, {}, lean_});
+  bodies.rail->heights({X_RT_, {g.x(g.nx / 2), g.y(0) + 0.5 * kRowsPerLean * g.dy, 1.0, kRowsPerLean * g.dy, 1, n}},
+                       {{}, {}, lean_});
 }
 
 GapBounds GapSource::bounds(const IndexBox& box) const { return bounds(box, 1, 1).front(); }
@@ -64,9 +65,9 @@ std::vector<GapBounds> GapSource::bounds(const IndexBox& first, int nx, int ny) 
   return gaps;
 }
 
-// In a frame P rolled by d a vertical line meets rail and wheel at points whose heights along P's normal differ by gap cos(d).
-// The rail's point lies not before the outermost surface that P sees there, the wheel's not beyond: bounds of what P
-// sees, over all places in P that these points may have, bound the gap.
+// In a frame P rolled by d a vertical line meets rail and wheel at points whose heights along P's normal differ by gap
+// cos(d). The rail's point lies not before the outermost surface that P sees there, the wheel's not beyond: bounds of
+// what P sees, over all places in P that these points may have, bound the gap.
 double GapSource::least_close(const IndexBox& box, const GapBounds& bounds) const {
   const double slope = lean_[static_cast<std::size_t>((box.iy + box.ny / 2) / kRowsPerLean)];
   constexpr double kLevel = 0.02, kSteep = 3.0;
@@ -77,7 +78,8 @@ double GapSource::least_close(const IndexBox& box, const GapBounds& bounds) cons
   const Pose X_TP{{0.0, y_middle, z_middle}, rotation_x(roll)};
   const auto seen = [&](const Rectangle& r, const HeightBounds& z) {
     const double a = (z.z_min - z_middle) * sine, b = (z.z_max - z_middle) * sine;
-    return Rectangle{r.x_min, r.x_max, (r.y_min - y_middle) * cosine + std::min(a, b), (r.y_max - y_middle) * cosine + std::max(a, b)};
+    return Rectangle{r.x_min, r.x_max, (r.y_min - y_middle) * cosine + std::min(a, b),
+                     (r.y_max - y_middle) * cosine + std::max(a, b)};
   };
   const HeightBounds n_rail = bodies_.rail->height_bounds(X_RT_ * X_TP, seen(rail_r, bounds.rail));
   const HeightBounds n_wheel = bodies_.wheel->height_bounds(X_WT_ * X_TP, seen(wheel_r, bounds.wheel));
@@ -89,7 +91,9 @@ void GapSource::fill(std::span<GapField::Tile* const> tiles) {
   // Columns of tiles first, then columns of the same length side by side.
   std::vector<Patch> columns, patches;
   std::vector<GapField::Tile*> sorted(tiles.begin(), tiles.end());
-  std::ranges::sort(sorted, [](const auto* a, const auto* b) { return a->box.ix != b->box.ix ? a->box.ix < b->box.ix : a->box.iy < b->box.iy; });
+  std::ranges::sort(sorted, [](const auto* a, const auto* b) {
+    return a->box.ix != b->box.ix ? a->box.ix < b->box.ix : a->box.iy < b->box.iy;
+  });
   for (GapField::Tile* tile : sorted) {
     if (!columns.empty()) {
       Patch& last = columns.back();
@@ -128,9 +132,12 @@ void GapSource::fill_patch(const Patch& patch) {
   const std::size_t n = box.size();
   const bool alone = patch.tiles.size() == 1;
   const auto scratch = std::make_unique_for_overwrite<double[]>(alone ? 0 : 3 * n);
-  const auto array = [&](std::size_t i, std::span<double> of_tile) { return alone ? of_tile : std::span(scratch.get() + i * n, n); };
+  const auto array = [&](std::size_t i, std::span<double> of_tile) {
+    return alone ? of_tile : std::span(scratch.get() + i * n, n);
+  };
   GapField::Tile& first = *patch.tiles.front();
-  const std::span<double> wheel_z = array(0, first.gap), rail_z = array(1, first.rail_z), slope = array(2, first.rail_slope);
+  const std::span<double> wheel_z = array(0, first.gap), rail_z = array(1, first.rail_z),
+                          slope = array(2, first.rail_slope);
   if (section_x_) {
     bodies_.rail->heights({X_RT_, part}, {rail_z, {}, {}});
     std::vector<double> of_section(static_cast<std::size_t>(part.ny));

@@ -28,8 +28,8 @@ class GapSource {
   GapBounds bounds(const IndexBox& box) const;
   /// The same for boxes of one size in nx columns and ny rows side by side, row by row, with one query of each body.
   std::vector<GapBounds> bounds(const IndexBox& first, int nx, int ny) const;
-  /// A second look at the least gap over a box, in a plane that leans as the rail does, so that slopes that both bodies have do
-  /// not count; worth it for small boxes. bounds: of the box.
+  /// A second look at the least gap over a box, in a plane that leans as the rail does, so that slopes that both bodies
+  /// have do not count; worth it for small boxes. bounds: of the box.
   double least_close(const IndexBox& box, const GapBounds& bounds) const;
 
   /// Fills a tile. Not thread-safe where the wheel has facets.

@@ -106,7 +106,8 @@ void weigh(const GapField& field, double wheel_dz, PenetrationWeight weight, Reg
 
 }  // namespace
 
-std::vector<Region> find_regions(const GapField& field, double wheel_dz, std::optional<PenetrationWeight> weight, double near_miss_gap) {
+std::vector<Region> find_regions(const GapField& field, double wheel_dz, std::optional<PenetrationWeight> weight,
+                                 double near_miss_gap) {
   const Grid2& g = field.grid();
   constexpr int kMaxNearMisses = 2;
   std::vector<Region> regions;

@@ -25,10 +25,12 @@ std::vector<double> lateral_nodes(const Surface& surface, const Pose& X_SP, doub
   for (std::size_t i = 0; i + 1 < found.size(); ++i) {
     const SurfacePoint &a = found[i], &b = found[i + 1];
     if (a.status == LocateStatus::outside || b.status == LocateStatus::outside) continue;
-    const auto begin = std::ranges::lower_bound(data_v, std::min(a.v, b.v)), end = std::ranges::lower_bound(data_v, std::max(a.v, b.v));
+    const auto begin = std::ranges::lower_bound(data_v, std::min(a.v, b.v)),
+               end = std::ranges::lower_bound(data_v, std::max(a.v, b.v));
     if (end - begin > kHidden) continue;
     const auto first = static_cast<std::ptrdiff_t>(y.size());
-    for (auto v = begin; v != end; ++v) y.push_back(points[i].y() + (points[i + 1].y() - points[i].y()) * (*v - a.v) / (b.v - a.v));
+    for (auto v = begin; v != end; ++v)
+      y.push_back(points[i].y() + (points[i + 1].y() - points[i].y()) * (*v - a.v) / (b.v - a.v));
     if (b.v < a.v) std::reverse(y.begin() + first, y.end());
   }
   return y;

@@ -13,8 +13,8 @@ struct LateralInterval {
   double low = 0.0, high = 0.0;
 };
 
-/// Lateral positions [m] at which the data of a surface lie on the line x of a plane P, increasing; where the surface can be seen. Empty if
-/// the surface was not made from data, or does not tell.
+/// Lateral positions [m] at which the data of a surface lie on the line x of a plane P, increasing; where the surface
+/// can be seen. Empty if the surface was not made from data, or does not tell.
 std::vector<double> lateral_nodes(const Surface& surface, const Pose& X_SP, double x_P, const LateralInterval& y_P);
 
 }  // namespace treadmark::detection

@@ -8,7 +8,8 @@
 
 namespace treadmark::detection {
 
-/// A plane curve through points: natural cubic splines of both coordinates over the length of the chords (Ahlberg, Nilson, Walsh 1967).
+/// A plane curve through points: natural cubic splines of both coordinates over the length of the chords (Ahlberg,
+/// Nilson, Walsh 1967).
 class NaturalCurve {
  public:
   /// Two points or more, no two neighbours the same.
@@ -20,7 +21,7 @@ class NaturalCurve {
  private:
   Vec2 at(std::size_t segment, double f) const;
 
-  std::vector<Vec2> points_, bends_;   ///< bends: second derivatives
+  std::vector<Vec2> points_, bends_;  ///< bends: second derivatives
   std::vector<double> chords_;
 };
 

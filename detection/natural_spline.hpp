@@ -7,8 +7,8 @@
 
 namespace treadmark::detection {
 
-/// Second derivatives of the natural cubic spline through points at a parameter whose steps are given (Ahlberg, Nilson, Walsh 1967).
-/// Point: a vector of any dimension. steps: one less than points, positive.
+/// Second derivatives of the natural cubic spline through points at a parameter whose steps are given (Ahlberg, Nilson,
+/// Walsh 1967). Point: a vector of any dimension. steps: one less than points, positive.
 template <class Point>
 std::vector<Point> natural_bends(std::span<const Point> points, std::span<const double> steps) {
   const std::size_t n = points.size();

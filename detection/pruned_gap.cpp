@@ -24,8 +24,11 @@ constexpr double kRounding = 1e-10;
 
 }  // namespace
 
-PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh, bool everything)
-    : source_(bodies, grid_T, mesh), field_(everything ? GapField(grid_T, kLogEverything, kLogEverything) : GapField(grid_T, kLogX, kLogY)), least_known_(kInfinity) {
+PrunedGap::PrunedGap(const BodyPair& bodies, const Grid2& grid_T, const std::optional<SearchMesh>& mesh,
+                     bool everything)
+    : source_(bodies, grid_T, mesh),
+      field_(everything ? GapField(grid_T, kLogEverything, kLogEverything) : GapField(grid_T, kLogX, kLogY)),
+      least_known_(kInfinity) {
   if (everything)
     reveal(IndexBox{0, 0, grid_T.nx, grid_T.ny});
   else
@@ -79,7 +82,8 @@ std::vector<PrunedGap::Node> PrunedGap::parts(const Node& node) const {
   };
   // Few tiles are cheaper looked at together than halved again and again.
   if (node.nx * node.ny <= kTogether) {
-    const IndexBox first{node.tx << field_.log_x(), node.ty << field_.log_y(), 1 << field_.log_x(), 1 << field_.log_y()};
+    const IndexBox first{node.tx << field_.log_x(), node.ty << field_.log_y(), 1 << field_.log_x(),
+                         1 << field_.log_y()};
     const std::vector<GapBounds> bounds = source_.bounds(first, node.nx, node.ny);
     for (int iy = 0; iy < node.ny; ++iy)
       for (int ix = 0; ix < node.nx; ++ix)
@@ -129,14 +133,18 @@ void PrunedGap::reveal(double below) {
 
 void PrunedGap::reveal(const IndexBox& box) {
   const int tx = box.ix >> field_.log_x(), ty = box.iy >> field_.log_y();
-  fill({{{}, tx, ty, ((box.ix + box.nx - 1) >> field_.log_x()) - tx + 1, ((box.iy + box.ny - 1) >> field_.log_y()) - ty + 1}});
+  fill({{{},
+         tx,
+         ty,
+         ((box.ix + box.nx - 1) >> field_.log_x()) - tx + 1,
+         ((box.iy + box.ny - 1) >> field_.log_y()) - ty + 1}});
 }
 
 double PrunedGap::least() {
   std::vector<Node> nodes, to_fill;
   const auto open = [&] { return !frontier_.empty() && frontier_.front().bounds.low < least_known_; };
-  // Straight down to a first tile, for an idea of the least gap; then what could still be below it, in growing groups, which
-  // keep several threads busy.
+  // Straight down to a first tile, for an idea of the least gap; then what could still be below it, in growing groups,
+  // which keep several threads busy.
   if (std::isinf(least_known_) && open()) dive(pop());
   const std::size_t most = std::clamp<std::size_t>(field_.tiles().size() / 64, 4, 64);
   for (std::size_t group = 4; open(); group = std::min(most, 2 * group)) {

@@ -11,9 +11,9 @@
 namespace treadmark::detection {
 
 /// The gap on a grid, found out only where it may be small: branch and bound (Land and Doig 1960) over the tiles of a
-/// GapField with conservative bounds of both surfaces. What was found out stays for the next question. After reveal(below)
-/// every point that is not known has a gap of at least `below`: proven by the bounds, not guessed.
-/// One per thread.
+/// GapField with conservative bounds of both surfaces. What was found out stays for the next question. After
+/// reveal(below) every point that is not known has a gap of at least `below`: proven by the bounds, not guessed. One
+/// per thread.
 class PrunedGap {
  public:
   /// everything: all of the grid at once, without bounds.

@@ -11,7 +11,7 @@
 namespace treadmark::detection {
 
 bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std::span<double> rail_n) {
-  constexpr double kMargin = 6e-3;   // a dozen data: what lies further off does not bend the curve over the grid
+  constexpr double kMargin = 6e-3;  // a dozen data: what lies further off does not bend the curve over the grid
   constexpr std::size_t kFewest = 4;
   if (dynamic_cast<const LateralData*>(bodies.rail) == nullptr) return false;
   const Pose X_RC = bodies.X_TR.inverse() * X_TC;

@@ -23,12 +23,14 @@ double row_weight(PenetrationWeight weight, double c, double a) {
 
 }  // namespace
 
-ReferenceLocus::ReferenceLocus(const BodyPair& bodies, const LocusRows& rows) : rows_(rows), least_(std::numeric_limits<double>::quiet_NaN()) {
+ReferenceLocus::ReferenceLocus(const BodyPair& bodies, const LocusRows& rows)
+    : rows_(rows), least_(std::numeric_limits<double>::quiet_NaN()) {
   const auto n = static_cast<std::size_t>(rows.count);
   std::vector<double> y(n);
   for (int i = 0; i < rows.count; ++i) y[static_cast<std::size_t>(i)] = rows.y(i);
   rail_z_.resize(n), inclination_.resize(n), x_.resize(n), gap_.resize(n);
-  bodies.rail->heights({bodies.X_TR.inverse(), {bodies.X_TW.origin.x(), rows.first, 1.0, rows.step, 1, rows.count}}, {rail_z_, {}, inclination_});
+  bodies.rail->heights({bodies.X_TR.inverse(), {bodies.X_TW.origin.x(), rows.first, 1.0, rows.step, 1, rows.count}},
+                       {rail_z_, {}, inclination_});
   const std::vector<Vec2> wheel = WheelLocus(bodies, rows.nominal_radius).over(y);
   for (std::size_t i = 0; i < n; ++i) {
     inclination_[i] = std::atan(inclination_[i]);
@@ -40,7 +42,8 @@ ReferenceLocus::ReferenceLocus(const BodyPair& bodies, const LocusRows& rows) : 
 }
 
 double ReferenceLocus::gap(int row, double wheel_dz) const {
-  return row >= 0 && row < rows_.count ? gap_[static_cast<std::size_t>(row)] - wheel_dz : std::numeric_limits<double>::quiet_NaN();
+  return row >= 0 && row < rows_.count ? gap_[static_cast<std::size_t>(row)] - wheel_dz
+                                       : std::numeric_limits<double>::quiet_NaN();
 }
 
 // Of a plateau one row remains; a missing neighbour never vetoes.
@@ -51,7 +54,8 @@ bool ReferenceLocus::is_minimum(int i) const {
 
 ReferenceLocus::Vertex ReferenceLocus::vertex(int i) const {
   constexpr double kJump = 1e-3;  // [m]
-  const double here = gap(i, 0.0), before = gap(i - 1, 0.0) - here, after = gap(i + 1, 0.0) - here, bend = before + after;
+  const double here = gap(i, 0.0), before = gap(i - 1, 0.0) - here, after = gap(i + 1, 0.0) - here,
+               bend = before + after;
   if (!(std::abs(before) <= kJump && std::abs(after) <= kJump && bend > 0.0)) return {0.0, here};
   const double slope = 0.5 * (after - before);
   return {-slope / bend, here - 0.5 * slope * slope / bend};
@@ -61,7 +65,9 @@ Vec3 ReferenceLocus::deepest_point(int i) const {
   const double f = vertex(i).offset;
   const auto at = [&](const std::vector<double>& values) {
     const auto k = static_cast<std::size_t>(i);
-    return f < 0.0 ? values[k] + f * (values[k] - values[k - 1]) : f > 0.0 ? values[k] + f * (values[k + 1] - values[k]) : values[k];
+    return f < 0.0   ? values[k] + f * (values[k] - values[k - 1])
+           : f > 0.0 ? values[k] + f * (values[k + 1] - values[k])
+                     : values[k];
   };
   return {at(x_), rows_.y(i) + f * rows_.step, at(rail_z_)};
 }
@@ -71,7 +77,8 @@ Vec2 ReferenceLocus::crossing(int inside, int guard, double wheel_dz) const {
   const double in = gap(inside, wheel_dz), out = gap(guard, wheel_dz);
   if (std::isnan(out)) return {rows_.y(inside), rail_z_[i]};
   const double f = in / (in - out);
-  return {rows_.y(inside) + f * (rows_.y(guard) - rows_.y(inside)), rail_z_[i] + f * (rail_z_[static_cast<std::size_t>(guard)] - rail_z_[i])};
+  return {rows_.y(inside) + f * (rows_.y(guard) - rows_.y(inside)),
+          rail_z_[i] + f * (rail_z_[static_cast<std::size_t>(guard)] - rail_z_[i])};
 }
 
 ContactPatch ReferenceLocus::near_miss(int row, double wheel_dz) const {
@@ -85,7 +92,8 @@ ContactPatch ReferenceLocus::near_miss(int row, double wheel_dz) const {
   return p;
 }
 
-ContactPatch ReferenceLocus::patch(int first, int last, int deepest, double wheel_dz, PenetrationWeight weight, bool at_deepest) const {
+ContactPatch ReferenceLocus::patch(int first, int last, int deepest, double wheel_dz, PenetrationWeight weight,
+                                   bool at_deepest) const {
   const double kappa = 0.5 / rows_.nominal_radius;
   ContactPatch p;
   p.extent.box = {kInfinity, -kInfinity, 0.0, 0.0};
@@ -114,7 +122,8 @@ ContactPatch ReferenceLocus::patch(int first, int last, int deepest, double whee
   return p;
 }
 
-ContactLocus::Found ReferenceLocus::at(double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool reference_at_deepest) const {
+ContactLocus::Found ReferenceLocus::at(double wheel_dz, double near_miss_gap, PenetrationWeight weight,
+                                       bool reference_at_deepest) const {
   ContactLocus::Found found;
   for (int i = 0; i < rows_.count; ++i) {
     const double here = gap(i, wheel_dz);

@@ -9,18 +9,19 @@
 
 namespace treadmark::detection {
 
-/// Lateral rows on which the reference program (CONTACT) looks for contact, and what it takes the wheel's curvature along x from.
+/// Lateral rows on which the reference program (CONTACT) looks for contact, and what it takes the wheel's curvature
+/// along x from.
 struct LocusRows {
-  double first = 0.0, step = 0.0;   ///< y in T [m]; step > 0
+  double first = 0.0, step = 0.0;  ///< y in T [m]; step > 0
   int count = 0;
-  double nominal_radius = 0.0;      ///< of the wheel [m]
+  double nominal_radius = 0.0;  ///< of the wheel [m]
   double y(int i) const { return first + i * step; }
 };
 
-/// The contact locus as that program has it: one point per lateral datum of the wheel's profile, a natural spline through them, a gap on
-/// rows of one step, and along x a parabola of the nominal radius for every row (Vollebregt 2022 on 3D wheel and rail surfaces). Between
-/// its rows roughness goes unseen. Only for agreement with its results; ContactLocus is Treadmark's own. Needs constant profiles
-/// (ContactLocus::applies). Immutable, so at() is thread-safe.
+/// The contact locus as that program has it: one point per lateral datum of the wheel's profile, a natural spline
+/// through them, a gap on rows of one step, and along x a parabola of the nominal radius for every row (Vollebregt 2022
+/// on 3D wheel and rail surfaces). Between its rows roughness goes unseen. Only for agreement with its results;
+/// ContactLocus is Treadmark's own. Needs constant profiles (ContactLocus::applies). Immutable, so at() is thread-safe.
 class ReferenceLocus {
  public:
   ReferenceLocus(const BodyPair& bodies, const LocusRows& rows);
@@ -29,13 +30,15 @@ class ReferenceLocus {
   double least() const { return least_; }
 
   /// With the wheel moved by wheel_dz [m] along z of T. Near misses: at most two, with a gap below near_miss_gap [m].
-  ContactLocus::Found at(double wheel_dz, double near_miss_gap, PenetrationWeight weight, bool reference_at_deepest) const;
+  ContactLocus::Found at(double wheel_dz, double near_miss_gap, PenetrationWeight weight,
+                         bool reference_at_deepest) const;
 
  private:
   double gap(int row, double wheel_dz) const;
   bool is_minimum(int row) const;
   ContactPatch near_miss(int row, double wheel_dz) const;
-  ContactPatch patch(int first, int last, int deepest, double wheel_dz, PenetrationWeight weight, bool at_deepest) const;
+  ContactPatch patch(int first, int last, int deepest, double wheel_dz, PenetrationWeight weight,
+                     bool at_deepest) const;
   /// y, z of the rail where the gap changes its sign between a row and the guard row next to it.
   Vec2 crossing(int inside, int guard, double wheel_dz) const;
   /// Parabola through the gaps of a minimum and its neighbours: offset in rows, and the gap there.

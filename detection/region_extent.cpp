@@ -10,7 +10,8 @@ namespace {
 
 // Least and greatest zero crossing over all lines; gap(line, i) along a line, position(i).
 template <class Gap, class Position>
-void crossings(int lines_begin, int lines_end, int begin, int end, Gap&& gap, Position&& position, double& low, double& high) {
+void crossings(int lines_begin, int lines_end, int begin, int end, Gap&& gap, Position&& position, double& low,
+               double& high) {
   for (int line = lines_begin; line <= lines_end; ++line)
     for (int i = begin; i <= end; ++i) {
       const double here = gap(line, i);

@@ -7,7 +7,8 @@
 namespace treadmark::detection {
 
 SampledProfile sample_profile(const Surface& wheel, double first, double step, int count) {
-  SampledProfile p{first, step, std::vector<double>(static_cast<std::size_t>(count)), std::vector<double>(static_cast<std::size_t>(count))};
+  SampledProfile p{first, step, std::vector<double>(static_cast<std::size_t>(count)),
+                   std::vector<double>(static_cast<std::size_t>(count))};
   wheel.heights({Pose{}, {0.0, first, 1.0, step, 1, count}}, {p.radius, {}, p.slope});
   return p;
 }

@@ -11,7 +11,7 @@ namespace treadmark::detection {
 
 /// Radii of a round wheel at equal steps of its own y, and their slopes; NaN where it has none. Immutable.
 struct SampledProfile {
-  double first = 0.0, step = 0.0;   ///< [m]
+  double first = 0.0, step = 0.0;  ///< [m]
   std::vector<double> radius, slope;
 
   int count() const { return static_cast<int>(radius.size()); }

@@ -9,7 +9,8 @@ namespace treadmark::detection {
 /// Both bodies as the search of the reference program (CONTACT) sees them. Only for agreement with its results.
 struct SearchMesh {
   WheelFacets wheel;
-  /// The rail's inclination at a lateral position is taken from its section here for all positions along x [m], frame T.
+  /// The rail's inclination at a lateral position is taken from its section here for all positions along x [m], frame
+  /// T.
   double rail_section_x = 0.0;
 };
 

@@ -15,7 +15,8 @@ struct UndeformedDistance {
   double approach = 0.0;         ///< rigid penetration = - least n_rail - n_wheel [m]; <= 0: the bodies do not touch
 };
 
-/// Exact evaluation of both surfaces in the tangent plane (Figure 3 i-l of the same paper), unless BodyPair asks for a mesh of the wheel.
+/// Exact evaluation of both surfaces in the tangent plane (Figure 3 i-l of the same paper), unless BodyPair asks for a
+/// mesh of the wheel.
 UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C);
 
 /// The same from heights of rail and wheel along n [m], which are known already; both of one size.

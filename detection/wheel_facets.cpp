@@ -14,17 +14,21 @@ namespace {
 
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-double offset_of(const WheelFacets& facets, int k) { return facets.half_range * (2.0 * k / (facets.sections - 1) - 1.0); }
+double offset_of(const WheelFacets& facets, int k) {
+  return facets.half_range * (2.0 * k / (facets.sections - 1) - 1.0);
+}
 
 /// Points of one section, in T; NaN heights where the wheel is missing. offset: [rad] or [m] from the lowest line.
-std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, double offset, std::span<const double> y) {
+std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets, double offset,
+                          std::span<const double> y) {
   const bool planes = facets.kind == WheelFacets::Sections::planes;
   const double lowest = lowest_angle(X_TW), angle = planes ? lowest : lowest + offset, x = planes ? offset : 0.0;
   const std::vector<double> radius = section_radius(wheel, angle, y);
   const Pose X_TP = X_TW * Pose{Vec3::Zero(), rotation_y(angle)};
   std::vector<Vec3> points;
   points.reserve(y.size());
-  for (std::size_t i = 0; i < y.size(); ++i) points.push_back(X_TP.apply({x, y[i], std::sqrt(radius[i] * radius[i] - x * x)}));
+  for (std::size_t i = 0; i < y.size(); ++i)
+    points.push_back(X_TP.apply({x, y[i], std::sqrt(radius[i] * radius[i] - x * x)}));
   return points;
 }
 
@@ -43,7 +47,11 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 }
 
 FacetWheel::FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets)
-    : wheel_(wheel), X_TW_(X_TW), facets_(facets), lowest_(lowest_angle(X_TW)), y_(mesh_lines(wheel, lowest_, facets.lateral_step)) {
+    : wheel_(wheel),
+      X_TW_(X_TW),
+      facets_(facets),
+      lowest_(lowest_angle(X_TW)),
+      y_(mesh_lines(wheel, lowest_, facets.lateral_step)) {
   for (std::size_t j = 0; j + 1 < y_.size(); ++j) widest_ = std::max(widest_, y_[j + 1] - y_[j]);
   across_ = static_cast<int>(y_.size());
   sections_.resize(static_cast<std::size_t>(facets.sections));
@@ -59,19 +67,22 @@ double FacetWheel::corner_near(double y) const {
 }
 
 std::vector<Vec3> FacetWheel::corners(int k, int first, int last) const {
-  return section(wheel_, X_TW_, facets_, offset_of(facets_, k), std::span(y_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1)));
+  return section(wheel_, X_TW_, facets_, offset_of(facets_, k),
+                 std::span(y_).subspan(static_cast<std::size_t>(first), static_cast<std::size_t>(last - first + 1)));
 }
 
 Rectangle FacetWheel::reach(const Rectangle& r) const {
   const double lever = facets_.kind == WheelFacets::Sections::angles ? wheel_.bounds().max.z() : 1.0;
-  const double along = 1.1 * lever * 2.0 * facets_.half_range / (facets_.sections - 1) + 1.5 * widest_, across = 2.0 * widest_ + 0.3 * along;
+  const double along = 1.1 * lever * 2.0 * facets_.half_range / (facets_.sections - 1) + 1.5 * widest_,
+               across = 2.0 * widest_ + 0.3 * along;
   return {r.x_min - along, r.x_max + along, r.y_min - across, r.y_max + across};
 }
 
 const Vec3& FacetWheel::make_corner(int k, int j) {
   Section& s = sections_[static_cast<std::size_t>(k)];
   constexpr int kSpare = 3;
-  const int low = std::max(0, std::min(wanted_first_, j - kSpare)), high = std::min(across_ - 1, std::max(wanted_last_, j + kSpare));
+  const int low = std::max(0, std::min(wanted_first_, j - kSpare)),
+            high = std::min(across_ - 1, std::max(wanted_last_, j + kSpare));
   if (s.points.empty()) {
     s.first = low;
     s.points = corners(k, low, high);
@@ -93,8 +104,11 @@ const Vec3& FacetWheel::make_corner(int k, int j) {
 
 double FacetWheel::height_over(double x, double y, double& a, double& b) {
   FacetPlace p;
-  if (!find_facet([this](int k, int j) -> const Vec3& { return corner(k, j); }, facets_.sections, across_, x, y, a, b, p)) return kNaN;
-  const double z00 = corner(p.k, p.j).z(), z10 = corner(p.k + 1, p.j).z(), z01 = corner(p.k, p.j + 1).z(), z11 = corner(p.k + 1, p.j + 1).z();
+  if (!find_facet([this](int k, int j) -> const Vec3& { return corner(k, j); }, facets_.sections, across_, x, y, a, b,
+                  p))
+    return kNaN;
+  const double z00 = corner(p.k, p.j).z(), z10 = corner(p.k + 1, p.j).z(), z01 = corner(p.k, p.j + 1).z(),
+               z11 = corner(p.k + 1, p.j + 1).z();
   return z00 + p.u * (z10 - z00) + p.v * (z01 - z00 + p.u * ((z11 - z01) - (z10 - z00)));
 }
 
@@ -106,7 +120,8 @@ void FacetWheel::heights(const Grid2& g, std::span<double> z) {
   const double radius = wheel_.bounds().max.z(), per_offset = 0.5 * (facets_.sections - 1) / facets_.half_range;
   const auto section_at = [&](double x) {
     const double offset = x - X_TW_.origin.x();
-    const double place = facets_.kind == WheelFacets::Sections::planes ? offset : std::asin(std::clamp(offset / radius, -1.0, 1.0));
+    const double place =
+        facets_.kind == WheelFacets::Sections::planes ? offset : std::asin(std::clamp(offset / radius, -1.0, 1.0));
     return std::clamp((place + facets_.half_range) * per_offset, 0.0, facets_.sections - 1.0);
   };
   for (int iy = 0; iy < g.ny; ++iy) {

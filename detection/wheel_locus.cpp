@@ -38,7 +38,8 @@ Line line_of(const BodyPair& bodies, double nominal_radius) {
   Line line;
   for (std::size_t i = 0; i < y.size(); ++i) {
     if (std::isnan(radius[i]) || std::isnan(slope[i])) continue;
-    const double x = std::clamp((radius[i] * slope[i] * M(0, 1) - nominal_radius * M(0, 2)) / M(0, 0), -farthest, farthest);
+    const double x =
+        std::clamp((radius[i] * slope[i] * M(0, 1) - nominal_radius * M(0, 2)) / M(0, 0), -farthest, farthest);
     line.profile.emplace_back(y[i], radius[i]);
     line.points.push_back(X_TU.apply({x, y[i], std::sqrt(radius[i] * radius[i] - x * x)}));
   }
@@ -89,12 +90,14 @@ WheelLocus::WheelLocus(const BodyPair& bodies, double nominal_radius) {
   Line line = line_of(bodies, nominal_radius);
   trim(line);
   if (line.points.size() < 2) return;
-  for (std::size_t i = 0; i + 1 < line.profile.size(); ++i) steps_.push_back((line.profile[i + 1] - line.profile[i]).norm());
+  for (std::size_t i = 0; i + 1 < line.profile.size(); ++i)
+    steps_.push_back((line.profile[i + 1] - line.profile[i]).norm());
   points_ = std::move(line.points);
   const std::vector<std::size_t> ends = section_ends(line.profile, steps_);
   for (std::size_t k = 0; k + 1 < ends.size(); ++k) {
     const std::size_t first = ends[k], steps = ends[k + 1] - ends[k];
-    const std::vector<Vec3> bends = natural_bends<Vec3>(std::span(points_).subspan(first, steps + 1), std::span(steps_).subspan(first, steps));
+    const std::vector<Vec3> bends =
+        natural_bends<Vec3>(std::span(points_).subspan(first, steps + 1), std::span(steps_).subspan(first, steps));
     bends_start_.insert(bends_start_.end(), bends.begin(), bends.end() - 1);
     bends_end_.insert(bends_end_.end(), bends.begin() + 1, bends.end());
   }
@@ -107,7 +110,9 @@ std::vector<Vec2> WheelLocus::over(const std::vector<double>& y) const {
   for (std::size_t k = 0; k < y.size(); ++k) {
     while (i + 2 < points_.size() && points_[i + 1].y() < y[k]) ++i;
     if (steps_.empty() || y[k] < points_[i].y() || y[k] > points_[i + 1].y()) continue;
-    const auto at = [&](double f) { return natural_point(points_[i], points_[i + 1], bends_start_[i], bends_end_[i], steps_[i], f); };
+    const auto at = [&](double f) {
+      return natural_point(points_[i], points_[i + 1], bends_start_[i], bends_end_[i], steps_[i], f);
+    };
     double low = 0.0, high = 1.0;
     for (int half = 0; half < kHalvings; ++half) {
       const double middle = 0.5 * (low + high);

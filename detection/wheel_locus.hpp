@@ -8,9 +8,10 @@
 
 namespace treadmark::detection {
 
-/// Points of a round wheel's circles that are closest to a rail along x of T, as the reference program (CONTACT) has them: a point for
-/// every lateral datum of the profile (Li 2002, to first order in the yaw angle), a natural cubic spline over the profile's arc length between them,
-/// broken at kinks. Where the curve folds back over y, seen from its middle, it ends.
+/// Points of a round wheel's circles that are closest to a rail along x of T, as the reference program (CONTACT) has
+/// them: a point for every lateral datum of the profile (Li 2002, to first order in the yaw angle), a natural cubic
+/// spline over the profile's arc length between them, broken at kinks. Where the curve folds back over y, seen from its
+/// middle, it ends.
 class WheelLocus {
  public:
   /// nominal_radius [m]: of the wheel.
@@ -20,8 +21,9 @@ class WheelLocus {
   std::vector<Vec2> over(const std::vector<double>& y) const;
 
  private:
-  std::vector<Vec3> points_, bends_start_, bends_end_;  ///< bends: second derivatives at both ends of the step after a point
-  std::vector<double> steps_;                           ///< of arc length
+  std::vector<Vec3> points_, bends_start_,
+      bends_end_;              ///< bends: second derivatives at both ends of the step after a point
+  std::vector<double> steps_;  ///< of arc length
 };
 
 }  // namespace treadmark::detection

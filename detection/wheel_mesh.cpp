@@ -20,7 +20,9 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 struct Mesh {
   int rows = 0, columns = 0;
   std::vector<Vec3> corners;
-  const Vec3& at(int k, int j) const { return corners[static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j)]; }
+  const Vec3& at(int k, int j) const {
+    return corners[static_cast<std::size_t>(k) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(j)];
+  }
 };
 
 /// What part of the wheel the mesh must cover, in the frame of the wheel's axle without pitch.
@@ -58,11 +60,13 @@ std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& 
   std::vector<double> nodes{y_through};
   const auto walk = [&](int direction) {
     double length = 0.0, next = step;
-    for (auto i = static_cast<std::ptrdiff_t>(through); i + direction >= 0 && i + direction < static_cast<std::ptrdiff_t>(y.size()); i += direction) {
+    for (auto i = static_cast<std::ptrdiff_t>(through);
+         i + direction >= 0 && i + direction < static_cast<std::ptrdiff_t>(y.size()); i += direction) {
       const auto from = static_cast<std::size_t>(i), to = static_cast<std::size_t>(i + direction);
       const double piece = std::hypot(fine, radius[to] - radius[from]);
       if (std::isnan(piece)) return;
-      for (; length + piece >= next; next += step) nodes.push_back(y[from] + (y[to] - y[from]) * (next - length) / piece);
+      for (; length + piece >= next; next += step)
+        nodes.push_back(y[from] + (y[to] - y[from]) * (next - length) / piece);
       length += piece;
     }
   };
@@ -80,14 +84,16 @@ Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, cons
   // Lines through the origin of the grid, which lies far off where grids line up in time.
   const Vec3 marker = X_TU.apply_inverse(X_TC.origin);
   std::vector<double> y = equal_arcs(*bodies.wheel, angle, r, marker.y(), g.dy);
-  if (y.size() < 2) y = equal_arcs(*bodies.wheel, angle, r, 0.5 * (r.y_min + r.y_max), g.dy);  // the origin is beside the wheel
+  if (y.size() < 2)
+    y = equal_arcs(*bodies.wheel, angle, r, 0.5 * (r.y_min + r.y_max), g.dy);  // the origin is beside the wheel
   const std::vector<double> radius = section_radius(*bodies.wheel, angle, y);
   const double first = std::floor((r.x_min - marker.x()) / g.dx), last = std::ceil((r.x_max - marker.x()) / g.dx);
   Mesh mesh{static_cast<int>(last - first) + 1, static_cast<int>(y.size()), {}};
   const Pose X_CU = X_TC.inverse() * X_TU;
   for (int k = 0; k < mesh.rows; ++k) {
     const double x = marker.x() + (first + k) * g.dx;
-    for (std::size_t j = 0; j < y.size(); ++j) mesh.corners.push_back(X_CU.apply({x, y[j], std::sqrt(radius[j] * radius[j] - x * x)}));
+    for (std::size_t j = 0; j < y.size(); ++j)
+      mesh.corners.push_back(X_CU.apply({x, y[j], std::sqrt(radius[j] * radius[j] - x * x)}));
   }
   return mesh;
 }
@@ -96,7 +102,8 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   constexpr double kLateralStep = 0.5e-3;
   constexpr std::size_t kMargin = 3;
   const Reach r = reach_of(X_TU, X_TC, g);
-  const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min), to = std::atan(r.x_max / r.z_min);
+  const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min),
+               to = std::atan(r.x_max / r.z_min);
   int rows = static_cast<int>(std::lround((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
@@ -146,7 +153,8 @@ double bicubic(const Mesh& mesh, const FacetPlace& p) {
 
 double bilinear(const Mesh& mesh, const FacetPlace& p) {
   const auto n = [&](int k, int j) { return mesh.at(k, j).z(); };
-  const double first = n(p.k, p.j) + p.u * (n(p.k + 1, p.j) - n(p.k, p.j)), second = n(p.k, p.j + 1) + p.u * (n(p.k + 1, p.j + 1) - n(p.k, p.j + 1));
+  const double first = n(p.k, p.j) + p.u * (n(p.k + 1, p.j) - n(p.k, p.j)),
+               second = n(p.k, p.j + 1) + p.u * (n(p.k + 1, p.j + 1) - n(p.k, p.j + 1));
   return first + p.v * (second - first);
 }
 
@@ -164,8 +172,11 @@ void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std:
     // From the corner of the middle section next to the row, then from element to element.
     double near = 0.0;
     for (int j = 1; j < mesh.columns; ++j)
-      if (std::abs(corner(middle, j).y() - g.y(iy)) < std::abs(corner(middle, static_cast<int>(near)).y() - g.y(iy))) near = j;
-    const double start_a = std::clamp((g.x(0) - corner(0, 0).x()) / (corner(mesh.rows - 1, 0).x() - corner(0, 0).x()), 0.0, 1.0) * (mesh.rows - 1);
+      if (std::abs(corner(middle, j).y() - g.y(iy)) < std::abs(corner(middle, static_cast<int>(near)).y() - g.y(iy)))
+        near = j;
+    const double start_a =
+        std::clamp((g.x(0) - corner(0, 0).x()) / (corner(mesh.rows - 1, 0).x() - corner(0, 0).x()), 0.0, 1.0) *
+        (mesh.rows - 1);
     double a = start_a, b = near;
     for (int ix = 0; ix < g.nx; ++ix) {
       FacetPlace place;

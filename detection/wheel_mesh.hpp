@@ -8,10 +8,11 @@
 
 namespace treadmark::detection {
 
-/// Heights of the wheel [m] over the elements of a potential contact area as the reference program (CONTACT) has them, from a mesh about as
-/// fine as the elements. A round wheel: bilinear between circles and cross-sections at the element sizes. An out-of-round wheel: between
-/// sections at the element size dx and the lateral nodes of its slices, bicubic with differences for slopes, which rounds off edges narrower
-/// than those nodes. NaN where there is no mesh. Only for agreement with that program's results.
+/// Heights of the wheel [m] over the elements of a potential contact area as the reference program (CONTACT) has them,
+/// from a mesh about as fine as the elements. A round wheel: bilinear between circles and cross-sections at the element
+/// sizes. An out-of-round wheel: between sections at the element size dx and the lateral nodes of its slices, bicubic
+/// with differences for slopes, which rounds off edges narrower than those nodes. NaN where there is no mesh. Only for
+/// agreement with that program's results.
 void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C, std::span<double> wheel_n);
 
 }  // namespace treadmark::detection

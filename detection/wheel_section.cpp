@@ -22,7 +22,8 @@ double lowest_angle(const Pose& X_TW) { return -std::atan2(X_TW.rotation(0, 2), 
 
 std::vector<double> mesh_lines(const Surface& wheel, double angle, double step) {
   const Box3 box = wheel.bounds();
-  const std::vector<double> y = lateral_nodes(wheel, {Vec3::Zero(), rotation_y(angle)}, 0.0, {box.min.y(), box.max.y()});
+  const std::vector<double> y =
+      lateral_nodes(wheel, {Vec3::Zero(), rotation_y(angle)}, 0.0, {box.min.y(), box.max.y()});
   constexpr std::size_t kFewest = 4;
   return y.size() >= kFewest ? y : equal_steps(box.min.y(), box.max.y(), step);
 }

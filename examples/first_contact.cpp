@@ -15,9 +15,9 @@ int main() {
   wheelrail::Problem problem;
   problem.track.cant = 1.0 / 40.0;
   problem.wheelset.nominal_radius = 0.49;
-  problem.state.position.pitch = 0.1;                              // [rad]
-  problem.state.velocity = {.x = 2.0, .pitch = -2.0 / 0.49};       // [m/s], [rad/s]
-  problem.vertical_force = 125e3;                                  // [N]
+  problem.state.position.pitch = 0.1;                         // [rad]
+  problem.state.velocity = {.x = 2.0, .pitch = -2.0 / 0.49};  // [m/s], [rad/s]
+  problem.vertical_force = 125e3;                             // [N]
   const wheelrail::PairSolution solution = pair.solve(problem);
 
   for (const auto& patch : solution.patches)

@@ -23,7 +23,7 @@ constexpr double kRadius = 5.0;
 struct Quantity {
   const char* name;
   int style;
-  double BenchRow::* value;
+  double BenchRow::*value;
 };
 
 struct Panel {
@@ -41,7 +41,10 @@ const std::array<Panel, 3>& panels() {
                                              {"what the offsets lie on", 3, &BenchRow::base_height}};
   static const std::array<Panel, 3> all{{{"a height on the wheel", "ns", 1e9, Body::wheel, heights},
                                          {"a height on the rail", "ns", 1e9, Body::rail, heights},
-                                         {"wheel on rail", "ms", 1e3, Body::wheel,
+                                         {"wheel on rail",
+                                          "ms",
+                                          1e3,
+                                          Body::wheel,
                                           {{"contact search", 4, &BenchRow::search_cold},
                                            {"after a small move", 5, &BenchRow::search_warm},
                                            {"undeformed distance", 6, &BenchRow::distance}}}}};
@@ -54,8 +57,9 @@ std::string label(const BenchRow& row) {
 
 std::string marker(const Quantity& q, double x, double y, const std::string& title) {
   const std::string_view colour = io::chart_colour(q.style);
-  return fmt::format("<path class=\"mark\" stroke=\"{0}\" fill=\"{0}\" fill-opacity=\"0.85\" d=\"{1}\"><title>{2}</title></path>\n", colour,
-                     io::chart_marker_path(q.style, x, y, kRadius), io::xml_text(title));
+  return fmt::format(
+      "<path class=\"mark\" stroke=\"{0}\" fill=\"{0}\" fill-opacity=\"0.85\" d=\"{1}\"><title>{2}</title></path>\n",
+      colour, io::chart_marker_path(q.style, x, y, kRadius), io::xml_text(title));
 }
 
 std::string draw(const Panel& panel, const std::vector<BenchRow>& all, double left, double height) {
@@ -70,11 +74,13 @@ std::string draw(const Panel& panel, const std::vector<BenchRow>& all, double le
   std::string out = io::svg_text(left + 0.5 * kPanel, kTop - 14.0, panel.title, "middle", " class=\"title\"");
   for (const io::AxisTick& tick : axis.ticks()) {
     const double x = left + tick.at * kPanel;
-    out += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid", x, kTop, height);
+    out += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid", x,
+                       kTop, height);
     if (!tick.label.empty()) out += io::svg_text(x, kTop + height + 16.0, tick.label);
   }
   out += io::svg_text(left + 0.5 * kPanel, kTop + height + 34.0, fmt::format("[{}]", panel.unit));
-  out += fmt::format("<rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", left, kTop, kPanel, height);
+  out += fmt::format("<rect class=\"frame\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", left,
+                     kTop, kPanel, height);
   for (std::size_t i = 0; i < rows.size(); ++i) {
     const double y = kTop + kLine * (static_cast<double>(i) + 0.5);
     double least = 2.0, most = -1.0;
@@ -85,10 +91,12 @@ std::string draw(const Panel& panel, const std::vector<BenchRow>& all, double le
       if (!at) continue;
       least = std::min(least, *at);
       most = std::max(most, *at);
-      marks += marker(q, left + *at * kPanel, y, fmt::format("{}, {}: {:.3g} {}", label(*rows[i]), q.name, value, panel.unit));
+      marks += marker(q, left + *at * kPanel, y,
+                      fmt::format("{}, {}: {:.3g} {}", label(*rows[i]), q.name, value, panel.unit));
     }
     if (most > least)
-      out += fmt::format("<path class=\"line\" stroke=\"#999999\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n", left + least * kPanel, y, left + most * kPanel);
+      out += fmt::format("<path class=\"line\" stroke=\"#999999\" d=\"M{:.1f} {:.1f}H{:.1f}\"/>\n",
+                         left + least * kPanel, y, left + most * kPanel);
     out += marks;
     if (!rows[i]->agrees) out += io::svg_text(left + 6.0, y + 4.0, "does not agree", "start", " class=\"remark\"");
   }
@@ -120,7 +128,8 @@ std::string bench_svg(const BenchReport& report) {
   for (std::size_t i = 0; i < names.size(); ++i) {
     const double y = kTop + kLine * static_cast<double>(i);
     if (i % 2 == 1)
-      out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#f5f5f5\"/>\n", y, width - kGap, kLine);
+      out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\" fill=\"#f5f5f5\"/>\n", y,
+                         width - kGap, kLine);
     out += io::svg_text(kNames - 10.0, y + 0.5 * kLine + 4.0, names[i], "end");
   }
   double left = kNames;
@@ -129,7 +138,8 @@ std::string bench_svg(const BenchReport& report) {
     out += legend(panel, left, kTop + height + kBelow + 8.0);
     left += kPanel + kGap;
   }
-  out += io::svg_text(10.0, end - 10.0, fmt::format("{}, {}, {}", report.machine, report.compiler, report.date), "start", " class=\"remark\"");
+  out += io::svg_text(10.0, end - 10.0, fmt::format("{}, {}, {}", report.machine, report.compiler, report.date),
+                      "start", " class=\"remark\"");
   return out + "</svg>\n";
 }
 

@@ -31,23 +31,24 @@ std::string line(const std::vector<io::NamedField>& fields, Text text) {
 
 std::vector<io::NamedField> bench_fields(const BenchRow& row) {
   const auto count = [](std::size_t n) { return static_cast<std::int64_t>(n); };
-  return {{"backend", row.backend},
-          {"resolution_mm", row.resolution > 0.0 ? io::FieldValue(1e3 * row.resolution) : io::FieldValue(BenchRow::kNone)},
-          {"body", std::string(row.body == Body::rail ? "rail" : "wheel")},
-          {"agrees", std::string(row.agrees ? "true" : "false")},
-          {"reason", row.reason},
-          {"difference_um", 1e6 * row.difference},
-          {"build_s", row.build},
-          {"memory_bytes", count(row.memory_bytes)},
-          {"points", count(row.points)},
-          {"ns_per_height", 1e9 * row.height},
-          {"ns_per_height_tilted", 1e9 * row.height_tilted},
-          {"ns_per_normal", 1e9 * row.normal},
-          {"base_ns_per_height", 1e9 * row.base_height},
-          {"search_cold_s", row.search_cold},
-          {"search_warm_s", row.search_warm},
-          {"distance_s", row.distance},
-          {"patches", row.patches >= 0 ? io::FieldValue(std::int64_t{row.patches}) : io::FieldValue(BenchRow::kNone)}};
+  return {
+      {"backend", row.backend},
+      {"resolution_mm", row.resolution > 0.0 ? io::FieldValue(1e3 * row.resolution) : io::FieldValue(BenchRow::kNone)},
+      {"body", std::string(row.body == Body::rail ? "rail" : "wheel")},
+      {"agrees", std::string(row.agrees ? "true" : "false")},
+      {"reason", row.reason},
+      {"difference_um", 1e6 * row.difference},
+      {"build_s", row.build},
+      {"memory_bytes", count(row.memory_bytes)},
+      {"points", count(row.points)},
+      {"ns_per_height", 1e9 * row.height},
+      {"ns_per_height_tilted", 1e9 * row.height_tilted},
+      {"ns_per_normal", 1e9 * row.normal},
+      {"base_ns_per_height", 1e9 * row.base_height},
+      {"search_cold_s", row.search_cold},
+      {"search_warm_s", row.search_warm},
+      {"distance_s", row.distance},
+      {"patches", row.patches >= 0 ? io::FieldValue(std::int64_t{row.patches}) : io::FieldValue(BenchRow::kNone)}};
 }
 
 std::string bench_csv(const BenchReport& report) {

@@ -9,7 +9,8 @@ namespace treadmark::app {
 void write_bench_folder(const std::filesystem::path& folder, const BenchReport& report) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+  if (failure)
+    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
   // The file of an earlier run must not pass for this one if writing fails half way.
   std::filesystem::remove(folder / "bench.json", failure);
   io::write_text_file(folder / "bench.svg", bench_svg(report));

@@ -17,21 +17,21 @@ struct BenchRow {
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string backend;
-  double resolution = 0.0;        ///< of the samples [m]; 0 = as given
+  double resolution = 0.0;  ///< of the samples [m]; 0 = as given
   Body body = Body::rail;
-  bool agrees = false;            ///< with every oracle it was held against
-  std::string reason;             ///< why it does not agree; empty if it does
-  double difference = kNone;      ///< largest normal distance from the surface as given, over the measured grids [m]
+  bool agrees = false;        ///< with every oracle it was held against
+  std::string reason;         ///< why it does not agree; empty if it does
+  double difference = kNone;  ///< largest normal distance from the surface as given, over the measured grids [m]
   std::size_t memory_bytes = 0;
-  std::size_t points = 0;         ///< of the grid of heights
-  double build = kNone;           ///< [s]
+  std::size_t points = 0;  ///< of the grid of heights
+  double build = kNone;    ///< [s]
   // a height each [s]
   double height = kNone, height_tilted = kNone;
-  double normal = kNone;          ///< height with both slopes, tilted plane
-  double base_height = kNone;     ///< offsets only: the surface below them, level plane
+  double normal = kNone;       ///< height with both slopes, tilted plane
+  double base_height = kNone;  ///< offsets only: the surface below them, level plane
   // of wheel and rail, both in this representation [s]
   double search_cold = kNone, search_warm = kNone, distance = kNone;
-  int patches = -1;               ///< -1: not searched
+  int patches = -1;  ///< -1: not searched
 };
 
 /// All that one run of the benchmark found out, with what is needed to read it.
@@ -39,12 +39,12 @@ struct BenchReport {
   std::string version, git, date, machine, compiler;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
   int threads = 1;
-  double seconds = 0.0;              ///< of the whole run
+  double seconds = 0.0;  ///< of the whole run
   double seconds_per_measure = 0.0;
   std::string input_file, input_sha256;  ///< empty for the built-in case
   std::vector<std::string> settings;
-  std::string truth;                 ///< representation of the surfaces as given
-  bool complete = true;              ///< false when interrupted
+  std::string truth;     ///< representation of the surfaces as given
+  bool complete = true;  ///< false when interrupted
   std::vector<BenchRow> rows;
 
   bool agrees() const {

@@ -60,18 +60,21 @@ class PairBench {
     const double points = static_cast<double>(row.points);
     const auto heights = [&](const std::string& what, const Surface& s, const BenchView::Plane& plane, bool slopes) {
       const PlaneGrid grid{plane.X_SP, view.grid};
-      return timed(word + ", " + what, [&] {
-               if (slopes)
-                 s.heights(grid, {z, dzdx, dzdy});
-               else
-                 s.heights(grid, {z, {}, {}});
-             }) / points;
+      return timed(word + ", " + what,
+                   [&] {
+                     if (slopes)
+                       s.heights(grid, {z, dzdx, dzdy});
+                     else
+                       s.heights(grid, {z, {}, {}});
+                   }) /
+             points;
     };
     row.height = heights("heights", surface, view.level, false);
     row.height_tilted = heights("tilted heights", surface, view.tilted, false);
     row.normal = heights("normals", surface, view.tilted, true);
     const Surface* base = scene_.base(body);
-    if (pair_.backend.starts_with("offset") && base != nullptr) row.base_height = heights("base", *base, view.level, false);
+    if (pair_.backend.starts_with("offset") && base != nullptr)
+      row.base_height = heights("base", *base, view.level, false);
     return row;
   }
 
@@ -88,9 +91,10 @@ class PairBench {
     detection::ContactSearch search(bodies_, scene_.search);
     search.at(0.0);
     bool further = false;  // never twice the same position
-    const double warm = timed("search after a small move", [&] { search.at((further = !further) ? kWarmStep : 2.0 * kWarmStep); });
-    const double distance =
-        timed("undeformed distance", [&] { detection::undeformed_distance(bodies_, scene_.X_TC, scene_.contact_grid); });
+    const double warm =
+        timed("search after a small move", [&] { search.at((further = !further) ? kWarmStep : 2.0 * kWarmStep); });
+    const double distance = timed("undeformed distance",
+                                  [&] { detection::undeformed_distance(bodies_, scene_.X_TC, scene_.contact_grid); });
     for (BenchRow& row : rows) {
       row.search_cold = cold;
       row.search_warm = warm;
@@ -114,8 +118,8 @@ class PairBench {
 
 }  // namespace
 
-std::optional<std::array<BenchRow, 2>> measure_pair(const BenchScene& scene, const BenchPair& pair, double seconds_per_measure,
-                                                    const BenchStep& step) {
+std::optional<std::array<BenchRow, 2>> measure_pair(const BenchScene& scene, const BenchPair& pair,
+                                                    double seconds_per_measure, const BenchStep& step) {
   try {
     return PairBench(scene, pair, seconds_per_measure, step).rows();
   } catch (const Stopped&) {

@@ -24,9 +24,9 @@ struct BenchPair {
 using BenchStep = std::function<bool(const std::string& what)>;
 inline constexpr std::size_t kStepsOfPair = 13;  ///< at most
 
-/// Checks both bodies, then the search and the undeformed distance; measures what agrees. A row for the rail and one for the
-/// wheel; nothing if it was stopped.
-std::optional<std::array<BenchRow, 2>> measure_pair(const BenchScene& scene, const BenchPair& pair, double seconds_per_measure,
-                                                    const BenchStep& step);
+/// Checks both bodies, then the search and the undeformed distance; measures what agrees. A row for the rail and one
+/// for the wheel; nothing if it was stopped.
+std::optional<std::array<BenchRow, 2>> measure_pair(const BenchScene& scene, const BenchPair& pair,
+                                                    double seconds_per_measure, const BenchStep& step);
 
 }  // namespace treadmark::app

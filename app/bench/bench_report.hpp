@@ -11,8 +11,8 @@
 
 namespace treadmark::app {
 
-/// A row as the JSON and the CSV file have it: always the same names in the same order, values in the units of their names,
-/// a number that is not finite where nothing was measured.
+/// A row as the JSON and the CSV file have it: always the same names in the same order, values in the units of their
+/// names, a number that is not finite where nothing was measured.
 std::vector<io::NamedField> bench_fields(const BenchRow& row);
 
 /// A report as JSON text (docs/bench.schema.json); what was not measured is null.
@@ -31,8 +31,8 @@ std::string bench_markdown(const BenchReport& report);
 /// logarithmic axes.
 std::string bench_svg(const BenchReport& report);
 
-/// Writes bench.svg, bench.csv and, last, bench.json to a folder that is made if it is missing; each file appears only when
-/// it is complete. Errors: Error(configuration).
+/// Writes bench.svg, bench.csv and, last, bench.json to a folder that is made if it is missing; each file appears only
+/// when it is complete. Errors: Error(configuration).
 void write_bench_folder(const std::filesystem::path& folder, const BenchReport& report);
 
 }  // namespace treadmark::app

@@ -17,7 +17,8 @@
 namespace treadmark::app {
 namespace {
 
-std::shared_ptr<const NaturalSurface> as_given(io::SurfaceSource source, Body body, double nominal_radius, double& seconds) {
+std::shared_ptr<const NaturalSurface> as_given(io::SurfaceSource source, Body body, double nominal_radius,
+                                               double& seconds) {
   using Clock = std::chrono::steady_clock;
   source.backend.clear();
   source.resolution = 0.0;
@@ -56,7 +57,8 @@ BenchScene make_bench_scene(const io::CaseFile& file, const BenchGrid& grid) {
   first.cases.emplace_back().content = *input;
   s.regions = sampled_regions(first);
 
-  const wheelrail::Geometry geometry{s.rail->surface, s.wheel->surface, s.rail->constant_profile(), s.wheel->constant_profile()};
+  const wheelrail::Geometry geometry{s.rail->surface, s.wheel->surface, s.rail->constant_profile(),
+                                     s.wheel->constant_profile()};
   wheelrail::Problem problem = to_problem(*input, geometry.constant_profiles());
   if (problem.side == wheelrail::Side::left) problem = wheelrail::mirrored(problem);
   const wheelrail::PairSolution solution = wheelrail::Pair(geometry).solve(problem);
@@ -69,7 +71,8 @@ BenchScene make_bench_scene(const io::CaseFile& file, const BenchGrid& grid) {
   s.X_TC = patch.frame.X_TC;
   s.contact_grid = patch.grid;
 
-  const wheelrail::LateralRange head = wheelrail::visible_range(*s.rail->surface, s.bodies.X_TR.inverse(), s.X_TC.origin.x());
+  const wheelrail::LateralRange head =
+      wheelrail::visible_range(*s.rail->surface, s.bodies.X_TR.inverse(), s.X_TC.origin.x());
   const auto view = [&](const Surface& surface, const Pose& X_TS) {
     const Vec3 contact_S = X_TS.apply_inverse(s.X_TC.origin);
     return make_bench_view(surface, contact_S, head.y_min - s.X_TC.origin.y(), head.y_max - s.X_TC.origin.y(), grid);

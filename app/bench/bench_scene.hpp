@@ -12,8 +12,8 @@
 
 namespace treadmark::app {
 
-/// A body seen where it carries: planes level with it and tilted (rolled, yawed and pitched), one grid for both, and the
-/// heights and slopes of the surface as given.
+/// A body seen where it carries: planes level with it and tilted (rolled, yawed and pitched), one grid for both, and
+/// the heights and slopes of the surface as given.
 struct BenchView {
   struct Plane {
     Pose X_SP;
@@ -27,13 +27,14 @@ struct BenchView {
 /// Wheel and rail as given, pressed on each other by the load of the case.
 struct BenchScene {
   std::shared_ptr<const NaturalSurface> rail, wheel;
-  std::shared_ptr<const Surface> rail_base, wheel_base;  ///< without defects: what offsets lie on; null where it is not known
+  std::shared_ptr<const Surface> rail_base,
+      wheel_base;  ///< without defects: what offsets lie on; null where it is not known
   double rail_build_seconds = 0.0, wheel_build_seconds = 0.0;  ///< of the surfaces as given
-  SampledRegions regions;                 ///< what has to be sampled
-  detection::BodyPair bodies;             ///< as given, placed as solved
+  SampledRegions regions;                                      ///< what has to be sampled
+  detection::BodyPair bodies;                                  ///< as given, placed as solved
   detection::SearchSettings search;
-  Pose X_TC;                              ///< tangent plane of the patch that carries most
-  Grid2 contact_grid;                     ///< its potential contact area
+  Pose X_TC;           ///< tangent plane of the patch that carries most
+  Grid2 contact_grid;  ///< its potential contact area
   BenchView rail_view, wheel_view;
 
   const NaturalSurface& natural(Body body) const { return body == Body::rail ? *rail : *wheel; }

@@ -15,8 +15,8 @@ constexpr std::size_t kColumns = 14;
 using Line = std::array<std::string, kColumns>;
 
 const std::array<Line, 3> kHead{{
-    {"backend", "resolution", "body", "differs", "build", "memory", "height", "tilted", "normal", "base", "search", "search",
-     "distance", "patches"},
+    {"backend", "resolution", "body", "differs", "build", "memory", "height", "tilted", "normal", "base", "search",
+     "search", "distance", "patches"},
     {"", "", "", "", "", "", "level", "", "", "level", "cold", "warm", "", ""},
     {"", "[mm]", "", "[um]", "[ms]", "[MB]", "[ns]", "[ns]", "[ns]", "[ns]", "[ms]", "[ms]", "[ms]", ""},
 }};
@@ -54,8 +54,9 @@ std::string label(const BenchRow& row) {
 }
 
 std::string origin(const BenchReport& report) {
-  return fmt::format("{}, {} {}, {}, treadmark {} ({}), {}", report.machine, report.threads, report.threads == 1 ? "thread" : "threads",
-                     report.compiler, report.version, report.git, report.date);
+  return fmt::format("{}, {} {}, {}, treadmark {} ({}), {}", report.machine, report.threads,
+                     report.threads == 1 ? "thread" : "threads", report.compiler, report.version, report.git,
+                     report.date);
 }
 
 std::string remarks(const BenchReport& report, const char* before) {

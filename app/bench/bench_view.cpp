@@ -33,13 +33,15 @@ double largest_curvature(const Surface& surface, const Pose& X_SP, const Grid2& 
   surface.locate(X_SP, points, found);
   double largest = 0.0;
   for (const SurfacePoint& p : found)
-    if (p.status != LocateStatus::outside) largest = std::fmax(largest, std::fmax(std::abs(p.curvature_1), std::abs(p.curvature_2)));
+    if (p.status != LocateStatus::outside)
+      largest = std::fmax(largest, std::fmax(std::abs(p.curvature_1), std::abs(p.curvature_2)));
   return largest;
 }
 
 }  // namespace
 
-BenchView make_bench_view(const Surface& surface, const Vec3& contact_S, double y_before, double y_after, const BenchGrid& size) {
+BenchView make_bench_view(const Surface& surface, const Vec3& contact_S, double y_before, double y_after,
+                          const BenchGrid& size) {
   BenchView view;
   Grid2& g = view.grid;
   g.dx = g.dy = size.step;

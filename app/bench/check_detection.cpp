@@ -54,8 +54,8 @@ std::string check_distance(const detection::BodyPair& bodies, const Pose& X_TC, 
       const double expected = height_at(*bodies.rail, X_RC, point) - height_at(*bodies.wheel, X_WC, point);
       const double found = whole.distance[grid_C.index(ix, iy)] - whole.approach;
       if (std::isnan(expected) != std::isnan(found) || std::abs(found - expected) > kDistance)
-        return fmt::format("undeformed distance: {:.3g} nm from single heights at x = {:.2f} mm, s = {:.2f} mm", 1e9 * (found - expected),
-                           1e3 * point.x(), 1e3 * point.y());
+        return fmt::format("undeformed distance: {:.3g} nm from single heights at x = {:.2f} mm, s = {:.2f} mm",
+                           1e9 * (found - expected), 1e3 * point.x(), 1e3 * point.y());
     }
   return {};
 }

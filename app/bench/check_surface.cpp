@@ -11,10 +11,10 @@
 namespace treadmark::app {
 namespace {
 
-constexpr double kExact = 1e-9;   // [m] the same point of one surface, found in another way
-constexpr double kSteep = 3.0;    // slopes beyond this may hide behind others when turned
-constexpr double kStep = 1e-6;    // of differences [m]
-constexpr double kSlope = 1e-3;   // of differences, relative to 1 + slope^2 [-]
+constexpr double kExact = 1e-9;  // [m] the same point of one surface, found in another way
+constexpr double kSteep = 3.0;   // slopes beyond this may hide behind others when turned
+constexpr double kStep = 1e-6;   // of differences [m]
+constexpr double kSlope = 1e-3;  // of differences, relative to 1 + slope^2 [-]
 constexpr RollYawPitch kOtherTurn{-0.03, 0.01, -0.04};
 constexpr std::size_t kSamples = 500;
 
@@ -34,12 +34,13 @@ bool near_end(const BenchView::Plane& truth, const Grid2& g, int ix, int iy, int
 
 std::string place(const Grid2& g, std::size_t i) {
   const int nx = g.nx;
-  return fmt::format("at x = {:.2f} mm, y = {:.2f} mm of the plane", 1e3 * g.x(static_cast<int>(i) % nx), 1e3 * g.y(static_cast<int>(i) / nx));
+  return fmt::format("at x = {:.2f} mm, y = {:.2f} mm of the plane", 1e3 * g.x(static_cast<int>(i) % nx),
+                     1e3 * g.y(static_cast<int>(i) / nx));
 }
 
 /// Normal distances from the truth over the whole grid.
-std::string check_truth(const BenchView::Plane& subject, const BenchView::Plane& truth, const Grid2& g, double resolution, double limit,
-                        double& largest) {
+std::string check_truth(const BenchView::Plane& subject, const BenchView::Plane& truth, const Grid2& g,
+                        double resolution, double limit, double& largest) {
   const int reach = 2 + static_cast<int>(std::ceil(2.0 * resolution / g.dx));
   std::size_t worst = 0;
   double here = 0.0;
@@ -48,15 +49,19 @@ std::string check_truth(const BenchView::Plane& subject, const BenchView::Plane&
       const std::size_t i = g.index(ix, iy);
       if (missing(subject.z[i]) != missing(truth.z[i])) {
         if (near_end(truth, g, ix, iy, reach)) continue;
-        return fmt::format("{} {}", missing(truth.z[i]) ? "a height where there is no surface" : "no height where there is a surface", place(g, i));
+        return fmt::format(
+            "{} {}", missing(truth.z[i]) ? "a height where there is no surface" : "no height where there is a surface",
+            place(g, i));
       }
       if (missing(truth.z[i])) continue;
-      const double d = std::abs(subject.z[i] - truth.z[i]) / std::sqrt(1.0 + truth.dzdx[i] * truth.dzdx[i] + truth.dzdy[i] * truth.dzdy[i]);
+      const double d = std::abs(subject.z[i] - truth.z[i]) /
+                       std::sqrt(1.0 + truth.dzdx[i] * truth.dzdx[i] + truth.dzdy[i] * truth.dzdy[i]);
       if (d > here) here = d, worst = i;
     }
   largest = std::max(largest, here);
   if (here <= limit) return {};
-  return fmt::format("{:.3g} um from the surface as given {}, {:.3g} um allowed", 1e6 * here, place(g, worst), 1e6 * limit);
+  return fmt::format("{:.3g} um from the surface as given {}, {:.3g} um allowed", 1e6 * here, place(g, worst),
+                     1e6 * limit);
 }
 
 /// Points of the grid that are there and not steep.
@@ -94,7 +99,8 @@ std::string check_slopes(const Surface& subject, const BenchView::Plane& plane, 
   for (const std::size_t i : chosen) {
     const int nx = g.nx, k = static_cast<int>(i);
     const Vec2 p(g.x(k % nx), g.y(k / nx));
-    for (const Vec2& d : {Vec2(-kStep, 0.0), Vec2(kStep, 0.0), Vec2(0.0, -kStep), Vec2(0.0, kStep)}) points.push_back(p + d);
+    for (const Vec2& d : {Vec2(-kStep, 0.0), Vec2(kStep, 0.0), Vec2(0.0, -kStep), Vec2(0.0, kStep)})
+      points.push_back(p + d);
   }
   std::vector<double> z(points.size());
   subject.heights_at(plane.X_SP, points, {z, {}, {}});
@@ -106,7 +112,8 @@ std::string check_slopes(const Surface& subject, const BenchView::Plane& plane, 
       const double *before = &z[4 * n + (along ? 0 : 2)], *after = before + 1;
       const double left = (plane.z[i] - *before) / kStep, right = (*after - plane.z[i]) / kStep;
       if (slope >= std::fmin(left, right) - room && slope <= std::fmax(left, right) + room) continue;
-      return fmt::format("slopes differ from differences of heights: {:.6f} instead of {:.6f} to {:.6f} {}", slope, left, right, place(g, i));
+      return fmt::format("slopes differ from differences of heights: {:.6f} instead of {:.6f} to {:.6f} {}", slope,
+                         left, right, place(g, i));
     }
   }
   return {};
@@ -134,7 +141,8 @@ SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, d
   SurfaceAgreement result;
   for (const bool level : {true, false}) {
     const BenchView::Plane& expected = level ? truth.level : truth.tilted;
-    BenchView::Plane plane{expected.X_SP, std::vector<double>(g.size()), std::vector<double>(g.size()), std::vector<double>(g.size())};
+    BenchView::Plane plane{expected.X_SP, std::vector<double>(g.size()), std::vector<double>(g.size()),
+                           std::vector<double>(g.size())};
     std::vector<double> plain(g.size());
     subject.heights({plane.X_SP, g}, {plain, {}, {}});
     subject.heights({plane.X_SP, g}, {plane.z, plane.dzdx, plane.dzdy});

@@ -12,7 +12,9 @@
 namespace treadmark::app {
 namespace {
 
-double wall_time() { return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count(); }
+double wall_time() {
+  return std::chrono::duration<double>(std::chrono::steady_clock::now().time_since_epoch()).count();
+}
 
 double cpu_time() {
   timespec now{};

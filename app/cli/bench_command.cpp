@@ -33,7 +33,8 @@ app::BenchSettings settings_of(const BenchOptions& options) {
 std::vector<std::string> echo(const BenchOptions& options) {
   std::vector<std::string> out = options.overrides;
   if (!options.backends.empty()) out.push_back(fmt::format("backends={}", fmt::join(options.backends, ",")));
-  if (!options.resolutions_mm.empty()) out.push_back(fmt::format("resolutions_mm={}", fmt::join(options.resolutions_mm, ",")));
+  if (!options.resolutions_mm.empty())
+    out.push_back(fmt::format("resolutions_mm={}", fmt::join(options.resolutions_mm, ",")));
   return out;
 }
 
@@ -55,7 +56,9 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
     ProgressLine line(common.quiet);
     Progress progress;
     progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+      line.update(finished, total, what);
+    };
     report = app::bench_surfaces(file, settings_of(options), progress);
   }
   report.settings = echo(options);
@@ -66,7 +69,8 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
     if (folder.wanted()) app::write_bench_folder(folder.path(), report);
     folder.write_report();
   }
-  if (!options.json_file.empty() && options.json_file != "-") io::write_text_file(options.json_file, app::bench_json(report));
+  if (!options.json_file.empty() && options.json_file != "-")
+    io::write_text_file(options.json_file, app::bench_json(report));
   if (options.json_file == "-")
     std::cout << app::bench_json(report);
   else

@@ -14,8 +14,10 @@ namespace treadmark::cli {
 namespace {
 
 void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run, app::SurfaceStore& surfaces) {
-  if (const auto* simulation = std::get_if<io::SimulationFile>(&run)) app::check_vehicle(*simulation, surfaces);
-  else app::check_geometry(std::get<io::CaseFile>(run));
+  if (const auto* simulation = std::get_if<io::SimulationFile>(&run))
+    app::check_vehicle(*simulation, surfaces);
+  else
+    app::check_geometry(std::get<io::CaseFile>(run));
 }
 
 }  // namespace

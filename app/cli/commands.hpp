@@ -19,8 +19,8 @@ struct CommonOptions {
 
 struct RunOptions {
   std::vector<std::string> cases;
-  std::string output_folder;   ///< empty = no files
-  std::string json_file;       ///< "-" = stdout, empty = none
+  std::string output_folder;  ///< empty = no files
+  std::string json_file;      ///< "-" = stdout, empty = none
   std::string backend, wheel_backend, rail_backend;
   double resolution_mm = 0.0;          ///< of re-represented surfaces, 0 = their default
   std::vector<std::string> overrides;  ///< key=value
@@ -34,7 +34,7 @@ struct CompareOptions {
   std::vector<double> resolutions_mm;
   std::string bodies = "auto";
   std::vector<std::string> overrides;
-  std::string report_file;             ///< HTML; empty = none
+  std::string report_file;  ///< HTML; empty = none
 };
 
 struct BenchOptions {
@@ -46,12 +46,12 @@ struct BenchOptions {
   bool markdown = false;
   bool threads_given = false;  ///< else one thread
   std::vector<std::string> overrides;
-  std::string report_file;             ///< HTML; empty = none
+  std::string report_file;  ///< HTML; empty = none
 };
 
 struct ConvertOptions {
-  std::string input, output;      ///< geometry or case file; surface file
-  std::string body;               ///< "wheel", "rail" or empty
+  std::string input, output;  ///< geometry or case file; surface file
+  std::string body;           ///< "wheel", "rail" or empty
   double resolution_mm = 0.0;
   double nominal_radius_mm = 0.0;
   double scale_to_mm = 1.0;
@@ -60,11 +60,11 @@ struct ConvertOptions {
 };
 
 struct ScanOptions {
-  std::string surface, cloud;     ///< geometry or case file; file of points
-  std::string truth_file;         ///< "-" = stdout, empty = none
-  std::string body;               ///< "wheel", "rail" or empty
+  std::string surface, cloud;  ///< geometry or case file; file of points
+  std::string truth_file;      ///< "-" = stdout, empty = none
+  std::string body;            ///< "wheel", "rail" or empty
   std::size_t points = 1'000'000;
-  double spacing_mm = 0.0;        ///< 0 = by the number of points
+  double spacing_mm = 0.0;  ///< 0 = by the number of points
   double noise_mm = 0.0, noise_lateral_mm = 0.0;
   double outliers = 0.0, holes = 0.0, hole_size_mm = 4.0, drop_outs = 0.0;
   double most_incidence_deg = 0.0;
@@ -80,42 +80,42 @@ struct ScanOptions {
 
 struct ImportOptions {
   std::vector<std::string> scans, outputs;
-  std::string report_folder, json_file, settings_file;   ///< empty = none; JSON "-" = stdout
-  std::string body, unit, nominal;                       ///< empty = as the settings say
-  double nominal_radius_mm = 0.0, resolution_mm = 0.0;   ///< 0 = as the settings say
+  std::string report_folder, json_file, settings_file;  ///< empty = none; JSON "-" = stdout
+  std::string body, unit, nominal;                      ///< empty = as the settings say
+  double nominal_radius_mm = 0.0, resolution_mm = 0.0;  ///< 0 = as the settings say
   bool list_settings = false;
-  std::vector<std::string> overrides;                    ///< table.key=value
+  std::vector<std::string> overrides;  ///< table.key=value
 };
 
 struct SimulateOptions {
   std::string file;
-  std::string output_folder, json_file;   ///< empty = none; JSON "-" = stdout
+  std::string output_folder, json_file;  ///< empty = none; JSON "-" = stdout
   std::string wheel_backend, rail_backend;
   bool resume = false;
-  bool modes_only = false;                ///< print eigenfrequencies, do not integrate
+  bool modes_only = false;  ///< print eigenfrequencies, do not integrate
   std::vector<std::string> overrides;
-  std::string report_file;             ///< HTML; empty = none
+  std::string report_file;  ///< HTML; empty = none
 };
 
 struct SweepOptions {
   std::string file;
   std::string output_folder;
   bool resume = false;
-  bool threads_given = false;             ///< else one for each process that was started together with others
+  bool threads_given = false;  ///< else one for each process that was started together with others
   std::vector<std::string> overrides;
-  std::string report_file;             ///< HTML; empty = none
+  std::string report_file;  ///< HTML; empty = none
 };
 
 struct ReportOptions {
   std::string folder;
-  std::string output_file;                ///< empty = report.html in the folder
-  bool static_pictures = false;           ///< in place of live views
+  std::string output_file;       ///< empty = report.html in the folder
+  bool static_pictures = false;  ///< in place of live views
 };
 
 struct PlotOptions {
-  std::string folder, output_file;        ///< "-" = stdout
-  std::string what;                       ///< empty: list what can be drawn
-  std::vector<int> cases;                 ///< numbers; empty = all
+  std::string folder, output_file;  ///< "-" = stdout
+  std::string what;                 ///< empty: list what can be drawn
+  std::vector<int> cases;           ///< numbers; empty = all
 };
 
 // Each command returns an exit status or throws treadmark::Error.

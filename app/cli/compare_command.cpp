@@ -74,7 +74,9 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
     ProgressLine line(common.quiet);
     Progress progress;
     progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+      line.update(finished, total, what);
+    };
     result = app::compare_cases(file, settings_of(options), progress);
   }
   result.settings = echo(options);

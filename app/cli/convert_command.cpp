@@ -20,12 +20,15 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   settings.overrides = options.overrides;
   constexpr double kDegree = std::numbers::pi / 180.0;
   if (!options.range_mm.empty()) settings.range_x = {1e-3 * options.range_mm[0], 1e-3 * options.range_mm[1]};
-  if (!options.range_deg.empty()) settings.range_theta = {kDegree * options.range_deg[0], kDegree * options.range_deg[1]};
+  if (!options.range_deg.empty())
+    settings.range_theta = {kDegree * options.range_deg[0], kDegree * options.range_deg[1]};
 
   const app::Converted result = app::convert_surface(options.input, options.output, settings);
   const bool wheel = result.body == Body::wheel;
-  const io::SurfaceUse use{wheel ? "wheel" : "rail", std::string(result.written.surface->backend()), result.written.resolution,
-                           result.written.build_seconds, result.written.surface->memory_bytes(), result.fit, result.written.note};
+  const io::SurfaceUse use{
+      wheel ? "wheel" : "rail",     std::string(result.written.surface->backend()), result.written.resolution,
+      result.written.build_seconds, result.written.surface->memory_bytes(),         result.fit,
+      result.written.note};
   std::cout << options.output << ": " << result.kind << ", " << io::summary(use) << '\n';
   return kOk;
 }

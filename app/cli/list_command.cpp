@@ -20,7 +20,8 @@ int list_command(const std::string& what) {
   } else if (what == "verbs") {
     std::cout << "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\nreport\nplot\ncheck\nlist\nschema\n";
   } else {
-    throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {}, "choose backends, profiles, solvers or verbs");
+    throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
+                "choose backends, profiles, solvers or verbs");
   }
   return kOk;
 }

@@ -20,7 +20,8 @@ namespace treadmark::cli {
 
 namespace {
 
-/// Makes the folder. The last file of an earlier run goes first: it must not pass for this one if writing fails half way.
+/// Makes the folder. The last file of an earlier run goes first: it must not pass for this one if writing fails half
+/// way.
 void prepare(const std::filesystem::path& folder, const char* last_file) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
@@ -41,9 +42,11 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
       const io::PatchResult& patch = c.patches[k];
       const int letter = c.has_wheelset ? static_cast<int>(k) + 1 : 0;
       if (patch.element_table)
-        io::write_mat(folder / io::case_file_name(stem, c.number, letter, "mat"), *patch.element_table, patch, patch.all_elements);
+        io::write_mat(folder / io::case_file_name(stem, c.number, letter, "mat"), *patch.element_table, patch,
+                      patch.all_elements);
       if (patch.subsurface_table && !patch.subsurface.empty())
-        io::write_subs(folder / io::case_file_name(stem, c.number, letter, "subs"), patch.subsurface, patch.full_tensor);
+        io::write_subs(folder / io::case_file_name(stem, c.number, letter, "subs"), patch.subsurface,
+                       patch.full_tensor);
     }
 }
 

@@ -13,7 +13,8 @@ namespace treadmark::cli {
 /// The JSON file comes last: where it stands the folder is complete.
 void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);
 
-/// Writes everything a comparison has: pressures.svg, errors.svg, costs.svg, fields.h5, table.txt, compare.csv and, last, compare.json.
+/// Writes everything a comparison has: pressures.svg, errors.svg, costs.svg, fields.h5, table.txt, compare.csv and,
+/// last, compare.json.
 void write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison);
 
 }  // namespace treadmark::cli

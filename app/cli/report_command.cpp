@@ -14,7 +14,8 @@ namespace treadmark::cli {
 int report_command(const ReportOptions& options, const CommonOptions& common) {
   namespace fs = std::filesystem;
   const app::report::Page page = app::report::read_report(options.folder);
-  const fs::path folder = fs::is_directory(options.folder) ? fs::path(options.folder) : fs::path(options.folder).parent_path();
+  const fs::path folder =
+      fs::is_directory(options.folder) ? fs::path(options.folder) : fs::path(options.folder).parent_path();
   const fs::path file = options.output_file.empty() ? folder / "report.html" : fs::path(options.output_file);
   app::report::PageOptions how;
   how.live = !options.static_pictures;

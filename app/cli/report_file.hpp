@@ -12,7 +12,8 @@ namespace treadmark::cli {
 /// Makes the page and writes it as a live report; an empty name: does nothing.
 void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page);
 
-/// The folder of a command's results: the one that was asked for, or for a report alone one that exists only as long as this object.
+/// The folder of a command's results: the one that was asked for, or for a report alone one that exists only as long as
+/// this object.
 class ResultFolder {
  public:
   ResultFolder(const std::filesystem::path& folder, const std::filesystem::path& report_file);

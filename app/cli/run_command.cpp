@@ -31,13 +31,15 @@ void choose_backends(io::CaseFile& file, const RunOptions& options) {
     if (auto* input = std::get_if<io::WheelRailCase>(&c.content)) {
       if (!wheel.empty()) input->wheel.backend = wheel;
       if (!rail.empty()) input->rail.backend = rail;
-      if (options.resolution_mm > 0.0) input->wheel.resolution = input->rail.resolution = kMetres * options.resolution_mm;
+      if (options.resolution_mm > 0.0)
+        input->wheel.resolution = input->rail.resolution = kMetres * options.resolution_mm;
     }
 }
 
 void refuse_other_files(const std::string& name) {
   if (io::is_study_file(name)) throw Error(ErrorKind::configuration, name + " is a study", {}, "use treadmark sweep");
-  if (io::is_simulation_file(name)) throw Error(ErrorKind::configuration, name + " is a simulation", {}, "use treadmark simulate");
+  if (io::is_simulation_file(name))
+    throw Error(ErrorKind::configuration, name + " is a simulation", {}, "use treadmark simulate");
 }
 
 std::vector<std::string> settings_of(const RunOptions& options) {
@@ -62,9 +64,11 @@ int exit_status(const io::RunResult& result) {
 
 int run_command(const RunOptions& options, const CommonOptions& common) {
   if (options.cases.size() > 1 && !options.json_file.empty())
-    throw Error(ErrorKind::configuration, "--json takes the results of one case file only", {}, "use -o FOLDER for several");
+    throw Error(ErrorKind::configuration, "--json takes the results of one case file only", {},
+                "use -o FOLDER for several");
   if (options.cases.size() > 1 && !options.report_file.empty())
-    throw Error(ErrorKind::configuration, "--report shows the results of one case file only", {}, "use -o FOLDER, then treadmark report for each");
+    throw Error(ErrorKind::configuration, "--report shows the results of one case file only", {},
+                "use -o FOLDER, then treadmark report for each");
   const ThreadLimit limit(common.threads);
   catch_interrupt();
 
@@ -97,7 +101,9 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
       if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
       write_result_folder(folder, result);
     }
-    write_report_file(options.report_file, [&] { return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result)); });
+    write_report_file(options.report_file, [&] {
+      return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
+    });
     if (options.json_file == "-")
       std::cout << io::to_json(result);
     else

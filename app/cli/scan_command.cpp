@@ -55,7 +55,8 @@ app::ScanRequest request_of(const ScanOptions& options) {
 
 int scan_command(const ScanOptions& options, const CommonOptions& common) {
   if (!options.truth_file.empty() && std::filesystem::path(options.truth_file) == std::filesystem::path(options.cloud))
-    throw Error(ErrorKind::configuration, "the points and the truth about them cannot go to the same file", {options.cloud});
+    throw Error(ErrorKind::configuration, "the points and the truth about them cannot go to the same file",
+                {options.cloud});
   const ThreadLimit limit(common.threads);
   catch_interrupt();
   app::Scanned scanned;
@@ -63,7 +64,9 @@ int scan_command(const ScanOptions& options, const CommonOptions& common) {
     ProgressLine line(common.quiet);
     Progress progress;
     progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+      line.update(finished, total, what);
+    };
     scanned = app::scan_surface(options.surface, options.cloud, request_of(options), progress);
   }
   if (options.truth_file == "-") {

@@ -25,7 +25,8 @@ namespace {
 int exit_status(const io::SimulationResult& result) { return result.status == "complete" ? kOk : kFailed; }
 
 /// Whether a finished result lies there. Errors: Error(configuration) where it belongs to another simulation.
-bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file, const std::vector<std::string>& settings) {
+bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,
+                 const std::vector<std::string>& settings) {
   if (!std::filesystem::exists(store)) return false;
   app::require_same_simulation(store, io::read_checkpoint(store), file, settings);
   return io::read_simulation_head(store).status == "complete";
@@ -35,9 +36,12 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
 app::FileLock claim(const std::filesystem::path& folder) {
   std::error_code failure;
   std::filesystem::create_directories(folder, failure);
-  if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+  if (failure)
+    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
   auto lock = app::FileLock::attempt(folder / "lock");
-  if (!lock) throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {}, "choose another folder");
+  if (!lock)
+    throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {},
+                "choose another folder");
   io::remove_leftovers(folder);
   return std::move(*lock);
 }
@@ -55,9 +59,11 @@ void print(const std::string& json_file, const std::string& json, const std::str
 
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
   if (options.resume && options.output_folder.empty())
-    throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {}, "give it with -o FOLDER");
+    throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {},
+                "give it with -o FOLDER");
   if (io::is_study_file(options.file))
-    throw Error(ErrorKind::configuration, options.file + " is a study of several simulations", {}, "use treadmark sweep");
+    throw Error(ErrorKind::configuration, options.file + " is a study of several simulations", {},
+                "use treadmark sweep");
   std::vector<std::string> overrides = options.overrides;
   if (!options.wheel_backend.empty()) overrides.push_back("wheel.backend=" + options.wheel_backend);
   if (!options.rail_backend.empty()) overrides.push_back("rail.backend=" + options.rail_backend);
@@ -101,7 +107,9 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     ProgressLine line(common.quiet);
     Progress progress;
     progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+      line.update(finished, total, what);
+    };
     result = app::run_simulation(file, store, run, progress, &times);
   }
   if (!folder.empty()) {
@@ -109,7 +117,8 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     std::error_code ignored;
     if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
   }
-  write_report_file(options.report_file, [&] { return app::report::simulation_page(std::make_shared<io::SimulationResult>(result), {}); });
+  write_report_file(options.report_file,
+                    [&] { return app::report::simulation_page(std::make_shared<io::SimulationResult>(result), {}); });
   print(options.json_file, app::to_json(result, times), app::summary_text(result) + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';

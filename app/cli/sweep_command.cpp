@@ -32,7 +32,8 @@ void print_table(const io::StudyResult& study) {
 
 int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   if (!io::is_study_file(options.file))
-    throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {}, "treadmark simulate runs one simulation");
+    throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {},
+                "treadmark simulate runs one simulation");
   const app::ProcessPlace place = app::process_place();
   const bool speaks = place.rank == 0 && !common.quiet;
   // Processes that were started together share the cores.
@@ -52,23 +53,28 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
     ProgressLine line(!speaks);
     Progress progress;
     progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) { line.update(finished, total, what); };
+    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+      line.update(finished, total, what);
+    };
     outcome = app::run_study(study, wanted, progress);
   }
   if (speaks && outcome.found_finished > 0)
     std::cerr << fmt::format("{} of {} runs were finished already\n", outcome.found_finished, outcome.runs_total);
   const auto write_report = [&] {
-    if (place.rank == 0) write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
+    if (place.rank == 0)
+      write_report_file(options.report_file, [&] { return app::report::read_report(options.output_folder); });
   };
   if (!outcome.complete) {
     write_report();
-    std::cerr << fmt::format("stopped: {} of {} runs finished; the same command goes on\n", outcome.study.runs.size(), outcome.runs_total);
+    std::cerr << fmt::format("stopped: {} of {} runs finished; the same command goes on\n", outcome.study.runs.size(),
+                             outcome.runs_total);
     return kFailed;
   }
   app::write_study_folder(study, wanted, outcome.study);
   write_report();
   if (place.rank == 0) print_table(outcome.study);
-  const bool all_good = std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
+  const bool all_good =
+      std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
   return all_good ? kOk : kFailed;
 }
 

@@ -43,7 +43,9 @@ void ProgressLine::update(std::size_t finished, std::size_t total, const std::st
   const double elapsed = std::chrono::duration<double>(now - start_).count();
   std::string line = fmt::format("\r\x1b[K{}/{} ({:.0f} %) {}", finished, total,
                                  100.0 * static_cast<double>(finished) / static_cast<double>(total), what);
-  if (finished > 0) line += fmt::format(", {:.1f} s left", elapsed / static_cast<double>(finished) * static_cast<double>(total - finished));
+  if (finished > 0)
+    line +=
+        fmt::format(", {:.1f} s left", elapsed / static_cast<double>(finished) * static_cast<double>(total - finished));
   std::fputs(line.c_str(), stderr);
   std::fflush(stderr);
 }

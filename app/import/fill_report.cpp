@@ -179,7 +179,8 @@ void fill_report(const ImportFindings& found, io::ImportReport& report) {
     const scans::MeasuredSections& kept = *found.sections;
     io::ImportReport::Sections sections;
     sections.count = kept.u.size();
-    const auto [fewest, most] = std::minmax_element(kept.points.begin(), kept.points.end(), [](const auto& a, const auto& b) { return a.size() < b.size(); });
+    const auto [fewest, most] = std::minmax_element(kept.points.begin(), kept.points.end(),
+                                                    [](const auto& a, const auto& b) { return a.size() < b.size(); });
     sections.fewest_points = fewest->size();
     sections.most_points = most->size();
     sections.least_gap = kept.least_gap;

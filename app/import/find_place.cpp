@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/backends/create.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/scans/cgal/stray_points.hpp"

@@ -84,7 +84,8 @@ scans::Section start_section(const PlacedScan& scan) {
   return points.size() < kFewest ? scan.placement.section : scans::Section(points);
 }
 
-/// The sections in which the points lie, if they are to be kept. Errors: Error(configuration) if they shall be and are not there.
+/// The sections in which the points lie, if they are to be kept. Errors: Error(configuration) if they shall be and are
+/// not there.
 std::optional<scans::MeasuredSections> sections_to_keep(const PlacedScan& scan, const io::ImportSettings& settings) {
   if (settings.fit.sections == "fit" || scan.points.empty()) return std::nullopt;
   std::optional<scans::MeasuredSections> found =
@@ -106,8 +107,9 @@ std::vector<std::string> summary_lines(const io::ImportReport& report) {
   out.push_back(fmt::format("points: {} read, {} used; noise {:.3g} um; fit error on points held out {:.3g} um",
                             report.points_read, report.points_used, 1e6 * report.noise, 1e6 * report.held_out_error));
   if (report.sections)
-    out.push_back(fmt::format("the {} sections are the scan's own points: smooth them where they are used (smoothing_lambda_mm3, SMOOTH)",
-                              report.sections->count));
+    out.push_back(fmt::format(
+        "the {} sections are the scan's own points: smooth them where they are used (smoothing_lambda_mm3, SMOOTH)",
+        report.sections->count));
   if (report.body == Body::wheel) out.push_back(fmt::format("nominal radius: {:.4f} mm", 1e3 * report.nominal_radius));
   out.push_back(fmt::format("{}; holes up to {:.1f} mm filled", report.zero, 1e3 * report.hole_limit));
   for (std::string& line : out)
@@ -224,8 +226,8 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
     report.sections->smoothing = 1e-9 * settings.fit.smoothing_lambda_mm3;
     scans::MeasuredSections from_zero = *sections;
     for (double& u : from_zero.u) u -= u_zero;
-    kept = scans::sections_to_slices(from_zero, scan.points, scan.placement.X_CS, scan.body, scan.placement.nominal_radius,
-                                     settings.fit.sections_along == "approximate",
+    kept = scans::sections_to_slices(from_zero, scan.points, scan.placement.X_CS, scan.body,
+                                     scan.placement.nominal_radius, settings.fit.sections_along == "approximate",
                                      scan.body == Body::wheel ? "measured wheel" : "measured rail");
   }
   const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr};

@@ -9,8 +9,8 @@
 
 #include "treadmark/app/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"

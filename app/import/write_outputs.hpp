@@ -17,7 +17,7 @@ struct FittedScan {
   const scans::FittedBand& fitted;
   const scans::BandPoints& points;
   const scans::Coverage& coverage;
-  double noise = 0.0;  ///< [m]
+  double noise = 0.0;                  ///< [m]
   const SliceSet* sections = nullptr;  ///< measured ones that are the surface; not smoothed
 };
 

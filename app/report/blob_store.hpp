@@ -12,8 +12,9 @@ namespace treadmark::app::report {
 /// How the numbers of an array are stored.
 enum class Precision { byte, two_bytes, single };
 
-/// An array of numbers in a blob. Byte and two bytes: value = low + step code, and the greatest code is NaN where `none` is set; single:
-/// IEEE numbers. Arrays of more than one byte a number have all lowest bytes first, then all second ones ...: that compresses better.
+/// An array of numbers in a blob. Byte and two bytes: value = low + step code, and the greatest code is NaN where
+/// `none` is set; single: IEEE numbers. Arrays of more than one byte a number have all lowest bytes first, then all
+/// second ones ...: that compresses better.
 struct Packed {
   int blob = 0;
   std::size_t offset = 0, count = 0;  ///< offset in bytes in the inflated blob
@@ -28,8 +29,8 @@ class BlobStore {
   /// The arrays that follow go into a blob of their own, which a reader unpacks at once.
   void begin_blob();
 
-  /// Quantised between the least and the greatest finite value; infinities become NaN. A value lies within half a step of what was
-  /// given, a step being the range over 253 or more (byte), 65533 or more (two bytes). Zero stays zero.
+  /// Quantised between the least and the greatest finite value; infinities become NaN. A value lies within half a step
+  /// of what was given, a step being the range over 253 or more (byte), 65533 or more (two bytes). Zero stays zero.
   Packed add(std::span<const double> values, Precision precision);
 
   /// Codes 0, 1, 2 ... as they are.

@@ -44,10 +44,14 @@ Values length_of(const Values& x, const Values& s, double factor) {
   return out;
 }
 
-Values traction(const io::PatchResult& patch) { return length_of(patch.fields.traction_x, patch.fields.traction_s, kMega); }
+Values traction(const io::PatchResult& patch) {
+  return length_of(patch.fields.traction_x, patch.fields.traction_s, kMega);
+}
 
 /// Of a shift these are lengths; see slip_distance.
-Values slip(const io::PatchResult& patch) { return patch.shift ? Values{} : length_of(patch.fields.slip_x, patch.fields.slip_s, kPercent); }
+Values slip(const io::PatchResult& patch) {
+  return patch.shift ? Values{} : length_of(patch.fields.slip_x, patch.fields.slip_s, kPercent);
+}
 
 Values slip_distance(const io::PatchResult& patch) {
   return patch.shift ? length_of(patch.fields.slip_x, patch.fields.slip_s, kMicro) : Values{};

@@ -15,7 +15,8 @@ struct FieldInfo {
   enum class Kind { sequential, diverging, state };
   std::string_view name, label, unit;
   Kind kind;
-  /// Values in the shown unit, one an element, NaN = none; empty where the patch does not have the quantity. Not for states.
+  /// Values in the shown unit, one an element, NaN = none; empty where the patch does not have the quantity. Not for
+  /// states.
   std::vector<double> (*values)(const io::PatchResult& patch);
 };
 

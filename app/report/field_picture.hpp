@@ -10,9 +10,9 @@
 
 namespace treadmark::app::report {
 
-/// A quantity of the contact patches of frames as one SVG picture: a panel a frame, the same window size, the same colours in all, with
-/// the edges of contact (dark) and adhesion (white). At most 24 frames, at equal distances. Thread-safe.
-/// Errors: Error(configuration) where no patch has the quantity.
+/// A quantity of the contact patches of frames as one SVG picture: a panel a frame, the same window size, the same
+/// colours in all, with the edges of contact (dark) and adhesion (white). At most 24 frames, at equal distances.
+/// Thread-safe. Errors: Error(configuration) where no patch has the quantity.
 std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, const std::string& title);
 
 }  // namespace treadmark::app::report

@@ -21,8 +21,9 @@ struct Detail {
 };
 
 // The catalogue has 14 quantities; with 5 there are pressure, state and tractions.
-constexpr Detail kDetails[] = {{Precision::two_bytes, 14, 1}, {Precision::byte, 14, 1}, {Precision::byte, 5, 1}, {Precision::byte, 2, 1},
-                               {Precision::byte, 2, 4},       {Precision::byte, 2, 16}, {Precision::byte, 2, 64}};
+constexpr Detail kDetails[] = {{Precision::two_bytes, 14, 1}, {Precision::byte, 14, 1}, {Precision::byte, 5, 1},
+                               {Precision::byte, 2, 1},       {Precision::byte, 2, 4},  {Precision::byte, 2, 16},
+                               {Precision::byte, 2, 64}};
 
 template <class T>
 std::vector<T> part_of(const std::vector<T>& values, const Grid2& grid, const GridPart& part) {
@@ -67,7 +68,8 @@ PackedSets pack(const std::vector<FrameSet>& sets, BlobStore& blobs, const Detai
       frame.trimmed = trimmed_words(detail, left_out);
       if (left_out) continue;
       blobs.begin_blob();
-      for (const io::PatchResult& patch : set.frames[i].result->patches) frame.patches.push_back(pack_patch(patch, detail, blobs));
+      for (const io::PatchResult& patch : set.frames[i].result->patches)
+        frame.patches.push_back(pack_patch(patch, detail, blobs));
     }
   }
   return out;
@@ -81,7 +83,8 @@ GridPart shown_part(const io::PatchFields& fields) {
   for (std::size_t i = 0; i < fields.pressure.size(); ++i) {
     const bool contact = fields.state.size() == fields.pressure.size() ? fields.state[i] > 0 : fields.pressure[i] > 0.0;
     if (!contact) continue;
-    const int ix = static_cast<int>(i % static_cast<std::size_t>(grid.nx)), iy = static_cast<int>(i / static_cast<std::size_t>(grid.nx));
+    const int ix = static_cast<int>(i % static_cast<std::size_t>(grid.nx)),
+              iy = static_cast<int>(i / static_cast<std::size_t>(grid.nx));
     x_low = std::min(x_low, ix), x_high = std::max(x_high, ix);
     y_low = std::min(y_low, iy), y_high = std::max(y_high, iy);
   }

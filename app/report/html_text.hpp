@@ -9,11 +9,12 @@
 
 namespace treadmark::app::report {
 
-/// Text for the inside of an element or of an attribute in double quotes: markup and quotes escaped, bytes that are no text replaced.
+/// Text for the inside of an element or of an attribute in double quotes: markup and quotes escaped, bytes that are no
+/// text replaced.
 std::string html_text(std::string_view words);
 
-/// A number as people read it: this many digits, all of whole numbers, no exponent for numbers of ordinary size, "–" for what is not
-/// finite.
+/// A number as people read it: this many digits, all of whole numbers, no exponent for numbers of ordinary size, "–"
+/// for what is not finite.
 std::string shown(const Number& number);
 
 /// A name that can be an id in HTML: letters, digits and dashes.

@@ -39,7 +39,8 @@ double mean(const MapView& map, int ix0, int ix1, int iy0, int iy1) {
   int count = 0;
   for (int iy = iy0; iy < iy1; ++iy)
     for (int ix = ix0; ix < ix1; ++ix) {
-      const double value = map.values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx) + static_cast<std::size_t>(ix)];
+      const double value =
+          map.values[static_cast<std::size_t>(iy) * static_cast<std::size_t>(map.nx) + static_cast<std::size_t>(ix)];
       if (!std::isfinite(value)) continue;
       sum += value;
       ++count;
@@ -56,15 +57,17 @@ std::string cells(const MapView& map, const Range& range) {
     int from = 0, last = -1;
     const auto flush = [&](int to) {
       if (last >= 0)
-        out +=
-            fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", kLeft + from * width,
-                        kTop + kHeight - (row + 1) * height, (to - from) * width + 0.05, height + 0.05, io::colour((last + 0.5) / kSteps));
+        out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
+                           kLeft + from * width, kTop + kHeight - (row + 1) * height, (to - from) * width + 0.05,
+                           height + 0.05, io::colour((last + 0.5) / kSteps));
       from = to;
     };
     for (int column = 0; column < columns; ++column) {
       const double value = mean(map, column * map.nx / columns, (column + 1) * map.nx / columns, iy0, iy1);
       const int step =
-          std::isnan(value) ? -1 : std::clamp(static_cast<int>(kSteps * (value - range.low) / (range.high - range.low)), 0, kSteps - 1);
+          std::isnan(value)
+              ? -1
+              : std::clamp(static_cast<int>(kSteps * (value - range.low) / (range.high - range.low)), 0, kSteps - 1);
       if (step == last) continue;
       flush(column);
       last = step;
@@ -81,8 +84,8 @@ std::string bar(const MapView& map, const Range& range) {
     out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x,
                        kTop + kHeight - (k + 1) * step, kBar, step + 0.05, io::colour((k + 0.5) / kSteps));
   for (const double part : {0.0, 0.5, 1.0})
-    out += io::svg_text(x + kBar + 6.0, kTop + kHeight * (1.0 - part) + 4.0, io::three_digits(range.low + part * (range.high - range.low)),
-                        "start");
+    out += io::svg_text(x + kBar + 6.0, kTop + kHeight * (1.0 - part) + 4.0,
+                        io::three_digits(range.low + part * (range.high - range.low)), "start");
   return out + io::svg_text(x, kTop - 10.0, fmt::format("{} [{}]", map.label, map.unit), "middle");
 }
 

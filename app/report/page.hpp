@@ -14,8 +14,8 @@
 
 namespace treadmark::app::report {
 
-/// What a report shows, as plain data: the writers turn it into HTML, into the data of the live views, and into static pictures.
-/// Texts are plain text; the writers escape them. Numbers of views are in the units that are shown.
+/// What a report shows, as plain data: the writers turn it into HTML, into the data of the live views, and into static
+/// pictures. Texts are plain text; the writers escape them. Numbers of views are in the units that are shown.
 
 struct Axis {
   std::string label, unit;

@@ -101,8 +101,10 @@ class Writer {
   }
 
   Json axis(const Axis& axis) {
-    Json out = {
-        {"label", axis.label}, {"unit", axis.unit}, {"scale", axis.logarithmic ? "log" : "linear"}, {"values", numbers(axis.values)}};
+    Json out = {{"label", axis.label},
+                {"unit", axis.unit},
+                {"scale", axis.logarithmic ? "log" : "linear"},
+                {"values", numbers(axis.values)}};
     if (!axis.labels.empty()) out["labels"] = axis.labels;
     return out;
   }
@@ -131,7 +133,9 @@ class Writer {
           });
         });
       });
-      if (used) out.push_back({{"name", field.name}, {"label", field.label}, {"unit", field.unit}, {"kind", to_text(field.kind)}});
+      if (used)
+        out.push_back(
+            {{"name", field.name}, {"label", field.label}, {"unit", field.unit}, {"kind", to_text(field.kind)}});
     }
     return out;
   }
@@ -189,10 +193,12 @@ class Writer {
       const io::CaseResult& result = *set.frames[i].result;
       Json frame = {{"name", set.frames[i].name}, {"status", to_string(result.status)}, {"message", result.message}};
       Json& patches = frame["patches"] = Json::array();
-      for (std::size_t k = 0; k < packed[i].patches.size(); ++k) patches.push_back(patch(result.patches[k], packed[i].patches[k], k));
+      for (std::size_t k = 0; k < packed[i].patches.size(); ++k)
+        patches.push_back(patch(result.patches[k], packed[i].patches[k], k));
       frame["wheel"] = result.bodies ? placed(result.wheel_surface, result.bodies->X_TW) : Json();
       frame["rail"] = result.bodies ? placed(result.rail_surface, result.bodies->X_TR) : Json();
-      if (!packed[i].trimmed.empty()) frame["trimmed"] = packed[i].trimmed + (" All fields are in " + page_.full_data + ".");
+      if (!packed[i].trimmed.empty())
+        frame["trimmed"] = packed[i].trimmed + (" All fields are in " + page_.full_data + ".");
       frames.push_back(std::move(frame));
     }
     return out;
@@ -217,7 +223,9 @@ class Writer {
   Json series(const Series& series) {
     Json out = {{"name", series.name}, {"y", numbers(series.y)}};
     if (!series.x.empty()) out["x"] = numbers(series.x);
-    out["marks"] = series.marks == Series::Marks::line ? "line" : series.marks == Series::Marks::points ? "points" : "both";
+    out["marks"] = series.marks == Series::Marks::line     ? "line"
+                   : series.marks == Series::Marks::points ? "points"
+                                                           : "both";
     if (series.dashed) out["dashed"] = true;
     if (!series.texts.empty()) out["texts"] = series.texts;
     if (!series.steps.empty()) out["steps"] = numbers(series.steps);
@@ -236,7 +244,8 @@ class Writer {
         Json& list = one["series"] = Json::array();
         for (const Series& s : panel.series) list.push_back(series(s));
         Json& levels = one["levels"] = Json::array();
-        for (const Level& level : panel.levels) levels.push_back({{"value", number(level.value)}, {"label", level.label}});
+        for (const Level& level : panel.levels)
+          levels.push_back({{"value", number(level.value)}, {"label", level.label}});
         panels.push_back(std::move(one));
       }
       out["by_step"] = chart->by_step.empty() ? Json() : by_step(*chart);
@@ -276,7 +285,8 @@ class Writer {
     out["value"] = {{"label", map.label}, {"unit", map.unit}, {"kind", map.diverging ? "diverging" : "sequential"}};
     out["nx"] = map.nx;
     out["ny"] = map.ny;
-    for (const auto& [name, value] : {std::pair{"x0", map.x0}, {"dx", map.dx}, {"y0", map.y0}, {"dy", map.dy}}) out[name] = number(value);
+    for (const auto& [name, value] : {std::pair{"x0", map.x0}, {"dx", map.dx}, {"y0", map.y0}, {"dy", map.dy}})
+      out[name] = number(value);
     blobs_.begin_blob();
     out["values"] = to_json(blobs_.add(map.values, Precision::two_bytes));
     Json& marks = out["marks"] = Json::array();

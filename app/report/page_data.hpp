@@ -9,8 +9,8 @@
 
 namespace treadmark::app::report {
 
-/// What the script needs to know of a page, as JSON text without "<": fields packed into at most field_budget bytes where possible.
-/// The types are in app/report/web/src/data.ts.
+/// What the script needs to know of a page, as JSON text without "<": fields packed into at most field_budget bytes
+/// where possible. The types are in app/report/web/src/data.ts.
 std::string page_data(const Page& page, std::size_t field_budget);
 
 }  // namespace treadmark::app::report

@@ -21,7 +21,8 @@ bool has_field(const Page& page, const FieldInfo& field) {
   for (const FrameSet& set : page.sets)
     for (const Frame& frame : set.frames)
       for (const io::PatchResult& patch : frame.result->patches)
-        if (field.kind == FieldInfo::Kind::state ? !patch.fields.state.empty() : !field.values(patch).empty()) return true;
+        if (field.kind == FieldInfo::Kind::state ? !patch.fields.state.empty() : !field.values(patch).empty())
+          return true;
   return false;
 }
 
@@ -70,7 +71,8 @@ std::vector<std::pair<std::string, std::string>> plots_of(const Page& page) {
 std::string plot(const Page& page, const std::string& what, const std::vector<int>& cases) {
   if (const FieldInfo* field = find_field(what); field && has_field(page, *field))
     return field_svg(chosen(page, cases), *field, page.title);
-  if (!cases.empty()) throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
+  if (!cases.empty())
+    throw Error(ErrorKind::configuration, fmt::format("cases cannot be chosen for {}", what), {}, "leave --case out");
   if (what == kSection && !page.surfaces.empty()) return static_figure({kSection, "", SceneView{0}}, page).front();
   std::string svg;
   each_figure(page, [&](const Figure& figure) {

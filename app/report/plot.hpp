@@ -10,8 +10,8 @@
 
 namespace treadmark::app::report {
 
-/// What can be drawn of a result: quantities of the contact patches, wheel and rail cut across, charts and pictures of its report.
-/// (name, meaning) in the order of the report.
+/// What can be drawn of a result: quantities of the contact patches, wheel and rail cut across, charts and pictures of
+/// its report. (name, meaning) in the order of the report.
 std::vector<std::pair<std::string, std::string>> plots_of(const Page& page);
 
 /// One of them as an SVG picture. cases: numbers of the cases that are drawn, of contact patches only; empty = all.

@@ -94,17 +94,19 @@ std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurfac
   references.joined = false;
   for (const io::PatchResult& patch : result->patches)
     if (patch.has_reference)
-      references.points.push_back({kMilli * patch.y_tr, -kMilli * patch.z_tr, 4.5, fmt::format("{:.1f} kN", 1e-3 * patch.fn), ""});
+      references.points.push_back(
+          {kMilli * patch.y_tr, -kMilli * patch.z_tr, 4.5, fmt::format("{:.1f} kN", 1e-3 * patch.fn), ""});
   chart.series.push_back(std::move(references));
   if (!(y_low < y_high)) y_low = -1.0, y_high = 1.0, z_low = -1.0, z_high = 1.0;
   const double margin = kMilli * kMargin;
   chart.x_range = {y_low - margin, y_high + margin};
   chart.y_range = {z_low - margin, z_high + margin};
-  const double height = std::clamp(kWidth * (z_high - z_low + 2.0 * margin) / (y_high - y_low + 2.0 * margin), 80.0, 900.0);
+  const double height =
+      std::clamp(kWidth * (z_high - z_low + 2.0 * margin) / (y_high - y_low + 2.0 * margin), 80.0, 900.0);
   std::string out = io::svg_head(kLeft + kWidth + 180.0, kTop + height + kBottom, io::kChartFont, io::kChartStyle);
-  out +=
-      io::svg_text(kLeft + 0.5 * kWidth, 22.0, fmt::format("Wheel and rail at x = {:.1f} mm, case {}", kMilli * main->x_tr, result->number),
-                   "middle", " class=\"title\"");
+  out += io::svg_text(kLeft + 0.5 * kWidth, 22.0,
+                      fmt::format("Wheel and rail at x = {:.1f} mm, case {}", kMilli * main->x_tr, result->number),
+                      "middle", " class=\"title\"");
   out += io::draw_chart(chart, {kLeft, kTop, kWidth, height});
   out += io::draw_chart_legend(chart.series, kLeft + kWidth + 24.0, kTop + 10.0);
   return out + "</svg>\n";

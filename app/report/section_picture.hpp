@@ -9,9 +9,9 @@
 
 namespace treadmark::app::report {
 
-/// Wheel and rail cut across the track at the contact with the largest normal force, with the contact references: an SVG picture in track
-/// axes with equal scales, seen along the track (y to the right, z downwards). The frame with the largest normal force is shown.
-/// Thread-safe.
+/// Wheel and rail cut across the track at the contact with the largest normal force, with the contact references: an
+/// SVG picture in track axes with equal scales, seen along the track (y to the right, z downwards). The frame with the
+/// largest normal force is shown. Thread-safe.
 std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurface>& surfaces);
 
 }  // namespace treadmark::app::report

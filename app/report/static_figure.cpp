@@ -41,7 +41,8 @@ io::ChartSeries drawn(const Series& series, const std::vector<double>& x, const 
     for (std::size_t i = 0; i < count; ++i) out.curve.push_back({x[i], y[i]});
   } else {
     out.joined = series.marks == Series::Marks::both;
-    for (std::size_t i = 0; i < count; ++i) out.points.push_back({x[i], y[i], 3.5, "", i < series.texts.size() ? series.texts[i] : ""});
+    for (std::size_t i = 0; i < count; ++i)
+      out.points.push_back({x[i], y[i], 3.5, "", i < series.texts.size() ? series.texts[i] : ""});
   }
   return out;
 }
@@ -55,7 +56,10 @@ io::Chart drawn(const ChartView& view, std::size_t which, const Axis* axis, std:
   for (std::size_t k = 0; k < panel.series.size(); ++k) {
     const Series& series = panel.series[k];
     const bool changing = step < view.by_step.size();
-    const std::vector<double>& x = changing ? view.by_step[step].x : !series.x.empty() ? series.x : axis ? axis->values : series.x;
+    const std::vector<double>& x = changing            ? view.by_step[step].x
+                                   : !series.x.empty() ? series.x
+                                   : axis              ? axis->values
+                                                       : series.x;
     chart.series.push_back(drawn(series, x, changing ? view.by_step[step].y[which][k] : series.y));
     io::set_look(chart.series.back(), k, panel.series.size());
     if (series.dashed) chart.series.back().dashes = "6 4";
@@ -95,20 +99,23 @@ std::string category_names(const Axis& axis, double y) {
   const double each = kWidth / static_cast<double>(axis.labels.size());
   for (std::size_t i = 0; i < axis.labels.size(); ++i) {
     const double x = kLeft + (static_cast<double>(i) + 0.5) * each + 4.0;
-    out += io::svg_text(x, y, axis.labels[i], "end", fmt::format(" transform=\"rotate(-{} {:.1f} {:.1f})\"", kTilt, x, y).c_str());
+    out += io::svg_text(x, y, axis.labels[i], "end",
+                        fmt::format(" transform=\"rotate(-{} {:.1f} {:.1f})\"", kTilt, x, y).c_str());
   }
   return out;
 }
 
 bool has_pressure(const io::CaseResult& result) {
-  return std::ranges::any_of(result.patches, [](const io::PatchResult& patch) { return !patch.fields.pressure.empty(); });
+  return std::ranges::any_of(result.patches,
+                             [](const io::PatchResult& patch) { return !patch.fields.pressure.empty(); });
 }
 
 /// All frames or, of many, some at equal distances.
 std::string contact_svg(const FrameSet& set) {
   io::RunResult some;
   const std::size_t every = (set.frames.size() + kMostPanels - 1) / kMostPanels;
-  for (std::size_t i = 0; i < set.frames.size(); i += std::max<std::size_t>(1, every)) some.cases.push_back(*set.frames[i].result);
+  for (std::size_t i = 0; i < set.frames.size(); i += std::max<std::size_t>(1, every))
+    some.cases.push_back(*set.frames[i].result);
   some.cases_total = static_cast<int>(some.cases.size());
   return io::pressure_svg(some);
 }
@@ -162,12 +169,14 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page) {
   if (const auto* picture = std::get_if<PictureView>(&figure.view)) return {picture->svg};
   if (const auto* chart = std::get_if<ChartView>(&figure.view)) return {chart_svg(*chart, page, figure.title)};
   if (const auto* map = std::get_if<MapView>(&figure.view)) return {map_svg(*map, figure.title)};
-  if (const auto* scene = std::get_if<SceneView>(&figure.view)) return {section_svg(set_of(page, scene->set), page.surfaces)};
+  if (const auto* scene = std::get_if<SceneView>(&figure.view))
+    return {section_svg(set_of(page, scene->set), page.surfaces)};
   std::vector<std::string> pictures;
   const std::vector<int>& sets = std::get<ContactView>(figure.view).sets;
   for (const int index : sets) {
     const FrameSet& set = set_of(page, index);
-    const bool named = sets.size() > 1 && std::ranges::any_of(set.frames, [](const Frame& frame) { return has_pressure(*frame.result); });
+    const bool named = sets.size() > 1 &&
+                       std::ranges::any_of(set.frames, [](const Frame& frame) { return has_pressure(*frame.result); });
     pictures.push_back(named ? field_svg(set.frames, *find_field("pressure"), set.name) : contact_svg(set));
   }
   return pictures;

@@ -9,8 +9,8 @@
 
 namespace treadmark::app::report {
 
-/// A figure as SVG pictures that need neither scripts nor other files; several where one would be too large. Thread-safe.
-/// Errors: Error(configuration) for sets that are not there and fields that do not match their grid.
+/// A figure as SVG pictures that need neither scripts nor other files; several where one would be too large.
+/// Thread-safe. Errors: Error(configuration) for sets that are not there and fields that do not match their grid.
 std::vector<std::string> static_figure(const Figure& figure, const Page& page);
 
 /// A chart as one SVG picture; step: of a chart whose curves change with the step.

@@ -29,7 +29,8 @@ const char* class_of(Banner::Kind kind) {
 
 std::string html(const Banner& banner) {
   return fmt::format("<div class=\"banner {}\" role=\"{}\"><strong>{}</strong> {}</div>\n", class_of(banner.kind),
-                     banner.kind == Banner::Kind::note ? "status" : "alert", html_text(banner.heading), html_text(banner.text));
+                     banner.kind == Banner::Kind::note ? "status" : "alert", html_text(banner.heading),
+                     html_text(banner.text));
 }
 
 std::string html(const Facts& facts) {
@@ -50,7 +51,8 @@ std::string html(const Cards& cards) {
 }
 
 std::string head_of(const Column& column) {
-  return html_text(column.label) + (column.unit.empty() ? "" : fmt::format(" <span class=\"unit\">[{}]</span>", html_text(column.unit)));
+  return html_text(column.label) +
+         (column.unit.empty() ? "" : fmt::format(" <span class=\"unit\">[{}]</span>", html_text(column.unit)));
 }
 
 std::string html(const Cell& cell) {
@@ -62,9 +64,10 @@ std::string html(const Cell& cell) {
 
 std::string html(const Table& table) {
   const std::string id = html_id(table.id);
-  std::string out =
-      fmt::format("<div class=\"table-frame\"><table class=\"data\" id=\"table-{0}\" data-name=\"{0}\"><caption>{1}</caption>\n<thead><tr>",
-                  id, html_text(table.caption));
+  std::string out = fmt::format(
+      "<div class=\"table-frame\"><table class=\"data\" id=\"table-{0}\" "
+      "data-name=\"{0}\"><caption>{1}</caption>\n<thead><tr>",
+      id, html_text(table.caption));
   for (const Column& column : table.columns)
     out += fmt::format("<th scope=\"col\" data-unit=\"{}\">{}</th>", html_text(column.unit), head_of(column));
   out += "</tr></thead>\n<tbody>\n";
@@ -108,33 +111,39 @@ std::string html(const Figure& figure, const Page& page, bool live) {
   std::string plot;
   if (!live || std::holds_alternative<PictureView>(figure.view))
     for (const std::string& svg : static_figure(figure, page)) plot += image(svg, figure.title);
-  std::string out = fmt::format("<figure class=\"view\" id=\"{}\" data-view=\"{}\"><figcaption>{}</figcaption><div class=\"plot\">{}</div>",
-                                html_id(figure.id), view_name(figure), html_text(figure.title), plot);
+  std::string out = fmt::format(
+      "<figure class=\"view\" id=\"{}\" data-view=\"{}\"><figcaption>{}</figcaption><div class=\"plot\">{}</div>",
+      html_id(figure.id), view_name(figure), html_text(figure.title), plot);
   if (!figure.note.empty()) out += fmt::format("<p class=\"view-note\">{}</p>", html_text(figure.note));
   return out + "</figure>\n";
 }
 
 std::string html(const Section& section, const Page& page, bool live) {
   const std::string id = html_id(section.id);
-  std::string out =
-      fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-title\"><h2 id=\"{0}-title\">{1}</h2>\n", id, html_text(section.title));
+  std::string out = fmt::format("<section id=\"{0}\" aria-labelledby=\"{0}-title\"><h2 id=\"{0}-title\">{1}</h2>\n", id,
+                                html_text(section.title));
   for (const Block& block : section.blocks)
-    out += std::visit(
-        Overload{[&](const Figure& figure) { return html(figure, page, live); }, [](const auto& other) { return html(other); }}, block);
+    out += std::visit(Overload{[&](const Figure& figure) { return html(figure, page, live); },
+                               [](const auto& other) { return html(other); }},
+                      block);
   return out + "</section>\n";
 }
 
 constexpr const char* kHead =
     "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; "
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src "
+    "'unsafe-inline'; "
     "img-src data: blob:\">\n"
-    "<meta name=\"generator\" content=\"Treadmark {}\">\n<meta name=\"color-scheme\" content=\"light dark\">\n<title>{}</title>\n<style>\n";
+    "<meta name=\"generator\" content=\"Treadmark {}\">\n<meta name=\"color-scheme\" content=\"light "
+    "dark\">\n<title>{}</title>\n<style>\n";
 
 constexpr const char* kWithoutScript =
-    "<noscript><div class=\"banner warning\"><strong>Scripts are switched off.</strong> Tables are complete; pictures need scripts, or "
+    "<noscript><div class=\"banner warning\"><strong>Scripts are switched off.</strong> Tables are complete; pictures "
+    "need scripts, or "
     "the command <code>treadmark report --static</code>.</div></noscript>\n";
-constexpr const char* kStatic = "<div class=\"banner note\" role=\"status\"><strong>Static pictures.</strong> {}</div>\n";
+constexpr const char* kStatic =
+    "<div class=\"banner note\" role=\"status\"><strong>Static pictures.</strong> {}</div>\n";
 
 }  // namespace
 
@@ -143,21 +152,26 @@ std::string to_html(const Page& page, const PageOptions& options) {
   std::string out = fmt::format(kHead, version(), html_text(page.title));
   out += page_style();
   out += fmt::format(
-      "</style>\n</head>\n<body data-kind=\"{}\">\n<header class=\"page-head\"><h1>{}</h1><p class=\"lead\">{}</p>\n<nav "
+      "</style>\n</head>\n<body data-kind=\"{}\">\n<header class=\"page-head\"><h1>{}</h1><p "
+      "class=\"lead\">{}</p>\n<nav "
       "class=\"sections\" aria-label=\"Sections\">",
       html_text(page.kind), html_text(page.title), html_text(page.lead));
-  for (const Section& section : page.sections) out += fmt::format("<a href=\"#{}\">{}</a>", html_id(section.id), html_text(section.title));
+  for (const Section& section : page.sections)
+    out += fmt::format("<a href=\"#{}\">{}</a>", html_id(section.id), html_text(section.title));
   out += "</nav></header>\n<div id=\"toolbar\"></div>\n<div id=\"timeline\" hidden></div>\n<main>\n";
   if (live)
     out += kWithoutScript;
   else
-    out += fmt::format(kStatic, options.live
-                                    ? "This build of Treadmark has no Node.js: the report shows fixed pictures in place of live views."
-                                    : "They were asked for in place of live views.");
+    out += fmt::format(
+        kStatic, options.live
+                     ? "This build of Treadmark has no Node.js: the report shows fixed pictures in place of live views."
+                     : "They were asked for in place of live views.");
   for (const Section& section : page.sections) out += html(section, page, live);
-  out += fmt::format("</main>\n<footer><p>Made by Treadmark {} ({}).</p></footer>\n", html_text(version()), html_text(git_revision()));
+  out += fmt::format("</main>\n<footer><p>Made by Treadmark {} ({}).</p></footer>\n", html_text(version()),
+                     html_text(git_revision()));
   if (live) {
-    out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, options.field_budget) + "</script>\n<script>\n";
+    out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, options.field_budget) +
+           "</script>\n<script>\n";
     out += page_script();
     out += "\n</script>\n";
   }

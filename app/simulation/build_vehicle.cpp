@@ -24,7 +24,9 @@ UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFi
   return used;
 }
 
-wheelrail::Side side_of(io::Side side) { return side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right; }
+wheelrail::Side side_of(io::Side side) {
+  return side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right;
+}
 
 io::SurfaceSource round_wheel(const io::SimulationFile& file) {
   io::SurfaceSource source = file.other_wheel ? *file.other_wheel : file.contact.wheel;
@@ -40,7 +42,8 @@ class Builder {
   }
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
-    const io::SurfaceSource wheel_source = wheel.defects ? file_.contact.wheel : represented_as_wheel(round_wheel(file_));
+    const io::SurfaceSource wheel_source =
+        wheel.defects ? file_.contact.wheel : represented_as_wheel(round_wheel(file_));
     return geometry(wheel_source, file_.contact.rail);
   }
 
@@ -49,7 +52,9 @@ class Builder {
     io::SurfaceSource given = file_.contact.wheel;
     given.backend = "";
     given.resolution = 0.0;
-    const auto natural = [&] { return store_.get(given, Body::wheel, file_.contact.wheelset.nominal_radius, Region{}).natural; };
+    const auto natural = [&] {
+      return store_.get(given, Body::wheel, file_.contact.wheelset.nominal_radius, Region{}).natural;
+    };
     const auto wheel = natural();
     if (wheel->constant_profile()) return nullptr;
     if (given.defects.empty()) return std::make_shared<const DefectDepth>(wheel->surface, nullptr);
@@ -66,8 +71,11 @@ class Builder {
     const wheelrail::Geometry bodies = geometry(wheel, rail);
     if (!bodies.constant_profiles())
       throw Error(ErrorKind::configuration,
-                  bodies.round_wheel ? "wheels with table contact need a rail of one section" : "wheels with table contact must be round", wheel.where,
-                  bodies.round_wheel ? "give every wheel contact = \"full\"" : "give the shape of the round wheels as simulation.other_wheel");
+                  bodies.round_wheel ? "wheels with table contact need a rail of one section"
+                                     : "wheels with table contact must be round",
+                  wheel.where,
+                  bodies.round_wheel ? "give every wheel contact = \"full\""
+                                     : "give the shape of the round wheels as simulation.other_wheel");
     return bodies;
   }
 
@@ -139,7 +147,9 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
   }
   v.connect();
   const bool fields = !file.fields.pitch.empty() || !file.fields.position.empty();
-  const auto damaged = [](const io::WheelContactInput& w) { return w.model == io::ContactModelInput::full && w.defects; };
+  const auto damaged = [](const io::WheelContactInput& w) {
+    return w.model == io::ContactModelInput::full && w.defects;
+  };
   if (fields && std::ranges::any_of(file.wheels, damaged)) built.defect_depth = builder.defect_depth();
   return built;
 }
@@ -163,7 +173,8 @@ vehicle::SimulationSettings integration_settings(const io::SimulationFile& file)
   out.position_tolerance = s.tolerance;
   out.min_step = s.min_step;
   out.max_step = s.max_step.value_or(1e-3);
-  const bool any_full = std::ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
+  const bool any_full =
+      std::ranges::any_of(file.wheels, [](const auto& w) { return w.model == io::ContactModelInput::full; });
   constexpr double kNoLimit = 0.1;  // [m]
   // A wheelset may run a little ahead of the vehicle.
   constexpr double kWithin = 0.99;

@@ -20,10 +20,10 @@ struct BuiltVehicle {
   vehicle::VehicleOnTrack vehicle;
   /// By wheel: the element, where the contact is solved in full; else null.
   std::vector<std::shared_ptr<vehicle::FullContact>> full;
-  std::vector<UsedBodies> bodies;   ///< by wheel, as its full contact sees them
+  std::vector<UsedBodies> bodies;  ///< by wheel, as its full contact sees them
   /// Of the wheels with defects; null where there are none.
   std::shared_ptr<const DefectDepth> defect_depth;
-  double table_seconds = 0.0;   ///< spent on contact tables
+  double table_seconds = 0.0;  ///< spent on contact tables
 
   /// The first wheel with full contact, else the first one: what summaries and pictures are about.
   std::size_t watched_wheel() const;
@@ -32,8 +32,9 @@ struct BuiltVehicle {
 /// "ws1_right"
 std::string wheel_name(const io::WheelContactInput& wheel);
 
-/// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without defects.
-/// Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot have.
+/// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without
+/// defects. Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot
+/// have.
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store);
 
 /// Finds the errors of build_vehicle without solving contact tables.

@@ -30,19 +30,22 @@ double most(const io::CaseResult& c, double io::PatchResult::*member) {
 std::vector<CaseColumn> case_columns() {
   using C = const io::CaseResult&;
   return {{{"case", "1", "number of the case"}, [](C c) { return static_cast<double>(c.number); }},
-          {{"Q_N", "N", "vertical force on the rail"}, [](C c) { return c.has_wheelset ? c.force_tr.z() : sum(c, &io::PatchResult::fn); }},
+          {{"Q_N", "N", "vertical force on the rail"},
+           [](C c) { return c.has_wheelset ? c.force_tr.z() : sum(c, &io::PatchResult::fn); }},
           {{"Fn_N", "N", "normal force"}, [](C c) { return sum(c, &io::PatchResult::fn); }},
           {{"Tx_N", "N", "longitudinal creep force on the rail"}, [](C c) { return sum(c, &io::PatchResult::fx); }},
           {{"Ty_N", "N", "lateral creep force on the rail"}, [](C c) { return sum(c, &io::PatchResult::fs); }},
           {{"pmax_Pa", "Pa", "largest contact pressure"}, [](C c) { return most(c, &io::PatchResult::pmax); }},
           {{"approach_m", "m", "largest approach of a patch"}, [](C c) { return most(c, &io::PatchResult::approach); }},
-          {{"friction_W", "W", "power dissipated by friction"}, [](C c) { return -sum(c, &io::PatchResult::frictional_power); }},
+          {{"friction_W", "W", "power dissipated by friction"},
+           [](C c) { return -sum(c, &io::PatchResult::frictional_power); }},
           {{"patches", "1", "contact patches"}, [](C c) { return static_cast<double>(c.patches.size()); }}};
 }
 
 }  // namespace
 
-io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options, const Progress& progress) {
+io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options,
+                                   const Progress& progress) {
   io::RunResult run = run_cases(file, store, progress);
   io::SimulationResult result = result_head(file, options);
   if (!run.complete) result.status = "interrupted";
@@ -60,9 +63,12 @@ io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store
     for (const io::CaseResult& c : run.cases) largest = std::max(largest, columns[i].value(c));
     const std::string& name = columns[i].head.name;
     const std::string::size_type unit = name.rfind('_');
-    const std::string summary = unit == std::string::npos ? name + "_max" : name.substr(0, unit) + "_max" + name.substr(unit);
-    result.summary.push_back({summary == "Q_max_N" ? "q_max_N" : summary == "pmax_max_Pa" ? "pmax_Pa" : summary, largest, columns[i].head.unit,
-                              "largest of all cases: " + columns[i].head.description});
+    const std::string summary =
+        unit == std::string::npos ? name + "_max" : name.substr(0, unit) + "_max" + name.substr(unit);
+    result.summary.push_back({summary == "Q_max_N"       ? "q_max_N"
+                              : summary == "pmax_max_Pa" ? "pmax_Pa"
+                                                         : summary,
+                              largest, columns[i].head.unit, "largest of all cases: " + columns[i].head.description});
   }
   // Times of this computer are not results.
   for (io::CaseResult& c : run.cases) c.seconds = c.search_s = c.distance_s = c.normal_s = c.tangential_s = 0.0;

@@ -7,8 +7,9 @@
 
 namespace treadmark::app {
 
-/// Solves the cases of a file as one run of a study: its fields as snapshots, a row of history for each case, a summary of all.
-/// Errors: as run_cases.
-io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options, const Progress& progress);
+/// Solves the cases of a file as one run of a study: its fields as snapshots, a row of history for each case, a summary
+/// of all. Errors: as run_cases.
+io::SimulationResult run_case_file(const io::CaseFile& file, SurfaceStore& store, const SimulationOptions& options,
+                                   const Progress& progress);
 
 }  // namespace treadmark::app

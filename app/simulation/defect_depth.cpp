@@ -30,7 +30,8 @@ Grid2 in_mirror(Grid2 grid) {
 
 }  // namespace
 
-std::vector<double> DefectDepth::over(const Grid2& grid_T, const wheelrail::Placement& placement, wheelrail::Side side) const {
+std::vector<double> DefectDepth::over(const Grid2& grid_T, const wheelrail::Placement& placement,
+                                      wheelrail::Side side) const {
   const bool left = side == wheelrail::Side::left;
   const Grid2 grid = left ? in_mirror(grid_T) : grid_T;
   const Pose X_AT = (left ? in_mirror(placement) : placement).X_TA.inverse();

@@ -7,8 +7,8 @@
 
 namespace treadmark::app {
 
-/// A file that one holder at a time can lock, among all threads and processes that see it, on other machines too where the file system
-/// passes locks on (NFS does). The lock goes with the object, and with the process however it ends.
+/// A file that one holder at a time can lock, among all threads and processes that see it, on other machines too where
+/// the file system passes locks on (NFS does). The lock goes with the object, and with the process however it ends.
 class FileLock {
  public:
   /// Nothing if somebody else holds it. Errors: Error(configuration) where the file cannot be made.

@@ -11,7 +11,8 @@ const char* unit_of(const vehicle::Coordinate& c) { return static_cast<int>(c.fr
 
 }  // namespace
 
-HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation) : simulation_(simulation) {
+HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation)
+    : simulation_(simulation) {
   const auto& wheels = simulation.vehicle().wheels;
   const std::size_t watched = built.watched_wheel();
 
@@ -33,13 +34,15 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   const auto reaction = [this, wheel]() -> const ContactReaction& { return simulation_.reactions()[wheel]; };
   add(prefix + "Q_N", "N", "vertical force on the rail" + of, [=] { return reaction().on_rail.force.z(); });
   add(prefix + "Ty_N", "N", "lateral creep force on the rail" + of, [=] { return reaction().lateral_creep_force; });
-  add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of, [=] { return reaction().longitudinal_creep_force; });
+  add(prefix + "Tx_N", "N", "longitudinal creep force on the rail" + of,
+      [=] { return reaction().longitudinal_creep_force; });
   add(prefix + "Y_N", "N", "lateral force on the rail" + of, [=] { return reaction().on_rail.force.y(); });
   if (!full) return;
   add(prefix + "Fn_N", "N", "normal force" + of, [=] { return reaction().normal_force; });
   add(prefix + "pmax_Pa", "Pa", "largest contact pressure" + of, [=] { return reaction().max_pressure; });
   add(prefix + "area_m2", "m2", "contact area" + of, [=] { return reaction().area; });
-  add(prefix + "gap_m", "m", "least distance of the undeformed bodies, negative: penetration" + of, [=] { return reaction().least_gap; });
+  add(prefix + "gap_m", "m", "least distance of the undeformed bodies, negative: penetration" + of,
+      [=] { return reaction().least_gap; });
   add(prefix + "x_cp_m", "m", "contact reference ahead of the axle" + of, [=] { return reaction().contact_x; });
   add(prefix + "y_cp_m", "m", "contact reference in track axes" + of, [=] { return reaction().contact_y; });
   add(prefix + "patches", "1", "contact patches" + of, [=] { return static_cast<double>(reaction().patches); });
@@ -52,7 +55,8 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
 }
 
 void HistoryRecord::add_energies() {
-  add("energy.mechanical_J", "J", "kinetic energy and potentials about the reference configuration", [&] { return simulation_.energy().mechanical; });
+  add("energy.mechanical_J", "J", "kinetic energy and potentials about the reference configuration",
+      [&] { return simulation_.energy().mechanical; });
   add("energy.dampers_J", "J", "dissipated in dampers", [&] { return simulation_.energy().dampers; });
   add("energy.drive_J", "J", "work that keeps up the speed", [&] { return simulation_.energy().drive; });
   add("energy.friction_J", "J", "dissipated in the contacts", [&] { return simulation_.energy().friction; });
@@ -70,7 +74,8 @@ void HistoryRecord::add_bodies() {
     if (c.body < 0) continue;
     const auto at = static_cast<Eigen::Index>(i);
     const std::string unit = unit_of(c);
-    add(c.name + '_' + unit, unit, "displacement from the reference configuration", [this, at] { return simulation_.state().q[at]; });
+    add(c.name + '_' + unit, unit, "displacement from the reference configuration",
+        [this, at] { return simulation_.state().q[at]; });
     add(c.name + "_rate_" + unit + "_s", unit + "/s", "its rate", [this, at] { return simulation_.state().v[at]; });
   }
 }

@@ -10,8 +10,9 @@
 
 namespace treadmark::app {
 
-/// What is written down of a simulation at every instant: time and place, forces of the wheels (of those with full contact also what their
-/// patches are like), motions of all bodies, energies. The columns of the watched wheel have no prefix.
+/// What is written down of a simulation at every instant: time and place, forces of the wheels (of those with full
+/// contact also what their patches are like), motions of all bodies, energies. The columns of the watched wheel have no
+/// prefix.
 class HistoryRecord {
  public:
   HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation);

@@ -44,7 +44,8 @@ std::vector<io::NamedValue> HistorySummary::values() const {
   add("ty_max_N", ty_max_.value, "N", "largest lateral creep force");
   add("ty_min_N", ty_min_.value, "N", "least lateral creep force");
   if (has_pressure_) add("pmax_Pa", pmax_.value, "Pa", "largest contact pressure");
-  add("contact_lost", static_cast<double>(std::ranges::count(simulation_.events(), false, &vehicle::ContactEvent::regained)), "1",
+  add("contact_lost",
+      static_cast<double>(std::ranges::count(simulation_.events(), false, &vehicle::ContactEvent::regained)), "1",
       "how often a wheel lost contact");
   const vehicle::EnergyBalance &e = simulation_.energy(), &start = simulation_.energy_at_start();
   const double turnover = std::max(e.turnover, 1e-300);

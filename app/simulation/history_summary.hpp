@@ -10,8 +10,8 @@
 
 namespace treadmark::app {
 
-/// Numbers that sum up a simulation: largest and least forces of the watched wheel, where and when, energies and counts. Every instant
-/// counts that is noted, whether it is written down or not. Not thread-safe.
+/// Numbers that sum up a simulation: largest and least forces of the watched wheel, where and when, energies and
+/// counts. Every instant counts that is noted, whether it is written down or not. Not thread-safe.
 class HistorySummary {
  public:
   /// Both must outlive this.

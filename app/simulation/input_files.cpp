@@ -62,8 +62,10 @@ FileHashes input_hashes(const io::SimulationFile& file) {
 FileHashes input_hashes(const io::CaseFile& file) {
   Hashes hashes;
   for (const io::Case& c : file.cases) {
-    if (const auto* contact = std::get_if<io::WheelRailCase>(&c.content)) hashes.add(*contact);
-    else hashes.add(std::get<io::BasicCase>(c.content).influence);
+    if (const auto* contact = std::get_if<io::WheelRailCase>(&c.content))
+      hashes.add(*contact);
+    else
+      hashes.add(std::get<io::BasicCase>(c.content).influence);
   }
   return hashes.take();
 }

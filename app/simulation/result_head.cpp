@@ -24,7 +24,11 @@ io::SimulationResult head_of(const File& file, const SimulationOptions& options)
 
 }  // namespace
 
-io::SimulationResult result_head(const io::SimulationFile& file, const SimulationOptions& options) { return head_of(file, options); }
-io::SimulationResult result_head(const io::CaseFile& file, const SimulationOptions& options) { return head_of(file, options); }
+io::SimulationResult result_head(const io::SimulationFile& file, const SimulationOptions& options) {
+  return head_of(file, options);
+}
+io::SimulationResult result_head(const io::CaseFile& file, const SimulationOptions& options) {
+  return head_of(file, options);
+}
 
 }  // namespace treadmark::app

@@ -30,7 +30,12 @@ using Clock = std::chrono::steady_clock;
 class Run {
  public:
   Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, SimulationTimes& times)
-      : file_(file), options_(options), times_(times), result_(result_head(file, options)), kept_(find_kept()), built_(build(file, store, times)),
+      : file_(file),
+        options_(options),
+        times_(times),
+        result_(result_head(file, options)),
+        kept_(find_kept()),
+        built_(build(file, store, times)),
         snapshots_(file, built_) {
     equilibrium_ = balance();
     describe_statics();
@@ -57,9 +62,9 @@ class Run {
       }
     }
     const wheelrail::PhaseTimes after = contact_times();
-    times_.contact = {after.search_s - before.search_s,         after.distance_s - before.distance_s,
-                      after.normal_s - before.normal_s,         after.tangential_s - before.tangential_s,
-                      after.searches - before.searches,         after.distances - before.distances,
+    times_.contact = {after.search_s - before.search_s,           after.distance_s - before.distance_s,
+                      after.normal_s - before.normal_s,           after.tangential_s - before.tangential_s,
+                      after.searches - before.searches,           after.distances - before.distances,
                       after.normal_solves - before.normal_solves, after.tangential_solves - before.tangential_solves};
     finish();
     if (result_.status != "complete") keep_checkpoint();
@@ -76,7 +81,9 @@ class Run {
   vehicle::Equilibrium balance() {
     const Stopwatch watch(times_.equilibrium_s);
     vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle);
-    if (e.report.status != Status::ok) throw Error(ErrorKind::numerical, e.report.message, {}, "check the loads, the gauge and where the wheels stand at the start");
+    if (e.report.status != Status::ok)
+      throw Error(ErrorKind::numerical, e.report.message, {},
+                  "check the loads, the gauge and where the wheels stand at the start");
     return e;
   }
 
@@ -95,7 +102,8 @@ class Run {
       add(wheel + ".rail_z_m", m.rail.z, "m", "vertical displacement of the rail");
     }
     for (std::size_t set = 0; set < built_.vehicle.system.wheelsets.size(); ++set)
-      add(fmt::format("wheelset{}.load_N", set + 1), built_.vehicle.system.wheelset_load[set], "N", "weight that the two wheels carry");
+      add(fmt::format("wheelset{}.load_N", set + 1), built_.vehicle.system.wheelset_load[set], "N",
+          "weight that the two wheels carry");
     add("residual", equilibrium_.residual, "1", "largest force out of balance over a wheelset's load");
   }
 
@@ -136,9 +144,11 @@ class Run {
       if (progress.report && now - last_told > std::chrono::milliseconds(100)) {
         last_told = now;
         const double x = simulation_->state().time * built_.vehicle.speed;
-        progress.report(std::min(total, static_cast<std::size_t>(kPerMetre * x)), total, fmt::format("x = {:.3f} m", x));
+        progress.report(std::min(total, static_cast<std::size_t>(kPerMetre * x)), total,
+                        fmt::format("x = {:.3f} m", x));
       }
-      if (!options_.checkpoint_file.empty() && std::chrono::duration<double>(now - last_kept).count() > file_.settings.checkpoint) {
+      if (!options_.checkpoint_file.empty() &&
+          std::chrono::duration<double>(now - last_kept).count() > file_.settings.checkpoint) {
         keep_checkpoint();
         last_kept = Clock::now();
       }
@@ -187,7 +197,8 @@ class Run {
   }
 
   std::optional<io::SimulationCheckpoint> find_kept() const {
-    if (!options_.resume || options_.checkpoint_file.empty() || !std::filesystem::exists(options_.checkpoint_file)) return {};
+    if (!options_.resume || options_.checkpoint_file.empty() || !std::filesystem::exists(options_.checkpoint_file))
+      return {};
     const auto lock = lock_stores();
     io::SimulationCheckpoint kept = io::read_checkpoint(options_.checkpoint_file);
     require_same_simulation(options_.checkpoint_file, kept, file_, options_.settings);
@@ -218,23 +229,25 @@ class Run {
 
 }  // namespace
 
-io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options,
-                                    const Progress& progress, SimulationTimes* times) {
+io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store,
+                                    const SimulationOptions& options, const Progress& progress,
+                                    SimulationTimes* times) {
   SimulationTimes unasked;
   Run run(file, store, options, times ? *times : unasked);
   run.integrate(progress);
   return run.take();
 }
 
-io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options) {
+io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
+                                    const SimulationOptions& options) {
   SimulationTimes unasked;
   return Run(file, store, options, unasked).take();
 }
 
-void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept, const io::SimulationFile& file,
-                             const std::vector<std::string>& settings) {
-  if (kept.version == version() && kept.git == git_revision() && kept.input_sha256 == file.sha256 && kept.settings == settings &&
-      kept.geometry_sha256 == input_hashes(file))
+void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept,
+                             const io::SimulationFile& file, const std::vector<std::string>& settings) {
+  if (kept.version == version() && kept.git == git_revision() && kept.input_sha256 == file.sha256 &&
+      kept.settings == settings && kept.geometry_sha256 == input_hashes(file))
     return;
   throw Error(ErrorKind::configuration, fmt::format("{} belongs to another simulation", store.string()), {},
               "resume with the same files, settings and build of Treadmark, or start anew in another folder");

@@ -16,34 +16,38 @@
 namespace treadmark::app {
 
 struct SimulationOptions {
-  std::vector<std::string> settings;         ///< echo of overrides
+  std::vector<std::string> settings;  ///< echo of overrides
   std::vector<std::pair<std::string, std::string>> swept;
-  /// Where unfinished results are kept, with what it takes to go on; empty: nowhere. The file is removed by nobody here.
+  /// Where unfinished results are kept, with what it takes to go on; empty: nowhere. The file is removed by nobody
+  /// here.
   std::filesystem::path checkpoint_file;
-  std::filesystem::path table_file;          ///< history so far as text, written with every checkpoint; empty: none
-  bool resume = false;                       ///< go on from that file, if there is one
-  std::mutex* store_mutex = nullptr;         ///< held while files are written: the HDF5 library may not be thread-safe
+  std::filesystem::path table_file;   ///< history so far as text, written with every checkpoint; empty: none
+  bool resume = false;                ///< go on from that file, if there is one
+  std::mutex* store_mutex = nullptr;  ///< held while files are written: the HDF5 library may not be thread-safe
 };
 
 /// Time of the computer that a simulation took; not part of its results.
 struct SimulationTimes {
   double build_s = 0.0, tables_s = 0.0, equilibrium_s = 0.0, modes_s = 0.0, integration_s = 0.0;
-  wheelrail::PhaseTimes contact;             ///< of the wheels with full contact, in the integration
+  wheelrail::PhaseTimes contact;  ///< of the wheels with full contact, in the integration
 };
 
-/// Runs a simulation from static equilibrium to its end. A numerical failure on the way gives status "failed" and the history up to there,
-/// a stop request "interrupted"; of both the checkpoint can be gone on from. Results are the same to the last bit for any number of
-/// threads, interruptions and resumptions.
-/// Errors: Error(configuration), Error(input_data) for input that cannot be simulated at all, and for a checkpoint of another
-/// simulation; Error(numerical) without an equilibrium.
-io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options,
-                                    const Progress& progress, SimulationTimes* times = nullptr);
+/// Runs a simulation from static equilibrium to its end. A numerical failure on the way gives status "failed" and the
+/// history up to there, a stop request "interrupted"; of both the checkpoint can be gone on from. Results are the same
+/// to the last bit for any number of threads, interruptions and resumptions. Errors: Error(configuration),
+/// Error(input_data) for input that cannot be simulated at all, and for a checkpoint of another simulation;
+/// Error(numerical) without an equilibrium.
+io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore& store,
+                                    const SimulationOptions& options, const Progress& progress,
+                                    SimulationTimes* times = nullptr);
 
-/// Throws Error(configuration) unless a file with results or a checkpoint comes from this build, these files and settings.
-void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept, const io::SimulationFile& file,
-                             const std::vector<std::string>& settings);
+/// Throws Error(configuration) unless a file with results or a checkpoint comes from this build, these files and
+/// settings.
+void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept,
+                             const io::SimulationFile& file, const std::vector<std::string>& settings);
 
 /// Vehicle, track and contacts in equilibrium, without integration: static values and modes.
-io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options);
+io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
+                                    const SimulationOptions& options);
 
 }  // namespace treadmark::app

@@ -43,7 +43,9 @@ std::string text_of(const fs::path& file) {
   return text.str();
 }
 
-fs::path folder_of(const StudyOptions& options, const io::StudyRun& run) { return options.folder / "runs" / fmt::format("run_{:04}", run.number); }
+fs::path folder_of(const StudyOptions& options, const io::StudyRun& run) {
+  return options.folder / "runs" / fmt::format("run_{:04}", run.number);
+}
 
 /// The HDF5 library is for one thread at a time.
 std::mutex& store_mutex() {
@@ -109,7 +111,8 @@ class Workers {
   void note_finished(std::size_t i) {
     finished_[i] = 1;
     if (progress_.report)
-      progress_.report(static_cast<std::size_t>(std::ranges::count(finished_, 1)), finished_.size(), label_of(study_, study_.runs[i]));
+      progress_.report(static_cast<std::size_t>(std::ranges::count(finished_, 1)), finished_.size(),
+                       label_of(study_, study_.runs[i]));
   }
 
   /// False: somebody else is at it.
@@ -169,17 +172,21 @@ class Workers {
 void claim_folder(const io::StudyFile& study, const StudyOptions& options) {
   const fs::path file = options.folder / kIdentityFile;
   if (options.must_exist && !fs::exists(file))
-    throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {}, "leave --resume out to begin one");
+    throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {},
+                "leave --resume out to begin one");
   const std::string identity = study_identity(study);
   std::error_code failure;
   fs::create_directories(options.folder / "runs", failure);
-  if (failure) throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {options.folder.string()});
+  if (failure)
+    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(),
+                {options.folder.string()});
   const FileLock lock = FileLock::wait(options.folder / kLockFile);
   if (!fs::exists(file))
     io::write_text_file(file, identity);
   else if (text_of(file) != identity)
     throw Error(ErrorKind::configuration, options.folder.string() + " holds the results of another study", {},
-                "choose another folder, or remove this one; runs, files, settings and build of Treadmark must be the same to go on");
+                "choose another folder, or remove this one; runs, files, settings and build of Treadmark must be the "
+                "same to go on");
 }
 
 io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) {
@@ -195,7 +202,8 @@ io::StudyResult gather(const io::StudyFile& study, const StudyOptions& options) 
     if (!fs::exists(store)) continue;
     const std::lock_guard lock(store_mutex());
     const io::SimulationResult simulation = io::read_simulation_head(store);
-    result.runs.push_back({run.number, swept_of(study, run), label_of(study, run), simulation.status, simulation.message, simulation.summary, store});
+    result.runs.push_back({run.number, swept_of(study, run), label_of(study, run), simulation.status,
+                           simulation.message, simulation.summary, store});
   }
   return result;
 }
@@ -217,13 +225,15 @@ StudyOutcome run_study(const io::StudyFile& study, const StudyOptions& options, 
 
 void write_study_folder(const io::StudyFile& file, const StudyOptions& options, const io::StudyResult& study) {
   const FileLock lock = FileLock::wait(options.folder / kLockFile);
-  // The runs are those of this study file; what was written of them may belong to an earlier version of its figures and titles.
+  // The runs are those of this study file; what was written of them may belong to an earlier version of its figures and
+  // titles.
   const fs::path marker = options.folder / "written.id";
   std::string written = file.sha256;
   for (const std::string& setting : options.settings) written += '\n' + setting;
   std::vector<fs::path> outputs{"sweep.csv", "sweep.h5"};
   for (const io::StudyFigure& figure : file.figures) outputs.push_back(figure.file);
-  const bool all_there = std::ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
+  const bool all_there =
+      std::ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
   if (all_there && fs::exists(marker) && text_of(marker) == written) return;
   io::remove_leftovers(options.folder);
   io::write_sweep_csv(options.folder / "sweep.csv", study);

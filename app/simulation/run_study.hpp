@@ -13,23 +13,24 @@
 namespace treadmark::app {
 
 struct StudyOptions {
-  std::filesystem::path folder;            ///< of the results
-  std::vector<std::string> settings;       ///< echo of overrides
-  bool must_exist = false;                 ///< there must be results to go on from
-  int workers = 1;                         ///< runs at the same time in this process
+  std::filesystem::path folder;       ///< of the results
+  std::vector<std::string> settings;  ///< echo of overrides
+  bool must_exist = false;            ///< there must be results to go on from
+  int workers = 1;                    ///< runs at the same time in this process
 };
 
 struct StudyOutcome {
-  io::StudyResult study;                   ///< runs that are finished
+  io::StudyResult study;  ///< runs that are finished
   std::size_t runs_total = 0, found_finished = 0;
   bool complete = false;
 };
 
-/// Solves the runs of a study that are not finished yet. Any number of processes may do so in the same folder at the same time, started
-/// by hand, by mpirun or by a batch system, on machines that share it: each takes the next run that nobody works on, and takes over what a
-/// process that died has left, from its last checkpoint. Returns when all runs are finished, or after a stop request.
-/// A run that fails is a result of its own. Results do not depend on who solved what.
-/// Errors: Error(configuration) for a folder that holds another study, and for runs that cannot be simulated at all.
+/// Solves the runs of a study that are not finished yet. Any number of processes may do so in the same folder at the
+/// same time, started by hand, by mpirun or by a batch system, on machines that share it: each takes the next run that
+/// nobody works on, and takes over what a process that died has left, from its last checkpoint. Returns when all runs
+/// are finished, or after a stop request. A run that fails is a result of its own. Results do not depend on who solved
+/// what. Errors: Error(configuration) for a folder that holds another study, and for runs that cannot be simulated at
+/// all.
 StudyOutcome run_study(const io::StudyFile& study, const StudyOptions& options, const Progress& progress);
 
 /// sweep.h5, sweep.csv and the figures of a finished study; one process writes them, and the others wait until it has.

@@ -19,7 +19,8 @@ namespace {
 bool is_of_a_wheel(const std::string& name) {
   if (name.starts_with("energy.")) return true;
   const auto dot = name.find('.');
-  return dot == std::string::npos || (name.starts_with("ws") && (name.substr(0, dot).ends_with("_left") || name.substr(0, dot).ends_with("_right")));
+  return dot == std::string::npos || (name.starts_with("ws") && (name.substr(0, dot).ends_with("_left") ||
+                                                                 name.substr(0, dot).ends_with("_right")));
 }
 
 }  // namespace
@@ -48,7 +49,8 @@ std::vector<io::PatchesPanel> patches_panels(const io::SimulationResult& result)
     if (!scene.drawn) continue;
     constexpr double kDegree = std::numbers::pi / 180.0;
     io::PatchesPanel panel{&snapshot, round_wheel, scene.depth_grid, scene.depth};
-    panel.title = fmt::format("{:.1f}°, Q = {:.0f} kN", wrap_angle(snapshot.pitch) / kDegree + 0.0, snapshot.force_tr.z() * 1e-3 + 0.0);
+    panel.title = fmt::format("{:.1f}°, Q = {:.0f} kN", wrap_angle(snapshot.pitch) / kDegree + 0.0,
+                              snapshot.force_tr.z() * 1e-3 + 0.0);
     double pmax = 0.0;
     for (const io::PatchResult& patch : snapshot.patches) pmax = std::max(pmax, patch.pmax);
     panel.remark = fmt::format("at most {:.0f} MPa", pmax * 1e-6);
@@ -67,7 +69,9 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
     chart.title = result.title;
     chart.x = {"t_s", "t [s]"};
     chart.y = {{"Q_N", "Q [kN]", kKilo, {result.values[2]}}, {"Ty_N", "T_y [kN]", kKilo}};
-    const auto has = [&](const char* name) { return std::ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end(); };
+    const auto has = [&](const char* name) {
+      return std::ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end();
+    };
     if (has("pmax_Pa")) chart.y.push_back({"pmax_Pa", "p_max [MPa]", kMega});
     const io::HistoryRun run{&result, result.title};
     io::write_history_svg(folder / "history.svg", std::span(&run, 1), chart);
@@ -88,7 +92,8 @@ std::string summary_text(const io::SimulationResult& result) {
     std::string unit = v.unit == "1" ? "" : v.unit;
     if (v.unit == "N") value *= 1e-3, unit = "kN";
     if (v.unit == "Pa") value *= 1e-6, unit = "MPa";
-    text += fmt::format("  {:<26} {:>12.6g} {:<4} {}\n", v.name.substr(0, v.name.rfind('_' + v.unit)), value, unit, v.description);
+    text += fmt::format("  {:<26} {:>12.6g} {:<4} {}\n", v.name.substr(0, v.name.rfind('_' + v.unit)), value, unit,
+                        v.description);
   }
   return text;
 }
@@ -97,25 +102,30 @@ std::string times_text(const SimulationTimes& t) {
   const double geometry = t.contact.search_s + t.contact.distance_s;
   const double contact = geometry + t.contact.normal_s + t.contact.tangential_s;
   const auto share = [&](double part) { return t.integration_s > 0.0 ? 100.0 * part / t.integration_s : 0.0; };
-  std::string text = fmt::format("time: {:.2f} s surfaces and contact tables, {:.2f} s equilibrium, {:.2f} s modes, {:.2f} s integration\n",
-                                 t.build_s, t.equilibrium_s, t.modes_s, t.integration_s);
+  std::string text = fmt::format(
+      "time: {:.2f} s surfaces and contact tables, {:.2f} s equilibrium, {:.2f} s modes, {:.2f} s integration\n",
+      t.build_s, t.equilibrium_s, t.modes_s, t.integration_s);
   if (contact > 0.0)
-    text += fmt::format("  of the integration: geometry {:.0f} % (search {:.0f} %, distance {:.0f} %), normal problem {:.0f} %, tangential problem "
-                        "{:.0f} %, other {:.0f} %; {} contact solutions\n",
-                        share(geometry), share(t.contact.search_s), share(t.contact.distance_s), share(t.contact.normal_s),
-                        share(t.contact.tangential_s), share(t.integration_s - contact), t.contact.searches);
+    text += fmt::format(
+        "  of the integration: geometry {:.0f} % (search {:.0f} %, distance {:.0f} %), normal problem {:.0f} %, "
+        "tangential problem "
+        "{:.0f} %, other {:.0f} %; {} contact solutions\n",
+        share(geometry), share(t.contact.search_s), share(t.contact.distance_s), share(t.contact.normal_s),
+        share(t.contact.tangential_s), share(t.integration_s - contact), t.contact.searches);
   return text;
 }
 
 std::string statics_text(const io::SimulationResult& result) {
   std::string text;
-  for (const io::NamedValue& v : result.statics) text += fmt::format("{:<24} {:>14.6g}  {}\n", v.name, v.value, v.description);
+  for (const io::NamedValue& v : result.statics)
+    text += fmt::format("{:<24} {:>14.6g}  {}\n", v.name, v.value, v.description);
   return text;
 }
 
 std::string modes_text(const io::SimulationResult& result) {
   std::string text = fmt::format("{:>12} {:>9}  {}\n", "f [Hz]", "damping", "kinetic energy");
-  for (const io::ModeRow& mode : result.modes) text += fmt::format("{:>12.4f} {:>9.4f}  {}\n", mode.frequency_Hz, mode.damping_ratio, mode.shape);
+  for (const io::ModeRow& mode : result.modes)
+    text += fmt::format("{:>12.4f} {:>9.4f}  {}\n", mode.frequency_Hz, mode.damping_ratio, mode.shape);
   return text;
 }
 

@@ -24,7 +24,8 @@ io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, co
   io::WheelRailCase input = file.contact;
   input.side = file.wheels[wheel].side;
   io::WheelsetInput& w = input.wheelset;
-  w.s = m.wheelset.x, w.y = m.wheelset.y, w.z = m.wheelset.z, w.roll = m.wheelset.roll, w.yaw = m.wheelset.yaw, w.pitch = m.wheelset.pitch;
+  w.s = m.wheelset.x, w.y = m.wheelset.y, w.z = m.wheelset.z, w.roll = m.wheelset.roll, w.yaw = m.wheelset.yaw,
+  w.pitch = m.wheelset.pitch;
   const auto& v = m.wheelset_velocity;
   w.vs = v.x, w.vy = v.y, w.vz = v.z, w.vroll = v.roll, w.vyaw = v.yaw, w.vpitch = v.pitch;
   io::TrackInput& t = input.track;
@@ -35,9 +36,10 @@ io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, co
 
 /// Where the depth of defects is looked for, about the most loaded patch.
 Grid2 depth_window(const wheelrail::PairSolution& s) {
-  constexpr double kStep = 1e-3;               // [m]
-  constexpr int kAhead = 60, kAside = 35;      // steps
-  const auto most_loaded = std::ranges::max_element(s.patches, {}, [](const wheelrail::PatchSolution& p) { return p.contact.force_n; });
+  constexpr double kStep = 1e-3;           // [m]
+  constexpr int kAhead = 60, kAside = 35;  // steps
+  const auto most_loaded =
+      std::ranges::max_element(s.patches, {}, [](const wheelrail::PatchSolution& p) { return p.contact.force_n; });
   const double y = most_loaded != s.patches.end() ? most_loaded->frame.X_TC.origin.y() : s.placement.X_TR.origin.y();
   return {-kAhead * kStep, y - kAside * kStep, kStep, kStep, 2 * kAhead + 1, 2 * kAside + 1};
 }
@@ -54,13 +56,15 @@ void Snapshots::take_passed(const vehicle::Simulation& simulation, const vehicle
   if (!wanted()) return;
   for (std::size_t i = 0; i < built_.full.size(); ++i) {
     if (!built_.full[i]) continue;
-    const vehicle::PairMotion was = simulation.vehicle().motion(i, before), is = simulation.vehicle().motion(i, simulation.state());
+    const vehicle::PairMotion was = simulation.vehicle().motion(i, before),
+                              is = simulation.vehicle().motion(i, simulation.state());
     std::vector<std::size_t> angles;
     for (std::size_t k = 0; k < file_.fields.pitch.size(); ++k)
       if (passed(was.wheelset.pitch, is.wheelset.pitch, file_.fields.pitch[k])) angles.push_back(k);
     const bool at_position =
         std::ranges::any_of(file_.fields.position, [&](double x) { return was.wheelset.x < x && x <= is.wheelset.x; });
-    if (!angles.empty() || at_position) kept_.push_back({i, std::move(angles), at_position, built_.full[i]->accepted()});
+    if (!angles.empty() || at_position)
+      kept_.push_back({i, std::move(angles), at_position, built_.full[i]->accepted()});
   }
 }
 
@@ -105,7 +109,8 @@ void Snapshots::describe_scenes(io::SimulationResult& result) const {
   }
 }
 
-std::vector<double> Snapshots::depth_of(const Kept& kept, const Grid2& grid, const wheelrail::PairSolution& solution) const {
+std::vector<double> Snapshots::depth_of(const Kept& kept, const Grid2& grid,
+                                        const wheelrail::PairSolution& solution) const {
   if (!built_.defect_depth || !file_.wheels[kept.wheel].defects) return {};
   const auto side = file_.wheels[kept.wheel].side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right;
   return built_.defect_depth->over(grid, solution.placement, side);
@@ -130,7 +135,9 @@ void Snapshots::put_results(io::SimulationResult& result) const {
     io::CaseResult c = to_result(input_of(file_, k.wheel, m), solution);
     c.number = static_cast<int>(run.cases.size()) + 1;
     c.search_s = c.distance_s = c.normal_s = c.tangential_s = 0.0;
-    if (c.message.empty()) c.message = fmt::format("{}, t = {:.6g} s, x = {:.6g} m", wheel_name(file_.wheels[k.wheel]), m.time, m.wheelset.x);
+    if (c.message.empty())
+      c.message =
+          fmt::format("{}, t = {:.6g} s, x = {:.6g} m", wheel_name(file_.wheels[k.wheel]), m.time, m.wheelset.x);
     times.push_back(m.time);
     run.cases.push_back(std::move(c));
   }

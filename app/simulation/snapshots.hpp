@@ -30,8 +30,8 @@ class Snapshots {
  private:
   struct Kept {
     std::size_t wheel = 0;
-    std::vector<std::size_t> angles;   ///< which of the requested pitch angles it is for
-    bool at_position = false;          ///< it is for a requested position
+    std::vector<std::size_t> angles;  ///< which of the requested pitch angles it is for
+    bool at_position = false;         ///< it is for a requested position
     vehicle::FullContact::Instant instant;
   };
   void describe_scenes(io::SimulationResult& result) const;

@@ -39,7 +39,9 @@ std::string label_of(const std::string& column, const std::string& given) {
   return column.substr(0, unit) + (shown.name.empty() ? "" : " [" + shown.name + "]");
 }
 
-io::HistoryAxis axis(const std::string& column, const std::string& label) { return {column, label_of(column, label), shown_unit(column).factor}; }
+io::HistoryAxis axis(const std::string& column, const std::string& label) {
+  return {column, label_of(column, label), shown_unit(column).factor};
+}
 
 fs::path csv_of(fs::path svg) { return svg.replace_extension(".csv"); }
 
@@ -54,13 +56,19 @@ std::string named_value(const io::Variation& variation, const std::string& value
 
 class Figures {
  public:
-  Figures(const io::StudyFile& file, const fs::path& folder, const io::StudyResult& study) : file_(file), folder_(folder), study_(study) {}
+  Figures(const io::StudyFile& file, const fs::path& folder, const io::StudyResult& study)
+      : file_(file), folder_(folder), study_(study) {}
 
   void draw(const io::StudyFigure& figure) {
     switch (figure.kind) {
-      case io::StudyFigure::Kind::history: draw_history(figure); break;
-      case io::StudyFigure::Kind::summary: draw_summary(figure); break;
-      case io::StudyFigure::Kind::patches: break;  // refused beforehand
+      case io::StudyFigure::Kind::history:
+        draw_history(figure);
+        break;
+      case io::StudyFigure::Kind::summary:
+        draw_summary(figure);
+        break;
+      case io::StudyFigure::Kind::patches:
+        break;  // refused beforehand
     }
   }
 
@@ -74,7 +82,8 @@ class Figures {
   bool is_drawn(const io::StudyFigure& figure, const io::SimulationRun& run) const {
     const auto& values = file_.runs.at(static_cast<std::size_t>(run.number - 1)).values;
     for (std::size_t v = 0; v < figure.only.size(); ++v)
-      if (!figure.only[v].empty() && std::ranges::find(figure.only[v], values.at(v)) == figure.only[v].end()) return false;
+      if (!figure.only[v].empty() && std::ranges::find(figure.only[v], values.at(v)) == figure.only[v].end())
+        return false;
     return true;
   }
 
@@ -96,7 +105,8 @@ class Figures {
     io::HistoryChart chart;
     chart.title = figure.title;
     chart.x = axis(figure.x.empty() ? "t_s" : figure.x, figure.x_label);
-    for (const std::string& column : figure.y) chart.y.push_back(axis(column, figure.y.size() == 1 ? figure.y_label : ""));
+    for (const std::string& column : figure.y)
+      chart.y.push_back(axis(column, figure.y.size() == 1 ? figure.y_label : ""));
     if (figure.x_range) chart.x_range = {(*figure.x_range)[0], (*figure.x_range)[1]};
     std::vector<io::HistoryRun> runs;
     for (const io::SimulationRun& run : study_.runs) {
@@ -106,9 +116,12 @@ class Figures {
       runs.push_back({&result, figure.series.empty() ? run.label : series_of(figure, run), panel_of(figure, run)});
     }
     if (runs.empty()) return;
-    const bool multiples = std::ranges::any_of(runs, [&](const io::HistoryRun& r) { return r.panel != runs.front().panel; });
-    if (multiples) io::write_history_multiples_svg(folder_ / figure.file, runs, chart);
-    else io::write_history_svg(folder_ / figure.file, runs, chart);
+    const bool multiples =
+        std::ranges::any_of(runs, [&](const io::HistoryRun& r) { return r.panel != runs.front().panel; });
+    if (multiples)
+      io::write_history_multiples_svg(folder_ / figure.file, runs, chart);
+    else
+      io::write_history_svg(folder_ / figure.file, runs, chart);
     io::write_history_chart_csv(csv_of(folder_ / figure.file), runs, chart);
   }
 
@@ -159,15 +172,18 @@ void check_study_figures(const io::StudyFile& file) {
   if (!file.runs.empty())
     for (const auto& [key, value] : swept_of(file, file.runs.front())) keys.push_back(key);
   const auto refuse = [&](const io::StudyFigure& figure, const std::string& what, const std::string& advice) {
-    throw Error(ErrorKind::configuration, fmt::format("figure {}: {}", figure.file.string(), what), {file.path.string()}, advice);
+    throw Error(ErrorKind::configuration, fmt::format("figure {}: {}", figure.file.string(), what),
+                {file.path.string()}, advice);
   };
   for (const io::StudyFigure& figure : file.figures) {
     if (figure.kind == io::StudyFigure::Kind::patches)
-      refuse(figure, "contact patches are drawn by `treadmark simulate` of one run", "use kind = \"history\" or \"summary\" in a study");
+      refuse(figure, "contact patches are drawn by `treadmark simulate` of one run",
+             "use kind = \"history\" or \"summary\" in a study");
     if (figure.kind == io::StudyFigure::Kind::summary && figure.y.size() != 1)
       refuse(figure, "a summary shows one quantity", "make a figure for each");
     if (figure.kind == io::StudyFigure::Kind::summary && std::ranges::find(keys, figure.x) == keys.end())
-      refuse(figure, fmt::format("x = '{}' is no varied key", figure.x), fmt::format("varied keys: {}", fmt::join(keys, ", ")));
+      refuse(figure, fmt::format("x = '{}' is no varied key", figure.x),
+             fmt::format("varied keys: {}", fmt::join(keys, ", ")));
   }
 }
 

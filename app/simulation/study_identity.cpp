@@ -25,7 +25,8 @@ std::vector<std::pair<std::string, std::string>> swept_of(const io::StudyFile& s
 
 std::string label_of(const io::StudyFile& study, const io::StudyRun& run) {
   std::string label;
-  for (std::size_t i = 0; i < study.variations.size(); ++i) label += (i > 0 ? ", " : "") + study.variations[i].values[run.values[i]].label;
+  for (std::size_t i = 0; i < study.variations.size(); ++i)
+    label += (i > 0 ? ", " : "") + study.variations[i].values[run.values[i]].label;
   return label;
 }
 

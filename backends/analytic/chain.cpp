@@ -16,8 +16,8 @@ ChainPoint point_on(const ChainSegment& seg, double d) {
   const double half_turn = 0.5 * seg.curvature * d;
   const double sinc = std::fabs(half_turn) < 1e-4 ? 1.0 - half_turn * half_turn / 6.0 : std::sin(half_turn) / half_turn;
   const double direction = seg.angle + half_turn;
-  return {seg.y + d * sinc * std::cos(direction), seg.z + d * sinc * std::sin(direction),
-          seg.angle + seg.curvature * d, seg.curvature};
+  return {seg.y + d * sinc * std::cos(direction), seg.z + d * sinc * std::sin(direction), seg.angle + seg.curvature * d,
+          seg.curvature};
 }
 
 std::vector<ChainSegment> resolve(const ArcChain& chain) {
@@ -34,7 +34,8 @@ std::vector<ChainSegment> resolve(const ArcChain& chain) {
       throw Error(ErrorKind::configuration,
                   fmt::format("segment {} of an arc chain needs a positive length and a finite curvature", i + 1));
     if (std::fabs(segment.length * segment.curvature) > 2.0 * std::numbers::pi)
-      throw Error(ErrorKind::configuration, fmt::format("segment {} of an arc chain is longer than a full circle", i + 1));
+      throw Error(ErrorKind::configuration,
+                  fmt::format("segment {} of an arc chain is longer than a full circle", i + 1));
     resolved.push_back({at.y, at.z, at.angle, segment.length, segment.curvature, s});
     at = point_on(resolved.back(), segment.length);
     s += segment.length;
@@ -47,7 +48,8 @@ std::vector<Chord> chords_of(const std::vector<ChainSegment>& chain) {
   for (const ChainSegment& seg : chain) {
     // sagitta = curvature length^2/8, and no part turns by more than 1/4
     const double k = std::fabs(seg.curvature);
-    const double parts = std::ceil(std::max(seg.length * std::sqrt(k / (8.0 * GraphCurve::kChordOff)), 4.0 * k * seg.length));
+    const double parts =
+        std::ceil(std::max(seg.length * std::sqrt(k / (8.0 * GraphCurve::kChordOff)), 4.0 * k * seg.length));
     const int n = static_cast<int>(std::clamp(parts, 1.0, 2000.0));
     ChainPoint a = point_on(seg, 0.0);
     for (int i = 1; i <= n; ++i) {

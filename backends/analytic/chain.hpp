@@ -22,7 +22,8 @@ struct ChainPoint {
   double y = 0.0, z = 0.0, angle = 0.0, curvature = 0.0;
 };
 
-/// The starts of all segments. Errors: Error(configuration) for an empty chain, a segment that is not positive, non-finite numbers.
+/// The starts of all segments. Errors: Error(configuration) for an empty chain, a segment that is not positive,
+/// non-finite numbers.
 std::vector<ChainSegment> resolve(const ArcChain& chain);
 
 /// The point at distance d from the start of a segment, 0 <= d <= length.

@@ -19,11 +19,13 @@ ChainView::ChainView(const std::vector<ChainSegment>& chain, double d_y, double 
     const ChainSegment& seg = chain[i];
     const double a = seg.angle + turn, b = a + seg.curvature * seg.length;
     const double low = std::min(a, b), high = std::max(a, b);
-    const int first = static_cast<int>(std::floor(low / kPi + 0.5)), last = static_cast<int>(std::ceil(high / kPi - 0.5));
+    const int first = static_cast<int>(std::floor(low / kPi + 0.5)),
+              last = static_cast<int>(std::ceil(high / kPi - 0.5));
     for (int half_turn = first; half_turn <= std::max(first, last); ++half_turn) {
       double from = 0.0, to = seg.length;
       if (seg.curvature != 0.0) {
-        const double at_low = ((half_turn - 0.5) * kPi - a) / seg.curvature, at_high = ((half_turn + 0.5) * kPi - a) / seg.curvature;
+        const double at_low = ((half_turn - 0.5) * kPi - a) / seg.curvature,
+                     at_high = ((half_turn + 0.5) * kPi - a) / seg.curvature;
         from = std::max(from, std::min(at_low, at_high));
         to = std::min(to, std::max(at_low, at_high));
       }
@@ -65,7 +67,8 @@ ChainView::ChainView(const std::vector<ChainSegment>& chain, double d_y, double 
       }
     }
     // Joints computed from two sides differ in the last bits; such slivers must not open a gap or hide anything.
-    if (!intervals_.empty() && interval.piece == intervals_.back().piece && interval.covering == intervals_.back().covering)
+    if (!intervals_.empty() && interval.piece == intervals_.back().piece &&
+        interval.covering == intervals_.back().covering)
       intervals_.back().w_max = interval.w_max;
     else
       intervals_.push_back(interval);

@@ -10,8 +10,8 @@
 
 namespace treadmark::analytic {
 
-/// A chain looked at along a direction of its plane: the height h of its outermost (least h) hit over the lateral position w.
-/// With the direction d = (d_y, d_z): h = y d_y + z d_z, w = y d_z - z d_y; d = (0, 1) gives w = y, h = z.
+/// A chain looked at along a direction of its plane: the height h of its outermost (least h) hit over the lateral
+/// position w. With the direction d = (d_y, d_z): h = y d_y + z d_z, w = y d_z - z d_y; d = (0, 1) gives w = y, h = z.
 class ChainView {
  public:
   /// d must have unit length.
@@ -20,9 +20,12 @@ class ChainView {
   /// Interval of the view that holds w, or -1; guess is an earlier answer.
   int find(double w, int guess) const;
   double height(double w, int interval) const { return piece(interval).height(w); }
-  double height_and_slope(double w, int interval, double& slope) const { return piece(interval).height_and_slope(w, slope); }
+  double height_and_slope(double w, int interval, double& slope) const {
+    return piece(interval).height_and_slope(w, slope);
+  }
 
-  /// Where on the chain the visible hit lies: its segment, distance from the segment's start, and whether it hides others.
+  /// Where on the chain the visible hit lies: its segment, distance from the segment's start, and whether it hides
+  /// others.
   struct Hit {
     int segment = 0;
     double distance = 0.0;

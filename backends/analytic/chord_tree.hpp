@@ -22,8 +22,8 @@ inline double sagitta(double curvature, double chord) {
   return 0.5 * chord * sine / (1.0 + std::sqrt((1.0 - sine) * (1.0 + sine)));
 }
 
-/// A plane curve as a tree of chords, from one chord of the whole to chords that keep to the curve within a micrometre or so.
-/// Answers how far a mapped image of the curve reaches over a window, with rigorous bounds.
+/// A plane curve as a tree of chords, from one chord of the whole to chords that keep to the curve within a micrometre
+/// or so. Answers how far a mapped image of the curve reaches over a window, with rigorous bounds.
 class ChordTree {
  public:
   ChordTree() = default;
@@ -35,10 +35,10 @@ class ChordTree {
     double v, t;
   };
 
-  /// Upper bound of t over the images with v in [v_low, v_high] of the curve's points with y in [y_low, y_high]; -infinity if
-  /// there are none. Chords less than `coarse` from their curves are not divided further.
-  /// map(y, h): image of a point; map.off(chord): how far the image of the curve may lie from that of the chord, whose
-  /// ends are joined by a line; map.look_early: whether v excludes much that y does not.
+  /// Upper bound of t over the images with v in [v_low, v_high] of the curve's points with y in [y_low, y_high];
+  /// -infinity if there are none. Chords less than `coarse` from their curves are not divided further. map(y, h): image
+  /// of a point; map.off(chord): how far the image of the curve may lie from that of the chord, whose ends are joined
+  /// by a line; map.look_early: whether v excludes much that y does not.
   template <class Map>
   double greatest(const Map& map, double y_low, double y_high, double v_low, double v_high, double coarse) const {
     double best = -std::numeric_limits<double>::infinity();

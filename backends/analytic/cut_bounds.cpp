@@ -20,8 +20,8 @@ struct Window {
   Window widened(double by) const { return {low - by, high + by}; }
 };
 
-/// All lines over the rectangle. A point at height t has the coordinates w across and a + m t along the part of the normal
-/// in the section's plane, d of unit length.
+/// All lines over the rectangle. A point at height t has the coordinates w across and a + m t along the part of the
+/// normal in the section's plane, d of unit length.
 struct Lines {
   double d_y, d_z, m, n_x;
   Window w, a, x;  ///< x at t = 0
@@ -70,8 +70,8 @@ Reach reach(const Cutter& cutter, const Lines& lines, const Window& t) {
   const CutterPath& path = cutter.path();
   const CutterPath::Range y = path.range(CutterPath::kY, x.low, x.high), z = path.range(CutterPath::kZ, x.low, x.high);
   const CutterPath::Range roll = path.range(CutterPath::kRoll, x.low, x.high);
-  const double thickness =
-      std::hypot(0.5 * (y.high - y.low), 0.5 * (z.high - z.low)) + 0.5 * (roll.high - roll.low) * cutter.reach() + kRounding;
+  const double thickness = std::hypot(0.5 * (y.high - y.low), 0.5 * (z.high - z.low)) +
+                           0.5 * (roll.high - roll.low) * cutter.reach() + kRounding;
   const double y_m = 0.5 * (y.low + y.high), z_m = 0.5 * (z.low + z.high), r_m = 0.5 * (roll.low + roll.high);
   const double cos = std::cos(r_m), sin = std::sin(r_m);
   const double d_s = cos * lines.d_y + sin * lines.d_z, d_q = cos * lines.d_z - sin * lines.d_y;
@@ -98,7 +98,8 @@ Reach reach(const Cutter& cutter, const Lines& lines, const Window& t) {
   const double from = lines.m * t.low + lines.a.low - h_m - kRounding;
   if (!std::isfinite(low) || low <= from) return result;
   // Between `from` and `low` no point of the section lies over the window; so all of it is removed, or nothing.
-  const double s_low = v.low * d_q + std::min(from * d_s, low * d_s), s_high = v.high * d_q + std::max(from * d_s, low * d_s);
+  const double s_low = v.low * d_q + std::min(from * d_s, low * d_s),
+               s_high = v.high * d_q + std::max(from * d_s, low * d_s);
   if (!(s_low - thickness > cutter.s_min() && s_high + thickness < cutter.s_max())) return result;
   const double v_m = 0.5 * (v.low + v.high), s = v_m * d_q + low * d_s, q = low * d_q - v_m * d_s;
   if (section.height(s, section.find(s, 0)) > q) result.least = (low + h_m - lines.a.high) / lines.m - kRounding;
@@ -107,7 +108,8 @@ Reach reach(const Cutter& cutter, const Lines& lines, const Window& t) {
 
 }  // namespace
 
-HeightBounds cut_bounds(std::span<const Cutter> cutters, const Pose& X_SP, const Rectangle& r, const HeightBounds& base) {
+HeightBounds cut_bounds(std::span<const Cutter> cutters, const Pose& X_SP, const Rectangle& r,
+                        const HeightBounds& base) {
   if (base.empty) return base;
   const Lines lines(X_SP, r);
   HeightBounds result = base;
@@ -118,7 +120,8 @@ HeightBounds cut_bounds(std::span<const Cutter> cutters, const Pose& X_SP, const
       break;
     }
     // nothing of the cutter lies further along the normal
-    const double farthest = std::max(cutter.y_min() * lines.d_y, cutter.y_max() * lines.d_y) + cutter.z_max() * lines.d_z;
+    const double farthest =
+        std::max(cutter.y_min() * lines.d_y, cutter.y_max() * lines.d_y) + cutter.z_max() * lines.d_z;
     const double last = lines.d_z > 0.0 ? std::max(base.z_max, (farthest - lines.a.low) / lines.m) : kInfinity;
     if (last == kInfinity) {
       result.z_max = kInfinity;
@@ -126,7 +129,8 @@ HeightBounds cut_bounds(std::span<const Cutter> cutters, const Pose& X_SP, const
     }
     Reach one = reach(cutter, lines, {base.z_min, last});
     constexpr double kWorthAnother = 0.5;
-    if (std::isfinite(one.greatest) && std::fabs(lines.n_x) * (last - std::max(base.z_min, one.greatest)) > kWorthAnother * lines.size)
+    if (std::isfinite(one.greatest) &&
+        std::fabs(lines.n_x) * (last - std::max(base.z_min, one.greatest)) > kWorthAnother * lines.size)
       one = reach(cutter, lines, {base.z_min, std::max(base.z_min, one.greatest)});
     result.z_max = std::max(result.z_max, one.greatest);
     result.z_min = std::max(result.z_min, one.least);

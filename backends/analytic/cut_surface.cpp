@@ -22,7 +22,8 @@ class Rays {
     for (const Cutter& cutter : cutters) rays_.emplace_back(cutter, direction);
   }
 
-  /// If the point at t is removed by some cutter: the first point beyond it that none removes, and the last cutter left.
+  /// If the point at t is removed by some cutter: the first point beyond it that none removes, and the last cutter
+  /// left.
   bool leave(const Vec3& origin, double t, CutterRay::Hit& hit, std::size_t& last) {
     bool removed = false;
     for (std::size_t i = 0, kept_by = 0; kept_by < rays_.size(); i = (i + 1) % rays_.size()) {
@@ -58,7 +59,8 @@ void cut_point(Rays& rays, const Pose& X, const Vec3& origin, double z, const He
 
 /// Heights of the base in out.z, or beside it if they are not wanted.
 template <class Evaluate>
-std::span<const double> base_heights(const HeightsOut& out, std::size_t count, std::vector<double>& spare, Evaluate evaluate) {
+std::span<const double> base_heights(const HeightsOut& out, std::size_t count, std::vector<double>& spare,
+                                     Evaluate evaluate) {
   HeightsOut base = out;
   if (out.z.empty()) {
     spare.resize(count);
@@ -116,7 +118,8 @@ void CutSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) 
 
 void CutSurface::do_heights_at(const Pose& X, std::span<const Vec2> points_P, const HeightsOut& out) const {
   std::vector<double> spare;
-  const auto z = base_heights(out, points_P.size(), spare, [&](const HeightsOut& base) { base_->heights_at(X, points_P, base); });
+  const auto z =
+      base_heights(out, points_P.size(), spare, [&](const HeightsOut& base) { base_->heights_at(X, points_P, base); });
   Rays rays(cutters_, X.rotation.col(2));
   for (std::size_t i = 0; i < points_P.size(); ++i)
     cut_point(rays, X, X.apply({points_P[i].x(), points_P[i].y(), 0.0}), z[i], out, i);

@@ -10,8 +10,8 @@
 
 namespace treadmark::analytic {
 
-/// A rail of any backend less the volumes that cutters remove. A line keeps the base's hit where that lies outside of the
-/// volumes, and otherwise ends where it leaves them: on a swept section or on a wall at one of its ends. u = x [m];
+/// A rail of any backend less the volumes that cutters remove. A line keeps the base's hit where that lies outside of
+/// the volumes, and otherwise ends where it leaves them: on a swept section or on a wall at one of its ends. u = x [m];
 /// v = y [m] of the surface frame where material was removed, else as the base.
 class CutSurface final : public Surface {
  public:

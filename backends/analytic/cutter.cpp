@@ -24,12 +24,15 @@ Cutter::Cutter(CutterPath path, GraphCurve section, const std::string& name)
   constexpr double kSteepestPath = 1.0;
   const CurveRange h = section_.range(s_min_, s_max_);
   steepest_ = std::max(std::fabs(h.dh_min), std::fabs(h.dh_max));
-  if (std::atan(h.dh_max) + roll_.high > kSteepestInclination || std::atan(h.dh_min) + roll_.low < -kSteepestInclination)
+  if (std::atan(h.dh_max) + roll_.high > kSteepestInclination ||
+      std::atan(h.dh_min) + roll_.low < -kSteepestInclination)
     throw Error(ErrorKind::configuration, name + ": the rolled section is too steep between two stations", {},
                 "keep its inclination within +-80 degrees");
-  const CutterPath::Range y = path_.range(CutterPath::kY, x_min_, x_max_), z = path_.range(CutterPath::kZ, x_min_, x_max_);
+  const CutterPath::Range y = path_.range(CutterPath::kY, x_min_, x_max_),
+                          z = path_.range(CutterPath::kZ, x_min_, x_max_);
   path_slope_ = std::hypot(y.steepest, z.steepest);
-  const double reach = std::hypot(std::max(std::fabs(s_min_), std::fabs(s_max_)), std::max(std::fabs(h.h_min), std::fabs(h.h_max)));
+  const double reach =
+      std::hypot(std::max(std::fabs(s_min_), std::fabs(s_max_)), std::max(std::fabs(h.h_min), std::fabs(h.h_max)));
   if (path_slope_ + roll_.steepest * reach > kSteepestPath)
     throw Error(ErrorKind::configuration, name + ": the path is steeper than 45 degrees between its stations", {},
                 "move the stations apart or add some");
@@ -74,11 +77,16 @@ Cutter::Place Cutter::place(const Vec3& p, Hint& hint) const {
 
 double Cutter::value(Bound bound, const Place& at, double x) const {
   switch (bound) {
-    case kSection: return at.gap();
-    case kStart: return at.s - s_min_;
-    case kEnd: return s_max_ - at.s;
-    case kFirst: return x - x_min_;
-    case kLast: return x_max_ - x;
+    case kSection:
+      return at.gap();
+    case kStart:
+      return at.s - s_min_;
+    case kEnd:
+      return s_max_ - at.s;
+    case kFirst:
+      return x - x_min_;
+    case kLast:
+      return x_max_ - x;
   }
   return 0.0;
 }
@@ -86,11 +94,16 @@ double Cutter::value(Bound bound, const Place& at, double x) const {
 Vec3 Cutter::gradient(Bound bound, const Place& at) const {
   const Vec3 s(at.s_x, at.cos, at.sin), q(at.q_x, -at.sin, at.cos);
   switch (bound) {
-    case kSection: return at.dh * s - q;
-    case kStart: return s;
-    case kEnd: return -s;
-    case kFirst: return Vec3::UnitX();
-    case kLast: return -Vec3::UnitX();
+    case kSection:
+      return at.dh * s - q;
+    case kStart:
+      return s;
+    case kEnd:
+      return -s;
+    case kFirst:
+      return Vec3::UnitX();
+    case kLast:
+      return -Vec3::UnitX();
   }
   return Vec3::Zero();
 }

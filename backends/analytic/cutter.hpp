@@ -17,8 +17,8 @@ namespace treadmark::analytic {
 /// Removed is where all bounds are positive: h(s) - q, s - s_min, s_max - s, x - x_min, x_max - x.
 class Cutter {
  public:
-  /// Errors: Error(configuration), begun with name, if the path is steeper than 45 degrees somewhere or rolls so fast that the
-  /// ends of the section do, or if the rolled section is inclined by more than 80 degrees.
+  /// Errors: Error(configuration), begun with name, if the path is steeper than 45 degrees somewhere or rolls so fast
+  /// that the ends of the section do, or if the rolled section is inclined by more than 80 degrees.
   Cutter(CutterPath path, GraphCurve section, const std::string& name);
 
   enum Bound { kSection, kStart, kEnd, kFirst, kLast };  ///< in the order above

@@ -34,7 +34,8 @@ class CutterPath {
   Jet at(Coordinate which, double x, std::size_t piece) const {
     const Cubic& p = pieces_[piece][which];
     const double t = x - x_[piece];
-    return {p[0] + t * (p[1] + t * (p[2] + t * p[3])), p[1] + t * (2.0 * p[2] + 3.0 * t * p[3]), 2.0 * p[2] + 6.0 * t * p[3]};
+    return {p[0] + t * (p[1] + t * (p[2] + t * p[3])), p[1] + t * (2.0 * p[2] + 3.0 * t * p[3]),
+            2.0 * p[2] + 6.0 * t * p[3]};
   }
   /// Least and greatest value and greatest size of the slope over [a, b], clipped to the path.
   struct Range {

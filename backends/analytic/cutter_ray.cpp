@@ -22,8 +22,8 @@ double CutterRay::rate_of_x_terms(const Cutter::Place& at) const {
   return std::fabs(n_.x()) * (cutter_->roll_rate() * reach + cutter_->path_slope());
 }
 
-/// The root of a gap that falls at least with a known rate: Newton from the depth of the neighbour, held between the bounds
-/// known so far. at: the place of the result.
+/// The root of a gap that falls at least with a known rate: Newton from the depth of the neighbour, held between the
+/// bounds known so far. at: the place of the result.
 double CutterRay::descend(double t, const Cutter::Place& from, double least_rate, double t_last, Cutter::Place& at) {
   double low = t, high = t_last;
   at = from;
@@ -62,8 +62,8 @@ double CutterRay::cross_end(double s_end, double a, double b) {
   return t;
 }
 
-/// Steps that never pass a bound, because none of them changes faster than the rate used (Hart 1996). Steps are at least
-/// kLeastStep long: what is thinner along the line may be passed over.
+/// Steps that never pass a bound, because none of them changes faster than the rate used (Hart 1996). Steps are at
+/// least kLeastStep long: what is thinner along the line may be passed over.
 double CutterRay::march(double t, Cutter::Bound& bound) {
   constexpr double kLeastStep = 1e-7;  // [m]
   constexpr int kSteps = 200'000;
@@ -73,8 +73,9 @@ double CutterRay::march(double t, Cutter::Bound& bound) {
     double step = std::numeric_limits<double>::infinity();
     const double path = rate_of_x_terms(at), s_rate = most_s_ + path, q_rate = 1.0 + path;
     for (const Cutter::Bound b : kBounds) {
-      const double rate = b == Cutter::kSection ? cutter_->steepest() * s_rate + q_rate
-                          : b == Cutter::kFirst || b == Cutter::kLast ? std::fabs(n_.x()) : s_rate;
+      const double rate = b == Cutter::kSection                       ? cutter_->steepest() * s_rate + q_rate
+                          : b == Cutter::kFirst || b == Cutter::kLast ? std::fabs(n_.x())
+                                                                      : s_rate;
       if (rate > 0.0) step = std::min(step, cutter_->value(b, at, x(t)) / rate);
     }
     step = std::min(step, 0.5 * std::hypot(at.s, at.q) + 0.005);  // the rates hold so far

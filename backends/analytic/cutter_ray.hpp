@@ -30,7 +30,7 @@ class CutterRay {
   const Cutter* cutter_;
   Vec3 n_, o_ = Vec3::Zero();
   double least_q_ = 0.0, most_s_ = 0.0;  ///< of dq/dt and |ds/dt| for any roll of the path, without the terms in n_x
-  double depth_ = 0.0;  ///< from the base to the section at the line before
+  double depth_ = 0.0;                   ///< from the base to the section at the line before
   Cutter::Hint hint_;
 };
 

@@ -23,8 +23,8 @@ OffsetJet DefectField::jet(double u, double y) const {
   return sum;
 }
 
-void DefectField::evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
-                           std::span<double> d_y) const {
+void DefectField::evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value,
+                           std::span<double> d_u, std::span<double> d_y) const {
   for (const auto array : {value, d_u, d_y}) std::fill(array.begin(), array.end(), 0.0);
   for (const ShapePtr& shape : shapes_) shape->add(u, y, value, d_u, d_y);
 }

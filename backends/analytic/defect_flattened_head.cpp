@@ -11,8 +11,8 @@ namespace treadmark::analytic {
 
 namespace {
 
-/// max(0, plane - z of the base). First derivatives are exact on both sides of the edge, second ones are differences of the
-/// base's slopes.
+/// max(0, plane - z of the base). First derivatives are exact on both sides of the edge, second ones are differences of
+/// the base's slopes.
 class FlattenedHeadShape final : public OffsetShape {
  public:
   FlattenedHeadShape(const FlattenedHead& head, std::shared_ptr<const Surface> base)
@@ -21,7 +21,8 @@ class FlattenedHeadShape final : public OffsetShape {
   displacement::OffsetJet jet(double u, double y) const override {
     if (!inside(u)) return {};
     constexpr double kStep = 1e-5;  // [m] slopes good to 1e-12 leave second derivatives good to 1e-7/m
-    const std::array<Vec2, 5> points{Vec2(u, y), Vec2(u + kStep, y), Vec2(u - kStep, y), Vec2(u, y + kStep), Vec2(u, y - kStep)};
+    const std::array<Vec2, 5> points{Vec2(u, y), Vec2(u + kStep, y), Vec2(u - kStep, y), Vec2(u, y + kStep),
+                                     Vec2(u, y - kStep)};
     std::array<double, 5> z{}, z_x{}, z_y{};
     base_->heights_at(Pose{}, points, {z, z_x, z_y});
     const Jet level = plane_.level(u);

@@ -81,7 +81,8 @@ void include(std::optional<Rectangle>& all, const Rectangle& one) {
 
 }  // namespace
 
-std::shared_ptr<const displacement::OffsetField> make_defect_field(const Defects& defects, Body body, double nominal_radius,
+std::shared_ptr<const displacement::OffsetField> make_defect_field(const Defects& defects, Body body,
+                                                                   double nominal_radius,
                                                                    std::shared_ptr<const Surface> base) {
   check_defects(defects, body, nominal_radius);
   std::vector<ShapePtr> shapes = make_shapes(defects, nominal_radius);
@@ -103,10 +104,12 @@ std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, 
   std::vector<ShapePtr> shapes = make_shapes(defects, nominal_radius);
   if (!shapes.empty()) {
     std::string name(surface->backend());
-    surface = displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(shapes)), body, std::move(name));
+    surface = displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(shapes)), body,
+                                                   std::move(name));
   }
   cutters.clear();
-  for (std::size_t i = 0; i < defects.milling_paths.size(); ++i) cutters.push_back(milling_cutter(defects.milling_paths[i], i));
+  for (std::size_t i = 0; i < defects.milling_paths.size(); ++i)
+    cutters.push_back(milling_cutter(defects.milling_paths[i], i));
   if (!cutters.empty()) surface = std::make_shared<CutSurface>(surface, std::move(cutters));
   return surface;
 }

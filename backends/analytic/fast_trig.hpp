@@ -12,19 +12,30 @@ namespace treadmark::analytic {
 /// Angles [rad] for which fast_sin_cos is as good as the standard functions, to about 1e-16.
 inline constexpr double kFastTrigRange = 1e5;
 
-/// Sine and cosine without branches, so that loops over it are vectorised: reduction to |r| <= pi/4 by pi/2 in three parts
-/// (Cody and Waite 1980), then Taylor's series, whose next terms are below 5e-17.
+/// Sine and cosine without branches, so that loops over it are vectorised: reduction to |r| <= pi/4 by pi/2 in three
+/// parts (Cody and Waite 1980), then Taylor's series, whose next terms are below 5e-17.
 inline void fast_sin_cos(double x, double& sine, double& cosine) {
   constexpr double kRound = 6755399441055744.0;  // 1.5 * 2^52: adding it leaves the nearest integer in the low bits
   constexpr double kTwoOverPi = 0.63661977236758134308;
-  constexpr double kHalfPi1 = 1.57079632673412561417, kHalfPi2 = 6.07710050630396597660e-11, kHalfPi3 = 2.02226624879595063154e-21;
+  constexpr double kHalfPi1 = 1.57079632673412561417, kHalfPi2 = 6.07710050630396597660e-11,
+                   kHalfPi3 = 2.02226624879595063154e-21;
   const double shifted = x * kTwoOverPi + kRound, n = shifted - kRound;
   const auto quadrant = std::bit_cast<std::uint64_t>(shifted);
   const double r = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3, w = r * r;
-  const double s = r + r * w * (-1.0 / 6.0 + w * (1.0 / 120.0 + w * (-1.0 / 5040.0 + w * (1.0 / 362880.0 +
-                   w * (-1.0 / 39916800.0 + w * (1.0 / 6227020800.0 - w * (1.0 / 1307674368000.0)))))));
-  const double c = 1.0 + w * (-0.5 + w * (1.0 / 24.0 + w * (-1.0 / 720.0 + w * (1.0 / 40320.0 + w * (-1.0 / 3628800.0 +
-                   w * (1.0 / 479001600.0 + w * (-1.0 / 87178291200.0 + w * (1.0 / 20922789888000.0))))))));
+  const double s =
+      r + r * w *
+              (-1.0 / 6.0 +
+               w * (1.0 / 120.0 +
+                    w * (-1.0 / 5040.0 +
+                         w * (1.0 / 362880.0 +
+                              w * (-1.0 / 39916800.0 + w * (1.0 / 6227020800.0 - w * (1.0 / 1307674368000.0)))))));
+  const double c =
+      1.0 +
+      w * (-0.5 + w * (1.0 / 24.0 +
+                       w * (-1.0 / 720.0 +
+                            w * (1.0 / 40320.0 + w * (-1.0 / 3628800.0 +
+                                                      w * (1.0 / 479001600.0 + w * (-1.0 / 87178291200.0 +
+                                                                                    w * (1.0 / 20922789888000.0))))))));
   const auto s_bits = std::bit_cast<std::uint64_t>(s), c_bits = std::bit_cast<std::uint64_t>(c);
   const std::uint64_t swap = (s_bits ^ c_bits) & (0 - (quadrant & 1));
   sine = std::bit_cast<double>((s_bits ^ swap) ^ ((quadrant & 2) << 62));

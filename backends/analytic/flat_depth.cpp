@@ -118,8 +118,8 @@ std::vector<FlatLanes> FlatDepth::lanes() const {
   std::vector<FlatLanes> all;
   for (const Flat& f : flats_) {
     if (f.half_angle > kWidestFlatLane) return {};
-    all.push_back({f.shape == WheelFlat::Shape::fresh, f.sin_center, f.cos_center, f.cos_half_angle, f.depth, f.chord_radius,
-                   f.wave_number, f.y_center, f.half_width, f.y_wave_number});
+    all.push_back({f.shape == WheelFlat::Shape::fresh, f.sin_center, f.cos_center, f.cos_half_angle, f.depth,
+                   f.chord_radius, f.wave_number, f.y_center, f.half_width, f.y_wave_number});
   }
   return all;
 }

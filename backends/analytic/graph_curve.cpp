@@ -132,7 +132,8 @@ std::vector<Chord> GraphCurve::chords() const {
   for (int i = 0; i < piece_count(); ++i) {
     const double start = piece_start(i), width = piece_end(i) - start;
     for (int k = 0; k < kFirstParts; ++k)
-      divide(divide, start + width * k / kFirstParts, k + 1 < kFirstParts ? start + width * (k + 1) / kFirstParts : piece_end(i), i);
+      divide(divide, start + width * k / kFirstParts,
+             k + 1 < kFirstParts ? start + width * (k + 1) / kFirstParts : piece_end(i), i);
   }
   return all;
 }

@@ -32,7 +32,8 @@ struct PolynomialGraph {
   CurveRange range(double a, double b) const;
 };
 
-/// A wheel profile z(y) [m] made of arcs, lines and polynomials side by side. Tiny steps between pieces are kept as they are.
+/// A wheel profile z(y) [m] made of arcs, lines and polynomials side by side. Tiny steps between pieces are kept as
+/// they are.
 class GraphCurve {
  public:
   /// Pieces in increasing order, each beginning where its neighbour ends.

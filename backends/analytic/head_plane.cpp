@@ -58,7 +58,8 @@ HeadPlane::HeadPlane(const FlattenedHead& head, const Surface& base)
       x_end(head.x_end),
       ramp(head.ramp),
       depth(head.depth) {
-  if (std::isinf(touching)) throw Error(ErrorKind::configuration, "a flattened head lies where the rail has no surface");
+  if (std::isinf(touching))
+    throw Error(ErrorKind::configuration, "a flattened head lies where the rail has no surface");
   const Grid2 g = stretch_grid(base, head);
   std::vector<double> z(g.size()), z_x(g.size()), z_y(g.size());
   base.heights({Pose{}, g}, {z, z_x, z_y});

@@ -27,23 +27,27 @@ std::shared_ptr<const Surface> make_standard_surface(const StandardProfile& prof
                                                      const std::vector<WheelFlat>& flats) {
   const Body belongs_to = standard_profile_body(profile.name);
   if (belongs_to != body)
-    throw Error(ErrorKind::configuration, fmt::format("the standard profile {} belongs to a {}, not to a {}", profile.name,
-                                                      belongs_to == Body::wheel ? "wheel" : "rail",
-                                                      body == Body::wheel ? "wheel" : "rail"));
+    throw Error(ErrorKind::configuration,
+                fmt::format("the standard profile {} belongs to a {}, not to a {}", profile.name,
+                            belongs_to == Body::wheel ? "wheel" : "rail", body == Body::wheel ? "wheel" : "rail"));
   if (body == Body::wheel) return std::make_shared<RevolvedSurface>(s1002_curve(), nominal_radius, flats);
   if (!flats.empty()) throw Error(ErrorKind::configuration, "flats belong to wheels, not to rails");
   return make_prismatic_surface(rail_60e1_chain());
 }
 
 ArcChain cylinder_chain(double radius, double half_angle) {
-  return {-radius * std::sin(half_angle), radius * (1.0 - std::cos(half_angle)), -half_angle,
+  return {-radius * std::sin(half_angle),
+          radius * (1.0 - std::cos(half_angle)),
+          -half_angle,
           {{2.0 * radius * half_angle, 1.0 / radius}}};
 }
 
 ArcChain straight_chain(double half_width) { return {-half_width, 0.0, 0.0, {{2.0 * half_width, 0.0}}}; }
 
 ArcChain barrel_chain(double meridian_radius, double half_angle) {
-  return {-meridian_radius * std::sin(half_angle), -meridian_radius * (1.0 - std::cos(half_angle)), half_angle,
+  return {-meridian_radius * std::sin(half_angle),
+          -meridian_radius * (1.0 - std::cos(half_angle)),
+          half_angle,
           {{2.0 * meridian_radius * half_angle, -1.0 / meridian_radius}}};
 }
 

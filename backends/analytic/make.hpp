@@ -16,8 +16,8 @@ namespace treadmark::analytic {
 std::span<const std::string_view> standard_profile_names();
 
 /// Surface of a standard profile: "60E1" prismatic along x, "S1002" revolved about the axle.
-/// nominal_radius [m] is the radius at profile z = 0 and must be positive for a wheel; a rail ignores it and takes no flats.
-/// Errors: Error(configuration) for an unknown name, the wrong body, a radius or flat that makes no sense.
+/// nominal_radius [m] is the radius at profile z = 0 and must be positive for a wheel; a rail ignores it and takes no
+/// flats. Errors: Error(configuration) for an unknown name, the wrong body, a radius or flat that makes no sense.
 std::shared_ptr<const Surface> make_standard_surface(const StandardProfile& profile, Body body, double nominal_radius,
                                                      const std::vector<WheelFlat>& flats = {});
 

@@ -23,8 +23,8 @@ double rounded_ramp(double t, double r) {
 
 void check(const MovingSection& m) {
   const auto refuse = [](const char* message) { throw Error(ErrorKind::configuration, message); };
-  for (const double number : {m.x, m.y, m.z, m.slope_y_before, m.slope_z_before, m.slope_y_after, m.slope_z_after, m.length_before,
-                              m.length_after, m.rounding})
+  for (const double number : {m.x, m.y, m.z, m.slope_y_before, m.slope_z_before, m.slope_y_after, m.slope_z_after,
+                              m.length_before, m.length_after, m.rounding})
     if (!std::isfinite(number)) refuse("a moving section needs finite numbers");
   for (const double slope : {m.slope_y_before, m.slope_z_before, m.slope_y_after, m.slope_z_after})
     if (std::fabs(slope) > kSteepest) refuse("a section can move along the track with slopes of at most 1:1");
@@ -42,13 +42,15 @@ SectionOffset section_offset(const MovingSection& m, double x) {
 }
 
 SliceSet moving_section_slices(const Profile& section, const MovingSection& m) {
-  if (section.body != Body::rail) throw Error(ErrorKind::configuration, "the section of a wheel cannot move along the track");
+  if (section.body != Body::rail)
+    throw Error(ErrorKind::configuration, "the section of a wheel cannot move along the track");
   check(m);
   const double half = 0.5 * m.rounding;
   SliceSet slices;
   slices.name = section.name;
   // one more station on each line: splines have no joint at the second and the last but one
-  for (const double t : {-m.length_before, -0.5 * (m.length_before + half), -half, 0.0, half, 0.5 * (half + m.length_after), m.length_after}) {
+  for (const double t : {-m.length_before, -0.5 * (m.length_before + half), -half, 0.0, half,
+                         0.5 * (half + m.length_after), m.length_after}) {
     slices.u.push_back(m.x + t);
     const SectionOffset offset = section_offset(m, m.x + t);
     Profile moved = section;

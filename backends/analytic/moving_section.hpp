@@ -14,9 +14,9 @@ struct SectionOffset {
 };
 SectionOffset section_offset(const MovingSection& motion, double x);
 
-/// The rail as slices. Their stations are the joints of the motion's polynomials, so that cubic splines through them follow the
-/// motion to rounding. Errors: Error(configuration) for a wheel's profile, numbers that are not finite, a rounding that is not
-/// positive or not shorter than both lines, slopes beyond 1:1.
+/// The rail as slices. Their stations are the joints of the motion's polynomials, so that cubic splines through them
+/// follow the motion to rounding. Errors: Error(configuration) for a wheel's profile, numbers that are not finite, a
+/// rounding that is not positive or not shorter than both lines, slopes beyond 1:1.
 SliceSet moving_section_slices(const Profile& section, const MovingSection& motion);
 
 }  // namespace treadmark::analytic

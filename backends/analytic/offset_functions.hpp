@@ -103,7 +103,8 @@ struct CosineStep {
     const double p = std::clamp((a - start) / length, 0.0, 1.0), q = std::clamp((b - start) / length, 0.0, 1.0);
     const double low = std::min(p, q), high = std::max(p, q);
     const FunctionRange c = cosine_range(std::numbers::pi * low, std::numbers::pi * high);
-    return {std::max(0.0, 0.5 * (1.0 - c.high)), 0.5 * (1.0 - c.low), 0.5 * std::numbers::pi / std::fabs(length) * c.max_d};
+    return {std::max(0.0, 0.5 * (1.0 - c.high)), 0.5 * (1.0 - c.low),
+            0.5 * std::numbers::pi / std::fabs(length) * c.max_d};
   }
 };
 
@@ -162,7 +163,8 @@ struct WaveSum {
   FunctionRange range(double a, double b) const {
     FunctionRange sum;
     for (const Wave& w : waves) {
-      const FunctionRange c = cosine_range(w.wave_number * (a - origin) - w.phase, w.wave_number * (b - origin) - w.phase);
+      const FunctionRange c =
+          cosine_range(w.wave_number * (a - origin) - w.phase, w.wave_number * (b - origin) - w.phase);
       sum.low += std::min(w.amplitude * c.low, w.amplitude * c.high);
       sum.high += std::max(w.amplitude * c.low, w.amplitude * c.high);
       sum.max_d += std::fabs(w.amplitude) * w.wave_number * c.max_d;

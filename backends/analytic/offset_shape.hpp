@@ -38,7 +38,7 @@ class ProductShape final : public OffsetShape {
   displacement::OffsetJet jet(double u, double y) const override {
     if (outside(u, y)) return {};
     const Jet a = along_.jet(u), b = across_.jet(y);
-    return {scale_ * a.h * b.h,  scale_ * a.dh * b.h,  scale_ * a.h * b.dh,
+    return {scale_ * a.h * b.h,   scale_ * a.dh * b.h,  scale_ * a.h * b.dh,
             scale_ * a.ddh * b.h, scale_ * a.dh * b.dh, scale_ * a.h * b.ddh};
   }
 
@@ -64,12 +64,13 @@ class ProductShape final : public OffsetShape {
   }
 
   displacement::OffsetRange range(const Rectangle& r) const override {
-    if (r.x_max <= support_.x_min || r.x_min >= support_.x_max || r.y_max <= support_.y_min || r.y_min >= support_.y_max)
+    if (r.x_max <= support_.x_min || r.x_min >= support_.x_max || r.y_max <= support_.y_min ||
+        r.y_min >= support_.y_max)
       return {};
     const FunctionRange a = along_.range(r.x_min, r.x_max), b = across_.range(r.y_min, r.y_max);
     const auto size = [](const FunctionRange& f) { return std::max(std::fabs(f.low), std::fabs(f.high)); };
-    const auto [low, high] = std::minmax({scale_ * a.low * b.low, scale_ * a.low * b.high, scale_ * a.high * b.low,
-                                          scale_ * a.high * b.high});
+    const auto [low, high] = std::minmax(
+        {scale_ * a.low * b.low, scale_ * a.low * b.high, scale_ * a.high * b.low, scale_ * a.high * b.high});
     return {low, high, std::fabs(scale_) * a.max_d * size(b), std::fabs(scale_) * size(a) * b.max_d};
   }
 

@@ -114,8 +114,10 @@ class RowWriter : PointWriter {
         for (int ix = 0; ix < g_.nx; ++ix) z[ix] = z0 + zx * g_.x(ix);
       }
       const auto n = static_cast<std::size_t>(g_.nx);
-      if (!out_.dzdx.empty()) std::fill_n(out_.dzdx.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wx - p_.ax) / p_.m);
-      if (!out_.dzdy.empty()) std::fill_n(out_.dzdy.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wy - p_.ay) / p_.m);
+      if (!out_.dzdx.empty())
+        std::fill_n(out_.dzdx.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wx - p_.ax) / p_.m);
+      if (!out_.dzdy.empty())
+        std::fill_n(out_.dzdy.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wy - p_.ay) / p_.m);
       return;
     }
     for (int ix = 0; ix < g_.nx; ++ix)
@@ -249,7 +251,9 @@ HeightBounds PrismaticSurface::do_height_bounds(const Pose& X_SP, const Rectangl
   constexpr double kRounding = 1e-12;  // [m]
   const double w = p.w0 + p.wx * xm + p.wy * ym, w_half = std::fabs(p.wx) * hx + std::fabs(p.wy) * hy + kRounding;
   const double a = p.a0 + p.ax * xm + p.ay * ym, a_half = std::fabs(p.ax) * hx + std::fabs(p.ay) * hy + kRounding;
-  const auto bounds = [&](double low, double high) { return HeightBounds{(low - a - a_half) / p.m, (high - a + a_half) / p.m, false}; };
+  const auto bounds = [&](double low, double high) {
+    return HeightBounds{(low - a - a_half) / p.m, (high - a + a_half) / p.m, false};
+  };
   if (!graph(p.d_y, p.d_z)) {
     const auto range = view(p.d_y, p.d_z)->range(w - w_half, w + w_half);
     return range ? bounds(range->first, range->second) : HeightBounds{0.0, 0.0, true};

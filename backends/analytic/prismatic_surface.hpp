@@ -24,7 +24,9 @@ class PrismaticSurface final : public Surface {
   Facing facing() const override { return Facing::up; }
   bool constant_profile() const override { return true; }
   Box3 bounds() const override;
-  std::size_t memory_bytes() const override { return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment) + chords_.memory_bytes(); }
+  std::size_t memory_bytes() const override {
+    return sizeof(*this) + chain_.capacity() * sizeof(ChainSegment) + chords_.memory_bytes();
+  }
 
  private:
   void do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const override;
@@ -32,7 +34,8 @@ class PrismaticSurface final : public Surface {
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
 
-  /// The chain seen along (d_y, d_z). The views used last are kept by every thread, because neighbouring calls share one.
+  /// The chain seen along (d_y, d_z). The views used last are kept by every thread, because neighbouring calls share
+  /// one.
   std::shared_ptr<const ChainView> view(double d_y, double d_z) const;
   /// Whether the chain seen along (d_y, d_z) hides nothing of itself.
   bool graph(double d_y, double d_z) const;

@@ -18,7 +18,8 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 void require_step(double step) {
-  if (!(step > 0.0) || !std::isfinite(step)) throw Error(ErrorKind::configuration, "the sampling step must be positive");
+  if (!(step > 0.0) || !std::isfinite(step))
+    throw Error(ErrorKind::configuration, "the sampling step must be positive");
 }
 
 /// Points by fractions of the turning angle are equidistant on an arc even where it is vertical; polynomial pieces are
@@ -34,7 +35,8 @@ void sample_piece(const GraphCurve& curve, int piece, double step, Profile& out)
   if (!arc) {
     // equal steps in y are longest where the piece is steepest
     double steepest = 0.0;
-    for (int i = 0; i <= 32; ++i) steepest = std::max(steepest, std::fabs(curve.jet(from + (to - from) * i / 32, piece).dh));
+    for (int i = 0; i <= 32; ++i)
+      steepest = std::max(steepest, std::fabs(curve.jet(from + (to - from) * i / 32, piece).dh));
     length = (to - from) * std::hypot(1.0, steepest);
   }
   const int n = std::max(1, static_cast<int>(std::ceil(length / step - 1e-9)));

@@ -6,9 +6,9 @@
 
 namespace treadmark::analytic {
 
-/// Points of a profile at arc-length steps of at most `step` [m], with every joint among them; made for fitting the same
-/// shape with another backend. Rail points run with increasing y, wheel points with decreasing y.
-/// Errors: Error(configuration) for an unknown name, a bad chain, or a step that is not positive.
+/// Points of a profile at arc-length steps of at most `step` [m], with every joint among them; made for fitting the
+/// same shape with another backend. Rail points run with increasing y, wheel points with decreasing y. Errors:
+/// Error(configuration) for an unknown name, a bad chain, or a step that is not positive.
 Profile sample_profile(const StandardProfile& profile, double step);
 Profile sample_profile(const ArcChain& chain, Body body, double step);
 

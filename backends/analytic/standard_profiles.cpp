@@ -56,8 +56,8 @@ PolynomialGraph powers_mm(double from, double to, const std::vector<double>& coe
 }  // namespace
 
 GraphCurve s1002_curve() {
-  constexpr double kH = -62.764705882, kG = -49.662510381, kF = -39.764473993, kE = -38.426669071, kD = -35.0, kC = -26.0,
-                   kB = 32.15796;
+  constexpr double kH = -62.764705882, kG = -49.662510381, kF = -39.764473993, kE = -38.426669071, kD = -35.0,
+                   kC = -26.0, kB = 32.15796;
   GraphCurve curve;
   curve.append(circle_mm(-70.0, kH, -49.5, 9.519259302, 20.5, +1, kH));
   curve.append(circle_mm(kH, kG, -55.0, 16.0, 12.0, +1, -55.0));
@@ -65,8 +65,8 @@ GraphCurve s1002_curve() {
   curve.append(line_mm(kF, kE, -93.576667419, -2.747477419));
   curve.append(circle_mm(kE, kD, -26.210665, 16.446, 13.0, -1, kD));
   curve.append(powers_mm(kD, kC,
-                         {-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1, -4.169739389e-3,
-                          -4.687195829e-5, -2.252755540e-7}));
+                         {-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1,
+                          -4.169739389e-3, -4.687195829e-5, -2.252755540e-7}));
   curve.append(powers_mm(kC, kB,
                          {0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8,
                           5.309217349e-15, -5.957839843e-12, 2.646656573e-13}));
@@ -84,7 +84,8 @@ ArcChain rail_60e1_chain() {
   const double y13 = kHalf80 + kR13 * (std::sin(side) - std::sin(a80));
   const double z13 = kR300 * (1.0 - std::cos(a300)) + kR80 * (std::cos(a300) - std::cos(a80)) +
                      kR13 * (std::cos(a80) - std::cos(side));
-  // The side meets the lower line of the head, 2.75:1 through 51 mm below the crown; the R3 fillet takes its tangent length.
+  // The side meets the lower line of the head, 2.75:1 through 51 mm below the crown; the R3 fillet takes its tangent
+  // length.
   const double corner_z = (0.051 - (y13 - z13 / 20.0) / 2.75) / (1.0 + 1.0 / (20.0 * 2.75));
   const double turn = std::numbers::pi - std::atan(1.0 / 2.75) - side;
   const double side_length = (corner_z - z13) / std::sin(side) - kR3 * std::tan(0.5 * turn);
@@ -111,7 +112,8 @@ std::span<const std::string_view> standard_profile_names() {
 Body standard_profile_body(std::string_view name) {
   if (name == "S1002") return Body::wheel;
   if (name == "60E1") return Body::rail;
-  throw Error(ErrorKind::configuration, "unknown standard profile '" + std::string(name) + "'", {}, "known: 60E1, S1002");
+  throw Error(ErrorKind::configuration, "unknown standard profile '" + std::string(name) + "'", {},
+              "known: 60E1, S1002");
 }
 
 }  // namespace treadmark::analytic

@@ -8,8 +8,8 @@
 
 namespace treadmark::analytic {
 
-/// A plane curve looked at along the direction d of unit length: w = y d_z - z d_y across, h = y d_y + z d_z along it. Bounds of
-/// h over a window of w, of visible and hidden points.
+/// A plane curve looked at along the direction d of unit length: w = y d_z - z d_y across, h = y d_y + z d_z along it.
+/// Bounds of h over a window of w, of visible and hidden points.
 class TurnedChain {
  public:
   TurnedChain(double d_y, double d_z) : map_{d_y, d_z, 1.0} {}

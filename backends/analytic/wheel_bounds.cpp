@@ -50,7 +50,8 @@ WheelBounds::Box WheelBounds::box(double a, double b) const {
   const double R = body_.nominal_radius;
   result.f_min = r - r_half - R - c.h_max + depth_min - kRounding;
   result.f_max = r + r_half - R - c.h_min + depth_max + kRounding;
-  if (near_axle || p.y() < y_min || p.y() > y_max || !std::isfinite(c.dh_min) || !std::isfinite(c.dh_max)) return result;
+  if (near_axle || p.y() < y_min || p.y() > y_max || !std::isfinite(c.dh_min) || !std::isfinite(c.dh_max))
+    return result;
 
   // Both together, which keeps a plane that follows a steep profile tight. The radial direction turns by at most
   // the chord of r_half/r, a factor below 1.05 longer than that ratio.
@@ -99,12 +100,14 @@ HeightBounds WheelBounds::heights() const {
   // Heights start where the lines are nearest to the axle and end within the greatest radius.
   const auto nearest = [&](const Vec3& p) { return -(p.x() * n.x() + p.z() * n.z()) / a; };
   const double middle = nearest(X_.apply({x_, y_, 0.0}));
-  const double spread = std::fabs(nearest(X_.rotation.col(0))) * half_x_ + std::fabs(nearest(X_.rotation.col(1))) * half_y_;
+  const double spread =
+      std::fabs(nearest(X_.rotation.col(0))) * half_x_ + std::fabs(nearest(X_.rotation.col(1))) * half_y_;
   const double low = middle - spread, high = middle + spread + body_.r_max / std::sqrt(a);
   HeightBounds result;
   if (!find_top(low, high, result.z_max)) return none;
 
-  // Where the whole rectangle is inside the wheel and every line came from outside over the profile, all hits are above.
+  // Where the whole rectangle is inside the wheel and every line came from outside over the profile, all hits are
+  // above.
   const bool along_y = std::fabs(n.y()) * (high - low) < 1e-12;
   const auto inside = [&](double t) {
     if (box(t, t).f_max >= 0.0) return false;

@@ -22,9 +22,9 @@ struct Spread {
 
 /// One curve (y, tau) seen along the normal, which is inclined against its axes by cos and sin.
 struct TauCurve {
-  double cos, sin, side;             ///< side -1: the least height is wanted
-  double radius, sigma_2;            ///< r = radius + z(y)
-  double stretch, bend;              ///< of tau by r: greatest slope, eighth of the greatest curvature
+  double cos, sin, side;   ///< side -1: the least height is wanted
+  double radius, sigma_2;  ///< r = radius + z(y)
+  double stretch, bend;    ///< of tau by r: greatest slope, eighth of the greatest curvature
   bool look_early;
 
   ChordTree::Image operator()(double y, double h) const {
@@ -52,13 +52,16 @@ WheelHull::Bin WheelHull::range(double y_low, double y_high) const {
   Bin sum{kInfinity, -kInfinity};
   if (!(y_high >= y_min_ && y_low <= y_max_)) return sum;
   const double last = static_cast<double>(bins_.size()) - 1.0;
-  const auto bin = [&](double y) { return static_cast<std::size_t>(std::clamp((y - y_min_) * bins_per_length_, 0.0, last)); };
+  const auto bin = [&](double y) {
+    return static_cast<std::size_t>(std::clamp((y - y_min_) * bins_per_length_, 0.0, last));
+  };
   for (std::size_t i = bin(y_low), end = bin(y_high); i <= end; ++i)
     sum = {std::min(sum.low, bins_[i].low), std::max(sum.high, bins_[i].high)};
   return sum;
 }
 
-std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats, const Pose& X, const Rectangle& rect) const {
+std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats, const Pose& X,
+                                               const Rectangle& rect) const {
   constexpr HeightBounds kNone{0.0, 0.0, true};
   const double n_x = X.rotation(0, 2), n_y = X.rotation(1, 2), n_z = X.rotation(2, 2);
   const double cos = std::sqrt(n_x * n_x + n_z * n_z), sin = n_y;
@@ -72,17 +75,20 @@ std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats,
   const auto v_of = [&](const auto& p) { return cos * p.y() - sin * (p.x() * w_x + p.z() * w_z); };
   const auto e_x = X.rotation.col(0), e_y = X.rotation.col(1);
   const Vec3 middle = X.origin + e_x * (rect.x_min + half_x) + e_y * (rect.y_min + half_y);
-  const Spread sigma{sigma_of(middle), std::fabs(sigma_of(e_x)) * half_x + std::fabs(sigma_of(e_y)) * half_y + kRounding};
+  const Spread sigma{sigma_of(middle),
+                     std::fabs(sigma_of(e_x)) * half_x + std::fabs(sigma_of(e_y)) * half_y + kRounding};
   const Spread v{v_of(middle), std::fabs(v_of(e_x)) * half_x + std::fabs(v_of(e_y)) * half_y + kRounding};
   const double far = std::max(std::fabs(sigma.low()), std::fabs(sigma.high()));
-  const double near = sigma.low() < 0.0 && sigma.high() > 0.0 ? 0.0 : std::min(std::fabs(sigma.low()), std::fabs(sigma.high()));
+  const double near =
+      sigma.low() < 0.0 && sigma.high() > 0.0 ? 0.0 : std::min(std::fabs(sigma.low()), std::fabs(sigma.high()));
   const double s_high = far * far, s_low = near * near;
   const double r_least = R + all_.low - flats.max_depth();
   constexpr double kHorizon = 0.6;
   if (!(s_high < kHorizon * r_least * r_least)) return {};
 
   // which part of the profile can be over it
-  double tau_least = std::sqrt(r_least * r_least - s_high), tau_most = std::sqrt((R + all_.high) * (R + all_.high) - s_low);
+  double tau_least = std::sqrt(r_least * r_least - s_high),
+         tau_most = std::sqrt((R + all_.high) * (R + all_.high) - s_low);
   const double stretch = r_least / tau_least, bend = s_high / (8.0 * tau_least * tau_least * tau_least);
   double y_low = 0.0, y_high = 0.0;
   Bin z = all_;

@@ -12,10 +12,10 @@
 
 namespace treadmark::analytic {
 
-/// Height bounds of a wheel from chords of its profile. Looked at along the plane's normal, a point of the wheel has the
-/// coordinates sigma (square to the normal and to the axle), y and tau = sqrt(r^2 - sigma^2), measured along the normal's part
-/// square to the axle. Over a rectangle sigma and the depth of flats keep to intervals; each of their ends gives one plane
-/// curve (y, tau), which is turned into the plane frame.
+/// Height bounds of a wheel from chords of its profile. Looked at along the plane's normal, a point of the wheel has
+/// the coordinates sigma (square to the normal and to the axle), y and tau = sqrt(r^2 - sigma^2), measured along the
+/// normal's part square to the axle. Over a rectangle sigma and the depth of flats keep to intervals; each of their
+/// ends gives one plane curve (y, tau), which is turned into the plane frame.
 class WheelHull {
  public:
   explicit WheelHull(const GraphCurve& curve);

@@ -7,7 +7,8 @@
 namespace treadmark::analytic {
 
 WheelLanesKernel wheel_lanes_kernel() {
-  static const WheelLanesKernel kernel = cpu_has_avx2() && wheel_lanes_avx2() != nullptr ? wheel_lanes_avx2() : wheel_lanes_generic();
+  static const WheelLanesKernel kernel =
+      cpu_has_avx2() && wheel_lanes_avx2() != nullptr ? wheel_lanes_avx2() : wheel_lanes_generic();
   return kernel;
 }
 

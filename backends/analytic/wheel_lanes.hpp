@@ -31,8 +31,8 @@ struct PieceLanes {
 struct WheelLanesInput {
   double n_x, n_y, n_z, a;  ///< a = n_x^2 + n_z^2
   double radius, r_max;
-  double near;              ///< WheelRay::kNear
-  bool exact;               ///< everything at exactly t, else within `near` of it
+  double near;  ///< WheelRay::kNear
+  bool exact;   ///< everything at exactly t, else within `near` of it
   PieceLanes piece;
   const FlatLanes* flats;
   int flat_count;

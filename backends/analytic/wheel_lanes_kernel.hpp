@@ -47,14 +47,25 @@ TREADMARK_LANES unsigned bits(const Mask& m) {
 /// As fast_sin_cos.
 TREADMARK_LANES void sin_cos(const Lanes& x, Lanes& sine, Lanes& cosine) {
   constexpr double kRound = 6755399441055744.0, kTwoOverPi = 0.63661977236758134308;
-  constexpr double kHalfPi1 = 1.57079632673412561417, kHalfPi2 = 6.07710050630396597660e-11, kHalfPi3 = 2.02226624879595063154e-21;
+  constexpr double kHalfPi1 = 1.57079632673412561417, kHalfPi2 = 6.07710050630396597660e-11,
+                   kHalfPi3 = 2.02226624879595063154e-21;
   const Lanes shifted = x * kTwoOverPi + kRound, n = shifted - kRound;
   const Mask quadrant = (Mask)shifted;
   const Lanes r = ((x - n * kHalfPi1) - n * kHalfPi2) - n * kHalfPi3, w = r * r;
-  const Lanes s = r + r * w * (-1.0 / 6.0 + w * (1.0 / 120.0 + w * (-1.0 / 5040.0 + w * (1.0 / 362880.0 +
-                  w * (-1.0 / 39916800.0 + w * (1.0 / 6227020800.0 - w * (1.0 / 1307674368000.0)))))));
-  const Lanes c = 1.0 + w * (-0.5 + w * (1.0 / 24.0 + w * (-1.0 / 720.0 + w * (1.0 / 40320.0 + w * (-1.0 / 3628800.0 +
-                  w * (1.0 / 479001600.0 + w * (-1.0 / 87178291200.0 + w * (1.0 / 20922789888000.0))))))));
+  const Lanes s =
+      r + r * w *
+              (-1.0 / 6.0 +
+               w * (1.0 / 120.0 +
+                    w * (-1.0 / 5040.0 +
+                         w * (1.0 / 362880.0 +
+                              w * (-1.0 / 39916800.0 + w * (1.0 / 6227020800.0 - w * (1.0 / 1307674368000.0)))))));
+  const Lanes c =
+      1.0 +
+      w * (-0.5 + w * (1.0 / 24.0 +
+                       w * (-1.0 / 720.0 +
+                            w * (1.0 / 40320.0 + w * (-1.0 / 3628800.0 +
+                                                      w * (1.0 / 479001600.0 + w * (-1.0 / 87178291200.0 +
+                                                                                    w * (1.0 / 20922789888000.0))))))));
   const Mask swap = ((Mask)s ^ (Mask)c) & -(quadrant & 1);
   sine = (Lanes)(((Mask)s ^ swap) ^ ((quadrant & 2) << 62));
   cosine = (Lanes)(((Mask)c ^ swap) ^ (((quadrant + 1) & 2) << 62));
@@ -72,7 +83,8 @@ struct Depth {
   Lanes d, by_theta, by_y;
 };
 /// Adds the depth of one flat at points (x, y, z), r = |(x, z)|.
-TREADMARK_LANES void add_flat(const FlatLanes& f, const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& r, Depth& sum) {
+TREADMARK_LANES void add_flat(const FlatLanes& f, const Lanes& x, const Lanes& y, const Lanes& z, const Lanes& r,
+                              Depth& sum) {
   const Lanes zero = all(0.0), ahead = z * f.cos_center + x * f.sin_center, side = x * f.cos_center - z * f.sin_center;
   const Lanes e = y - f.y_center;
   Mask in = ahead > r * f.cos_half_angle;
@@ -151,7 +163,8 @@ unsigned wheel_lanes(const WheelLanesInput& in, WheelLanesHits& hits) {
   store(x, hits.x), store(y, hits.y), store(z, hits.z), store(r, hits.r);
   store(depth.by_theta, hits.f_theta), store(f_y, hits.f_y), store(depth.d, hits.depth);
   const Lanes y_hit = o_y + t * in.n_y;
-  return bits(fine & settled & (slope > 0.0) & (t >= closest) & (t <= t_high) & (y_hit >= in.piece.y_low) & (y_hit <= in.piece.y_high));
+  return bits(fine & settled & (slope > 0.0) & (t >= closest) & (t <= t_high) & (y_hit >= in.piece.y_low) &
+              (y_hit <= in.piece.y_high));
 }
 
 #undef TREADMARK_LANES

@@ -89,7 +89,9 @@ unsigned WheelLines::cast(Four& four, int count, WheelRay& ray) const {
 Vec2 WheelLines::slopes(const WheelHit& hit) const {
   const double inverse = 1.0 / hit.r, sin = hit.x * inverse, cos = hit.z * inverse, along = hit.f_theta * inverse;
   const double f_x = sin + along * cos, f_z = cos - along * sin;
-  const auto part = [&](int k) { return f_x * X_.rotation(0, k) + hit.f_y * X_.rotation(1, k) + f_z * X_.rotation(2, k); };
+  const auto part = [&](int k) {
+    return f_x * X_.rotation(0, k) + hit.f_y * X_.rotation(1, k) + f_z * X_.rotation(2, k);
+  };
   const double per = -1.0 / part(2);
   return {part(0) * per, part(1) * per};
 }
@@ -144,7 +146,8 @@ void WheelLines::follow(std::span<const Vec2> points, std::size_t begin, std::si
       const Vec2 d = p - before;
       distance_2[k] = d.squaredNorm();
       tangent[k] = z + slope.dot(d);
-      four.set(k, X_.origin + X_.rotation.col(0) * p.x() + X_.rotation.col(1) * p.y(), tangent[k] + bend * distance_2[k]);
+      four.set(k, X_.origin + X_.rotation.col(0) * p.x() + X_.rotation.col(1) * p.y(),
+               tangent[k] + bend * distance_2[k]);
     }
     const unsigned found = cast(four, lanes, ray);
     int last = -1;
@@ -154,7 +157,8 @@ void WheelLines::follow(std::span<const Vec2> points, std::size_t begin, std::si
       if (hit) last = k;
     }
     if (last < 0) continue;
-    bend = distance_2[last] > 0.0 && !std::isnan(tangent[last]) ? (four.hits[last].t - tangent[last]) / distance_2[last] : 0.0;
+    bend = distance_2[last] > 0.0 && !std::isnan(tangent[last]) ? (four.hits[last].t - tangent[last]) / distance_2[last]
+                                                                : 0.0;
     z = four.hits[last].t;
     slope = slopes(four.hits[last]);
     before = points[i + static_cast<std::size_t>(last)];

@@ -9,8 +9,8 @@
 
 namespace treadmark::analytic {
 
-/// Heights of a wheel over many points of one plane. Four lines at a time go through a kernel, started from what was found
-/// before them; those whose result is not proven the outermost hit are left to WheelRay.
+/// Heights of a wheel over many points of one plane. Four lines at a time go through a kernel, started from what was
+/// found before them; those whose result is not proven the outermost hit are left to WheelRay.
 class WheelLines {
  public:
   WheelLines(const WheelBody& body, const Pose& X_SP, const HeightsOut& out);

@@ -134,8 +134,8 @@ bool WheelRay::newton(double guess, WheelHit& hit, bool exact) {
     const double step = g / slope;
     if (!(std::fabs(step) < body_.nominal_radius) || !(std::fabs(slope) < kSteep)) return false;
     t -= step;
-    // The next step would be the square of this one times d2g/dt2 over twice the slope: below rounding for curvatures up
-    // to 100/m, where a steep profile has (1 + f_y^2)^1.5 of it in its second derivative.
+    // The next step would be the square of this one times d2g/dt2 over twice the slope: below rounding for curvatures
+    // up to 100/m, where a steep profile has (1 + f_y^2)^1.5 of it in its second derivative.
     if (std::fabs(step) > kNear * std::min(1.0, std::fabs(slope)) / (1.0 + hit.f_y * hit.f_y)) continue;
     constexpr double kExact = 1e-11;  // [m] moves slopes by less than 1e-9
     if (exact && std::fabs(step) > kExact) gap(t, slope, hit);
@@ -145,20 +145,22 @@ bool WheelRay::newton(double guess, WheelHit& hit, bool exact) {
   return false;
 }
 
-/// From the hit outwards r rises at least with its slope here, because r(t) is convex; the profile rises at most with its
-/// steepest chord; inside a flat the depth shrinks at most with its Lipschitz constants. If the first beats the
+/// From the hit outwards r rises at least with its slope here, because r(t) is convex; the profile rises at most with
+/// its steepest chord; inside a flat the depth shrinks at most with its Lipschitz constants. If the first beats the
 /// others, the line never meets the wheel again.
 bool WheelRay::is_outermost(const WheelBody& body, const Vec3& n, double spin, const WheelHit& hit) {
   double margin = (hit.x * n.x() + hit.z * n.z()) / hit.r;
   const double n_y = n.y();
   if (n_y > 0.0) margin -= body.chords.greatest_right(hit.y) * n_y;
   if (n_y < 0.0) margin -= body.chords.least_left(hit.y) * n_y;
-  if (hit.depth > 0.0) margin -= body.flats.max_d_theta() * std::fabs(spin) / (hit.r * hit.r) + body.flats.max_d_y() * std::fabs(n_y);
+  if (hit.depth > 0.0)
+    margin -= body.flats.max_d_theta() * std::fabs(spin) / (hit.r * hit.r) + body.flats.max_d_y() * std::fabs(n_y);
   constexpr double kBeside = 1e-6;  // the point may lie kNear beside the hit
   return margin > kBeside;
 }
 
-/// The same inwards, down to the least radius of the wheel: the gap only rises on the way to the hit, so it has no other root.
+/// The same inwards, down to the least radius of the wheel: the gap only rises on the way to the hit, so it has no
+/// other root.
 bool WheelRay::rises_to(const WheelHit& hit) const {
   const double r = body_.r_min, ahead_2 = a_ * r * r - spin_ * spin_;  // (x n_x + z n_z)^2 at that radius
   if (!(ahead_2 > 0.0)) return false;
@@ -166,7 +168,8 @@ bool WheelRay::rises_to(const WheelHit& hit) const {
   double margin = std::sqrt(ahead_2) / r;
   if (n_y > 0.0) margin -= body_.chords.greatest_left(hit.y) * n_y;
   if (n_y < 0.0) margin -= body_.chords.least_right(hit.y) * n_y;
-  if (!body_.flats.empty()) margin -= body_.flats.max_d_theta() * std::fabs(spin_) / (r * r) + body_.flats.max_d_y() * std::fabs(n_y);
+  if (!body_.flats.empty())
+    margin -= body_.flats.max_d_theta() * std::fabs(spin_) / (r * r) + body_.flats.max_d_y() * std::fabs(n_y);
   constexpr double kBeside = 1e-6;
   return margin > kBeside;
 }

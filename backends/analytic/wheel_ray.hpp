@@ -38,7 +38,7 @@ struct WheelBody {
   FlatDepth flats;
   ChordSlopes chords;
   WheelHull hull;
-  std::vector<PieceLanes> pieces;        ///< for the kernels, as are these:
+  std::vector<PieceLanes> pieces;  ///< for the kernels, as are these:
   std::vector<FlatLanes> narrow_flats;
   bool all_narrow = true;
   double r_min = 0.0;  ///< least radius, flats included
@@ -65,7 +65,8 @@ class WheelRay {
  public:
   WheelRay(const WheelBody& body, const Vec3& direction);
 
-  /// False: no hit. guess = NaN: none. Without `exact` only t is final, the rest of the hit belongs to a point within kNear of it.
+  /// False: no hit. guess = NaN: none. Without `exact` only t is final, the rest of the hit belongs to a point within
+  /// kNear of it.
   bool cast(const Vec3& origin, double guess, WheelHit& hit, bool exact = true);
   static constexpr double kNear = 3e-8;  ///< [m]
   /// Everything about the last hit at exactly its t.

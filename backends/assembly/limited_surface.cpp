@@ -17,7 +17,8 @@ constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class LimitedSurface final : public Surface {
  public:
-  LimitedSurface(std::shared_ptr<const Surface> rail, double x_min, double x_max) : rail_(std::move(rail)), x_min_(x_min), x_max_(x_max) {
+  LimitedSurface(std::shared_ptr<const Surface> rail, double x_min, double x_max)
+      : rail_(std::move(rail)), x_min_(x_min), x_max_(x_max) {
     if (rail_ == nullptr) throw Error(ErrorKind::configuration, "there is no surface to be limited");
     if (!(x_min < x_max)) throw Error(ErrorKind::configuration, "a limited surface must have some length");
   }
@@ -53,7 +54,8 @@ class LimitedSurface final : public Surface {
     std::vector<double> z(g.size());
     rail_->heights(plane, {z, out.dzdx, out.dzdy});
     const auto nx = static_cast<std::size_t>(g.nx);
-    cut(plane.X_SP, z, out, [&](std::size_t i) { return Vec2(g.x(static_cast<int>(i % nx)), g.y(static_cast<int>(i / nx))); });
+    cut(plane.X_SP, z, out,
+        [&](std::size_t i) { return Vec2(g.x(static_cast<int>(i % nx)), g.y(static_cast<int>(i / nx))); });
   }
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override {
     std::vector<double> z(points_P.size());
@@ -65,7 +67,9 @@ class LimitedSurface final : public Surface {
     for (SurfacePoint& p : out)
       if (p.status != LocateStatus::outside && !inside(p.position_S.x())) p = {};
   }
-  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& r) const override { return rail_->height_bounds(X_SP, r); }
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& r) const override {
+    return rail_->height_bounds(X_SP, r);
+  }
   void do_grid_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const override {
     rail_->height_bounds(X_SP, r, out);
   }

@@ -31,7 +31,8 @@ class OutermostSurface final : public Surface {
     std::vector<std::string_view> names;
     for (const auto& part : parts_) {
       if (part == nullptr) throw Error(ErrorKind::configuration, "a part of a body has no surface");
-      if (part->facing() != facing()) throw Error(ErrorKind::configuration, "the parts of a body must all be rails, or all wheels");
+      if (part->facing() != facing())
+        throw Error(ErrorKind::configuration, "the parts of a body must all be rails, or all wheels");
       if (std::find(names.begin(), names.end(), part->backend()) == names.end()) names.push_back(part->backend());
     }
     std::sort(names.begin(), names.end());
@@ -91,13 +92,16 @@ class OutermostSurface final : public Surface {
   void do_heights(const PlaneGrid& plane, const HeightsOut& out) const override {
     const Grid2& g = plane.grid;
     const Rectangle whole{g.x0, g.x(g.nx - 1), g.y0, g.y(g.ny - 1)};
-    outermost(g.size(), out, [&](const Surface& part, const HeightsOut& fields) { part.heights(plane, fields); },
-              [&](const Surface& part) { return part.height_bounds(plane.X_SP, whole).empty; });
+    outermost(
+        g.size(), out, [&](const Surface& part, const HeightsOut& fields) { part.heights(plane, fields); },
+        [&](const Surface& part) { return part.height_bounds(plane.X_SP, whole).empty; });
   }
 
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override {
-    outermost(points_P.size(), out, [&](const Surface& part, const HeightsOut& fields) { part.heights_at(X_SP, points_P, fields); },
-              [](const Surface&) { return false; });
+    outermost(
+        points_P.size(), out,
+        [&](const Surface& part, const HeightsOut& fields) { part.heights_at(X_SP, points_P, fields); },
+        [](const Surface&) { return false; });
   }
 
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override {

@@ -67,7 +67,9 @@ class MovedSurface final : public Placed {
   }
 
  private:
-  void do_heights(const PlaneGrid& g, const HeightsOut& out) const override { surface().heights({seen_from_own(g.X_SP), g.grid}, out); }
+  void do_heights(const PlaneGrid& g, const HeightsOut& out) const override {
+    surface().heights({seen_from_own(g.X_SP), g.grid}, out);
+  }
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override {
     surface().heights_at(seen_from_own(X_SP), points_P, out);
   }
@@ -101,7 +103,8 @@ class TurnedSurface final : public Placed {
   static HeightBounds turned(const HeightBounds& b) { return b.empty ? b : HeightBounds{-b.z_max, -b.z_min, false}; }
   static std::vector<Vec2> turned(std::span<const Vec2> points_P) {
     std::vector<Vec2> points_Q(points_P.size());
-    std::transform(points_P.begin(), points_P.end(), points_Q.begin(), [](const Vec2& p) { return Vec2(p.x(), -p.y()); });
+    std::transform(points_P.begin(), points_P.end(), points_Q.begin(),
+                   [](const Vec2& p) { return Vec2(p.x(), -p.y()); });
     return points_Q;
   }
   /// Slopes across keep their sign: both z and y change theirs.
@@ -139,7 +142,8 @@ class TurnedSurface final : public Placed {
     surface().height_bounds(turned(X_SP), q, out);
     for (HeightBounds& b : out) b = turned(b);
     for (int iy = 0; iy < r.ny - 1 - iy; ++iy)
-      std::swap_ranges(out.begin() + static_cast<std::ptrdiff_t>(r.index(0, iy)), out.begin() + static_cast<std::ptrdiff_t>(r.index(0, iy) + r.index(0, 1)),
+      std::swap_ranges(out.begin() + static_cast<std::ptrdiff_t>(r.index(0, iy)),
+                       out.begin() + static_cast<std::ptrdiff_t>(r.index(0, iy) + r.index(0, 1)),
                        out.begin() + static_cast<std::ptrdiff_t>(r.index(0, r.ny - 1 - iy)));
   }
 };

@@ -19,7 +19,8 @@ namespace {
 using displacement::OffsetJet;
 using displacement::OffsetRange;
 
-/// How far a circle of radius r lies above its lowest point at x, negative upwards: g = sqrt(r^2 - x^2) - r, and derivatives.
+/// How far a circle of radius r lies above its lowest point at x, negative upwards: g = sqrt(r^2 - x^2) - r, and
+/// derivatives.
 struct Rise {
   double g, g_x, g_r, g_xx, g_xr, g_rr;
   Rise(double x, double r) {
@@ -43,7 +44,11 @@ class RingField final : public displacement::OffsetField {
     const analytic::Jet z = profile(y, 0);
     const bool beyond = std::fabs(u) > half_length_;
     const Rise rise(std::clamp(u, -half_length_, half_length_), radius_ + z.h);
-    return {rise.g, beyond ? 0.0 : rise.g_x, rise.g_r * z.dh, beyond ? 0.0 : rise.g_xx, beyond ? 0.0 : rise.g_xr * z.dh,
+    return {rise.g,
+            beyond ? 0.0 : rise.g_x,
+            rise.g_r * z.dh,
+            beyond ? 0.0 : rise.g_xx,
+            beyond ? 0.0 : rise.g_xr * z.dh,
             rise.g_rr * z.dh * z.dh + rise.g_r * z.ddh};
   }
 
@@ -54,7 +59,8 @@ class RingField final : public displacement::OffsetField {
       const double across = clamped(y[i]);
       double slope;
       piece = profile_.find(across, piece);
-      const double r = radius_ + profile_.height_and_slope(across, piece, slope), x = std::clamp(u[i], -half_length_, half_length_);
+      const double r = radius_ + profile_.height_and_slope(across, piece, slope),
+                   x = std::clamp(u[i], -half_length_, half_length_);
       const double q = std::sqrt((r - x) * (r + x));
       value[i] = -x * x / (q + r);
       if (!d_u.empty()) d_u[i] = x == u[i] ? -x / q : 0.0;
@@ -65,7 +71,8 @@ class RingField final : public displacement::OffsetField {
   OffsetRange range(const Rectangle& uy) const override {
     const analytic::CurveRange z = profile_.range(clamped(uy.y_min), clamped(uy.y_max));
     const double far = std::min(std::max(std::fabs(uy.x_min), std::fabs(uy.x_max)), half_length_);
-    const double near = uy.x_min <= 0.0 && uy.x_max >= 0.0 ? 0.0 : std::min({std::fabs(uy.x_min), std::fabs(uy.x_max), half_length_});
+    const double near =
+        uy.x_min <= 0.0 && uy.x_max >= 0.0 ? 0.0 : std::min({std::fabs(uy.x_min), std::fabs(uy.x_max), half_length_});
     const Rise most(far, radius_ + z.h_min), least(near, radius_ + z.h_max);
     return {most.g, least.g, std::fabs(most.g_x), most.g_r * std::max(std::fabs(z.dh_min), std::fabs(z.dh_max))};
   }
@@ -100,7 +107,8 @@ std::shared_ptr<const Surface> make_ring_surface(const ArcChain& chain, double r
   analytic::GraphCurve profile = analytic::graph_of(chain);
   const double half_length = ring_half_length(radius, profile.range(profile.y_min(), profile.y_max()).h_min);
   auto field = std::make_shared<RingField>(std::move(profile), -radius, half_length);
-  auto bent = displacement::make_displaced_surface(analytic::make_prismatic_surface(chain), std::move(field), Body::rail, "analytic");
+  auto bent = displacement::make_displaced_surface(analytic::make_prismatic_surface(chain), std::move(field),
+                                                   Body::rail, "analytic");
   return limit_along(std::move(bent), -half_length, half_length);
 }
 
@@ -124,10 +132,12 @@ SliceSet ring_slices(const Profile& profile, double radius) {
 TriangleMesh lower_part(const TriangleMesh& ring, double radius) {
   TriangleMesh part = ring;
   std::erase_if(part.triangles, [&](const auto& t) {
-    return std::any_of(t.begin(), t.end(), [&](auto corner) { return !(ring.vertices[static_cast<std::size_t>(corner)].z() > radius); });
+    return std::any_of(t.begin(), t.end(),
+                       [&](auto corner) { return !(ring.vertices[static_cast<std::size_t>(corner)].z() > radius); });
   });
-  if (part.triangles.empty()) throw Error(ErrorKind::configuration, "the triangles of the ring all lie above its axle", {},
-                                          "the axle is at z = nominal radius of the rail's frame, the wheel runs at z = 0");
+  if (part.triangles.empty())
+    throw Error(ErrorKind::configuration, "the triangles of the ring all lie above its axle", {},
+                "the axle is at z = nominal radius of the rail's frame, the wheel runs at z = 0");
   return part;
 }
 

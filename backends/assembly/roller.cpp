@@ -29,7 +29,8 @@ ArcChain turned(const ArcChain& chain) {
   const std::vector<analytic::ChainSegment> segments = analytic::resolve(chain);
   const analytic::ChainPoint end = analytic::point_on(segments.back(), segments.back().length);
   ArcChain out{-end.y, -end.z, end.angle, {}};
-  for (auto s = chain.segments.rbegin(); s != chain.segments.rend(); ++s) out.segments.push_back({s->length, -s->curvature});
+  for (auto s = chain.segments.rbegin(); s != chain.segments.rend(); ++s)
+    out.segments.push_back({s->length, -s->curvature});
   return out;
 }
 
@@ -86,7 +87,8 @@ class FieldRound final : public OffsetField {
     return {-rail.high, -rail.low, radius_ * rail.max_d_u, rail.max_d_y};
   }
   static OffsetRange both(const OffsetRange& a, const OffsetRange& b) {
-    return {std::min(a.low, b.low), std::max(a.high, b.high), std::max(a.max_d_u, b.max_d_u), std::max(a.max_d_y, b.max_d_y)};
+    return {std::min(a.low, b.low), std::max(a.high, b.high), std::max(a.max_d_u, b.max_d_u),
+            std::max(a.max_d_y, b.max_d_y)};
   }
 
   std::shared_ptr<const OffsetField> rail_;
@@ -105,7 +107,8 @@ void require_once_round(const SliceSet& slices, double radius) {
 SurfaceSpec wheel_of_roller(const SurfaceSpec& roller) {
   const double radius = roller.roller_radius;
   if (!(radius > 0.0) || !std::isfinite(radius))
-    throw Error(ErrorKind::configuration, "a roller needs a positive nominal radius", {}, "rings that a wheel runs in (negative radius) are not wheels turned over");
+    throw Error(ErrorKind::configuration, "a roller needs a positive nominal radius", {},
+                "rings that a wheel runs in (negative radius) are not wheels turned over");
   SurfaceSpec wheel;
   wheel.body = Body::wheel;
   wheel.nominal_radius = radius;
@@ -133,10 +136,12 @@ TriangleMesh roller_triangles(TriangleMesh wheel, double radius) {
   return wheel;
 }
 
-std::shared_ptr<const Surface> add_roller_defects(std::shared_ptr<const Surface> wheel, const Defects& defects, double radius) {
+std::shared_ptr<const Surface> add_roller_defects(std::shared_ptr<const Surface> wheel, const Defects& defects,
+                                                  double radius) {
   if (defects.empty()) return wheel;
   if (!defects.flattened_heads.empty() || !defects.milling_paths.empty())
-    throw Error(ErrorKind::configuration, "flattened heads and milling paths are straight cuts along a rail, they do not fit a roller", {},
+    throw Error(ErrorKind::configuration,
+                "flattened heads and milling paths are straight cuts along a rail, they do not fit a roller", {},
                 "use a corrugation or a squat, or triangles of the damaged roller");
   auto field = std::make_shared<FieldRound>(analytic::make_defect_field(defects, Body::rail, 0.0, nullptr), radius);
   std::string name(wheel->backend());

@@ -16,18 +16,18 @@ struct BandAxes {
 
 /// Points of one row. See DisplacedLine for F; e is the direction of the offset.
 struct BandPoints {
-  const double *t, *d, *d_u, *d_y;       ///< where the offset was asked, offset and its derivatives
-  const double *sin, *cos, *per_r;       ///< of a wheel's theta
-  const double *h, *hx, *hy;             ///< base
-  double *step, *steepness;              ///< from t to the zero of F; |grad(t - h)|
-  double *gx, *gy, *gz;                  ///< gradient of F
-  double *back_x, *back_y;               ///< d e: how far points are moved back
+  const double *t, *d, *d_u, *d_y;  ///< where the offset was asked, offset and its derivatives
+  const double *sin, *cos, *per_r;  ///< of a wheel's theta
+  const double *h, *hx, *hy;        ///< base
+  double *step, *steepness;         ///< from t to the zero of F; |grad(t - h)|
+  double *gx, *gy, *gz;             ///< gradient of F
+  double *back_x, *back_y;          ///< d e: how far points are moved back
 };
 
 /// Points (x[i], t[i]) of one row: o + x ex + t et in the axle's plane (a: sine part, b: cosine part).
 struct BandTurn {
   double oa, xa, ta, ob, xb, tb;
-  double theta, sin, cos;                ///< near which most points lie
+  double theta, sin, cos;  ///< near which most points lie
 };
 
 struct BandKernel {
@@ -35,14 +35,16 @@ struct BandKernel {
   void (*solve_moved)(const BandAxes& axes, std::size_t n, const BandPoints& points);
   void (*solve_tangent)(const BandAxes& axes, std::size_t n, const BandPoints& points);
   /// theta and its sine, cosine, 1/r. False: too far from theta for its series, u is not good.
-  bool (*turn)(const BandTurn& turn, std::size_t n, const double* x, const double* t, double* u, double* sin, double* cos, double* per_r);
-  /// Polynomials of fourth order through 5 x 5 heights about each of n neighbouring points, rows[k] two rows before to two behind,
-  /// at (sx, sy) steps from them: value and derivatives by steps.
-  void (*interpolate)(std::size_t n, const double* const rows[5], const double* sx, const double* sy, double* h, double* h_sx, double* h_sy);
-  /// What such polynomials leave out, of values and of derivatives by sx and sy, at n points: from the |fifth differences| along
-  /// x of five rows, and the two along y of n + 4 neighbouring columns.
-  void (*missing)(std::size_t n, const double* const along[5], const double* const across[2], const double* sx, const double* sy,
-                  double* value, double* by_sx, double* by_sy);
+  bool (*turn)(const BandTurn& turn, std::size_t n, const double* x, const double* t, double* u, double* sin,
+               double* cos, double* per_r);
+  /// Polynomials of fourth order through 5 x 5 heights about each of n neighbouring points, rows[k] two rows before to
+  /// two behind, at (sx, sy) steps from them: value and derivatives by steps.
+  void (*interpolate)(std::size_t n, const double* const rows[5], const double* sx, const double* sy, double* h,
+                      double* h_sx, double* h_sy);
+  /// What such polynomials leave out, of values and of derivatives by sx and sy, at n points: from the |fifth
+  /// differences| along x of five rows, and the two along y of n + 4 neighbouring columns.
+  void (*missing)(std::size_t n, const double* const along[5], const double* const across[2], const double* sx,
+                  const double* sy, double* value, double* by_sx, double* by_sy);
   /// |Fifth differences| of six arrays; 1e300 for NaN.
   void (*fifth)(std::size_t n, const double* const six[6], double* difference);
 };

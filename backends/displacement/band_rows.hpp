@@ -13,9 +13,11 @@ namespace {
 
 template <bool kWheel, bool kTangent>
 void solve_points(const BandAxes& axes, std::size_t n, const BandPoints& p) {
-  const double lx = axes.along[0], ly = axes.along[1], lz = axes.along[2], ux = axes.up[0], uy = axes.up[1], uz = axes.up[2];
+  const double lx = axes.along[0], ly = axes.along[1], lz = axes.along[2], ux = axes.up[0], uy = axes.up[1],
+               uz = axes.up[2];
   const double cx = axes.across[0], cy = axes.across[1], cz = axes.across[2];
-  const double *t = p.t, *d = p.d, *d_u = p.d_u, *d_y = p.d_y, *sin = p.sin, *cos = p.cos, *per_r = p.per_r, *h = p.h, *hx = p.hx, *hy = p.hy;
+  const double *t = p.t, *d = p.d, *d_u = p.d_u, *d_y = p.d_y, *sin = p.sin, *cos = p.cos, *per_r = p.per_r, *h = p.h,
+               *hx = p.hx, *hy = p.hy;
   double* __restrict step = p.step;
   double* __restrict steepness = p.steepness;
   double* __restrict gx = p.gx;
@@ -25,7 +27,8 @@ void solve_points(const BandAxes& axes, std::size_t n, const BandPoints& p) {
   double* __restrict back_y = p.back_y;
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
-    const double s = kWheel ? sin[i] : 0.0, c = kWheel ? cos[i] : 1.0, one = kWheel ? per_r[i] : 1.0, bend = kWheel ? per_r[i] : 0.0;
+    const double s = kWheel ? sin[i] : 0.0, c = kWheel ? cos[i] : 1.0, one = kWheel ? per_r[i] : 1.0,
+                 bend = kWheel ? per_r[i] : 0.0;
     const double ex = lx * s + ux * c, ey = ly * s + uy * c, ez = lz * s + uz * c;
     const double ax = lx * c - ux * s, ay = ly * c - uy * s, az = lz * c - uz * s;
     const double Me = ez - hx[i] * ex - hy[i] * ey, Ma = az - hx[i] * ax - hy[i] * ay;
@@ -44,12 +47,14 @@ void solve_points(const BandAxes& axes, std::size_t n, const BandPoints& p) {
 
 template <bool kTangent>
 void solve_any(const BandAxes& axes, std::size_t n, const BandPoints& p) {
-  if (axes.wheel) solve_points<true, kTangent>(axes, n, p);
-  else solve_points<false, kTangent>(axes, n, p);
+  if (axes.wheel)
+    solve_points<true, kTangent>(axes, n, p);
+  else
+    solve_points<false, kTangent>(axes, n, p);
 }
 
-bool turn_points(const BandTurn& v, std::size_t n, const double* x, const double* t, double* __restrict u, double* __restrict sin,
-                 double* __restrict cos, double* __restrict per_r) {
+bool turn_points(const BandTurn& v, std::size_t n, const double* x, const double* t, double* __restrict u,
+                 double* __restrict sin, double* __restrict cos, double* __restrict per_r) {
   double outside = 0.0;
   for (std::size_t i = 0; i < n; ++i) {
     const double a = v.oa + v.xa * x[i] + v.ta * t[i], b = v.ob + v.xb * x[i] + v.tb * t[i];
@@ -59,7 +64,9 @@ bool turn_points(const BandTurn& v, std::size_t n, const double* x, const double
     constexpr double kSeries = 0.125 * 0.125;
     outside += (w <= kSeries ? 0.0 : 1.0) + (ahead > 0.0 ? 0.0 : 1.0);
     // series of the arc tangent; the next term is 3e-17 at the end of its range
-    const double tail = 1.0 / 3.0 - w * (1.0 / 5.0 - w * (1.0 / 7.0 - w * (1.0 / 9.0 - w * (1.0 / 11.0 - w * (1.0 / 13.0 - w * (1.0 / 15.0))))));
+    const double tail =
+        1.0 / 3.0 -
+        w * (1.0 / 5.0 - w * (1.0 / 7.0 - w * (1.0 / 9.0 - w * (1.0 / 11.0 - w * (1.0 / 13.0 - w * (1.0 / 15.0))))));
     u[i] = v.theta + (ratio - ratio * w * tail);
   }
   return outside == 0.0;
@@ -73,14 +80,16 @@ struct Weights5 {
     w[0] = s * one * (s - 2.0) * (1.0 / 24.0), w[4] = s * one * (s + 2.0) * (1.0 / 24.0);
     w[1] = -s * four * (s - 1.0) * (1.0 / 6.0), w[3] = -s * four * (s + 1.0) * (1.0 / 6.0);
     w[2] = one * four * 0.25;
-    d[0] = (((4.0 * s - 6.0) * s - 2.0) * s + 2.0) * (1.0 / 24.0), d[4] = (((4.0 * s + 6.0) * s - 2.0) * s - 2.0) * (1.0 / 24.0);
-    d[1] = (((-4.0 * s + 3.0) * s + 8.0) * s - 4.0) * (1.0 / 6.0), d[3] = (((-4.0 * s - 3.0) * s + 8.0) * s + 4.0) * (1.0 / 6.0);
+    d[0] = (((4.0 * s - 6.0) * s - 2.0) * s + 2.0) * (1.0 / 24.0),
+    d[4] = (((4.0 * s + 6.0) * s - 2.0) * s - 2.0) * (1.0 / 24.0);
+    d[1] = (((-4.0 * s + 3.0) * s + 8.0) * s - 4.0) * (1.0 / 6.0),
+    d[3] = (((-4.0 * s - 3.0) * s + 8.0) * s + 4.0) * (1.0 / 6.0);
     d[2] = s * (q - 2.5);
   }
 };
 
-void interpolate_points(std::size_t n, const double* const rows[5], const double* sx, const double* sy, double* __restrict h,
-                        double* __restrict h_sx, double* __restrict h_sy) {
+void interpolate_points(std::size_t n, const double* const rows[5], const double* sx, const double* sy,
+                        double* __restrict h, double* __restrict h_sx, double* __restrict h_sy) {
   const double *r0 = rows[0], *r1 = rows[1], *r2 = rows[2], *r3 = rows[3], *r4 = rows[4];
   for (std::size_t i = 0; i < n; ++i) {
     const Weights5 a(sx[i]), b(sy[i]);
@@ -90,7 +99,8 @@ void interpolate_points(std::size_t n, const double* const rows[5], const double
     double value = 0.0, along = 0.0, across = 0.0;
 #pragma GCC unroll 5
     for (int k = 0; k < 5; ++k) {
-      const double z0 = at[k][0] - middle, z1 = at[k][1] - middle, z2 = at[k][2] - middle, z3 = at[k][3] - middle, z4 = at[k][4] - middle;
+      const double z0 = at[k][0] - middle, z1 = at[k][1] - middle, z2 = at[k][2] - middle, z3 = at[k][3] - middle,
+                   z4 = at[k][4] - middle;
       const double row = a.w[0] * z0 + a.w[1] * z1 + a.w[2] * z2 + a.w[3] * z3 + a.w[4] * z4;
       value += b.w[k] * row;
       across += b.d[k] * row;
@@ -112,9 +122,10 @@ void fifth_differences(std::size_t n, const double* const six[6], double* __rest
 
 inline double greater(double a, double b) { return a > b ? a : b; }
 
-void missing_terms(std::size_t n, const double* const along[5], const double* const across[2], const double* sx, const double* sy,
-                   double* __restrict value, double* __restrict by_sx, double* __restrict by_sy) {
-  const double *a0 = along[0], *a1 = along[1], *a2 = along[2], *a3 = along[3], *a4 = along[4], *b = across[0], *c = across[1];
+void missing_terms(std::size_t n, const double* const along[5], const double* const across[2], const double* sx,
+                   const double* sy, double* __restrict value, double* __restrict by_sx, double* __restrict by_sy) {
+  const double *a0 = along[0], *a1 = along[1], *a2 = along[2], *a3 = along[3], *a4 = along[4], *b = across[0],
+               *c = across[1];
 #pragma GCC ivdep
   for (std::size_t i = 0; i < n; ++i) {
     const double x = greater(greater(greater(a0[i], a1[i]), greater(a2[i], a3[i])), a4[i]);
@@ -128,7 +139,8 @@ void missing_terms(std::size_t n, const double* const along[5], const double* co
   }
 }
 
-constexpr BandKernel kBandKernel{&solve_any<false>, &solve_any<true>, &turn_points, &interpolate_points, &missing_terms, &fifth_differences};
+constexpr BandKernel kBandKernel{&solve_any<false>,   &solve_any<true>, &turn_points,
+                                 &interpolate_points, &missing_terms,   &fifth_differences};
 
 }  // namespace
 

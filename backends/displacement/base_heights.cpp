@@ -27,7 +27,8 @@ void BaseHeights::ask_rim(const Surface& base, const Pose& X_SP) {
     for (int iy = 0; iy < g_.ny; ++iy) row(iy)[ix] = column[static_cast<std::size_t>(iy)];
   }
   for (const int iy : {-1, g_.ny})
-    base.heights({X_SP, {g_.x0, g_.y(iy), g_.dx, g_.dy, g_.nx, 1}}, {{row(iy), static_cast<std::size_t>(g_.nx)}, {}, {}});
+    base.heights({X_SP, {g_.x0, g_.y(iy), g_.dx, g_.dy, g_.nx, 1}},
+                 {{row(iy), static_cast<std::size_t>(g_.nx)}, {}, {}});
 }
 
 void BaseHeights::judge() {
@@ -50,10 +51,13 @@ void BaseHeights::judge() {
       const double x1 = z[ix] - z[ix - 1], x2 = z[ix + 1] - z[ix], y1 = z[ix] - before[ix], y2 = behind[ix] - z[ix];
       const double xx = std::fabs(x2 - x1), yy = std::fabs(y2 - y1);
       // the slope without the jump, if there is one
-      const double sx = std::min(std::fabs(x1), std::fabs(x2)) * per_dx, sy = std::min(std::fabs(y1), std::fabs(y2)) * per_dy;
+      const double sx = std::min(std::fabs(x1), std::fabs(x2)) * per_dx,
+                   sy = std::min(std::fabs(y1), std::fabs(y2)) * per_dy;
       // A second derivative is the curvature times (1 + slope^2)^1.5; a slope that is not known is none.
-      const double square = (sx == sx ? sx * sx : 0.0) + (sy == sy ? sy * sy : 0.0), steep = (1.0 + square) * std::sqrt(1.0 + square);
-      b[ix] = static_cast<std::uint8_t>((xx <= most_x * steep + kRounding ? kAlongX : 0) | (yy <= most_y * steep + kRounding ? kAlongY : 0));
+      const double square = (sx == sx ? sx * sx : 0.0) + (sy == sy ? sy * sy : 0.0),
+                   steep = (1.0 + square) * std::sqrt(1.0 + square);
+      b[ix] = static_cast<std::uint8_t>((xx <= most_x * steep + kRounding ? kAlongX : 0) |
+                                        (yy <= most_y * steep + kRounding ? kAlongY : 0));
     }
   }
   for (int iy = 0; iy < g_.ny; ++iy) {

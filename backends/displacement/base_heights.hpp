@@ -10,8 +10,8 @@
 namespace treadmark::displacement {
 
 /// Heights of a base over a grid and over one more point beyond each side of it, and where they change smoothly from
-/// point to point: without a miss, and with second differences as a curvature of kBend may make them. A fold of the base between
-/// neighbours, where one sheet hides another, shows as a jump.
+/// point to point: without a miss, and with second differences as a curvature of kBend may make them. A fold of the
+/// base between neighbours, where one sheet hides another, shows as a jump.
 class BaseHeights {
  public:
   /// Asks the base for heights into out.z, and for slopes into out.dzdx and out.dzdy, each of grid.size() or empty.
@@ -27,7 +27,9 @@ class BaseHeights {
     kAlongY = 2,
     kAround = 4,  ///< among all eight neighbours
   };
-  std::uint8_t smooth(int ix, int iy) const { return smooth_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(g_.nx) + static_cast<std::size_t>(ix)]; }
+  std::uint8_t smooth(int ix, int iy) const {
+    return smooth_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(g_.nx) + static_cast<std::size_t>(ix)];
+  }
 
  private:
   double* row(int iy) { return z_.data() + static_cast<std::size_t>(iy + 1) * stride_ + 1; }

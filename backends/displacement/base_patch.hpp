@@ -9,13 +9,14 @@
 
 namespace treadmark::displacement {
 
-/// Heights of the base between the points of a grid, by polynomials of fourth order, and where they are as good as the base
-/// itself: the error of such a polynomial is its next term, a fifth difference, which is taken as the greatest of all nearby
-/// along both axes. Joints of a profile, folds and misses show in it.
+/// Heights of the base between the points of a grid, by polynomials of fourth order, and where they are as good as the
+/// base itself: the error of such a polynomial is its next term, a fifth difference, which is taken as the greatest of
+/// all nearby along both axes. Joints of a profile, folds and misses show in it.
 class BasePatch {
  public:
   /// slopes: whether they count too.
-  BasePatch(const BaseHeights& base, const Grid2& grid, bool slopes) : base_(base), g_(grid), slopes_(slopes), kernel_(band_kernel()) {}
+  BasePatch(const BaseHeights& base, const Grid2& grid, bool slopes)
+      : base_(base), g_(grid), slopes_(slopes), kernel_(band_kernel()) {}
 
   /// Looks at columns [begin, end), at most 64, and rows [first, last). False: the grid is too small.
   bool look(int begin, int end, int first, int last);
@@ -35,8 +36,9 @@ class BasePatch {
   const BandKernel& kernel_;
   int begin_ = 0, end_ = 0, first_ = 0, last_ = 0;
   std::size_t width_ = 0;
-  std::vector<double> along_;   ///< greatest fifth difference along x, columns begin to end, rows first - 2 to last + 1
-  std::vector<double> across_;  ///< fifth differences along y, columns begin - 2 to end + 1, by their first row, first - 3 to last - 1
+  std::vector<double> along_;  ///< greatest fifth difference along x, columns begin to end, rows first - 2 to last + 1
+  std::vector<double>
+      across_;  ///< fifth differences along y, columns begin - 2 to end + 1, by their first row, first - 3 to last - 1
 };
 
 }  // namespace treadmark::displacement

@@ -10,7 +10,7 @@ namespace treadmark::displacement {
 
 namespace {
 constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr int kColumns = 32;       ///< of a block
+constexpr int kColumns = 32;  ///< of a block
 /// [m] What is left of the way aside: heights then miss half its square times the curvature, normals its curvature.
 constexpr double kLinear = 2e-10;
 /// [m] Way along the surface for which the slopes of an offset are the same.
@@ -24,11 +24,13 @@ bool is_last(double step, double rate, double tilt, double steepness) {
 }  // namespace
 
 BandPoints DisplacedBand::Points::pointers() {
-  return {t.data(), d.data(), d_u.data(), d_y.data(), sin.data(), cos.data(), per_r.data(), h.data(), hx.data(), hy.data(),
-          step.data(), steepness.data(), gx.data(), gy.data(), gz.data(), back_x.data(), back_y.data()};
+  return {t.data(),     d.data(),  d_u.data(), d_y.data(),    sin.data(),   cos.data(),
+          per_r.data(), h.data(),  hx.data(),  hy.data(),     step.data(),  steepness.data(),
+          gx.data(),    gy.data(), gz.data(),  back_x.data(), back_y.data()};
 }
 
-DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& grid, const BaseHeights& base, const HeightsOut& out)
+DisplacedBand::DisplacedBand(const View& view, double max_offset, const Grid2& grid, const BaseHeights& base,
+                             const HeightsOut& out)
     : view_(view),
       max_offset_(max_offset),
       g_(grid),
@@ -130,10 +132,13 @@ DisplacedBand::Kind DisplacedBand::judge(int begin, int end, Block& block) {
   const Reach aside = reach(r, View::moved_back(r, offsets, view_.directions(uy)));
   const double farthest = std::max(aside.x, aside.y);
   const Vec3 corner = view_.X_SP.apply({r.x_min, r.y_min, t.low});
-  block = {begin, end, view_.rate(offsets, uy, corner),
-           std::max(view_.tilt_along(uy, corner), std::fabs(view_.X_SP.rotation(1, 2))),
-           aside.x > kNoReach ? (aside.y > kNoReach ? BaseHeights::kAround : BaseHeights::kAlongX) : BaseHeights::kAlongY,
-           farthest > kNoReach};
+  block = {
+      begin,
+      end,
+      view_.rate(offsets, uy, corner),
+      std::max(view_.tilt_along(uy, corner), std::fabs(view_.X_SP.rotation(1, 2))),
+      aside.x > kNoReach ? (aside.y > kNoReach ? BaseHeights::kAround : BaseHeights::kAlongX) : BaseHeights::kAlongY,
+      farthest > kNoReach};
   if (present == 0) {
     if (!block.moves || view_.base.height_bounds(view_.X_SP, enlarged(r, farthest)).empty) return Kind::untouched;
     return Kind::one_by_one;
@@ -186,7 +191,8 @@ void DisplacedBand::foretell(int iy) {
 
 void DisplacedBand::ask_offsets(Points& p, double y, std::size_t n) {
   natural_.find(y, p.x.data(), p.t.data(), n);
-  view_.field.evaluate({natural_.u.data(), n}, {natural_.y.data(), n}, {p.d.data(), n}, {p.d_u.data(), n}, {p.d_y.data(), n});
+  view_.field.evaluate({natural_.u.data(), n}, {natural_.y.data(), n}, {p.d.data(), n}, {p.d_u.data(), n},
+                       {p.d_y.data(), n});
   if (axes_.wheel) {
     std::copy_n(natural_.sin.data(), n, p.sin.data());
     std::copy_n(natural_.cos.data(), n, p.cos.data());
@@ -217,8 +223,8 @@ void DisplacedBand::approach(int iy) {
     std::size_t next = 0;
     for (std::size_t j = 0; j < n; ++j) {
       const std::size_t k = which_[j];
-      for (Row Points::*one : {&Points::t, &Points::d, &Points::d_u, &Points::d_y, &Points::sin, &Points::cos, &Points::per_r,
-                               &Points::step, &Points::steepness, &Points::back_x, &Points::back_y})
+      for (Row Points::*one : {&Points::t, &Points::d, &Points::d_u, &Points::d_y, &Points::sin, &Points::cos,
+                               &Points::per_r, &Points::step, &Points::steepness, &Points::back_x, &Points::back_y})
         (now_.*one)[k] = (again_.*one)[j];
       const Block& block = block_of(k);
       if (!is_last(now_.step[k], block.rate, block.tilt, now_.steepness[k])) which_[next++] = k;
@@ -253,7 +259,8 @@ void DisplacedBand::see_base(int iy) {
   }
 }
 
-inline bool DisplacedBand::is_good(const Points& p, std::size_t k, int ix, int iy, const Block& block, double moved_x, double moved_y) const {
+inline bool DisplacedBand::is_good(const Points& p, std::size_t k, int ix, int iy, const Block& block, double moved_x,
+                                   double moved_y) const {
   constexpr double kLeastSlope = 0.02;
   // Slopes of the base may grow outwards by as much again.
   constexpr double kGrowth = 2.0, kSafe = 0.5;
@@ -263,7 +270,8 @@ inline bool DisplacedBand::is_good(const Points& p, std::size_t k, int ix, int i
   if (std::fabs(moved_x) < 0.5 && std::fabs(moved_y) < 0.5) return (base_.smooth(ix, iy) & block.needed) != 0;
   const double jx = ix + moved_x + 0.5, jy = iy + moved_y + 0.5;  // the nearest point is below
   return jx >= -1.0 && jx < g_.nx + 1 && jy >= -1.0 && jy < g_.ny + 1 &&
-         (base_.smooth(std::clamp(static_cast<int>(jx), 0, g_.nx - 1), std::clamp(static_cast<int>(jy), 0, g_.ny - 1)) & block.needed) != 0;
+         (base_.smooth(std::clamp(static_cast<int>(jx), 0, g_.nx - 1), std::clamp(static_cast<int>(jy), 0, g_.ny - 1)) &
+          block.needed) != 0;
 }
 
 inline void DisplacedBand::write(const Points& p, std::size_t k, int ix, int iy) {
@@ -281,8 +289,8 @@ void DisplacedBand::finish(int iy) {
     if (std::isnan(z[k])) continue;
     const int ix = begin_ + static_cast<int>(k);
     if (!known_[k])
-      asking_.push_back({ix, iy, block_[k], now_.t[k], now_.d[k], now_.d_u[k], now_.d_y[k], now_.sin[k], now_.cos[k], now_.per_r[k],
-                         now_.x[k] - now_.back_x[k], g_.y(iy) - now_.back_y[k]});
+      asking_.push_back({ix, iy, block_[k], now_.t[k], now_.d[k], now_.d_u[k], now_.d_y[k], now_.sin[k], now_.cos[k],
+                         now_.per_r[k], now_.x[k] - now_.back_x[k], g_.y(iy) - now_.back_y[k]});
     else if (is_good(now_, k, ix, iy, block_of(k), along_[k], across_[k]))
       write(now_, k, ix, iy);
     else
@@ -313,7 +321,8 @@ void DisplacedBand::ask_base() {
       if (!std::isnan(p.h[j]) && (std::isnan(p.hx[j]) || std::isnan(p.hy[j]))) {  // a rim seen edge-on
         for (const auto array : {out_.z, out_.dzdx, out_.dzdy})
           if (!array.empty()) array[g_.index(one.ix, one.iy)] = kNaN;
-      } else if (is_good(p, j, one.ix, one.iy, blocks_[one.block], (one.x - g_.x(one.ix)) / g_.dx, (one.y - g_.y(one.iy)) / g_.dy)) {
+      } else if (is_good(p, j, one.ix, one.iy, blocks_[one.block], (one.x - g_.x(one.ix)) / g_.dx,
+                         (one.y - g_.y(one.iy)) / g_.dy)) {
         write(p, j, one.ix, one.iy);
       } else {
         leave(one.ix, one.iy);

@@ -14,10 +14,11 @@
 
 namespace treadmark::displacement {
 
-/// A band of rows of a grid whose base heights are known, seen in blocks that are judged as a whole. Lines of blocks where
-/// the offsets cannot make F (see DisplacedLine) fall, over places where the base is smooth from point to point, have one zero.
-/// It is found with one offset, at a height foretold from the rows before, and one height of the base, at the point moved
-/// back: interpolated if that is as good as asking (BasePatch). All other points are left to DisplacedPoints.
+/// A band of rows of a grid whose base heights are known, seen in blocks that are judged as a whole. Lines of blocks
+/// where the offsets cannot make F (see DisplacedLine) fall, over places where the base is smooth from point to point,
+/// have one zero. It is found with one offset, at a height foretold from the rows before, and one height of the base,
+/// at the point moved back: interpolated if that is as good as asking (BasePatch). All other points are left to
+/// DisplacedPoints.
 class DisplacedBand {
  public:
   DisplacedBand(const View& view, double max_offset, const Grid2& grid, const BaseHeights& base, const HeightsOut& out);
@@ -61,7 +62,8 @@ class DisplacedBand {
   void ask_offsets(Points& points, double y, std::size_t n);
   void see_base(int iy);
   void finish(int iy);
-  bool is_good(const Points& p, std::size_t k, int ix, int iy, const Block& block, double moved_x, double moved_y) const;
+  bool is_good(const Points& p, std::size_t k, int ix, int iy, const Block& block, double moved_x,
+               double moved_y) const;
   void write(const Points& p, std::size_t k, int ix, int iy);
   void ask_base();
   void solve_left();
@@ -74,16 +76,16 @@ class DisplacedBand {
   const HeightsOut& out_;
   const BandKernel& kernel_;
   BandAxes axes_;
-  int first_ = 0, last_ = 0, begin_ = 0;      ///< rows; first column of those together
-  std::size_t n_ = 0;                         ///< of columns
+  int first_ = 0, last_ = 0, begin_ = 0;  ///< rows; first column of those together
+  std::size_t n_ = 0;                     ///< of columns
   bool moves_ = false;
 
   std::vector<Block> blocks_;
   std::array<std::size_t, kTogether> block_{};  ///< of each column
   Points now_, again_;
-  Row rise_[4];                               ///< of the rows before, nearest first
-  Row along_, across_;                        ///< way to the points moved back, in steps
-  std::array<bool, kTogether> known_{};       ///< whether the base is, there
+  Row rise_[4];                          ///< of the rows before, nearest first
+  Row along_, across_;                   ///< way to the points moved back, in steps
+  std::array<bool, kTogether> known_{};  ///< whether the base is, there
   std::array<std::size_t, kTogether> which_{};
   BasePatch patch_;
   NaturalRow natural_;

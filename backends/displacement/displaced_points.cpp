@@ -42,8 +42,8 @@ struct Seen {
 
 Interval ordered(double a, double b) { return {std::min(a, b), std::max(a, b)}; }
 
-constexpr std::size_t kLeaf = 256;   ///< points that are judged together
-constexpr double kLeafSize = 3e-3;   ///< [m]
+constexpr std::size_t kLeaf = 256;  ///< points that are judged together
+constexpr double kLeafSize = 3e-3;  ///< [m]
 
 /// Points of the same square of kLeafSize next to each other, whatever the order of the list.
 void order_by_squares(std::vector<PlanePoint>& points, const Rectangle& r) {
@@ -93,17 +93,22 @@ void DisplacedPoints::solve(std::vector<PlanePoint>& points) {
 void DisplacedPoints::divide_list(std::vector<PlanePoint>& points) {
   const std::size_t n = points.size();
   Rectangle r = around(points, 0, n);
-  const auto small = [](const Rectangle& one) { return std::max(one.x_max - one.x_min, one.y_max - one.y_min) <= kLeafSize; };
+  const auto small = [](const Rectangle& one) {
+    return std::max(one.x_max - one.x_min, one.y_max - one.y_min) <= kLeafSize;
+  };
   if (!small(r)) {
     const HeightBounds near = view_.base.height_bounds(view_.X_SP, enlarged(r, max_offset_));
-    if (near.empty || view_.field.range(view_.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_})).zero()) return;
+    if (near.empty ||
+        view_.field.range(view_.natural_box(r, {near.z_min - max_offset_, near.z_max + max_offset_})).zero())
+      return;
     order_by_squares(points, r);
   }
   std::size_t begin = 0;
   for (std::size_t i = 0; i < n; ++i) {
     const PlanePoint& p = points[i];
     Rectangle grown{p.x, p.x, p.y, p.y};
-    if (i > begin) grown = {std::min(r.x_min, p.x), std::max(r.x_max, p.x), std::min(r.y_min, p.y), std::max(r.y_max, p.y)};
+    if (i > begin)
+      grown = {std::min(r.x_min, p.x), std::max(r.x_max, p.x), std::min(r.y_min, p.y), std::max(r.y_max, p.y)};
     if (i > begin && (i - begin == kLeaf || !small(grown))) {
       divide(points, {begin, i}, max_offset_);
       begin = i;
@@ -116,7 +121,7 @@ void DisplacedPoints::divide_list(std::vector<PlanePoint>& points) {
 
 /// Leaves alone what no offset can reach, and divides the rest until it is small enough to be judged as a whole.
 void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range, double max_offset) {
-  constexpr double kSteep = 6.0;       // slope up to which one judgement serves many points
+  constexpr double kSteep = 6.0;  // slope up to which one judgement serves many points
   const std::size_t n = range.end - range.begin;
   const double side = view_.side();
   const Rectangle r = around(points, range.begin, range.end);
@@ -145,8 +150,8 @@ void DisplacedPoints::divide(std::vector<PlanePoint>& points, const Range& range
   const Reach farthest = displacement::reach(r, moved);
   const double reach = std::max(farthest.x, farthest.y);
   if (seen.present == 0 && reach <= kNoReach) return;
-  const Rectangle sources{std::min(r.x_min, moved.x_min), std::max(r.x_max, moved.x_max), std::min(r.y_min, moved.y_min),
-                          std::max(r.y_max, moved.y_max)};
+  const Rectangle sources{std::min(r.x_min, moved.x_min), std::max(r.x_max, moved.x_max),
+                          std::min(r.y_min, moved.y_min), std::max(r.y_max, moved.y_max)};
   // Another sheet of the base close by would show as heights far beyond those of the points.
   const double slack = (1.5 * seen.steepest + 0.3) * (2.0 * size + 4.0 * reach) + 1e-4;
   double outermost_base = side > 0.0 ? near.z_max : -near.z_min;
@@ -197,7 +202,8 @@ void DisplacedPoints::iterate(const std::vector<PlanePoint>& points) {
       y_[k] = q.y();
     }
     view_.field.evaluate(u_, y_, d_, d_u_, d_y_);
-    // The first step trusts the tangent plane of the base over the point itself; then the base is asked where it counts.
+    // The first step trusts the tangent plane of the base over the point itself; then the base is asked where it
+    // counts.
     if (iteration > 0) {
       asking_.clear();
       moved_.clear();
@@ -237,7 +243,7 @@ void DisplacedPoints::ask_base() {
 
 void DisplacedPoints::advance(const PlanePoint& p, Unknown& w, std::size_t k, int iteration) {
   constexpr double kRounding = 2e-14, kLinear = 1e-10;  // [m]
-  constexpr int kPatience = 4;         // steps after which the base's own noise is accepted
+  constexpr int kPatience = 4;                          // steps after which the base's own noise is accepted
   const Mat3& R = view_.X_SP.rotation;
   const NaturalPoint q(view_.body, view_.X_SP.apply({p.x, p.y, w.t}));
   const Vec3 e = R.transpose() * q.e;
@@ -291,7 +297,8 @@ bool DisplacedPoints::outermost_everywhere(const Leaf& leaf, const Range& unknow
   if (inner >= side * leaf.outermost) return true;
   const Rectangle uy = view_.natural_box(leaf.rectangle, ordered(side * inner, leaf.outermost));
   const OffsetRange offsets = view_.offsets(uy);
-  const double x = 0.5 * (leaf.rectangle.x_min + leaf.rectangle.x_max), y = 0.5 * (leaf.rectangle.y_min + leaf.rectangle.y_max);
+  const double x = 0.5 * (leaf.rectangle.x_min + leaf.rectangle.x_max),
+               y = 0.5 * (leaf.rectangle.y_min + leaf.rectangle.y_max);
   // Slopes of the base may grow on the way by as much again.
   constexpr double kGrowth = 2.0, kSafe = 0.5;
   return kGrowth * steepness * view_.rate(offsets, uy, view_.X_SP.apply({x, y, side * inner})) <= kSafe;

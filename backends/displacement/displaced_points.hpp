@@ -16,10 +16,10 @@ struct PlanePoint {
   double z = 0.0, dzdx = 0.0, dzdy = 0.0;
 };
 
-/// Displaced heights of a list of points, neighbours next to each other. Points that no offset can reach keep the base's
-/// numbers bit for bit. Every other point is solved by Newton's method on its own line, together with the other points so
-/// that the base is asked in batches. That the zero found is the outermost one is shown by the Lipschitz constants of the
-/// offsets and by bounds of the base's heights near by; otherwise DisplacedLine::search decides.
+/// Displaced heights of a list of points, neighbours next to each other. Points that no offset can reach keep the
+/// base's numbers bit for bit. Every other point is solved by Newton's method on its own line, together with the other
+/// points so that the base is asked in batches. That the zero found is the outermost one is shown by the Lipschitz
+/// constants of the offsets and by bounds of the base's heights near by; otherwise DisplacedLine::search decides.
 class DisplacedPoints {
  public:
   DisplacedPoints(const View& view, double max_offset) : view_(view), max_offset_(max_offset) {}
@@ -41,7 +41,7 @@ class DisplacedPoints {
     std::size_t point;
     double t, cx, cy, h, hx, hy;  ///< present height; where the base was asked and what it said
     double last_step, rate;
-    double steepness, offset;     ///< when solved
+    double steepness, offset;  ///< when solved
     enum class State { moving, solved, failed } state;
   };
 

@@ -30,12 +30,14 @@ constexpr std::size_t kFewest = 16;
 
 class DisplacedSurface final : public Surface {
  public:
-  DisplacedSurface(std::shared_ptr<const Surface> base, std::shared_ptr<const OffsetField> field, Body body, std::string backend)
+  DisplacedSurface(std::shared_ptr<const Surface> base, std::shared_ptr<const OffsetField> field, Body body,
+                   std::string backend)
       : base_(std::move(base)), field_(std::move(field)), body_(body), backend_(std::move(backend)) {
     const Box3 b = base_->bounds();
     const double pi = std::numbers::pi;
-    const Rectangle everywhere{body == Body::wheel ? -pi : std::max(b.min.x(), -kFar), body == Body::wheel ? pi : std::min(b.max.x(), kFar),
-                               std::max(b.min.y(), -kFar), std::min(b.max.y(), kFar)};
+    const Rectangle everywhere{body == Body::wheel ? -pi : std::max(b.min.x(), -kFar),
+                               body == Body::wheel ? pi : std::min(b.max.x(), kFar), std::max(b.min.y(), -kFar),
+                               std::min(b.max.y(), kFar)};
     range_ = field_->range(everywhere);
     if (!std::isfinite(range_.low) || !std::isfinite(range_.high))
       throw Error(ErrorKind::configuration, "offsets of a surface must be bounded");
@@ -204,7 +206,8 @@ HeightBounds DisplacedSurface::do_height_bounds(const Pose& X_SP, const Rectangl
   if (source.empty) return source;
   Interval shift = View::along_normal(offsets, e);
   if (body_ == Body::rail) {  // what is known of the heights now is more than before
-    const Rectangle here = seen.natural_box(r, {std::max(t.low, source.z_min + shift.low), std::min(t.high, source.z_max + shift.high)});
+    const Rectangle here =
+        seen.natural_box(r, {std::max(t.low, source.z_min + shift.low), std::min(t.high, source.z_max + shift.high)});
     shift = View::along_normal(seen.offsets(here), e);
   }
   return {source.z_min + shift.low, source.z_max + shift.high, false};
@@ -216,7 +219,8 @@ bool DisplacedSurface::rail_heights(const Pose& X_SP, const Rectangle& r, Interv
   const Vec3 up = X_SP.rotation.row(2).transpose();
   const double low = rail_low_ + range_.low - kSlack, high = rail_high_ + range_.high + kSlack;
   if (body_ != Body::rail || !(up.z() > kLeastUp) || !(high - low < kThickest)) return false;
-  const Interval over = Interval{up.x(), up.x()} * Interval{r.x_min, r.x_max}, across = Interval{up.y(), up.y()} * Interval{r.y_min, r.y_max};
+  const Interval over = Interval{up.x(), up.x()} * Interval{r.x_min, r.x_max},
+                 across = Interval{up.y(), up.y()} * Interval{r.y_min, r.y_max};
   const double rounding = 1e-12 * (1.0 + std::fabs(X_SP.origin.z()) + std::fabs(over.low) + std::fabs(over.high));
   t = {(low - X_SP.origin.z() - over.high - across.high - rounding) / up.z(),
        (high - X_SP.origin.z() - over.low - across.low + rounding) / up.z()};
@@ -225,12 +229,14 @@ bool DisplacedSurface::rail_heights(const Pose& X_SP, const Rectangle& r, Interv
 
 }  // namespace
 
-std::shared_ptr<const Surface> make_displaced_surface(std::shared_ptr<const Surface> base, std::shared_ptr<const OffsetField> field,
-                                                      Body body, std::string backend) {
+std::shared_ptr<const Surface> make_displaced_surface(std::shared_ptr<const Surface> base,
+                                                      std::shared_ptr<const OffsetField> field, Body body,
+                                                      std::string backend) {
   if (!base || !field) throw Error(ErrorKind::configuration, "a displaced surface needs a base and offsets");
   if ((base->facing() == Facing::down) != (body == Body::wheel))
-    throw Error(ErrorKind::configuration, body == Body::wheel ? "offsets of a wheel need a base that faces down, as wheels do"
-                                                              : "offsets of a rail need a base that faces up, as rails do");
+    throw Error(ErrorKind::configuration, body == Body::wheel
+                                              ? "offsets of a wheel need a base that faces down, as wheels do"
+                                              : "offsets of a rail need a base that faces up, as rails do");
   return std::make_shared<DisplacedSurface>(std::move(base), std::move(field), body, std::move(backend));
 }
 

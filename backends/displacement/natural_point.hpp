@@ -13,11 +13,11 @@ namespace treadmark::displacement {
 /// e_r at theta, y of a wheel. Moving a point along e changes neither u nor y.
 struct NaturalPoint {
   double y = 0.0;
-  double r = 1.0;                   ///< wheel: distance from the axle [m]
-  Vec3 e = Vec3::UnitZ();           ///< direction of the offset
-  Vec3 along = Vec3::UnitX();       ///< unit direction of growing u
-  double du_along = 1.0;            ///< |grad u|: 1, or 1/r
-  double de_along = 0.0;            ///< de/dq = de_along * along * along^T: 0, or 1/r
+  double r = 1.0;              ///< wheel: distance from the axle [m]
+  Vec3 e = Vec3::UnitZ();      ///< direction of the offset
+  Vec3 along = Vec3::UnitX();  ///< unit direction of growing u
+  double du_along = 1.0;       ///< |grad u|: 1, or 1/r
+  double de_along = 0.0;       ///< de/dq = de_along * along * along^T: 0, or 1/r
 
   NaturalPoint() = default;
   NaturalPoint(Body body, const Vec3& q_S) : y(q_S.y()), x_(q_S.x()) {

@@ -23,8 +23,8 @@ class NaturalRow {
     sin_ = std::sin(theta_), cos_ = std::cos(theta_);
   }
 
-  std::vector<double> u, y;                ///< natural coordinates
-  std::vector<double> sin, cos, per_r;     ///< of a wheel's theta; 1/r
+  std::vector<double> u, y;             ///< natural coordinates
+  std::vector<double> sin, cos, per_r;  ///< of a wheel's theta; 1/r
 
   void resize(std::size_t n) {
     for (auto* one : {&u, &y, &sin, &cos, &per_r}) one->resize(n);

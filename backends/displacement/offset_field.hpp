@@ -34,8 +34,8 @@ class OffsetField {
 
   /// Values and first derivatives at many points (neighbours in the list are usually neighbours on the surface).
   /// d_u and d_y may be empty. All spans otherwise of one size.
-  virtual void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
-                        std::span<double> d_y) const;
+  virtual void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value,
+                        std::span<double> d_u, std::span<double> d_y) const;
 
   /// Conservative range over a rectangle (x = u, y = y of the rectangle).
   virtual OffsetRange range(const Rectangle& uy) const = 0;

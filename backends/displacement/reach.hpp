@@ -13,7 +13,8 @@ struct Interval {
   double low = 0.0, high = 0.0;
 };
 
-/// A base, its offsets and the plane they are seen from, with conservative answers about boxes (x, y, t) of the plane frame P.
+/// A base, its offsets and the plane they are seen from, with conservative answers about boxes (x, y, t) of the plane
+/// frame P.
 struct View {
   const Surface& base;
   const OffsetField& field;
@@ -38,7 +39,8 @@ struct View {
   static Rectangle moved_back(const Rectangle& r, const OffsetRange& range, const Directions& e);
   static Interval along_normal(const OffsetRange& range, const Directions& e);
 
-  /// How far a point at most goes along u [m] per height along the normal of P, in a box of (u, y) that holds the point q.
+  /// How far a point at most goes along u [m] per height along the normal of P, in a box of (u, y) that holds the point
+  /// q.
   double tilt_along(const Rectangle& uy, const Vec3& q_S) const;
   /// Bound of |d(offset * e)/dt| along the normal of P in a box of (u, y) that holds the point q.
   double rate(const OffsetRange& offsets, const Rectangle& uy, const Vec3& q_S) const;
@@ -52,7 +54,8 @@ struct Reach {
   double x, y;
 };
 inline Reach reach(const Rectangle& r, const Rectangle& moved) {
-  return {std::max(r.x_min - moved.x_min, moved.x_max - r.x_max), std::max(r.y_min - moved.y_min, moved.y_max - r.y_max)};
+  return {std::max(r.x_min - moved.x_min, moved.x_max - r.x_max),
+          std::max(r.y_min - moved.y_min, moved.y_max - r.y_max)};
 }
 /// [m] Sideways, below which points and their moved-back places are the same.
 inline constexpr double kNoReach = 1e-12;

@@ -49,8 +49,8 @@ Mat3 profile_hessian(Body body, const Vec3& c, const SurfacePoint& below) {
 
 }  // namespace
 
-void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, const SurfacePoint& below, const OffsetJet& o,
-                SurfacePoint& point) {
+void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, const SurfacePoint& below,
+                const OffsetJet& o, SurfacePoint& point) {
   const Vec3& normal = below.normal_S;
   const NaturalPoint at(body, q);
   const Vec3 e_y = Vec3::UnitY(), grad_u = at.along * at.du_along;
@@ -69,7 +69,9 @@ void fill_shape(const Surface& base, Body body, const Vec3& q, const Vec3& c, co
   const Mat3 hess_f = -turn * (f * at.along * at.along.transpose() + f_u * mixed);
   const Mat3 J = Mat3::Identity() - at.e * grad_o.transpose() - o.value * around;
   const Vec3 g = J.transpose() * normal;
-  const Mat3 H = J.transpose() * (base.constant_profile() ? profile_hessian(body, c, below) : base_hessian(base, body, c, normal)) * J -
+  const Mat3 H = J.transpose() *
+                     (base.constant_profile() ? profile_hessian(body, c, below) : base_hessian(base, body, c, normal)) *
+                     J -
                  (f * hess_o + grad_o * grad_f.transpose() + grad_f * grad_o.transpose() + o.value * hess_f);
 
   const double length = g.norm();

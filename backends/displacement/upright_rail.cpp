@@ -19,10 +19,12 @@ bool is_upright_rail(Body body, const Pose& X_SP) {
   return body == Body::rail && std::fabs(X_SP.rotation(0, 2)) <= kUpright && std::fabs(X_SP.rotation(1, 2)) <= kUpright;
 }
 
-void UprightRail::add_many(const double* x, const double* y, std::size_t n, const HeightsOut& out, std::size_t at) const {
+void UprightRail::add_many(const double* x, const double* y, std::size_t n, const HeightsOut& out,
+                           std::size_t at) const {
   double u[kMany], v[kMany], d[kMany], d_u[kMany], d_v[kMany];
   const Mat3& R = X_.rotation;
-  const double ox = X_.origin.x(), oy = X_.origin.y(), xx = R(0, 0), xy = R(0, 1), yx = R(1, 0), yy = R(1, 1), up = R(2, 2);
+  const double ox = X_.origin.x(), oy = X_.origin.y(), xx = R(0, 0), xy = R(0, 1), yx = R(1, 0), yy = R(1, 1),
+               up = R(2, 2);
   for (std::size_t i = 0; i < n; ++i) {
     u[i] = ox + xx * x[i] + xy * y[i];
     v[i] = oy + yx * x[i] + yy * y[i];

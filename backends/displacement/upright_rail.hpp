@@ -7,8 +7,8 @@
 
 namespace treadmark::displacement {
 
-/// Whether offsets act along the normal of the plane: a rail in a plane that is at most yawed. Every line then keeps its
-/// place, and the offset is simply added.
+/// Whether offsets act along the normal of the plane: a rail in a plane that is at most yawed. Every line then keeps
+/// its place, and the offset is simply added.
 bool is_upright_rail(Body body, const Pose& X_SP);
 
 /// Adds offsets to a base's heights and slopes of such a plane, at points (x[i], y[i]). Arrays of n, or empty.

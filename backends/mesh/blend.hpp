@@ -21,11 +21,12 @@ inline std::array<double, 3> edge_feet(const std::array<Vec3, 3>& corners) {
   return feet;
 }
 
-/// Weights of the three corners at barycentric coordinates b >= 0: not negative, of sum 1, one at its corner and zero on the
-/// opposite edge together with their gradients. On an edge they depend on the place along it only, and so do their gradients,
-/// because the place is that of the foot of the perpendicular: the blend of two triangles in one plane is C1 across their edge.
-/// Each edge blends its two corners by a cubic step of the foot; the three edges are blended by (b_i b_j)^2, which on an edge
-/// leaves that edge alone (the idea of Nielson 1979, side-vertex interpolation). T: double, Jet1 or Jet2.
+/// Weights of the three corners at barycentric coordinates b >= 0: not negative, of sum 1, one at its corner and zero
+/// on the opposite edge together with their gradients. On an edge they depend on the place along it only, and so do
+/// their gradients, because the place is that of the foot of the perpendicular: the blend of two triangles in one plane
+/// is C1 across their edge. Each edge blends its two corners by a cubic step of the foot; the three edges are blended
+/// by (b_i b_j)^2, which on an edge leaves that edge alone (the idea of Nielson 1979, side-vertex interpolation). T:
+/// double, Jet1 or Jet2.
 template <class T>
 std::array<T, 3> blend_weights(const std::array<T, 3>& b, const std::array<double, 3>& feet) {
   const T product[3] = {b[1] * b[2], b[2] * b[0], b[0] * b[1]};

@@ -16,9 +16,10 @@ struct BoundsFound {
   double low, high;
 };
 
-/// Range of what shows its outside over the rectangle. Nodes much smaller than the rectangle and thin ones count as a whole,
-/// with the slab that holds them; triangles of leaves by their planes over the common part of their boxes and the rectangle.
-/// Whether anything is there at all is decided by triangles that meet the rectangle, or nodes inside of it.
+/// Range of what shows its outside over the rectangle. Nodes much smaller than the rectangle and thin ones count as a
+/// whole, with the slab that holds them; triangles of leaves by their planes over the common part of their boxes and
+/// the rectangle. Whether anything is there at all is decided by triangles that meet the rectangle, or nodes inside of
+/// it.
 BoundsFound find_bounds_generic(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
 BoundsFound find_bounds_avx2(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
 

@@ -18,10 +18,10 @@ struct BoundsSearch {
   BoundsQuery query;
   V4 column[3], extent[3], base, half;  ///< rows of the rotation, their magnitudes, the origin seen from the rectangle
   double outwards[3];
-  bool upper[3];          ///< the greater component of a normal is the one that looks outwards most
-  double small, thin;     ///< nodes below this count as a whole [m]
+  bool upper[3];       ///< the greater component of a normal is the one that looks outwards most
+  double small, thin;  ///< nodes below this count as a whole [m]
   double low = kHuge, high = -kHuge;
-  bool certain = false;   ///< something is over the rectangle
+  bool certain = false;  ///< something is over the rectangle
 
   [[gnu::always_inline]] inline BoundsSearch(const MeshArrays& m, const PlaneLines& l, const BoundsQuery& q)
       : mesh(m), lines(l), query(q) {
@@ -68,7 +68,8 @@ struct BoundsSearch {
   [[gnu::always_inline]] inline void facing(const BvhNode& node, double& least_out, double& most_out) const {
     least_out = most_out = 0.0;
     for (int k = 0; k < 3; ++k) {
-      const double a = outwards[k] * static_cast<double>(node.normal_low[k]), b = outwards[k] * static_cast<double>(node.normal_high[k]);
+      const double a = outwards[k] * static_cast<double>(node.normal_low[k]),
+                   b = outwards[k] * static_cast<double>(node.normal_high[k]);
       most_out += upper[k] ? b : a;
       least_out += upper[k] ? a : b;
     }
@@ -105,8 +106,10 @@ struct BoundsSearch {
     if (level > kLevel) {
       // the slab over the common part of box and rectangle
       const V4 from = most(seen.middle - seen.half, -half), to = least(seen.middle + seen.half, half);
-      const V4 middle = all(0.5) * (from + to), size = all(0.5) * (to - from), shift = n * (middle - seen.middle), spread = magnitude(n) * size;
-      const double per = 1.0 / n[2], z = seen.middle[2] - (shift[0] + shift[1]) * per, wide = (spread[0] + spread[1]) / level;
+      const V4 middle = all(0.5) * (from + to), size = all(0.5) * (to - from), shift = n * (middle - seen.middle),
+               spread = magnitude(n) * size;
+      const double per = 1.0 / n[2], z = seen.middle[2] - (shift[0] + shift[1]) * per,
+                   wide = (spread[0] + spread[1]) / level;
       const double s0 = static_cast<double>(node.slab_low) * per, s1 = static_cast<double>(node.slab_high) * per;
       const double below = (s0 < s1 ? s0 : s1) - wide, above = (s0 < s1 ? s1 : s0) + wide;
       if (z + below > a) a = z + below;
@@ -151,14 +154,18 @@ struct BoundsSearch {
       }
       if (bits(over) == 0) continue;
       // the plane over the common part of box and rectangle
-      const V4 x1 = x[3] - x[0], y1 = y[3] - y[0], z1 = z[3] - z[0], x2 = x[6] - x[0], y2 = y[6] - y[0], z2 = z[6] - z[0];
+      const V4 x1 = x[3] - x[0], y1 = y[3] - y[0], z1 = z[3] - z[0], x2 = x[6] - x[0], y2 = y[6] - y[0],
+               z2 = z[6] - z[0];
       const V4 per = side / area, gx = (z1 * y2 - y1 * z2) * per, gy = (x1 * z2 - z1 * x2) * per;
       const V4 from_x = most(x_low, -hx), to_x = least(x_high, hx), from_y = most(y_low, -hy), to_y = least(y_high, hy);
       const V4 cx = all(0.5) * (from_x + to_x), cy = all(0.5) * (from_y + to_y), dx = to_x - cx, dy = to_y - cy;
-      const V4 middle = z[0] + gx * (cx - (x[0] - mx)) + gy * (cy - (y[0] - my)), spread = magnitude(gx) * dx + magnitude(gy) * dy;
+      const V4 middle = z[0] + gx * (cx - (x[0] - mx)) + gy * (cy - (y[0] - my)),
+               spread = magnitude(gx) * dx + magnitude(gy) * dy;
       constexpr double kSteepest = 100.0;
-      const M4 fine = (magnitude(gx) < all(kSteepest)) & (magnitude(gy) < all(kSteepest)) & (area > all(1e-8) * size * size);
-      const V4 from = select(fine, most(middle - spread, z_low), z_low), to = select(fine, least(middle + spread, z_high), z_high);
+      const M4 fine =
+          (magnitude(gx) < all(kSteepest)) & (magnitude(gy) < all(kSteepest)) & (area > all(1e-8) * size * size);
+      const V4 from = select(fine, most(middle - spread, z_low), z_low),
+               to = select(fine, least(middle + spread, z_high), z_high);
       for (int k = 0; k < kLanes; ++k)
         if (bits(over) >> k & 1) {
           double a = from[k], b = to[k];

@@ -10,8 +10,8 @@
 namespace treadmark::mesh {
 
 /// Bounding volume hierarchy in double precision: halves of the triangles by the middle along the longest axis. Answers
-/// every query by itself and decides where single precision cannot. Nodes are compared in the plane frame, where a line is
-/// a point and a box becomes a rectangle with a range of heights.
+/// every query by itself and decides where single precision cannot. Nodes are compared in the plane frame, where a line
+/// is a point and a box becomes a rectangle with a range of heights.
 class Bvh {
  public:
   /// Puts triangles and vertices in the order of the leaves, so that neighbours lie side by side in memory.
@@ -32,8 +32,8 @@ class Bvh {
   void add_surface(const std::function<About(std::uint32_t)>& about);
 
   MeshArrays arrays() const {
-    return {mesh_.vertices.data()->data(), mesh_.triangles.data()->data(), mesh_.neighbours.data()->data(), nodes_.data(),
-            about_.empty() ? nullptr : about_.data()->data()};
+    return {mesh_.vertices.data()->data(), mesh_.triangles.data()->data(), mesh_.neighbours.data()->data(),
+            nodes_.data(), about_.empty() ? nullptr : about_.data()->data()};
   }
 
   std::size_t memory_bytes() const { return nodes_.capacity() * sizeof(Node) + about_.capacity() * sizeof(about_[0]); }

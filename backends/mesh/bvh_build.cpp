@@ -12,9 +12,9 @@ namespace treadmark::mesh {
 
 namespace {
 
-constexpr std::uint32_t kLeaf = 4;             ///< triangles in a leaf
-constexpr float kOutwards = 1e-6f;             ///< of a normal: more than its rounding to float
-constexpr std::uint32_t kTask = 16 * 1024;     ///< triangles of a subtree that one thread builds
+constexpr std::uint32_t kLeaf = 4;          ///< triangles in a leaf
+constexpr float kOutwards = 1e-6f;          ///< of a normal: more than its rounding to float
+constexpr std::uint32_t kTask = 16 * 1024;  ///< triangles of a subtree that one thread builds
 
 /// Leaves are full but for the last one, so that the size of a subtree follows from its number of triangles.
 std::uint32_t leaf_count(std::uint32_t triangles) { return (triangles + kLeaf - 1) / kLeaf; }
@@ -53,8 +53,9 @@ Bvh::Bvh(PreparedMesh& mesh) : mesh_(mesh) {
   std::iota(order.begin(), order.end(), 0u);
   std::vector<Vec3> middles(n);
   for (std::uint32_t t = 0; t < n; ++t)
-    middles[t] =
-        (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] + mesh.vertices[mesh.triangles[t][2]]) / 3.0;
+    middles[t] = (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
+                  mesh.vertices[mesh.triangles[t][2]]) /
+                 3.0;
 
   // the upper levels first, then their subtrees side by side, then the boxes of the upper levels from below
   split(0, 0, n, middles, order, kTask);
@@ -70,7 +71,9 @@ Bvh::Bvh(PreparedMesh& mesh) : mesh_(mesh) {
     open.push_back(i + 1);
     open.push_back(nodes_[i].right);
   }
-  parallel_for(tasks.size(), [&](std::size_t k) { split(tasks[k], nodes_[tasks[k]].begin, nodes_[tasks[k]].count, middles, order, 0); });
+  parallel_for(tasks.size(), [&](std::size_t k) {
+    split(tasks[k], nodes_[tasks[k]].begin, nodes_[tasks[k]].count, middles, order, 0);
+  });
   reorder(mesh, order);
   parallel_for(tasks.size(), [&](std::size_t k) { close_below(tasks[k]); });
   std::sort(upper.rbegin(), upper.rend());
@@ -119,7 +122,8 @@ void Bvh::add_slab(Node& node) const {
   for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i) normal += doubled_area(mesh_, i);
   const double length = normal.norm();
   if (!(length > 0.0)) return;
-  for (int k = 0; k < 3; ++k) normal[k] = static_cast<double>(node.slab_normal[k] = static_cast<float>(normal[k] / length));
+  for (int k = 0; k < 3; ++k)
+    normal[k] = static_cast<double>(node.slab_normal[k] = static_cast<float>(normal[k] / length));
   const Vec3 middle(node.middle[0], node.middle[1], node.middle[2]);
   double low = std::numeric_limits<double>::infinity(), high = -low;
   for (std::uint32_t i = node.begin; i < node.begin + node.count; ++i)

@@ -14,8 +14,8 @@ constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Visits the leaves that a line may meet. enter(outermost): whether a node that reaches out to there is wanted.
 template <class Enter, class Leaf>
-void descend(const std::vector<BvhNode>& nodes, const PlaneLines& l, double x, double y, double margin, const Enter& enter,
-             const Leaf& leaf) {
+void descend(const std::vector<BvhNode>& nodes, const PlaneLines& l, double x, double y, double margin,
+             const Enter& enter, const Leaf& leaf) {
   constexpr std::size_t kDepth = 64;  // levels: 32-bit numbers are halved
   double size[3][3], base[3];
   for (int i = 0; i < 3; ++i) {
@@ -32,7 +32,9 @@ void descend(const std::vector<BvhNode>& nodes, const PlaneLines& l, double x, d
     const std::uint32_t number = stack[--open];
     const BvhNode& node = nodes[number];
     const double *m = node.middle, *h = node.half;
-    const auto middle = [&](int i) { return base[i] + l.rotation[0][i] * m[0] + l.rotation[1][i] * m[1] + l.rotation[2][i] * m[2]; };
+    const auto middle = [&](int i) {
+      return base[i] + l.rotation[0][i] * m[0] + l.rotation[1][i] * m[1] + l.rotation[2][i] * m[2];
+    };
     const auto half = [&](int i) { return size[0][i] * h[0] + size[1][i] * h[1] + size[2][i] * h[2]; };
     if (std::fabs(middle(0)) > half(0) + margin || std::fabs(middle(1)) > half(1) + margin) continue;
     if (!enter(l.side * middle(2) + half(2) + kBoxRounding)) continue;
@@ -74,7 +76,8 @@ LineHit Bvh::outermost(const PlaneView& view, double x, double y) const {
       }
     }
   };
-  descend(nodes_, view.lines(), x, y, kRimTolerance + kBoxRounding, [&](double out) { return out >= depth; }, leaf);
+  descend(
+      nodes_, view.lines(), x, y, kRimTolerance + kBoxRounding, [&](double out) { return out >= depth; }, leaf);
   return inside.triangle != kNone ? inside : beside;
 }
 
@@ -87,10 +90,12 @@ bool Bvh::hides_others(const PlaneView& view, double x, double y, const LineHit&
       if (k == hit.triangle) continue;
       triangle.load(mesh_, view, k);
       const auto e = triangle.edges(x, y, view.side);
-      found = ProjectedTriangle::cover(e) == Cover::front && view.side * (hit.z - triangle.hit(e, Cover::front).z) > kApart;
+      found =
+          ProjectedTriangle::cover(e) == Cover::front && view.side * (hit.z - triangle.hit(e, Cover::front).z) > kApart;
     }
   };
-  descend(nodes_, view.lines(), x, y, kBoxRounding, [&](double) { return !found; }, leaf);
+  descend(
+      nodes_, view.lines(), x, y, kBoxRounding, [&](double) { return !found; }, leaf);
   return found;
 }
 

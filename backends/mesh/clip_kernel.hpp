@@ -6,8 +6,8 @@ namespace treadmark::mesh {
 namespace {
 
 /// Least and greatest z of the part of a triangle over the rectangle round (x, y); false if it lies beside.
-[[maybe_unused]] bool clipped_heights(const double (&triangle)[9], double x, double y, double half_x, double half_y, double& low,
-                                      double& high) {
+[[maybe_unused]] bool clipped_heights(const double (&triangle)[9], double x, double y, double half_x, double half_y,
+                                      double& low, double& high) {
   // one side after the other cuts off what lies beyond it (Sutherland & Hodgman 1974); each adds at most one corner
   double corners[8][3], kept[8][3];
   int count = 3;

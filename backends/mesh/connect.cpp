@@ -13,9 +13,9 @@ namespace treadmark::mesh {
 namespace {
 
 struct Side {
-  std::uint64_t edge;      ///< both vertices, the lower one first
+  std::uint64_t edge;  ///< both vertices, the lower one first
   std::uint32_t triangle;
-  std::uint32_t corner;    ///< opposite to the edge
+  std::uint32_t corner;  ///< opposite to the edge
   bool operator<(const Side& o) const { return edge != o.edge ? edge < o.edge : triangle < o.triangle; }
 };
 
@@ -40,12 +40,14 @@ void connect(PreparedMesh& mesh) {
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
     if (end - i > 2) {
-      const Vec3 a = mesh.vertices[sides[i].edge >> 32] + mesh.centre, b = mesh.vertices[sides[i].edge & kNone] + mesh.centre;
-      throw Error(ErrorKind::input_data,
-                  fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
-                              "{:.6g}) m",
-                              mesh.name, end - i, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
-                  {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
+      const Vec3 a = mesh.vertices[sides[i].edge >> 32] + mesh.centre,
+                 b = mesh.vertices[sides[i].edge & kNone] + mesh.centre;
+      throw Error(
+          ErrorKind::input_data,
+          fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
+                      "{:.6g}) m",
+                      mesh.name, end - i, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
+          {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
     }
     if (end - i == 2) {
       mesh.neighbours[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;

@@ -26,7 +26,7 @@ struct Piece {
 struct Workspace {
   static constexpr std::size_t kPoints = static_cast<std::size_t>(Tile::kWide) * Tile::kHigh;
   Tile tile;
-  std::array<int, Tile::kSlots + 1> begin;   ///< of the points of every triangle in sorted
+  std::array<int, Tile::kSlots + 1> begin;    ///< of the points of every triangle in sorted
   std::array<std::uint16_t, kPoints> sorted;  ///< points (ix + iy * kStride) by triangle
   std::array<double, kPoints> x, y, z, dzdx, dzdy;
 };
@@ -38,10 +38,18 @@ Workspace& workspace() {
 
 class GridHeights {
  public:
-  GridHeights(const PreparedMesh& mesh, const Bvh& bvh, const SmoothPatches* smooth, const PlaneView& view, const Grid2& grid,
-              const Results& results)
-      : mesh_(mesh), arrays_(bvh.arrays()), smooth_(smooth), view_(view), lines_(view.lines()), grid_(grid), results_(results),
-        w_(workspace()), caster_(mesh, bvh, nullptr, view), points_(mesh, smooth, view, lines_, results) {}
+  GridHeights(const PreparedMesh& mesh, const Bvh& bvh, const SmoothPatches* smooth, const PlaneView& view,
+              const Grid2& grid, const Results& results)
+      : mesh_(mesh),
+        arrays_(bvh.arrays()),
+        smooth_(smooth),
+        view_(view),
+        lines_(view.lines()),
+        grid_(grid),
+        results_(results),
+        w_(workspace()),
+        caster_(mesh, bvh, nullptr, view),
+        points_(mesh, smooth, view, lines_, results) {}
 
   void run(const Piece& piece) {
     Tile& tile = w_.tile;
@@ -143,7 +151,8 @@ class GridHeights {
       }
     // each begin has become the end of its points
     for (int i = 0; i < tile.used; ++i)
-      write_triangle(p, tile.triangles[i], w_.begin[static_cast<std::size_t>(i)], w_.begin[static_cast<std::size_t>(i + 1)]);
+      write_triangle(p, tile.triangles[i], w_.begin[static_cast<std::size_t>(i)],
+                     w_.begin[static_cast<std::size_t>(i + 1)]);
     points_.finish();
   }
 
@@ -163,8 +172,8 @@ class GridHeights {
     constexpr int kFew = 2;  // points that share lanes with those of other triangles
     const int rest = (end - begin) % 4 <= kFew ? (end - begin) % 4 : 0;
     for (int i = end - rest; i < end; ++i)
-      points_.add(sorted_result(p, i), w_.x[static_cast<std::size_t>(i)], w_.y[static_cast<std::size_t>(i)], triangle.index,
-                  patch.data());
+      points_.add(sorted_result(p, i), w_.x[static_cast<std::size_t>(i)], w_.y[static_cast<std::size_t>(i)],
+                  triangle.index, patch.data());
     const int own = end - begin - rest;
     if (own == 0) return;
     const auto first = static_cast<std::size_t>(begin);
@@ -198,15 +207,16 @@ class GridHeights {
 
 }  // namespace
 
-void grid_heights(const PreparedMesh& mesh, const Bvh& bvh, const SmoothPatches* smooth, const PlaneView& view, const Grid2& grid,
-                  const Results& results) {
+void grid_heights(const PreparedMesh& mesh, const Bvh& bvh, const SmoothPatches* smooth, const PlaneView& view,
+                  const Grid2& grid, const Results& results) {
   // pieces of about one size
   const auto cut = [](int n, int most) { return (n + most - 1) / most; };
   const int across = cut(grid.nx, Tile::kWide), along = cut(grid.ny, Tile::kHigh);
   const auto piece = [&](std::size_t i) {
     const int column = static_cast<int>(i) % across, row = static_cast<int>(i) / across;
     const auto at = [](int n, int parts, int k) { return static_cast<int>(static_cast<std::int64_t>(n) * k / parts); };
-    return Piece{at(grid.nx, across, column), at(grid.nx, across, column + 1), at(grid.ny, along, row), at(grid.ny, along, row + 1)};
+    return Piece{at(grid.nx, across, column), at(grid.nx, across, column + 1), at(grid.ny, along, row),
+                 at(grid.ny, along, row + 1)};
   };
   const auto pieces = static_cast<std::size_t>(across) * static_cast<std::size_t>(along);
   if (grid.size() < kWorthThreads) {

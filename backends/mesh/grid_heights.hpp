@@ -9,7 +9,7 @@
 namespace treadmark::mesh {
 
 /// Heights over a grid, tile by tile, by scan conversion. smooth may be null.
-void grid_heights(const PreparedMesh& mesh, const Bvh& bvh, const SmoothPatches* smooth, const PlaneView& view, const Grid2& grid,
-                  const Results& results);
+void grid_heights(const PreparedMesh& mesh, const Bvh& bvh, const SmoothPatches* smooth, const PlaneView& view,
+                  const Grid2& grid, const Results& results);
 
 }  // namespace treadmark::mesh

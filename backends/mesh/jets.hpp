@@ -13,7 +13,9 @@ struct Jet1 {
 
   friend Jet1 operator+(const Jet1& a, const Jet1& b) { return {a.v + b.v, a.x + b.x, a.y + b.y}; }
   friend Jet1 operator-(const Jet1& a, const Jet1& b) { return {a.v - b.v, a.x - b.x, a.y - b.y}; }
-  friend Jet1 operator*(const Jet1& a, const Jet1& b) { return {a.v * b.v, a.x * b.v + a.v * b.x, a.y * b.v + a.v * b.y}; }
+  friend Jet1 operator*(const Jet1& a, const Jet1& b) {
+    return {a.v * b.v, a.x * b.v + a.v * b.x, a.y * b.v + a.v * b.y};
+  }
   friend Jet1 operator/(const Jet1& a, const Jet1& b) {
     const double q = a.v / b.v;
     return {q, (a.x - q * b.x) / b.v, (a.y - q * b.y) / b.v};

@@ -7,8 +7,8 @@
 #include <immintrin.h>
 #endif
 
-// Four doubles at a time, for kernels that are compiled twice (core/cpu.hpp). Everything here belongs to its source file alone.
-// 32-byte vectors are never passed across a call where they would not fit a register: all is inlined.
+// Four doubles at a time, for kernels that are compiled twice (core/cpu.hpp). Everything here belongs to its source
+// file alone. 32-byte vectors are never passed across a call where they would not fit a register: all is inlined.
 #define TREADMARK_LANES [[gnu::always_inline, maybe_unused]] static inline
 
 namespace treadmark::mesh {
@@ -44,7 +44,9 @@ TREADMARK_LANES V4 most(V4 a, V4 b) { return (V4)_mm256_max_pd((__m256d)a, (__m2
 TREADMARK_LANES int bits(M4 mask) { return _mm256_movemask_pd((__m256d)mask); }
 TREADMARK_LANES V4 floor(V4 a) { return (V4)_mm256_floor_pd((__m256d)a); }
 /// Whole numbers.
-TREADMARK_LANES void store(int* p, V4 a) { _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvttpd_epi32((__m256d)a)); }
+TREADMARK_LANES void store(int* p, V4 a) {
+  _mm_storeu_si128(reinterpret_cast<__m128i*>(p), _mm256_cvttpd_epi32((__m256d)a));
+}
 /// a b + c, rounded once where the processor can.
 TREADMARK_LANES V4 fma(V4 a, V4 b, V4 c) { return (V4)_mm256_fmadd_pd((__m256d)a, (__m256d)b, (__m256d)c); }
 #else

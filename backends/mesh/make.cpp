@@ -25,11 +25,13 @@ std::shared_ptr<const Surface> make(TriangleMesh mesh, Body body, const MeshOpti
 
 }  // namespace
 
-std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, const MeshOptions& options, MeshRepair* repair) {
+std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, const MeshOptions& options,
+                                                 MeshRepair* repair) {
   return make(std::move(mesh), body, options, repair, true);
 }
 
-std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options, MeshRepair* repair) {
+std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options,
+                                                MeshRepair* repair) {
   return make(std::move(mesh), body, options, repair, false);
 }
 

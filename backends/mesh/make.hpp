@@ -26,25 +26,26 @@ struct MeshOptions {
 
 /// What was found wrong with a mesh and put right, in numbers of triangles (vertices where it says so).
 struct MeshRepair {
-  std::size_t merged_vertices = 0;     ///< closer than the tolerance: one vertex
-  std::size_t degenerate = 0;          ///< without area: removed
-  std::size_t duplicates = 0;          ///< removed
-  std::size_t flipped = 0;             ///< turned to agree with their neighbours
-  std::size_t unused_vertices = 0;     ///< removed
-  std::size_t boundary_loops = 0;      ///< rims and holes that the mesh has (they stay)
-  std::size_t parts = 0;               ///< connected parts
-  bool turned_inside_out = false;      ///< all triangles faced the material and were turned
+  std::size_t merged_vertices = 0;  ///< closer than the tolerance: one vertex
+  std::size_t degenerate = 0;       ///< without area: removed
+  std::size_t duplicates = 0;       ///< removed
+  std::size_t flipped = 0;          ///< turned to agree with their neighbours
+  std::size_t unused_vertices = 0;  ///< removed
+  std::size_t boundary_loops = 0;   ///< rims and holes that the mesh has (they stay)
+  std::size_t parts = 0;            ///< connected parts
+  bool turned_inside_out = false;   ///< all triangles faced the material and were turned
 };
 
-/// A wheel or rail of triangles and its smooth refinement. Grids: triangles laid over tiles of lines, in double precision;
-/// single lines: Embree with every hit recomputed in double precision.
-/// repair: filled in if not null. Errors: Error(input_data) for an empty mesh, indices out of range, vertices that are not
-/// finite, edges of more than two triangles, coordinates that cannot be metres (with a hint on units), a mesh that cannot be
-/// oriented. Messages name mesh.name.
+/// A wheel or rail of triangles and its smooth refinement. Grids: triangles laid over tiles of lines, in double
+/// precision; single lines: Embree with every hit recomputed in double precision. repair: filled in if not null.
+/// Errors: Error(input_data) for an empty mesh, indices out of range, vertices that are not finite, edges of more than
+/// two triangles, coordinates that cannot be metres (with a hint on units), a mesh that cannot be oriented. Messages
+/// name mesh.name.
 std::shared_ptr<const Surface> make_mesh_surface(TriangleMesh mesh, Body body, const MeshOptions& options = {},
                                                  MeshRepair* repair = nullptr);
 
-/// The same by a bounding volume hierarchy of our own, all in double precision: slower, independent of Embree; for checking.
+/// The same by a bounding volume hierarchy of our own, all in double precision: slower, independent of Embree; for
+/// checking.
 std::shared_ptr<const Surface> make_mesh_oracle(TriangleMesh mesh, Body body, const MeshOptions& options = {},
                                                 MeshRepair* repair = nullptr);
 

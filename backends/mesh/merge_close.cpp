@@ -34,8 +34,8 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
   const auto cell_of = [&](const Vec3& p, double shift) {
     Cell cell;
     for (int k = 0; k < 3; ++k)
-      cell[static_cast<std::size_t>(k)] =
-          static_cast<std::int64_t>(std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - origin[k] + shift) * per_cell))));
+      cell[static_cast<std::size_t>(k)] = static_cast<std::int64_t>(
+          std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - origin[k] + shift) * per_cell))));
     return cell;
   };
   for (std::uint32_t i = 0; i < points.size(); ++i) {

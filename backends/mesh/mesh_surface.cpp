@@ -37,7 +37,10 @@ void describe(const PlaneView& view, Facing facing, const Evaluated& e, SurfaceP
 }  // namespace
 
 MeshSurface::MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool single_precision)
-    : backend_(options.backend), facing_(body == Body::wheel ? Facing::down : Facing::up), mesh_(std::move(mesh)), bvh_(mesh_) {
+    : backend_(options.backend),
+      facing_(body == Body::wheel ? Facing::down : Facing::up),
+      mesh_(std::move(mesh)),
+      bvh_(mesh_) {
   if (single_precision) scene_ = std::make_unique<RayScene>(mesh_);
   if (options.refinement != Refinement::smooth) return;
   smooth_.emplace(mesh_, options.crease_angle);
@@ -136,7 +139,8 @@ void MeshSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, st
 
 HeightBounds MeshSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
   const PlaneView view(mesh_, X_SP, facing_);
-  const BoundsQuery query{0.5 * (r.x_min + r.x_max), 0.5 * (r.y_min + r.y_max), 0.5 * (r.x_max - r.x_min), 0.5 * (r.y_max - r.y_min)};
+  const BoundsQuery query{0.5 * (r.x_min + r.x_max), 0.5 * (r.y_min + r.y_max), 0.5 * (r.x_max - r.x_min),
+                          0.5 * (r.y_max - r.y_min)};
   const BoundsFound found = kernels().find_bounds(bvh_.arrays(), view.lines(), query);
   if (found.low > found.high) return {0.0, 0.0, true};
   return {found.low, found.high, false};

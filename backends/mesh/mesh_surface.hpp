@@ -14,13 +14,13 @@
 
 namespace treadmark::mesh {
 
-/// A wheel or rail of triangles. Grids are filled triangle by triangle (tile.hpp). For points and lists single precision finds
-/// a triangle, double precision walks from there to the one that holds the line; misses, insides and walks that end at a rim
-/// are decided by the hierarchy in double precision. The first triangle on a line from outside counts; if it shows its
-/// inside, the line misses. Without a RayScene the hierarchy does it all, line by line.
-/// A single line that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a fold that
-/// hides another part may get either of the two heights; on grids, and with the hierarchy alone, the fold is sharp to rounding.
-/// u = x [m] or theta [rad], v = y [m].
+/// A wheel or rail of triangles. Grids are filled triangle by triangle (tile.hpp). For points and lists single
+/// precision finds a triangle, double precision walks from there to the one that holds the line; misses, insides and
+/// walks that end at a rim are decided by the hierarchy in double precision. The first triangle on a line from outside
+/// counts; if it shows its inside, the line misses. Without a RayScene the hierarchy does it all, line by line. A
+/// single line that passes within the accuracy of single precision (1e-8 m at 0.5 m from the centre of the mesh) of a
+/// fold that hides another part may get either of the two heights; on grids, and with the hierarchy alone, the fold is
+/// sharp to rounding. u = x [m] or theta [rad], v = y [m].
 class MeshSurface final : public Surface {
  public:
   MeshSurface(PreparedMesh mesh, Body body, const MeshOptions& options, bool single_precision);

@@ -20,14 +20,16 @@ bool runs(const Corners& triangle, std::uint32_t a, std::uint32_t b) {
 
 [[noreturn]] void one_sided(const PreparedMesh& mesh, std::uint32_t t) {
   const Vec3 at = mesh.vertices[mesh.triangles[t][0]] + mesh.centre;
-  throw Error(ErrorKind::input_data,
-              fmt::format("the mesh '{}' has no inside and outside: triangles that disagree meet at ({:.6g}, {:.6g}, {:.6g}) m",
-                          mesh.name, at.x(), at.y(), at.z()),
-              {}, "it contains a one-sided band (Moebius): cut it open or repair it in a mesh program");
+  throw Error(
+      ErrorKind::input_data,
+      fmt::format("the mesh '{}' has no inside and outside: triangles that disagree meet at ({:.6g}, {:.6g}, {:.6g}) m",
+                  mesh.name, at.x(), at.y(), at.z()),
+      {}, "it contains a one-sided band (Moebius): cut it open or repair it in a mesh program");
 }
 
 /// > 0: the part faces outwards as it stands, < 0: inwards, 0: cannot be told.
-double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uint32_t>& part, const std::vector<char>& flip) {
+double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uint32_t>& part,
+                 const std::vector<char>& flip) {
   constexpr double kUndecided = 1e-9;  // share of the whole
   double sum = 0.0, size = 0.0;
   bool closed = true;
@@ -36,8 +38,9 @@ double facing_of(const PreparedMesh& mesh, Body body, const std::vector<std::uin
   const Vec3 base = mesh.vertices[mesh.triangles[part.front()][0]];
   for (const std::uint32_t t : part) {
     const Vec3 area = doubled_area(mesh, t) * (flip[t] ? -1.0 : 1.0);
-    const Vec3 middle =
-        (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] + mesh.vertices[mesh.triangles[t][2]]) / 3.0;
+    const Vec3 middle = (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
+                         mesh.vertices[mesh.triangles[t][2]]) /
+                        3.0;
     Vec3 outwards(0.0, 0.0, -1.0);
     if (closed) {
       outwards = middle - base;

@@ -8,16 +8,27 @@ namespace treadmark::mesh {
 
 /// A smooth triangle made ready for the lines of a plane: everything that its points share. Numbers of its entries:
 enum PatchEntry : int {
-  kCornerPlaces = 0,         ///< x, y, z of the corners in the plane frame
-  kFeet = 9,                 ///< edge_feet
-  kReach = 12,               ///< greatest distance from the facet along the lines [m]
-  kInverseArea = 13,         ///< of twice the area in the plane, signed
-  kFits = 14,                ///< of corner k at kFits + k * kFitEntries
+  kCornerPlaces = 0,  ///< x, y, z of the corners in the plane frame
+  kFeet = 9,          ///< edge_feet
+  kReach = 12,        ///< greatest distance from the facet along the lines [m]
+  kInverseArea = 13,  ///< of twice the area in the plane, signed
+  kFits = 14,         ///< of corner k at kFits + k * kFitEntries
   // places (u, v, w) of the next two corners in the frame of this fit, the direction of the lines, the cubic, and the
   // second and third derivatives along the lines: bend + bend_u u + bend_v v, twist
-  kNextU = 0, kNextV, kNextW, kOtherU, kOtherV, kOtherW, kAlongU, kAlongV, kAlongW,
+  kNextU = 0,
+  kNextV,
+  kNextW,
+  kOtherU,
+  kOtherV,
+  kOtherW,
+  kAlongU,
+  kAlongV,
+  kAlongW,
   kCubic,
-  kBend = kCubic + 9, kBendU, kBendV, kTwist,
+  kBend = kCubic + 9,
+  kBendU,
+  kBendV,
+  kTwist,
   kFitEntries,
   kPatchEntries = kFits + 3 * kFitEntries,
 };
@@ -32,13 +43,15 @@ struct PatchSource {
   double bulge;              ///< [m] along the mean normal
 };
 
-/// Lines of one triangle, or of up to four triangles: heights, and slopes if wanted (else null). Those that need a closer look (corners,
-/// grazing lines, surfaces beyond the reach) get NaN.
+/// Lines of one triangle, or of up to four triangles: heights, and slopes if wanted (else null). Those that need a
+/// closer look (corners, grazing lines, surfaces beyond the reach) get NaN.
 struct PatchKernel {
   void (*prepare)(const PlaneLines& lines, const PatchSource& source, double* patch);
-  void (*points)(const double* patch, double side, const double* x, const double* y, int count, double* z, double* dzdx, double* dzdy);
+  void (*points)(const double* patch, double side, const double* x, const double* y, int count, double* z, double* dzdx,
+                 double* dzdy);
   /// patches: one after the other. x, y and the results have four entries.
-  void (*mixed)(const double* patches, double side, const double* x, const double* y, double* z, double* dzdx, double* dzdy);
+  void (*mixed)(const double* patches, double side, const double* x, const double* y, double* z, double* dzdx,
+                double* dzdy);
 };
 extern const PatchKernel kPatchGeneric, kPatchAvx2;
 

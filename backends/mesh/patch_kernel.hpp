@@ -83,7 +83,8 @@ struct Cubic {
 
 /// The blend of SmoothPatches on four lines: heights, and slopes if wanted.
 template <bool kSlopes, class Patch>
-[[gnu::always_inline]] static inline void evaluate_lanes(const Patch& patch, double side, const V4& x, const V4& y, V4& z, V4& dzdx, V4& dzdy) {
+[[gnu::always_inline]] static inline void evaluate_lanes(const Patch& patch, double side, const V4& x, const V4& y,
+                                                         V4& z, V4& dzdx, V4& dzdy) {
   const V4 one = all(1.0), zero = all(0.0), two = all(2.0), three = all(3.0);
   V4 qx[3], qy[3], qz[3], e[3], b[3];
   for (int k = 0; k < 3; ++k) {
@@ -154,7 +155,8 @@ template <bool kSlopes, class Patch>
   z = select(fine, flat + t, missing);
   if (!kSlopes) return;
 
-  // derivatives of the blend by the barycentric coordinates, taken for independent; along the lines it is 0 at the solution
+  // derivatives of the blend by the barycentric coordinates, taken for independent; along the lines it is 0 at the
+  // solution
   V4 f[3], h[3], by[3], gt = zero;
   for (int k = 0; k < 3; ++k) by[k] = zero;
   for (int k = 0; k < 3; ++k) {
@@ -163,8 +165,10 @@ template <bool kSlopes, class Patch>
     const Cubic<Patch> p(patch, at, us, vs);
     f[k] = fma(t, patch(at + kAlongW), n[k]) - p.height;
     gt = fma(w[k], fma(-p.slope_u, patch(at + kAlongU), fma(-p.slope_v, patch(at + kAlongV), patch(at + kAlongW))), gt);
-    by[i] = fma(w[k], fma(-p.slope_u, patch(at + kNextU), fma(-p.slope_v, patch(at + kNextV), patch(at + kNextW))), by[i]);
-    by[j] = fma(w[k], fma(-p.slope_u, patch(at + kOtherU), fma(-p.slope_v, patch(at + kOtherV), patch(at + kOtherW))), by[j]);
+    by[i] =
+        fma(w[k], fma(-p.slope_u, patch(at + kNextU), fma(-p.slope_v, patch(at + kNextV), patch(at + kNextW))), by[i]);
+    by[j] = fma(w[k], fma(-p.slope_u, patch(at + kOtherU), fma(-p.slope_v, patch(at + kOtherV), patch(at + kOtherW))),
+                by[j]);
   }
   for (int k = 0; k < 3; ++k) {
     const int i = (k + 1) % 3, j = (k + 2) % 3;
@@ -192,8 +196,9 @@ template <bool kSlopes, class Patch>
 }
 
 template <bool kSlopes>
-[[gnu::always_inline]] static inline void patch_points(const double* patch, double side, const double* x, const double* y, int count,
-                                                       double* z, double* dzdx, double* dzdy) {
+[[gnu::always_inline]] static inline void patch_points(const double* patch, double side, const double* x,
+                                                       const double* y, int count, double* z, double* dzdx,
+                                                       double* dzdy) {
   const OnePatch one{patch};
   for (int i = 0; i < count; i += kLanes) {
     double px[kLanes], py[kLanes], results[3][kLanes];
@@ -215,15 +220,16 @@ template <bool kSlopes>
   }
 }
 
-static void patch_points(const double* patch, double side, const double* x, const double* y, int count, double* z, double* dzdx,
-                         double* dzdy) {
+static void patch_points(const double* patch, double side, const double* x, const double* y, int count, double* z,
+                         double* dzdx, double* dzdy) {
   if (dzdx)
     patch_points<true>(patch, side, x, y, count, z, dzdx, dzdy);
   else
     patch_points<false>(patch, side, x, y, count, z, dzdx, dzdy);
 }
 
-static void patch_mixed(const double* patches, double side, const double* x, const double* y, double* z, double* dzdx, double* dzdy) {
+static void patch_mixed(const double* patches, double side, const double* x, const double* y, double* z, double* dzdx,
+                        double* dzdy) {
   alignas(32) double block[kPatchEntries * kLanes];
   for (int i = 0; i < kPatchEntries; ++i)
     store(block + kLanes * i,

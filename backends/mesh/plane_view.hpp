@@ -17,9 +17,9 @@ inline constexpr double kRimTolerance = 1e-10;
 
 /// The plane frame P seen from the local coordinates of a mesh. Lines run along its z axis.
 struct PlaneView {
-  Vec3 origin;       ///< of P, local
-  Mat3 rotation;     ///< axes of P
-  double side;       ///< outwards along z: +1 wheel, -1 rail
+  Vec3 origin;    ///< of P, local
+  Mat3 rotation;  ///< axes of P
+  double side;    ///< outwards along z: +1 wheel, -1 rail
 
   PlaneView(const PreparedMesh& mesh, const Pose& X_SP, Facing facing)
       : origin(X_SP.origin - mesh.centre), rotation(X_SP.rotation), side(facing == Facing::down ? 1.0 : -1.0) {}
@@ -54,8 +54,8 @@ struct LineHit {
   double z = 0.0;             ///< height along the plane normal [m]
 };
 
-/// A triangle in the plane frame. Its edge functions are antisymmetric to the last bit, so that two neighbours never both
-/// leave out a line (Woop, Benthin & Wald 2013).
+/// A triangle in the plane frame. Its edge functions are antisymmetric to the last bit, so that two neighbours never
+/// both leave out a line (Woop, Benthin & Wald 2013).
 struct ProjectedTriangle {
   std::uint32_t index = kNone;
   std::array<Vec3, 3> q{Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.0), Vec3(0.0, 0.0, 0.0)};
@@ -66,8 +66,8 @@ struct ProjectedTriangle {
     for (std::size_t k = 0; k < 3; ++k) q[k] = view.to_plane(mesh.vertices[mesh.triangles[t][k]]);
   }
 
-  /// Twice the areas of the triangles that the point makes with the edges; entry k belongs to the edge opposite to corner k.
-  /// All are positive inside a triangle whose outside is seen.
+  /// Twice the areas of the triangles that the point makes with the edges; entry k belongs to the edge opposite to
+  /// corner k. All are positive inside a triangle whose outside is seen.
   std::array<double, 3> edges(double x, double y, double side) const {
     const double ax = q[0].x() - x, ay = q[0].y() - y, bx = q[1].x() - x, by = q[1].y() - y, cx = q[2].x() - x,
                  cy = q[2].y() - y;

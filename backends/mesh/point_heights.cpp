@@ -7,8 +7,8 @@
 
 namespace treadmark::mesh {
 
-Evaluated evaluate_hit(const SmoothPatches* smooth, const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit,
-                       double x, double y, int derivatives) {
+Evaluated evaluate_hit(const SmoothPatches* smooth, const PlaneView& view, const ProjectedTriangle& triangle,
+                       const LineHit& hit, double x, double y, int derivatives) {
   Evaluated e;
   if (smooth && smooth->evaluate(view, triangle, hit, x, y, derivatives, e)) return e;
   e = {};
@@ -21,13 +21,14 @@ Evaluated evaluate_hit(const SmoothPatches* smooth, const PlaneView& view, const
   return e;
 }
 
-void PointHeights::put(std::size_t result, double x, double y, const LineHit& hit, const ProjectedTriangle& triangle) const {
+void PointHeights::put(std::size_t result, double x, double y, const LineHit& hit,
+                       const ProjectedTriangle& triangle) const {
   const Evaluated e = evaluate_hit(smooth_, view_, triangle, hit, x, y, results_.slopes ? 1 : 0);
   results_.put(result, e.z, e.dzdx, e.dzdy);
 }
 
-void evaluate_again(const PreparedMesh& mesh, const SmoothPatches* smooth, const PlaneView& view, const Results& results,
-                    std::size_t result, double x, double y, std::uint32_t triangle) {
+void evaluate_again(const PreparedMesh& mesh, const SmoothPatches* smooth, const PlaneView& view,
+                    const Results& results, std::size_t result, double x, double y, std::uint32_t triangle) {
   ProjectedTriangle projected;
   projected.load(mesh, view, triangle);
   const LineHit hit = projected.hit(projected.edges(x, y, view.side), Cover::front);
@@ -63,8 +64,8 @@ void PointHeights::finish() {
     y_[k] = y_[0];
   }
   std::array<double, 4> z, dzdx, dzdy;
-  kernels().patch.mixed(patches_.data(), lines_.side, x_.data(), y_.data(), z.data(), results_.slopes ? dzdx.data() : nullptr,
-                        dzdy.data());
+  kernels().patch.mixed(patches_.data(), lines_.side, x_.data(), y_.data(), z.data(),
+                        results_.slopes ? dzdx.data() : nullptr, dzdy.data());
   for (std::size_t k = 0; k < count_; ++k) {
     if (std::isnan(z[k]))
       evaluate_again(mesh_, smooth_, view_, results_, result_[k], x_[k], y_[k], triangle_[k]);

@@ -8,9 +8,10 @@
 
 namespace treadmark::mesh {
 
-/// Height, and derivatives if wanted, at a front hit: of the smooth surface, or of the facet where that counts (smooth == nullptr).
-Evaluated evaluate_hit(const SmoothPatches* smooth, const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit,
-                       double x, double y, int derivatives);
+/// Height, and derivatives if wanted, at a front hit: of the smooth surface, or of the facet where that counts (smooth
+/// == nullptr).
+Evaluated evaluate_hit(const SmoothPatches* smooth, const PlaneView& view, const ProjectedTriangle& triangle,
+                       const LineHit& hit, double x, double y, int derivatives);
 
 /// Heights at points of any triangles, four at a time. One object a thread; finish() writes the last ones.
 class PointHeights {
@@ -42,7 +43,7 @@ class PointHeights {
 };
 
 /// The point again in double precision and one at a time, for what kernels leave out.
-void evaluate_again(const PreparedMesh& mesh, const SmoothPatches* smooth, const PlaneView& view, const Results& results,
-                    std::size_t result, double x, double y, std::uint32_t triangle);
+void evaluate_again(const PreparedMesh& mesh, const SmoothPatches* smooth, const PlaneView& view,
+                    const Results& results, std::size_t result, double x, double y, std::uint32_t triangle);
 
 }  // namespace treadmark::mesh

@@ -15,9 +15,10 @@ namespace treadmark::mesh {
 
 namespace {
 
-constexpr double kMergeShare = 1e-9;       ///< of the size of the mesh: closer vertices are one
-constexpr double kMergeDistance = 1e-7;    ///< [m] likewise: far below what scanners resolve, and slivers spoil local fits
-constexpr double kFlat = 1e-12;            ///< height over longest side of a triangle that counts as without area
+constexpr double kMergeShare = 1e-9;  ///< of the size of the mesh: closer vertices are one
+constexpr double kMergeDistance =
+    1e-7;                        ///< [m] likewise: far below what scanners resolve, and slivers spoil local fits
+constexpr double kFlat = 1e-12;  ///< height over longest side of a triangle that counts as without area
 constexpr double kLargestRadius = 5.0, kSmallestRadius = 0.02;  ///< [m] of wheels
 constexpr double kWidestRail = 2.0, kSmallestRail = 1e-3;       ///< [m] section, whole patch
 
@@ -36,8 +37,9 @@ void check_input(const TriangleMesh& mesh) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (const std::uint32_t v : mesh.triangles[t])
       if (v >= mesh.vertices.size())
-        refuse(mesh, fmt::format("names vertex {} in triangle {} (counted from 0), but has {} vertices only", v, t,
-                                 mesh.vertices.size()),
+        refuse(mesh,
+               fmt::format("names vertex {} in triangle {} (counted from 0), but has {} vertices only", v, t,
+                           mesh.vertices.size()),
                "is the file complete?");
 }
 
@@ -50,14 +52,17 @@ void check_units(const TriangleMesh& mesh, Body body, const Vec3& extent) {
   if (body == Body::wheel) {
     double radius = 0.0;
     for (const auto& corners : mesh.triangles)
-      for (const std::uint32_t v : corners) radius = std::max(radius, std::hypot(mesh.vertices[v].x(), mesh.vertices[v].z()));
+      for (const std::uint32_t v : corners)
+        radius = std::max(radius, std::hypot(mesh.vertices[v].x(), mesh.vertices[v].z()));
     if (radius > kLargestRadius || radius < kSmallestRadius)
-      refuse(mesh, fmt::format("reaches {:.4g} m from the axle, which no wheel does (between {:g} and {:g} m)", radius,
-                               kSmallestRadius, kLargestRadius),
+      refuse(mesh,
+             fmt::format("reaches {:.4g} m from the axle, which no wheel does (between {:g} and {:g} m)", radius,
+                         kSmallestRadius, kLargestRadius),
              advise(radius > kLargestRadius));
   } else if (extent.y() > kWidestRail || extent.z() > kWidestRail) {
-    refuse(mesh, fmt::format("is {:.4g} m wide and {:.4g} m high, which no rail is (at most {:g} m)", extent.y(), extent.z(),
-                             kWidestRail),
+    refuse(mesh,
+           fmt::format("is {:.4g} m wide and {:.4g} m high, which no rail is (at most {:g} m)", extent.y(), extent.z(),
+                       kWidestRail),
            advise(true));
   } else if (extent.maxCoeff() < kSmallestRail) {
     refuse(mesh, fmt::format("is only {:.4g} m large", extent.maxCoeff()), advise(false));
@@ -105,7 +110,8 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
   check_units(mesh, body, high - low);
   result.centre = 0.5 * (low + high);
 
-  const std::vector<std::uint32_t> same = merge_close(mesh.vertices, std::max(kMergeDistance, kMergeShare * (high - low).norm()));
+  const std::vector<std::uint32_t> same =
+      merge_close(mesh.vertices, std::max(kMergeDistance, kMergeShare * (high - low).norm()));
   for (std::size_t v = 0; v < same.size(); ++v) repair.merged_vertices += same[v] != v;
 
   result.triangles.reserve(mesh.triangles.size());

@@ -16,8 +16,9 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
 /// Fills mesh.neighbours. Error(input_data) for an edge of more than two triangles.
 void connect(PreparedMesh& mesh);
 
-/// Turns triangles until neighbours agree and every connected part faces outwards: closed parts enclose a positive volume,
-/// open parts of a wheel face away from the axle, of a rail towards -z, by area. Error(input_data) for one-sided parts.
+/// Turns triangles until neighbours agree and every connected part faces outwards: closed parts enclose a positive
+/// volume, open parts of a wheel face away from the axle, of a rail towards -z, by area. Error(input_data) for
+/// one-sided parts.
 void orient(PreparedMesh& mesh, Body body, MeshRepair& repair);
 
 /// Number of rims and holes.

@@ -15,16 +15,16 @@ inline constexpr std::uint32_t kNone = 0xffffffffu;
 
 using Corners = std::array<std::uint32_t, 3>;
 
-/// A mesh fit for queries: no coincident vertices, no triangles without area, at most two triangles an edge, all of them
-/// counter-clockwise seen from outside. Local coordinates: the centre of the mesh is subtracted, so that single precision
-/// does for finding triangles.
+/// A mesh fit for queries: no coincident vertices, no triangles without area, at most two triangles an edge, all of
+/// them counter-clockwise seen from outside. Local coordinates: the centre of the mesh is subtracted, so that single
+/// precision does for finding triangles.
 struct PreparedMesh {
   std::string name;
-  Vec3 centre = Vec3::Zero();         ///< in the surface frame [m]
+  Vec3 centre = Vec3::Zero();                    ///< in the surface frame [m]
   Vec3 low = Vec3::Zero(), high = Vec3::Zero();  ///< box, local [m]
-  std::vector<Vec3> vertices;         ///< local [m]
+  std::vector<Vec3> vertices;                    ///< local [m]
   std::vector<Corners> triangles;
-  std::vector<Corners> neighbours;    ///< triangle across the edge opposite to corner k; kNone at a rim
+  std::vector<Corners> neighbours;  ///< triangle across the edge opposite to corner k; kNone at a rim
 
   std::size_t memory_bytes() const {
     return vertices.capacity() * sizeof(Vec3) + (triangles.capacity() + neighbours.capacity()) * sizeof(Corners);

@@ -11,9 +11,9 @@ namespace treadmark::mesh {
 
 /// Corners of triangles gathered into sectors: the triangles round a vertex between creases and rims.
 struct Sectors {
-  std::vector<Corners> of_corner;          ///< sector of each corner of each triangle
-  std::vector<std::uint32_t> vertex;       ///< of each sector
-  std::vector<std::uint32_t> begin;        ///< in triangles, one more than there are sectors
+  std::vector<Corners> of_corner;     ///< sector of each corner of each triangle
+  std::vector<std::uint32_t> vertex;  ///< of each sector
+  std::vector<std::uint32_t> begin;   ///< in triangles, one more than there are sectors
   std::vector<std::uint32_t> triangles;
 
   std::size_t size() const { return vertex.size(); }

@@ -13,9 +13,9 @@ namespace treadmark::mesh {
 
 namespace {
 
-constexpr double kGrazing = 0.01;     ///< cosine between line and surface normal below which the facet counts
-constexpr double kSafety = 1.5;       ///< on the sampled distance between facet and surface
-constexpr double kWild = 0.25;        ///< of the longest side: a surface farther off is not believed
+constexpr double kGrazing = 0.01;  ///< cosine between line and surface normal below which the facet counts
+constexpr double kSafety = 1.5;    ///< on the sampled distance between facet and surface
+constexpr double kWild = 0.25;     ///< of the longest side: a surface farther off is not believed
 
 /// Barycentric coordinates as jets by x and y of the plane.
 template <class Jet>
@@ -49,8 +49,8 @@ SmoothPatches::SmoothPatches(const PreparedMesh& mesh, double crease_angle)
   }
 }
 
-bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines, std::uint32_t triangle,
-                            const double* places, double* patch) const {
+bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines,
+                            std::uint32_t triangle, const double* places, double* patch) const {
   if (needle_[triangle]) return false;
   PatchSource source;
   for (std::size_t k = 0; k < 3; ++k) {
@@ -70,8 +70,8 @@ Vec3 SmoothPatches::mean_of_normals(std::uint32_t triangle) const {
 }
 
 /// t along the line from start where the blend vanishes: a cubic in t, because the weights stay.
-bool SmoothPatches::solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start,
-                          const Vec3& direction, double side, double& t) const {
+bool SmoothPatches::solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w,
+                          const Vec3& start, const Vec3& direction, double side, double& t) const {
   double g0 = 0.0, g1 = 0.0, g2 = 0.0, g3 = 0.0;
   for (std::size_t k = 0; k < 3; ++k) {
     if (w[k] == 0.0) continue;
@@ -96,8 +96,8 @@ bool SmoothPatches::solve(const std::array<const VertexFit*, 3>& fits, const std
   return false;
 }
 
-bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit, double x, double y,
-                             int derivatives, Evaluated& out) const {
+bool SmoothPatches::evaluate(const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit, double x,
+                             double y, int derivatives, Evaluated& out) const {
   const Corners& corners = fits_.of_corner[triangle.index];
   const std::array<const VertexFit*, 3> fits{&fits_.fits[corners[0]], &fits_.fits[corners[1]], &fits_.fits[corners[2]]};
   const std::array<double, 3> feet = edge_feet(triangle.q);
@@ -180,7 +180,8 @@ double SmoothPatches::sampled_bulge(const PreparedMesh& mesh, std::uint32_t tria
       const std::array<double, 3> b{static_cast<double>(i) / kLattice, static_cast<double>(j) / kLattice,
                                     static_cast<double>(kLattice - i - j) / kLattice};
       double t = 0.0;
-      if (!solve(fits, blend_weights<double>(b, feet), b[0] * v[0] + b[1] * v[1] + b[2] * v[2], direction, 1.0, t)) return 0.0;
+      if (!solve(fits, blend_weights<double>(b, feet), b[0] * v[0] + b[1] * v[1] + b[2] * v[2], direction, 1.0, t))
+        return 0.0;
       most = std::max(most, std::fabs(t));
     }
   if (most > kWild * longest) return 0.0;

@@ -19,11 +19,11 @@ struct Evaluated {
 /// The smooth surface through the vertices. Where a line meets a facet at barycentric coordinates b, its height solves
 ///   G = sum_i w_i(b) f_i = 0,   f_i(point) = n_i . (point - vertex_i) - P_i(u, v),
 /// with the cubics P_i of the three corners and the weights of blend_weights. Heights are of order 4 in the size of the
-/// triangles where the surface is smooth, slopes of order 3, curvatures of order 2; vertices are met exactly; across edges
-/// the surface is continuous, and its slopes are up to order 4. b belongs to the facet, so that heights along other
-/// directions give a surface that differs by order 5. At creases both sides run through the vertices, and their curves
-/// between them differ by order 4 where the fits are cubic.
-/// Where the solution is farther from the facet than reach() allows, or the line grazes, the facet counts.
+/// triangles where the surface is smooth, slopes of order 3, curvatures of order 2; vertices are met exactly; across
+/// edges the surface is continuous, and its slopes are up to order 4. b belongs to the facet, so that heights along
+/// other directions give a surface that differs by order 5. At creases both sides run through the vertices, and their
+/// curves between them differ by order 4 where the fits are cubic. Where the solution is farther from the facet than
+/// reach() allows, or the line grazes, the facet counts.
 class SmoothPatches {
  public:
   SmoothPatches(const PreparedMesh& mesh, double crease_angle);
@@ -32,7 +32,8 @@ class SmoothPatches {
   bool evaluate(const PlaneView& view, const ProjectedTriangle& triangle, const LineHit& hit, double x, double y,
                 int derivatives, Evaluated& out) const;
 
-  /// The triangle made ready for kernels; places: its corners in the plane frame. False for needles, which evaluate() takes.
+  /// The triangle made ready for kernels; places: its corners in the plane frame. False for needles, which evaluate()
+  /// takes.
   bool prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines, std::uint32_t triangle,
                const double* places, double* patch) const;
 
@@ -44,13 +45,15 @@ class SmoothPatches {
   double largest_reach() const { return kSteepest * static_cast<double>(largest_bulge_); }
   double largest_bulge() const { return static_cast<double>(largest_bulge_); }
 
-  std::size_t memory_bytes() const { return fits_.memory_bytes() + bulge_.capacity() * sizeof(float) + needle_.capacity() / 8; }
+  std::size_t memory_bytes() const {
+    return fits_.memory_bytes() + bulge_.capacity() * sizeof(float) + needle_.capacity() / 8;
+  }
 
  private:
   static constexpr double kSteepest = 10.0;  ///< longest way along a line, in bulges
 
-  bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start, const Vec3& direction,
-             double side, double& t) const;
+  bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start,
+             const Vec3& direction, double side, double& t) const;
   double sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const;
 
   VertexFits fits_;

@@ -6,7 +6,9 @@
 
 namespace treadmark::mesh {
 
-bool fill_tile_avx2(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile) { return TileFill(mesh, lines, tile).run(); }
+bool fill_tile_avx2(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile) {
+  return TileFill(mesh, lines, tile).run();
+}
 
 }  // namespace treadmark::mesh
 #endif

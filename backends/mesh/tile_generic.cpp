@@ -4,6 +4,8 @@
 
 namespace treadmark::mesh {
 
-bool fill_tile_generic(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile) { return TileFill(mesh, lines, tile).run(); }
+bool fill_tile_generic(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile) {
+  return TileFill(mesh, lines, tile).run();
+}
 
 }  // namespace treadmark::mesh

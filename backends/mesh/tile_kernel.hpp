@@ -24,7 +24,8 @@ struct TileFill {
   double across[3], outer[3], outer_base;  ///< the same for heights, outwards
   double slack_x, slack_y;                 ///< in steps: points this far beside still count as covered
 
-  [[gnu::always_inline]] inline TileFill(const MeshArrays& m, const PlaneLines& l, Tile& t) : mesh(m), lines(l), tile(t) {
+  [[gnu::always_inline]] inline TileFill(const MeshArrays& m, const PlaneLines& l, Tile& t)
+      : mesh(m), lines(l), tile(t) {
     constexpr double kRounding = 1e-6;  // of numbers of columns
     slack_x = kNearEdge * t.inverse_dx + kRounding;
     slack_y = kNearEdge * t.inverse_dy + kRounding;
@@ -83,8 +84,8 @@ struct TileFill {
     tile.any_asked = true;
   }
 
-  /// The point lies exactly on an edge: whether this triangle takes it. Of two neighbours the lower number does, insides
-  /// take all theirs, vertices are left to the hierarchy.
+  /// The point lies exactly on an edge: whether this triangle takes it. Of two neighbours the lower number does,
+  /// insides take all theirs, vertices are left to the hierarchy.
   [[gnu::noinline]] bool takes_edge(std::uint32_t index, bool front, const double (&e)[3], int at, double x, double y) {
     const int zeros = (e[0] == 0.0) + (e[1] == 0.0) + (e[2] == 0.0);
     if (zeros > 1) {
@@ -96,7 +97,8 @@ struct TileFill {
     const std::uint32_t other = mesh.neighbours[3 * index + static_cast<std::uint32_t>(zero)];
     if (other > index) return true;  // a rim, too
     double q[9];
-    for (int k = 0; k < 3; ++k) project(mesh, lines, mesh.triangles[3 * other + static_cast<std::uint32_t>(k)], q + 3 * k);
+    for (int k = 0; k < 3; ++k)
+      project(mesh, lines, mesh.triangles[3 * other + static_cast<std::uint32_t>(k)], q + 3 * k);
     double f[3];
     edge_functions(q, x, y, lines.side, f);
     return !(f[0] >= 0.0 && f[1] >= 0.0 && f[2] >= 0.0 && f[0] + f[1] + f[2] > 0.0);
@@ -114,9 +116,10 @@ struct TileFill {
       }
   }
 
-  /// First and last columns of rows r.y0 to r.y1 that a triangle crosses, four rows at a time, within r and about kNearEdge
-  /// more. sign: +1 if the triangle turns from x to y. Edges along the rows limit nothing.
-  [[gnu::always_inline]] inline void cut_rows(const double (&q)[9], double sign, const Range& r, int* first, int* last) const {
+  /// First and last columns of rows r.y0 to r.y1 that a triangle crosses, four rows at a time, within r and about
+  /// kNearEdge more. sign: +1 if the triangle turns from x to y. Edges along the rows limit nothing.
+  [[gnu::always_inline]] inline void cut_rows(const double (&q)[9], double sign, const Range& r, int* first,
+                                              int* last) const {
     constexpr double kFlat = 1e-6, kFar = 1e9;
     double from[3], from_per_y[3], to[3], to_per_y[3];
     for (int k = 0; k < 3; ++k) {
@@ -149,11 +152,13 @@ struct TileFill {
 
   /// Marks the points of one triangle. area: twice the signed one in the plane. False if the slots are used up.
   [[gnu::always_inline]] inline bool mark(std::uint32_t index, const double (&q)[9], double area, const Range& r) {
-    const double ax = q[3] - q[0], ay = q[4] - q[1], bx = q[6] - q[3], by = q[7] - q[4], cx = q[0] - q[6], cy = q[1] - q[7];
+    const double ax = q[3] - q[0], ay = q[4] - q[1], bx = q[6] - q[3], by = q[7] - q[4], cx = q[0] - q[6],
+                 cy = q[1] - q[7];
     const double a2 = ax * ax + ay * ay, b2 = bx * bx + by * by, c2 = cx * cx + cy * cy;
     const double longest2 = a2 > b2 ? (a2 > c2 ? a2 : c2) : (b2 > c2 ? b2 : c2);
     // a bound of the length of an edge that needs no root
-    const double tolerance = kNearEdge * ((ax < 0 ? -ax : ax) + (ay < 0 ? -ay : ay) + (bx < 0 ? -bx : bx) + (by < 0 ? -by : by));
+    const double tolerance =
+        kNearEdge * ((ax < 0 ? -ax : ax) + (ay < 0 ? -ay : ay) + (bx < 0 ? -bx : bx) + (by < 0 ? -by : by));
     if (!(area * area > kEdgeOn * kEdgeOn * longest2 * longest2)) {
       ask_near(q, r, tolerance);
       return true;
@@ -218,7 +223,9 @@ struct TileFill {
   /// Up to four triangles of a leaf, one a lane.
   [[gnu::always_inline]] inline bool leaf(const BvhNode& node) {
     for (std::uint32_t begin = node.begin; begin < node.begin + node.count; begin += kLanes) {
-      const int count = static_cast<int>(node.begin + node.count - begin) < kLanes ? static_cast<int>(node.begin + node.count - begin) : kLanes;
+      const int count = static_cast<int>(node.begin + node.count - begin) < kLanes
+                            ? static_cast<int>(node.begin + node.count - begin)
+                            : kLanes;
       std::uint32_t index[kLanes];
       for (int k = 0; k < kLanes; ++k) index[k] = begin + static_cast<std::uint32_t>(k < count ? k : 0);
       V4 q[9];

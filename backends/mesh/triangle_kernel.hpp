@@ -16,16 +16,19 @@ constexpr double kEdgeOn = 1e-12;    ///< twice the area in the plane over the l
 TREADMARK_LANES void project(const MeshArrays& mesh, const PlaneLines& lines, std::uint32_t vertex, double* q) {
   const double* p = mesh.vertices + 3 * static_cast<std::size_t>(vertex);
   const double dx = p[0] - lines.origin[0], dy = p[1] - lines.origin[1], dz = p[2] - lines.origin[2];
-  for (int i = 0; i < 3; ++i) q[i] = (lines.rotation[0][i] * dx + lines.rotation[1][i] * dy) + lines.rotation[2][i] * dz;
+  for (int i = 0; i < 3; ++i)
+    q[i] = (lines.rotation[0][i] * dx + lines.rotation[1][i] * dy) + lines.rotation[2][i] * dz;
 }
 
 /// Corner k of triangle index[l] to q[3k], q[3k + 1], q[3k + 2] of lane l.
-TREADMARK_LANES void project_lanes(const MeshArrays& mesh, const PlaneLines& lines, const std::uint32_t (&index)[kLanes],
-                                   V4 (&q)[9]) {
+TREADMARK_LANES void project_lanes(const MeshArrays& mesh, const PlaneLines& lines,
+                                   const std::uint32_t (&index)[kLanes], V4 (&q)[9]) {
   for (int k = 0; k < 3; ++k) {
     const double* p[kLanes];
     for (int l = 0; l < kLanes; ++l)
-      p[l] = mesh.vertices + 3 * static_cast<std::size_t>(mesh.triangles[3 * static_cast<std::size_t>(index[l]) + static_cast<std::size_t>(k)]);
+      p[l] =
+          mesh.vertices + 3 * static_cast<std::size_t>(
+                                  mesh.triangles[3 * static_cast<std::size_t>(index[l]) + static_cast<std::size_t>(k)]);
     const V4 dx = V4{p[0][0], p[1][0], p[2][0], p[3][0]} - all(lines.origin[0]);
     const V4 dy = V4{p[0][1], p[1][1], p[2][1], p[3][1]} - all(lines.origin[1]);
     const V4 dz = V4{p[0][2], p[1][2], p[2][2], p[3][2]} - all(lines.origin[2]);

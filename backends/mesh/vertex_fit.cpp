@@ -15,11 +15,12 @@ namespace treadmark::mesh {
 
 namespace {
 
-constexpr std::size_t kMargin = 2;          ///< points wanted beyond the number of coefficients
-constexpr double kIllConditioned = 2e-3;    ///< least over greatest diagonal of R, columns of unit length
-constexpr double kTurnedAway = 0.5;         ///< cosine: points whose surface turned farther are no height over the tangent plane
-constexpr std::size_t kEnough = 14;         ///< neighbours to have after three rings
-constexpr std::size_t kMostPoints = 128;    ///< nearest rings only, at vertices of very many triangles
+constexpr std::size_t kMargin = 2;        ///< points wanted beyond the number of coefficients
+constexpr double kIllConditioned = 2e-3;  ///< least over greatest diagonal of R, columns of unit length
+constexpr double kTurnedAway =
+    0.5;  ///< cosine: points whose surface turned farther are no height over the tangent plane
+constexpr std::size_t kEnough = 14;       ///< neighbours to have after three rings
+constexpr std::size_t kMostPoints = 128;  ///< nearest rings only, at vertices of very many triangles
 
 /// Terms of the polynomials, best first; the long axis of the neighbourhood is u.
 constexpr int kCubic[] = {0, 1, 2, 3, 4, 5, 6, 7, 8}, kQuadratic[] = {0, 1, 2, 3, 4}, kAcross[] = {0, 1, 3, 4, 8},
@@ -56,7 +57,8 @@ struct Cloud {
   double scale_u = 1.0, scale_v = 1.0;
 };
 
-/// Turns the tangent axes to the longest and shortest spread of the points, or axis_u to `along`, so that both can be scaled.
+/// Turns the tangent axes to the longest and shortest spread of the points, or axis_u to `along`, so that both can be
+/// scaled.
 Cloud gather(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
              std::span<const std::uint32_t> others, VertexFit& fit, const Vec3* along = nullptr) {
   Cloud cloud;
@@ -92,7 +94,8 @@ Cloud gather(const PreparedMesh& mesh, const Sectors& sectors, const std::vector
   return cloud;
 }
 
-/// Direction of strips of long triangles: the shortest of the long edges round a vertex, because the others are diagonals.
+/// Direction of strips of long triangles: the shortest of the long edges round a vertex, because the others are
+/// diagonals.
 Vec3 along_strips(const PreparedMesh& mesh, const Sectors& sectors, std::uint32_t sector) {
   constexpr double kLong = 0.9;
   const Vec3& from = mesh.vertices[sectors.vertex[sector]];
@@ -117,7 +120,8 @@ bool solve(const Cloud& cloud, std::span<const int> terms, VertexFit& fit) {
   const auto n = static_cast<Eigen::Index>(cloud.points.size()), m = static_cast<Eigen::Index>(terms.size());
   const std::size_t margin = terms.size() > 2 ? kMargin : 0;
   if (cloud.points.size() < terms.size() + margin) return false;
-  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPoints * 8, 9> A(std::min<Eigen::Index>(n, kMostPoints * 8), m);
+  Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, 0, kMostPoints * 8, 9> A(
+      std::min<Eigen::Index>(n, kMostPoints * 8), m);
   Eigen::Matrix<double, Eigen::Dynamic, 1, 0, kMostPoints * 8, 1> z(A.rows());
   for (Eigen::Index i = 0; i < A.rows(); ++i) {
     const Vec3& p = cloud.points[static_cast<std::size_t>(i)];
@@ -147,7 +151,8 @@ bool solve(const Cloud& cloud, std::span<const int> terms, VertexFit& fit) {
   return true;
 }
 
-VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals, std::uint32_t sector) {
+VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
+                  std::uint32_t sector) {
   VertexFit fit;
   fit.origin = mesh.vertices[sectors.vertex[sector]];
   fit.normal = normals[sector];

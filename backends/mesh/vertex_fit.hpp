@@ -12,7 +12,7 @@ namespace treadmark::mesh {
 /// The surface near a vertex as a height over its tangent plane: w = P(u, v) with P(0, 0) = 0, cubic,
 /// P = c0 u + c1 v + c2 u^2 + c3 u v + c4 v^2 + c5 u^3 + c6 u^2 v + c7 u v^2 + c8 v^3.
 struct VertexFit {
-  Vec3 origin;                ///< the vertex, local
+  Vec3 origin;  ///< the vertex, local
   Vec3 axis_u, axis_v, normal;
   std::array<double, 9> c{};
 
@@ -35,12 +35,15 @@ struct VertexFits {
   std::vector<VertexFit> fits;
   std::vector<Corners> of_corner;  ///< fit of each corner of each triangle
 
-  std::size_t memory_bytes() const { return fits.capacity() * sizeof(VertexFit) + of_corner.capacity() * sizeof(Corners); }
+  std::size_t memory_bytes() const {
+    return fits.capacity() * sizeof(VertexFit) + of_corner.capacity() * sizeof(Corners);
+  }
 };
 
-/// Weighted least squares over the two rings of triangles round a vertex, or three and more where two do not determine a cubic (rims,
-/// corners). Where three do not either the polynomial has fewer terms: quadratic, cubic across and linear along (long thin
-/// triangles), plane. Neighbours are reached over edges that turn by at most crease_angle [rad]. Runs in parallel.
+/// Weighted least squares over the two rings of triangles round a vertex, or three and more where two do not determine
+/// a cubic (rims, corners). Where three do not either the polynomial has fewer terms: quadratic, cubic across and
+/// linear along (long thin triangles), plane. Neighbours are reached over edges that turn by at most crease_angle
+/// [rad]. Runs in parallel.
 VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle);
 
 /// The shortest height over the longest side is below this: the normal says nothing.

@@ -17,7 +17,8 @@ BlockDirectory::BlockDirectory(const SheetGrid& grid) {
     first_ = {std::min(first_.bi, one.key.bi), std::min(first_.bj, one.key.bj)};
     last = {std::max(last.bi, one.key.bi), std::max(last.bj, one.key.bj)};
   }
-  const std::int64_t ni = static_cast<std::int64_t>(last.bi) - first_.bi + 1, nj = static_cast<std::int64_t>(last.bj) - first_.bj + 1;
+  const std::int64_t ni = static_cast<std::int64_t>(last.bi) - first_.bi + 1,
+                     nj = static_cast<std::int64_t>(last.bj) - first_.bj + 1;
   if (ni * nj > std::max(kSmall, kMostPerBlock * static_cast<std::int64_t>(all.size()))) {
     list_ = std::move(all);
     return;
@@ -30,7 +31,8 @@ BlockDirectory::BlockDirectory(const SheetGrid& grid) {
 
 const float* BlockDirectory::seek(std::int32_t bi, std::int32_t bj) const {
   const BlockKey key{bi, bj};
-  const auto found = std::lower_bound(list_.begin(), list_.end(), key, [](const SheetGrid::Entry& a, const BlockKey& b) { return a.key < b; });
+  const auto found = std::lower_bound(list_.begin(), list_.end(), key,
+                                      [](const SheetGrid::Entry& a, const BlockKey& b) { return a.key < b; });
   return found != list_.end() && found->key == key ? found->values : nullptr;
 }
 

@@ -34,7 +34,8 @@ std::set<std::int32_t> neighbours(std::int32_t bi, const SheetFrame& frame) {
 /// One strip of blocks with the same bj: filtered along j, then along i.
 class Strip {
  public:
-  Strip(const SparseOffsets& offsets, std::int32_t bj, const std::vector<double>& h) : offsets_(offsets), bj_(bj), h_(h) {}
+  Strip(const SparseOffsets& offsets, std::int32_t bj, const std::vector<double>& h)
+      : offsets_(offsets), bj_(bj), h_(h) {}
 
   void across(std::int32_t bi) {
     const float* from[3];
@@ -47,7 +48,8 @@ class Strip {
         for (int j = 0; j < kBlockJ; ++j) row[k * kBlockJ + j] = from[k] == nullptr ? 0.0 : from[k][i * kBlockJ + j];
       for (int j = 0; j < kBlockJ; ++j) {
         double sum = 0.0;
-        for (int m = -kSpread; m <= kSpread; ++m) sum += h_[static_cast<std::size_t>(m + kSpread)] * row[kBlockJ + j + m];
+        for (int m = -kSpread; m <= kSpread; ++m)
+          sum += h_[static_cast<std::size_t>(m + kSpread)] * row[kBlockJ + j + m];
         to[static_cast<std::size_t>(i * kBlockJ + j)] = sum;
       }
     }

@@ -6,9 +6,10 @@
 
 namespace treadmark::offset {
 
-/// Coefficients of the interpolating tensor B-spline of degree 2 or 3 through the offsets, 0 outside them: the inverse of
-/// the sampled B-spline is a symmetric exponential z^|k| (Unser, Aldroubi, Eden 1993), cut off where it falls below single
-/// precision. They spread kSpread voxels beyond the offsets; blocks whose coefficients are all below `smallest` [m] are dropped.
+/// Coefficients of the interpolating tensor B-spline of degree 2 or 3 through the offsets, 0 outside them: the inverse
+/// of the sampled B-spline is a symmetric exponential z^|k| (Unser, Aldroubi, Eden 1993), cut off where it falls below
+/// single precision. They spread kSpread voxels beyond the offsets; blocks whose coefficients are all below `smallest`
+/// [m] are dropped.
 SheetGrid spline_coefficients(const SparseOffsets& offsets, int degree, float smallest);
 constexpr int kSpread = 14;
 

@@ -39,7 +39,8 @@ std::vector<char> read_all(const fs::path& file) {
   if (size < 0) throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
   std::vector<char> data(static_cast<std::size_t>(size));
   in.seekg(0);
-  if (size > 0 && !in.read(data.data(), size)) throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
+  if (size > 0 && !in.read(data.data(), size))
+    throw Error(ErrorKind::input_data, "the VDB file cannot be read", {file.string()});
   return data;
 }
 
@@ -56,13 +57,16 @@ void append_trailer(const fs::path& file) {
 
 void require_sound(const fs::path& file) {
   const std::vector<char> data = read_all(file);
-  const auto refuse = [&](const char* why, const char* advice) { throw Error(ErrorKind::input_data, why, {file.string()}, advice); };
+  const auto refuse = [&](const char* why, const char* advice) {
+    throw Error(ErrorKind::input_data, why, {file.string()}, advice);
+  };
   if (data.empty()) refuse("the VDB file is empty", "write it again");
   if (data.size() < kVdbMagic.size() || !std::equal(kVdbMagic.begin(), kVdbMagic.end(), data.begin()))
     refuse("this is not a VDB file", "offsets are read from files written by write_vdb");
   const char* trailer = data.data() + data.size() - kTrailer;
   if (data.size() < kTrailer + kVdbMagic.size() || !std::equal(kMark.begin(), kMark.end(), trailer))
-    refuse("the VDB file is cut off, or was written by another program", "offsets are read from files written by write_vdb");
+    refuse("the VDB file is cut off, or was written by another program",
+           "offsets are read from files written by write_vdb");
   std::uint64_t size = 0, sum = 0;
   std::memcpy(&size, trailer + 8, sizeof(size));
   std::memcpy(&sum, trailer + 16, sizeof(sum));
@@ -93,11 +97,13 @@ OffsetFile read_vdb(const fs::path& file) {
   const SheetFrame& f = offsets->frame;
   const auto near = [](double a, double b) { return std::fabs(a - b) <= 1e-12 * (std::fabs(a) + std::fabs(b)); };
   if (!near(f.u0, sheet.u0) || !near(f.y0, sheet.y0) || !near(f.du, sheet.du) || !near(f.dy, sheet.dy))
-    throw Error(ErrorKind::input_data, "transform and entry 'frame' of the VDB file contradict each other", {file.string()});
+    throw Error(ErrorKind::input_data, "transform and entry 'frame' of the VDB file contradict each other",
+                {file.string()});
   for (const SheetGrid::Entry& b : sheet.grid.blocks()) {
     for (int k = 0; k < kBlockI * kBlockJ; ++k)
       if (std::fabs(b.values[k]) > kAbsurd)
-        throw Error(ErrorKind::input_data, "an offset in the VDB file is greater than a metre", {file.string()}, "offsets are in metres");
+        throw Error(ErrorKind::input_data, "an offset in the VDB file is greater than a metre", {file.string()},
+                    "offsets are in metres");
     if (f.turn > 0 && (b.key.bi < 0 || b.key.bi * kBlockI >= f.turn))
       throw Error(ErrorKind::input_data, "voxels in the VDB file lie beyond the turn", {file.string()});
   }

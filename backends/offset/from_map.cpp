@@ -21,12 +21,15 @@ int voxels_of_turn(const OffsetMap& map, int& columns) {
   const bool divides = std::fabs(voxels - whole) <= kExact * std::max(1.0, 1e-3 * whole);
   if (map.grid.nx < voxels - 0.5) {
     if (map.grid.nx + 2 * kSpread + 4 > voxels)
-      throw Error(ErrorKind::input_data, fmt::format("the offset map {} leaves a gap of less than {} steps in the turn", map.name, 2 * kSpread + 4),
-                  {}, "cover the whole turn, or less of it");
+      throw Error(
+          ErrorKind::input_data,
+          fmt::format("the offset map {} leaves a gap of less than {} steps in the turn", map.name, 2 * kSpread + 4),
+          {}, "cover the whole turn, or less of it");
     return 0;
   }
   if (!divides)
-    throw Error(ErrorKind::input_data, fmt::format("the steps of the offset map {} do not divide the turn: {:.6f} of them", map.name, voxels));
+    throw Error(ErrorKind::input_data,
+                fmt::format("the steps of the offset map {} do not divide the turn: {:.6f} of them", map.name, voxels));
   if (map.grid.nx > static_cast<int>(whole) + 1)
     throw Error(ErrorKind::input_data, fmt::format("the offset map {} covers more than one turn", map.name));
   columns = static_cast<int>(whole);  // a last column that repeats the first is left out
@@ -38,16 +41,21 @@ int voxels_of_turn(const OffsetMap& map, int& columns) {
 OffsetSample offsets_from_map(const OffsetMap& map, Body body, double tolerance) {
   constexpr double kAbsurd = 1.0;  // [m]
   const Grid2& g = map.grid;
-  if (!(tolerance >= 0.0) || !std::isfinite(tolerance)) throw Error(ErrorKind::configuration, "the tolerance of offsets must not be negative");
+  if (!(tolerance >= 0.0) || !std::isfinite(tolerance))
+    throw Error(ErrorKind::configuration, "the tolerance of offsets must not be negative");
   if (g.nx < 2 || g.ny < 2 || !(g.dx > 0.0) || !(g.dy > 0.0) || !std::isfinite(g.dx + g.dy + g.x0 + g.y0))
-    throw Error(ErrorKind::input_data, fmt::format("the offset map {} needs two points and positive steps along both axes", map.name));
+    throw Error(ErrorKind::input_data,
+                fmt::format("the offset map {} needs two points and positive steps along both axes", map.name));
   if (g.dx < kLeastStep || g.dy < kLeastStep)
-    throw Error(ErrorKind::input_data, fmt::format("the steps of the offset map {} are below {} m", map.name, kLeastStep));
+    throw Error(ErrorKind::input_data,
+                fmt::format("the steps of the offset map {} are below {} m", map.name, kLeastStep));
   if (map.offset.size() != g.size())
-    throw Error(ErrorKind::input_data, fmt::format("the offset map {} has {} values, its grid {}", map.name, map.offset.size(), g.size()));
+    throw Error(ErrorKind::input_data,
+                fmt::format("the offset map {} has {} values, its grid {}", map.name, map.offset.size(), g.size()));
   for (const float v : map.offset)
     if (std::isinf(v) || std::fabs(v) > kAbsurd)
-      throw Error(ErrorKind::input_data, fmt::format("the offset map {} has an offset of {} m", map.name, v), {}, "offsets are in metres");
+      throw Error(ErrorKind::input_data, fmt::format("the offset map {} has an offset of {} m", map.name, v), {},
+                  "offsets are in metres");
 
   const auto offsets = std::make_shared<SparseOffsets>();
   SheetFrame& frame = offsets->frame;

@@ -11,15 +11,16 @@
 
 namespace treadmark::offset {
 
-std::shared_ptr<const Surface> make_offset_surface(std::shared_ptr<const Surface> base, std::shared_ptr<const SparseOffsets> offsets,
+std::shared_ptr<const Surface> make_offset_surface(std::shared_ptr<const Surface> base,
+                                                   std::shared_ptr<const SparseOffsets> offsets,
                                                    Interpolation interpolation, std::string backend) {
   if (!base || !offsets) throw Error(ErrorKind::configuration, "an offset surface needs a base and offsets");
   const Body body = offsets->frame.body;
   if ((base->facing() == Facing::down) != (body == Body::wheel))
     throw Error(ErrorKind::configuration, body == Body::wheel ? "offsets of a wheel cannot be added to a rail"
                                                               : "offsets of a rail cannot be added to a wheel");
-  return displacement::make_displaced_surface(std::move(base), make_sheet_field(std::move(offsets), interpolation), body,
-                                              std::move(backend));
+  return displacement::make_displaced_surface(std::move(base), make_sheet_field(std::move(offsets), interpolation),
+                                              body, std::move(backend));
 }
 
 std::size_t memory_bytes(const SparseOffsets& offsets) { return sizeof(offsets) + offsets.grid.memory_bytes(); }

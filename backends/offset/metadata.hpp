@@ -16,7 +16,8 @@ using Metadata = std::map<std::string, std::string>;
 /// Errors: Error(configuration) for a base that is not a constant section, or belongs to the other body.
 Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base);
 
-/// Fills everything but the grid. Errors: Error(input_data) for an entry that is missing, broken or implausible, naming it.
+/// Fills everything but the grid. Errors: Error(input_data) for an entry that is missing, broken or implausible, naming
+/// it.
 void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec& base, const std::string& file);
 
 }  // namespace treadmark::offset

@@ -28,7 +28,8 @@ void merge(Cell& sum, const Cell& other) {
 
 }  // namespace
 
-RangePyramid::RangePyramid(const SheetGrid& coefficients, const BlockDirectory& blocks, const SheetFrame& frame, int degree)
+RangePyramid::RangePyramid(const SheetGrid& coefficients, const BlockDirectory& blocks, const SheetFrame& frame,
+                           int degree)
     : blocks_(blocks), frame_(frame), before_(degree == 1 ? 0 : 1), behind_(degree == 1 ? 1 : 2) {
   // Cells of the blocks and their neighbours, whose points reach over.
   std::vector<std::pair<std::int32_t, std::int32_t>> keys;
@@ -60,7 +61,8 @@ RangePyramid::RangePyramid(const SheetGrid& coefficients, const BlockDirectory& 
   while (levels_.back().size() > kTop && levels_.size() < kMostLevels) {
     std::vector<Cell> above = levels_.back();
     for (Cell& c : above) c.ci >>= 1, c.cj >>= 1;
-    std::sort(above.begin(), above.end(), [](const Cell& a, const Cell& b) { return std::tie(a.ci, a.cj) < std::tie(b.ci, b.cj); });
+    std::sort(above.begin(), above.end(),
+              [](const Cell& a, const Cell& b) { return std::tie(a.ci, a.cj) < std::tie(b.ci, b.cj); });
     std::size_t n = 0;
     for (const Cell& c : above) {
       if (n > 0 && above[n - 1].ci == c.ci && above[n - 1].cj == c.cj)
@@ -115,8 +117,10 @@ displacement::OffsetRange RangePyramid::range(const Rectangle& uy) const {
     } else {
       box.i_low = frame_.along(uy.x_min) - kRounding;
       box.i_high = box.i_low + width;
-      for (const double turn : {-period, 0.0, period}) {  // what lies beyond the branch comes in again on the other side
-        const Box part{std::max(low, box.i_low + turn), std::min(low + period - kRounding, box.i_high + turn), box.j_low, box.j_high};
+      for (const double turn :
+           {-period, 0.0, period}) {  // what lies beyond the branch comes in again on the other side
+        const Box part{std::max(low, box.i_low + turn), std::min(low + period - kRounding, box.i_high + turn),
+                       box.j_low, box.j_high};
         if (part.i_low <= part.i_high) include(part, sum);
       }
     }
@@ -154,8 +158,9 @@ void RangePyramid::include_level(const Box& box, std::size_t level, Cell& sum) c
   const std::int32_t ci0 = index(box.i_low), ci1 = index(box.i_high), cj0 = index(box.j_low), cj1 = index(box.j_high);
   const std::vector<Cell>& cells = levels_[level];
   const auto seek = [&](auto from, std::int32_t ci, std::int32_t cj) {
-    return std::lower_bound(from, cells.end(), std::pair(ci, cj),
-                            [](const Cell& c, const auto& key) { return std::tie(c.ci, c.cj) < std::tie(key.first, key.second); });
+    return std::lower_bound(from, cells.end(), std::pair(ci, cj), [](const Cell& c, const auto& key) {
+      return std::tie(c.ci, c.cj) < std::tie(key.first, key.second);
+    });
   };
   std::int64_t missing = (static_cast<std::int64_t>(ci1) - ci0 + 1) * (static_cast<std::int64_t>(cj1) - cj0 + 1);
   auto c = seek(cells.begin(), ci0, cj0);

@@ -11,8 +11,8 @@
 namespace treadmark::offset {
 
 /// Ranges and Lipschitz constants of a B-spline over rectangles of (u, y), from its coefficients: values are convex
-/// combinations of them, slopes of their differences. Cells of 8 x 8 voxels and halved resolutions above, only where there
-/// is something.
+/// combinations of them, slopes of their differences. Cells of 8 x 8 voxels and halved resolutions above, only where
+/// there is something.
 class RangePyramid {
  public:
   /// blocks: where those of coefficients lie; kept.

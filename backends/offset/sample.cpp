@@ -33,7 +33,8 @@ struct Plan {
 
 Plan make_plan(const Surface& base, Body body, double R, const OffsetSettings& s) {
   constexpr double kMostNodes = 2147483648.0, kMostIndex = 5e8;
-  if (!(s.du > 0.0) || !(s.dy > 0.0) || !std::isfinite(s.du) || !std::isfinite(s.dy)) refuse("the steps of offsets must be positive");
+  if (!(s.du > 0.0) || !(s.dy > 0.0) || !std::isfinite(s.du) || !std::isfinite(s.dy))
+    refuse("the steps of offsets must be positive");
   if (!(s.tolerance >= 0.0) || !std::isfinite(s.tolerance)) refuse("the tolerance of offsets must not be negative");
   const Rectangle& region = s.region_uy;
   if (!(region.x_min < region.x_max) || !(region.y_min < region.y_max)) refuse("the region of offsets is empty");
@@ -58,7 +59,8 @@ Plan make_plan(const Surface& base, Body body, double R, const OffsetSettings& s
     }
   } else {
     p.frame.du = s.du;
-    if (!(std::fabs(region.x_min) < 1e9) || !(std::fabs(region.x_max) < 1e9)) refuse("offsets of a rail need a region that is finite along x");
+    if (!(std::fabs(region.x_min) < 1e9) || !(std::fabs(region.x_max) < 1e9))
+      refuse("offsets of a rail need a region that is finite along x");
     first = std::ceil(region.x_min / s.du - 1e-9);
     last = std::floor(region.x_max / s.du + 1e-9);
   }
@@ -108,8 +110,10 @@ class Section {
     for (std::size_t j = 0; j < size(); ++j) {
       if (!std::isnan(seen[j]) || std::isnan(base_[j])) continue;
       for (std::size_t k = 1; k < size() && std::isnan(offset_[j]); ++k) {
-        if (j >= k && !std::isnan(seen[j - k])) offset_[j] = seen[j - k];
-        else if (j + k < size() && !std::isnan(seen[j + k])) offset_[j] = seen[j + k];
+        if (j >= k && !std::isnan(seen[j - k]))
+          offset_[j] = seen[j - k];
+        else if (j + k < size() && !std::isnan(seen[j + k]))
+          offset_[j] = seen[j + k];
       }
       ++continued;
     }
@@ -224,7 +228,8 @@ std::size_t gaps(const std::vector<Rows>& all, const Plan& plan) {
 OffsetSample sample_offsets(const Surface& target, const Surface& base, Body body, double nominal_radius,
                             const OffsetSettings& settings) {
   const Facing wanted = body == Body::wheel ? Facing::down : Facing::up;
-  if (target.facing() != wanted || base.facing() != wanted) refuse("offsets are sampled between two wheels or two rails");
+  if (target.facing() != wanted || base.facing() != wanted)
+    refuse("offsets are sampled between two wheels or two rails");
   const Plan plan = make_plan(base, body, nominal_radius, settings);
   std::vector<Rows> all;
   for (int i = plan.i_begin; i < plan.i_end; ++i) {
@@ -249,7 +254,8 @@ OffsetSample sample_offsets(const Surface& target, const Surface& base, Body bod
   }
   result.gaps = gaps(all, plan);
   if (sections == 0) throw Error(ErrorKind::input_data, "the base nowhere underlies the surface to be sampled");
-  result.nodes = static_cast<std::size_t>(plan.i_end - plan.i_begin) * static_cast<std::size_t>(plan.j_end - plan.j_begin);
+  result.nodes =
+      static_cast<std::size_t>(plan.i_end - plan.i_begin) * static_cast<std::size_t>(plan.j_end - plan.j_begin);
   result.offsets = offsets;
   return result;
 }

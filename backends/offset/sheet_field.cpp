@@ -90,18 +90,21 @@ class SheetField final : public displacement::OffsetField {
       j.d_uu += a2[i] * row, j.d_uy += a.w1[i] * row1, j.d_yy += a.w[i] * row2;
     }
     const double per_u = 1.0 / frame_.du, per_y = 1.0 / frame_.dy;
-    return {j.value, j.d_u * per_u, j.d_y * per_y, j.d_uu * per_u * per_u, j.d_uy * per_u * per_y, j.d_yy * per_y * per_y};
+    return {
+        j.value, j.d_u * per_u, j.d_y * per_y, j.d_uu * per_u * per_u, j.d_uy * per_u * per_y, j.d_yy * per_y * per_y};
   }
 
   void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
                 std::span<double> d_y) const override {
-    kernel_(view_, u.size(), u.data(), y.data(), value.data(), d_u.empty() ? nullptr : d_u.data(), d_y.empty() ? nullptr : d_y.data());
+    kernel_(view_, u.size(), u.data(), y.data(), value.data(), d_u.empty() ? nullptr : d_u.data(),
+            d_y.empty() ? nullptr : d_y.data());
   }
 
   displacement::OffsetRange range(const Rectangle& uy) const override { return ranges_.range(uy); }
 
   std::size_t memory_bytes() const override {
-    return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) + directory_.memory_bytes() + ranges_.memory_bytes();
+    return sizeof(*this) + offsets_->grid.memory_bytes() + (kDegree == 1 ? 0 : own_.memory_bytes()) +
+           directory_.memory_bytes() + ranges_.memory_bytes();
   }
 
  private:
@@ -118,9 +121,20 @@ class SheetField final : public displacement::OffsetField {
   }
   SheetView view() const {
     const bool wheel = frame_.body == Body::wheel;
-    return {frame_.u0, 1.0 / frame_.du, frame_.y0, 1.0 / frame_.dy, wheel ? frame_.branch_begin() : 0.0, wheel ? frame_.period() : 0.0,
-            frame_.turn, directory_.table(), directory_.first().bi, directory_.bi_count(), directory_.first().bj,
-            directory_.bj_count(), &find, &directory_};
+    return {frame_.u0,
+            1.0 / frame_.du,
+            frame_.y0,
+            1.0 / frame_.dy,
+            wheel ? frame_.branch_begin() : 0.0,
+            wheel ? frame_.period() : 0.0,
+            frame_.turn,
+            directory_.table(),
+            directory_.first().bi,
+            directory_.bi_count(),
+            directory_.first().bj,
+            directory_.bj_count(),
+            &find,
+            &directory_};
   }
   static SheetKernel fastest() {
     const SheetKernel avx2 = cpu_has_avx2() ? sheet_kernel_avx2(kDegree) : nullptr;
@@ -141,9 +155,12 @@ class SheetField final : public displacement::OffsetField {
 std::shared_ptr<const displacement::OffsetField> make_sheet_field(std::shared_ptr<const SparseOffsets> offsets,
                                                                   Interpolation interpolation) {
   switch (interpolation) {
-    case Interpolation::bilinear: return std::make_shared<SheetField<1>>(std::move(offsets));
-    case Interpolation::quadratic: return std::make_shared<SheetField<2>>(std::move(offsets));
-    case Interpolation::bicubic: break;
+    case Interpolation::bilinear:
+      return std::make_shared<SheetField<1>>(std::move(offsets));
+    case Interpolation::quadratic:
+      return std::make_shared<SheetField<2>>(std::move(offsets));
+    case Interpolation::bicubic:
+      break;
   }
   return std::make_shared<SheetField<3>>(std::move(offsets));
 }

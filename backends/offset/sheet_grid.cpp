@@ -85,14 +85,15 @@ void write_sheet(const std::filesystem::path& file, const SheetGrid& grid, const
   try {
     sheet->setTransform(openvdb::math::Transform::createLinearTransform(to_world));
   } catch (const std::exception& e) {
-    throw Error(ErrorKind::configuration, std::string("the steps of the offsets are too small for a VDB file: ") + e.what(),
-                {file.string()});
+    throw Error(ErrorKind::configuration,
+                std::string("the steps of the offsets are too small for a VDB file: ") + e.what(), {file.string()});
   }
   for (const auto& [name, text] : frame.metadata) sheet->insertMeta(name, openvdb::StringMetadata(text));
   auto to = sheet->getAccessor();
   for (const SheetGrid::Entry& b : grid.blocks())
     for (int k = 0; k < kBlockI * kBlockJ; ++k)
-      if (b.values[k] != 0.0f) to.setValue({b.key.bi * kBlockI + (k >> 6), b.key.bj * kBlockJ + (k & 63), 0}, b.values[k]);
+      if (b.values[k] != 0.0f)
+        to.setValue({b.key.bi * kBlockI + (k >> 6), b.key.bj * kBlockJ + (k & 63), 0}, b.values[k]);
   try {
     openvdb::io::File out(file.string());
     out.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);
@@ -134,7 +135,8 @@ SheetFile read_sheet(const std::filesystem::path& file) {
 
   const openvdb::CoordBBox box = sheet->evalActiveVoxelBoundingBox();
   if (!box.empty() && (box.min().z() != 0 || box.max().z() != 0)) throw refuse("the offsets must be a sheet at k = 0");
-  if (!box.empty() && (std::min(box.min().x(), box.min().y()) < -kFarthest || std::max(box.max().x(), box.max().y()) > kFarthest))
+  if (!box.empty() &&
+      (std::min(box.min().x(), box.min().y()) < -kFarthest || std::max(box.max().x(), box.max().y()) > kFarthest))
     throw refuse("the offsets lie too far from the origin of their grid");
   std::map<BlockKey, Block> blocks;
   for (auto v = sheet->cbeginValueOn(); v; ++v) {

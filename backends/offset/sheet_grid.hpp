@@ -23,9 +23,9 @@ struct BlockKey {
   friend auto operator<=>(const BlockKey&, const BlockKey&) = default;
 };
 
-/// Sparse float values on voxels (i, j), background 0, in an OpenVDB grid. A sheet one voxel thick would waste 7/8 of each
-/// leaf, so voxel (i, j) is stored at (i, j / 8, j mod 8): a leaf then holds 8 x 64 voxels of the sheet side by side.
-/// Building is not thread-safe, reading is.
+/// Sparse float values on voxels (i, j), background 0, in an OpenVDB grid. A sheet one voxel thick would waste 7/8 of
+/// each leaf, so voxel (i, j) is stored at (i, j / 8, j mod 8): a leaf then holds 8 x 64 voxels of the sheet side by
+/// side. Building is not thread-safe, reading is.
 class SheetGrid {
  public:
   SheetGrid();

@@ -20,7 +20,8 @@ inline int down(double x) {
 
 inline const float* block_of(const SheetView& v, int bi, int bj) {
   if (v.blocks == nullptr) return v.find(v.owner, bi, bj);
-  const unsigned i = static_cast<unsigned>(bi) - static_cast<unsigned>(v.bi_first), j = static_cast<unsigned>(bj) - static_cast<unsigned>(v.bj_first);
+  const unsigned i = static_cast<unsigned>(bi) - static_cast<unsigned>(v.bi_first),
+                 j = static_cast<unsigned>(bj) - static_cast<unsigned>(v.bj_first);
   if (i >= static_cast<unsigned>(v.bi_count) || j >= static_cast<unsigned>(v.bj_count)) return nullptr;
   return v.blocks[static_cast<std::size_t>(i) * static_cast<std::size_t>(v.bj_count) + j];
 }
@@ -49,7 +50,8 @@ struct Patch {
       zero = b == nullptr;
       if (zero) return;
       b += (in_i << 6) | in_j;
-      for (int k = 0; k < kRows; ++k) row[k] = __builtin_convertvector(*reinterpret_cast<const FourSingle*>(b + 64 * k), Four);
+      for (int k = 0; k < kRows; ++k)
+        row[k] = __builtin_convertvector(*reinterpret_cast<const FourSingle*>(b + 64 * k), Four);
     } else {
       zero = false;
       for (int k = 0; k < kRows; ++k)
@@ -66,8 +68,8 @@ struct Basis;
 template <>
 struct Basis<3> {
   static constexpr double kShift = 0.0;
-  static constexpr Four kOne = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0}, kThree = {0.5, -1.0, 0.5, 0.0},
-                        kFour = {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0};
+  static constexpr Four kOne = {1.0 / 6.0, 2.0 / 3.0, 1.0 / 6.0, 0.0}, kTwo = {-0.5, 0.0, 0.5, 0.0},
+                        kThree = {0.5, -1.0, 0.5, 0.0}, kFour = {-1.0 / 6.0, 0.5, -0.5, 1.0 / 6.0};
 };
 template <>
 struct Basis<2> {
@@ -85,8 +87,10 @@ struct Smooth {
   Patch<kDegree + 1> patch;
 
   void at(double f, double g, double& value, double& d_s, double& d_t) const {
-    const Four a = B::kOne + f * (B::kTwo + f * (B::kThree + f * B::kFour)), a1 = B::kTwo + f * (2.0 * B::kThree + f * (3.0 * B::kFour));
-    const Four b = B::kOne + g * (B::kTwo + g * (B::kThree + g * B::kFour)), b1 = B::kTwo + g * (2.0 * B::kThree + g * (3.0 * B::kFour));
+    const Four a = B::kOne + f * (B::kTwo + f * (B::kThree + f * B::kFour)),
+               a1 = B::kTwo + f * (2.0 * B::kThree + f * (3.0 * B::kFour));
+    const Four b = B::kOne + g * (B::kTwo + g * (B::kThree + g * B::kFour)),
+               b1 = B::kTwo + g * (2.0 * B::kThree + g * (3.0 * B::kFour));
     Four across = a[0] * patch.row[0], across1 = a1[0] * patch.row[0];
     for (int k = 1; k <= kDegree; ++k) across += a[k] * patch.row[k], across1 += a1[k] * patch.row[k];
     value = sum(across * b);
@@ -110,7 +114,8 @@ struct Straight {
 };
 
 template <class Spline>
-void sheet_points(const SheetView& v, std::size_t n, const double* u, const double* y, double* value, double* d_u, double* d_y) {
+void sheet_points(const SheetView& v, std::size_t n, const double* u, const double* y, double* value, double* d_u,
+                  double* d_y) {
   constexpr double kFar = 1 << 30;
   Spline spline;
   for (std::size_t k = 0; k < n; ++k) {

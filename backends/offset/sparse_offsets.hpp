@@ -19,10 +19,10 @@ struct SheetFrame {
   Body body = Body::rail;
   double u0 = 0.0, y0 = 0.0;  ///< [m] or [rad]; [m]
   double du = 1.0, dy = 1.0;
-  int turn = 0;               ///< voxels round a wheel that is covered all round; i then counts modulo turn. 0: a patch, or a rail
+  int turn = 0;  ///< voxels round a wheel that is covered all round; i then counts modulo turn. 0: a patch, or a rail
   double first = 0.0, last = 0.0;  ///< i of a patch on a wheel, to choose the branch of theta
 
-  double period() const { return turn > 0 ? turn : 2.0 * std::numbers::pi / du; }        ///< of a wheel [voxels]
+  double period() const { return turn > 0 ? turn : 2.0 * std::numbers::pi / du; }  ///< of a wheel [voxels]
   double branch_begin() const { return turn > 0 ? 0.0 : 0.5 * (first + last - period()); }
 
   /// u in voxels, on the branch the voxels are on.

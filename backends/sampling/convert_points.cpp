@@ -81,15 +81,17 @@ SliceSet to_slices(const PointGrid& points, double nominal_radius, std::string n
     for (std::size_t iy = 0; iy < points.y.size(); ++iy) {
       if (!points.present(iu, iy)) continue;
       if (!y.empty() && last + 1 != iy)
-        throw Error(ErrorKind::input_data, slices.name + ": the section at u = " + std::to_string(points.u[iu]) +
-                                               " has a gap at y = " + std::to_string(1e3 * points.y[iy]) + " mm and cannot become a slice",
+        throw Error(ErrorKind::input_data,
+                    slices.name + ": the section at u = " + std::to_string(points.u[iu]) +
+                        " has a gap at y = " + std::to_string(1e3 * points.y[iy]) + " mm and cannot become a slice",
                     {}, "use a mesh, or limit the region");
       last = iy;
       y.push_back(points.y[iy]);
       z.push_back(points.h[points.index(iu, iy)] - zero);
     }
     if (y.size() < kLeastPoints)
-      throw Error(ErrorKind::input_data, slices.name + ": the section at u = " + std::to_string(points.u[iu]) + " has fewer than four points");
+      throw Error(ErrorKind::input_data,
+                  slices.name + ": the section at u = " + std::to_string(points.u[iu]) + " has fewer than four points");
     slices.u.push_back(points.u[iu]);
     slices.profiles.push_back(ordered(points.body, std::move(y), std::move(z), slices.name));
   }

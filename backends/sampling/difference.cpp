@@ -7,8 +7,8 @@
 #include <vector>
 
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/backends/sampling/sample_points.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::sampling {
@@ -27,7 +27,8 @@ Vec3 normal(double dzdx, double dzdy) { return Vec3(-dzdx, -dzdy, 1.0).normalize
 
 double mean_curvature(const SurfacePoint& p) { return 0.5 * (p.curvature_1 + p.curvature_2); }
 
-Sums compare_station(const Surface& reference, const Surface& candidate, Body body, double u, const std::vector<double>& y) {
+Sums compare_station(const Surface& reference, const Surface& candidate, Body body, double u,
+                     const std::vector<double>& y) {
   const std::size_t n = y.size();
   std::vector<double> za(n), xa(n), ya(n), zb(n), xb(n), yb(n);
   section_heights(reference, body, u, y, {za, xa, ya});
@@ -88,9 +89,11 @@ SurfaceDifference difference(const Surface& reference, const Surface& candidate,
                              const DifferenceSettings& settings) {
   bool closed = false;
   const std::vector<double> u =
-      thinned(stations(reference, body, nominal_radius, settings.region, 2.0 * settings.spacing, closed), settings.most_stations);
+      thinned(stations(reference, body, nominal_radius, settings.region, 2.0 * settings.spacing, closed),
+              settings.most_stations);
   const std::vector<double> some = thinned(u, std::min(kReferenceStations, u.size() - 1));
-  std::vector<double> y = lateral_nodes(reference, body, some, settings.spacing, settings.region.y_min, settings.region.y_max);
+  std::vector<double> y =
+      lateral_nodes(reference, body, some, settings.spacing, settings.region.y_min, settings.region.y_max);
   const double low = y.front() + settings.margin, high = y.back() - settings.margin;
   std::erase_if(y, [&](double value) { return value < low || value > high; });
 

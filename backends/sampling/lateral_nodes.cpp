@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <limits>
 
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/natural_view.hpp"
 
 namespace treadmark::sampling {
 namespace {
@@ -41,7 +41,8 @@ class Sections {
 
   bool present(const Column& column) const {
     const auto has = [](double h) { return !std::isnan(h); };
-    return common_ ? std::all_of(column.h.begin(), column.h.end(), has) : std::any_of(column.h.begin(), column.h.end(), has);
+    return common_ ? std::all_of(column.h.begin(), column.h.end(), has)
+                   : std::any_of(column.h.begin(), column.h.end(), has);
   }
 
   /// The present end of a piece of which the other end is not.
@@ -103,7 +104,8 @@ std::vector<double> lateral_nodes(const Surface& surface, Body body, std::span<c
   constexpr double kMostNodes = 1e6;
   if (!((high - low) / spacing < kMostNodes))
     throw Error(ErrorKind::configuration, "the spacing of samples is too small for the width of the surface");
-  if (stations.empty() || !(high > low)) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  if (stations.empty() || !(high > low))
+    throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
 
   const Sections sections(surface, body, stations, common);
   const int n = std::max(32, static_cast<int>(std::ceil((high - low) / spacing * kPerStep)));

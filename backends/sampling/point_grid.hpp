@@ -12,15 +12,15 @@
 
 namespace treadmark::sampling {
 
-/// Points of a surface on stations u (x [m] or theta [rad]) times lateral nodes y: where a longitudinal station crosses a
-/// lateral node, the height z (rail) or the radius r (wheel). NaN = no surface there.
+/// Points of a surface on stations u (x [m] or theta [rad]) times lateral nodes y: where a longitudinal station crosses
+/// a lateral node, the height z (rail) or the radius r (wheel). NaN = no surface there.
 struct PointGrid {
   Body body = Body::rail;
-  std::vector<double> u;      ///< strictly increasing; a closed wheel ends one step before u.front() + 2 pi
-  std::vector<double> y;      ///< strictly increasing [m]; dense where the section is steep
-  std::vector<double> h;      ///< z or r [m]; index = iu * y.size() + iy
-  double stagger = 0.0;       ///< added to u at odd lateral nodes: half a step makes nearly equilateral triangles
-  bool closed = false;        ///< wheel only: the last station neighbours the first
+  std::vector<double> u;  ///< strictly increasing; a closed wheel ends one step before u.front() + 2 pi
+  std::vector<double> y;  ///< strictly increasing [m]; dense where the section is steep
+  std::vector<double> h;  ///< z or r [m]; index = iu * y.size() + iy
+  double stagger = 0.0;   ///< added to u at odd lateral nodes: half a step makes nearly equilateral triangles
+  bool closed = false;    ///< wheel only: the last station neighbours the first
 
   std::size_t index(std::size_t iu, std::size_t iy) const { return iu * y.size() + iy; }
   bool present(std::size_t iu, std::size_t iy) const { return !std::isnan(h[index(iu, iy)]); }

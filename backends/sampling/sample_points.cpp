@@ -7,8 +7,8 @@
 #include <numbers>
 
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::sampling {
@@ -20,7 +20,8 @@ constexpr std::size_t kReferenceStations = 33;  // in which the lateral nodes ar
 std::vector<double> spread(const std::vector<double>& all) {
   if (all.size() <= kReferenceStations) return all;
   std::vector<double> some;
-  for (std::size_t i = 0; i < kReferenceStations; ++i) some.push_back(all[i * (all.size() - 1) / (kReferenceStations - 1)]);
+  for (std::size_t i = 0; i < kReferenceStations; ++i)
+    some.push_back(all[i * (all.size() - 1) / (kReferenceStations - 1)]);
   return some;
 }
 
@@ -53,8 +54,8 @@ bool has_gap(const PointGrid& grid, std::size_t iu) {
   return false;
 }
 
-/// Keeps the longest run of stations that have a surface: a part of a wheel, or of a rail with ends of its own. The ends of
-/// triangulated parts are ragged: up to kRagged stations with gaps go too.
+/// Keeps the longest run of stations that have a surface: a part of a wheel, or of a rail with ends of its own. The
+/// ends of triangulated parts are ragged: up to kRagged stations with gaps go too.
 void trim(PointGrid& grid) {
   constexpr std::size_t kRagged = 3;
   const std::size_t n = grid.u.size(), ny = grid.y.size();
@@ -84,8 +85,8 @@ void trim(PointGrid& grid) {
 
 }  // namespace
 
-std::vector<double> stations(const Surface& surface, Body body, double nominal_radius, const Region& region, double spacing_u,
-                             bool& closed) {
+std::vector<double> stations(const Surface& surface, Body body, double nominal_radius, const Region& region,
+                             double spacing_u, bool& closed) {
   if (!(spacing_u > 0.0)) throw Error(ErrorKind::configuration, "the spacing of samples must be positive");
   double from = region.u_min, to = region.u_max, step = spacing_u;
   closed = false;
@@ -103,19 +104,22 @@ std::vector<double> stations(const Surface& surface, Body body, double nominal_r
   }
   if (!(to > from)) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
   const double count = std::max(closed ? 8.0 : 3.0, std::ceil((to - from) / step - 1e-9));
-  if (!(count < kMostPoints)) throw Error(ErrorKind::configuration, "the spacing of samples is too small for the range");
+  if (!(count < kMostPoints))
+    throw Error(ErrorKind::configuration, "the spacing of samples is too small for the range");
   return even(from, to, static_cast<std::size_t>(count) + (closed ? 0 : 1), !closed);
 }
 
 PointGrid sample_points(const Surface& surface, Body body, double nominal_radius, const SampleSettings& settings) {
   // side and height of an equilateral triangle whose circumscribed circle has the spacing as its diameter
   constexpr double kSide = 0.8660254037844386, kTriangleHeight = 0.75;
-  const double spacing_u = (settings.staggered ? kSide : 1.0) * (settings.spacing_u > 0.0 ? settings.spacing_u : settings.spacing);
+  const double spacing_u =
+      (settings.staggered ? kSide : 1.0) * (settings.spacing_u > 0.0 ? settings.spacing_u : settings.spacing);
   PointGrid grid;
   grid.body = body;
   grid.u = stations(surface, body, nominal_radius, settings.region, spacing_u, grid.closed);
   const auto refuse = [] {
-    throw Error(ErrorKind::configuration, "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
+    throw Error(ErrorKind::configuration,
+                "sampling this finely needs more than " + std::to_string(static_cast<int>(kMostPoints)) + " points", {},
                 "use a coarser resolution or a smaller region");
   };
   const Box3 box = surface.bounds();
@@ -124,12 +128,14 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
   if (std::isfinite(width) && static_cast<double>(grid.u.size()) * width / settings.spacing > kMostPoints) refuse();
   const std::vector<double> reference = spread(grid.u);
   const double spacing_y = (settings.staggered ? kTriangleHeight : 1.0) * settings.spacing;
-  grid.y = lateral_nodes(surface, body, reference, spacing_y, settings.region.y_min, settings.region.y_max, settings.common);
+  grid.y =
+      lateral_nodes(surface, body, reference, spacing_y, settings.region.y_min, settings.region.y_max, settings.common);
   if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints) refuse();
   grid.h.resize(grid.u.size() * grid.y.size());
   if (!settings.staggered) {
     parallel_for(grid.u.size(), [&](std::size_t i) {
-      section_heights(surface, body, grid.u[i], grid.y, {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
+      section_heights(surface, body, grid.u[i], grid.y,
+                      {std::span(grid.h).subspan(i * grid.y.size(), grid.y.size()), {}, {}});
     });
     trim(grid);
     return grid;

@@ -9,24 +9,24 @@
 namespace treadmark::sampling {
 
 struct SampleSettings {
-  double spacing = 1e-3;      ///< across, along the section [m]
-  double spacing_u = 0.0;     ///< along the track or circumference [m]; 0 = spacing
+  double spacing = 1e-3;   ///< across, along the section [m]
+  double spacing_u = 0.0;  ///< along the track or circumference [m]; 0 = spacing
   Region region;
-  bool common = false;        ///< only the lateral range that all sections have
-  bool staggered = false;     ///< for triangles: equilateral ones, no point of them farther than spacing/2 from a corner
+  bool common = false;     ///< only the lateral range that all sections have
+  bool staggered = false;  ///< for triangles: equilateral ones, no point of them farther than spacing/2 from a corner
 };
 
-/// Samples a surface in its natural view. The points lie exactly on it. Where whole stations have no surface, as on a part of a
-/// wheel, the longest run of stations that have one is kept, and it is not closed. nominal_radius [m] turns the spacing of a wheel into
-/// angles. Parallel; the result does not depend on the number of threads.
-/// Errors: Error(configuration) for settings that make no sense, a rail without a range along the track, or more than
+/// Samples a surface in its natural view. The points lie exactly on it. Where whole stations have no surface, as on a
+/// part of a wheel, the longest run of stations that have one is kept, and it is not closed. nominal_radius [m] turns
+/// the spacing of a wheel into angles. Parallel; the result does not depend on the number of threads. Errors:
+/// Error(configuration) for settings that make no sense, a rail without a range along the track, or more than
 /// kMostPoints points; those of lateral_nodes.
 PointGrid sample_points(const Surface& surface, Body body, double nominal_radius, const SampleSettings& settings);
 
 inline constexpr double kMostPoints = 5e7;
 
 /// The stations of a region alone; closed says whether they go round the wheel.
-std::vector<double> stations(const Surface& surface, Body body, double nominal_radius, const Region& region, double spacing_u,
-                             bool& closed);
+std::vector<double> stations(const Surface& surface, Body body, double nominal_radius, const Region& region,
+                             double spacing_u, bool& closed);
 
 }  // namespace treadmark::sampling

@@ -109,7 +109,8 @@ SliceSet touchable_slices(const Surface& rail, const Region& region, double spac
   bool closed = false;
   slices.u = stations(rail, Body::rail, 0.0, region, spacing_u, closed);
   slices.profiles.resize(slices.u.size());
-  parallel_for(slices.u.size(), [&](std::size_t i) { slices.profiles[i] = section_at(rail, slices.u[i], low, high, spacing); });
+  parallel_for(slices.u.size(),
+               [&](std::size_t i) { slices.profiles[i] = section_at(rail, slices.u[i], low, high, spacing); });
   return slices;
 }
 

@@ -50,7 +50,9 @@ void BandedCholesky::solve(std::span<double> rhs) const {
 }
 
 BandedLu::BandedLu(int size, int bandwidth)
-    : size_(size), band_(bandwidth), entries_(index(size, 0, 3 * bandwidth + 1), 0.0),
+    : size_(size),
+      band_(bandwidth),
+      entries_(index(size, 0, 3 * bandwidth + 1), 0.0),
       pivots_(static_cast<std::size_t>(size), 0) {}
 
 double& BandedLu::entry(int i, int j) { return entries_[index(i, j - i + band_, 3 * band_ + 1)]; }

@@ -7,7 +7,8 @@
 
 namespace treadmark::spline {
 
-/// Cholesky factorisation of a symmetric positive definite band matrix: fill at(i, j) for j <= i, factor(), then solve().
+/// Cholesky factorisation of a symmetric positive definite band matrix: fill at(i, j) for j <= i, factor(), then
+/// solve().
 class BandedCholesky {
  public:
   BandedCholesky(int size, int half_bandwidth);

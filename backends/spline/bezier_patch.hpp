@@ -32,8 +32,8 @@ struct Quad {
   }
 };
 
-/// A rational bicubic Bezier patch, b[i][j] in homogeneous coordinates, i along u, j along v; weights are positive, so that
-/// the patch lies in the convex hull of its projected points (Farin 2002).
+/// A rational bicubic Bezier patch, b[i][j] in homogeneous coordinates, i along u, j along v; weights are positive, so
+/// that the patch lies in the convex hull of its projected points (Farin 2002).
 struct BezierPatch {
   Quad b[4][4];
   bool rational = true;  ///< false: all weights are 1
@@ -69,7 +69,8 @@ struct PowerPatch {
       value[i] = k[0] + t * (k[1] + t * (k[2] + t * k[3]));
       slope[i] = k[1] + t * (2.0 * k[2] + (3.0 * t) * k[3]);
     }
-    return {value[0] + s * (value[1] + s * (value[2] + s * value[3])), value[1] + s * (2.0 * value[2] + (3.0 * s) * value[3]),
+    return {value[0] + s * (value[1] + s * (value[2] + s * value[3])),
+            value[1] + s * (2.0 * value[2] + (3.0 * s) * value[3]),
             slope[0] + s * (slope[1] + s * (slope[2] + s * slope[3]))};
   }
 
@@ -83,9 +84,11 @@ namespace detail {
 // Centred power coefficients of one cubic.
 inline std::array<Quad, 4> centred_powers(const Quad& b0, const Quad& b1, const Quad& b2, const Quad& b3) {
   const Quad outer = b0 + b3, inner = b1 + b2;
-  return {0.125 * (outer + 3.0 * inner), 0.75 * ((b3 - b0) + (b2 - b1)), 1.5 * (outer - inner), (b3 - b0) - 3.0 * (b2 - b1)};
+  return {0.125 * (outer + 3.0 * inner), 0.75 * ((b3 - b0) + (b2 - b1)), 1.5 * (outer - inner),
+          (b3 - b0) - 3.0 * (b2 - b1)};
 }
-inline std::array<Quad, 4> cubic_part(const Quad& b0, const Quad& b1, const Quad& b2, const Quad& b3, double from, double to) {
+inline std::array<Quad, 4> cubic_part(const Quad& b0, const Quad& b1, const Quad& b2, const Quad& b3, double from,
+                                      double to) {
   // Blossoms (Ramshaw 1987): the point i of the part takes i times "to" and 3 - i times "from".
   const auto blossom = [&](double x, double y, double z) {
     const auto mix = [](double t, const Quad& a, const Quad& b) { return (1.0 - t) * a + t * b; };

@@ -20,7 +20,9 @@ class BoundSearch {
  public:
   /// facing: the end towards the other body is found closely, the other end roughly.
   BoundSearch(const Tree& tree, Facing facing)
-      : tree_(tree), room_low_(facing == Facing::up ? kClose : kRough), room_high_(facing == Facing::up ? kRough : kClose) {}
+      : tree_(tree),
+        room_low_(facing == Facing::up ? kClose : kRough),
+        room_high_(facing == Facing::up ? kRough : kClose) {}
 
   Interval range(const typename Tree::Node& root) {
     // The close end first: the range found with it serves the other.

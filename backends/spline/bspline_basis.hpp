@@ -18,7 +18,8 @@ BasisPowers basis_powers(std::span<const double> knots, int span);
 /// Index of the span that holds x, clamped to [first, last].
 int find_span(std::span<const double> knots, double x, int first, int last);
 
-/// The positions as single knots, continued at both ends by three knots with the spacing of the first and last interval.
+/// The positions as single knots, continued at both ends by three knots with the spacing of the first and last
+/// interval.
 std::vector<double> extended_knots(std::span<const double> positions);
 
 /// Value of a polynomial basis row at t.

@@ -11,7 +11,8 @@ namespace treadmark::spline {
 namespace {
 
 // Interior knots of one section between corners (points first .. last).
-void add_section_knots(const ProfileData& data, int first, int last, double lambda, double spacing, std::vector<double>& knots) {
+void add_section_knots(const ProfileData& data, int first, int last, double lambda, double spacing,
+                       std::vector<double>& knots) {
   const auto position = [&data](int i) { return data.s[static_cast<std::size_t>(i)]; };
   const double begin = position(first), length = position(last) - begin;
   if (last - first < 2) return;
@@ -47,7 +48,8 @@ std::vector<Observation> observations(const ProfileData& data) {
   for (std::size_t i = 0; i < data.s.size(); ++i) all.push_back({data.s[i], data.y[i], data.z[i], data.weights[i]});
   for (std::size_t k = 0; k + 1 < data.kinks.size(); ++k) {
     if (data.kinks[k + 1] - data.kinks[k] != 1) continue;
-    const Observation a = all[static_cast<std::size_t>(data.kinks[k])], b = all[static_cast<std::size_t>(data.kinks[k]) + 1];
+    const Observation a = all[static_cast<std::size_t>(data.kinks[k])],
+                      b = all[static_cast<std::size_t>(data.kinks[k]) + 1];
     for (const double f : {1.0 / 3.0, 2.0 / 3.0})
       all.push_back({a.s + f * (b.s - a.s), a.y + f * (b.y - a.y), a.z + f * (b.z - a.z), 0.5 * (a.weight + b.weight)});
   }
@@ -107,7 +109,8 @@ ProfileSpline fit_bspline_smoothing(const ProfileData& data, double lambda, doub
     breaks.push_back(end);
   }
   std::vector<double> kinks;
-  for (std::size_t k = 1; k + 1 < data.kinks.size(); ++k) kinks.push_back(data.s[static_cast<std::size_t>(data.kinks[k])]);
+  for (std::size_t k = 1; k + 1 < data.kinks.size(); ++k)
+    kinks.push_back(data.s[static_cast<std::size_t>(data.kinks[k])]);
   return ProfileSpline(std::move(breaks), std::move(segments), std::move(kinks));
 }
 

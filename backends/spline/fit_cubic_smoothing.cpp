@@ -29,10 +29,14 @@ std::vector<SecondDifference> second_differences(const ProfileData& data) {
 
 double entry(const SecondDifference& column, int point) {
   switch (point - column.point) {
-    case -1: return column.left;
-    case 0: return column.middle;
-    case 1: return column.right;
-    default: return 0.0;
+    case -1:
+      return column.left;
+    case 0:
+      return column.middle;
+    case 1:
+      return column.right;
+    default:
+      return 0.0;
   }
 }
 
@@ -101,7 +105,8 @@ ProfileSpline fit_cubic_smoothing(const ProfileData& data, double lambda) {
     set_cubic(segments[k].z, z, k, h);
   }
   std::vector<double> kinks;
-  for (std::size_t k = 1; k + 1 < data.kinks.size(); ++k) kinks.push_back(data.s[static_cast<std::size_t>(data.kinks[k])]);
+  for (std::size_t k = 1; k + 1 < data.kinks.size(); ++k)
+    kinks.push_back(data.s[static_cast<std::size_t>(data.kinks[k])]);
   return ProfileSpline({data.s.begin(), data.s.end()}, std::move(segments), std::move(kinks));
 }
 

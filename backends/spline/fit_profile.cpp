@@ -15,8 +15,8 @@ namespace {
 // Penalties below these interpolate: 1e-10 in mm^3 (unweighted) and mm^4 (weighted).
 constexpr double kTinyPenaltyUnweighted = 1e-19;
 constexpr double kTinyPenaltyWeighted = 1e-22;
-constexpr double kKinkWeight = 100.0;  // corners hardly move
-constexpr double kEndWeight = 20.0;    // nor do the ends in the weighted cubic method
+constexpr double kKinkWeight = 100.0;       // corners hardly move
+constexpr double kEndWeight = 20.0;         // nor do the ends in the weighted cubic method
 constexpr double kLeastKnotSpacing = 1e-6;  // [m]
 
 std::vector<double> interval_weights(const std::vector<double>& s, double end_factor) {
@@ -34,7 +34,8 @@ ProfileSpline fit_profile(const Profile& profile) {
   using Method = SmoothingOptions::Method;
   const double strength = profile.smoothing.strength;
   if (!(strength >= 0.0) || !std::isfinite(strength))
-    throw Error(ErrorKind::configuration, "the smoothing strength of profile '" + profile.name + "' must be 0 or positive");
+    throw Error(ErrorKind::configuration,
+                "the smoothing strength of profile '" + profile.name + "' must be 0 or positive");
 
   const std::vector<double> s = arc_length(profile);
   const std::vector<int> kinks = find_kinks(profile, s);
@@ -48,7 +49,8 @@ ProfileSpline fit_profile(const Profile& profile) {
   // A filter of this penalty halves a sine whose wavelength is the strength.
   const double cutoff = strength / (2.0 * std::numbers::pi);
   switch (method) {
-    case Method::spline: return fit_cubic_smoothing(data, strength <= kTinyPenaltyUnweighted ? 0.0 : strength);
+    case Method::spline:
+      return fit_cubic_smoothing(data, strength <= kTinyPenaltyUnweighted ? 0.0 : strength);
     case Method::weighted_spline: {
       const double lambda = std::pow(cutoff, 4);
       return fit_cubic_smoothing(data, lambda <= kTinyPenaltyWeighted ? 0.0 : lambda);

@@ -65,11 +65,13 @@ class LineFitter {
       const bool last = i == n_ - 1;
       const BasisPowers& b = basis(last ? i - 1 : i);
       const double t = last ? knots_[static_cast<std::size_t>(i) + 3] - knots_[static_cast<std::size_t>(i) + 2] : 0.0;
-      for (int k = 0; k < 3; ++k) equations_->at(row, i + k) = power_value(b[static_cast<std::size_t>(last ? k + 1 : k)], t);
+      for (int k = 0; k < 3; ++k)
+        equations_->at(row, i + k) = power_value(b[static_cast<std::size_t>(last ? k + 1 : k)], t);
     };
     // Equal third derivatives on the spans before and after position i.
     const auto set_not_a_knot = [this](int row, int i) {
-      const double before_h = std::pow(knots_[static_cast<std::size_t>(i) + 3] - knots_[static_cast<std::size_t>(i) + 2], 3);
+      const double before_h =
+          std::pow(knots_[static_cast<std::size_t>(i) + 3] - knots_[static_cast<std::size_t>(i) + 2], 3);
       for (int k = 0; k < 4; ++k) {
         equations_->at(row, i - 1 + k) += before_h * basis(i - 1)[static_cast<std::size_t>(k)][3];
         equations_->at(row, i + k) -= before_h * basis(i)[static_cast<std::size_t>(k)][3];
@@ -219,7 +221,8 @@ void check(const SliceSet& slices) {
 
 }  // namespace
 
-std::vector<double> line_coefficients(std::span<const double> positions, std::span<const double> values, bool approximate) {
+std::vector<double> line_coefficients(std::span<const double> positions, std::span<const double> values,
+                                      bool approximate) {
   std::vector<double> coefficients(values.size() + 2);
   LineFitter(positions, approximate).fit(values, coefficients);
   return coefficients;
@@ -250,12 +253,14 @@ SliceNet fit_slices(const SliceSet& slices) {
       const std::size_t count = last - first + 1;
       if (count < kLeastSlices)
         throw Error(ErrorKind::input_data, "a part of '" + slices.name + "' exists in only " + std::to_string(count) +
-                                               " successive slices near number " + std::to_string(all.slice[first] + 1) +
-                                               ", at least 4 are needed");
+                                               " successive slices near number " +
+                                               std::to_string(all.slice[first] + 1) + ", at least 4 are needed");
       auto fitter = fitters.find({first, last});
       if (fitter == fitters.end())
-        fitter = fitters.emplace(std::pair(first, last),
-                                 LineFitter(std::span(all.u).subspan(first, count), slices.approximate_u)).first;
+        fitter = fitters
+                     .emplace(std::pair(first, last),
+                              LineFitter(std::span(all.u).subspan(first, count), slices.approximate_u))
+                     .first;
       std::vector<double> y(count), w(count), cy(count + 2), cw(count + 2);
       for (std::size_t i = 0; i < count; ++i) y[i] = value(first + i).y, w[i] = value(first + i).w;
       fitter->second.fit(y, cy);

@@ -19,11 +19,15 @@ typedef int UnalignedInt __attribute__((vector_size(16), aligned(4), may_alias))
 #define TREADMARK_LANES static inline __attribute__((always_inline))
 
 TREADMARK_LANES V load(const double* p) { return *reinterpret_cast<const UnalignedV*>(p); }
-TREADMARK_LANES V load(const float* p) { return __builtin_convertvector(VFloat(*reinterpret_cast<const UnalignedF*>(p)), V); }
+TREADMARK_LANES V load(const float* p) {
+  return __builtin_convertvector(VFloat(*reinterpret_cast<const UnalignedF*>(p)), V);
+}
 TREADMARK_LANES void store(double* p, V x) { *reinterpret_cast<UnalignedV*>(p) = x; }
 TREADMARK_LANES void store(int* p, VInt x) { *reinterpret_cast<UnalignedInt*>(p) = x; }
 TREADMARK_LANES V all(double x) { return V{x, x, x, x}; }
-TREADMARK_LANES V absolute(V x) { return V(VMask(x) & VMask{0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff}); }
+TREADMARK_LANES V absolute(V x) {
+  return V(VMask(x) & VMask{0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff, 0x7fffffffffffffff});
+}
 TREADMARK_LANES V least(V a, V b) { return a < b ? a : b; }
 TREADMARK_LANES V greatest(V a, V b) { return a > b ? a : b; }
 TREADMARK_LANES int bits(VMask m) {

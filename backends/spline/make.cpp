@@ -26,7 +26,8 @@ std::shared_ptr<const Surface> make_nurbs_surface(const sampling::PointGrid& poi
   return std::make_shared<NurbsSurface>(fit_point_grid(points), points.body);
 }
 
-std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius, double x_min, double x_max) {
+std::shared_ptr<const Surface> make_nurbs_surface(const ArcChain& chain, Body body, double nominal_radius, double x_min,
+                                                  double x_max) {
   return std::make_shared<NurbsSurface>(
       body == Body::rail ? sweep_chain(chain, x_min, x_max) : revolve_chain(chain, nominal_radius), body);
 }

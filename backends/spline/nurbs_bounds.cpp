@@ -14,8 +14,8 @@ constexpr float kNoSlab = -1e30f;
 
 /// Cells in one direction: several patches in one, or one of several in a patch.
 struct Cell {
-  int first, last;      // patches [first, last)
-  double from, to;      // part of the patch, if it is one
+  int first, last;  // patches [first, last)
+  double from, to;  // part of the patch, if it is one
 };
 std::vector<Cell> cells_of(const std::vector<double>& lengths, double smallest, double largest) {
   std::vector<Cell> cells;
@@ -24,12 +24,14 @@ std::vector<Cell> cells_of(const std::vector<double>& lengths, double smallest, 
     double length = lengths[static_cast<std::size_t>(i)];
     const int parts = static_cast<int>(std::ceil(length / largest - 1e-9));
     if (parts > 1) {
-      for (int k = 0; k < parts; ++k) cells.push_back({i, i + 1, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts});
+      for (int k = 0; k < parts; ++k)
+        cells.push_back({i, i + 1, static_cast<double>(k) / parts, static_cast<double>(k + 1) / parts});
       ++i;
       continue;
     }
     int last = i + 1;
-    while (last < n && length + lengths[static_cast<std::size_t>(last)] <= smallest) length += lengths[static_cast<std::size_t>(last++)];
+    while (last < n && length + lengths[static_cast<std::size_t>(last)] <= smallest)
+      length += lengths[static_cast<std::size_t>(last++)];
     cells.push_back({i, last, 0.0, 1.0});
     i = last;
   }
@@ -40,7 +42,8 @@ std::vector<Cell> cells_of(const std::vector<double>& lengths, double smallest, 
 
 NurbsHull::Slab NurbsHull::slab_of(const std::vector<Vec3>& points) {
   // the first and last points of 4 x 4 are corners; so are those of the first and last patch
-  const Vec3 low_low = points[0], low_high = points[3], high_low = points[points.size() - 4], high_high = points[points.size() - 1];
+  const Vec3 low_low = points[0], low_high = points[3], high_low = points[points.size() - 4],
+             high_high = points[points.size() - 1];
   const Vec3 normal = ((high_high - low_low).cross(low_high - high_low)).normalized();
   Vec3 min = points[0], max = min;
   for (const Vec3& p : points) min = min.cwiseMin(p), max = max.cwiseMax(p);
@@ -105,7 +108,8 @@ NurbsHull::Level NurbsHull::level_of(const std::vector<Slab>& slabs, int nu, int
   }
   for (int iu = 0; iu < nu; ++iu)
     for (int iv = 0; iv < nv; ++iv) {
-      Block& b = level.blocks[static_cast<std::size_t>(iu / kFanOut) * static_cast<std::size_t>(level.blocks_v) + static_cast<std::size_t>(iv / kFanOut)];
+      Block& b = level.blocks[static_cast<std::size_t>(iu / kFanOut) * static_cast<std::size_t>(level.blocks_v) +
+                              static_cast<std::size_t>(iv / kFanOut)];
       const auto k = static_cast<std::size_t>(iu % kFanOut * kFanOut + iv % kFanOut);
       const Slab& s = slabs[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)];
       b.slabs[k] = s;
@@ -129,7 +133,8 @@ NurbsHull::NurbsHull(const NurbsNet& net) {
     along_v.push_back(length(p.point(0, 0), p.point(0, 3)));
   }
   constexpr double kSmallest = 1e-3, kLargestU = 8e-3, kLargestV = 2e-3;  // [m]
-  const std::vector<Cell> cells_u = cells_of(along_u, kSmallest, kLargestU), cells_v = cells_of(along_v, kSmallest, kLargestV);
+  const std::vector<Cell> cells_u = cells_of(along_u, kSmallest, kLargestU),
+                          cells_v = cells_of(along_v, kSmallest, kLargestV);
   int nu = static_cast<int>(cells_u.size()), nv = static_cast<int>(cells_v.size());
   std::vector<Slab> slabs;
   std::vector<Vec3> points;
@@ -206,7 +211,8 @@ Interval NurbsHull::heights_over(const Pose& X, const Rectangle& r, Facing facin
 
 void NurbsHull::descend(std::size_t at, int block_u, int block_v, Search& s) const {
   const Level& level = levels_[at];
-  const Block& b = level.blocks[static_cast<std::size_t>(block_u) * static_cast<std::size_t>(level.blocks_v) + static_cast<std::size_t>(block_v)];
+  const Block& b = level.blocks[static_cast<std::size_t>(block_u) * static_cast<std::size_t>(level.blocks_v) +
+                                static_cast<std::size_t>(block_v)];
   int over[kChildren];
   for (std::size_t k = 0; k < kChildren; ++k) {  // one loop without branches
     const float x = s.turn_x[0] * b.c_x[k] + s.turn_x[1] * b.c_y[k] + s.turn_x[2] * b.c_z[k] - s.shift_x;
@@ -214,7 +220,8 @@ void NurbsHull::descend(std::size_t at, int block_u, int block_v, Search& s) con
     const float h_x = s.spread_x[0] * b.h_x[k] + s.spread_x[1] * b.h_y[k] + s.spread_x[2] * b.h_z[k];
     const float h_y = s.spread_y[0] * b.h_x[k] + s.spread_y[1] * b.h_y[k] + s.spread_y[2] * b.h_z[k];
     const float out = s.outwards[0] * b.c_x[k] + s.outwards[2] * b.c_z[k] + s.away[0] * b.h_x[k] + s.away[2] * b.h_z[k];
-    over[k] = (x - h_x <= s.x_high) & (x + h_x >= s.x_low) & (y - h_y <= s.y_high) & (y + h_y >= s.y_low) & (out >= s.least_outwards);
+    over[k] = (x - h_x <= s.x_high) & (x + h_x >= s.x_low) & (y - h_y <= s.y_high) & (y + h_y >= s.y_low) &
+              (out >= s.least_outwards);
   }
   for (std::size_t k = 0; k < kChildren; ++k) {
     if (!over[k]) continue;
@@ -231,8 +238,10 @@ void NurbsHull::descend(std::size_t at, int block_u, int block_v, Search& s) con
       // the slab over that part of the box which is over the rectangle
       const double per = 1.0 / normal.z(), by_x = -normal.x() * per, by_y = -normal.y() * per;
       thickness = std::abs(per) * (static_cast<double>(slab.thickness) + 1e-9);
-      const double middle = c.z() + per * static_cast<double>(slab.offset) + by_x * (0.5 * (x.low + x.high) - c.x()) + by_y * (0.5 * (y.low + y.high) - c.y());
-      const double around = 0.5 * (std::abs(by_x) * std::abs(x.width()) + std::abs(by_y) * std::abs(y.width())) + thickness;
+      const double middle = c.z() + per * static_cast<double>(slab.offset) + by_x * (0.5 * (x.low + x.high) - c.x()) +
+                            by_y * (0.5 * (y.low + y.high) - c.y());
+      const double around =
+          0.5 * (std::abs(by_x) * std::abs(x.width()) + std::abs(by_y) * std::abs(y.width())) + thickness;
       z = {std::max(z.low, middle - around), std::min(z.high, middle + around)};
       if (z.empty()) z = {c.z() - h.z(), c.z() + h.z()};
     }
@@ -240,9 +249,11 @@ void NurbsHull::descend(std::size_t at, int block_u, int block_v, Search& s) con
     // back in the surface frame the part may turn out to lie beside the box
     const Vec3 part = s.X.rotation * (Vec3(x.low + x.high, y.low + y.high, z.low + z.high) * 0.5 + s.shift);
     const Vec3 reach = s.X.rotation.cwiseAbs() * (Vec3(std::abs(x.width()), std::abs(y.width()), z.width()) * 0.5);
-    if (((part - slab.centre.cast<double>()).cwiseAbs() - reach - slab.half.cast<double>()).maxCoeff() > s.slack) continue;
+    if (((part - slab.centre.cast<double>()).cwiseAbs() - reach - slab.half.cast<double>()).maxCoeff() > s.slack)
+      continue;
     if (at > 0 && thickness > s.fine)
-      descend(at - 1, kFanOut * block_u + static_cast<int>(k) / kFanOut, kFanOut * block_v + static_cast<int>(k) % kFanOut, s);
+      descend(at - 1, kFanOut * block_u + static_cast<int>(k) / kFanOut,
+              kFanOut * block_v + static_cast<int>(k) % kFanOut, s);
     else
       s.z.include(z);
   }

@@ -11,8 +11,8 @@
 
 namespace treadmark::spline {
 
-/// A surface as a pyramid of slabs: cells of a millimetre or some lie between two parallel planes a few micrometres apart, groups of
-/// 4 x 4 of them between two planes, and so on. A slab cut off at a rectangle bounds heights over it.
+/// A surface as a pyramid of slabs: cells of a millimetre or some lie between two parallel planes a few micrometres
+/// apart, groups of 4 x 4 of them between two planes, and so on. A slab cut off at a rectangle bounds heights over it.
 class NurbsHull {
  public:
   explicit NurbsHull(const NurbsNet& net);
@@ -24,7 +24,8 @@ class NurbsHull {
  private:
   static constexpr int kFanOut = 4, kChildren = kFanOut * kFanOut;
 
-  /// Box centre +- half that holds a part of the surface, and normal . (p - centre) within offset +- thickness. Rounded outwards.
+  /// Box centre +- half that holds a part of the surface, and normal . (p - centre) within offset +- thickness. Rounded
+  /// outwards.
   struct Slab {
     Eigen::Vector3f centre = Eigen::Vector3f::Zero(), half = Eigen::Vector3f::Zero(), normal = Eigen::Vector3f::UnitZ();
     float offset = 0.0f, thickness = 0.0f;

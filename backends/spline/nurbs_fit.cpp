@@ -20,7 +20,8 @@ class SplineSlopes {
     for (int i = 0; i < size_; ++i) {
       const bool last = i + 1 == size_;
       if (last && !closed_) break;
-      h_.push_back(last ? period - (knots[static_cast<std::size_t>(i)] - knots[0]) : knots[static_cast<std::size_t>(i) + 1] - knots[static_cast<std::size_t>(i)]);
+      h_.push_back(last ? period - (knots[static_cast<std::size_t>(i)] - knots[0])
+                        : knots[static_cast<std::size_t>(i) + 1] - knots[static_cast<std::size_t>(i)]);
     }
     for (int i = 0; i < size_; ++i) {
       if (!closed_ && (i == 0 || i + 1 == size_)) continue;
@@ -84,7 +85,8 @@ void check(const sampling::PointGrid& grid) {
   require(grid.h.size() == grid.u.size() * grid.y.size(), "a point grid has another number of heights than of points");
   for (const auto* values : {&grid.u, &grid.y}) {
     for (const double x : *values) require(std::isfinite(x), "a coordinate of a point grid is not finite");
-    for (std::size_t i = 0; i + 1 < values->size(); ++i) require((*values)[i] < (*values)[i + 1], "the stations and nodes of a point grid must increase");
+    for (std::size_t i = 0; i + 1 < values->size(); ++i)
+      require((*values)[i] < (*values)[i + 1], "the stations and nodes of a point grid must increase");
   }
   require(!grid.closed || grid.body == Body::wheel, "only a wheel can be closed");
   require(grid.body == Body::rail || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 + 1e-12),
@@ -92,7 +94,8 @@ void check(const sampling::PointGrid& grid) {
   require(!grid.closed || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 - 1e-9),
           "the last station of a closed wheel repeats the first");
   for (const double h : grid.h) {
-    require(!std::isnan(h), "a full-parametric spline surface cannot have gaps", "use another backend, or cut the gaps off");
+    require(!std::isnan(h), "a full-parametric spline surface cannot have gaps",
+            "use another backend, or cut the gaps off");
     require(std::isfinite(h), "a coordinate of a point grid is not finite");
     require(grid.body == Body::rail || h > 0.0, "a wheel's radius must be positive at all points");
   }
@@ -109,7 +112,8 @@ NurbsNet fit_point_grid(const sampling::PointGrid& grid) {
   std::vector<double> u = grid.u, v(nv, 0.0);
   for (std::size_t j = 0; j + 1 < nv; ++j) {
     double chords = 0.0;
-    for (std::size_t i = 0; i < nu; ++i) chords += (corners[grid.index(i, j + 1)].p - corners[grid.index(i, j)].p).norm();
+    for (std::size_t i = 0; i < nu; ++i)
+      chords += (corners[grid.index(i, j + 1)].p - corners[grid.index(i, j)].p).norm();
     v[j + 1] = v[j] + chords / static_cast<double>(nu);
   }
 
@@ -118,8 +122,9 @@ NurbsNet fit_point_grid(const sampling::PointGrid& grid) {
   const auto by_u = [&](Vec3 Corner::*from, Vec3 Corner::*to) {
     for (std::size_t j = 0; j < nv; ++j)
       for (int k = 0; k < 3; ++k)
-        along_u.solve([&](int i) { return (corners[grid.index(static_cast<std::size_t>(i), j)].*from)[k]; },
-                      [&](int i, double slope) { (corners[grid.index(static_cast<std::size_t>(i), j)].*to)[k] = slope; });
+        along_u.solve(
+            [&](int i) { return (corners[grid.index(static_cast<std::size_t>(i), j)].*from)[k]; },
+            [&](int i, double slope) { (corners[grid.index(static_cast<std::size_t>(i), j)].*to)[k] = slope; });
   };
   for (std::size_t i = 0; i < nu; ++i)
     for (int k = 0; k < 3; ++k)

@@ -5,7 +5,8 @@
 namespace treadmark::spline {
 namespace {
 
-// Of s and t: how far beyond the border a solution still belongs to the leaf (neighbours meet there), and how far steps may lead.
+// Of s and t: how far beyond the border a solution still belongs to the leaf (neighbours meet there), and how far steps
+// may lead.
 constexpr double kBorder = 0.5 + 1e-9, kFurthest = 0.75;
 constexpr double kContraction = 0.5;  // greatest |E| of a regular leaf
 
@@ -111,7 +112,8 @@ bool NurbsLeaf::solve(double x, double y, double s, double t, bool exact, LeafRo
       root.t += dt;
       return std::abs(root.s) <= kBorder && std::abs(root.t) <= kBorder;
     }
-    const double next_s = std::clamp(root.s + ds, -kFurthest, kFurthest), next_t = std::clamp(root.t + dt, -kFurthest, kFurthest);
+    const double next_s = std::clamp(root.s + ds, -kFurthest, kFurthest),
+                 next_t = std::clamp(root.t + dt, -kFurthest, kFurthest);
     if (next_s == root.s && next_t == root.t) break;  // at rounding, or held at the limit
     root.s = next_s;
     root.t = next_t;

@@ -11,8 +11,8 @@ namespace treadmark::spline {
 
 /// Where a line along the plane normal meets a leaf.
 struct LeafRoot {
-  double s = 0.0, t = 0.0;                           ///< -1/2 .. 1/2
-  double z = 0.0, dzdx = 0.0, dzdy = 0.0;            ///< in the plane frame
+  double s = 0.0, t = 0.0;                            ///< -1/2 .. 1/2
+  double z = 0.0, dzdx = 0.0, dzdy = 0.0;             ///< in the plane frame
   double s_x = 0.0, s_y = 0.0, t_x = 0.0, t_y = 0.0;  ///< derivatives of (s, t) by the point of the plane
 };
 
@@ -22,9 +22,10 @@ struct ControlBox {
   explicit ControlBox(const BezierPatch& part);
 };
 
-/// A part of a patch in the plane frame, with what is needed to find S(s, t) = (x, y, .) safely. With the inverse Jacobian A of
-/// the middle, the equations are A G(s, t) = 0, G = N_xy - (x, y) W, and A dG = 1 + E. Control points bound E over the whole part:
-/// where |E| < 1 the equations have at most one solution, and (s, t) - A G contracts towards it.
+/// A part of a patch in the plane frame, with what is needed to find S(s, t) = (x, y, .) safely. With the inverse
+/// Jacobian A of the middle, the equations are A G(s, t) = 0, G = N_xy - (x, y) W, and A dG = 1 + E. Control points
+/// bound E over the whole part: where |E| < 1 the equations have at most one solution, and (s, t) - A G contracts
+/// towards it.
 class NurbsLeaf {
  public:
   NurbsLeaf(const BezierPatch& part, const ControlBox& box);
@@ -35,8 +36,8 @@ class NurbsLeaf {
   bool bends_along_u() const { return bends_along_u_; }
   const ControlBox& box() const { return box_; }
 
-  /// False: the line through (x, y) does not meet the leaf, regular or not: the control points of A G lie on one side of 0. This is
-  /// a box in axes that suit the leaf. Otherwise s and t are set to the solution of the linear equations.
+  /// False: the line through (x, y) does not meet the leaf, regular or not: the control points of A G lie on one side
+  /// of 0. This is a box in axes that suit the leaf. Otherwise s and t are set to the solution of the linear equations.
   bool may_meet(double x, double y, double& s, double& t) const {
     const double dx = x - middle_x_, dy = y - middle_y_;
     s = a_[0] * dx + a_[1] * dy;
@@ -44,8 +45,8 @@ class NurbsLeaf {
     return upright_ || (meets(s, s_) && meets(t, t_));
   }
 
-  /// The solution in a regular leaf from a first guess, or false if there is none. Damped Newton steps, then the contraction.
-  /// exact: slopes, s and t to rounding, too.
+  /// The solution in a regular leaf from a first guess, or false if there is none. Damped Newton steps, then the
+  /// contraction. exact: slopes, s and t to rounding, too.
   bool solve(double x, double y, double s, double t, bool exact, LeafRoot& root) const;
 
  private:

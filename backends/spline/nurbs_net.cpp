@@ -27,7 +27,8 @@ BezierPatch from_corners(const NurbsNet::Corner* const (&corners)[2][2], double 
     for (int j = 0; j < 2; ++j) {
       const NurbsNet::Corner& c = *corners[i][j];
       const double su = (i ? -hu : hu) / 3.0, sv = (j ? -hv : hv) / 3.0;
-      const Vec3 p = position(c.p), du = direction(c.p_u) * su, dv = direction(c.p_v) * sv, duv = direction(c.p_uv) * (su * sv);
+      const Vec3 p = position(c.p), du = direction(c.p_u) * su, dv = direction(c.p_v) * sv,
+                 duv = direction(c.p_uv) * (su * sv);
       const int a = 3 * i, b = 3 * j, a1 = i ? 2 : 1, b1 = j ? 2 : 1;
       const auto set = [&](int m, int n, const Vec3& q) { out.b[m][n] = {q.x(), q.y(), q.z(), 1.0}; };
       set(a, b, p);
@@ -54,7 +55,8 @@ void NurbsNet::build_boxes() {
   const auto box = [](const Corners& c) {
     constexpr double kUp = 3e-7;  // more than the rounding to single precision of both
     const Vec3 middle = 0.5 * (c.min + c.max), half = 0.5 * (c.max - c.min);
-    return Box{middle.cast<float>(), (half * (1.0 + kUp) + middle.cwiseAbs() * kUp + Vec3::Constant(1e-30)).cast<float>()};
+    return Box{middle.cast<float>(),
+               (half * (1.0 + kUp) + middle.cwiseAbs() * kUp + Vec3::Constant(1e-30)).cast<float>()};
   };
   Level first{patches_u(), patches_v(), {}};
   first.boxes.reserve(static_cast<std::size_t>(first.nu) * static_cast<std::size_t>(first.nv));
@@ -85,7 +87,8 @@ void NurbsNet::build_boxes() {
 }
 
 std::size_t NurbsNet::memory_bytes() const {
-  std::size_t bytes = points_.capacity() * sizeof(Quad) + corners_.capacity() * sizeof(Corner) + (u_.capacity() + v_.capacity()) * sizeof(double);
+  std::size_t bytes = points_.capacity() * sizeof(Quad) + corners_.capacity() * sizeof(Corner) +
+                      (u_.capacity() + v_.capacity()) * sizeof(double);
   for (const Level& level : levels_) bytes += level.boxes.capacity() * sizeof(Box);
   return bytes;
 }
@@ -97,9 +100,11 @@ BezierPatch NurbsNet::patch(int iu, int iv, const Pose& X) const {
   const auto u = static_cast<std::size_t>(iu), v = static_cast<std::size_t>(iv);
   if (!corners_.empty()) {
     const std::size_t row = v_.size(), next = (u + 1) * row < corners_.size() ? u + 1 : 0;
-    const Corner* const corners[2][2] = {{&corners_[u * row + v], &corners_[u * row + v + 1]}, {&corners_[next * row + v], &corners_[next * row + v + 1]}};
-    return from_corners(corners, u_[u + 1] - u_[u], v_[v + 1] - v_[v], [&](const Vec3& p) { return Vec3(turn * (p - X.origin)); },
-                        [&](const Vec3& d) { return Vec3(turn * d); });
+    const Corner* const corners[2][2] = {{&corners_[u * row + v], &corners_[u * row + v + 1]},
+                                         {&corners_[next * row + v], &corners_[next * row + v + 1]}};
+    return from_corners(
+        corners, u_[u + 1] - u_[u], v_[v + 1] - v_[v], [&](const Vec3& p) { return Vec3(turn * (p - X.origin)); },
+        [&](const Vec3& d) { return Vec3(turn * d); });
   }
   BezierPatch out;
   const std::size_t stride = 3 * (v_.size() - 1) + 1;
@@ -121,7 +126,9 @@ Box3 NurbsNet::bounds() const {
 
 NurbsNet::Place NurbsNet::find(double u, double v) const {
   const int iu = find_span(u_, u, 0, patches_u() - 1), iv = find_span(v_, v, 0, patches_v() - 1);
-  const auto local = [](double x, double low, double high) { return std::clamp((x - low) / (high - low), 0.0, 1.0) - 0.5; };
+  const auto local = [](double x, double low, double high) {
+    return std::clamp((x - low) / (high - low), 0.0, 1.0) - 0.5;
+  };
   return {iu, iv, local(u, u_break(iu), u_break(iu + 1)), local(v, v_break(iv), v_break(iv + 1))};
 }
 

@@ -12,8 +12,9 @@
 namespace treadmark::spline {
 
 /// A tensor-product NURBS surface as its bicubic Bezier patches. A rational one is a grid of control points, of which
-/// neighbouring patches share those on their border; a polynomial one is kept by positions and derivatives at the corners of
-/// patches. Boxes of control points form a pyramid above the patches. Immutable, so safe to use from any number of threads.
+/// neighbouring patches share those on their border; a polynomial one is kept by positions and derivatives at the
+/// corners of patches. Boxes of control points form a pyramid above the patches. Immutable, so safe to use from any
+/// number of threads.
 class NurbsNet {
  public:
   /// Derivatives by the parameters.
@@ -62,7 +63,9 @@ class NurbsNet {
   struct Level {
     int nu, nv;
     std::vector<Box> boxes;
-    const Box& at(int iu, int iv) const { return boxes[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)]; }
+    const Box& at(int iu, int iv) const {
+      return boxes[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)];
+    }
   };
   static constexpr int kFanOut = 4;  // in each direction
 
@@ -74,13 +77,14 @@ class NurbsNet {
     if (level == 0) return use(iu, iv, centre, half);
     const Level& below = levels_[level - 1];
     for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
-      for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv) descend(level - 1, ku, kv, wanted, use);
+      for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv)
+        descend(level - 1, ku, kv, wanted, use);
   }
 
   void build_boxes();
 
   std::vector<double> u_, v_;
-  std::vector<Quad> points_;     // one of the two is empty
+  std::vector<Quad> points_;  // one of the two is empty
   std::vector<Corner> corners_;
   std::vector<Level> levels_;
 };

@@ -24,7 +24,8 @@ void write(const HeightsOut& out, std::size_t i, bool found, const NurbsHit& hit
 
 // Calls use(point, found, hit) for all points of a list, in parallel.
 template <class Use>
-void for_hits(const NurbsNet& net, const Pose& X_SP, Facing facing, std::span<const Vec2> points_P, bool exact, bool all, const Use& use) {
+void for_hits(const NurbsNet& net, const Pose& X_SP, Facing facing, std::span<const Vec2> points_P, bool exact,
+              bool all, const Use& use) {
   for_listed_points(points_P, true, [&](std::span<const ListedPoint> points) {
     Interval x = Interval::none(), y = Interval::none();
     for (const ListedPoint& p : points) {
@@ -70,8 +71,10 @@ void NurbsSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out
   const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
   const int tiles_x = (g.nx + kTileX - 1) / kTileX, tiles_y = (g.ny + kTileY - 1) / kTileY;
   parallel_for(static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y), [&](std::size_t tile) {
-    const int ix0 = kTileX * static_cast<int>(tile % static_cast<std::size_t>(tiles_x)), ix1 = std::min(g.nx, ix0 + kTileX) - 1;
-    const int iy0 = kTileY * static_cast<int>(tile / static_cast<std::size_t>(tiles_x)), iy1 = std::min(g.ny, iy0 + kTileY) - 1;
+    const int ix0 = kTileX * static_cast<int>(tile % static_cast<std::size_t>(tiles_x)),
+              ix1 = std::min(g.nx, ix0 + kTileX) - 1;
+    const int iy0 = kTileY * static_cast<int>(tile / static_cast<std::size_t>(tiles_x)),
+              iy1 = std::min(g.ny, iy0 + kTileY) - 1;
     NurbsView view(net_, plane_grid.X_SP, {g.x(ix0), g.x(ix1), g.y(iy0), g.y(iy1)}, facing());
     NurbsHit hit;
     for (int iy = iy0; iy <= iy1; ++iy)

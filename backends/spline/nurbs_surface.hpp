@@ -9,10 +9,10 @@
 
 namespace treadmark::spline {
 
-/// A full-parametric surface: all three coordinates are rational tensor splines of (u, v). u grows along a rail or with the
-/// angle of a wheel, v with y. Located points have u = x [m] or the angle about the axle [rad], v = the parameter of the surface [m].
-/// Heights are those of the splines to rounding. Of a wheel only the half turned towards the plane is hit. A plane that sees the
-/// surface edge-on meets nothing.
+/// A full-parametric surface: all three coordinates are rational tensor splines of (u, v). u grows along a rail or with
+/// the angle of a wheel, v with y. Located points have u = x [m] or the angle about the axle [rad], v = the parameter
+/// of the surface [m]. Heights are those of the splines to rounding. Of a wheel only the half turned towards the plane
+/// is hit. A plane that sees the surface edge-on meets nothing.
 class NurbsSurface final : public Surface {
  public:
   NurbsSurface(NurbsNet net, Body body) : net_(std::move(net)), hull_(net_), body_(body) {}

@@ -8,12 +8,12 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kSlack = 1e-9;       // [m] rounding of boxes
-constexpr int kLeafHalvings = 8;      // of a patch into leaves, before lines look closer
-constexpr int kMostHalvings = 48;     // altogether
-constexpr double kSameHit = 1e-9;     // [m] hits nearer than this are the same one, found in two leaves
-constexpr double kEdgeOn = 1e-9;      // cosine between normals of plane and patch: seen edge-on
-constexpr double kGrazing = 0.02;     // the same: not worth dividing before lines come near
+constexpr double kSlack = 1e-9;    // [m] rounding of boxes
+constexpr int kLeafHalvings = 8;   // of a patch into leaves, before lines look closer
+constexpr int kMostHalvings = 48;  // altogether
+constexpr double kSameHit = 1e-9;  // [m] hits nearer than this are the same one, found in two leaves
+constexpr double kEdgeOn = 1e-9;   // cosine between normals of plane and patch: seen edge-on
+constexpr double kGrazing = 0.02;  // the same: not worth dividing before lines come near
 
 // Greatest cosine between the normals of plane and patch, from samples.
 double greatest_facing(const BezierPatch& bezier) {
@@ -24,7 +24,8 @@ double greatest_facing(const BezierPatch& bezier) {
       const PowerPatch::Jet at = power.jet(s, t);
       const auto tangent = [&](const Quad& d) {
         const double w = 1.0 / at.value.w();
-        return Vec3(d.x() - at.value.x() * w * d.w(), d.y() - at.value.y() * w * d.w(), d.z() - at.value.z() * w * d.w());
+        return Vec3(d.x() - at.value.x() * w * d.w(), d.y() - at.value.y() * w * d.w(),
+                    d.z() - at.value.z() * w * d.w());
       };
       const Vec3 normal = tangent(at.by_s).cross(tangent(at.by_t));
       most = std::max(most, std::abs(normal.z()) / normal.norm());
@@ -59,8 +60,11 @@ NurbsView::~NurbsView() {
 }
 
 NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing)
-    : net_(net), X_SP_(X_SP), rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
-      half_(X_SP, facing), side_(facing == Facing::up ? -1.0 : 1.0) {
+    : net_(net),
+      X_SP_(X_SP),
+      rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
+      half_(X_SP, facing),
+      side_(facing == Facing::up ? -1.0 : 1.0) {
   std::swap(room_, spare_room());
   candidates_.clear();
   leaves_.clear();
@@ -83,7 +87,8 @@ NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, 
   net.visit([&](const Vec3& centre, const Vec3& half_size) { return over(centre, half_size, c, h); },
             [&](int iu, int iv, const Vec3&, const Vec3&) {
               h.array() += kSlack;
-              candidates_.push_back({{c.x() - h.x(), c.x() + h.x()}, {c.y() - h.y(), c.y() + h.y()}, side_ * c.z() + h.z(), iu, iv});
+              candidates_.push_back(
+                  {{c.x() - h.x(), c.x() + h.x()}, {c.y() - h.y(), c.y() + h.y()}, side_ * c.z() + h.z(), iu, iv});
             });
   std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
     if (a.outer != b.outer) return a.outer > b.outer;
@@ -102,8 +107,10 @@ void NurbsView::sort_into_bins() {
   per_y_ = bins_y_ / height;
   bin_begin_.assign(static_cast<std::size_t>(bins_x_ * bins_y_) + 1, 0);
   const auto each_bin = [&](const Candidate& c, const auto& use) {
-    const int x0 = bin_of((c.x.low - rectangle_.x_min) * per_x_, bins_x_), x1 = bin_of((c.x.high - rectangle_.x_min) * per_x_, bins_x_);
-    const int y0 = bin_of((c.y.low - rectangle_.y_min) * per_y_, bins_y_), y1 = bin_of((c.y.high - rectangle_.y_min) * per_y_, bins_y_);
+    const int x0 = bin_of((c.x.low - rectangle_.x_min) * per_x_, bins_x_),
+              x1 = bin_of((c.x.high - rectangle_.x_min) * per_x_, bins_x_);
+    const int y0 = bin_of((c.y.low - rectangle_.y_min) * per_y_, bins_y_),
+              y1 = bin_of((c.y.high - rectangle_.y_min) * per_y_, bins_y_);
     for (int j = y0; j <= y1; ++j)
       for (int i = x0; i <= x1; ++i) use(static_cast<std::size_t>(i + bins_x_ * j));
   };
@@ -112,12 +119,14 @@ void NurbsView::sort_into_bins() {
   bin_fill_ = bin_begin_;
   binned_.resize(static_cast<std::size_t>(bin_begin_.back()));
   for (std::size_t k = 0; k < candidates_.size(); ++k)
-    each_bin(candidates_[k], [&](std::size_t bin) { binned_[static_cast<std::size_t>(bin_fill_[bin]++)] = static_cast<int>(k); });
+    each_bin(candidates_[k],
+             [&](std::size_t bin) { binned_[static_cast<std::size_t>(bin_fill_[bin]++)] = static_cast<int>(k); });
 }
 
 /// All of it turned away, or beside the rectangle.
 bool NurbsView::hidden(const ControlBox& box) const {
-  return half_.away(box) || !box.x.overlaps({rectangle_.x_min, rectangle_.x_max}) || !box.y.overlaps({rectangle_.y_min, rectangle_.y_max});
+  return half_.away(box) || !box.x.overlaps({rectangle_.x_min, rectangle_.x_max}) ||
+         !box.y.overlaps({rectangle_.y_min, rectangle_.y_max});
 }
 
 void NurbsView::prepare(Candidate& c) {
@@ -166,7 +175,8 @@ void NurbsView::divide(const BezierPatch& bezier, const PatchPart& part) {
 
 bool NurbsView::hit(double x, double y, bool exact, bool all, NurbsHit& out) {
   if (!std::isfinite(x) || !std::isfinite(y)) return false;
-  const int bin_x = bin_of((x - rectangle_.x_min) * per_x_, bins_x_), bin_y = bin_of((y - rectangle_.y_min) * per_y_, bins_y_);
+  const int bin_x = bin_of((x - rectangle_.x_min) * per_x_, bins_x_),
+            bin_y = bin_of((y - rectangle_.y_min) * per_y_, bins_y_);
   const auto k = static_cast<std::size_t>(bin_x + bins_x_ * bin_y);
   Search search{x, y, exact, all, out};
   out.hides_others = false;

@@ -17,7 +17,8 @@ struct NurbsHit {
   bool hides_others = false;
 };
 
-/// The half of a wheel that faces a plane: heights of at least the nearest to the axle, which are linear in x and y. All of a rail.
+/// The half of a wheel that faces a plane: heights of at least the nearest to the axle, which are linear in x and y.
+/// All of a rail.
 struct FacingHalf {
   bool all = true;
   bool none = false;  ///< the plane looks along the axle
@@ -27,14 +28,13 @@ struct FacingHalf {
   FacingHalf(const Pose& X_SP, Facing facing);
   double lowest(double at_x, double at_y) const { return c + x * at_x + y * at_y; }
   /// All of a box is turned away.
-  bool away(const ControlBox& box) const {
-    return !all && box.z.high < c + (x * box.x + y * box.y).low - 1e-9;
-  }
+  bool away(const ControlBox& box) const { return !all && box.z.high < c + (x * box.x + y * box.y).low - 1e-9; }
 };
 
-/// The surface seen from a plane over a rectangle. Candidates are patches whose boxes lie over it, sorted into bins; a patch
-/// is turned into the plane frame, and divided into regular leaves, when a line first comes near. Every candidate that
-/// could hold a hit further out is looked at, so that the hit returned is the outermost one. One object serves one thread.
+/// The surface seen from a plane over a rectangle. Candidates are patches whose boxes lie over it, sorted into bins; a
+/// patch is turned into the plane frame, and divided into regular leaves, when a line first comes near. Every candidate
+/// that could hold a hit further out is looked at, so that the hit returned is the outermost one. One object serves one
+/// thread.
 class NurbsView {
  public:
   NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& rectangle, Facing facing);
@@ -42,7 +42,8 @@ class NurbsView {
   NurbsView(const NurbsView&) = delete;
   NurbsView& operator=(const NurbsView&) = delete;
 
-  /// Outermost hit of the line through (x, y). exact: slopes and parameters to rounding. all: look for hidden ones, too.
+  /// Outermost hit of the line through (x, y). exact: slopes and parameters to rounding. all: look for hidden ones,
+  /// too.
   bool hit(double x, double y, bool exact, bool all, NurbsHit& out);
 
  private:

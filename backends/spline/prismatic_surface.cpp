@@ -20,7 +20,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr double kSamePosition = 1e-15;    // [m]
+constexpr double kSamePosition = 1e-15;  // [m]
 constexpr std::size_t kLinesPerTask = 32;
 
 // A range of the width of the viewed profile.
@@ -32,7 +32,8 @@ struct WidthWindow {
   WidthWindow(const ProfileView& profile_view, const Interval& window)
       : view(profile_view), width(window), small_width(2.0 * window.width() + 1e-5) {}
   static Range on(const Vec2& direction, const Range& y, const Range& z) {
-    return {direction.x() * y.middle + direction.y() * z.middle, std::abs(direction.x()) * y.half + std::abs(direction.y()) * z.half};
+    return {direction.x() * y.middle + direction.y() * z.middle,
+            std::abs(direction.x()) * y.half + std::abs(direction.y()) * z.half};
   }
   Interval heights(const Range& y, const Range& z) const {
     return on(view.width, y, z).overlaps(width) ? on(view.depth, y, z).interval() : Interval::none();
@@ -48,7 +49,8 @@ std::uint64_t next_id() {
 }
 
 // The views that a thread used last: single points come by the hundred along the same few directions.
-std::shared_ptr<const SortedProfile> sorted_view(std::uint64_t surface, const ProfileSpline& profile, const ProfileView& view) {
+std::shared_ptr<const SortedProfile> sorted_view(std::uint64_t surface, const ProfileSpline& profile,
+                                                 const ProfileView& view) {
   struct Kept {
     std::uint64_t surface = 0;  // never used again after the surface's end
     Vec2 depth, width;
@@ -65,7 +67,8 @@ std::shared_ptr<const SortedProfile> sorted_view(std::uint64_t surface, const Pr
 
 }  // namespace
 
-PrismaticSurface::PrismaticSurface(ProfileSpline profile) : id_(next_id()), profile_(std::move(profile)), hulls_(profile_) {}
+PrismaticSurface::PrismaticSurface(ProfileSpline profile)
+    : id_(next_id()), profile_(std::move(profile)), hulls_(profile_) {}
 
 Vec3 PrismaticSurface::point(double u, double v) const {
   const Vec2 p = profile_.position(v);
@@ -118,7 +121,8 @@ void PrismaticSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut&
   const WidthWindow seen(view, window);
   segments_over(ProfileTree(seen, profile_, hulls_), segments);
   const ViewedProfile viewed(profile_, view, segments);
-  const auto [z, dz_along, dz_across] = g.along_is_y ? std::tuple(out.z, out.dzdy, out.dzdx) : std::tuple(out.z, out.dzdx, out.dzdy);
+  const auto [z, dz_along, dz_across] =
+      g.along_is_y ? std::tuple(out.z, out.dzdy, out.dzdx) : std::tuple(out.z, out.dzdx, out.dzdy);
   const bool slopes = !dz_along.empty() || !dz_across.empty();
 
   const auto raster_line = [&](int line, ColumnHits& hits) {
@@ -186,7 +190,8 @@ void PrismaticSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poi
     return;
   }
   const auto on_axes = [&](const Vec2& direction) {
-    return Vec3(direction.dot(lateral(X_SP.rotation.col(0))), direction.dot(lateral(X_SP.rotation.col(1))), direction.dot(lateral(X_SP.origin)));
+    return Vec3(direction.dot(lateral(X_SP.rotation.col(0))), direction.dot(lateral(X_SP.rotation.col(1))),
+                direction.dot(lateral(X_SP.origin)));
   };
   const Vec3 width = on_axes(view.width), depth = on_axes(view.depth);
   const double scale = 1.0 / view.normal_part;
@@ -230,7 +235,8 @@ void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     out[i].u = foot.x() + n * X_SP.rotation(0, 2);
     out[i].v = v;
     const Vec2 d = profile_.derivative(v), dd = profile_.second_derivative(v);
-    set_geometry({point(out[i].u, v), {1, 0, 0}, {0, d.x(), d.y()}, Vec3::Zero(), Vec3::Zero(), {0, dd.x(), dd.y()}}, out[i]);
+    set_geometry({point(out[i].u, v), {1, 0, 0}, {0, d.x(), d.y()}, Vec3::Zero(), Vec3::Zero(), {0, dd.x(), dd.y()}},
+                 out[i]);
   }
 }
 

@@ -13,8 +13,8 @@ namespace treadmark::spline {
 /// Errors: Error(input_data) for fewer than two points, sizes that differ, non-finite or coinciding neighbours.
 std::vector<double> arc_length(const Profile& profile);
 
-/// Indices of the points where the curve has a corner, always with the first and last point. A corner turns by more than
-/// kink_high while all other points within kink_width along the curve turn by at most kink_low; a single point
+/// Indices of the points where the curve has a corner, always with the first and last point. A corner turns by more
+/// than kink_high while all other points within kink_width along the curve turn by at most kink_low; a single point
 /// between two corners counts as one too.
 std::vector<int> find_kinks(const Profile& profile, const std::vector<double>& s);
 

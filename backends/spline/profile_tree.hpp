@@ -23,8 +23,8 @@ class ProfileHulls {
   std::vector<std::vector<HullBox>> levels_;
 };
 
-/// The pyramid as seen through a window, for BoundSearch. Window: heights(y, z) of a box, empty if it is not over the window;
-/// small(y, z): no use in halving it.
+/// The pyramid as seen through a window, for BoundSearch. Window: heights(y, z) of a box, empty if it is not over the
+/// window; small(y, z): no use in halving it.
 template <class Window>
 class ProfileTree {
  public:

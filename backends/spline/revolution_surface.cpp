@@ -79,7 +79,9 @@ class RevolutionSection {
   }
 
  private:
-  static void add(const Ends& e, SectionRaster<RevolutionSection, ColumnHits>& raster) { raster.cell(e.cell, e.va, e.a, e.vb, e.b); }
+  static void add(const Ends& e, SectionRaster<RevolutionSection, ColumnHits>& raster) {
+    raster.cell(e.cell, e.va, e.a, e.vb, e.b);
+  }
 
   std::span<const double> breaks_;
   std::span<const CubicSegment> cells_;
@@ -111,14 +113,15 @@ Interval widened(double low, double high) {
 }
 
 // Segments that may lie over a rectangle.
-void cells_over(const ProfileSpline& profile, const ProfileHulls& hulls, const PlaneWindow& plane, std::vector<int>& cells) {
+void cells_over(const ProfileSpline& profile, const ProfileHulls& hulls, const PlaneWindow& plane,
+                std::vector<int>& cells) {
   const ProfileWindow window(plane);
   segments_over(ProfileTree(window, profile, hulls), cells);
 }
 
 // Slopes along and across the grid lines at a hit.
-Vec2 slopes_at(const ProfileSpline& profile, const RevolutionSection& section, const WheelView& view, double v, const Vec3& along,
-               const Vec3& across, const Vec3& plane_normal) {
+Vec2 slopes_at(const ProfileSpline& profile, const RevolutionSection& section, const WheelView& view, double v,
+               const Vec3& along, const Vec3& across, const Vec3& plane_normal) {
   const Vec2 p = profile.position(v), d = profile.derivative(v);
   // Normal of the surface: forward x tangent, with the angle expressed by (a, b).
   const Vec2 ab = section.a_b(p.x(), p.y());
@@ -132,8 +135,12 @@ SurfaceDerivatives derivatives(const ProfileSpline& profile, double u, double v)
   const Vec2 p = profile.position(v), d = profile.derivative(v), dd = profile.second_derivative(v);
   const double sine = std::sin(u), cosine = std::cos(u);
   const Vec3 outward(sine, 0.0, cosine), forward(cosine, 0.0, -sine), axle(0.0, 1.0, 0.0);
-  return {p.y() * outward + p.x() * axle, p.y() * forward,        d.y() * outward + d.x() * axle,
-          -p.y() * outward,               d.y() * forward,        dd.y() * outward + dd.x() * axle};
+  return {p.y() * outward + p.x() * axle,
+          p.y() * forward,
+          d.y() * outward + d.x() * axle,
+          -p.y() * outward,
+          d.y() * forward,
+          dd.y() * outward + dd.x() * axle};
 }
 
 }  // namespace
@@ -162,8 +169,7 @@ Box3 RevolutionSurface::bounds() const {
 }
 
 std::size_t RevolutionSurface::memory_bytes() const {
-  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() +
-         hulls_.memory_bytes();
+  return sizeof(*this) + profile_.breaks().size_bytes() + profile_.segments().size_bytes() + hulls_.memory_bytes();
 }
 
 void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
@@ -177,8 +183,10 @@ void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut
     const int first = static_cast<int>(task * kLinesPerTask);
     const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
     std::vector<int> cells;
-    cells_over(profile_, hulls_, {g.across, g.along, g.normal, g.origin, widened(g.across_at(first), g.across_at(last)),
-                                  widened(g.samples.first, g.samples.last())}, cells);
+    cells_over(profile_, hulls_,
+               {g.across, g.along, g.normal, g.origin, widened(g.across_at(first), g.across_at(last)),
+                widened(g.samples.first, g.samples.last())},
+               cells);
     for (int line = first; line <= last; ++line) {
       hits.clear();
       const RevolutionSection section(profile_, view, g.across_at(line));
@@ -199,13 +207,15 @@ void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut
 
 void RevolutionSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
   const bool along_y = wheel_lines_along_y(X_SP.rotation);
-  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0),
+             normal = X_SP.rotation.col(2);
   const WheelView view(across, along, normal, X_SP.origin);
   const auto dz_along = along_y ? out.dzdy : out.dzdx, dz_across = along_y ? out.dzdx : out.dzdy;
   const bool slopes = !dz_along.empty() || !dz_across.empty();
   const auto over = [&](const Interval& a, const Interval& s) {
     std::vector<int> cells;
-    cells_over(profile_, hulls_, {across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)}, cells);
+    cells_over(profile_, hulls_, {across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)},
+               cells);
     return cells;
   };
   const auto count = [](const std::vector<int>& cells) { return cells.size(); };
@@ -236,7 +246,8 @@ void RevolutionSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> po
 
 void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
   const bool along_y = wheel_lines_along_y(X_SP.rotation);
-  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0),
+             normal = X_SP.rotation.col(2);
   const WheelView view(across, along, normal, X_SP.origin);
   ColumnHits hits(1, Facing::down);
   std::vector<int> cells;
@@ -261,8 +272,8 @@ void RevolutionSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points
 HeightBounds RevolutionSurface::do_height_bounds(const Pose& X_SP, const Rectangle& r) const {
   const bool along_y = wheel_lines_along_y(X_SP.rotation);
   const Interval x = widened(r.x_min, r.x_max), y = widened(r.y_min, r.y_max);
-  const ProfileWindow window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0), X_SP.rotation.col(2), X_SP.origin,
-                              along_y ? x : y, along_y ? y : x});
+  const ProfileWindow window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0),
+                              X_SP.rotation.col(2), X_SP.origin, along_y ? x : y, along_y ? y : x});
   const ProfileTree tree(window, profile_, hulls_);
   const Interval n = BoundSearch(tree, facing()).range(tree.root());
   if (n.empty()) return {0.0, 0.0, true};

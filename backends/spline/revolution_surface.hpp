@@ -12,9 +12,9 @@
 namespace treadmark::spline {
 
 /// A round wheel: p(u, v) = (r sin u, y(v), r cos u), r = nominal radius + z(v), u = angle about the axle [rad],
-/// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of the
-/// wheel to its far side is a miss. Within a profile segment of x = +-r, where the surface stands upright over the plane,
-/// points may be misses too.
+/// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of
+/// the wheel to its far side is a miss. Within a profile segment of x = +-r, where the surface stands upright over the
+/// plane, points may be misses too.
 class RevolutionSurface final : public Surface, public LateralData {
  public:
   /// Errors: Error(configuration) unless the radius is positive everywhere.

@@ -11,9 +11,9 @@ namespace treadmark::spline {
 
 // A section is the curve in which a plane spanned by a grid line and the direction of heights cuts a surface:
 // (s(v), n(v)), s along the grid line, n the height. It comes in cells between breaks of v, smooth inside.
-// Rastering a section means finding n at the positions s of grid points: cells are cut into pieces with monotonic s, and on
-// each piece s(v) = s_i is solved by Newton's method, started from the inverse Hermite cubic and kept inside a bracket.
-// Every hit is found this way, folds included; which one to keep is up to the receiver.
+// Rastering a section means finding n at the positions s of grid points: cells are cut into pieces with monotonic s,
+// and on each piece s(v) = s_i is solved by Newton's method, started from the inverse Hermite cubic and kept inside a
+// bracket. Every hit is found this way, folds included; which one to keep is up to the receiver.
 
 /// A point of a section: position, derivatives along v, and the surface parameter u that goes with it.
 struct SectionPoint {
@@ -43,19 +43,24 @@ inline constexpr int kMaxSolveSteps = 100;
 /// Part of a grid step by which a grid point may miss the end of a surface and still count as on it.
 inline constexpr double kEdgeSlack = 1e-9;
 
-/// Section: point(cell, v, u) const, kStep and kStepU: corrections of v and u below which a hit is converged (its error is
-/// their square times curvature), kFine: the same next to a fold.
-/// near_cubic(cell, a, b): whether s(v), n(v) and u(v) are cubic on the cell to well below the accuracy wanted; then the
-/// cubics through the ends (Hermite) are solved instead of the surface.
-/// hit(i, n, cell, v, u): called for every grid point i that a piece covers; ends of pieces may be reported twice.
-/// Use: cell(...) for all cells, then finish(). Guesses are collected first, so that the evaluations run without branches.
+/// Section: point(cell, v, u) const, kStep and kStepU: corrections of v and u below which a hit is converged (its error
+/// is their square times curvature), kFine: the same next to a fold. near_cubic(cell, a, b): whether s(v), n(v) and
+/// u(v) are cubic on the cell to well below the accuracy wanted; then the cubics through the ends (Hermite) are solved
+/// instead of the surface. hit(i, n, cell, v, u): called for every grid point i that a piece covers; ends of pieces may
+/// be reported twice. Use: cell(...) for all cells, then finish(). Guesses are collected first, so that the evaluations
+/// run without branches.
 template <class Section, class Hit>
 class SectionRaster {
  public:
   /// queue: room for guesses, kept between lines.
   SectionRaster(const Section& section, const Samples& samples, Hit& hit, std::vector<HitGuess>& queue)
-      : section_(section), samples_(samples), hit_(hit), queue_(queue), inverse_step_(1.0 / samples.step),
-        low_(samples.first - kEdgeSlack * samples.step), high_(samples.last() + kEdgeSlack * samples.step) {
+      : section_(section),
+        samples_(samples),
+        hit_(hit),
+        queue_(queue),
+        inverse_step_(1.0 / samples.step),
+        low_(samples.first - kEdgeSlack * samples.step),
+        high_(samples.last() + kEdgeSlack * samples.step) {
     queue_.clear();
   }
 
@@ -139,7 +144,8 @@ class SectionRaster {
   void piece(int cell, double va, const SectionPoint& a, double vb, const SectionPoint& b, double step_limit) {
     const double low = std::min(a.s, b.s), high = std::max(a.s, b.s);
     int first = 0, last = samples_.count - 1;
-    if (low > samples_.first) first = static_cast<int>(std::min((low - samples_.first) * inverse_step_ + (1.0 - kEdgeSlack), 2e9));
+    if (low > samples_.first)
+      first = static_cast<int>(std::min((low - samples_.first) * inverse_step_ + (1.0 - kEdgeSlack), 2e9));
     if (high < samples_.last()) {
       const double reach = (high - samples_.first) * inverse_step_ + kEdgeSlack;
       if (reach < 0.0) return;
@@ -161,7 +167,8 @@ class SectionRaster {
     const double c2 = 3.0 - 2.0 * slope_a - slope_b, c3 = slope_a + slope_b - 2.0;
     const double secant_u = (b.u - a.u), end_u = a.du * h, bend_u = b.du * h;
     if (section_.near_cubic(cell, a, b)) {
-      const Hermite s{a.s, rise, a.ds * h, b.ds * h}, n{a.n, b.n - a.n, a.dn * h, b.dn * h}, u{a.u, secant_u, end_u, bend_u};
+      const Hermite s{a.s, rise, a.ds * h, b.ds * h}, n{a.n, b.n - a.n, a.dn * h, b.dn * h},
+          u{a.u, secant_u, end_u, bend_u};
       for (int i = first; i <= last; ++i) {
         const double target = samples_.first + i * samples_.step;
         const double x = std::clamp((target - a.s) * inverse_rise, 0.0, 1.0);
@@ -177,7 +184,8 @@ class SectionRaster {
             continue;
           }
         }
-        hit_(i, n.value(f) + step * n.slope(f), cell, va + std::clamp(f + step, 0.0, 1.0) * h, u.value(f) + step * u.slope(f));
+        hit_(i, n.value(f) + step * n.slope(f), cell, va + std::clamp(f + step, 0.0, 1.0) * h,
+             u.value(f) + step * u.slope(f));
       }
       return;
     }
@@ -185,7 +193,8 @@ class SectionRaster {
       const double target = samples_.first + i * samples_.step;
       const double x = std::clamp((target - a.s) * inverse_rise, 0.0, 1.0);
       const double f = std::clamp(x * (slope_a + x * (c2 + x * c3)), 0.0, 1.0);
-      const double u = a.u + f * (end_u + f * (3.0 * secant_u - 2.0 * end_u - bend_u + f * (end_u + bend_u - 2.0 * secant_u)));
+      const double u =
+          a.u + f * (end_u + f * (3.0 * secant_u - 2.0 * end_u - bend_u + f * (end_u + bend_u - 2.0 * secant_u)));
       queue_.push_back({target, va + f * h, u, va, vb, step_limit, i, cell, rise > 0.0});
     }
   }

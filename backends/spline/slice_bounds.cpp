@@ -31,10 +31,11 @@ RailWindow::RailWindow(const PlaneWindow& window)
   const Vec3& a = window.across_axis;
   const Range across(window.across);
   const double inverse = 1.0 / a.x();
-  u_ = {inverse * (across.middle + a.dot(window.origin)), std::abs(inverse) * across.half, -a.y() * inverse, -a.z() * inverse};
+  u_ = {inverse * (across.middle + a.dot(window.origin)), std::abs(inverse) * across.half, -a.y() * inverse,
+        -a.z() * inverse};
   const auto with_u = [&](const Vec3& axis) {
-    return Linear{axis.x() * u_.at_zero - axis.dot(window.origin), std::abs(axis.x()) * u_.half, axis.y() + axis.x() * u_.by_y,
-                  axis.z() + axis.x() * u_.by_w};
+    return Linear{axis.x() * u_.at_zero - axis.dot(window.origin), std::abs(axis.x()) * u_.half,
+                  axis.y() + axis.x() * u_.by_y, axis.z() + axis.x() * u_.by_w};
   };
   s_ = with_u(window.along_axis);
   n_ = with_u(window.normal);
@@ -59,7 +60,8 @@ Interval WheelWindow::u(const Range& y, const Range& r) const {
   const Interval a = a_of(y).interval();
   const double r_low = r.middle - r.half, r_high = r.middle + r.half;
   // asin(a / r) for all a and r of the ranges, up to a quarter turn where a > r
-  const Interval lean{arc_sine(a.low / (a.low < 0.0 ? r_low : r_high)).low, arc_sine(a.high / (a.high > 0.0 ? r_low : r_high)).high};
+  const Interval lean{arc_sine(a.low / (a.low < 0.0 ? r_low : r_high)).low,
+                      arc_sine(a.high / (a.high > 0.0 ? r_low : r_high)).high};
   const Interval u = sense_ * lean + u_middle_;
   return {u.low - kRounding, u.high + kRounding};
 }

@@ -34,8 +34,10 @@ class RailWindow {
  public:
   explicit RailWindow(const PlaneWindow& window);
 
-  bool exists() const { return exists_; }                 ///< false: the plane has no lines that suit
-  Interval u(const Range& y, const Range& w) const { return u_.of(y, w).interval(); }  ///< that the window can see of the box
+  bool exists() const { return exists_; }  ///< false: the plane has no lines that suit
+  Interval u(const Range& y, const Range& w) const {
+    return u_.of(y, w).interval();
+  }  ///< that the window can see of the box
   /// Heights of the box over the window, empty if it is not.
   Interval heights(const Range& y, const Range& w) const {
     return s_.of(y, w).overlaps(along_) ? n_.of(y, w).interval() : Interval::none();
@@ -79,7 +81,8 @@ class WheelWindow {
     const double size = std::abs(a.middle), far = size + a.half, near = std::max(0.0, size - a.half);
     const double r_high = r.middle + r.half, r_low = r.middle - r.half;
     if (near > r_high) return {0.0, -1.0};
-    return Range(Interval{std::sqrt(std::max(0.0, r_low * r_low - far * far)), std::sqrt(std::max(0.0, r_high * r_high - near * near))});
+    return Range(Interval{std::sqrt(std::max(0.0, r_low * r_low - far * far)),
+                          std::sqrt(std::max(0.0, r_high * r_high - near * near))});
   }
   // Linear in y and b, after a has been put in.
   struct Linear {
@@ -108,7 +111,8 @@ class SliceTree {
   };
   static constexpr std::size_t kMostChildren = 48;  // the root's in every turn, else 4 x 4 or 8
 
-  SliceTree(const Window& window, const SliceNet& net, const SliceHulls& hulls) : window_(window), net_(net), hulls_(hulls) {}
+  SliceTree(const Window& window, const SliceNet& net, const SliceHulls& hulls)
+      : window_(window), net_(net), hulls_(hulls) {}
 
   Node root() const { return {static_cast<int>(hulls_.levels().size()), 0, 0, 0.0}; }
   static bool is_leaf(const Node& node) { return node.level == 0; }
@@ -131,8 +135,9 @@ class SliceTree {
     const SliceHulls::Level& level = hulls_.levels()[static_cast<std::size_t>(node.level)];
     const HullBox& box = level.box(node.row, node.column);
     const int row = node.row * level.rows_below, column = node.column * level.columns_below;
-    boxes(below, node.level - 1, window_.u(range_y(box), range_w(box)), node.turn, row, std::min(below.rows, row + level.rows_below), column,
-          std::min(below.columns, column + level.columns_below), visit, skip);
+    boxes(below, node.level - 1, window_.u(range_y(box), range_w(box)), node.turn, row,
+          std::min(below.rows, row + level.rows_below), column, std::min(below.columns, column + level.columns_below),
+          visit, skip);
   }
 
   /// Only what the window sees of each span.
@@ -157,8 +162,8 @@ class SliceTree {
   static Range range_w(const HullBox& box) { return {static_cast<double>(box.w), static_cast<double>(box.half_w)}; }
 
   template <class Visit, class Skip>
-  void boxes(const SliceHulls::Level& level, int index, const Interval& u, double turn, int first_row, int last_row, int first_column,
-             int last_column, const Visit& visit, const Skip& skip) const {
+  void boxes(const SliceHulls::Level& level, int index, const Interval& u, double turn, int first_row, int last_row,
+             int first_column, int last_column, const Visit& visit, const Skip& skip) const {
     for (int row = first_row; row < last_row; ++row) {
       if (!level.u[static_cast<std::size_t>(row)].overlaps(u + turn)) continue;
       for (int column = first_column; column < last_column; ++column) {
@@ -176,10 +181,11 @@ class SliceTree {
   const SliceHulls& hulls_;
 };
 
-/// Calls use(range along the lines, heights) for boxes that may be over the window: for one that is small and level beside a
-/// length, else for the finest ones in it.
+/// Calls use(range along the lines, heights) for boxes that may be over the window: for one that is small and level
+/// beside a length, else for the finest ones in it.
 template <class Window, class Use>
-void for_small_boxes(const Window& window, const SliceNet& net, const SliceHulls& hulls, double length, const Use& use) {
+void for_small_boxes(const Window& window, const SliceNet& net, const SliceHulls& hulls, double length,
+                     const Use& use) {
   constexpr double kSmall = 0.25, kLevel = 0.05;
   using Tree = SliceTree<Window>;
   const Tree tree(window, net, hulls);
@@ -194,10 +200,11 @@ void for_small_boxes(const Window& window, const SliceNet& net, const SliceHulls
   descend(descend, tree.root());
 }
 
-/// Marks the cells that may lie over the window, and a few beside them where boxes of the second level count as a whole: for a
-/// single line a cell costs less than its test.
+/// Marks the cells that may lie over the window, and a few beside them where boxes of the second level count as a
+/// whole: for a single line a cell costs less than its test.
 template <class Window>
-void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls& hulls, bool single_line, std::vector<char>& marks) {
+void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls& hulls, bool single_line,
+                     std::vector<char>& marks) {
   if (!window.exists()) return;
   using Tree = SliceTree<Window>;
   const Tree tree(window, net, hulls);
@@ -206,11 +213,16 @@ void mark_cells_over(const Window& window, const SliceNet& net, const SliceHulls
   const auto width = static_cast<std::size_t>(whole == 0 ? 1 : levels[1].columns_below);
   const auto cells = static_cast<std::size_t>(levels.front().columns);
   const auto descend = [&](const auto& self, const typename Tree::Node& node) -> void {
-    tree.children(node, [&](const typename Tree::Node& child, const Interval&) {
-      if (child.level != whole) return self(self, child);
-      const std::size_t first = static_cast<std::size_t>(child.column) * width;
-      std::memset(marks.data() + first, 1, std::min(width, cells - first));
-    }, [&](const typename Tree::Node& child) { return child.level == whole && marks[static_cast<std::size_t>(child.column) * width]; });
+    tree.children(
+        node,
+        [&](const typename Tree::Node& child, const Interval&) {
+          if (child.level != whole) return self(self, child);
+          const std::size_t first = static_cast<std::size_t>(child.column) * width;
+          std::memset(marks.data() + first, 1, std::min(width, cells - first));
+        },
+        [&](const typename Tree::Node& child) {
+          return child.level == whole && marks[static_cast<std::size_t>(child.column) * width];
+        });
   };
   descend(descend, tree.root());
 }

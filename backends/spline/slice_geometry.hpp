@@ -35,7 +35,9 @@ class RailGeometry {
   explicit RailGeometry(double) {}
 
   /// The turned frame is the surface frame, whatever the reference.
-  static TurnedAxis turned(const Vec3& axis, const Vec3& origin, double) { return {axis.x(), axis.y(), axis.z(), axis.dot(origin)}; }
+  static TurnedAxis turned(const Vec3& axis, const Vec3& origin, double) {
+    return {axis.x(), axis.y(), axis.z(), axis.dot(origin)};
+  }
   static TurnedPoint point(double u, double, const NetValue& n) {
     return {{u, n.value.y, n.value.w}, {1.0, n.by_u.y, n.by_u.w}, {0.0, n.by_v.y, n.by_v.w}};
   }
@@ -45,7 +47,7 @@ class RailGeometry {
     return (c + across.dot(origin)) / across.x();
   }
   SurfaceDerivatives derivatives(double u, const NetValue& p, const NetSecond& s) const {
-    return {{u, p.value.y, p.value.w},      {1.0, p.by_u.y, p.by_u.w},      {0.0, p.by_v.y, p.by_v.w},
+    return {{u, p.value.y, p.value.w},   {1.0, p.by_u.y, p.by_u.w},   {0.0, p.by_v.y, p.by_v.w},
             {0.0, s.by_uu.y, s.by_uu.w}, {0.0, s.by_uv.y, s.by_uv.w}, {0.0, s.by_vv.y, s.by_vv.w}};
   }
 };

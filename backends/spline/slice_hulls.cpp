@@ -71,7 +71,8 @@ SliceHulls::Level level_above(const SliceHulls::Level& below, int rows, int colu
   level.columns_below = columns;
   for (int row = 0; row < level.rows; ++row) {
     const int first_row = row * rows, last_row = std::min(below.rows, first_row + rows);
-    level.u.push_back({below.u[static_cast<std::size_t>(first_row)].low, below.u[static_cast<std::size_t>(last_row) - 1].high});
+    level.u.push_back(
+        {below.u[static_cast<std::size_t>(first_row)].low, below.u[static_cast<std::size_t>(last_row) - 1].high});
     for (int column = 0; column < level.columns; ++column) {
       Interval y = Interval::none(), w = Interval::none();
       for (int r = first_row; r < last_row; ++r)
@@ -93,7 +94,8 @@ HullBox::HullBox(const Interval& range_y, const Interval& range_w) {
   round_outwards(range_w, w, half_w);
 }
 
-SliceHulls::SliceHulls(const SliceNet& net) : stride_((static_cast<std::size_t>(net.cells()) + 3) / 4 * 4 + 4), spans_(net.spans()) {
+SliceHulls::SliceHulls(const SliceNet& net)
+    : stride_((static_cast<std::size_t>(net.cells()) + 3) / 4 * 4 + 4), spans_(net.spans()) {
   constexpr double kInfinite = std::numeric_limits<double>::infinity();
   constexpr int kFewBoxes = 8;
   Level finest;
@@ -117,7 +119,8 @@ SliceHulls::SliceHulls(const SliceNet& net) : stride_((static_cast<std::size_t>(
         w.include(part_w);
       }
       const float bounds[7] = {twist.uuu, twist.uuv, twist.uuvv, twist.uvv, twist.uvvv, twist.vvv, twist.vv};
-      for (std::size_t i = 0; i < 7; ++i) twist_[(static_cast<std::size_t>(row) * 7 + i) * stride_ + static_cast<std::size_t>(cell)] = bounds[i];
+      for (std::size_t i = 0; i < 7; ++i)
+        twist_[(static_cast<std::size_t>(row) * 7 + i) * stride_ + static_cast<std::size_t>(cell)] = bounds[i];
       finest.boxes.push_back(y.empty() ? HullBox() : HullBox(y, w));
       all_y_.include(y);
       all_w_.include(w);

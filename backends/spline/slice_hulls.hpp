@@ -15,32 +15,38 @@ struct HullBox {
   HullBox() = default;
   HullBox(const Interval& range_y, const Interval& range_w);
   bool empty() const { return half_y < 0.0F; }
-  Interval range_y() const { return {static_cast<double>(y) - static_cast<double>(half_y), static_cast<double>(y) + static_cast<double>(half_y)}; }
-  Interval range_w() const { return {static_cast<double>(w) - static_cast<double>(half_w), static_cast<double>(w) + static_cast<double>(half_w)}; }
+  Interval range_y() const {
+    return {static_cast<double>(y) - static_cast<double>(half_y), static_cast<double>(y) + static_cast<double>(half_y)};
+  }
+  Interval range_w() const {
+    return {static_cast<double>(w) - static_cast<double>(half_w), static_cast<double>(w) + static_cast<double>(half_w)};
+  }
 };
 
-/// A pyramid of boxes of (y, w) around parts of a slice net, from control points. The finest boxes hold a group of u-spans
-/// and one v-cell; every box of a level above holds several of the level below. Also bounds of derivatives.
+/// A pyramid of boxes of (y, w) around parts of a slice net, from control points. The finest boxes hold a group of
+/// u-spans and one v-cell; every box of a level above holds several of the level below. Also bounds of derivatives.
 class SliceHulls {
  public:
   static constexpr int kSpansPerGroup = 4;
 
   struct Level {
-    int rows = 0, columns = 0;                      ///< along u and v
-    int rows_below = 1, columns_below = 1;          ///< of the level below in one box
-    std::vector<Interval> u;                        ///< of each row; the outer ones of a rail go on for ever
-    std::vector<HullBox> boxes;                     ///< by rows
+    int rows = 0, columns = 0;              ///< along u and v
+    int rows_below = 1, columns_below = 1;  ///< of the level below in one box
+    std::vector<Interval> u;                ///< of each row; the outer ones of a rail go on for ever
+    std::vector<HullBox> boxes;             ///< by rows
     const HullBox& box(int row, int column) const {
-      return boxes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) + static_cast<std::size_t>(column)];
+      return boxes[static_cast<std::size_t>(row) * static_cast<std::size_t>(columns) +
+                   static_cast<std::size_t>(column)];
     }
   };
 
   explicit SliceHulls(const SliceNet& net);
 
-  /// Bounds of derivatives over a cell and the group of spans that holds the span, `which` after another, `stride` apart;
-  /// u in its unit, v in cells, greatest of both fields: uuu, uuv, uuvv, uvv, uvvv, vvv, vv.
+  /// Bounds of derivatives over a cell and the group of spans that holds the span, `which` after another, `stride`
+  /// apart; u in its unit, v in cells, greatest of both fields: uuu, uuv, uuvv, uvv, uvvv, vvv, vv.
   const float* twist(int span, int cell) const {
-    return twist_.data() + static_cast<std::size_t>(span / kSpansPerGroup) * 7 * stride_ + static_cast<std::size_t>(cell);
+    return twist_.data() + static_cast<std::size_t>(span / kSpansPerGroup) * 7 * stride_ +
+           static_cast<std::size_t>(cell);
   }
   long twist_stride() const { return static_cast<long>(stride_); }
 

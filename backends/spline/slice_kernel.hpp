@@ -45,8 +45,14 @@ TREADMARK_LANES Fields at_breaks(const NetArrays& net, int span, int k, V t) {
 TREADMARK_LANES void sine_cosine(V x, V& sine, V& cosine) {
   // good to 3e-17 up to kGreatestAngle
   const V q = x * x;
-  sine = x * (1.0 - q * (1.0 / 6.0) * (1.0 - q * (1.0 / 20.0) * (1.0 - q * (1.0 / 42.0) * (1.0 - q * (1.0 / 72.0) * (1.0 - q * (1.0 / 110.0))))));
-  cosine = 1.0 - q * 0.5 * (1.0 - q * (1.0 / 12.0) * (1.0 - q * (1.0 / 30.0) * (1.0 - q * (1.0 / 56.0) * (1.0 - q * (1.0 / 90.0) * (1.0 - q * (1.0 / 132.0))))));
+  sine = x * (1.0 - q * (1.0 / 6.0) *
+                        (1.0 - q * (1.0 / 20.0) *
+                                   (1.0 - q * (1.0 / 42.0) * (1.0 - q * (1.0 / 72.0) * (1.0 - q * (1.0 / 110.0))))));
+  cosine =
+      1.0 - q * 0.5 *
+                (1.0 - q * (1.0 / 12.0) *
+                           (1.0 - q * (1.0 / 30.0) *
+                                      (1.0 - q * (1.0 / 56.0) * (1.0 - q * (1.0 / 90.0) * (1.0 - q * (1.0 / 132.0))))));
 }
 constexpr double kGreatestAngle = 0.3;
 constexpr double kTurn = 6.283185307179586476925;
@@ -66,7 +72,9 @@ TREADMARK_LANES Point turned(const SectionArrays& section, V u, const Fields& f)
   const V x = f.w * sine, z = f.w * cosine;
   return {{x, f.y, z}, {z + f.w_u * sine, f.y_u, f.w_u * cosine - x}, {f.w_v * sine, f.y_v, f.w_v * cosine}};
 }
-TREADMARK_LANES V on_axis(const double (&axis)[4], const V (&p)[3]) { return axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2]; }
+TREADMARK_LANES V on_axis(const double (&axis)[4], const V (&p)[3]) {
+  return axis[0] * p[0] + axis[1] * p[1] + axis[2] * p[2];
+}
 
 template <bool wheel>
 void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
@@ -115,8 +123,8 @@ void cut_breaks(SectionArrays& section, int first, int last, char* trouble) {
         for (int span = least_span + 1; span <= greatest_span; ++span) {
           const Fields other = at_breaks(net, span, k, u_net - net.starts[span]);
           const VMask here = in == VMask{span, span, span, span};
-          f = {here ? other.y : f.y, here ? other.w : f.w, here ? other.y_u : f.y_u, here ? other.w_u : f.w_u,
-               here ? other.y_v : f.y_v, here ? other.w_v : f.w_v};
+          f = {here ? other.y : f.y,     here ? other.w : f.w,     here ? other.y_u : f.y_u,
+               here ? other.w_u : f.w_u, here ? other.y_v : f.y_v, here ? other.w_v : f.w_v};
         }
         section.span = spans[3];
         // over the seam of a wheel, or beyond its end
@@ -163,7 +171,9 @@ void cut(SectionArrays& section, int first, int last, char* trouble) {
 template <class T, class Bound>
 TREADMARK_LANES T cubic_error(const TwistArrays& twist, T turn, T bend, const Bound& bound) {
   const T vvv = bound(4) + twist.turns_normal * bound(5), vv = bound(3) + twist.turns_normal * bound(6);
-  return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * (turn * bound(2) + bend * (2.0 * bound(1) + turn * bound(0)))) * (1.0 / 384.0) +
+  return (4.0 * turn * vvv + 6.0 * bend * vv +
+          6.0 * turn * (turn * bound(2) + bend * (2.0 * bound(1) + turn * bound(0)))) *
+             (1.0 / 384.0) +
          turn * turn * turn * bound(0) * (1.0 / 24.0);
 }
 
@@ -181,7 +191,8 @@ TREADMARK_LANES VMask near_cubic(const SectionArrays& section, const TwistArrays
   }
   for (int i = 1; i < 5; ++i) same = same && spans[i] / twist.spans_per_group == group;
   if (same && near) {
-    const V error = cubic_error(twist, turn, bend, [&](int which) { return load(twist.twist + (group * 7 + which) * twist.stride + k); });
+    const V error = cubic_error(twist, turn, bend,
+                                [&](int which) { return load(twist.twist + (group * 7 + which) * twist.stride + k); });
     return slow & (error <= twist.greatest_error);
   }
   VMask result{};
@@ -191,8 +202,9 @@ TREADMARK_LANES VMask near_cubic(const SectionArrays& section, const TwistArrays
     bool good = true;
     for (int end = i; end < i + 2; ++end) {
       const float* p = twist.twist + spans[end] / twist.spans_per_group * 7 * twist.stride + k + i;
-      good = good && cubic_error(twist, double(turn[i]), double(bend[i]), [&](int which) { return static_cast<double>(p[which * twist.stride]); }) <=
-                         twist.greatest_error;
+      good = good && cubic_error(twist, double(turn[i]), double(bend[i]), [&](int which) {
+                       return static_cast<double>(p[which * twist.stride]);
+                     }) <= twist.greatest_error;
     }
     result[i] = good ? -1 : 0;
   }
@@ -206,29 +218,33 @@ TREADMARK_LANES void hermite(V (&c)[4], V first, V rise, V slope_0, V slope_1) {
 }
 
 template <bool place>
-void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last, CellCubics* cells,
-                   int* first_sample, int* sample_count, char* fast) {
+void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first,
+                   int last, CellCubics* cells, int* first_sample, int* sample_count, char* fast) {
   constexpr double kUpright = 1e-9;  // [m]
   const double inverse_step = 1.0 / samples.step;
   const V zero = all(0.0), end = all(samples.count);
   for (int k = first / 4 * 4; k < last; k += 4) {
-    const V sa = load(section.s + k), sb = load(section.s + k + 1), dsa = load(section.ds + k), dsb = load(section.ds + k + 1);
+    const V sa = load(section.s + k), sb = load(section.s + k + 1), dsa = load(section.ds + k),
+            dsb = load(section.ds + k + 1);
     const V rise = sb - sa, reach = greatest(absolute(dsa), absolute(dsb));
     const V dua = load(section.du + k), dub = load(section.du + k + 1);
     // Sufficient for a monotonic cubic (Fritsch and Carlson 1980).
-    VMask good = (dsa * rise > zero) & (dsb * rise > zero) & (reach <= 3.0 * absolute(rise)) & (absolute(rise) > kUpright);
+    VMask good =
+        (dsa * rise > zero) & (dsb * rise > zero) & (reach <= 3.0 * absolute(rise)) & (absolute(rise) > kUpright);
     good &= near_cubic(section, twist, k, greatest(absolute(dua), absolute(dub)), absolute(dub - dua));
     const int good_bits = bits(good);
     for (int i = 0; i < 4; ++i) fast[k + i] = static_cast<char>((good_bits >> i) & 1);
     const V from = least(greatest((least(sa, sb) - samples.first) * inverse_step + (1.0 - samples.slack), zero), end);
     const V to = least(greatest((greatest(sa, sb) - samples.first) * inverse_step + (1.0 + samples.slack), zero), end);
-    const VInt from_i = __builtin_convertvector(good ? from : zero, VInt), to_i = __builtin_convertvector(good ? to : zero, VInt);
+    const VInt from_i = __builtin_convertvector(good ? from : zero, VInt),
+               to_i = __builtin_convertvector(good ? to : zero, VInt);
     const VInt count = to_i - from_i;
     store(first_sample + k, from_i);
     store(sample_count + k, count > 0 ? count : VInt{});
     // One division for three quotients.
     const V both = dsa * dsb, inverse = 1.0 / (both * rise), rise_inverse = rise * rise * inverse;
-    const V inverse_rise = both * inverse, slope_a = least(rise_inverse * dsb, all(3.0)), slope_b = least(rise_inverse * dsa, all(3.0));
+    const V inverse_rise = both * inverse, slope_a = least(rise_inverse * dsb, all(3.0)),
+            slope_b = least(rise_inverse * dsa, all(3.0));
     V f[4], s[4], n[4], u[4];
     f[0] = zero;
     f[1] = slope_a * inverse_rise;
@@ -249,12 +265,13 @@ void prepare_cells(const SectionArrays& section, const TwistArrays& twist, const
 }
 
 template <bool place>
-void solve_pairs(const CellCubics* cells, const SampleArrays& samples, int* pair_cell, int* pair_sample, int count, const HitArrays& hits,
-                 char* redo) {
+void solve_pairs(const CellCubics* cells, const SampleArrays& samples, int* pair_cell, int* pair_sample, int count,
+                 const HitArrays& hits, char* redo) {
   constexpr double kSettled = 1e-9, kBeside = 1e-6;  // of a cell
   constexpr int kMoreSteps = 4;
   if (count == 0) return;
-  for (int i = 0; i < 3; ++i) pair_cell[count + i] = pair_cell[count - 1], pair_sample[count + i] = pair_sample[count - 1];
+  for (int i = 0; i < 3; ++i)
+    pair_cell[count + i] = pair_cell[count - 1], pair_sample[count + i] = pair_sample[count - 1];
   for (int j = 0; j < count; j += 4) {
     const int* c = pair_cell + j;
     const int* i = pair_sample + j;
@@ -319,7 +336,8 @@ void hit_cells(const SectionArrays& section, const TwistArrays& twist, const Sam
                const CellArrays& work, const HitArrays& hits) {
   constexpr int kPairs = 512;
   int cell[kPairs + 4], sample[kPairs + 4];
-  prepare_cells<place>(section, twist, samples, first, last, work.cells, work.first_sample, work.sample_count, work.fast);
+  prepare_cells<place>(section, twist, samples, first, last, work.cells, work.first_sample, work.sample_count,
+                       work.fast);
   int pairs = 0;
   for (int k = first; k < last; ++k) {
     int i = work.first_sample[k], count = work.sample_count[k];
@@ -338,8 +356,8 @@ void hit_cells(const SectionArrays& section, const TwistArrays& twist, const Sam
   solve_pairs<place>(work.cells, samples, cell, sample, pairs, hits, work.redo);
 }
 
-void hit(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last, const CellArrays& work,
-         const HitArrays& hits) {
+void hit(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last,
+         const CellArrays& work, const HitArrays& hits) {
   hits.v == nullptr ? hit_cells<false>(section, twist, samples, first, last, work, hits)
                     : hit_cells<true>(section, twist, samples, first, last, work, hits);
 }
@@ -349,9 +367,11 @@ void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const S
   const NetArrays& net = section.net;
   for (int i = 0; i < count; i += 4) {
     const V u = load(hits.u + i), u_net = u + section.turn;
-    const V cell = V{double(hits.cell[i]), double(hits.cell[i + 1]), double(hits.cell[i + 2]), double(hits.cell[i + 3])};
+    const V cell =
+        V{double(hits.cell[i]), double(hits.cell[i + 1]), double(hits.cell[i + 2]), double(hits.cell[i + 3])};
     const V f = load(hits.v + i) - (cell + 1.0), g = 1.0 - f;
-    V basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g), f * f * f * (1.0 / 6.0)};
+    V basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
+                  f * f * f * (1.0 / 6.0)};
     V basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
     transpose(basis);
     transpose(basis_v);
@@ -359,20 +379,22 @@ void slopes_at(SectionArrays& section, const HitArrays& hits, int count, const S
     for (int lane = 0; lane < 4; ++lane) {
       double u_lane = u_net[lane];
       const double u_end = net.starts[net.spans];
-      if (wheel && !(u_lane >= net.starts[0] && u_lane < u_end)) u_lane -= kTurn * __builtin_floor((u_lane - u_end) / kTurn + 1.0);
+      if (wheel && !(u_lane >= net.starts[0] && u_lane < u_end))
+        u_lane -= kTurn * __builtin_floor((u_lane - u_end) / kTurn + 1.0);
       section.span = span_of(net, u_lane, section.span);
       const double t = u_lane - net.starts[section.span];
       const double* p = net.cubics + section.span * net.span_size + hits.cell[i + lane];
       const V y1 = load(p + 2 * net.stride), y2 = load(p + 4 * net.stride), y3 = load(p + 6 * net.stride);
       const V w1 = load(p + 3 * net.stride), w2 = load(p + 5 * net.stride), w3 = load(p + 7 * net.stride);
-      const V line_y = load(p) + t * (y1 + t * (y2 + t * y3)), line_w = load(p + net.stride) + t * (w1 + t * (w2 + t * w3));
+      const V line_y = load(p) + t * (y1 + t * (y2 + t * y3)),
+              line_w = load(p + net.stride) + t * (w1 + t * (w2 + t * w3));
       w[lane] = basis[lane] * line_w;
       y_u[lane] = basis[lane] * (y1 + t * (2.0 * y2 + (3.0 * t) * y3));
       w_u[lane] = basis[lane] * (w1 + t * (2.0 * w2 + (3.0 * t) * w3));
       y_v[lane] = basis_v[lane] * line_y;
       w_v[lane] = basis_v[lane] * line_w;
     }
-    const auto sum = [](V (&x)[4]) __attribute__((always_inline)) {
+    const auto sum = [](V(&x)[4]) __attribute__((always_inline)) {
       transpose(x);
       return (x[0] + x[1]) + (x[2] + x[3]);
     };

@@ -4,8 +4,8 @@
 
 namespace treadmark::spline {
 
-// Evaluation of slice surfaces four breaks, cells or samples at a time, on plain arrays; see slice_section.hpp for what is
-// computed. Whatever a kernel cannot settle it reports, and scalar code does it again.
+// Evaluation of slice surfaces four breaks, cells or samples at a time, on plain arrays; see slice_section.hpp for what
+// is computed. Whatever a kernel cannot settle it reports, and scalar code does it again.
 
 /// A SliceNet: value = cubics[span * span_size + (2 power + field) * stride + line], field 0 = y, 1 = w.
 struct NetArrays {
@@ -15,18 +15,19 @@ struct NetArrays {
   int spans;
 };
 
-/// A section along one grid line, and the arrays of its breaks (v = index + 1), padded to a multiple of four and one more.
+/// A section along one grid line, and the arrays of its breaks (v = index + 1), padded to a multiple of four and one
+/// more.
 struct SectionArrays {
   NetArrays net;
   bool wheel;
   double across[4], along[4], normal[4];  ///< in the turned frame: x, y, z, origin
-  double c;          ///< across coordinate of the line
-  double reference;  ///< angle of the turned frame
-  double turn;       ///< whole turns to be added to u for the net
-  double shift;      ///< of c since the cut before, 0: none
+  double c;                               ///< across coordinate of the line
+  double reference;                       ///< angle of the turned frame
+  double turn;                            ///< whole turns to be added to u for the net
+  double shift;                           ///< of c since the cut before, 0: none
   double before, slope;  ///< u of a neighbouring line and its change from line to line, where there was no cut before
   double u_tolerance, largest_step, largest_prediction;
-  int span;          ///< near u; updated
+  int span;  ///< near u; updated
   double *s, *n, *ds, *dn, *u, *du;
   double *u_by_c, *change, *predicted;
   int* spans;
@@ -73,8 +74,8 @@ struct SlopeArrays {
 struct SliceKernels {
   /// Cuts breaks 4 first .. 4 last + 3; trouble[group] = 1 where one of four did not settle, else 0.
   void (*cut)(SectionArrays& section, int first, int last, char* trouble);
-  /// Hits of the samples over cells first .. last - 1 of which the cubics serve: fast[cell] = 1, else 0. redo[cell] = 1 for
-  /// cells with a hit that did not converge.
+  /// Hits of the samples over cells first .. last - 1 of which the cubics serve: fast[cell] = 1, else 0. redo[cell] = 1
+  /// for cells with a hit that did not converge.
   void (*hit)(const SectionArrays& section, const TwistArrays& twist, const SampleArrays& samples, int first, int last,
               const CellArrays& work, const HitArrays& hits);
   /// Slopes of the surface at the hits; arrays padded to a multiple of four.

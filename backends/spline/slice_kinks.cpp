@@ -27,7 +27,8 @@ std::vector<SliceSet> split_at_kinks(const SliceSet& slices) {
   };
   for (const int kink : slices.kinks) {
     if (kink <= from || kink >= last)
-      throw Error(ErrorKind::input_data, "the kinks of '" + slices.name + "' must be increasing inner features, " + std::to_string(kink) + " is not");
+      throw Error(ErrorKind::input_data, "the kinks of '" + slices.name + "' must be increasing inner features, " +
+                                             std::to_string(kink) + " is not");
     add_until(kink);
   }
   add_until(last);

@@ -7,7 +7,10 @@
 namespace treadmark::spline {
 
 SliceNet::SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions)
-    : starts_(std::move(span_starts)), closed_(closed), positions_(positions), stride_((static_cast<std::size_t>(positions) + 3) / 4 * 4 + 4) {
+    : starts_(std::move(span_starts)),
+      closed_(closed),
+      positions_(positions),
+      stride_((static_cast<std::size_t>(positions) + 3) / 4 * 4 + 4) {
   cubics_.assign(starts_.size() * 8 * stride_, std::numeric_limits<double>::quiet_NaN());
   starts_.push_back(u_end);
 }

@@ -31,9 +31,10 @@ struct NetSecond {
   NetPair by_uu, by_uv, by_vv;
 };
 
-/// A tensor B-spline surface (y, w)(u, v) with uniform knots in v, stored for evaluation: on every u-span each v-line of
-/// coefficients is a cubic in t = u - start of span; equal numbers of successive lines lie side by side. v runs from 1 to positions(); cell k holds v in [k + 1, k + 2].
-/// Where a line is missing its numbers are NaN, and so are results that need it. Immutable after building.
+/// A tensor B-spline surface (y, w)(u, v) with uniform knots in v, stored for evaluation: on every u-span each v-line
+/// of coefficients is a cubic in t = u - start of span; equal numbers of successive lines lie side by side. v runs from
+/// 1 to positions(); cell k holds v in [k + 1, k + 2]. Where a line is missing its numbers are NaN, and so are results
+/// that need it. Immutable after building.
 class SliceNet {
  public:
   /// One coefficient line on one u-span: powers of t.
@@ -62,7 +63,8 @@ class SliceNet {
   }
   void set_line(int span, int line, const LineCubic& cubic) {
     double* p = cubics_.data() + index(span, line);
-    for (std::size_t m = 0; m < 4; ++m) p[2 * m * stride_] = cubic.power[m].y, p[(2 * m + 1) * stride_] = cubic.power[m].w;
+    for (std::size_t m = 0; m < 4; ++m)
+      p[2 * m * stride_] = cubic.power[m].y, p[(2 * m + 1) * stride_] = cubic.power[m].w;
   }
   NetArrays arrays() const {
     return {cubics_.data(), starts_.data(), static_cast<long>(8 * stride_), static_cast<long>(stride_), spans()};
@@ -81,7 +83,8 @@ class SliceNet {
   NetValue at(const Place& place, int cell, double f) const;
   NetSecond second_at(const Place& place, int cell, double f) const;
 
-  /// Ranges of y and w over a cell for u0 <= u <= u1 within one span, from control points; false if there is no surface.
+  /// Ranges of y and w over a cell for u0 <= u <= u1 within one span, from control points; false if there is no
+  /// surface.
   bool hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const;
 
  private:
@@ -144,8 +147,8 @@ inline NetValue SliceNet::at(const Place& place, int cell, double f) const {
   using detail::Pair;
   const double* c = numbers(place.span, cell);
   const double g = 1.0 - f;
-  const double basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
-                           f * f * f * (1.0 / 6.0)};
+  const double basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f),
+                           2.0 / 3.0 - g * g * (1.0 - 0.5 * g), f * f * f * (1.0 / 6.0)};
   const double basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
   const Pair t = detail::both(place.t), two = detail::both(2.0), t3 = detail::both(3.0 * place.t);
   Pair value{}, by_u{}, by_v{};

@@ -32,7 +32,8 @@ std::vector<double> features_of(const SliceSet& slices, std::size_t i, double le
       ended = present;
       continue;
     }
-    if (ended) throw bad_slice(slices, i, "lacks a feature in the middle; only leading or trailing ones may be missing");
+    if (ended)
+      throw bad_slice(slices, i, "lacks a feature in the middle; only leading or trailing ones may be missing");
     if (present && !(s > previous)) throw bad_slice(slices, i, "has features that do not increase");
     if (s < 0.0 || s > length + kLengthSlack) throw bad_slice(slices, i, "has a feature beyond its end");
     previous = s;

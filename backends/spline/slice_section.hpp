@@ -31,31 +31,42 @@ struct SectionWorkspace {
   }
 };
 
-/// A slice surface cut at one value c of the across coordinate, for SectionRaster. The cut has u = u(v): every evaluation
-/// corrects u by one Newton step. Cuts follow one another, with the same lines each time;
-/// one starts from the last.
+/// A slice surface cut at one value c of the across coordinate, for SectionRaster. The cut has u = u(v): every
+/// evaluation corrects u by one Newton step. Cuts follow one another, with the same lines each time; one starts from
+/// the last.
 template <class Geometry>
 class SliceSection {
  public:
-  static constexpr double kStep = 4e-5;   // of a cell of 0.5 mm
+  static constexpr double kStep = 4e-5;  // of a cell of 0.5 mm
   static constexpr double kFine = 1e-12;
   static constexpr double kStepU = Geometry::kStepU;
 
-  SliceSection(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Vec3& across, const Vec3& along, const Vec3& normal,
-               const Vec3& origin, SectionWorkspace& workspace, const SliceKernels& kernels = slice_kernels())
-      : net_(net), hulls_(hulls), geometry_(geometry), kernels_(kernels), work_(workspace), across_direction_(across), normal_direction_(normal),
-        origin_(origin), along_direction_(along) {
+  SliceSection(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Vec3& across,
+               const Vec3& along, const Vec3& normal, const Vec3& origin, SectionWorkspace& workspace,
+               const SliceKernels& kernels = slice_kernels())
+      : net_(net),
+        hulls_(hulls),
+        geometry_(geometry),
+        kernels_(kernels),
+        work_(workspace),
+        across_direction_(across),
+        normal_direction_(normal),
+        origin_(origin),
+        along_direction_(along) {
     const std::size_t breaks = (static_cast<std::size_t>(net.positions()) + 3) / 4 * 4 + 4;
     work_.fit(breaks);
     double* p = work_.numbers.data();
     SectionArrays& a = arrays_;
-    for (double** array : {&a.s, &a.n, &a.ds, &a.dn, &a.u, &a.du, &a.u_by_c, &a.change, &a.predicted}) *array = p, p += breaks;
+    for (double** array : {&a.s, &a.n, &a.ds, &a.dn, &a.u, &a.du, &a.u_by_c, &a.change, &a.predicted})
+      *array = p, p += breaks;
     a.spans = work_.spans.data();
     a.net = net.arrays();
     a.wheel = Geometry::kTurns;
-    a.u_tolerance = kCutStepU, a.largest_step = Geometry::kLargestStepU, a.largest_prediction = Geometry::kLargestPrediction;
+    a.u_tolerance = kCutStepU, a.largest_step = Geometry::kLargestStepU,
+    a.largest_prediction = Geometry::kLargestPrediction;
     a.span = 0;
-    twist_ = {hulls.twist(0, 0), hulls.twist_stride(), SliceHulls::kSpansPerGroup, kGreatestError, kGreatestTurn, Geometry::kTurnsNormal};
+    twist_ = {hulls.twist(0, 0), hulls.twist_stride(), SliceHulls::kSpansPerGroup,
+              kGreatestError,    kGreatestTurn,        Geometry::kTurnsNormal};
   }
 
   /// Forgets the cuts so far: the next ones may have other lines.
@@ -110,7 +121,9 @@ class SliceSection {
   }
 
   /// Of all hits; arrays padded to a multiple of four.
-  void slopes_of(const HitArrays& hits, int count, const SlopeArrays& slopes) { kernels_.slopes(arrays_, hits, count, slopes); }
+  void slopes_of(const HitArrays& hits, int count, const SlopeArrays& slopes) {
+    kernels_.slopes(arrays_, hits, count, slopes);
+  }
 
   SectionPoint point(int cell, double v, double u) const {
     const SliceNet::Place place = net_.find(u, span_);
@@ -119,8 +132,8 @@ class SliceSection {
     return combine(u, net_.at(place, cell, v - (cell + 1)), unused);
   }
 
-  /// For one u a cell is a cubic in v, so only the change of u along the cell spoils that: the interpolation error of the
-  /// Hermite cubic is its fourth derivative / 384, bounded here by the terms of the chain rule that count.
+  /// For one u a cell is a cubic in v, so only the change of u along the cell spoils that: the interpolation error of
+  /// the Hermite cubic is its fourth derivative / 384, bounded here by the terms of the chain rule that count.
   bool near_cubic(int cell, const SectionPoint& a, const SectionPoint& b) const {
     const double turn = std::max(std::abs(a.du), std::abs(b.du)), bend = std::abs(b.du - a.du);
     if (!(turn < kGreatestTurn)) return false;
@@ -132,7 +145,8 @@ class SliceSection {
       const double uuu = t(0), uuv = t(1), uuvv = t(2);
       const double vvv = t(4) + Geometry::kTurnsNormal * t(5), vv = t(3) + Geometry::kTurnsNormal * t(6);
       // uuu jumps where the cell leaves a span.
-      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * (turn * uuvv + bend * (2.0 * uuv + turn * uuu))) * (1.0 / 384.0) +
+      return (4.0 * turn * vvv + 6.0 * bend * vv + 6.0 * turn * (turn * uuvv + bend * (2.0 * uuv + turn * uuu))) *
+                 (1.0 / 384.0) +
              turn * turn * turn * uuu * (1.0 / 24.0);
     };
     return error(hulls_.twist(span_a, cell)) <= kGreatestError &&
@@ -147,7 +161,8 @@ class SliceSection {
     const SliceNet::Place place = net_.find(u, span_);
     const NetValue value = net_.at(place, cell, v - (cell + 1));
     const TurnedPoint at = Geometry::point(u, reference_, value);
-    const double a_u = across_.of(at.by_u), a_v = across_.of(at.by_v), s_u = along_.of(at.by_u), s_v = along_.of(at.by_v);
+    const double a_u = across_.of(at.by_u), a_v = across_.of(at.by_v), s_u = along_.of(at.by_u),
+                 s_v = along_.of(at.by_v);
     const double n_u = normal_.of(at.by_u), n_v = normal_.of(at.by_v);
     const double area = a_u * s_v - s_u * a_v;
     return {(a_u * n_v - n_u * a_v) / area, (n_u * s_v - s_u * n_v) / area};
@@ -165,7 +180,9 @@ class SliceSection {
     across_ = Geometry::turned(across_direction_, origin_, u);
     along_ = Geometry::turned(along_direction_, origin_, u);
     normal_ = Geometry::turned(normal_direction_, origin_, u);
-    const auto set = [](double (&to)[4], const TurnedAxis& axis) { to[0] = axis.x, to[1] = axis.y, to[2] = axis.z, to[3] = axis.origin; };
+    const auto set = [](double(&to)[4], const TurnedAxis& axis) {
+      to[0] = axis.x, to[1] = axis.y, to[2] = axis.z, to[3] = axis.origin;
+    };
     set(arrays_.across, across_);
     set(arrays_.along, along_);
     set(arrays_.normal, normal_);
@@ -179,7 +196,8 @@ class SliceSection {
       const auto k = static_cast<std::size_t>(line);
       // From the last cut, else from the neighbour.
       const double change_of_u = arrays_.shift * arrays_.predicted[k];
-      const bool known = arrays_.shift != 0.0 && std::abs(change_of_u) < Geometry::kLargestPrediction && !std::isnan(arrays_.s[k]);
+      const bool known =
+          arrays_.shift != 0.0 && std::abs(change_of_u) < Geometry::kLargestPrediction && !std::isnan(arrays_.s[k]);
       double u = known ? arrays_.u[k] + change_of_u : before + slope;
       double u_by_c = 0.0;
       int left = kMaxCutSteps;
@@ -217,7 +235,8 @@ class SliceSection {
       p[i] = at.p[i] + step * at.by_u[i];
       d[i] = at.by_v[i] + du * at.by_u[i];
     }
-    return {along_.of(p) - along_.origin, normal_.of(p) - normal_.origin, along_.of(d), normal_.of(d), u + step, du, step};
+    return {
+        along_.of(p) - along_.origin, normal_.of(p) - normal_.origin, along_.of(d), normal_.of(d), u + step, du, step};
   }
 
   const SliceNet& net_;

@@ -67,14 +67,16 @@ HitArrays hit_arrays(ColumnHits& hits, bool places) {
 }
 
 template <class Geometry>
-std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls, bool single_line) {
+std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, const SliceHulls& hulls,
+                               bool single_line) {
   thread_local std::vector<char> marks;
   marks.assign(static_cast<std::size_t>(net.cells()) + 1, 0);
   mark_cells_over(WindowOn<Geometry>(window), net, hulls, single_line, marks);
   std::vector<CellRun> runs;
   // memchr is quicker than a loop, and the last mark is never set
   const char *const begin = marks.data(), *const end = begin + net.cells();
-  for (const char* first = begin; (first = static_cast<const char*>(std::memchr(first, 1, static_cast<std::size_t>(end - first)))) != nullptr;) {
+  for (const char* first = begin;
+       (first = static_cast<const char*>(std::memchr(first, 1, static_cast<std::size_t>(end - first)))) != nullptr;) {
     const char* last = static_cast<const char*>(std::memchr(first, 0, static_cast<std::size_t>(end - first) + 1));
     runs.push_back({static_cast<int>(first - begin), static_cast<int>(last - begin)});
     first = last;
@@ -84,7 +86,8 @@ std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, c
 
 // The section must be cut already.
 template <class Geometry>
-void raster_cells(const SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples, ColumnHits& hits) {
+void raster_cells(const SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples,
+                  ColumnHits& hits) {
   SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
   for (const CellRun& run : runs)
     for (int k = run.first; k < run.last; ++k)
@@ -94,7 +97,8 @@ void raster_cells(const SliceSection<Geometry>& section, const std::vector<CellR
 
 // The same by kernels where these serve; does not say whether there are several hits.
 template <class Geometry>
-void hit_cells(SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples, bool places, ColumnHits& hits) {
+void hit_cells(SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples, bool places,
+               ColumnHits& hits) {
   SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
   const SampleArrays sample_arrays{samples.first, samples.step, samples.count, kEdgeSlack};
   const HitArrays arrays = hit_arrays(hits, places);
@@ -115,9 +119,11 @@ template <class Geometry, class Use>
 void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Pose& X_SP,
               std::span<const Vec2> points_P, const Use& use) {
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
-  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0), normal = X_SP.rotation.col(2);
+  const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0),
+             normal = X_SP.rotation.col(2);
   const auto over = [&](const Interval& a, const Interval& s) {
-    return runs_over<Geometry>({across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)}, net, hulls, true);
+    return runs_over<Geometry>({across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)},
+                               net, hulls, true);
   };
   const auto count = [](const std::vector<CellRun>& runs) {
     std::size_t cells = 0;
@@ -198,9 +204,10 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
     SliceSection<Geometry> section(net_, hulls_, geometry_, g.across, g.along, g.normal, g.origin, work.section);
     const int first = static_cast<int>(task * kLinesPerTask);
     const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
-    const auto runs = runs_over<Geometry>({g.across, g.along, g.normal, g.origin,
-                                           widened(g.across_at(first), g.across_at(last)),
-                                           widened(g.samples.first, g.samples.last())}, net_, hulls_, first == last);
+    const auto runs =
+        runs_over<Geometry>({g.across, g.along, g.normal, g.origin, widened(g.across_at(first), g.across_at(last)),
+                             widened(g.samples.first, g.samples.last())},
+                            net_, hulls_, first == last);
     for (int line = first; line <= last; ++line) {
       hits.clear();
       if (slopes) hits.clear_places();
@@ -228,7 +235,8 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
 }
 
 template <class Geometry>
-void SliceSurface<Geometry>::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+void SliceSurface<Geometry>::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P,
+                                           const HeightsOut& out) const {
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
   const auto dz_along = along_y ? out.dzdy : out.dzdx, dz_across = along_y ? out.dzdx : out.dzdy;
   const bool slopes = !dz_along.empty() || !dz_across.empty();
@@ -244,7 +252,8 @@ void SliceSurface<Geometry>::do_heights_at(const Pose& X_SP, std::span<const Vec
 }
 
 template <class Geometry>
-void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> points_P,
+                                       std::span<SurfacePoint> out) const {
   for_hits(net_, hulls_, geometry_, X_SP, points_P,
            [&](const ListedPoint& at, const SliceSection<Geometry>& section, const ColumnHits& hits) {
              SurfacePoint& found = out[at.index];
@@ -279,7 +288,8 @@ HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Re
 
 // Every small box goes to all rectangles it may be over: no descent for each of them.
 template <class Geometry>
-void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGrid& r, std::span<HeightBounds> out) const {
+void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGrid& r,
+                                            std::span<HeightBounds> out) const {
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
   const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0);
   const Interval x = widened(r.first.x_min, r.first.x_max), y = widened(r.first.y_min, r.first.y_max);
@@ -290,7 +300,8 @@ void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGri
   std::vector<Interval> heights(static_cast<std::size_t>(n_along));
   for (int i = 0; i < n_across; ++i) {
     std::ranges::fill(heights, Interval::none());
-    const WindowOn<Geometry> window({across, along, X_SP.rotation.col(2), X_SP.origin, first_across + i * step_across, all_along});
+    const WindowOn<Geometry> window(
+        {across, along, X_SP.rotation.col(2), X_SP.origin, first_across + i * step_across, all_along});
     if (window.exists())
       for_small_boxes(window, net_, hulls_, first_along.width(), [&](const Interval& s, const Interval& n) {
         const double begin = std::max(0.0, std::ceil((s.low - first_along.high) / step_along));
@@ -300,7 +311,8 @@ void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGri
       });
     for (int j = 0; j < n_along; ++j) {
       const Interval& n = heights[static_cast<std::size_t>(j)];
-      out[along_y ? r.index(i, j) : r.index(j, i)] = n.empty() ? HeightBounds{0.0, 0.0, true} : HeightBounds{n.low - 1e-12, n.high + 1e-12, false};
+      out[along_y ? r.index(i, j) : r.index(j, i)] =
+          n.empty() ? HeightBounds{0.0, 0.0, true} : HeightBounds{n.low - 1e-12, n.high + 1e-12, false};
     }
   }
 }

@@ -86,8 +86,7 @@ TopView::TopView(const ProfileSpline& profile, Body body) : profile_(&profile) {
     borders.push_back(a);
     borders.push_back(b);
   }
-  if (branches.empty())
-    throw Error(ErrorKind::numerical, "a profile that is upright all over has no top view");
+  if (branches.empty()) throw Error(ErrorKind::numerical, "a profile that is upright all over has no top view");
   std::sort(borders.begin(), borders.end());
   borders.erase(std::unique(borders.begin(), borders.end()), borders.end());
   // A valid curve does not cross itself, so between two borders the order of the branches stays the same.

@@ -9,8 +9,8 @@
 
 namespace treadmark::spline {
 
-/// The part of a profile that the other body can see along z: for every y the branch of least z of a rail, of greatest z
-/// of a wheel. Immutable; refers to the spline, which must live longer.
+/// The part of a profile that the other body can see along z: for every y the branch of least z of a rail, of greatest
+/// z of a wheel. Immutable; refers to the spline, which must live longer.
 class TopView {
  public:
   /// y runs from y_min to y_max; the branch has y(s) monotonic on [s_min, s_max].

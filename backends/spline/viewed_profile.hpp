@@ -93,8 +93,8 @@ class ViewedProfile {
   std::vector<Cell> cells_;
 };
 
-/// The whole profile in a view, for points in any order: the cells that may lie over each of equal parts of the width are
-/// listed once.
+/// The whole profile in a view, for points in any order: the cells that may lie over each of equal parts of the width
+/// are listed once.
 class SortedProfile {
  public:
   SortedProfile(const ProfileSpline& profile, const ProfileView& view) : viewed_(profile, view, all_segments(profile)) {
@@ -117,14 +117,16 @@ class SortedProfile {
     for (std::size_t i = 0; i < parts_; ++i) count[i + 1] += count[i];
     begin_ = count;
     cells_.resize(count[parts_]);
-    for (std::size_t k = 0; k < cells; ++k) each_part(k, [&](std::size_t i) { cells_[count[i]++] = static_cast<int>(k); });
+    for (std::size_t k = 0; k < cells; ++k)
+      each_part(k, [&](std::size_t i) { cells_[count[i]++] = static_cast<int>(k); });
   }
 
   SectionPoint point(int cell, double v) const { return viewed_.point(cell, v, 0.0); }
 
   void hit(double s, ColumnHits& hits) const {
     hits.clear();
-    if (!((s - first_) * inverse_width_ > -1.0 && (s - first_) * inverse_width_ < static_cast<double>(parts_) + 1.0)) return;
+    if (!((s - first_) * inverse_width_ > -1.0 && (s - first_) * inverse_width_ < static_cast<double>(parts_) + 1.0))
+      return;
     const Samples samples = one_sample(s);
     SectionRaster<ViewedProfile, ColumnHits> raster(viewed_, samples, hits, hits.queue);
     const std::size_t i = part(s);

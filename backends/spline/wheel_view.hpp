@@ -14,9 +14,9 @@ inline bool wheel_lines_along_y(const Mat3& axes) {
   return std::hypot(axes(0, 0), axes(2, 0)) >= std::hypot(axes(0, 1), axes(2, 1));
 }
 
-/// A wheel cut by planes "across . (p - origin) = constant". A wheel point p is written as p = a e + b f + y j: e along the
-/// part of across in the (x, z) plane, f in that plane at right angles to e on the side to which the normal points, j along
-/// the axle. In the cutting plane a = (c - across_y y) / across_e, and b = sqrt(r^2 - a^2).
+/// A wheel cut by planes "across . (p - origin) = constant". A wheel point p is written as p = a e + b f + y j: e along
+/// the part of across in the (x, z) plane, f in that plane at right angles to e on the side to which the normal points,
+/// j along the axle. In the cutting plane a = (c - across_y y) / across_e, and b = sqrt(r^2 - a^2).
 struct WheelView {
   Vec3 e, f;
   double across_e, across_y, across_origin;
@@ -39,7 +39,8 @@ struct WheelView {
   double angle(double a, double b) const { return std::atan2(a * e.x() + b * f.x(), a * e.z() + b * f.z()); }
 };
 
-/// Heights over a rectangle of the part of a wheel whose (y, r) lie in a box, without regard to the angle; conservative.
+/// Heights over a rectangle of the part of a wheel whose (y, r) lie in a box, without regard to the angle;
+/// conservative.
 struct WheelBoxBounds {
   const WheelView& view;
   Interval across, along;  ///< the rectangle

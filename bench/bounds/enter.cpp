@@ -37,7 +37,9 @@ Tightness check(const Surface& surface, const Pose& X_SP, const std::vector<Rect
   std::vector<double> z(kPoints * kPoints);
   for (const Rectangle& r : all) {
     const HeightBounds b = surface.height_bounds(X_SP, r);
-    surface.heights({X_SP, {r.x_min, r.y_min, (r.x_max - r.x_min) / (kPoints - 1), (r.y_max - r.y_min) / (kPoints - 1), kPoints, kPoints}},
+    surface.heights({X_SP,
+                     {r.x_min, r.y_min, (r.x_max - r.x_min) / (kPoints - 1), (r.y_max - r.y_min) / (kPoints - 1),
+                      kPoints, kPoints}},
                     {z, {}, {}});
     double least = INFINITY, greatest = -INFINITY;
     for (const double h : z)
@@ -70,9 +72,11 @@ bool enter_bounds(const char* backend, std::initializer_list<double> resolutions
   for (const Body body : {Body::wheel, Body::rail})
     for (const double mm : resolutions_mm)
       for (const int side_mm : {1, 5, 25}) {
-        const std::string name = std::to_string(side_mm) + "mm" + (body == Body::wheel ? "/wheel/" : "/rail/") + label(backend, 1e-3 * mm);
-        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) { bounds(state, body, backend, 1e-3 * mm, 1e-3 * side_mm); })
-            ->Unit(benchmark::kMicrosecond);
+        const std::string name =
+            std::to_string(side_mm) + "mm" + (body == Body::wheel ? "/wheel/" : "/rail/") + label(backend, 1e-3 * mm);
+        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+          bounds(state, body, backend, 1e-3 * mm, 1e-3 * side_mm);
+        })->Unit(benchmark::kMicrosecond);
       }
   return true;
 }

@@ -23,7 +23,10 @@ app::BenchScene make(Scene which) {
 Subject make(Scene which, Body body, std::string_view backend, double resolution) {
   const app::BenchScene& s = scene(which);
   const Region& region = body == Body::rail ? s.regions.rail : s.regions.wheel;
-  Subject out{label(backend, resolution), represent(s.natural(body), {std::string(backend), resolution, region}).surface, &s.view(body), {}};
+  Subject out{label(backend, resolution),
+              represent(s.natural(body), {std::string(backend), resolution, region}).surface,
+              &s.view(body),
+              {}};
   out.refusal = app::check_surface(*out.surface, *out.view, resolution).reason;
   return out;
 }
@@ -40,7 +43,8 @@ const Subject& subject(Scene which, Body body, std::string_view backend, double 
   static std::map<std::tuple<Scene, Body, std::string, double>, Subject> known;
   const std::tuple key(which, body, std::string(backend), resolution);
   const auto found = known.find(key);
-  return found != known.end() ? found->second : known.emplace(key, make(which, body, backend, resolution)).first->second;
+  return found != known.end() ? found->second
+                              : known.emplace(key, make(which, body, backend, resolution)).first->second;
 }
 
 detection::BodyPair bodies(Scene which, std::string_view backend, double resolution) {

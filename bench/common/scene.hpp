@@ -19,7 +19,7 @@ const app::BenchScene& scene(Scene which);
 
 /// One body of a scene in one representation.
 struct Subject {
-  std::string name;     ///< "mesh/0.5mm"
+  std::string name;  ///< "mesh/0.5mm"
   std::shared_ptr<const Surface> surface;
   const app::BenchView* view = nullptr;
   std::string refusal;  ///< why its heights must not be measured; empty if they agree

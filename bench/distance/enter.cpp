@@ -12,7 +12,8 @@ namespace {
 void distance(benchmark::State& state, DistanceMethod method, const char* backend, double resolution) {
   const ThreadLimit one(1);
   for (const Body body : {Body::wheel, Body::rail})
-    if (const Subject& s = subject(Scene::damaged, body, backend, resolution); !s.refusal.empty()) return refuse(state, s.refusal);
+    if (const Subject& s = subject(Scene::damaged, body, backend, resolution); !s.refusal.empty())
+      return refuse(state, s.refusal);
   const app::BenchScene& where = scene(Scene::damaged);
   const detection::BodyPair pair = bodies(Scene::damaged, backend, resolution);
   const std::string reason = app::check_distance(pair, where.X_TC, where.contact_grid);
@@ -26,9 +27,9 @@ void distance(benchmark::State& state, DistanceMethod method, const char* backen
 bool enter_distance(const char* name, DistanceMethod method) {
   for (const char* backend : {"analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset"}) {
     const double resolution = std::string_view(backend) == "analytic" ? 0.0 : 0.5e-3;
-    benchmark::RegisterBenchmark((std::string(name) + "/" + label(backend, resolution)).c_str(), [=](benchmark::State& state) {
-      distance(state, method, backend, resolution);
-    })->Unit(benchmark::kMillisecond);
+    benchmark::RegisterBenchmark((std::string(name) + "/" + label(backend, resolution)).c_str(),
+                                 [=](benchmark::State& state) { distance(state, method, backend, resolution); })
+        ->Unit(benchmark::kMillisecond);
   }
   return true;
 }

@@ -9,7 +9,8 @@
 namespace treadmark::bench {
 
 /// rail height - wheel height over the elements of a grid in the plane C [m].
-using DistanceMethod = std::vector<double> (*)(const detection::BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C);
+using DistanceMethod = std::vector<double> (*)(const detection::BodyPair& bodies, const Pose& X_TC,
+                                               const Grid2& grid_C);
 
 /// Enters a way to the undeformed distance, through several backends.
 bool enter_distance(const char* name, DistanceMethod method);

@@ -1,7 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Calls wheelrail::Pair very often with inputs in any order, from two threads with a pair each on the same surfaces. Memory must not
-// grow once every kind of input has been met, and a problem that comes back must have the same answer to the last bit.
+// Calls wheelrail::Pair very often with inputs in any order, from two threads with a pair each on the same surfaces.
+// Memory must not grow once every kind of input has been met, and a problem that comes back must have the same answer
+// to the last bit.
+#include <unistd.h>
 #include <algorithm>
 #include <atomic>
 #include <cstdio>
@@ -10,7 +12,6 @@
 #include <fstream>
 #include <string>
 #include <thread>
-#include <unistd.h>
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
@@ -49,7 +50,8 @@ Problem any_problem(Random& random) {
   const auto between = [&](double a, double b) { return a + (b - a) * random.uniform(); };
   const auto one_in = [&](double n) { return random.uniform() * n < 1.0; };
   p.side = one_in(2) ? wheelrail::Side::left : wheelrail::Side::right;
-  p.state.position = {between(0, 10), between(-8e-3, 8e-3), between(-1e-3, 1e-3), between(-5e-3, 5e-3), between(-0.02, 0.02), between(-3, 3)};
+  p.state.position = {between(0, 10),       between(-8e-3, 8e-3), between(-1e-3, 1e-3),
+                      between(-5e-3, 5e-3), between(-0.02, 0.02), between(-3, 3)};
   p.state.velocity.y = between(-0.1, 0.1);
   p.state.velocity.pitch *= between(0.99, 1.01);
   p.vertical_force = between(1e3, 1.2e5);
@@ -58,7 +60,8 @@ Problem any_problem(Random& random) {
   if (one_in(12)) p.regime = kalker::Regime::frictionless;
   if (one_in(6)) p.tangential_model = kalker::TangentialModel::fastsim;
   if (one_in(10)) p.longitudinal_force = between(-2e4, 2e4);
-  if (one_in(20)) p.rail_springs = wheelrail::RailSprings{.stiffness_y = between(1e7, 1e8), .stiffness_z = between(0.0, 1e8)};
+  if (one_in(20))
+    p.rail_springs = wheelrail::RailSprings{.stiffness_y = between(1e7, 1e8), .stiffness_z = between(0.0, 1e8)};
   if (one_in(30)) p.material.shear_modulus_1 = between(2e10, 2e11);
   if (one_in(40)) p.discretisation.dx = between(0.7e-3, 2e-3);
   if (one_in(50)) p.state.position.y = between(-1.0, 1.0);
@@ -86,7 +89,8 @@ void call_often(const wheelrail::Geometry& geometry, std::uint64_t seed, long ca
   for (long i = 0; i < calls && !work.wrong; ++i, ++work.calls) {
     if (i % kCheckEvery == 0) {
       const PairSolution again = pair.solve(fixed_problem());
-      if (again.z != expected.z || again.patches.at(0).contact.traction_x != expected.patches.at(0).contact.traction_x) work.wrong = true;
+      if (again.z != expected.z || again.patches.at(0).contact.traction_x != expected.patches.at(0).contact.traction_x)
+        work.wrong = true;
       continue;
     }
     try {
@@ -101,7 +105,8 @@ int run(long calls) {
   const wheelrail::Geometry geometry{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
                                      analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
   Work work;
-  std::thread first([&] { call_often(geometry, 1, calls / 2, work); }), second([&] { call_often(geometry, 2, calls - calls / 2, work); });
+  std::thread first([&] { call_often(geometry, 1, calls / 2, work); }),
+      second([&] { call_often(geometry, 2, calls - calls / 2, work); });
   double early = 0.0, largest = 0.0;
   long printed = 0;
   while (work.calls < calls && !work.wrong) {
@@ -117,8 +122,10 @@ int run(long calls) {
   }
   first.join();
   second.join();
-  std::printf("%ld calls, of which %ld with another status than ok and %ld refused; memory %.1f MiB in the first 30 %%, %.1f MiB at most\n",
-              work.calls.load(), work.failed.load(), work.refused.load(), early, largest);
+  std::printf(
+      "%ld calls, of which %ld with another status than ok and %ld refused; memory %.1f MiB in the first 30 %%, %.1f "
+      "MiB at most\n",
+      work.calls.load(), work.failed.load(), work.refused.load(), early, largest);
   if (work.wrong) std::printf("a problem that came back has another answer\n");
   constexpr double kRoom = 1.1, kRoomMib = 8.0;
   const bool grown = largest > kRoom * early + kRoomMib;

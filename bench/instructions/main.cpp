@@ -20,7 +20,8 @@ constexpr const char* kUsage =
     "       bench_instructions compiler          compiler of this program\n"
     "       bench_instructions check [PATH...]   checks the answers of these paths or of all\n"
     "       bench_instructions run PATH N        runs a path N times; prints unit and units of one run\n"
-    "       bench_instructions count PATH...     runs each path once and once more in counted_run(); prints path, unit, units\n";
+    "       bench_instructions count PATH...     runs each path once and once more in counted_run(); prints path, "
+    "unit, units\n";
 
 int check(int count, char** names) {
   std::vector<std::string> chosen(names, names + count);

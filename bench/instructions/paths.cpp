@@ -50,7 +50,10 @@ MeasuredPath heights(const std::string& backend, Body body, bool tilted) {
   const app::BenchView* view = &scene().view(body);
   const PlaneGrid plane{tilted ? view->tilted.X_SP : view->level.X_SP, view->grid};
   const auto z = std::make_shared<std::vector<double>>(view->grid.size());
-  return {"point", z->size(), [s, plane, z] { s->heights(plane, {*z, {}, {}}); },
+  return {"point", z->size(),
+          [s, plane, z] {
+            s->heights(plane, {*z, {}, {}});
+          },
           [s, view, backend] { return app::check_surface(*s, *view, resolution_of(backend)).reason; }};
 }
 
@@ -109,7 +112,8 @@ std::vector<Entry> make_entries() {
     for (const std::string_view name : backend_names())
       for (const bool tilted : {false, true}) {
         const std::string backend(name);
-        all.push_back({std::string("heights/") + (body == Body::rail ? "rail/" : "wheel/") + backend + (tilted ? "/tilted" : "/level"),
+        all.push_back({std::string("heights/") + (body == Body::rail ? "rail/" : "wheel/") + backend +
+                           (tilted ? "/tilted" : "/level"),
                        [=] { return heights(backend, body, tilted); }});
       }
   for (const std::string backend : kDetectionBackends) {

@@ -17,8 +17,10 @@ bool conditions_hold(const kalker::ContactSolution& s) {
     const double bound = s.friction[i] * s.pressure[i];
     const double traction = std::hypot(s.traction_x[i], s.traction_y[i]);
     if (traction > bound * (1.0 + 1e-4) + 1.0) return false;
-    if (s.state[i] == kalker::ElementState::adhesion && std::hypot(s.slip_x[i], s.slip_y[i]) > 1e-2 * largest_slip) return false;
-    if (s.state[i] == kalker::ElementState::slip && s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i] > 1.0) return false;
+    if (s.state[i] == kalker::ElementState::adhesion && std::hypot(s.slip_x[i], s.slip_y[i]) > 1e-2 * largest_slip)
+      return false;
+    if (s.state[i] == kalker::ElementState::slip && s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i] > 1.0)
+      return false;
   }
   return true;
 }

@@ -51,7 +51,8 @@ std::string check_full_grid(const detection::BodyPair& pair, const detection::Se
   const auto expected = detection::search_contact(pair, fine), found = detection::search_contact(pair, settings);
   if (found.patches.size() != expected.patches.size()) return "other patches than on a finer grid";
   for (std::size_t i = 0; i < found.patches.size(); ++i)
-    if (!(std::hypot(found.patches[i].x - expected.patches[i].x, found.patches[i].y - expected.patches[i].y) <= kReference))
+    if (!(std::hypot(found.patches[i].x - expected.patches[i].x, found.patches[i].y - expected.patches[i].y) <=
+          kReference))
       return "another reference than on a finer grid";
   return {};
 }
@@ -59,7 +60,8 @@ std::string check_full_grid(const detection::BodyPair& pair, const detection::Se
 void search(benchmark::State& state, const Contestant& c) {
   const ThreadLimit limit(c.threads);
   for (const Body body : {Body::wheel, Body::rail})
-    if (const Subject& s = subject(c.scene, body, c.backend, c.resolution); !s.refusal.empty()) return refuse(state, s.refusal);
+    if (const Subject& s = subject(c.scene, body, c.backend, c.resolution); !s.refusal.empty())
+      return refuse(state, s.refusal);
   const detection::BodyPair pair = bodies(c.scene, c.backend, c.resolution);
   detection::SearchSettings settings = scene(c.scene).search;
   settings.method = c.method;
@@ -77,7 +79,8 @@ void search(benchmark::State& state, const Contestant& c) {
     detection::ContactSearch search(pair, settings);
     search.at(0.0);
     bool further = false;  // never twice the same position
-    for (auto _ : state) benchmark::DoNotOptimize(search.at((further = !further) ? app::kWarmStep : 2.0 * app::kWarmStep));
+    for (auto _ : state)
+      benchmark::DoNotOptimize(search.at((further = !further) ? app::kWarmStep : 2.0 * app::kWarmStep));
   }
   state.counters["window_points"] = static_cast<double>(settings.grid_T.size());
 }
@@ -89,7 +92,8 @@ bool enter_search(const char* name, detection::SearchMethod method, Scene scene)
     const char* name;
     double resolution;
   };
-  for (const Backend& b : {Backend{"analytic", 0.0}, Backend{"spline", 0.5e-3}, Backend{"mesh", 0.5e-3}, Backend{"offset", 0.5e-3}}) {
+  for (const Backend& b :
+       {Backend{"analytic", 0.0}, Backend{"spline", 0.5e-3}, Backend{"mesh", 0.5e-3}, Backend{"offset", 0.5e-3}}) {
     // the others do not know that they have one profile
     const bool one_profile = std::string_view(b.name) == "analytic" || std::string_view(b.name) == "spline";
     if (method == detection::SearchMethod::locus && !one_profile) continue;
@@ -98,7 +102,8 @@ bool enter_search(const char* name, detection::SearchMethod method, Scene scene)
         for (const int threads : {1, 2}) {
           const Contestant c{method, scene, b.name, b.resolution, cold, window, threads};
           const std::string full = std::string(name) + (cold ? "/cold/" : "/warm/") + name_of(window) +
-                                   std::to_string(threads) + (threads == 1 ? "_thread/" : "_threads/") + label(b.name, b.resolution);
+                                   std::to_string(threads) + (threads == 1 ? "_thread/" : "_threads/") +
+                                   label(b.name, b.resolution);
           benchmark::RegisterBenchmark(full.c_str(), [c](benchmark::State& state) { search(state, c); })
               ->Unit(benchmark::kMillisecond)
               ->UseRealTime();

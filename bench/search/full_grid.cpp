@@ -4,7 +4,9 @@
 
 namespace treadmark::bench {
 
-[[maybe_unused]] const bool full_grid = enter_search("full_grid/damaged", detection::SearchMethod::full_grid, Scene::damaged);
-[[maybe_unused]] const bool full_grid_round = enter_search("full_grid/round", detection::SearchMethod::full_grid, Scene::round);
+[[maybe_unused]] const bool full_grid =
+    enter_search("full_grid/damaged", detection::SearchMethod::full_grid, Scene::damaged);
+[[maybe_unused]] const bool full_grid_round =
+    enter_search("full_grid/round", detection::SearchMethod::full_grid, Scene::round);
 
 }  // namespace treadmark::bench

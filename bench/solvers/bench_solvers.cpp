@@ -21,7 +21,7 @@ namespace {
 using namespace treadmark;
 
 constexpr int kGrids[] = {70, 142, 281, 557, 785};
-constexpr int kReferenceGrid = 142;   ///< growth is relative to it: smaller problems live in the cache
+constexpr int kReferenceGrid = 142;  ///< growth is relative to it: smaller problems live in the cache
 constexpr int kRepetitions = 3;
 constexpr const char* kUsage =
     "usage: bench_solvers [--largest N] [--json FILE]\n"
@@ -57,8 +57,8 @@ double over_n_log_n(const bench::SolverTime& t) { return t.time.cpu / (t.element
 bool print_checks(nlohmann::json& json) {
   bool passed = true;
   for (const bench::SolverCheck& check : bench::check_solvers()) {
-    std::printf("%-6s %-85s %8.1e (at most %.0e)\n", check.passed() ? "agree" : "WRONG", check.what.c_str(), check.difference,
-                check.allowed);
+    std::printf("%-6s %-85s %8.1e (at most %.0e)\n", check.passed() ? "agree" : "WRONG", check.what.c_str(),
+                check.difference, check.allowed);
     json["checks"].push_back({{"what", check.what}, {"difference", check.difference}, {"allowed", check.allowed}});
     passed = passed && check.passed();
   }
@@ -67,18 +67,17 @@ bool print_checks(nlohmann::json& json) {
 }
 
 void print(const bench::SolverTime& t, std::optional<double> growth) {
-  std::printf("%-24s %4d %8d %9.4f %9.4f %6d %8.1f", t.problem.c_str(), t.n, t.elements, t.time.cpu, t.time.wall, t.iterations,
-              t.nanoseconds_each());
+  std::printf("%-24s %4d %8d %9.4f %9.4f %6d %8.1f", t.problem.c_str(), t.n, t.elements, t.time.cpu, t.time.wall,
+              t.iterations, t.nanoseconds_each());
   growth ? std::printf(" %7.2f", *growth) : std::printf(" %7s", "-");
-  if (t.products > 0.0)
-    std::printf(" %9.0f %11.2f %11.2f %6.3f", t.products, t.force_x, t.force_y, t.saturation);
+  if (t.products > 0.0) std::printf(" %9.0f %11.2f %11.2f %6.3f", t.products, t.force_x, t.force_y, t.saturation);
   std::printf("%s\n", t.converged ? "" : "  not converged");
   std::fflush(stdout);
 }
 
 bool print_times(int largest, nlohmann::json& json) {
-  std::printf("\n%-24s %4s %8s %9s %9s %6s %8s %7s %9s %11s %11s %6s\n", "problem", "n", "contact", "cpu s", "wall s", "iter.", "ns each",
-              "growth", "products", "Fx N", "Fy N", "share");
+  std::printf("\n%-24s %4s %8s %9s %9s %6s %8s %7s %9s %11s %11s %6s\n", "problem", "n", "contact", "cpu s", "wall s",
+              "iter.", "ns each", "growth", "products", "Fx N", "Fy N", "share");
   bool converged = true;
   std::map<std::string, double> reference;
   for (const int n : kGrids) {
@@ -89,10 +88,17 @@ bool print_times(int largest, nlohmann::json& json) {
       if (reference.contains(t.problem)) growth = over_n_log_n(t) / reference[t.problem];
       print(t, growth);
       converged = converged && t.converged;
-      json["times"].push_back({{"problem", t.problem}, {"n", t.n}, {"contact_elements", t.elements}, {"cpu_s", t.time.cpu},
-                               {"wall_s", t.time.wall}, {"iterations", t.iterations},
-                               {"ns_per_element_and_iteration", t.nanoseconds_each()}, {"force_x", t.force_x},
-                               {"force_y", t.force_y}, {"saturation", t.saturation}, {"converged", t.converged}});
+      json["times"].push_back({{"problem", t.problem},
+                               {"n", t.n},
+                               {"contact_elements", t.elements},
+                               {"cpu_s", t.time.cpu},
+                               {"wall_s", t.time.wall},
+                               {"iterations", t.iterations},
+                               {"ns_per_element_and_iteration", t.nanoseconds_each()},
+                               {"force_x", t.force_x},
+                               {"force_y", t.force_y},
+                               {"saturation", t.saturation},
+                               {"converged", t.converged}});
       if (growth) json["times"].back()["growth"] = *growth;
       if (t.products > 0.0) json["times"].back()["products"] = t.products;
     }

@@ -66,7 +66,8 @@ void check_one_grid(const CreepageRegime& regime, std::vector<SolverCheck>& out)
   HertzCase c(kCheckedGrid, regime.creepage);
   const kalker::ContactSolution s = solve(c.problem);
   const Force f = force(s);
-  out.push_back({"forces, " + regime.name + ": Newton's method and sweeps", relative(f, force_by_sweeps(c, s)), kFourDigits});
+  out.push_back(
+      {"forces, " + regime.name + ": Newton's method and sweeps", relative(f, force_by_sweeps(c, s)), kFourDigits});
   out.push_back({"forces, " + regime.name + ": steady and after a step of transient rolling",
                  relative(f, force_after_a_transient_step(c)), kFourDigits});
   c.problem.settings.eps = 1e-8;
@@ -81,8 +82,9 @@ void check_pressure(std::vector<SolverCheck>& out) {
   out.push_back({"approach and Hertz", std::abs(s.approach / c.shape.approach - 1.0), 1e-3});
 }
 
-/// The difference between a grid and one of half its element size falls each time: by a half where the error is of first order.
-/// Differences of the coarsest grids must merely fall: 35 elements are too few to show the order (0.91 at small creepage).
+/// The difference between a grid and one of half its element size falls each time: by a half where the error is of
+/// first order. Differences of the coarsest grids must merely fall: 35 elements are too few to show the order (0.91 at
+/// small creepage).
 void check_convergence(const CreepageRegime& regime, std::vector<SolverCheck>& out) {
   std::vector<Force> forces;
   for (const int n : {35, 70, 140, 280}) forces.push_back(force(solve(HertzCase(n, regime.creepage).problem)));

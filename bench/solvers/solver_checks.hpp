@@ -14,8 +14,8 @@ struct SolverCheck {
   bool passed() const { return difference <= allowed; }
 };
 
-/// Hertz' solution, Gauss-Seidel sweeps, a solution iterated much further, transient rolling that must stay where it is, and
-/// forces that converge with the grid.
+/// Hertz' solution, Gauss-Seidel sweeps, a solution iterated much further, transient rolling that must stay where it
+/// is, and forces that converge with the grid.
 std::vector<SolverCheck> check_solvers();
 
 }  // namespace treadmark::bench

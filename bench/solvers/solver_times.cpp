@@ -14,7 +14,7 @@ namespace treadmark::bench {
 namespace {
 
 constexpr int kTransientSteps = 3;
-constexpr std::size_t kTransientFrom = 0, kTransientTo = 1;   ///< regimes: tractions have to change
+constexpr std::size_t kTransientFrom = 0, kTransientTo = 1;  ///< regimes: tractions have to change
 
 /// Processor time as well, for on a busy machine the wall clock counts others' work.
 template <class Work>
@@ -23,14 +23,16 @@ void time_once(LeastTime& least, double share, const Work& work) {
   const std::clock_t cpu = std::clock();
   work();
   least.cpu = std::min(least.cpu, share * static_cast<double>(std::clock() - cpu) / CLOCKS_PER_SEC);
-  least.wall = std::min(least.wall, share * std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
+  least.wall =
+      std::min(least.wall, share * std::chrono::duration<double>(std::chrono::steady_clock::now() - wall).count());
 }
 
 LeastTime not_yet() { return {std::numeric_limits<double>::max(), std::numeric_limits<double>::max()}; }
 
-SolverTime outcome(const char* problem, const HertzCase& c, LeastTime time, const kalker::ContactSolution& s, const Report& report) {
-  SolverTime out{problem, c.problem.grid.nx, s.elements_contact, time, report.iterations, 0.0, s.force_x, s.force_y, c.saturation(s),
-                 report.status == Status::ok};
+SolverTime outcome(const char* problem, const HertzCase& c, LeastTime time, const kalker::ContactSolution& s,
+                   const Report& report) {
+  SolverTime out{problem,   c.problem.grid.nx, s.elements_contact,         time, report.iterations, 0.0, s.force_x,
+                 s.force_y, c.saturation(s),   report.status == Status::ok};
   return out;
 }
 

@@ -14,19 +14,23 @@ struct LeastTime {
 
 /// One problem on one grid.
 struct SolverTime {
-  std::string problem;        ///< "normal", "steady, small", "transient step"
-  int n = 0;                  ///< grid of n x n elements
-  int elements = 0;           ///< in contact
+  std::string problem;  ///< "normal", "steady, small", "transient step"
+  int n = 0;            ///< grid of n x n elements
+  int elements = 0;     ///< in contact
   LeastTime time{};
-  int iterations = 0;         ///< CG iterations, or Newton steps and sweeps
-  double products = 0.0;      ///< time over that of a product with the matrix and one with the preconditioner; 0: normal
-  double force_x = 0.0, force_y = 0.0, saturation = 0.0;   ///< [N], [-]; saturation: tangential force over friction bound
+  int iterations = 0;     ///< CG iterations, or Newton steps and sweeps
+  double products = 0.0;  ///< time over that of a product with the matrix and one with the preconditioner; 0: normal
+  double force_x = 0.0, force_y = 0.0,
+         saturation = 0.0;  ///< [N], [-]; saturation: tangential force over friction bound
   bool converged = false;
 
-  double nanoseconds_each() const { return 1e9 * time.cpu / (static_cast<double>(elements) * (iterations > 0 ? iterations : 1)); }
+  double nanoseconds_each() const {
+    return 1e9 * time.cpu / (static_cast<double>(elements) * (iterations > 0 ? iterations : 1));
+  }
 };
 
-/// Normal problem, steady rolling in each regime of creepage, and a step of transient rolling; all but the last from nothing.
+/// Normal problem, steady rolling in each regime of creepage, and a step of transient rolling; all but the last from
+/// nothing.
 std::vector<SolverTime> time_solvers(int n, int repetitions);
 
 }  // namespace treadmark::bench

@@ -25,9 +25,9 @@ struct UnitEnding {
 };
 // Longer endings first.
 constexpr UnitEnding kUnits[] = {
-    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_N_per_mm", 1e3}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0}, {"_mm_s", 1e-3},
-    {"_m_s", 1.0},         {"_mm3", 1e-9},        {"_um", 1e-6},   {"_us", 1e-6},   {"_GPa", 1e9},   {"_MPa", 1e6},   {"_deg", kDegree}, {"_rad", 1.0}, {"_mm", 1e-3},
-    {"_N", 1.0},
+    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_N_per_mm", 1e3}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0},
+    {"_mm_s", 1e-3},       {"_m_s", 1.0},        {"_mm3", 1e-9},     {"_um", 1e-6},   {"_us", 1e-6},   {"_GPa", 1e9},
+    {"_MPa", 1e6},         {"_deg", kDegree},    {"_rad", 1.0},      {"_mm", 1e-3},   {"_N", 1.0},
 };
 
 [[noreturn]] void fail(std::string message, const SourcePosition& where, std::string advice = {}) {
@@ -82,7 +82,8 @@ void collect(const CaseTable& table, const std::string& prefix, std::vector<Assi
     if (found != keys_by_path().end()) {
       out.push_back({found->second, &entry.value, entry.key_where});
     } else if (is_section(path)) {
-      if (!entry.value.is_table()) fail(fmt::format("{} must be a table, found {}", path, entry.value.kind()), entry.value.where);
+      if (!entry.value.is_table())
+        fail(fmt::format("{} must be a table, found {}", path, entry.value.kind()), entry.value.where);
       collect(entry.value.table(), path, out);
     } else {
       unknown_key(path, all_paths(), entry.key_where);
@@ -115,12 +116,13 @@ void check_exclusive_sections(std::span<const Assignment> assignments) {
     const Assignment* first[2] = {nullptr, nullptr};
     for (const Assignment& a : assignments)
       for (const int k : {0, 1})
-        if (first[k] == nullptr && a.key->info.path.starts_with(fmt::format("{}.{}.", sections.parent, k == 0 ? sections.one : sections.other)))
+        if (first[k] == nullptr && a.key->info.path.starts_with(
+                                       fmt::format("{}.{}.", sections.parent, k == 0 ? sections.one : sections.other)))
           first[k] = &a;
     if (first[0] == nullptr || first[1] == nullptr) continue;
     const Assignment* second = first[0] > first[1] ? first[0] : first[1];
-    fail(fmt::format("[{0}.{1}] and [{0}.{2}] exclude each other", sections.parent, sections.one, sections.other), second->where,
-         "give one of them");
+    fail(fmt::format("[{0}.{1}] and [{0}.{2}] exclude each other", sections.parent, sections.one, sections.other),
+         second->where, "give one of them");
   }
 }
 
@@ -132,7 +134,8 @@ CaseValue meant_value(const KeyInfo& key, const CaseOverride& assignment) {
   return {value.where, assignment.raw};
 }
 
-/// The value of an override that changes the key `name` of a list's table, checked; name may lead on into a nested list.
+/// The value of an override that changes the key `name` of a list's table, checked; name may lead on into a nested
+/// list.
 CaseValue element_value(const KeyInfo& list, const std::string& name, const CaseOverride& assignment) {
   const SourcePosition& where = assignment.value.where;
   for (const KeyInfo& element : list.elements) {
@@ -142,8 +145,9 @@ CaseValue element_value(const KeyInfo& list, const std::string& name, const Case
       return value;
     }
     if (element.type == KeyType::table_list && name.starts_with(element.path + '.'))
-      return element_value(element, split_element_path(element, std::string_view(name).substr(element.path.size() + 1), where).key,
-                           assignment);
+      return element_value(
+          element, split_element_path(element, std::string_view(name).substr(element.path.size() + 1), where).key,
+          assignment);
   }
   check_elements(list, {{name, where, assignment.value}}, where, false);  // says what is wrong with the name
   return assignment.value;
@@ -179,13 +183,15 @@ void check_elements(const KeyInfo& list, const CaseTable& entries, const SourceP
   for (const KeyInfo& element : list.elements) known.push_back(element.path);
   std::map<std::string, Chosen> groups;
   for (const CaseEntry& entry : entries) {
-    const auto found = std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
+    const auto found =
+        std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
     if (found == list.elements.end()) unknown_key(entry.key, known, entry.key_where);
     check_value(*found, entry.value);
     check_exclusive(*found, entry.key_where, groups);
   }
   for (const KeyInfo& element : list.elements) {
-    const bool given = std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
+    const bool given =
+        std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
     if (complete && element.required && !given)
       fail(fmt::format("{} of {} is missing", element.path, list.path), where);
   }
@@ -201,7 +207,8 @@ void apply_table(Case& target, const CaseTable& table, const std::filesystem::pa
     check_exclusive(a.key->info, a.where, groups);
   }
   check_exclusive_sections(assignments);
-  std::stable_sort(assignments.begin(), assignments.end(), [](const Assignment& a, const Assignment& b) { return a.key < b.key; });
+  std::stable_sort(assignments.begin(), assignments.end(),
+                   [](const Assignment& a, const Assignment& b) { return a.key < b.key; });
   for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);
 }
 
@@ -210,7 +217,8 @@ ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const
   ElementPath place;
   const auto [end, error] = std::from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), place.index);
   if (dot == std::string_view::npos || error != std::errc{} || end != rest.data() + dot)
-    fail(fmt::format("{} is a list", list.path), where, fmt::format("write {}.0.{}=value", list.path, list.elements.front().path));
+    fail(fmt::format("{} is a list", list.path), where,
+         fmt::format("write {}.0.{}=value", list.path, list.elements.front().path));
   place.key = rest.substr(dot + 1);
   return place;
 }
@@ -229,7 +237,8 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
   // list.index.key, for example wheel.flats.0.depth_mm
   for (const CaseKey& key : case_keys()) {
     if (key.info.type != KeyType::table_list || !path.starts_with(key.info.path + '.')) continue;
-    const ElementPath place = split_element_path(key.info, std::string_view(path).substr(key.info.path.size() + 1), where);
+    const ElementPath place =
+        split_element_path(key.info, std::string_view(path).substr(key.info.path.size() + 1), where);
     check_scope(target, key.info, where);
     key.set_element(target, place.index, {{place.key, where, element_value(key.info, place.key, assignment)}}, where);
     return;

@@ -22,18 +22,18 @@ enum class KeyScope { any, wheel_rail, patch };
 
 /// What is published about one key of the case file: the reader, the schema and the documentation all come from it.
 struct KeyInfo {
-  std::string path;                  ///< "wheelset.pitch_deg"; within a table_list the name only
+  std::string path;  ///< "wheelset.pitch_deg"; within a table_list the name only
   KeyType type = KeyType::number;
   std::string doc;
-  std::string default_text;          ///< as TOML; empty = none
-  std::optional<double> above, at_least, at_most;   ///< limits in the unit of the key
+  std::string default_text;                        ///< as TOML; empty = none
+  std::optional<double> above, at_least, at_most;  ///< limits in the unit of the key
   std::vector<std::string> choices;
-  std::string pattern;               ///< text: regular expression for the schema and messages; empty = anything
+  std::string pattern;  ///< text: regular expression for the schema and messages; empty = anything
   bool (*matches)(std::string_view) = nullptr;  ///< text: what pattern says, as code; set with it
-  std::string group, alternative;    ///< keys of one group with different alternatives exclude each other
+  std::string group, alternative;               ///< keys of one group with different alternatives exclude each other
   KeyScope scope = KeyScope::any;
-  bool required = false;             ///< in a table_list
-  std::vector<KeyInfo> elements;     ///< keys of the tables of a table_list
+  bool required = false;          ///< in a table_list
+  std::vector<KeyInfo> elements;  ///< keys of the tables of a table_list
 };
 
 /// One key with the way to its place in a Case.
@@ -43,8 +43,8 @@ struct CaseKey {
   std::function<void(Case&, const CaseValue& value, const std::filesystem::path& folder)> set;
   /// Numbers that are stored as they are: the value in the unit of the key. Empty for all other keys.
   std::function<double(const Case&)> get;
-  /// table_list only: changes some keys of the element with this index (which exists, or Error). A key of a nested list has
-  /// the rest of its path as name: "waves.1.phase_deg".
+  /// table_list only: changes some keys of the element with this index (which exists, or Error). A key of a nested list
+  /// has the rest of its path as name: "waves.1.phase_deg".
   std::function<void(Case&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element;
 };
 
@@ -65,7 +65,8 @@ struct ElementPath {
 /// Errors: Error(configuration) if rest does not start with a number and a dot.
 ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where);
 
-/// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _us, _GPa, _MPa, _m_s, _per_m ...).
+/// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _us, _GPa, _MPa, _m_s, _per_m
+/// ...).
 double unit_of_key(std::string_view path);
 
 /// Type and range; throws Error (configuration) at the value.

@@ -18,19 +18,22 @@ Part& made(std::optional<Part>& part) {
 /// section.active = false takes away what the other keys have made.
 template <class Part>
 void add_switch(KeyList& list, const std::string& section, const std::string& what, std::optional<Part> W::*part) {
-  KeyInfo info = key_info(section + ".active", KeyType::flag, what + "; any other key of [" + section + "] asks for it too");
+  KeyInfo info =
+      key_info(section + ".active", KeyType::flag, what + "; any other key of [" + section + "] asks for it too");
   info.scope = KeyScope::wheel_rail;
   info.default_text = "false";
   list.add(info).set = [part](Case& c, const CaseValue& v, const std::filesystem::path&) {
     auto& place = content_of<W>(c).*part;
-    if (v.flag()) made(place);
-    else place.reset();
+    if (v.flag())
+      made(place);
+    else
+      place.reset();
   };
 }
 
 template <class Part>
-void add_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc, std::optional<Part> W::*part,
-                double Part::*member) {
+void add_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc,
+                std::optional<Part> W::*part, double Part::*member) {
   list.number<W>(path, limits, doc, [part, member](W& c) -> double& { return made(c.*part).*member; });
 }
 
@@ -43,7 +46,9 @@ void add_roller(KeyList& list) {
   number("pitch_rate_rad_s", "pitch rate of the roller, positive where a wheel on it rolls forward (shift: rotation)",
          &RollerInput::pitch_rate);
   add_switch(list, "roller",
-             "a roller with the profile of [rail] in place of the rail; wheelset.s_mm is where the axle stands over the roller's", &W::roller);
+             "a roller with the profile of [rail] in place of the rail; wheelset.s_mm is where the axle stands over "
+             "the roller's",
+             &W::roller);
 }
 
 void add_springs(KeyList& list) {
@@ -51,7 +56,8 @@ void add_springs(KeyList& list) {
   const auto number = [&](const std::string& name, KeyLimits limits, const std::string& doc, double S::*member) {
     add_number(list, "track.springs." + name, limits, doc, &W::rail_springs, member);
   };
-  number("stiffness_y_N_per_mm", kPositive, "lateral stiffness under the rail, which moves under its load", &S::stiffness_y);
+  number("stiffness_y_N_per_mm", kPositive, "lateral stiffness under the rail, which moves under its load",
+         &S::stiffness_y);
   number("stiffness_z_N_per_mm", kNotNegative, "vertical stiffness; 0 = no vertical deflection", &S::stiffness_z);
   number("force_y_N", kAnyNumber, "further lateral force on the rail", &S::force_y);
   number("force_z_N", kAnyNumber, "further vertical force on the rail", &S::force_z);
@@ -67,7 +73,8 @@ void add_damping(KeyList& list) {
   number("normal_s", "normal force of damping over the change of the contact force in time", &D::normal);
   number("tangential_s", "the same of tangential forces", &D::tangential);
   number("max_rate_normal_N_per_s", "limit of the change of the normal force that counts", &D::max_rate_normal);
-  number("max_rate_tangential_N_per_s", "limit of the change of tangential forces that counts", &D::max_rate_tangential);
+  number("max_rate_tangential_N_per_s", "limit of the change of tangential forces that counts",
+         &D::max_rate_tangential);
   add_switch(list, "damping", "damping of the contact forces", &W::damping);
 }
 
@@ -78,11 +85,12 @@ void add_balance_keys(KeyList& list) {
   add_springs(list);
   add_damping(list);
   using R = ReferenceSurfaceInput;
-  list.choice<W, R>("contact.reference_surface",
-                    {{"plane", R::plane}, {"plane_surface_slip", R::plane_surface_slip}, {"curved", R::curved}},
-                    "tangent plane with creepages, tangent plane with the rigid slip of the surfaces at every element, or conformal "
-                    "contact on a surface that is curved across the rail",
-                    [](W& c) -> R& { return c.reference_surface; });
+  list.choice<W, R>(
+      "contact.reference_surface",
+      {{"plane", R::plane}, {"plane_surface_slip", R::plane_surface_slip}, {"curved", R::curved}},
+      "tangent plane with creepages, tangent plane with the rigid slip of the surfaces at every element, or conformal "
+      "contact on a surface that is curved across the rail",
+      [](W& c) -> R& { return c.reference_surface; });
 }
 
 }  // namespace treadmark::io

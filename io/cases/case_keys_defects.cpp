@@ -19,7 +19,8 @@ void append(Keys<Element>& keys, Keys<Element> more) {
 }
 
 template <class Element>
-void add(KeyList& list, const std::string& path, std::string doc, Keys<Element> keys, std::vector<Element> Defects::*member) {
+void add(KeyList& list, const std::string& path, std::string doc, Keys<Element> keys,
+         std::vector<Element> Defects::*member) {
   KeyInfo info = key_info(path, KeyType::table_list, std::move(doc));
   info.scope = KeyScope::wheel_rail;
   const bool wheel = path.starts_with("wheel.");
@@ -30,29 +31,36 @@ void add(KeyList& list, const std::string& path, std::string doc, Keys<Element> 
 /// y_center_mm and width_mm of the shapes that fade sideways.
 template <class Element>
 Keys<Element> band_keys(const std::string& body) {
-  return {with_default(element_number<Element>("y_center_mm", kAnyNumber, "lateral middle in " + body + " profile coordinates",
-                                               &Element::y_center), "0"),
-          with_default(element_number<Element>("width_mm", kNotNegative, "lateral width over which it fades to 0; 0 = whole width",
-                                               &Element::width), "0")};
+  return {
+      with_default(element_number<Element>("y_center_mm", kAnyNumber,
+                                           "lateral middle in " + body + " profile coordinates", &Element::y_center),
+                   "0"),
+      with_default(element_number<Element>("width_mm", kNotNegative,
+                                           "lateral width over which it fades to 0; 0 = whole width", &Element::width),
+                   "0")};
 }
 
 /// x_start_mm, x_end_mm and ramp_mm of a stretch of rail.
 template <class Element>
 Keys<Element> stretch_keys() {
-  return {required(element_number<Element>("x_start_mm", kAnyNumber, "where it begins along the rail", &Element::x_start)),
-          required(element_number<Element>("x_end_mm", kAnyNumber, "where it ends", &Element::x_end)),
-          required(element_number<Element>("ramp_mm", kPositive, "length of the run-in and of the run-out", &Element::ramp))};
+  return {
+      required(element_number<Element>("x_start_mm", kAnyNumber, "where it begins along the rail", &Element::x_start)),
+      required(element_number<Element>("x_end_mm", kAnyNumber, "where it ends", &Element::x_end)),
+      required(
+          element_number<Element>("ramp_mm", kPositive, "length of the run-in and of the run-out", &Element::ramp))};
 }
 
 void add_flats(KeyList& list) {
   using Shape = WheelFlat::Shape;
-  KeyInfo shape = key_info("shape", KeyType::choice, "rounded: cosine dent; fresh: straight chord whose depth follows from the length");
+  KeyInfo shape = key_info("shape", KeyType::choice,
+                           "rounded: cosine dent; fresh: straight chord whose depth follows from the length");
   shape.choices = {"rounded", "fresh"};
   shape.default_text = "\"rounded\"";
   Keys<WheelFlat> keys{
       {shape, [](WheelFlat& f, const CaseValue& v) { f.shape = v.text() == "fresh" ? Shape::fresh : Shape::rounded; }},
       required(element_number<WheelFlat>("length_mm", kPositive, "length along the circumference", &WheelFlat::length)),
-      element_number<WheelFlat>("depth_mm", kPositive, "greatest radial depth; required for rounded flats only", &WheelFlat::depth)};
+      element_number<WheelFlat>("depth_mm", kPositive, "greatest radial depth; required for rounded flats only",
+                                &WheelFlat::depth)};
   append(keys, element_angle<WheelFlat>("theta_center", "angle of the middle on the wheel", &WheelFlat::theta_center));
   append(keys, band_keys<WheelFlat>("wheel"));
   add<WheelFlat>(list, "wheel.flats", "flats worn into the wheel", std::move(keys), &Defects::flats);
@@ -65,65 +73,85 @@ void add_polygonizations(KeyList& list) {
   order.required = true;
   order.at_least = 1.0;
   order.at_most = kHighestOrder;
-  Keys<Harmonic> harmonic{{order, [](Harmonic& h, const CaseValue& v) { h.order = static_cast<int>(v.integer()); }},
-                          required(element_number<Harmonic>("amplitude_um", kAnyNumber, "half of peak to peak, of the radius", &Harmonic::amplitude))};
+  Keys<Harmonic> harmonic{
+      {order, [](Harmonic& h, const CaseValue& v) { h.order = static_cast<int>(v.integer()); }},
+      required(element_number<Harmonic>("amplitude_um", kAnyNumber, "half of peak to peak, of the radius",
+                                        &Harmonic::amplitude))};
   append(harmonic, element_angle<Harmonic>("phase", "the radius is greatest at theta = phase/order", &Harmonic::phase));
-  Keys<Polygonization> keys{element_list<Polygonization, Harmonic>("harmonics", "waves that add up", std::move(harmonic),
-                                                                   &Polygonization::harmonics)};
+  Keys<Polygonization> keys{element_list<Polygonization, Harmonic>("harmonics", "waves that add up",
+                                                                   std::move(harmonic), &Polygonization::harmonics)};
   append(keys, band_keys<Polygonization>("wheel"));
-  add<Polygonization>(list, "wheel.polygonizations", "out-of-roundness of the wheel as waves of its radius", std::move(keys),
-                      &Defects::polygonizations);
+  add<Polygonization>(list, "wheel.polygonizations", "out-of-roundness of the wheel as waves of its radius",
+                      std::move(keys), &Defects::polygonizations);
 }
 
 void add_squats(KeyList& list) {
   const auto number = [](const char* name, KeyLimits limits, const char* doc, double Squat::*member) {
     return element_number<Squat>(name, limits, doc, member);
   };
-  add<Squat>(list, "rail.squats", "squats: depressions of the running band with one dip or two",
-             {required(number("length_mm", kPositive, "length of the first dip", &Squat::length)),
-              required(number("width_mm", kPositive, "width of the first dip", &Squat::width)),
-              required(number("depth_mm", kPositive, "depth of the first dip", &Squat::depth)),
-              with_default(number("x_center_mm", kAnyNumber, "middle of the first dip along the rail", &Squat::x_center), "0"),
-              with_default(number("y_center_mm", kAnyNumber, "middle of the first dip in rail profile coordinates", &Squat::y_center), "0"),
-              with_default(number("second_depth_mm", kNotNegative, "depth of the second dip; 0 = none", &Squat::second_depth), "0"),
-              number("second_length_mm", kPositive, "length of the second dip; without it that of the first", &Squat::second_length),
-              number("second_width_mm", kPositive, "width of the second dip; without it that of the first", &Squat::second_width),
-              with_default(number("second_distance_mm", kNotNegative, "from the first middle back (towards -x) to the second one",
-                                  &Squat::second_distance), "0"),
-              with_default(number("second_y_offset_mm", kAnyNumber, "lateral shift of the second middle", &Squat::second_y_offset), "0")},
-             &Defects::squats);
+  add<Squat>(
+      list, "rail.squats", "squats: depressions of the running band with one dip or two",
+      {required(number("length_mm", kPositive, "length of the first dip", &Squat::length)),
+       required(number("width_mm", kPositive, "width of the first dip", &Squat::width)),
+       required(number("depth_mm", kPositive, "depth of the first dip", &Squat::depth)),
+       with_default(number("x_center_mm", kAnyNumber, "middle of the first dip along the rail", &Squat::x_center), "0"),
+       with_default(
+           number("y_center_mm", kAnyNumber, "middle of the first dip in rail profile coordinates", &Squat::y_center),
+           "0"),
+       with_default(number("second_depth_mm", kNotNegative, "depth of the second dip; 0 = none", &Squat::second_depth),
+                    "0"),
+       number("second_length_mm", kPositive, "length of the second dip; without it that of the first",
+              &Squat::second_length),
+       number("second_width_mm", kPositive, "width of the second dip; without it that of the first",
+              &Squat::second_width),
+       with_default(number("second_distance_mm", kNotNegative,
+                           "from the first middle back (towards -x) to the second one", &Squat::second_distance),
+                    "0"),
+       with_default(
+           number("second_y_offset_mm", kAnyNumber, "lateral shift of the second middle", &Squat::second_y_offset),
+           "0")},
+      &Defects::squats);
 }
 
 void add_corrugations(KeyList& list) {
   using Wave = Corrugation::Wave;
   Keys<Wave> wave{required(element_number<Wave>("wavelength_mm", kPositive, "wavelength", &Wave::wavelength)),
                   required(element_number<Wave>("amplitude_um", kAnyNumber, "half of peak to peak", &Wave::amplitude))};
-  append(wave, element_angle<Wave>("phase", "the rail is deepest at x = x_start + phase/(2 pi) wavelength", &Wave::phase));
-  Keys<Corrugation> keys{element_list<Corrugation, Wave>("waves", "waves that add up", std::move(wave), &Corrugation::waves)};
+  append(wave,
+         element_angle<Wave>("phase", "the rail is deepest at x = x_start + phase/(2 pi) wavelength", &Wave::phase));
+  Keys<Corrugation> keys{
+      element_list<Corrugation, Wave>("waves", "waves that add up", std::move(wave), &Corrugation::waves)};
   append(keys, stretch_keys<Corrugation>());
   append(keys, band_keys<Corrugation>("rail"));
-  add<Corrugation>(list, "rail.corrugations", "corrugated stretches of the rail", std::move(keys), &Defects::corrugations);
+  add<Corrugation>(list, "rail.corrugations", "corrugated stretches of the rail", std::move(keys),
+                   &Defects::corrugations);
 }
 
 void add_gauge_corner_collapses(KeyList& list) {
   using Collapse = GaugeCornerCollapse;
-  KeyInfo towards = key_info("towards", KeyType::choice, "side of the corner: \"-y\" is the gauge side, also of a left rail");
+  KeyInfo towards =
+      key_info("towards", KeyType::choice, "side of the corner: \"-y\" is the gauge side, also of a left rail");
   towards.choices = {"-y", "+y"};
   towards.default_text = "\"-y\"";
-  add<Collapse>(list, "rail.gauge_corner_collapses", "stretches where the gauge corner has sunk",
-                {required(element_number<Collapse>("length_mm", kPositive, "length of the trough along the rail", &Collapse::length)),
-                 required(element_number<Collapse>("depth_mm", kPositive, "greatest depth", &Collapse::depth)),
-                 required(element_number<Collapse>("width_mm", kPositive, "lateral distance over which the depth grows", &Collapse::width)),
-                 with_default(element_number<Collapse>("x_center_mm", kAnyNumber, "middle along the rail", &Collapse::x_center), "0"),
-                 required(element_number<Collapse>("y_start_mm", kAnyNumber, "where it begins, in rail profile coordinates", &Collapse::y_start)),
-                 {towards, [](Collapse& g, const CaseValue& v) { g.gauge_side = v.text() == "+y" ? 1 : -1; }}},
-                &Defects::gauge_corner_collapses);
+  add<Collapse>(
+      list, "rail.gauge_corner_collapses", "stretches where the gauge corner has sunk",
+      {required(
+           element_number<Collapse>("length_mm", kPositive, "length of the trough along the rail", &Collapse::length)),
+       required(element_number<Collapse>("depth_mm", kPositive, "greatest depth", &Collapse::depth)),
+       required(element_number<Collapse>("width_mm", kPositive, "lateral distance over which the depth grows",
+                                         &Collapse::width)),
+       with_default(element_number<Collapse>("x_center_mm", kAnyNumber, "middle along the rail", &Collapse::x_center),
+                    "0"),
+       required(element_number<Collapse>("y_start_mm", kAnyNumber, "where it begins, in rail profile coordinates",
+                                         &Collapse::y_start)),
+       {towards, [](Collapse& g, const CaseValue& v) { g.gauge_side = v.text() == "+y" ? 1 : -1; }}},
+      &Defects::gauge_corner_collapses);
 }
 
 void add_flattened_heads(KeyList& list) {
   Keys<FlattenedHead> keys = stretch_keys<FlattenedHead>();
-  keys.push_back(required(element_number<FlattenedHead>("depth_mm", kPositive, "depth of the plane below the highest point of the rail",
-                                                        &FlattenedHead::depth)));
+  keys.push_back(required(element_number<FlattenedHead>(
+      "depth_mm", kPositive, "depth of the plane below the highest point of the rail", &FlattenedHead::depth)));
   append(keys, element_angle<FlattenedHead>("roll", "inclination of the plane about x", &FlattenedHead::roll));
   add<FlattenedHead>(list, "rail.flattened_heads", "stretches where the head is worn down to a plane", std::move(keys),
                      &Defects::flattened_heads);
@@ -134,19 +162,28 @@ void add_milling_paths(KeyList& list) {
   using Segment = MillingPath::Segment;
   Keys<Station> station{
       required(element_number<Station>("x_mm", kAnyNumber, "position along the rail, increasing", &Station::x)),
-      with_default(element_number<Station>("y_mm", kAnyNumber, "where the origin of the section passes", &Station::y), "0"),
-      with_default(element_number<Station>("z_mm", kAnyNumber, "where the origin of the section passes, positive down", &Station::z), "0")};
+      with_default(element_number<Station>("y_mm", kAnyNumber, "where the origin of the section passes", &Station::y),
+                   "0"),
+      with_default(element_number<Station>("z_mm", kAnyNumber, "where the origin of the section passes, positive down",
+                                           &Station::z),
+                   "0")};
   append(station, element_angle<Station>("roll", "roll of the cutter about x", &Station::roll));
   Keys<MillingPath> keys{
-      element_list<MillingPath, Station>("stations", "path of the cutter, at least two; natural cubic splines run through them",
+      element_list<MillingPath, Station>("stations",
+                                         "path of the cutter, at least two; natural cubic splines run through them",
                                          std::move(station), &MillingPath::stations),
-      element_list<MillingPath, Segment>("section", "section of the cutter, a chain of arcs with increasing y", arc_keys<Segment>(),
-                                         &MillingPath::section),
-      with_default(element_number<MillingPath>("start_y_mm", kAnyNumber, "y where the section starts, from its origin", &MillingPath::start_y), "0"),
-      with_default(element_number<MillingPath>("start_z_mm", kAnyNumber, "z where the section starts, from its origin", &MillingPath::start_z), "0")};
-  append(keys, element_angle<MillingPath>("start_angle", "inclination atan(dz/dy) where the section starts", &MillingPath::start_angle));
-  add<MillingPath>(list, "rail.milling_paths", "cutters that remove what lies above their section along a path", std::move(keys),
-                   &Defects::milling_paths);
+      element_list<MillingPath, Segment>("section", "section of the cutter, a chain of arcs with increasing y",
+                                         arc_keys<Segment>(), &MillingPath::section),
+      with_default(element_number<MillingPath>("start_y_mm", kAnyNumber, "y where the section starts, from its origin",
+                                               &MillingPath::start_y),
+                   "0"),
+      with_default(element_number<MillingPath>("start_z_mm", kAnyNumber, "z where the section starts, from its origin",
+                                               &MillingPath::start_z),
+                   "0")};
+  append(keys, element_angle<MillingPath>("start_angle", "inclination atan(dz/dy) where the section starts",
+                                          &MillingPath::start_angle));
+  add<MillingPath>(list, "rail.milling_paths", "cutters that remove what lies above their section along a path",
+                   std::move(keys), &Defects::milling_paths);
 }
 
 }  // namespace

@@ -20,7 +20,8 @@ void add_one_law(KeyList& list) {
                       "constant friction, friction that falls with the slip velocity, or that depends on the surface "
                       "temperature",
                       [](auto& c) -> Kind& { return c.friction.kind; });
-  shared_number(list, "friction.coefficient", kFriction, "coefficient of friction; of falling laws the limit at high slip velocity",
+  shared_number(list, "friction.coefficient", kFriction,
+                "coefficient of friction; of falling laws the limit at high slip velocity",
                 [](auto& c) -> double& { return c.friction.kinetic; });
   shared_number(list, "friction.amplitude_1", kAnyNumber, "first falling term at rest, added to the coefficient",
                 [](auto& c) -> double& { return c.friction.amplitude_1; });
@@ -36,9 +37,11 @@ void add_one_law(KeyList& list) {
                 [](auto& c) -> double& { return c.friction.memory_velocity; });
   shared_number(list, "friction.reference_temperature_C", kAnyNumber, "temperature: up to here the coefficient holds",
                 [](auto& c) -> double& { return c.friction.reference_temperature; });
-  shared_number(list, "friction.temperature_change", kAnyNumber, "temperature: change of the coefficient of friction over the range",
+  shared_number(list, "friction.temperature_change", kAnyNumber,
+                "temperature: change of the coefficient of friction over the range",
                 [](auto& c) -> double& { return c.friction.temperature_change; });
-  shared_number(list, "friction.temperature_range_K", kPositive, "temperature: range over which friction changes linearly",
+  shared_number(list, "friction.temperature_range_K", kPositive,
+                "temperature: range over which friction changes linearly",
                 [](auto& c) -> double& { return c.friction.temperature_range; });
 }
 
@@ -71,9 +74,11 @@ std::vector<ElementKey<Element>> law_keys(Law law) {
 }
 
 void add_rows(KeyList& list) {
-  KeyInfo rows = key_info("friction.rows", KeyType::table_list, "a law of its own for each row of elements, from the lowest y");
+  KeyInfo rows =
+      key_info("friction.rows", KeyType::table_list, "a law of its own for each row of elements, from the lowest y");
   rows.scope = KeyScope::patch;
-  add_list<FrictionLaw, BasicCase>(list, std::move(rows), law_keys<FrictionLaw>([](FrictionLaw& f) -> FrictionLaw& { return f; }),
+  add_list<FrictionLaw, BasicCase>(list, std::move(rows),
+                                   law_keys<FrictionLaw>([](FrictionLaw& f) -> FrictionLaw& { return f; }),
                                    [](BasicCase& c, bool) { return &c.friction_of_row; });
 }
 
@@ -106,14 +111,16 @@ void add_variation(KeyList& list, const std::string& name, FrictionVariation::Ki
   info.scope = KeyScope::wheel_rail;
   info.group = "friction variation";
   info.alternative = name;
-  for (auto& key : law_keys<FrictionSet>([](FrictionSet& s) -> FrictionLaw& { return s.law; })) keys.push_back(std::move(key));
+  for (auto& key : law_keys<FrictionSet>([](FrictionSet& s) -> FrictionLaw& { return s.law; }))
+    keys.push_back(std::move(key));
   for (const auto& key : keys) info.elements.push_back(key.info);
   const std::string path = info.path;
   CaseKey& added = list.add(std::move(info));
   added.set = [keys, kind](Case& c, const CaseValue& v, const std::filesystem::path&) {
     put_sets(content_of<WheelRailCase>(c), kind, make_elements(keys, v));
   };
-  added.set_element = [keys, kind, path](Case& c, std::size_t index, const CaseTable& entries, const SourcePosition& where) {
+  added.set_element = [keys, kind, path](Case& c, std::size_t index, const CaseTable& entries,
+                                         const SourcePosition& where) {
     auto& content = content_of<WheelRailCase>(c);
     std::vector<FrictionSet> sets;
     if (content.friction_variation.kind == kind) sets = sets_of(content.friction_variation);
@@ -129,10 +136,13 @@ void add_friction_keys(KeyList& list) {
   add_rows(list);
   using Variation = FrictionVariation::Kind;
   const std::string order = ", increasing from set to set";
-  add_variation(list, "by_inclination", Variation::inclination, "friction that varies with the inclination of the rail, interpolated",
-                element_angle<FrictionSet>("inclination", "inclination of the rail's surface" + order, &FrictionSet::position));
+  add_variation(
+      list, "by_inclination", Variation::inclination,
+      "friction that varies with the inclination of the rail, interpolated",
+      element_angle<FrictionSet>("inclination", "inclination of the rail's surface" + order, &FrictionSet::position));
   add_variation(list, "along_track", Variation::along_track, "friction that varies along the track, interpolated",
-                {required(element_number<FrictionSet>("s_mm", kAnyNumber, "position along the track" + order, &FrictionSet::position))});
+                {required(element_number<FrictionSet>("s_mm", kAnyNumber, "position along the track" + order,
+                                                      &FrictionSet::position))});
 }
 
 }  // namespace treadmark::io

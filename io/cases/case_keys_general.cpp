@@ -11,27 +11,33 @@ using W = WheelRailCase;
 void add_case(KeyList& list) {
   using Regime = RegimeInput;
   CaseKey& regime = shared_choice<Regime>(
-      list, "case.regime", {{"none", Regime::none}, {"shift", Regime::shift}, {"transient", Regime::transient}, {"steady", Regime::steady}},
-      "tangential problem: none, one shift, one step of transient rolling or steady rolling; a [patch] starts from \"none\"",
+      list, "case.regime",
+      {{"none", Regime::none}, {"shift", Regime::shift}, {"transient", Regime::transient}, {"steady", Regime::steady}},
+      "tangential problem: none, one shift, one step of transient rolling or steady rolling; a [patch] starts from "
+      "\"none\"",
       [](auto& c) -> Regime& { return c.regime; });
   regime.info.default_text = "\"steady\"";
 
   using History = HistoryInput;
-  shared_choice<History>(list, "case.history",
-                         {{"start", History::start},
-                          {"continue", History::keep_going},
-                          {"normal_only", History::normal_only},
-                          {"same_instant", History::same_instant}},
-                         "what a case takes over from the one before it in its sequence: nothing, its tractions as previous "
-                         "instant, only the normal part of them, or the same previous instant as that case had",
-                         [](auto& c) -> History& { return c.history; });
+  shared_choice<History>(
+      list, "case.history",
+      {{"start", History::start},
+       {"continue", History::keep_going},
+       {"normal_only", History::normal_only},
+       {"same_instant", History::same_instant}},
+      "what a case takes over from the one before it in its sequence: nothing, its tractions as previous "
+      "instant, only the normal part of them, or the same previous instant as that case had",
+      [](auto& c) -> History& { return c.history; });
 
   constexpr double kMostSequences = 1e6;
-  KeyInfo sequence = key_info("case.sequence", KeyType::integer, "cases with the same number follow each other in time");
+  KeyInfo sequence =
+      key_info("case.sequence", KeyType::integer, "cases with the same number follow each other in time");
   sequence.at_least = 0.0;
   sequence.at_most = kMostSequences;
   sequence.default_text = std::string("0");  // a plain literal sets off a false alarm of GCC 12
-  list.add(sequence).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) { c.sequence = static_cast<int>(v.integer()); };
+  list.add(sequence).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    c.sequence = static_cast<int>(v.integer());
+  };
 
   KeyInfo table = key_info("case.element_table", KeyType::choice,
                            "text table of the elements of each patch (.mat): none, those in contact or all");
@@ -42,20 +48,23 @@ void add_case(KeyList& list) {
       if (choices[i] == v.text()) c.element_table = static_cast<int>(i);
   };
 
-  shared_flag(list, "case.sensitivities", "derivatives of the forces by creepages and approach in the results; full theory",
+  shared_flag(list, "case.sensitivities",
+              "derivatives of the forces by creepages and approach in the results; full theory",
               [](auto& c) -> bool& { return c.sensitivities; });
 }
 
 void add_steps(KeyList& list) {
   constexpr double kMostSteps = 100000;
   list.integer<Case>("case.steps", 0, kMostSteps,
-                     "number of cases that a table makes, one after the other in time: a wheelset moves by its velocities from each to "
+                     "number of cases that a table makes, one after the other in time: a wheelset moves by its "
+                     "velocities from each to "
                      "the next where the table does not give the position; 0: one case at the position given",
                      [](Case& c) -> int& { return c.steps; });
-  KeyInfo& step = list.number<Case>("case.time_step_s", kPositive,
-                                    "time between two of these cases, from which the rolling step follows; without it the forward velocity "
-                                    "rolls one rolling step (dq_relative * dx_mm). A shift has no time: its velocities are displacements",
-                                    [](Case& c) -> double& { return c.time_step; });
+  KeyInfo& step = list.number<Case>(
+      "case.time_step_s", kPositive,
+      "time between two of these cases, from which the rolling step follows; without it the forward velocity "
+      "rolls one rolling step (dq_relative * dx_mm). A shift has no time: its velocities are displacements",
+      [](Case& c) -> double& { return c.time_step; });
   step.default_text.clear();
 }
 
@@ -69,7 +78,8 @@ void add_solver(KeyList& list) {
   shared_integer(list, "solver.max_force_iterations", "iterations on prescribed total forces",
                  [](auto& c) -> int& { return c.solver.max_nr; });
   shared_integer(list, "solver.max_outer_iterations",
-                 "alternations of the normal and the tangential problem of dissimilar bodies; 1: tangential tractions do not act on the "
+                 "alternations of the normal and the tangential problem of dissimilar bodies; 1: tangential tractions "
+                 "do not act on the "
                  "normal problem",
                  [](auto& c) -> int& { return c.solver.max_out; });
   using Method = SolverInput::Method;
@@ -77,10 +87,11 @@ void add_solver(KeyList& list) {
                         "tangential solver: the one that suits the problem, or sweeps over single elements",
                         [](auto& c) -> Method& { return c.solver.method; });
   using First = SolverInput::FirstSlip;
-  shared_choice<First>(list, "solver.first_slip", {{"below", First::below}, {"above", First::above}, {"last", First::last}},
-                       "falling friction with several solutions: slip velocity to start from: none, the rolling velocity, or that of "
-                       "the case before",
-                       [](auto& c) -> First& { return c.solver.first_slip; });
+  shared_choice<First>(
+      list, "solver.first_slip", {{"below", First::below}, {"above", First::above}, {"last", First::last}},
+      "falling friction with several solutions: slip velocity to start from: none, the rolling velocity, or that of "
+      "the case before",
+      [](auto& c) -> First& { return c.solver.first_slip; });
 }
 
 /// A [patch] has such keys of its own.

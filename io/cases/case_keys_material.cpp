@@ -33,16 +33,21 @@ void add_elastic(KeyList& list) {
 }
 
 void add_beyond_elastic(KeyList& list) {
-  shared_number(list, "material.layer_yield_MPa", kNotNegative, "shear stress at which the interface layer yields; 0 = never",
-                 [](auto& c) -> double& { return c.material.layer_yield; });
+  shared_number(list, "material.layer_yield_MPa", kNotNegative,
+                "shear stress at which the interface layer yields; 0 = never",
+                [](auto& c) -> double& { return c.material.layer_yield; });
   shared_number(list, "material.layer_hardening_MPa_per_mm", kAnyNumber,
-                 "change of that stress with the distance of plastic shear; negative = softening, down to a tenth",
-                 [](auto& c) -> double& { return c.material.layer_hardening; });
-  shared_number(list, "material.sheet_flexibility_mm_per_MPa", kNotNegative, "normal flexibility of a thin compressible sheet; 0 = none",
-                 [](auto& c) -> double& { return c.material.sheet_flexibility; });
+                "change of that stress with the distance of plastic shear; negative = softening, down to a tenth",
+                [](auto& c) -> double& { return c.material.layer_hardening; });
+  shared_number(list, "material.sheet_flexibility_mm_per_MPa", kNotNegative,
+                "normal flexibility of a thin compressible sheet; 0 = none",
+                [](auto& c) -> double& { return c.material.sheet_flexibility; });
 
-  const auto pair = [&](const std::string& name, const std::string& doc, double Material::*rail, double Material::*wheel) {
-    const auto place = [](double Material::*member) { return [member](auto& c) -> double& { return c.material.*member; }; };
+  const auto pair = [&](const std::string& name, const std::string& doc, double Material::*rail,
+                        double Material::*wheel) {
+    const auto place = [](double Material::*member) {
+      return [member](auto& c) -> double& { return c.material.*member; };
+    };
     shared_number(list, "material." + name, kNotNegative, doc + " of both bodies", place(rail)).set =
         [rail, wheel](Case& c, const CaseValue& v, const std::filesystem::path&) {
           std::visit([&](auto& content) { content.material.*rail = content.material.*wheel = v.number(); }, c.content);
@@ -50,25 +55,28 @@ void add_beyond_elastic(KeyList& list) {
     shared_number(list, "material.rail_" + name, kNotNegative, doc + " of body 1", place(rail));
     shared_number(list, "material.wheel_" + name, kNotNegative, doc + " of body 2", place(wheel));
   };
-  pair("creep_ratio", "viscoelastic (standard linear solid, 0 = elastic): delayed over immediate compliance", &Material::creep_ratio_1,
-       &Material::creep_ratio_2);
-  pair("relaxation_time_s", "viscoelastic: relaxation time", &Material::relaxation_time_1, &Material::relaxation_time_2);
+  pair("creep_ratio", "viscoelastic (standard linear solid, 0 = elastic): delayed over immediate compliance",
+       &Material::creep_ratio_1, &Material::creep_ratio_2);
+  pair("relaxation_time_s", "viscoelastic: relaxation time", &Material::relaxation_time_1,
+       &Material::relaxation_time_2);
 }
 
 void add_influence(KeyList& list) {
   using Kind = InfluenceInput::Kind;
-  shared_choice<Kind>(list, "influence.kind",
-                      {{"constant", Kind::constant},
-                       {"bilinear", Kind::bilinear},
-                       {"angle_corrected", Kind::angle_corrected},
-                       {"table", Kind::table}},
-                      "influence coefficients: half-space with constant or bilinear tractions on an element, corrected for the "
-                      "inclination of the surface (wheel on rail: of the curved reference), or numerical ones from a file (patch only)",
-                      [](auto& c) -> Kind& { return c.influence.kind; });
+  shared_choice<Kind>(
+      list, "influence.kind",
+      {{"constant", Kind::constant},
+       {"bilinear", Kind::bilinear},
+       {"angle_corrected", Kind::angle_corrected},
+       {"table", Kind::table}},
+      "influence coefficients: half-space with constant or bilinear tractions on an element, corrected for the "
+      "inclination of the surface (wheel on rail: of the curved reference), or numerical ones from a file (patch only)",
+      [](auto& c) -> Kind& { return c.influence.kind; });
   list.number_list<B>("influence.position_mm", "angle_corrected, patch only: positions along y, increasing",
                       [](B& c) -> std::vector<double>& { return c.influence.position; });
   for (const std::string unit : {"deg", "rad"}) {
-    KeyInfo& info = list.number_list<B>("influence.inclination_" + unit, "angle_corrected, patch only: inclination of the surface at these positions",
+    KeyInfo& info = list.number_list<B>("influence.inclination_" + unit,
+                                        "angle_corrected, patch only: inclination of the surface at these positions",
                                         [](B& c) -> std::vector<double>& { return c.influence.inclination; });
     info.group = "influence inclination";
     info.alternative = unit;
@@ -77,12 +85,14 @@ void add_influence(KeyList& list) {
                       "angle_corrected: one straight line through the inclinations, or the table as it is",
                       [](auto& c) -> bool& { return c.influence.linear; });
   list.integer<Case>("influence.variant", 1, 4,
-                  "angle_corrected: what is turned by the difference of inclinations: 1 tractions, 2 the same but for their effect in x, 3 "
-                  "displacements, 4 half of it each",
-                  [](Case& c) -> int& {
-                    return std::visit([](auto& content) -> int& { return content.influence.variant; }, c.content);
-                  });
-  KeyInfo file = key_info("influence.file", KeyType::path, "table: file of numerical influence coefficients, relative to the case file");
+                     "angle_corrected: what is turned by the difference of inclinations: 1 tractions, 2 the same but "
+                     "for their effect in x, 3 "
+                     "displacements, 4 half of it each",
+                     [](Case& c) -> int& {
+                       return std::visit([](auto& content) -> int& { return content.influence.variant; }, c.content);
+                     });
+  KeyInfo file = key_info("influence.file", KeyType::path,
+                          "table: file of numerical influence coefficients, relative to the case file");
   file.scope = KeyScope::patch;
   list.add(file).set = [](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
     content_of<B>(c).influence.file = (folder / v.text()).lexically_normal();

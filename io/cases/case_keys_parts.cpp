@@ -15,11 +15,14 @@ using Key = ElementKey<SurfaceSource>;
 
 constexpr KeyLimits kSlope{{}, -1.0, 1.0};
 
-Part crossing_part(const CaseValue& v) { return v.text() == "nose" ? Part::nose : v.text() == "wing" ? Part::wing : Part::none; }
+Part crossing_part(const CaseValue& v) {
+  return v.text() == "nose" ? Part::nose : v.text() == "wing" ? Part::wing : Part::none;
+}
 
 KeyInfo crossing_key(std::string path) {
   KeyInfo info = key_info(std::move(path), KeyType::choice,
-                          "the section moves along the track: \"nose\" rises and levels off, \"wing\" moves aside, see [crossings.md](crossings.md)");
+                          "the section moves along the track: \"nose\" rises and levels off, \"wing\" moves aside, see "
+                          "[crossings.md](crossings.md)");
   info.choices = {"none", "nose", "wing"};
   info.default_text = "\"none\"";
   return info;
@@ -32,11 +35,16 @@ struct CrossingNumber {
   double CrossingInput::*member;
 };
 const CrossingNumber kCrossingNumbers[] = {
-    {"crossing_x_mm", kAnyNumber, "where the nose levels off, or the wing starts to move (middle of the rounding)", &CrossingInput::x},
-    {"crossing_slope", kSlope, "rise of the nose, or movement of the wing towards +y, per length of track", &CrossingInput::slope},
-    {"crossing_length_mm", kPositive, "length over which it rises or moves; beyond it the section stays as it is", &CrossingInput::length},
-    {"crossing_rounding_mm", kPositive, "length over which the slope changes, less than twice crossing_length_mm", &CrossingInput::rounding},
-    {"crossing_y_mm", kAnyNumber, "lateral offset of the section before a wing moves; of a nose everywhere", &CrossingInput::y},
+    {"crossing_x_mm", kAnyNumber, "where the nose levels off, or the wing starts to move (middle of the rounding)",
+     &CrossingInput::x},
+    {"crossing_slope", kSlope, "rise of the nose, or movement of the wing towards +y, per length of track",
+     &CrossingInput::slope},
+    {"crossing_length_mm", kPositive, "length over which it rises or moves; beyond it the section stays as it is",
+     &CrossingInput::length},
+    {"crossing_rounding_mm", kPositive, "length over which the slope changes, less than twice crossing_length_mm",
+     &CrossingInput::rounding},
+    {"crossing_y_mm", kAnyNumber, "lateral offset of the section before a wing moves; of a nose everywhere",
+     &CrossingInput::y},
     {"crossing_z_mm", kAnyNumber, "height of a wing; final height of a nose, positive down", &CrossingInput::z},
 };
 
@@ -47,7 +55,8 @@ void add_crossing_keys(KeyList& list) {
     content_of<W>(c).rail.crossing.part = crossing_part(v);
   };
   for (const CrossingNumber& n : kCrossingNumbers)
-    list.number<W>(fmt::format("rail.shape.{}", n.name), n.limits, n.doc, [m = n.member](W& c) -> double& { return c.rail.crossing.*m; });
+    list.number<W>(fmt::format("rail.shape.{}", n.name), n.limits, n.doc,
+                   [m = n.member](W& c) -> double& { return c.rail.crossing.*m; });
 }
 
 Key geometry_key(std::string name, KeyType type, std::string doc) {
@@ -59,7 +68,8 @@ Key geometry_key(std::string name, KeyType type, std::string doc) {
 
 GeometryFile& file_of(SurfaceSource& s, const CaseValue& v, const char* key) {
   auto* file = std::get_if<GeometryFile>(&s.geometry);
-  if (file == nullptr) throw Error(ErrorKind::configuration, fmt::format("{} belongs to a part given by a file", key), v.where);
+  if (file == nullptr)
+    throw Error(ErrorKind::configuration, fmt::format("{} belongs to a part given by a file", key), v.where);
   return *file;
 }
 
@@ -84,7 +94,8 @@ Key arcs_key() {
 
 std::vector<Key> geometry_keys() {
   std::vector<Key> keys;
-  Key file = geometry_key("file", KeyType::path, "profile, slices or triangles file, relative to the folder of the case file");
+  Key file =
+      geometry_key("file", KeyType::path, "profile, slices or triangles file, relative to the folder of the case file");
   file.set = [](SurfaceSource& s, const CaseValue& v) {
     if (!std::holds_alternative<GeometryFile>(s.geometry)) s.geometry = GeometryFile{};
     std::string name = v.text();
@@ -100,10 +111,13 @@ std::vector<Key> geometry_keys() {
   };
   keys = {file, standard, arcs_key()};
   const auto start = [&](const char* name, const char* doc, double ArcChain::*member) {
-    keys.push_back(with_default(element_number<SurfaceSource>(name, kAnyNumber, doc, [](SurfaceSource& s) -> double& { return s.offset.x(); }), "0"));
+    keys.push_back(with_default(
+        element_number<SurfaceSource>(name, kAnyNumber, doc, [](SurfaceSource& s) -> double& { return s.offset.x(); }),
+        "0"));
     keys.back().set = [name, member, unit = unit_of_key(name)](SurfaceSource& s, const CaseValue& v) {
       auto* chain = std::get_if<ArcChain>(&s.geometry);
-      if (chain == nullptr) throw Error(ErrorKind::configuration, fmt::format("{} belongs to a part given by arcs", name), v.where);
+      if (chain == nullptr)
+        throw Error(ErrorKind::configuration, fmt::format("{} belongs to a part given by arcs", name), v.where);
       chain->*member = v.number() * unit;
     };
   };
@@ -112,11 +126,14 @@ std::vector<Key> geometry_keys() {
   start("start_angle_deg", "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
   KeyInfo mirror = key_info("mirror_y", KeyType::flag, "negate y of the file");
   mirror.default_text = "false";
-  keys.push_back({mirror, [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "mirror_y").options.mirror_y = v.flag() ? 1 : 0; }});
+  keys.push_back({mirror, [](SurfaceSource& s, const CaseValue& v) {
+                    file_of(s, v, "mirror_y").options.mirror_y = v.flag() ? 1 : 0;
+                  }});
   KeyInfo scale = key_info("scale_to_mm", KeyType::number, "factor from file units to mm (1000 for a file in m)");
   scale.at_least = 1e-6;
   scale.default_text = "1";
-  keys.push_back({scale, [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "scale_to_mm").options.scale = v.number(); }});
+  keys.push_back(
+      {scale, [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "scale_to_mm").options.scale = v.number(); }});
   return keys;
 }
 
@@ -124,25 +141,33 @@ std::vector<Key> part_keys() {
   std::vector<Key> keys = geometry_keys();
   const char* axes[] = {"x_mm", "y_mm", "z_mm"};
   for (int axis = 0; axis < 3; ++axis)
-    keys.push_back(with_default(element_number<SurfaceSource>(axes[axis], kAnyNumber, "offset of the part in the frame of the rail",
-                                                              [axis](SurfaceSource& s) -> double& { return s.offset[axis]; }), "0"));
-  KeyInfo backend = key_info("backend", KeyType::text, "surface representation of this part; without it that of the rail");
+    keys.push_back(with_default(
+        element_number<SurfaceSource>(axes[axis], kAnyNumber, "offset of the part in the frame of the rail",
+                                      [axis](SurfaceSource& s) -> double& { return s.offset[axis]; }),
+        "0"));
+  KeyInfo backend =
+      key_info("backend", KeyType::text, "surface representation of this part; without it that of the rail");
   backend.pattern = kBackendPattern;
   backend.matches = is_backend_name;
   keys.push_back({backend, [](SurfaceSource& s, const CaseValue& v) { s.backend = v.text(); }});
-  keys.push_back(element_number<SurfaceSource>("resolution_mm", kPositive, "spacing of samples of this part; without it that of the rail",
+  keys.push_back(element_number<SurfaceSource>("resolution_mm", kPositive,
+                                               "spacing of samples of this part; without it that of the rail",
                                                &SurfaceSource::resolution));
-  keys.push_back({crossing_key("crossing"), [](SurfaceSource& s, const CaseValue& v) { s.crossing.part = crossing_part(v); }});
+  keys.push_back(
+      {crossing_key("crossing"), [](SurfaceSource& s, const CaseValue& v) { s.crossing.part = crossing_part(v); }});
   const CrossingInput fresh;
   for (const CrossingNumber& n : kCrossingNumbers)
-    keys.push_back(with_default(element_number<SurfaceSource>(n.name, n.limits, n.doc, [m = n.member](SurfaceSource& s) -> double& { return s.crossing.*m; }),
-                                fmt::format("{:.10g}", fresh.*n.member / unit_of_key(n.name))));
+    keys.push_back(with_default(
+        element_number<SurfaceSource>(n.name, n.limits, n.doc,
+                                      [m = n.member](SurfaceSource& s) -> double& { return s.crossing.*m; }),
+        fmt::format("{:.10g}", fresh.*n.member / unit_of_key(n.name))));
   return keys;
 }
 
 /// Names of files are relative to the folder of the case file, which only the whole list knows.
 void add_parts(KeyList& list) {
-  KeyInfo info = key_info("rail.parts", KeyType::table_list, "surfaces that together are the rail, instead of one shape: the outermost counts");
+  KeyInfo info = key_info("rail.parts", KeyType::table_list,
+                          "surfaces that together are the rail, instead of one shape: the outermost counts");
   info.scope = KeyScope::wheel_rail;
   add_list<SurfaceSource>(list, std::move(info), part_keys(), [](W& c, bool) { return &c.rail.parts; });
   CaseKey& added = list.keys.back();
@@ -152,10 +177,12 @@ void add_parts(KeyList& list) {
       if (auto* file = std::get_if<GeometryFile>(&part.geometry); file != nullptr && !file->file.empty())
         file->file = (folder / file->file).lexically_normal();
   };
-  added.set_element = [set = added.set_element](Case& c, std::size_t index, const CaseTable& entries, const SourcePosition& where) {
+  added.set_element = [set = added.set_element](Case& c, std::size_t index, const CaseTable& entries,
+                                                const SourcePosition& where) {
     for (const CaseEntry& entry : entries)
       if (entry.key == "file" && std::filesystem::path(entry.value.text()).is_relative())
-        throw Error(ErrorKind::configuration, "the file of a part can only be replaced by one with its full path", where);
+        throw Error(ErrorKind::configuration, "the file of a part can only be replaced by one with its full path",
+                    where);
     set(c, index, entries, where);
   };
 }

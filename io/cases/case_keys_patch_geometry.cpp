@@ -17,7 +17,8 @@ GapInput& gap(B& c) {
   return std::get<GapInput>(c.geometry);
 }
 
-/// Full matrix with 1 on the diagonal from what stands above it, row by row; a list that fills no triangle stays as it is.
+/// Full matrix with 1 on the diagonal from what stands above it, row by row; a list that fills no triangle stays as it
+/// is.
 std::vector<double> symmetric(const std::vector<double>& above) {
   std::size_t size = 1;
   while (size * (size - 1) / 2 < above.size()) ++size;
@@ -33,8 +34,10 @@ void add_geometry(KeyList& list) {
   constexpr double kMost = 4e6;
   list.integer<B>("patch.mx", 1, kMost, "elements in x", [](B& c) -> int& { return c.mx; }).default_text.clear();
   list.integer<B>("patch.my", 1, kMost, "elements in y", [](B& c) -> int& { return c.my; }).default_text.clear();
-  list.number<B>("patch.x0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)", [](B& c) -> double& { return c.x0; });
-  list.number<B>("patch.y0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)", [](B& c) -> double& { return c.y0; });
+  list.number<B>("patch.x0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)",
+                 [](B& c) -> double& { return c.x0; });
+  list.number<B>("patch.y0_mm", kAnyNumber, "centre of the first element ([patch.gap] only)",
+                 [](B& c) -> double& { return c.y0; });
   list.number<B>("patch.dx_mm", kPositive, "element size in x ([patch.gap] only)", [](B& c) -> double& { return c.dx; })
       .default_text.clear();
   list.number<B>("patch.dy_mm", kPositive, "element size in y ([patch.gap] only)", [](B& c) -> double& { return c.dy; })
@@ -51,7 +54,8 @@ void add_geometry(KeyList& list) {
                         "Hertzian contact: what describes it (the grid follows from it, mx, my and scale)",
                         [](B& c) -> Given& { return hertz(c).given; });
   const auto hertz_number = [&](const std::string& name, const std::string& doc, double HertzInput::*member) {
-    KeyInfo& info = list.number<B>("patch.hertz." + name, kPositive, doc, [member](B& c) -> double& { return hertz(c).*member; });
+    KeyInfo& info =
+        list.number<B>("patch.hertz." + name, kPositive, doc, [member](B& c) -> double& { return hertz(c).*member; });
     if (info.default_text == "0") info.default_text.clear();
   };
   hertz_number("curvature_x_per_m", "A = 1/(2 R_x), all but semi-axes cases", &HertzInput::a1);
@@ -62,7 +66,8 @@ void add_geometry(KeyList& list) {
     const std::string name = fmt::format("semi_axis_y_{}_mm", negative ? "negative" : "positive");
     hertz_number(name, fmt::format("half width towards {}y, \"semi_double_elliptic\"", negative ? "-" : "+"),
                  negative ? &HertzInput::bb_negative : &HertzInput::bb_positive);
-    list.keys.back().set = [negative, unit = unit_of_key(name)](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    list.keys.back().set = [negative, unit = unit_of_key(name)](Case& c, const CaseValue& v,
+                                                                const std::filesystem::path&) {
       HertzInput& h = hertz(content_of<B>(c));
       (negative ? h.bb_negative : h.bb_positive) = v.number() * unit;
       h.bb = 0.5 * (h.bb_negative + h.bb_positive);
@@ -77,23 +82,26 @@ void add_geometry(KeyList& list) {
                         {"circular", Kind::circular},
                         {"sinusoidal", Kind::sinusoidal},
                         {"per_element", Kind::per_element}},
-                       "undeformed distance by formula or for every element", [](B& c) -> Kind& { return gap(c).kind; });
+                       "undeformed distance by formula or for every element",
+                       [](B& c) -> Kind& { return gap(c).kind; });
   list.number_list<B>("patch.gap.coefficients_si", "coefficients of the undeformed distance in SI units, see below",
                       [](B& c) -> std::vector<double>& { return gap(c).coefficients; });
 }
 
 void add_planform(KeyList& list) {
   using Kind = PlanformInput::Kind;
-  list.choice<B, Kind>("patch.planform.kind",
-                       {{"free", Kind::free},
-                        {"quadratic", Kind::quadratic},
-                        {"two_rectangles", Kind::two_rectangles},
-                        {"sub_patches", Kind::sub_patches}},
-                       "where contact can be: anywhere, where a quadratic is negative, in two rectangles, or in rectangles with scaled "
-                       "influence on each other",
-                       [](B& c) -> Kind& { return c.planform.kind; });
-  for (const auto& [name, doc] : {std::pair<std::string, std::string>{"coefficients_si", "quadratic: b1 ... b6 in SI units, see below"},
-                                  {"rectangles_mm", "x low, x high, y low, y high of each rectangle, one after the other"}}) {
+  list.choice<B, Kind>(
+      "patch.planform.kind",
+      {{"free", Kind::free},
+       {"quadratic", Kind::quadratic},
+       {"two_rectangles", Kind::two_rectangles},
+       {"sub_patches", Kind::sub_patches}},
+      "where contact can be: anywhere, where a quadratic is negative, in two rectangles, or in rectangles with scaled "
+      "influence on each other",
+      [](B& c) -> Kind& { return c.planform.kind; });
+  for (const auto& [name, doc] :
+       {std::pair<std::string, std::string>{"coefficients_si", "quadratic: b1 ... b6 in SI units, see below"},
+        {"rectangles_mm", "x low, x high, y low, y high of each rectangle, one after the other"}}) {
     KeyInfo& info = list.number_list<B>("patch.planform." + name, doc,
                                         [](B& c) -> std::vector<double>& { return c.planform.coefficients; });
     info.group = "patch planform";

@@ -15,23 +15,30 @@ using W = WheelRailCase;
 class ShapeKeys {
  public:
   ShapeKeys(KeyList& list, std::string body, SurfaceSource W::*surface, std::string standard)
-      : list_(list), prefix_(body + ".shape."), body_(std::move(body)), surface_(surface), standard_(std::move(standard)) {}
+      : list_(list),
+        prefix_(body + ".shape."),
+        body_(std::move(body)),
+        surface_(surface),
+        standard_(std::move(standard)) {}
 
   void add() {
     add_geometry();
     add_file_options();
     if (body_ == "wheel") add_seam();
-    KeyInfo backend = key_info(body_ + ".backend", KeyType::text, "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic or offset-bilinear; "
-                                "without it the one that fits the shape");
+    KeyInfo backend = key_info(body_ + ".backend", KeyType::text,
+                               "surface representation: analytic, spline, nurbs, mesh, mesh-flat, offset, "
+                               "offset-quadratic or offset-bilinear; "
+                               "without it the one that fits the shape");
     backend.pattern = kBackendPattern;
     backend.matches = is_backend_name;
     backend.scope = KeyScope::wheel_rail;
     list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       (content_of<W>(c).*surface).backend = v.text();
     };
-    list_.number<W>(fmt::format("{}.resolution_mm", body_), kPositive,
-                    "spacing of the data a re-represented surface is sampled at; without it 1 mm",
-                    [surface = surface_](W& c) -> double& { return (c.*surface).resolution; })
+    list_
+        .number<W>(fmt::format("{}.resolution_mm", body_), kPositive,
+                   "spacing of the data a re-represented surface is sampled at; without it 1 mm",
+                   [surface = surface_](W& c) -> double& { return (c.*surface).resolution; })
         .default_text.clear();
   }
 
@@ -81,9 +88,10 @@ class ShapeKeys {
       key.default_text = std::string("0");  // a plain literal sets off a false alarm of GCC 12
       CaseKey& added = list_.add(key);
       added.set = [surface = surface_, member, name, unit = unit_of_key(name)](Case& c, const CaseValue& v,
-                                                                                const std::filesystem::path&) {
+                                                                               const std::filesystem::path&) {
         ArcChain* chain = std::get_if<ArcChain>(&(content_of<W>(c).*surface).geometry);
-        if (chain == nullptr) throw Error(ErrorKind::configuration, name + " belongs to a shape given by arcs", v.where);
+        if (chain == nullptr)
+          throw Error(ErrorKind::configuration, name + " belongs to a shape given by arcs", v.where);
         chain->*member = v.number() * unit;
       };
       return added.info;
@@ -91,7 +99,8 @@ class ShapeKeys {
     start("start_y_mm", "y where the chain of arcs starts", &ArcChain::start_y);
     start("start_z_mm", "z where the chain of arcs starts", &ArcChain::start_z);
     for (const std::string unit : {"deg", "rad"}) {
-      KeyInfo& angle = start(fmt::format("start_angle_{}", unit), "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
+      KeyInfo& angle = start(fmt::format("start_angle_{}", unit),
+                             "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
       angle.group = fmt::format("{}start_angle", prefix_);
       angle.alternative = unit;
     }
@@ -101,7 +110,8 @@ class ShapeKeys {
   template <class Change>
   void option(KeyInfo key, Change change) {
     const std::string path = key.path;
-    list_.add(std::move(key)).set = [surface = surface_, change, path](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    list_.add(std::move(key)).set = [surface = surface_, change, path](Case& c, const CaseValue& v,
+                                                                       const std::filesystem::path&) {
       GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
       if (file == nullptr) throw Error(ErrorKind::configuration, path + " belongs to a shape given by a file", v.where);
       change(file->options, v);
@@ -109,11 +119,14 @@ class ShapeKeys {
   }
 
   void add_seam() {
-    KeyInfo seam = info("open_seam", KeyType::flag, "slices all round: constant between the last and the first one, instead of smooth over the seam");
+    KeyInfo seam =
+        info("open_seam", KeyType::flag,
+             "slices all round: constant between the last and the first one, instead of smooth over the seam");
     seam.default_text = "false";
     list_.add(seam).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
-      if (file == nullptr) throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
+      if (file == nullptr)
+        throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
       file->open_seam = v.flag();
     };
   }
@@ -127,14 +140,18 @@ class ShapeKeys {
     KeyInfo mirror_z = info("mirror_z", KeyType::choice, "negate z of the file; automatic: decide from the data");
     mirror_z.choices = {"automatic", "yes", "no"};
     mirror_z.default_text = "\"automatic\"";
-    option(mirror_z, [](ProfileOptions& o, const CaseValue& v) { o.mirror_z = v.text() == "yes" ? 1 : v.text() == "no" ? -1 : 0; });
+    option(mirror_z, [](ProfileOptions& o, const CaseValue& v) {
+      o.mirror_z = v.text() == "yes" ? 1 : v.text() == "no" ? -1 : 0;
+    });
     KeyInfo scale = info("scale_to_mm", KeyType::number, "factor from file units to mm (1000 for a file in m)");
     scale.at_least = 1e-6;
     scale.default_text = "1";
     option(scale, [](ProfileOptions& o, const CaseValue& v) { o.scale = v.number(); });
 
-    KeyInfo lambda = info("smoothing_lambda_mm3", KeyType::number, "smoothing parameter of an unweighted smoothing spline; 0 = interpolate");
-    KeyInfo wavelength = info("smoothing_wavelength_mm", KeyType::number, "cut-off wavelength of a weighted smoothing spline");
+    KeyInfo lambda = info("smoothing_lambda_mm3", KeyType::number,
+                          "smoothing parameter of an unweighted smoothing spline; 0 = interpolate");
+    KeyInfo wavelength =
+        info("smoothing_wavelength_mm", KeyType::number, "cut-off wavelength of a weighted smoothing spline");
     for (KeyInfo* key : {&lambda, &wavelength}) {
       key->at_least = 0.0;
       key->group = fmt::format("{}smoothing", prefix_);
@@ -149,7 +166,8 @@ class ShapeKeys {
       if (o.smoothing.method == Method::spline) o.smoothing.method = Method::weighted_spline;
       o.smoothing.strength = v.number() * unit_of_key("wavelength_mm");
     });
-    KeyInfo method = info("smoothing_method", KeyType::choice, "with smoothing_wavelength_mm: kind of weighted smoothing spline");
+    KeyInfo method =
+        info("smoothing_method", KeyType::choice, "with smoothing_wavelength_mm: kind of weighted smoothing spline");
     method.choices = {"weighted_spline", "weighted_bspline"};
     method.default_text = "\"weighted_spline\"";
     option(method, [](ProfileOptions& o, const CaseValue& v) {
@@ -166,19 +184,21 @@ class ShapeKeys {
       option(key, [change](ProfileOptions& o, const CaseValue& v) { change(o, v.number() * unit_of_key("x_deg")); });
     };
     constexpr double kLeastKink = 0.01, kLeastZigzag = 45.0;
-    angle("kink_high_deg", "turning angle above which a point may be a kink; sets kink_low_deg to a fifth", fresh.smoothing.kink_high,
-          kLeastKink, [](ProfileOptions& o, double value) {
+    angle("kink_high_deg", "turning angle above which a point may be a kink; sets kink_low_deg to a fifth",
+          fresh.smoothing.kink_high, kLeastKink, [](ProfileOptions& o, double value) {
             o.smoothing.kink_high = value;
             o.smoothing.kink_low = value / 5.0;
           });
-    angle("kink_low_deg", "turning angle below which the neighbours of a kink must stay", fresh.smoothing.kink_low, kLeastKink / 5.0,
-          [](ProfileOptions& o, double value) { o.smoothing.kink_low = value; });
-    KeyInfo width = info("kink_width_mm", KeyType::number, "arc length on both sides of a kink in which neighbours are looked at");
+    angle("kink_low_deg", "turning angle below which the neighbours of a kink must stay", fresh.smoothing.kink_low,
+          kLeastKink / 5.0, [](ProfileOptions& o, double value) { o.smoothing.kink_low = value; });
+    KeyInfo width =
+        info("kink_width_mm", KeyType::number, "arc length on both sides of a kink in which neighbours are looked at");
     width.above = 0.0;
     width.default_text = fmt::format("{:.10g}", fresh.smoothing.kink_width / unit_of_key("x_mm"));
-    option(width, [](ProfileOptions& o, const CaseValue& v) { o.smoothing.kink_width = v.number() * unit_of_key("x_mm"); });
-    angle("zigzag_threshold_deg", "two successive turns sharper than this are a zig-zag and averaged", fresh.zigzag_threshold, kLeastZigzag,
-          [](ProfileOptions& o, double value) { o.zigzag_threshold = value; });
+    option(width,
+           [](ProfileOptions& o, const CaseValue& v) { o.smoothing.kink_width = v.number() * unit_of_key("x_mm"); });
+    angle("zigzag_threshold_deg", "two successive turns sharper than this are a zig-zag and averaged",
+          fresh.zigzag_threshold, kLeastZigzag, [](ProfileOptions& o, double value) { o.zigzag_threshold = value; });
     KeyInfo omit = info("max_omit", KeyType::number, "share of points that cleaning may remove");
     omit.at_least = 0.0;
     omit.at_most = 1.0;

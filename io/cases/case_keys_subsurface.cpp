@@ -29,7 +29,8 @@ ElementKey<Block> element_indices(const std::string& name, std::string doc, std:
           }};
 }
 
-ElementKey<Block> element_lengths(const std::string& name, std::string doc, std::vector<double> Block::*member, bool free) {
+ElementKey<Block> element_lengths(const std::string& name, std::string doc, std::vector<double> Block::*member,
+                                  bool free) {
   KeyInfo info = key_info(name, KeyType::number_list, std::move(doc));
   if (free) {
     info.group = "subsurface points";
@@ -49,12 +50,14 @@ SubsurfaceInput& subsurface(Case& c) {
 
 void add_subsurface_keys(KeyList& list) {
   std::vector<ElementKey<Block>> keys{
-      element_indices("columns", "under the elements of these columns, counted from 0; without it of all", &Block::columns),
+      element_indices("columns", "under the elements of these columns, counted from 0; without it of all",
+                      &Block::columns),
       element_indices("rows", "under the elements of these rows, counted from 0; without it of all", &Block::rows),
       element_lengths("x_mm", "free points instead: their x; with y_mm a grid", &Block::x, true),
       element_lengths("y_mm", "free points instead: their y", &Block::y, true),
       required(element_lengths("z_mm", "depths, positive in body 1, negative in body 2", &Block::z, false))};
-  KeyInfo blocks = key_info("subsurface.blocks", KeyType::table_list, "grids of points at which stresses below the surface are computed");
+  KeyInfo blocks = key_info("subsurface.blocks", KeyType::table_list,
+                            "grids of points at which stresses below the surface are computed");
   add_list<Block, Case>(list, std::move(blocks), std::move(keys), [](Case& c, bool) { return &subsurface(c).blocks; });
 
   KeyInfo table = key_info("subsurface.text_table", KeyType::choice,

@@ -65,7 +65,8 @@ void add_track(KeyList& list) {
     double run = 0.0;
     std::from_chars(text.data() + 2, text.data() + text.size(), run);
     if (!(run >= 1.0))
-      throw Error(ErrorKind::configuration, "track.cant must lie between 1:1 and flat", v.where, "for example \"1:40\"");
+      throw Error(ErrorKind::configuration, "track.cant must lie between 1:1 and flat", v.where,
+                  "for example \"1:40\"");
     content_of<W>(c).track.cant = std::atan(1.0 / run);
   };
   list.number<W>("track.curvature_per_m", kAnyNumber, "curvature of the track, positive in a curve to the right",
@@ -85,7 +86,8 @@ void add_track(KeyList& list) {
 }
 
 void add_wheelset(KeyList& list) {
-  list.number<W>("wheelset.flange_back_distance_mm", kNotNegative, "distance between the flange backs of the two wheels",
+  list.number<W>("wheelset.flange_back_distance_mm", kNotNegative,
+                 "distance between the flange backs of the two wheels",
                  [](W& c) -> double& { return c.wheelset.flange_back_distance; });
   list.number<W>("wheelset.flange_back_position_mm", kAnyNumber, "y of the flange back in wheel profile coordinates",
                  [](W& c) -> double& { return c.wheelset.flange_back_position; });
@@ -112,20 +114,25 @@ void add_wheelset(KeyList& list) {
       content.vertical_force_prescribed = force;
     };
   };
-  vertical("vertical_force_N", kPositive, "vertical force of this wheel on the rail (one of this and z_mm is required)",
-           [](W& c) -> double& { return c.vertical_force; }, true);
-  vertical("z_mm", kAnyNumber, "prescribed vertical displacement of the axle, positive down",
-           [](W& c) -> double& { return c.wheelset.z; }, false);
+  vertical(
+      "vertical_force_N", kPositive, "vertical force of this wheel on the rail (one of this and z_mm is required)",
+      [](W& c) -> double& { return c.vertical_force; }, true);
+  vertical(
+      "z_mm", kAnyNumber, "prescribed vertical displacement of the axle, positive down",
+      [](W& c) -> double& { return c.wheelset.z; }, false);
   list.angle<W>("wheelset.roll", kAnyNumber, "roll angle", [](W& c) -> double& { return c.wheelset.roll; });
   list.angle<W>("wheelset.yaw", kAnyNumber, "yaw angle", [](W& c) -> double& { return c.wheelset.yaw; });
-  list.angle<W>("wheelset.pitch", kAnyNumber, "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
+  list.angle<W>("wheelset.pitch", kAnyNumber,
+                "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
                 [](W& c) -> double& { return c.wheelset.pitch; });
-  list.number<W>("wheelset.velocity_m_s", kAnyNumber, "forward velocity", [](W& c) -> double& { return c.wheelset.vs; });
+  list.number<W>("wheelset.velocity_m_s", kAnyNumber, "forward velocity",
+                 [](W& c) -> double& { return c.wheelset.vs; });
   list.number<W>("wheelset.vy_m_s", kAnyNumber, "lateral velocity", [](W& c) -> double& { return c.wheelset.vy; });
   list.number<W>("wheelset.vz_m_s", kAnyNumber, "vertical velocity", [](W& c) -> double& { return c.wheelset.vz; });
   list.number<W>("wheelset.vroll_rad_s", kAnyNumber, "roll rate", [](W& c) -> double& { return c.wheelset.vroll; });
   list.number<W>("wheelset.vyaw_rad_s", kAnyNumber, "yaw rate", [](W& c) -> double& { return c.wheelset.vyaw; });
-  list.number<W>("wheelset.vpitch_rad_s", kAnyNumber, "pitch rate, negative when rolling forward (pure rolling: -velocity/radius)",
+  list.number<W>("wheelset.vpitch_rad_s", kAnyNumber,
+                 "pitch rate, negative when rolling forward (pure rolling: -velocity/radius)",
                  [](W& c) -> double& { return c.wheelset.vpitch; });
   CaseKey& rate = list.keys.back();
   rate.info.group = "wheelset pitch rate";
@@ -134,8 +141,9 @@ void add_wheelset(KeyList& list) {
     content_of<W>(c).wheelset.vpitch = v.number();
     content_of<W>(c).longitudinal_force.reset();
   };
-  KeyInfo force = key_info("wheelset.longitudinal_force_N", KeyType::number,
-                           "longitudinal force on the rail in wheelset axes; the pitch rate is then sought (positive: the wheel brakes)");
+  KeyInfo force = key_info(
+      "wheelset.longitudinal_force_N", KeyType::number,
+      "longitudinal force on the rail in wheelset axes; the pitch rate is then sought (positive: the wheel brakes)");
   force.scope = KeyScope::wheel_rail;
   force.group = "wheelset pitch rate";
   force.alternative = "force";
@@ -146,10 +154,12 @@ void add_wheelset(KeyList& list) {
 
 void add_flexible_wheelset(KeyList& list) {
   const auto deviation = [&](const std::string& name, const std::string& doc, double WheelsetInput::*member) {
-    list.number<W>("wheelset.deviation_" + name, kAnyNumber, doc, [member](W& c) -> double& { return c.wheelset.*member; });
+    list.number<W>("wheelset.deviation_" + name, kAnyNumber, doc,
+                   [member](W& c) -> double& { return c.wheelset.*member; });
   };
   const auto rotation = [&](const std::string& name, const std::string& doc, double WheelsetInput::*member) {
-    list.angle<W>("wheelset.deviation_" + name, kAnyNumber, doc, [member](W& c) -> double& { return c.wheelset.*member; });
+    list.angle<W>("wheelset.deviation_" + name, kAnyNumber, doc,
+                  [member](W& c) -> double& { return c.wheelset.*member; });
   };
   deviation("x_mm", "longitudinal deviation of the wheel of a flexible wheelset", &WheelsetInput::dx);
   deviation("y_mm", "lateral deviation", &WheelsetInput::dy);
@@ -172,9 +182,11 @@ void add_discretisation(KeyList& list) {
                  [](W& c) -> double& { return c.discretisation.ds; });
   list.number<W>("discretisation.dq_relative", kPositive, "rolling step over dx",
                  [](W& c) -> double& { return c.discretisation.dq_relative; });
-  list.angle<W>("discretisation.angle_separation", kNotNegative, "patches whose contact angles differ by more stay apart",
+  list.angle<W>("discretisation.angle_separation", kNotNegative,
+                "patches whose contact angles differ by more stay apart",
                 [](W& c) -> double& { return c.discretisation.angle_separation; });
-  list.number<W>("discretisation.separation_mm", kNotNegative, "patches farther apart than this do not influence each other",
+  list.number<W>("discretisation.separation_mm", kNotNegative,
+                 "patches farther apart than this do not influence each other",
                  [](W& c) -> double& { return c.discretisation.separation; });
   list.number<W>("discretisation.combination_mm", kNotNegative, "patches nearer than this become one",
                  [](W& c) -> double& { return c.discretisation.combination; });
@@ -184,20 +196,23 @@ void add_discretisation(KeyList& list) {
   list.add(turning).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).discretisation.turning = v.number() * unit_of_key("turning_mm");
   };
-  list.number<W>("discretisation.near_miss_mm", kAnyNumber, "near misses with a smaller gap extend a patch; negative = off",
+  list.number<W>("discretisation.near_miss_mm", kAnyNumber,
+                 "near misses with a smaller gap extend a patch; negative = off",
                  [](W& c) -> double& { return c.discretisation.near_miss; });
   list.integer<W>("discretisation.max_elements", 100, 1000000, "greatest size of a potential contact area",
                   [](W& c) -> int& { return c.discretisation.max_elements; });
   list.choice<W, bool>("discretisation.weight", {{"squared", false}, {"linear", true}},
                        "weight of the interpenetration in the contact reference point",
                        [](W& c) -> bool& { return c.discretisation.linear_weight; });
-  list.choice<W, int>("discretisation.method", {{"automatic", 2}, {"grid", 5}, {"grid_steep", 6}, {"initial_contact", 7}},
-                      "contact search: automatic (locus for constant profiles), on a grid, on a grid for steep slopes, or with the "
-                      "reference at the initial contact point",
-                      [](W& c) -> int& { return c.discretisation.method; });
-  KeyInfo prune = key_info("discretisation.prune", KeyType::flag,
-                           "search on a grid: leave out what provably cannot touch; false = evaluate all of the grid, without the "
-                           "locus of constant profiles too");
+  list.choice<W, int>(
+      "discretisation.method", {{"automatic", 2}, {"grid", 5}, {"grid_steep", 6}, {"initial_contact", 7}},
+      "contact search: automatic (locus for constant profiles), on a grid, on a grid for steep slopes, or with the "
+      "reference at the initial contact point",
+      [](W& c) -> int& { return c.discretisation.method; });
+  KeyInfo prune =
+      key_info("discretisation.prune", KeyType::flag,
+               "search on a grid: leave out what provably cannot touch; false = evaluate all of the grid, without the "
+               "locus of constant profiles too");
   prune.scope = KeyScope::wheel_rail;
   prune.default_text = "true";
   list.add(prune).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
@@ -215,8 +230,8 @@ void add_discretisation(KeyList& list) {
 }  // namespace
 
 void add_wheel_rail_keys(KeyList& list) {
-  list.choice<W, Side>("case.side", {{"left", Side::left}, {"right", Side::right}}, "side of the track that the wheel runs on",
-                       [](W& c) -> Side& { return c.side; });
+  list.choice<W, Side>("case.side", {{"left", Side::left}, {"right", Side::right}},
+                       "side of the track that the wheel runs on", [](W& c) -> Side& { return c.side; });
   add_track(list);
   add_wheelset(list);
   add_flexible_wheelset(list);

@@ -21,29 +21,30 @@ namespace treadmark::io {
 
 /// Options on a profile line (MIRRORY, SCALE, SMOOTH ...).
 struct ProfileOptions {
-  int mirror_y = 0;        ///< 1 = negate y
-  int mirror_z = 0;        ///< 1 = negate z, -1 = no, 0 = decide from the data
-  double scale = 1.0;      ///< file units to mm (so 1000 for a file in metres)
+  int mirror_y = 0;    ///< 1 = negate y
+  int mirror_z = 0;    ///< 1 = negate z, -1 = no, 0 = decide from the data
+  double scale = 1.0;  ///< file units to mm (so 1000 for a file in metres)
   SmoothingOptions smoothing;
   double zigzag_threshold = 2.6179938779914944;  ///< [rad]
-  double max_omit = 0.5;   ///< share of points that cleaning may remove
+  double max_omit = 0.5;                         ///< share of points that cleaning may remove
   int error_handling = 0;
   friend bool operator==(const ProfileOptions&, const ProfileOptions&);
 };
 
 struct GeometryFile {
-  std::filesystem::path file;   ///< already resolved against the folder of the case file
+  std::filesystem::path file;  ///< already resolved against the folder of the case file
   ProfileOptions options;
-  bool open_seam = false;       ///< SliceSet::open_seam
+  bool open_seam = false;  ///< SliceSet::open_seam
 };
 
 /// A rail whose one section moves along the track.
 struct CrossingInput {
   enum class Part { none, nose, wing } part = Part::none;
-  double x = 0.0, y = 0.0, z = 0.0;    ///< where a nose levels off or a wing starts to move; offset of its section there [m]
-  double slope = 0.1;                  ///< of the nose before x (rising), of the wing after it (towards +y)
-  double length = 0.5;                 ///< over which it rises or moves [m]
-  double rounding = 0.1;               ///< over which the slope changes [m]
+  double x = 0.0, y = 0.0,
+         z = 0.0;         ///< where a nose levels off or a wing starts to move; offset of its section there [m]
+  double slope = 0.1;     ///< of the nose before x (rising), of the wing after it (towards +y)
+  double length = 0.5;    ///< over which it rises or moves [m]
+  double rounding = 0.1;  ///< over which the slope changes [m]
   friend bool operator==(const CrossingInput&, const CrossingInput&) = default;
 };
 
@@ -51,25 +52,26 @@ struct SurfaceSource {
   /// A file to be read, or a shape given in the case file itself.
   std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
   Defects defects;
-  std::string backend;            ///< "" = the natural one; see `treadmark list backends`
-  double resolution = 0.0;        ///< [m]; 0 = the backend's default
+  std::string backend;      ///< "" = the natural one; see `treadmark list backends`
+  double resolution = 0.0;  ///< [m]; 0 = the backend's default
   SourcePosition where;
-  CrossingInput crossing;         ///< rail only
-  Vec3 offset = Vec3::Zero();     ///< of a part, in the frame of the body [m]
-  std::vector<SurfaceSource> parts;  ///< rail only: several surfaces, of which the outermost counts, instead of geometry
+  CrossingInput crossing;      ///< rail only
+  Vec3 offset = Vec3::Zero();  ///< of a part, in the frame of the body [m]
+  std::vector<SurfaceSource>
+      parts;  ///< rail only: several surfaces, of which the outermost counts, instead of geometry
 };
 
 enum class Side { left, right };
 
 struct TrackInput {
   bool gauge_based = true;
-  double gauge_height = 14e-3;    ///< depth below the rail top at which the gauge is measured [m]
-  double gauge_width = 1.435;     ///< [m]
-  double rail_y0 = 0.0, rail_z0 = 0.0;  ///< absolute placement when not gauge_based [m]
-  double cant = 0.0;              ///< rail inclination, positive = head turned inward [rad]
-  double curvature = 0.0;         ///< of the track [1/m]
-  double dy = 0.0, dz = 0.0, roll = 0.0;     ///< irregularity [m], [m], [rad]
-  double vy = 0.0, vz = 0.0, vroll = 0.0;    ///< [m/s], [rad/s]
+  double gauge_height = 14e-3;             ///< depth below the rail top at which the gauge is measured [m]
+  double gauge_width = 1.435;              ///< [m]
+  double rail_y0 = 0.0, rail_z0 = 0.0;     ///< absolute placement when not gauge_based [m]
+  double cant = 0.0;                       ///< rail inclination, positive = head turned inward [rad]
+  double curvature = 0.0;                  ///< of the track [1/m]
+  double dy = 0.0, dz = 0.0, roll = 0.0;   ///< irregularity [m], [m], [rad]
+  double vy = 0.0, vz = 0.0, vroll = 0.0;  ///< [m/s], [rad/s]
 };
 
 struct WheelsetInput {
@@ -77,8 +79,8 @@ struct WheelsetInput {
   double flange_back_position = -0.070;  ///< in wheel profile coordinates [m]
   double nominal_radius = 0.460;         ///< [m]
   std::optional<double> tape_line;       ///< y of the tape line in profile coordinates [m]
-  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;          ///< [m], [rad]
-  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;    ///< [m/s], [rad/s]
+  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;        ///< [m], [rad]
+  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;  ///< [m/s], [rad/s]
   /// Deviations of the wheel of a flexible wheelset and their rates [m], [rad], [m/s], [rad/s].
   double dx = 0.0, dy = 0.0, dz = 0.0, droll = 0.0, dyaw = 0.0, dpitch = 0.0;
   double dvx = 0.0, dvy = 0.0, dvz = 0.0, dvroll = 0.0, dvyaw = 0.0, dvpitch = 0.0;
@@ -86,8 +88,8 @@ struct WheelsetInput {
 
 /// A roller in place of the rail. Then wheelset.s is where the wheelset's axle stands over the roller's.
 struct RollerInput {
-  double nominal_radius = 0.0;    ///< [m]; negative: the wheel runs inside a ring
-  double pitch_rate = 0.0;        ///< [rad/s], positive where a wheel above it rolls forward; shift: [rad]
+  double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
+  double pitch_rate = 0.0;      ///< [rad/s], positive where a wheel above it rolls forward; shift: [rad]
 };
 
 /// Springs under a rail without mass, which moves until k d = F + force, F the contact force on the rail in track axes.
@@ -111,14 +113,14 @@ enum class ReferenceSurfaceInput {
 };
 
 struct DiscretisationInput {
-  double dx = 0.5e-3, ds = 0.5e-3;   ///< [m]
-  double dq_relative = 1.0;          ///< rolling step over dx
+  double dx = 0.5e-3, ds = 0.5e-3;              ///< [m]
+  double dq_relative = 1.0;                     ///< rolling step over dx
   double angle_separation = 3.141592653589793;  ///< A_SEP [rad]
-  double separation = 8e-3;          ///< D_SEP [m]
-  double combination = 4e-3;         ///< D_COMB [m]
-  std::optional<double> turning;     ///< D_TURN [m]; default 2 D_SEP - D_COMB
-  double near_miss = -1e-3;          ///< G_MISS [m], negative = off
-  int max_elements = 20000;          ///< NPOT_MAX
+  double separation = 8e-3;                     ///< D_SEP [m]
+  double combination = 4e-3;                    ///< D_COMB [m]
+  std::optional<double> turning;                ///< D_TURN [m]; default 2 D_SEP - D_COMB
+  double near_miss = -1e-3;                     ///< G_MISS [m], negative = off
+  int max_elements = 20000;                     ///< NPOT_MAX
   /// Weight of the penetration in the contact reference: false = squared (default), true = linear.
   bool linear_weight = false;
   /// 2 automatic (locus for constant profiles), 5 grid, 6 grid for steep slopes, 7 initial contact point.
@@ -133,7 +135,7 @@ struct DiscretisationInput {
 struct SolverInput {
   double eps = 1e-5;
   int max_gs = 999, max_in = 100, max_nr = 30;
-  int max_out = 30;             ///< dissimilar bodies; 1: tangential tractions do not act on the normal problem
+  int max_out = 30;  ///< dissimilar bodies; 1: tangential tractions do not act on the normal problem
   enum class Method { automatic, sweeps };
   Method method = Method::automatic;
   /// Falling friction: slip speeds to start from: none, the rolling velocity, those of the case before.
@@ -153,41 +155,41 @@ enum class HistoryInput { start, keep_going, normal_only, same_instant };
 struct InfluenceInput {
   enum class Kind { constant, bilinear, angle_corrected, table };
   Kind kind = Kind::constant;
-  std::vector<double> position, inclination;   ///< angle_corrected: [m], [rad]
+  std::vector<double> position, inclination;  ///< angle_corrected: [m], [rad]
   int variant = 4;
-  bool linear = true;                          ///< one straight line through the inclinations
-  std::filesystem::path file;                  ///< table: resolved against the folder of the case file
+  bool linear = true;          ///< one straight line through the inclinations
+  std::filesystem::path file;  ///< table: resolved against the folder of the case file
 };
 
 /// Restricts where contact can be.
 struct PlanformInput {
   enum class Kind { free, quadratic, two_rectangles, sub_patches };
   Kind kind = Kind::free;
-  /// quadratic: b1 .. b6, no contact where b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6 >= 0 (SI: [1/m^2], [1/m], [-]; any scale)
-  /// two_rectangles, sub_patches: x low, x high, y low, y high of each [m]
+  /// quadratic: b1 .. b6, no contact where b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6 >= 0 (SI: [1/m^2], [1/m], [-];
+  /// any scale) two_rectangles, sub_patches: x low, x high, y low, y high of each [m]
   std::vector<double> coefficients;
-  std::vector<double> coupling;                ///< sub_patches: count x count, symmetric, 1 on the diagonal
+  std::vector<double> coupling;  ///< sub_patches: count x count, symmetric, 1 on the diagonal
 };
 
 /// Points at which stresses below the surface are wanted.
 struct SubsurfaceInput {
   struct Block {
-    bool at_elements = true;                   ///< x, y: element centres, else free points
-    std::vector<int> columns, rows;            ///< at_elements: indices from 0; empty = all
-    std::vector<double> x, y;                  ///< free points [m]
-    std::vector<double> z;                     ///< depth > 0 in body 1, < 0 in body 2 [m]
+    bool at_elements = true;         ///< x, y: element centres, else free points
+    std::vector<int> columns, rows;  ///< at_elements: indices from 0; empty = all
+    std::vector<double> x, y;        ///< free points [m]
+    std::vector<double> z;           ///< depth > 0 in body 1, < 0 in body 2 [m]
   };
-  std::vector<Block> blocks;                   ///< empty = no stresses are wanted
-  bool text_table = false;                     ///< .subs text file
-  bool full_tensor = false;                    ///< in text files
+  std::vector<Block> blocks;  ///< empty = no stresses are wanted
+  bool text_table = false;    ///< .subs text file
+  bool full_tensor = false;   ///< in text files
 };
 
 /// Friction that differs from place to place of a wheel on a rail; between the positions laws are interpolated.
 struct FrictionVariation {
   enum class Kind { none, inclination, along_track };
   Kind kind = Kind::none;
-  std::vector<double> positions;               ///< increasing: inclination of the rail's surface [rad], or s along the track [m]
-  std::vector<FrictionLaw> laws;               ///< one for each position, of one kind
+  std::vector<double> positions;  ///< increasing: inclination of the rail's surface [rad], or s along the track [m]
+  std::vector<FrictionLaw> laws;  ///< one for each position, of one kind
 };
 
 /// One wheel on one rail (module 1).
@@ -200,28 +202,28 @@ struct WheelRailCase {
   /// Of a shift velocities are displacements of the step: [m], [rad].
   WheelsetInput wheelset;
   bool vertical_force_prescribed = true;
-  double vertical_force = 0.0;             ///< F_z on the rail, track axes [N]
+  double vertical_force = 0.0;               ///< F_z on the rail, track axes [N]
   std::optional<double> longitudinal_force;  ///< F_x on the rail, wheelset axes [N]: the pitch rate is then sought
   RegimeInput regime = RegimeInput::steady;
   HistoryInput history = HistoryInput::start;
   ReferenceSurfaceInput reference_surface = ReferenceSurfaceInput::plane;
   DiscretisationInput discretisation;
   Material material;
-  FrictionLaw friction;                    ///< of a variation the first law
+  FrictionLaw friction;  ///< of a variation the first law
   FrictionVariation friction_variation;
   SolverInput solver;
-  NormalModelInput normal_model = NormalModelInput::full;              ///< full, kpec or analyn
+  NormalModelInput normal_model = NormalModelInput::full;  ///< full, kpec or analyn
   TangentialModelInput tangential_model = TangentialModelInput::full;
   double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
-  double fastsim_flexibility = 0.0;        ///< fastsim_one_flexibility: L [m/Pa]
+  double fastsim_flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
   /// constant, bilinear, or angle_corrected without a table: the inclinations are the curved reference's
   InfluenceInput influence;
   std::optional<Thermal> thermal;
   std::optional<DampingInput> damping;
-  bool sensitivities = false;              ///< derivatives of forces are wanted
-  SubsurfaceInput subsurface;              ///< element numbers that a patch does not have are passed over
-  /// As the reference program: the spin moment of grids that are aligned in time is about their origin instead of the contact reference,
-  /// and steps of transient rolling may be longer than dt = 2 dx / V.
+  bool sensitivities = false;  ///< derivatives of forces are wanted
+  SubsurfaceInput subsurface;  ///< element numbers that a patch does not have are passed over
+  /// As the reference program: the spin moment of grids that are aligned in time is about their origin instead of the
+  /// contact reference, and steps of transient rolling may be longer than dt = 2 dx / V.
   bool moments_about_grid_origin = false, long_steps = false;
 };
 
@@ -229,10 +231,10 @@ struct WheelRailCase {
 struct HertzInput {
   enum class Given { curvatures, curvature_and_ratio, semi_axes, line_curvature, line_semi_axis, semi_double_elliptic };
   Given given = Given::curvatures;
-  double a1 = 0.0, b1 = 0.0;      ///< curvatures A, B [1/m]
-  double aa = 0.0, bb = 0.0;      ///< semi-axes [m]; line contact: bb = half width
-  double aob = 0.0;               ///< a/b
-  double scale = 1.0;             ///< potential contact over the ellipse
+  double a1 = 0.0, b1 = 0.0;  ///< curvatures A, B [1/m]
+  double aa = 0.0, bb = 0.0;  ///< semi-axes [m]; line contact: bb = half width
+  double aob = 0.0;           ///< a/b
+  double scale = 1.0;         ///< potential contact over the ellipse
   /// semi_double_elliptic: half widths towards -y and +y [m]; 0 = bb both
   double bb_negative = 0.0, bb_positive = 0.0;
 };
@@ -248,52 +250,52 @@ struct GapInput {
   /// per_element   h of every element, x running fastest
   /// In SI units, lengths [m], curvatures and wave numbers [1/m]:
   /// quadratic: b1 .. b6 of b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6
-  /// circular: xm, R, y1, dy, b_1 .. b_n of (x - xm)^2/(2R) + b, b linear between the points y1 + (k-1) dy, also beyond them
-  /// sinusoidal: b1 .. b8 of b1 sin(b2 (x - b3)) - b4 sin(b5 (x - b6)) + x^2/b7 + y^2/b8
-  /// per_element: one value for each element, x fastest
+  /// circular: xm, R, y1, dy, b_1 .. b_n of (x - xm)^2/(2R) + b, b linear between the points y1 + (k-1) dy, also beyond
+  /// them sinusoidal: b1 .. b8 of b1 sin(b2 (x - b3)) - b4 sin(b5 (x - b6)) + x^2/b7 + y^2/b8 per_element: one value
+  /// for each element, x fastest
   std::vector<double> coefficients;
 };
 
 /// One patch with given geometry (module 3).
 struct BasicCase {
   bool normal_force_prescribed = true;
-  double normal_force = 0.0;    ///< [N]
-  double approach = 0.0;        ///< [m]
-  double xi = 0.0, eta = 0.0;   ///< creepage [-]; shift: [m]
-  double phi = 0.0;             ///< [rad/m]; shift: [rad]
-  double spin_x = 0.0, spin_y = 0.0;         ///< [m]
+  double normal_force = 0.0;                       ///< [N]
+  double approach = 0.0;                           ///< [m]
+  double xi = 0.0, eta = 0.0;                      ///< creepage [-]; shift: [m]
+  double phi = 0.0;                                ///< [rad/m]; shift: [rad]
+  double spin_x = 0.0, spin_y = 0.0;               ///< [m]
   std::optional<double> fx_relative, fy_relative;  ///< prescribed forces over mu F_n
   RegimeInput regime = RegimeInput::none;
   NormalModelInput normal_model = NormalModelInput::full;
   TangentialModelInput tangential_model = TangentialModelInput::full;
   double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
-  double chi = 0.0, dq = 0.0, velocity = 0.0;      ///< [rad], [m], [m/s]
-  double spin_offset_factor = 1.0 / 6.0;           ///< FACPHI
+  double chi = 0.0, dq = 0.0, velocity = 0.0;  ///< [rad], [m], [m/s]
+  double spin_offset_factor = 1.0 / 6.0;       ///< FACPHI
   int mx = 0, my = 0;
-  double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;   ///< centre of the first element and steps [m] (IPOTCN > 0)
-  std::variant<GapInput, HertzInput> geometry;     ///< HertzInput: grid follows from it
+  double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;  ///< centre of the first element and steps [m] (IPOTCN > 0)
+  std::variant<GapInput, HertzInput> geometry;    ///< HertzInput: grid follows from it
   Material material;
   FrictionLaw friction;
   SolverInput solver;
   HistoryInput history = HistoryInput::start;
   InfluenceInput influence;
   PlanformInput planform;
-  double fastsim_flexibility = 0.0;            ///< fastsim_one_flexibility: L [m/Pa]
-  std::vector<FrictionLaw> friction_of_row;    ///< empty, or one for each row
+  double fastsim_flexibility = 0.0;                ///< fastsim_one_flexibility: L [m/Pa]
+  std::vector<FrictionLaw> friction_of_row;        ///< empty, or one for each row
   std::vector<double> extra_slip_x, extra_slip_y;  ///< empty, or one for each element [-]; shift: [m]
   std::optional<Thermal> thermal;
-  bool sensitivities = false;                  ///< derivatives of forces are wanted
+  bool sensitivities = false;  ///< derivatives of forces are wanted
   SubsurfaceInput subsurface;
 };
 
 struct Case {
-  int number = 0;               ///< counts from 1 in the file
-  SourcePosition where;         ///< first line of the case
-  int sequence = 0;             ///< cases of one sequence follow each other in time
-  bool shown = true;            ///< false: no output is wanted (O = 0)
-  int element_table = 0;        ///< .mat text table of elements: 0 none, 1 those in contact, 2 all
-  /// While a file is read: cases in time that one table makes (0: positions are as given), and the time between them [s] (0: that of a
-  /// rolling step).
+  int number = 0;         ///< counts from 1 in the file
+  SourcePosition where;   ///< first line of the case
+  int sequence = 0;       ///< cases of one sequence follow each other in time
+  bool shown = true;      ///< false: no output is wanted (O = 0)
+  int element_table = 0;  ///< .mat text table of elements: 0 none, 1 those in contact, 2 all
+  /// While a file is read: cases in time that one table makes (0: positions are as given), and the time between them
+  /// [s] (0: that of a rolling step).
   int steps = 0;
   double time_step = 0.0;
   std::variant<WheelRailCase, BasicCase> content;
@@ -301,7 +303,7 @@ struct Case {
 
 struct CaseFile {
   std::filesystem::path path;
-  std::string sha256;           ///< of the case file itself, hex
+  std::string sha256;  ///< of the case file itself, hex
   std::string title;
   std::vector<Case> cases;
   std::vector<std::string> notes;  ///< harmless oddities worth telling (for example: initial estimate ignored)

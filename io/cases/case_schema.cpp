@@ -92,7 +92,8 @@ Json sections(bool sweep) {
     std::string_view rest = key.info.path, section;
     for (std::size_t dot; (dot = rest.find('.')) != std::string_view::npos; rest.remove_prefix(dot + 1)) {
       Json& child = (*object)["properties"][std::string(rest.substr(0, dot))];
-      if (child.is_null()) child = Json{{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
+      if (child.is_null())
+        child = Json{{"type", "object"}, {"additionalProperties", false}, {"properties", Json::object()}};
       object = &child;
     }
     section = std::string_view(key.info.path).substr(0, key.info.path.size() - rest.size());
@@ -115,36 +116,55 @@ Json sections(bool sweep) {
     add_exclusions(*object, keys);
   }
   for (const ExclusiveSections& e : kExclusiveSections)
-    root["properties"][std::string(e.parent)]["allOf"].push_back({{"not", {{"required", {std::string(e.one), std::string(e.other)}}}}});
+    root["properties"][std::string(e.parent)]["allOf"].push_back(
+        {{"not", {{"required", {std::string(e.one), std::string(e.other)}}}}});
   return root;
 }
 
 std::string type_of(const KeyInfo& key) {
   std::string text;
   switch (key.type) {
-    case KeyType::number: text = "number"; break;
-    case KeyType::integer: text = "integer"; break;
-    case KeyType::flag: text = "true, false"; break;
-    case KeyType::text: text = "text"; break;
-    case KeyType::path: text = "file name"; break;
-    case KeyType::number_list: text = "list of numbers"; break;
-    case KeyType::table_list: text = "list of tables"; break;
+    case KeyType::number:
+      text = "number";
+      break;
+    case KeyType::integer:
+      text = "integer";
+      break;
+    case KeyType::flag:
+      text = "true, false";
+      break;
+    case KeyType::text:
+      text = "text";
+      break;
+    case KeyType::path:
+      text = "file name";
+      break;
+    case KeyType::number_list:
+      text = "list of numbers";
+      break;
+    case KeyType::table_list:
+      text = "list of tables";
+      break;
     case KeyType::choice:
       for (const std::string& one : key.choices) text += fmt::format("{}\"{}\"", text.empty() ? "" : ", ", one);
       break;
   }
   if (key.above) text += fmt::format(" > {:.6g}", *key.above);
-  if (key.at_least && key.at_most) text += fmt::format(", {:.6g} ... {:.6g}", *key.at_least, *key.at_most);
-  else if (key.at_least) text += fmt::format(" >= {:.6g}", *key.at_least);
-  else if (key.at_most) text += fmt::format(" <= {:.6g}", *key.at_most);
+  if (key.at_least && key.at_most)
+    text += fmt::format(", {:.6g} ... {:.6g}", *key.at_least, *key.at_most);
+  else if (key.at_least)
+    text += fmt::format(" >= {:.6g}", *key.at_least);
+  else if (key.at_most)
+    text += fmt::format(" <= {:.6g}", *key.at_most);
   return text;
 }
 
 constexpr std::string_view kTableHead = "| key | type | default | meaning |\n|---|---|---|---|\n";
 
 std::string row(const KeyInfo& key, std::string_view name) {
-  return fmt::format("| `{}` | {} | {} | {}{} |\n", name, type_of(key), key.default_text.empty() ? "" : '`' + key.default_text + '`',
-                     key.doc, key.required ? " (required)" : "");
+  return fmt::format("| `{}` | {} | {} | {}{} |\n", name, type_of(key),
+                     key.default_text.empty() ? "" : '`' + key.default_text + '`', key.doc,
+                     key.required ? " (required)" : "");
 }
 
 /// Tables of a list's own keys and of the lists in it.
@@ -166,8 +186,12 @@ std::string case_file_schema() {
   schema.update(sections(false));
   Json& properties = schema["properties"];
   properties["title"] = {{"type", "string"}, {"description", "name of the study; without it the name of the file"}};
-  properties["cases"] = {{"type", "array"}, {"minItems", 1}, {"items", sections(true)},
-                         {"description", "cases; each overrides some keys, and a list where one value is expected makes one case for each of its values"}};
+  properties["cases"] = {{"type", "array"},
+                         {"minItems", 1},
+                         {"items", sections(true)},
+                         {"description",
+                          "cases; each overrides some keys, and a list where one value is expected makes one case for "
+                          "each of its values"}};
   return schema.dump(2) + '\n';
 }
 
@@ -184,7 +208,8 @@ std::string case_key_table() {
     if (key.info.type == KeyType::table_list) lists += list_tables(key.info, key.info.path);
   }
   std::string text;
-  for (const std::string& section : order) text += fmt::format("### `[{}]`\n\n{}{}\n", section, kTableHead, tables[section]);
+  for (const std::string& section : order)
+    text += fmt::format("### `[{}]`\n\n{}{}\n", section, kTableHead, tables[section]);
   return text + lists;
 }
 

@@ -6,7 +6,8 @@
 
 namespace treadmark::io {
 
-/// JSON Schema (draft 2020-12) of the Treadmark case file, for editors and validators; from the same table as the reader.
+/// JSON Schema (draft 2020-12) of the Treadmark case file, for editors and validators; from the same table as the
+/// reader.
 std::string case_file_schema();
 
 /// All keys as Markdown tables, one for each section (docs/case-file.md).

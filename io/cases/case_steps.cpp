@@ -12,7 +12,7 @@ namespace {
 
 template <class Part>
 struct Motion {
-  std::array<std::string_view, 2> keys;   // in two units, or one and none
+  std::array<std::string_view, 2> keys;  // in two units, or one and none
   double Part::*position;
   double Part::*rate;
 };
@@ -76,7 +76,8 @@ void move_on(Case& next, const Case& previous, const std::function<bool(std::str
   WheelsetInput rates = to->wheelset;
   // The rate that a force will ask for is not known yet, but it is close to that of free rolling.
   if (to->longitudinal_force && rates.vpitch == 0.0)
-    rates.vpitch = -(to->roller ? to->roller->pitch_rate * to->roller->nominal_radius : rates.vs) / rates.nominal_radius;
+    rates.vpitch =
+        -(to->roller ? to->roller->pitch_rate * to->roller->nominal_radius : rates.vs) / rates.nominal_radius;
   move(to->wheelset, from->wheelset, rates, kWheelset, dt, given);
   move(to->track, from->track, TrackInput(to->track), kTrack, dt, given);
 }

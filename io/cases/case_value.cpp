@@ -21,11 +21,16 @@ CaseTable convert(const toml::table& table, const std::string& name);
 CaseValue convert(const toml::node& node, const std::string& name) {
   CaseValue value;
   value.where = position(node.source(), name);
-  if (const auto* flag = node.as_boolean()) value.data = flag->get();
-  else if (const auto* integer = node.as_integer()) value.data = static_cast<std::int64_t>(integer->get());
-  else if (const auto* real = node.as_floating_point()) value.data = real->get();
-  else if (const auto* text = node.as_string()) value.data = text->get();
-  else if (const auto* table = node.as_table()) value.data = convert(*table, name);
+  if (const auto* flag = node.as_boolean())
+    value.data = flag->get();
+  else if (const auto* integer = node.as_integer())
+    value.data = static_cast<std::int64_t>(integer->get());
+  else if (const auto* real = node.as_floating_point())
+    value.data = real->get();
+  else if (const auto* text = node.as_string())
+    value.data = text->get();
+  else if (const auto* table = node.as_table())
+    value.data = convert(*table, name);
   else if (const auto* array = node.as_array()) {
     std::vector<CaseValue> list;
     for (const toml::node& element : *array) list.push_back(convert(element, name));

@@ -50,7 +50,7 @@ CaseTable parse_toml(std::string_view text, const std::string& name);
 struct CaseOverride {
   std::string path;
   CaseValue value;
-  std::string raw;   ///< the value as written: "60E1" is a number in TOML but may be meant as text
+  std::string raw;  ///< the value as written: "60E1" is a number in TOML but may be meant as text
 };
 CaseOverride parse_override(std::string_view assignment);
 

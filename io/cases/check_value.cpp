@@ -16,14 +16,21 @@ constexpr std::size_t kLongestShown = 64;
 
 std::string_view plain(KeyType type) {
   switch (type) {
-    case KeyType::number: return "a number";
-    case KeyType::integer: return "an integer";
-    case KeyType::flag: return "true or false";
+    case KeyType::number:
+      return "a number";
+    case KeyType::integer:
+      return "an integer";
+    case KeyType::flag:
+      return "true or false";
     case KeyType::text:
-    case KeyType::path: return "text";
-    case KeyType::choice: return "one word";
-    case KeyType::number_list: return "a list of numbers";
-    case KeyType::table_list: return "a list of tables";
+    case KeyType::path:
+      return "text";
+    case KeyType::choice:
+      return "one word";
+    case KeyType::number_list:
+      return "a list of numbers";
+    case KeyType::table_list:
+      return "a list of tables";
   }
   return "a value";
 }
@@ -34,15 +41,20 @@ std::string_view plain(KeyType type) {
 
 void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
   if (!std::isfinite(value)) fail(fmt::format("{} must be finite", key.path), where);
-  if (key.above && !(value > *key.above)) fail(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
-  if (key.at_least && value < *key.at_least) fail(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
-  if (key.at_most && value > *key.at_most) fail(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
+  if (key.above && !(value > *key.above))
+    fail(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
+  if (key.at_least && value < *key.at_least)
+    fail(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
+  if (key.at_most && value > *key.at_most)
+    fail(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
 }
 
 }  // namespace
 
 void check_value(const KeyInfo& key, const CaseValue& value) {
-  const auto wrong = [&] { fail(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where); };
+  const auto wrong = [&] {
+    fail(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where);
+  };
   const bool integer = std::holds_alternative<std::int64_t>(value.data);
   const bool number = integer || std::holds_alternative<double>(value.data);
   const bool text = std::holds_alternative<std::string>(value.data);
@@ -64,14 +76,17 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
       if (value.text().empty()) fail(fmt::format("{} must not be empty", key.path), value.where);
       if (value.text().size() > kLongestText) fail(fmt::format("{} is too long", key.path), value.where);
       if (key.matches != nullptr && !key.matches(value.text()))
-        fail(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown), key.pattern), value.where);
+        fail(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown),
+                         key.pattern),
+             value.where);
       return;
     case KeyType::choice:
       if (!text) wrong();
       if (std::find(key.choices.begin(), key.choices.end(), value.text()) == key.choices.end()) {
         std::string choices;
         for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
-        fail(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices), value.where);
+        fail(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices),
+             value.where);
       }
       return;
     case KeyType::number_list:
@@ -85,7 +100,8 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
     case KeyType::table_list:
       if (!value.is_list()) wrong();
       for (const CaseValue& one : value.list()) {
-        if (!one.is_table()) fail(fmt::format("{} must be a list of tables, found {} in it", key.path, one.kind()), one.where);
+        if (!one.is_table())
+          fail(fmt::format("{} must be a list of tables, found {} in it", key.path, one.kind()), one.where);
         check_elements(key, one.table(), one.where, true);
       }
       return;

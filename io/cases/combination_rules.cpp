@@ -15,7 +15,7 @@ namespace treadmark::io {
 
 namespace {
 
-constexpr double kAngleTolerance = 1e-6;   // [rad]
+constexpr double kAngleTolerance = 1e-6;  // [rad]
 
 /// Rolling along +x or -x.
 bool along_rows(double chi) { return std::abs(std::sin(chi)) < kAngleTolerance; }
@@ -56,21 +56,23 @@ class Rules {
     const auto* hertz = std::get_if<HertzInput>(&c.geometry);
     const bool sdec_geometry = hertz != nullptr && hertz->given == Given::semi_double_elliptic;
     const bool assumed = c.normal_model == Model::elliptic || c.normal_model == Model::parabolic;
-    refuse_if(assumed && hertz == nullptr, CaseSetting::normal_model, "elliptic and parabolic pressures need Hertzian geometry",
-              "IPOTCN < 0 in .inp, [patch.hertz] in .toml");
+    refuse_if(assumed && hertz == nullptr, CaseSetting::normal_model,
+              "elliptic and parabolic pressures need Hertzian geometry", "IPOTCN < 0 in .inp, [patch.hertz] in .toml");
     refuse_if((c.normal_model == Model::semi_double_elliptic) != sdec_geometry, CaseSetting::normal_model,
               "semi-double-elliptic pressure (SDEC) and semi-double-elliptic geometry need each other",
               "B = 4 and IPOTCN = -6 in .inp, normal_model and hertz.given = \"semi_double_elliptic\" in .toml");
     const bool approximate = c.normal_model == Model::kpec || c.normal_model == Model::analyn;
     const std::string name = c.normal_model == Model::kpec ? "KPEC" : "ANALYN";
-    refuse_if(approximate && c.normal_force_prescribed, CaseSetting::load, name + " needs a prescribed approach, but the normal force is given",
+    refuse_if(approximate && c.normal_force_prescribed, CaseSetting::load,
+              name + " needs a prescribed approach, but the normal force is given",
               "N = 0 in .inp, patch.approach_mm in .toml");
   }
 
   void tangential_model(const BasicCase& c) {
     simplified_theory(found_, c, !c.friction_of_row.empty(), !c.extra_slip_x.empty());
-    refuse_if(c.tangential_model == TangentialModelInput::fastsim_one_flexibility && !(c.fastsim_flexibility > 0.0), CaseSetting::material,
-              "FASTSIM with one flexibility needs that flexibility", "FLX in .inp, patch.fastsim_flexibility_mm_per_MPa in .toml");
+    refuse_if(c.tangential_model == TangentialModelInput::fastsim_one_flexibility && !(c.fastsim_flexibility > 0.0),
+              CaseSetting::material, "FASTSIM with one flexibility needs that flexibility",
+              "FLX in .inp, patch.fastsim_flexibility_mm_per_MPa in .toml");
   }
 
   void material(const BasicCase& c) {
@@ -79,7 +81,8 @@ class Rules {
       refuse_if(!along_rows(c.chi) || std::cos(c.chi) < 0.0, CaseSetting::material,
                 fmt::format("viscoelastic bodies must roll in direction 0, found {:.6g} rad", c.chi));
     if (!(c.material.layer_yield > 0.0) || !rolling(c.regime)) return;
-    refuse_if(!along_rows(c.chi), CaseSetting::layer, "a layer that yields must roll in direction 0 or pi (180 degrees)");
+    refuse_if(!along_rows(c.chi), CaseSetting::layer,
+              "a layer that yields must roll in direction 0 or pi (180 degrees)");
     if (c.dx > 0.0) step_of_one_element(found_, c.dq, c.dx);
   }
 
@@ -91,14 +94,15 @@ class Rules {
     refuse_if(c.normal_model != NormalModelInput::full, CaseSetting::influence,
               fmt::format("{} influence coefficients need the full normal problem", name),
               "the other pressures rest on the half-space");
-    refuse_if(in.kind == Kind::table && in.file.empty(), CaseSetting::influence, "the file of influence coefficients is missing",
-              "give influence.file");
+    refuse_if(in.kind == Kind::table && in.file.empty(), CaseSetting::influence,
+              "the file of influence coefficients is missing", "give influence.file");
     if (in.kind == Kind::table) return;
     refuse_if(in.position.size() != in.inclination.size() || in.position.size() < 2, CaseSetting::influence,
-              fmt::format("angle-corrected influence coefficients have {} positions and {} inclinations", in.position.size(),
-                          in.inclination.size()),
+              fmt::format("angle-corrected influence coefficients have {} positions and {} inclinations",
+                          in.position.size(), in.inclination.size()),
               "give one inclination for each position, at least two");
-    const bool increasing = std::adjacent_find(in.position.begin(), in.position.end(), std::greater_equal<>()) == in.position.end();
+    const bool increasing =
+        std::adjacent_find(in.position.begin(), in.position.end(), std::greater_equal<>()) == in.position.end();
     refuse_if(!increasing, CaseSetting::influence, "the positions of surface inclinations must increase");
   }
 
@@ -113,21 +117,26 @@ class Rules {
               fmt::format("a quadratic planform has {} coefficients, it needs 6", count));
     if (p.kind == Kind::quadratic) return;
     refuse_if(p.kind == Kind::two_rectangles ? count != 8 : count == 0 || count % 4 != 0, CaseSetting::geometry,
-              fmt::format("the rectangles of the planform have {} values, each needs 4 and two_rectangles two of them", count));
+              fmt::format("the rectangles of the planform have {} values, each needs 4 and two_rectangles two of them",
+                          count));
     for (std::size_t i = 0; i + 1 < count; i += 2)
-      if (!(p.coefficients[i] < p.coefficients[i + 1])) return add(CaseSetting::geometry, "a rectangle of the planform has no extent");
+      if (!(p.coefficients[i] < p.coefficients[i + 1]))
+        return add(CaseSetting::geometry, "a rectangle of the planform has no extent");
     if (p.kind == Kind::two_rectangles) return;
     const std::size_t patches = count / 4;
     refuse_if(p.coupling.size() != patches * patches, CaseSetting::geometry,
               fmt::format("{} sub-patches need {} coupling factors", patches, patches * (patches - 1) / 2),
               "row by row above the diagonal: 1-2, 1-3, ..., 2-3, ...");
-    refuse_if(c.normal_force_prescribed, CaseSetting::load, "sub-patches need a prescribed approach, but the normal force is given");
-    refuse_if(c.normal_model != NormalModelInput::full, CaseSetting::normal_model, "sub-patches need the full normal problem");
+    refuse_if(c.normal_force_prescribed, CaseSetting::load,
+              "sub-patches need a prescribed approach, but the normal force is given");
+    refuse_if(c.normal_model != NormalModelInput::full, CaseSetting::normal_model,
+              "sub-patches need the full normal problem");
   }
 
   void friction_and_heat(const BasicCase& c) {
     temperatures(found_, c, c.friction_of_row);
-    refuse_if(!c.friction_of_row.empty() && c.friction_of_row.size() != static_cast<std::size_t>(c.my), CaseSetting::friction,
+    refuse_if(!c.friction_of_row.empty() && c.friction_of_row.size() != static_cast<std::size_t>(c.my),
+              CaseSetting::friction,
               fmt::format("friction is given for {} rows, but there are {}", c.friction_of_row.size(), c.my));
   }
 
@@ -146,12 +155,17 @@ class Rules {
         return std::any_of(list.begin(), list.end(), [count](int i) { return i < 0 || i >= count; });
       };
       if (b.at_elements && (outside(b.columns, c.mx) || outside(b.rows, c.my)))
-        return add(CaseSetting::subsurface, fmt::format("subsurface points lie outside the {} x {} elements", c.mx, c.my));
+        return add(CaseSetting::subsurface,
+                   fmt::format("subsurface points lie outside the {} x {} elements", c.mx, c.my));
       if (b.z.empty() || (!b.at_elements && (b.x.empty() || b.y.empty())))
-        return add(CaseSetting::subsurface, "a block of subsurface points is empty", "give depths, and x and y of free points");
-      const auto share = [](std::size_t given, int all) { return static_cast<double>(given == 0 ? static_cast<std::size_t>(all) : given); };
+        return add(CaseSetting::subsurface, "a block of subsurface points is empty",
+                   "give depths, and x and y of free points");
+      const auto share = [](std::size_t given, int all) {
+        return static_cast<double>(given == 0 ? static_cast<std::size_t>(all) : given);
+      };
       points += (b.at_elements ? share(b.columns.size(), c.mx) * share(b.rows.size(), c.my)
-                               : static_cast<double>(b.x.size()) * static_cast<double>(b.y.size())) * static_cast<double>(b.z.size());
+                               : static_cast<double>(b.x.size()) * static_cast<double>(b.y.size())) *
+                static_cast<double>(b.z.size());
     }
     refuse_if(points > kMostPoints, CaseSetting::subsurface,
               fmt::format("{:.0f} subsurface points are more than {:.0f}", points, kMostPoints));

@@ -12,8 +12,21 @@ namespace treadmark::io {
 
 /// The setting to blame when settings of a case do not go together; readers turn it into a place in their file.
 enum class CaseSetting {
-  regime, normal_model, load, subsurface, friction, influence, material, elastic_constants, layer, grid, geometry, extra_slip,
-  heat, force, reference_surface,
+  regime,
+  normal_model,
+  load,
+  subsurface,
+  friction,
+  influence,
+  material,
+  elastic_constants,
+  layer,
+  grid,
+  geometry,
+  extra_slip,
+  heat,
+  force,
+  reference_surface,
 };
 
 struct Contradiction {
@@ -30,9 +43,9 @@ std::vector<Contradiction> contradictions(const Case& previous, const Case& next
 
 /// How far surfaces move through the contact from one case of transient rolling to the next [m].
 struct RolledStep {
-  double moved = 0.0;     ///< along the track, or round the wheel
-  double rolled = 0.0;    ///< rolling step of the solver
-  double longest = 0.0;   ///< beyond that distance histories do not fit: two elements, dt = 2 dx/V
+  double moved = 0.0;    ///< along the track, or round the wheel
+  double rolled = 0.0;   ///< rolling step of the solver
+  double longest = 0.0;  ///< beyond that distance histories do not fit: two elements, dt = 2 dx/V
   bool too_long() const { return moved > longest * (1.0 + 1e-9); }
   /// What does not fit, in words; empty if all is well or nothing moves.
   std::string complaint() const;

@@ -22,14 +22,20 @@ void read_kinematics(ContactReader& r) {
   // A shift is a distance and a rotation, in rolling they are divided by the distance rolled.
   const bool shift = (*r.problem)["TANG"] == 1;
   text.begin_record("the line FN");
-  if ((*r.problem)["NORM"] == 1) b.normal_force = text.real("FN");
-  else b.approach = text.real("PEN") * kMillimetre;
+  if ((*r.problem)["NORM"] == 1)
+    b.normal_force = text.real("FN");
+  else
+    b.approach = text.real("PEN") * kMillimetre;
   b.fx_relative.reset();
   b.fy_relative.reset();
-  if (force >= 1) b.fx_relative = text.real("FX");
-  else b.xi = text.real("CKSI") * (shift ? kMillimetre : 1.0);
-  if (force >= 2) b.fy_relative = text.real("FY");
-  else b.eta = text.real("CETA") * (shift ? kMillimetre : 1.0);
+  if (force >= 1)
+    b.fx_relative = text.real("FX");
+  else
+    b.xi = text.real("CKSI") * (shift ? kMillimetre : 1.0);
+  if (force >= 2)
+    b.fy_relative = text.real("FY");
+  else
+    b.eta = text.real("CETA") * (shift ? kMillimetre : 1.0);
   b.phi = text.real("CPHI") * (shift ? 1.0 : kPerMillimetre);
   if (force >= 1) b.xi = 0.0;
   if (force >= 2) b.eta = 0.0;
@@ -58,7 +64,8 @@ void put_extra_slip(const ContactReader& r, BasicCase& b) {
   b.extra_slip_x = r.kept.extra_slip_x;
   b.extra_slip_y = r.kept.extra_slip_y;
   if (!b.extra_slip_x.empty() && static_cast<long>(b.extra_slip_x.size()) != elements(b))
-    r.fail_at(*r.model, "EXRHS", "keeps the extra rigid slip of every element although the number of elements has changed", "use E = 9");
+    r.fail_at(*r.model, "EXRHS",
+              "keeps the extra rigid slip of every element although the number of elements has changed", "use E = 9");
   if (b.regime != RegimeInput::shift) return;
   for (std::vector<double>* component : {&b.extra_slip_x, &b.extra_slip_y})
     for (double& value : *component) value *= kMillimetre;
@@ -71,9 +78,11 @@ void put_geometry(const ContactReader& r, BasicCase& b) {
     b.geometry = r.kept.hertz;
     return;
   }
-  if (!r.kept.gap) r.fail_at(model, "RZNORM", "keeps the undeformed distance, but no earlier case has given it", "use Z = 2");
+  if (!r.kept.gap)
+    r.fail_at(model, "RZNORM", "keeps the undeformed distance, but no earlier case has given it", "use Z = 2");
   if (r.kept.gap->kind == GapInput::Kind::per_element && r.kept.gap_elements != elements(b))
-    throw Error(ErrorKind::configuration, "the undeformed distance of every element is kept although the number of elements has changed",
+    throw Error(ErrorKind::configuration,
+                "the undeformed distance of every element is kept although the number of elements has changed",
                 model.where("RZNORM"), "use Z (RZNORM) = 2");
   b.geometry = *r.kept.gap;
   b.planform = r.kept.planform;
@@ -85,16 +94,19 @@ void put_friction(const ContactReader& r, BasicCase& b) {
   b.friction_of_row.clear();
   if ((*r.model)["VARFRC"] != 3) return;
   if (f.variation != 3 || f.laws.size() != static_cast<std::size_t>(b.my))
-    r.fail_at(*r.model, "FRCLAW", fmt::format("keeps the friction law, but none for each of {} rows has been given", b.my));
+    r.fail_at(*r.model, "FRCLAW",
+              fmt::format("keeps the friction law, but none for each of {} rows has been given", b.my));
   b.friction_of_row = f.laws;
 }
 
 void put_models(ContactReader& r, BasicCase& b) {
   const ControlWord& problem = *r.problem;
-  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient, RegimeInput::steady};
+  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient,
+                                      RegimeInput::steady};
   using Normal = NormalModelInput;
-  constexpr Normal kNormal[] = {Normal::full,      Normal::full, Normal::elliptic, Normal::parabolic, Normal::semi_double_elliptic,
-                                Normal::kpec,      Normal::analyn};
+  constexpr Normal kNormal[] = {
+      Normal::full, Normal::full,  Normal::elliptic, Normal::parabolic, Normal::semi_double_elliptic,
+      Normal::kpec, Normal::analyn};
   b.normal_force_prescribed = problem["NORM"] == 1;
   b.regime = kRegimes[problem["TANG"]];
   b.normal_model = kNormal[problem["BOUND"]];
@@ -105,7 +117,8 @@ void put_models(ContactReader& r, BasicCase& b) {
   b.thermal = r.effective_heat();
   b.solver = r.kept.solver;
   if (problem["TANG"] >= 2 && !r.kept.has_rolling)
-    r.fail_at(problem, "TANG", "needs the rolling line CHI DQ VELOC, but no case has given it", "use C (INFLCF) = 2 here");
+    r.fail_at(problem, "TANG", "needs the rolling line CHI DQ VELOC, but no case has given it",
+              "use C (INFLCF) = 2 here");
 }
 
 }  // namespace
@@ -126,7 +139,8 @@ BasicCase read_basic(ContactReader& r) {
   r.read_heat();
   if (model["DISCNS"] == 2) read_potential_contact(r);
   if (r.kept.potential_contact == 0)
-    r.fail_at(model, "DISCNS", "keeps the potential contact, but no earlier case has given it", "use D = 2 in the first case");
+    r.fail_at(model, "DISCNS", "keeps the potential contact, but no earlier case has given it",
+              "use D = 2 in the first case");
   if (model["FRCLAW"] != 1 && by_row) r.read_friction(r.kept.basic.my);
   if (r.kept.potential_contact > 0 && model["RZNORM"] == 2) read_gap(r);
   read_extra_slip(r);

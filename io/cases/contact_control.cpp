@@ -22,10 +22,11 @@ void ContactReader::note(std::string message) {
   if (std::find(notes.begin(), notes.end(), message) == notes.end()) notes.push_back(std::move(message));
 }
 
-void ContactReader::fail_at(const ControlWord& word, std::string_view keyword, std::string message, std::string advice) const {
+void ContactReader::fail_at(const ControlWord& word, std::string_view keyword, std::string message,
+                            std::string advice) const {
   const DigitValue& d = word.described(keyword);
-  throw Error(ErrorKind::configuration, fmt::format("{} ({}) = {} {}", d.letter, d.keyword, word[keyword], message), word.where(keyword),
-              std::move(advice));
+  throw Error(ErrorKind::configuration, fmt::format("{} ({}) = {} {}", d.letter, d.keyword, word[keyword], message),
+              word.where(keyword), std::move(advice));
 }
 
 void ContactReader::read_control_words() {
@@ -44,8 +45,10 @@ void ContactReader::read_control_words() {
     damping = *second % 10;
     weight = *second / 10;
     if (weight > 2)
-      text.fail(fmt::format("the weight of the contact reference (second integer of the line VLDCMZE / 10) is {}, but only "
-                            "0, 1 (linear) and 2 (quadratic) exist", weight));
+      text.fail(
+          fmt::format("the weight of the contact reference (second integer of the line VLDCMZE / 10) is {}, but only "
+                      "0, 1 (linear) and 2 (quadratic) exist",
+                      weight));
   }
   run.emplace(text, module, "XHGIAOWR",
               Keywords{"XFLOW", "HEAT", "GAUSEI", "IESTIM", "MATFIL", "OUTPUT", "FLOW", "RETURN"});
@@ -64,8 +67,10 @@ void ContactReader::read_control_words() {
                keyword == "EXRHS" ? "give the extra rigid slip of every element with E = 9" : "");
     }
   if (module == 3 && damping >= 2)
-    refuse(damping_where, fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported in module 3", damping));
-  if (module == 3 && damping == 1 && kept.damping) refuse(damping_where, "M2 = 1, keep damping, is not supported in module 3");
+    refuse(damping_where,
+           fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported in module 3", damping));
+  if (module == 3 && damping == 1 && kept.damping)
+    refuse(damping_where, "M2 = 1, keep damping, is not supported in module 3");
 
   if (!kept.started && (*problem)["PVTIME"] != 2)
     note(fmt::format("P (PVTIME) = {} of the first case at {} is taken as 2: there is nothing to continue",
@@ -104,7 +109,8 @@ void ContactReader::read_solver() {
     if (method != 4)
       for (const auto name : {"OMEGAH", "OMEGAS"}) text.real(name);
     const long first = text.integer("INISLP");
-    if (method != 3 && first != 0) s.first_slip = first > 0 ? SolverInput::FirstSlip::below : SolverInput::FirstSlip::above;
+    if (method != 3 && first != 0)
+      s.first_slip = first > 0 ? SolverInput::FirstSlip::below : SolverInput::FirstSlip::above;
     text.real("OMGSLP");
   } else if (method == 5) {
     text.begin_record("the line FDECAY");

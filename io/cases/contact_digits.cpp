@@ -128,12 +128,14 @@ constexpr DigitValue kDigits[] = {
     {3, 'C', "INFLCF", 2, yes, "half-space, constant elements"},
     {3, 'C', "INFLCF", 3, yes, "half-space, bilinear elements"},
     {3, 'C', "INFLCF", 4, maybe, "angle-corrected influence coefficients", "B = 0, 1 and M = 0, 2 ... 5"},
-    {3, 'C', "INFLCF", 9, maybe, "numerical influence coefficients from a file", "B = 0, 1 and M = 0, 2 ... 5; NMATRIX = 1 in the file"},
+    {3, 'C', "INFLCF", 9, maybe, "numerical influence coefficients from a file",
+     "B = 0, 1 and M = 0, 2 ... 5; NMATRIX = 1 in the file"},
     {3, 'M', "MATER", 0, yes, "elastic"},
     {3, 'M', "MATER", 1, maybe, "viscoelastic", "T = 0, 3 with CHI = 0, C = 2, K = 0"},
     {3, 'M', "MATER", 2, maybe, "FASTSIM with one flexibility", "T = 0, 3"},
     {3, 'M', "MATER", 3, maybe, "FASTSIM with three flexibilities", "T = 0, 3"},
-    {3, 'M', "MATER", 4, maybe, "elastic with interface layer", "rolling with a layer that yields: DQ = DX, CHI = 0 or 180d"},
+    {3, 'M', "MATER", 4, maybe, "elastic with interface layer",
+     "rolling with a layer that yields: DQ = DX, CHI = 0 or 180d"},
     {3, 'M', "MATER", 5, maybe, "FaStrip", "T = 0, 3"},
     {3, 'M', "MATER", 6, no, "undocumented material"},
     {3, 'M', "MATER", 7, no, "undocumented material"},
@@ -197,7 +199,9 @@ std::string contact_digit_table() {
   for (const DigitValue& d : contact_digits()) {
     if (d.module != module) {
       module = d.module;
-      text += module == 1 ? "### Module 1\n\n" : module == 3 ? "\n### Module 3\n\n" : "\n### Both modules, third control word\n\n";
+      text += module == 1   ? "### Module 1\n\n"
+              : module == 3 ? "\n### Module 3\n\n"
+                            : "\n### Both modules, third control word\n\n";
       text += "| digit | value | meaning | supported |\n|---|---|---|---|\n";
     }
     const std::string value = d.value < 0 ? "any" : std::to_string(d.value);
@@ -231,7 +235,8 @@ ControlWord::ControlWord(ContactText& text, int module, std::string_view letters
     const DigitValue* found = find_digit(module, keywords_[i], value);
     if (found == nullptr)
       throw Error(ErrorKind::configuration,
-                  fmt::format("{} ({}) = {} does not exist in module {}", letters[i], keywords_[i], value, module), where);
+                  fmt::format("{} ({}) = {} does not exist in module {}", letters[i], keywords_[i], value, module),
+                  where);
     values_.push_back(value);
     positions_.push_back(where);
     described_.push_back(found);

@@ -21,9 +21,9 @@ enum class DigitSupport {
 
 /// One value of one control digit of the reference program's input; the whole list is the table of supported digits.
 struct DigitValue {
-  int module = 1;             ///< 1 wheel-rail, 3 basic
+  int module = 1;  ///< 1 wheel-rail, 3 basic
   char letter = ' ';
-  std::string_view keyword;   ///< for example TANG
+  std::string_view keyword;  ///< for example TANG
   int value = 0;
   DigitSupport support = DigitSupport::no;
   std::string_view meaning;

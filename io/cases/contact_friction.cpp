@@ -24,7 +24,8 @@ FrictionLaw read_coulomb(ContactText& text) {
   FrictionLaw f;
   const double rest = text.real("FSTAT");
   f.kinetic = coefficient(text, "FKIN");
-  if (f.kinetic != rest) text.fail(fmt::format("FKIN = {} must equal FSTAT = {} in Coulomb friction (L = 0)", f.kinetic, rest));
+  if (f.kinetic != rest)
+    text.fail(fmt::format("FKIN = {} must equal FSTAT = {} in Coulomb friction (L = 0)", f.kinetic, rest));
   return f;
 }
 
@@ -51,7 +52,8 @@ FrictionLaw read_temperature_dependent(ContactText& text) {
   f.reference_temperature = text.real("TREF");
   f.temperature_change = text.real("DFHEAT");
   if (f.kinetic + f.temperature_change < kSmallestFriction)
-    text.fail(fmt::format("FREF + DFHEAT = {} must be at least {}", f.kinetic + f.temperature_change, kSmallestFriction));
+    text.fail(
+        fmt::format("FREF + DFHEAT = {} must be at least {}", f.kinetic + f.temperature_change, kSmallestFriction));
   f.temperature_range = text.real("DTHEAT");
   if (!(f.temperature_range > 0.0)) text.fail("DTHEAT must be positive");
   return f;
@@ -73,7 +75,9 @@ void ContactReader::read_friction(long sets) {
         text.fail(fmt::format("{} of the friction sets must increase", f.variation == 1 ? "ALPHVF" : "SVF"));
       f.positions.push_back(position);
     }
-    f.laws.push_back(law == 0 ? read_coulomb(text) : law == 6 ? read_temperature_dependent(text) : read_falling(text, law));
+    f.laws.push_back(law == 0   ? read_coulomb(text)
+                     : law == 6 ? read_temperature_dependent(text)
+                                : read_falling(text, law));
   }
   if (law != 0) {
     text.begin_record("the friction memory line");

@@ -60,12 +60,14 @@ HertzInput read_hertz(ContactText& text, long kind) {
   return h;
 }
 
-std::vector<double> read_list(ContactText& text, std::string_view record, std::string_view name, long count, double factor) {
+std::vector<double> read_list(ContactText& text, std::string_view record, std::string_view name, long count,
+                              double factor) {
   text.begin_record(record);
   std::vector<double> values;
   for (long i = 0; i < count; ++i)
-    values.push_back(text.real(count > 20 ? fmt::format("{} {} of {}", name, i + 1, count) : fmt::format("{}{}", name, i + 1)) *
-                     factor);
+    values.push_back(
+        text.real(count > 20 ? fmt::format("{} {} of {}", name, i + 1, count) : fmt::format("{}{}", name, i + 1)) *
+        factor);
   return values;
 }
 
@@ -151,7 +153,8 @@ PlanformInput read_planform(ContactText& text, long kind) {
   if (kind == 2) {
     plan.kind = PlanformInput::Kind::quadratic;
     plan.coefficients = read_list(text, "the quadratic planform", "B", 6, 1.0);
-    for (std::size_t i = 0; i < 5; ++i) plan.coefficients[i] *= i < 3 ? kPerMillimetre * kPerMillimetre : kPerMillimetre;
+    for (std::size_t i = 0; i < 5; ++i)
+      plan.coefficients[i] *= i < 3 ? kPerMillimetre * kPerMillimetre : kPerMillimetre;
   } else if (kind == 3) {
     constexpr std::string_view kRecord = "the two rectangles of the planform";
     plan.kind = PlanformInput::Kind::two_rectangles;

@@ -76,7 +76,8 @@ void ContactReader::read_influence() {
       text.begin_record("the table of surface inclinations");
       for (long i = 0; i < pairs; ++i) {
         const double position = text.real("S") * kMillimetre;
-        if (!in.position.empty() && !(position > in.position.back())) text.fail("S of the table of surface inclinations must increase");
+        if (!in.position.empty() && !(position > in.position.back()))
+          text.fail("S of the table of surface inclinations must increase");
         in.position.push_back(position);
         in.inclination.push_back(text.angle("ALPHA"));
       }
@@ -130,7 +131,8 @@ void ContactReader::read_material() {
   } else if (kind == 4) {
     kept.layer = read_layer(text);
   } else if (kind >= 6) {
-    throw refusals.empty() ? Error(ErrorKind::configuration, "unknown material", model->where("MATER")) : refusals.front();
+    throw refusals.empty() ? Error(ErrorKind::configuration, "unknown material", model->where("MATER"))
+                           : refusals.front();
   }
 }
 
@@ -171,7 +173,8 @@ Material ContactReader::effective_material() {
   if (!kept.has_material)
     fail_at(*model, "INFLCF", "keeps the material, but no earlier case has given it", "use C = 2 in the first case");
   const auto need = [&](bool given, const ControlWord& word, std::string_view keyword, std::string_view line) {
-    if (!given) fail_at(word, keyword, fmt::format("needs the line {}, but no case has given it", line), "use C (INFLCF) = 2");
+    if (!given)
+      fail_at(word, keyword, fmt::format("needs the line {}, but no case has given it", line), "use C (INFLCF) = 2");
   };
   Material m = kept.material;
   if ((*problem)["BOUND"] == 1) {
@@ -199,14 +202,19 @@ void ContactReader::put_simplified_theory(TangentialModelInput& tangential, doub
                                           double& flexibility) const {
   using Model = TangentialModelInput;
   const int kind = (*model)["MATER"];
-  tangential = kind == 2 ? Model::fastsim_one_flexibility : kind == 3 ? Model::fastsim : kind == 5 ? Model::fastrip : Model::full;
+  tangential = kind == 2   ? Model::fastsim_one_flexibility
+               : kind == 3 ? Model::fastsim
+               : kind == 5 ? Model::fastrip
+                           : Model::full;
   if (tangential == Model::full) return;
-  if (!kept.simplified) fail_at(*model, "MATER", "needs the line K0_MF, but no case has given it", "use C (INFLCF) = 2");
+  if (!kept.simplified)
+    fail_at(*model, "MATER", "needs the line K0_MF, but no case has given it", "use C (INFLCF) = 2");
   k0 = kept.simplified->k0;
   alpha = kept.simplified->alpha;
   beta = kept.simplified->beta;
   if (kind != 2) return;
-  if (!kept.simplified_flexibility) fail_at(*model, "MATER", "needs FLX, but no case has given it", "use C (INFLCF) = 2");
+  if (!kept.simplified_flexibility)
+    fail_at(*model, "MATER", "needs FLX, but no case has given it", "use C (INFLCF) = 2");
   flexibility = *kept.simplified_flexibility;
 }
 

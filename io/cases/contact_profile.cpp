@@ -71,7 +71,7 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
   smoothing.strength = strength * (wavelength ? kMillimetre : kMillimetre * kMillimetre * kMillimetre);
 
   SurfaceSource surface;
-  source.open_seam = true;   // as in the reference program
+  source.open_seam = true;  // as in the reference program
   surface.geometry = source;
   surface.where = where;
   return surface;

@@ -56,7 +56,8 @@ class BlockReader {
   /// Element numbers count from 1 in the file.
   int index(std::string_view name) {
     const long value = text_.integer(name);
-    if (value < 1 || value > kMostColumns) text_.fail(fmt::format("{} = {} is not the number of a column or row", name, value));
+    if (value < 1 || value > kMostColumns)
+      text_.fail(fmt::format("{} = {} is not the number of a column or row", name, value));
     return static_cast<int>(value - 1);
   }
 
@@ -105,7 +106,8 @@ void ContactReader::read_subsurface() {
   if (stress < 2) return;
   text.begin_record("the subsurface output line");
   const long table = text.integer("MATFIL");
-  if (table < 0 || table > 2) text.fail(fmt::format("MATFIL = {} of the subsurface output does not exist: expected 0, 1 or 2", table));
+  if (table < 0 || table > 2)
+    text.fail(fmt::format("MATFIL = {} of the subsurface output does not exist: expected 0, 1 or 2", table));
   kept.subsurface.text_table = table >= 1;
   kept.subsurface.full_tensor = table == 2;
   text.integer("OUTPUT");
@@ -115,7 +117,8 @@ void ContactReader::read_subsurface() {
     text.begin_record("the subsurface block ISUBS");
     const long kind = text.integer("ISUBS");
     if (kind == 0) break;
-    if (!(kind >= 1 && kind <= 3) && !(kind >= 5 && kind <= 7) && kind != 9) text.fail(fmt::format("ISUBS = {} does not exist", kind));
+    if (!(kind >= 1 && kind <= 3) && !(kind >= 5 && kind <= 7) && kind != 9)
+      text.fail(fmt::format("ISUBS = {} does not exist", kind));
     blocks.push_back(BlockReader(text).read(kind));
   }
   kept.subsurface.blocks = std::move(blocks);
@@ -124,7 +127,8 @@ void ContactReader::read_subsurface() {
 SubsurfaceInput ContactReader::effective_subsurface() const {
   if ((*problem)["STRESS"] == 0) return {};
   if (kept.subsurface.blocks.empty())
-    fail_at(*problem, "STRESS", "uses subsurface points of an earlier case, but there are none", "use S = 3 and give blocks of points");
+    fail_at(*problem, "STRESS", "uses subsurface points of an earlier case, but there are none",
+            "use S = 3 and give blocks of points");
   return kept.subsurface;
 }
 

@@ -43,7 +43,8 @@ void read_placement(ContactReader& r) {
   r.kept.has_rail = true;
   const auto& file = std::get<GeometryFile>(r.kept.wheel_rail.rail.geometry).file;
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return std::tolower(c); });
   if (extension == ".slcs" && t.gauge_based)
     throw Error(ErrorKind::configuration, "a rail given by slices has no gauge point: it needs GAUGHT <= 0",
                 r.kept.wheel_rail.rail.where, "give RAILY0 and RAILZ0");

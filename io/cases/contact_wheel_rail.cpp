@@ -42,7 +42,8 @@ void put_friction(ContactReader& r, WheelRailCase& c) {
   c.friction_variation = {};
   if (variation == 0) return;
   if (f.variation != variation)
-    r.fail_at(*r.model, "FRCLAW", fmt::format("keeps the friction law, but none for V (VARFRC) = {} has been given", variation));
+    r.fail_at(*r.model, "FRCLAW",
+              fmt::format("keeps the friction law, but none for V (VARFRC) = {} has been given", variation));
   c.friction_variation = {variation == 1 ? Kind::inclination : Kind::along_track, f.positions, f.laws};
 }
 
@@ -51,7 +52,8 @@ void put_discretisation(ContactReader& r, WheelRailCase& c) {
   constexpr int kAutomatic = 2, kSurfaceSlip = 3, kConformal = 4, kOblique = 8;
   const int method = r.kept.discretisation_method;
   if (model["DISCNS"] < 2 && method >= kOblique)
-    r.refuse(model.where("DISCNS"), fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method));
+    r.refuse(model.where("DISCNS"),
+             fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method));
   using Reference = ReferenceSurfaceInput;
   c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
                         : method == kConformal ? Reference::curved
@@ -98,16 +100,19 @@ WheelRailCase read_wheel_rail(ContactReader& r) {
 
   // Parts that are missing because no case has given them.
   if (!r.kept.has_rail)
-    throw Error(ErrorKind::configuration, fmt::format("Z (ZTRACK) = {} keeps the rail, but no earlier case has given it",
-                                                      model["ZTRACK"]), model.where("ZTRACK"), "use Z = 3 in the first case");
+    throw Error(ErrorKind::configuration,
+                fmt::format("Z (ZTRACK) = {} keeps the rail, but no earlier case has given it", model["ZTRACK"]),
+                model.where("ZTRACK"), "use Z = 3 in the first case");
   if (!r.kept.has_wheel)
-    throw Error(ErrorKind::configuration, fmt::format("E (EWHEEL) = {} keeps the wheel, but no earlier case has given it",
-                                                      model["EWHEEL"]), model.where("EWHEEL"), "use E = 3 in the first case");
+    throw Error(ErrorKind::configuration,
+                fmt::format("E (EWHEEL) = {} keeps the wheel, but no earlier case has given it", model["EWHEEL"]),
+                model.where("EWHEEL"), "use E = 3 in the first case");
 
   WheelRailCase c = r.kept.wheel_rail;
   c.side = problem["CONFIG"] % 4 == 0 ? Side::left : Side::right;
   c.vertical_force_prescribed = problem["NORM"] == 1;
-  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient, RegimeInput::steady};
+  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient,
+                                      RegimeInput::steady};
   c.regime = kRegimes[problem["TANG"]];
   c.history = r.history();
   put_motion(r, c);

@@ -29,8 +29,9 @@ void read_wheelset(ContactReader& r) {
   WheelsetInput& w = c.wheelset;
   if (e == 0) {
     if (r.kept.previous_normal >= 0 && r.kept.previous_normal != normal)
-      throw Error(ErrorKind::configuration, fmt::format("N (NORM) = {} differs from the previous case: that needs E (EWHEEL) > 0",
-                                                        normal), r.problem->where("NORM"));
+      throw Error(ErrorKind::configuration,
+                  fmt::format("N (NORM) = {} differs from the previous case: that needs E (EWHEEL) > 0", normal),
+                  r.problem->where("NORM"));
     return;
   }
   if (e == 3 || e == 5) {
@@ -48,27 +49,35 @@ void read_wheelset(ContactReader& r) {
   text.begin_record("the wheelset position line S");
   w.s = text.real(r.on_roller() ? "X" : "S") * kMillimetre;
   w.y = text.real("Y") * kMillimetre;
-  if (normal == 1) c.vertical_force = text.real("FZ");
-  else w.z = text.real("Z") * kMillimetre;
+  if (normal == 1)
+    c.vertical_force = text.real("FZ");
+  else
+    w.z = text.real("Z") * kMillimetre;
   w.roll = text.angle("ROLL");
   w.yaw = text.angle("YAW");
   w.pitch = text.angle("PITCH");
   if (e >= 2) {
     text.begin_record("the wheelset velocity line VS");
-    if (r.on_roller()) r.kept.roller_pitch_rate = text.angle("VPITCH_ROL");
-    else r.kept.forward_velocity = text.real("VS") * kMillimetre;
+    if (r.on_roller())
+      r.kept.roller_pitch_rate = text.angle("VPITCH_ROL");
+    else
+      r.kept.forward_velocity = text.real("VS") * kMillimetre;
     w.vy = text.real("VY") * kMillimetre;
     w.vz = text.real("VZ") * kMillimetre;
     w.vroll = text.angle("VROLL");
     w.vyaw = text.angle("VYAW");
-    if ((*r.problem)["FORCE"] == 1) r.kept.longitudinal_force = text.real("FX");
-    else r.kept.pitch_rate = text.angle("VPITCH");
+    if ((*r.problem)["FORCE"] == 1)
+      r.kept.longitudinal_force = text.real("FX");
+    else
+      r.kept.pitch_rate = text.angle("VPITCH");
   }
   if (e >= 4) {
     text.begin_record("the wheel deviation line DXWHL");
-    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"}, {&w.dx, &w.dy, &w.dz, &w.droll, &w.dyaw, &w.dpitch});
+    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"},
+             {&w.dx, &w.dy, &w.dz, &w.droll, &w.dyaw, &w.dpitch});
     text.begin_record("the wheel deviation velocity line VXWHL");
-    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"}, {&w.dvx, &w.dvy, &w.dvz, &w.dvroll, &w.dvyaw, &w.dvpitch});
+    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"},
+             {&w.dvx, &w.dvy, &w.dvz, &w.dvroll, &w.dvyaw, &w.dvpitch});
   }
 }
 
@@ -78,7 +87,8 @@ void put_motion(ContactReader& r, WheelRailCase& c) {
   const ControlWord& problem = *r.problem;
   const auto need = [&](const std::optional<double>& value, std::string_view digit, std::string_view name) {
     if (!value)
-      r.fail_at(problem, digit, fmt::format("needs {} of the velocity line, but no case has given it", name), "use E (EWHEEL) = 2 or more");
+      r.fail_at(problem, digit, fmt::format("needs {} of the velocity line, but no case has given it", name),
+                "use E (EWHEEL) = 2 or more");
     return *value;
   };
   c.roller.reset();
@@ -99,7 +109,8 @@ void put_motion(ContactReader& r, WheelRailCase& c) {
   }
   c.rail_springs.reset();
   if (problem["FORCE"] != 3) return;
-  if (!kept.rail_springs) r.fail_at(problem, "FORCE", "needs the line KYRAIL, but no case has given it", "use Z (ZTRACK) = 2 or 3");
+  if (!kept.rail_springs)
+    r.fail_at(problem, "FORCE", "needs the line KYRAIL, but no case has given it", "use Z (ZTRACK) = 2 or 3");
   c.rail_springs = kept.rail_springs;
 }
 

@@ -34,12 +34,16 @@ inline constexpr KeyLimits kAnyNumber{};
 /// Part of a Case that keys of one scope live in; Case: those of every case.
 template <class Content>
 Content& content_of(Case& c) {
-  if constexpr (std::is_same_v<Content, Case>) return c;
-  else return std::get<Content>(c.content);
+  if constexpr (std::is_same_v<Content, Case>)
+    return c;
+  else
+    return std::get<Content>(c.content);
 }
 template <class Content>
 constexpr KeyScope scope_of() {
-  return std::is_same_v<Content, Case> ? KeyScope::any : std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail : KeyScope::patch;
+  return std::is_same_v<Content, Case>            ? KeyScope::any
+         : std::is_same_v<Content, WheelRailCase> ? KeyScope::wheel_rail
+                                                  : KeyScope::patch;
 }
 
 /// The numbers of a list that has been checked, in SI units.
@@ -161,7 +165,8 @@ void add_simplified_theory(KeyList& list, const std::string& prefix) {
                        [](Content& c) -> double& { return c.fastsim_alpha; });
   list.number<Content>(prefix + "fastsim_beta", kNotNegative, "FASTSIM: rate of the slope reduction",
                        [](Content& c) -> double& { return c.fastsim_beta; });
-  list.number<Content>(prefix + "fastsim_flexibility_mm_per_MPa", kPositive, "flexibility of \"fastsim_one_flexibility\"",
+  list.number<Content>(prefix + "fastsim_flexibility_mm_per_MPa", kPositive,
+                       "flexibility of \"fastsim_one_flexibility\"",
                        [](Content& c) -> double& { return c.fastsim_flexibility; });
 }
 

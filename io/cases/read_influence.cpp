@@ -40,7 +40,8 @@ class InfluenceReader {
     for (int iy = 0; iy < table.ny; ++iy)
       for (int ix = 0; ix < mx_; ++ix) {
         const auto entries = read_row(ix, iy - my_ + 1);
-        const std::size_t middle = static_cast<std::size_t>(iy) * static_cast<std::size_t>(table.nx) + static_cast<std::size_t>(mx_ - 1);
+        const std::size_t middle =
+            static_cast<std::size_t>(iy) * static_cast<std::size_t>(table.nx) + static_cast<std::size_t>(mx_ - 1);
         const auto offset = static_cast<std::size_t>(ix);
         table.values[middle + offset] = entries;
         if (ix == 0) continue;
@@ -67,8 +68,9 @@ class InfluenceReader {
     dy_ = step("DY");
     const double rows = static_cast<double>(mx_) * (2.0 * my_ - 1.0);
     if (rows * static_cast<double>(kShortestRow) > static_cast<double>(size_))
-      scanner_.fail(fmt::format("{} x {} coefficients do not fit into a file of {} bytes", mx_, 2 * static_cast<long>(my_) - 1, size_), 0,
-                    "check MX and MY, or whether the file is complete");
+      scanner_.fail(fmt::format("{} x {} coefficients do not fit into a file of {} bytes", mx_,
+                                2 * static_cast<long>(my_) - 1, size_),
+                    0, "check MX and MY, or whether the file is complete");
   }
 
   /// Moves to the next line that is neither blank nor a comment.
@@ -94,7 +96,8 @@ class InfluenceReader {
 
   Word word(const std::string& name) {
     const auto found = scanner_.next_word();
-    if (!found) scanner_.fail(fmt::format("{} is missing in {}", name, record_), static_cast<int>(scanner_.line().size()) + 1);
+    if (!found)
+      scanner_.fail(fmt::format("{} is missing in {}", name, record_), static_cast<int>(scanner_.line().size()) + 1);
     column_ = found->column;
     return *found;
   }
@@ -102,14 +105,16 @@ class InfluenceReader {
 
   void only(int value, int supported, const std::string& name, const std::string& advice) const {
     if (value != supported)
-      throw Error(ErrorKind::configuration, fmt::format("{} = {} of a file of influence coefficients is not supported", name, value),
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{} = {} of a file of influence coefficients is not supported", name, value),
                   scanner_.at(column_), advice);
   }
 
   int count(const std::string& name) {
     constexpr int kMost = 1000000;
     const int value = integer(name);
-    if (value < 1 || value > kMost) scanner_.fail(fmt::format("{} = {} lies outside 1 ... {}", name, value, kMost), column_);
+    if (value < 1 || value > kMost)
+      scanner_.fail(fmt::format("{} = {} lies outside 1 ... {}", name, value, kMost), column_);
     return value;
   }
   double step(const std::string& name) {
@@ -134,7 +139,8 @@ class InfluenceReader {
     record_ = fmt::format("row ix = {} of iy = {}", ix, iy);
     if (!next_line()) ends();
     for (int skipped = 0; ix == 0 && !is_first_row(); ++skipped) {
-      if (skipped == kMostHeaderLines) scanner_.fail(fmt::format("{} is expected here: {} numbers that begin with 0", record_, kWords));
+      if (skipped == kMostHeaderLines)
+        scanner_.fail(fmt::format("{} is expected here: {} numbers that begin with 0", record_, kWords));
       if (!next_line()) ends();
     }
     if (const int found = integer("ix"); found != ix)

@@ -25,7 +25,8 @@ Error first_refusal(const std::vector<Error>& refusals) {
   const Error& first = refusals.front();
   std::string advice = first.advice();
   for (std::size_t i = 1; i < refusals.size(); ++i)
-    advice += fmt::format("{}also line {}: {}", advice.empty() ? "" : "; ", refusals[i].where().line, refusals[i].message());
+    advice +=
+        fmt::format("{}also line {}: {}", advice.empty() ? "" : "; ", refusals[i].where().line, refusals[i].message());
   advice += fmt::format("{}{}", advice.empty() ? "" : "; ", kAdvice);
   return Error(first.kind(), first.message(), first.where(), advice);
 }
@@ -36,29 +37,45 @@ void check_first_case(const ContactReader& r) {
     throw Error(ErrorKind::configuration, "L (FRCLAW) = 1 in the first case: there is no friction law to keep",
                 model.where("FRCLAW"), "use L = 0 and give FSTAT, FKIN");
   if (model["DISCNS"] <= 1)
-    throw Error(ErrorKind::configuration, fmt::format("D (DISCNS) = {} in the first case: there is no discretisation to keep",
-                                                      model["DISCNS"]), model.where("DISCNS"), "use D = 2");
+    throw Error(ErrorKind::configuration,
+                fmt::format("D (DISCNS) = {} in the first case: there is no discretisation to keep", model["DISCNS"]),
+                model.where("DISCNS"), "use D = 2");
 }
 
 /// The digit that a contradiction is about.
 SourcePosition where_of(const ContactReader& r, CaseSetting setting) {
   const bool rail = r.module == 1;
   switch (setting) {
-    case CaseSetting::regime: return r.problem->where("TANG");
-    case CaseSetting::normal_model: return r.problem->where("BOUND");
-    case CaseSetting::load: return r.problem->where("NORM");
-    case CaseSetting::subsurface: return r.problem->where("STRESS");
-    case CaseSetting::friction: return r.model->where("FRCLAW");
-    case CaseSetting::influence: return r.model->where("INFLCF");
-    case CaseSetting::material: return r.model->where("MATER");
-    case CaseSetting::geometry: return r.model->where(rail ? "ZTRACK" : "RZNORM");
-    case CaseSetting::extra_slip: return r.model->where("EXRHS");
-    case CaseSetting::grid: return r.model->where("DISCNS");
-    case CaseSetting::heat: return r.run->where("HEAT");
-    case CaseSetting::reference_surface: return r.model->where("DISCNS");
-    case CaseSetting::force: return r.problem->where("FORCE");
-    case CaseSetting::elastic_constants: return r.kept.material_where;
-    case CaseSetting::layer: return r.kept.layer->where;
+    case CaseSetting::regime:
+      return r.problem->where("TANG");
+    case CaseSetting::normal_model:
+      return r.problem->where("BOUND");
+    case CaseSetting::load:
+      return r.problem->where("NORM");
+    case CaseSetting::subsurface:
+      return r.problem->where("STRESS");
+    case CaseSetting::friction:
+      return r.model->where("FRCLAW");
+    case CaseSetting::influence:
+      return r.model->where("INFLCF");
+    case CaseSetting::material:
+      return r.model->where("MATER");
+    case CaseSetting::geometry:
+      return r.model->where(rail ? "ZTRACK" : "RZNORM");
+    case CaseSetting::extra_slip:
+      return r.model->where("EXRHS");
+    case CaseSetting::grid:
+      return r.model->where("DISCNS");
+    case CaseSetting::heat:
+      return r.run->where("HEAT");
+    case CaseSetting::reference_surface:
+      return r.model->where("DISCNS");
+    case CaseSetting::force:
+      return r.problem->where("FORCE");
+    case CaseSetting::elastic_constants:
+      return r.kept.material_where;
+    case CaseSetting::layer:
+      return r.kept.layer->where;
   }
   return {};
 }
@@ -66,9 +83,11 @@ SourcePosition where_of(const ContactReader& r, CaseSetting setting) {
 /// read: the cases so far. Steps that are too long are noted only, as the reference program runs them.
 void refuse_contradictions(ContactReader& r, const Case& c, const std::vector<Case>& read) {
   for (const Contradiction& one : contradictions(c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
-  const auto previous = std::find_if(read.rbegin(), read.rend(), [&](const Case& p) { return p.sequence == c.sequence; });
+  const auto previous =
+      std::find_if(read.rbegin(), read.rend(), [&](const Case& p) { return p.sequence == c.sequence; });
   if (previous == read.rend()) return;
-  for (const Contradiction& one : contradictions(*previous, c)) r.refuse(where_of(r, one.setting), one.message, one.advice);
+  for (const Contradiction& one : contradictions(*previous, c))
+    r.refuse(where_of(r, one.setting), one.message, one.advice);
   const auto step = rolled_step(*previous, c);
   if (step && !r.kept.step_noted && !step->complaint().empty()) {
     r.kept.step_noted = true;
@@ -122,8 +141,10 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     next.sequence = kept.number;
     next.element_table = (*reader.run)["MATFIL"];
     next.shown = (*reader.run)["OUTPUT"] != 0;
-    if (module == 1) next.content = read_wheel_rail(reader);
-    else next.content = read_basic(reader);
+    if (module == 1)
+      next.content = read_wheel_rail(reader);
+    else
+      next.content = read_basic(reader);
     kept.started = true;
 
     const int ending = (*reader.run)["RETURN"];

@@ -9,8 +9,8 @@
 
 namespace treadmark::io {
 
-/// Reads an input file (.inp) of the reference program (CONTACT): modules 1 (wheel-rail) and 3 (basic contact), any number
-/// of cases with kept values. Everything is converted to SI. docs/contact-input.md lists what is supported.
+/// Reads an input file (.inp) of the reference program (CONTACT): modules 1 (wheel-rail) and 3 (basic contact), any
+/// number of cases with kept values. Everything is converted to SI. docs/contact-input.md lists what is supported.
 /// Geometry files are resolved against the folder of the input file but not opened.
 /// Throws Error (configuration) with file:line:column for a broken file and for whatever is not supported, named by its
 /// control digit. Safe to call from several threads.

@@ -14,7 +14,8 @@ std::string read_text(const std::filesystem::path& file) {
   if (std::filesystem::is_directory(file, code))
     throw Error(ErrorKind::configuration, "a case file is expected, this is a folder", {file.string()});
   std::ifstream stream(file, std::ios::binary);
-  if (!stream) throw Error(ErrorKind::configuration, "the case file cannot be opened", {file.string()}, "check its name");
+  if (!stream)
+    throw Error(ErrorKind::configuration, "the case file cannot be opened", {file.string()}, "check its name");
   return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
 }
 

@@ -36,11 +36,13 @@ void sweep_length(const CaseTable& table, const std::string& prefix, std::option
       sweep_length(entry.value.table(), path, length);
     } else if (entry.value.is_list() && is_scalar_key(path)) {
       const std::size_t count = entry.value.list().size();
-      if (count == 0) throw Error(ErrorKind::configuration, fmt::format("the list of {} is empty", path), entry.value.where);
+      if (count == 0)
+        throw Error(ErrorKind::configuration, fmt::format("the list of {} is empty", path), entry.value.where);
       if (length && *length != count)
-        throw Error(ErrorKind::configuration,
-                    fmt::format("the list of {} has {} values, another one of the same entry has {}", path, count, *length),
-                    entry.value.where, "lists of one [[cases]] entry advance together");
+        throw Error(
+            ErrorKind::configuration,
+            fmt::format("the list of {} has {} values, another one of the same entry has {}", path, count, *length),
+            entry.value.where, "lists of one [[cases]] entry advance together");
       length = count;
     }
   }
@@ -52,8 +54,10 @@ CaseTable sweep_element(const CaseTable& table, const std::string& prefix, std::
   for (const CaseEntry& entry : table) {
     const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
     CaseEntry one = entry;
-    if (entry.value.is_table()) one.value.data = sweep_element(entry.value.table(), path, i);
-    else if (entry.value.is_list() && is_scalar_key(path)) one.value = entry.value.list().at(i);
+    if (entry.value.is_table())
+      one.value.data = sweep_element(entry.value.table(), path, i);
+    else if (entry.value.is_list() && is_scalar_key(path))
+      one.value = entry.value.list().at(i);
     result.push_back(std::move(one));
   }
   return result;
@@ -82,17 +86,20 @@ struct Expansion {
   std::vector<Case>& out;
 
   void add(Case next, const SourcePosition& where) const {
-    if (out.size() >= kMostCases) throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), where);
+    if (out.size() >= kMostCases)
+      throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), where);
     out.push_back(std::move(next));
   }
 
   const Case* previous_of(const Case& c) const {
-    const auto found = std::find_if(out.rbegin(), out.rend(), [&](const Case& one) { return one.sequence == c.sequence; });
+    const auto found =
+        std::find_if(out.rbegin(), out.rend(), [&](const Case& one) { return one.sequence == c.sequence; });
     return found == out.rend() ? nullptr : &*found;
   }
 
   /// The i-th case of a table, overridden.
-  Case changed(const CaseTable& table, std::optional<std::size_t> lists, std::size_t i, const SourcePosition& where) const {
+  Case changed(const CaseTable& table, std::optional<std::size_t> lists, std::size_t i,
+               const SourcePosition& where) const {
     Case next = defaults;
     next.where = where;
     apply_table(next, lists ? sweep_element(table, "", i) : table, folder);
@@ -105,8 +112,9 @@ struct Expansion {
     sweep_length(table, "", lists);
     const auto steps = static_cast<std::size_t>(changed(table, lists, 0, where).steps);
     if (steps > 0 && lists && *lists != steps)
-      throw Error(ErrorKind::configuration, fmt::format("case.steps is {}, but a list of the same table has {} values", steps, *lists),
-                  where, "a list gives one value for each step");
+      throw Error(ErrorKind::configuration,
+                  fmt::format("case.steps is {}, but a list of the same table has {} values", steps, *lists), where,
+                  "a list gives one value for each step");
     std::set<std::string, std::less<>> given;
     collect_paths(table, "", given);
     for (const CaseOverride& change : changes) given.insert(change.path);
@@ -124,20 +132,22 @@ struct Expansion {
     if (goes_on && history == HistoryInput::start) history = HistoryInput::keep_going;
     settle_rolling_step(next);
     const Case* previous = previous_of(next);
-    if (previous != nullptr && history != HistoryInput::start && history != HistoryInput::same_instant) move_on(next, *previous, given);
+    if (previous != nullptr && history != HistoryInput::start && history != HistoryInput::same_instant)
+      move_on(next, *previous, given);
   }
 };
 
 void refuse_steps(const std::vector<CaseOverride>& changes) {
   for (const CaseOverride& change : changes)
     if (change.path == "case.steps" || change.path == "case.time_step_s")
-      throw Error(ErrorKind::configuration, change.path + " makes cases while a .toml file is read, these are made already",
-                  change.value.where);
+      throw Error(ErrorKind::configuration,
+                  change.path + " makes cases while a .toml file is read, these are made already", change.value.where);
 }
 
 }  // namespace
 
-CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name, std::span<const std::string> overrides) {
+CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,
+                      std::span<const std::string> overrides) {
   CaseFile result;
   result.path = name;
   result.title = name.stem().string();
@@ -152,7 +162,8 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   for (const CaseEntry& entry : document) {
     if (entry.key == "title") {
       if (!std::holds_alternative<std::string>(entry.value.data))
-        throw Error(ErrorKind::configuration, fmt::format("title must be text, found {}", entry.value.kind()), entry.value.where);
+        throw Error(ErrorKind::configuration, fmt::format("title must be text, found {}", entry.value.kind()),
+                    entry.value.where);
       result.title = entry.value.text();
     } else if (entry.key == "cases") {
       if (!entry.value.is_list() || entry.value.list().empty())
@@ -171,7 +182,8 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   } else {
     for (const CaseValue& entry : entries->value.list()) {
       if (!entry.is_table())
-        throw Error(ErrorKind::configuration, fmt::format("[[cases]] must be tables, found {}", entry.kind()), entry.where);
+        throw Error(ErrorKind::configuration, fmt::format("[[cases]] must be tables, found {}", entry.kind()),
+                    entry.where);
       expansion.expand(entry.table(), entry.where);
     }
   }
@@ -185,7 +197,8 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   return result;
 }
 
-CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
+CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name,
+                         std::span<const std::string> overrides) {
   CaseFile result = case_file_of(parse_toml(text, name.string()), name, overrides);
   result.sha256 = sha256_hex(text);
   return result;

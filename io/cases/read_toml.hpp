@@ -16,18 +16,20 @@ namespace treadmark::io {
 /// [[cases]] entry overrides some keys; a list where one value is expected makes one case for each of its values.
 /// overrides: "key.path=value" (TOML value or bare word), applied to every case after everything else.
 /// Geometry files are resolved against the folder of the case file but not opened.
-/// Throws Error (configuration) with file:line:column: broken TOML, unknown keys (with a suggestion), wrong types, values
-/// out of range, incomplete or unsupported cases. Safe to call from several threads.
+/// Throws Error (configuration) with file:line:column: broken TOML, unknown keys (with a suggestion), wrong types,
+/// values out of range, incomplete or unsupported cases. Safe to call from several threads.
 CaseFile read_case_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// The same for text that is already in memory; name serves for messages and for resolving geometry files.
-CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides = {});
+CaseFile parse_case_text(std::string_view text, const std::filesystem::path& name,
+                         std::span<const std::string> overrides = {});
 
 /// The same for tables that have been parsed already (and perhaps changed); sha256 stays empty.
-CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name, std::span<const std::string> overrides = {});
+CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& name,
+                      std::span<const std::string> overrides = {});
 
-/// Applies one "key.path=value" to a case from any kind of file; the case is checked again. Relative paths count from the
-/// folder of the file that the case came from. Keys of list elements are written with their number from 0:
+/// Applies one "key.path=value" to a case from any kind of file; the case is checked again. Relative paths count from
+/// the folder of the file that the case came from. Keys of list elements are written with their number from 0:
 /// "wheel.flats.0.depth_mm=1.2". Throws Error (configuration) and leaves the case as it was.
 void apply_override(Case& target, std::string_view assignment);
 /// Several of them to every case of a file; the cases are checked when all have been applied.

@@ -14,7 +14,7 @@ bool continues(HistoryInput h) { return h == HistoryInput::keep_going || h == Hi
 
 /// Steps equal, origins a whole number of steps apart.
 bool same_raster(double a0, double a_step, double b0, double b_step) {
-  constexpr double kTolerance = 1e-3;   // of a step
+  constexpr double kTolerance = 1e-3;  // of a step
   const double steps = (b0 - a0) / a_step;
   return std::abs(b_step - a_step) < kTolerance * a_step && std::abs(steps - std::round(steps)) < kTolerance;
 }
@@ -50,15 +50,19 @@ std::vector<Contradiction> contradictions(const Case& previous, const Case& next
                   "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
   const auto *a = std::get_if<WheelRailCase>(&previous.content), *b = std::get_if<WheelRailCase>(&next.content);
   if (a != nullptr && b != nullptr && continues(b->history) && goes_on(b->regime))
-    rules.refuse_if(a->reference_surface != b->reference_surface || a->side != b->side || a->roller.has_value() != b->roller.has_value(),
-                    CaseSetting::grid, "a case that continues the previous one must be on the same side, on track or roller as before, "
-                    "with the same kind of reference surface", "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
+    rules.refuse_if(a->reference_surface != b->reference_surface || a->side != b->side ||
+                        a->roller.has_value() != b->roller.has_value(),
+                    CaseSetting::grid,
+                    "a case that continues the previous one must be on the same side, on track or roller as before, "
+                    "with the same kind of reference surface",
+                    "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
   return std::move(rules.found);
 }
 
 std::optional<RolledStep> rolled_step(const Case& previous, const Case& next) {
   const auto *a = std::get_if<WheelRailCase>(&previous.content), *b = std::get_if<WheelRailCase>(&next.content);
-  if (a == nullptr || b == nullptr || b->history != HistoryInput::keep_going || b->regime != RegimeInput::transient) return std::nullopt;
+  if (a == nullptr || b == nullptr || b->history != HistoryInput::keep_going || b->regime != RegimeInput::transient)
+    return std::nullopt;
   const WheelsetInput &from = a->wheelset, &to = b->wheelset;
   RolledStep step;
   step.rolled = b->discretisation.dq_relative * b->discretisation.dx;
@@ -69,13 +73,17 @@ std::optional<RolledStep> rolled_step(const Case& previous, const Case& next) {
 }
 
 std::string RolledStep::complaint() const {
-  constexpr double kSame = 0.1;   // creep, and radii other than the nominal one
+  constexpr double kSame = 0.1;  // creep, and radii other than the nominal one
   if (too_long())
-    return fmt::format("wheel or rail move {:.4g} mm through the contact since the previous case, more than two elements ({:.4g} mm): the "
-                       "history does not reach that far", moved * 1e3, longest * 1e3);
+    return fmt::format(
+        "wheel or rail move {:.4g} mm through the contact since the previous case, more than two elements ({:.4g} mm): "
+        "the "
+        "history does not reach that far",
+        moved * 1e3, longest * 1e3);
   if (moved > 0.0 && std::abs(moved - rolled) > kSame * rolled)
-    return fmt::format("wheel or rail move {:.4g} mm through the contact since the previous case, but a rolling step is {:.4g} mm",
-                       moved * 1e3, rolled * 1e3);
+    return fmt::format(
+        "wheel or rail move {:.4g} mm through the contact since the previous case, but a rolling step is {:.4g} mm",
+        moved * 1e3, rolled * 1e3);
   return {};
 }
 

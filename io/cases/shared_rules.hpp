@@ -17,7 +17,7 @@ namespace treadmark::io {
 
 /// Rules that hold for a wheel on a rail and for one patch alike; Content is WheelRailCase or BasicCase.
 
-inline constexpr double kMostPoints = 2e7;   // below the surface
+inline constexpr double kMostPoints = 2e7;  // below the surface
 
 class RuleList {
  public:
@@ -40,12 +40,15 @@ inline bool goes_on(RegimeInput r) { return r == RegimeInput::transient || r == 
 template <class Content>
 void simplified_theory(RuleList& rules, const Content& c, bool friction_varies, bool slip_of_elements) {
   if (c.tangential_model == TangentialModelInput::full) return;
-  rules.refuse_if(goes_on(c.regime), CaseSetting::material,
-                  "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling");
-  rules.refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer, "the simplified theory knows no plasticity of the interface layer");
+  rules.refuse_if(
+      goes_on(c.regime), CaseSetting::material,
+      "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling");
+  rules.refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer,
+                  "the simplified theory knows no plasticity of the interface layer");
   rules.refuse_if(friction_varies || c.friction.kind == FrictionLaw::Kind::temperature, CaseSetting::friction,
                   "the simplified theory knows one coefficient of friction, not one by row or by temperature");
-  rules.refuse_if(slip_of_elements, CaseSetting::extra_slip, "the simplified theory takes no slip that is given for every element");
+  rules.refuse_if(slip_of_elements, CaseSetting::extra_slip,
+                  "the simplified theory takes no slip that is given for every element");
   rules.refuse_if(c.sensitivities, CaseSetting::material, "the simplified theory gives no sensitivities");
 }
 
@@ -54,33 +57,40 @@ template <class Content>
 void viscoelastic_rules(RuleList& rules, const Content& c) {
   constexpr double kDissimilar = 1e-4;
   const Material& m = c.material;
-  rules.refuse_if(m.relaxation_time_1 < 0.0 || m.relaxation_time_2 < 0.0 || m.creep_ratio_1 < 0.0 || m.creep_ratio_2 < 0.0,
-                  CaseSetting::material, "creep ratios and relaxation times must not be negative");
+  rules.refuse_if(
+      m.relaxation_time_1 < 0.0 || m.relaxation_time_2 < 0.0 || m.creep_ratio_1 < 0.0 || m.creep_ratio_2 < 0.0,
+      CaseSetting::material, "creep ratios and relaxation times must not be negative");
   if (!viscoelastic(m)) return;
-  rules.refuse_if(goes_on(c.regime), CaseSetting::regime, "viscoelastic bodies need steady rolling or no tangential problem");
+  rules.refuse_if(goes_on(c.regime), CaseSetting::regime,
+                  "viscoelastic bodies need steady rolling or no tangential problem");
   const double difference = combine(m).difference;
   rules.refuse_if(std::abs(difference) >= kDissimilar, CaseSetting::elastic_constants,
                   fmt::format("viscoelastic bodies must not be dissimilar (K = {:.3g})", difference));
   rules.refuse_if(c.influence.kind != InfluenceInput::Kind::constant, CaseSetting::influence,
                   "viscoelastic bodies need the half-space with constant elements");
-  rules.refuse_if(c.normal_model != NormalModelInput::full || c.tangential_model != TangentialModelInput::full, CaseSetting::material,
-                  "viscoelastic bodies need the full normal and tangential problem");
+  rules.refuse_if(c.normal_model != NormalModelInput::full || c.tangential_model != TangentialModelInput::full,
+                  CaseSetting::material, "viscoelastic bodies need the full normal and tangential problem");
 }
 
 inline void step_of_one_element(RuleList& rules, double step, double element) {
-  constexpr double kSameStep = 0.01;   // relative difference that counts as none
-  rules.refuse_if(std::abs(step - element) > kSameStep * element, CaseSetting::layer,
-                  fmt::format("a layer that yields needs a rolling step of one element: the step is {:.6g} mm, elements are {:.6g} mm",
-                              step * 1e3, element * 1e3));
+  constexpr double kSameStep = 0.01;  // relative difference that counts as none
+  rules.refuse_if(
+      std::abs(step - element) > kSameStep * element, CaseSetting::layer,
+      fmt::format(
+          "a layer that yields needs a rolling step of one element: the step is {:.6g} mm, elements are {:.6g} mm",
+          step * 1e3, element * 1e3));
 }
 
 /// further: friction laws besides that of the content.
 template <class Content>
 void temperatures(RuleList& rules, const Content& c, std::span<const FrictionLaw> further) {
   const auto thermal = [](const FrictionLaw& f) { return f.kind == FrictionLaw::Kind::temperature; };
-  rules.refuse_if(!c.thermal && (thermal(c.friction) || std::any_of(further.begin(), further.end(), thermal)), CaseSetting::friction,
-                  "friction that depends on the temperature needs the thermal data of the bodies", "H = 3 in .inp, [heat] in .toml");
-  rules.refuse_if(c.thermal && c.regime != RegimeInput::steady, CaseSetting::heat, "surface temperatures need steady rolling");
+  rules.refuse_if(!c.thermal && (thermal(c.friction) || std::any_of(further.begin(), further.end(), thermal)),
+                  CaseSetting::friction,
+                  "friction that depends on the temperature needs the thermal data of the bodies",
+                  "H = 3 in .inp, [heat] in .toml");
+  rules.refuse_if(c.thermal && c.regime != RegimeInput::steady, CaseSetting::heat,
+                  "surface temperatures need steady rolling");
 }
 
 }  // namespace treadmark::io

@@ -22,7 +22,8 @@ class Checker {
   explicit Checker(const Case& c) : where_(c.where), number_(c.number) {}
 
   void require(bool good, const std::string& message, std::string advice = {}) const {
-    if (!good) throw Error(ErrorKind::configuration, fmt::format("case {}: {}", number_, message), where_, std::move(advice));
+    if (!good)
+      throw Error(ErrorKind::configuration, fmt::format("case {}: {}", number_, message), where_, std::move(advice));
   }
 
   void surface(const SurfaceSource& s, Body which, double nominal_radius) const {
@@ -41,7 +42,8 @@ class Checker {
   void parts(const SurfaceSource& s) const {
     const auto* file = std::get_if<GeometryFile>(&s.geometry);
     require(file != nullptr && file->file.empty(), "rail.shape and rail.parts exclude each other", "give one of them");
-    require(s.crossing.part == CrossingInput::Part::none, "rail.shape.crossing does not belong to rail.parts", "give it in the part");
+    require(s.crossing.part == CrossingInput::Part::none, "rail.shape.crossing does not belong to rail.parts",
+            "give it in the part");
     require(s.defects.empty(), "defects cannot be added to rail.parts");
     for (std::size_t i = 0; i < s.parts.size(); ++i) shape(s.parts[i], fmt::format("rail.parts[{}]", i));
   }
@@ -51,11 +53,13 @@ class Checker {
     const bool part = body.ends_with(']');
     if (const auto* file = std::get_if<GeometryFile>(&s.geometry)) {
       require(!file->file.empty(), body + ".shape is missing",
-              part ? "give its file, standard or arcs" : fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
+              part ? "give its file, standard or arcs"
+                   : fmt::format("give {0}.shape.file, {0}.shape.standard or {0}.shape.arcs", body));
       require(file->options.smoothing.kink_low <= file->options.smoothing.kink_high,
               body + ".shape: kink_low_deg must not exceed kink_high_deg");
     }
-    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry)) require(!arcs->segments.empty(), body + ".shape.arcs is empty");
+    if (const auto* arcs = std::get_if<ArcChain>(&s.geometry))
+      require(!arcs->segments.empty(), body + ".shape.arcs is empty");
     require(s.crossing.part == CrossingInput::Part::none || s.crossing.length > 0.5 * s.crossing.rounding,
             body + ": crossing_length_mm must be more than half of crossing_rounding_mm");
   }
@@ -64,7 +68,8 @@ class Checker {
     constexpr double kSmallestFriction = 1e-4;
     if (f.kind == FrictionLaw::Kind::temperature) {
       require(f.temperature_range > 0.0, "friction.temperature_range_K must be positive");
-      require(f.kinetic + f.temperature_change >= kSmallestFriction, "friction.temperature_change leaves no friction at high temperature");
+      require(f.kinetic + f.temperature_change >= kSmallestFriction,
+              "friction.temperature_change leaves no friction at high temperature");
     }
     if (f.kind == FrictionLaw::Kind::coulomb || f.kind == FrictionLaw::Kind::temperature) {
       require(f.amplitude_1 == 0.0 && f.amplitude_2 == 0.0, "friction amplitudes belong to a falling law",
@@ -86,7 +91,8 @@ class Checker {
             "solver.fastsim_flexibility_mm_per_MPa is missing");
     if (const auto& damping = c.damping) {
       require(damping->normal == 0.0 || damping->max_rate_normal > 0.0, "damping.max_rate_normal_N_per_s is missing");
-      require(damping->tangential == 0.0 || damping->max_rate_tangential > 0.0, "damping.max_rate_tangential_N_per_s is missing");
+      require(damping->tangential == 0.0 || damping->max_rate_tangential > 0.0,
+              "damping.max_rate_tangential_N_per_s is missing");
     }
     friction(c.friction);
     friction_variation(c.friction_variation);
@@ -96,7 +102,8 @@ class Checker {
     if (v.kind == FrictionVariation::Kind::none) return;
     const auto& at = v.positions;
     require(!at.empty() && at.size() == v.laws.size(), "a variation of friction needs at least one set");
-    require(std::adjacent_find(at.begin(), at.end(), std::greater_equal<>()) == at.end(), "the positions of friction sets must increase");
+    require(std::adjacent_find(at.begin(), at.end(), std::greater_equal<>()) == at.end(),
+            "the positions of friction sets must increase");
     for (const FrictionLaw& law : v.laws) {
       require(law.kind == v.laws.front().kind, "all friction sets must have the same law");
       friction(law);
@@ -108,15 +115,21 @@ class Checker {
     const auto positive = [&](double value, const std::string& name) {
       require(value > 0.0, fmt::format("patch.hertz.{} is missing", name));
     };
-    const bool a1 = h.given == Given::curvatures || h.given == Given::curvature_and_ratio || h.given == Given::line_curvature;
-    if (a1) positive(h.a1, "curvature_x_per_m");
-    else positive(h.aa, "semi_axis_x_mm");
-    if (h.given == Given::curvatures) positive(h.b1, "curvature_y_per_m");
-    else if (h.given == Given::curvature_and_ratio) positive(h.aob, "axis_ratio");
+    const bool a1 =
+        h.given == Given::curvatures || h.given == Given::curvature_and_ratio || h.given == Given::line_curvature;
+    if (a1)
+      positive(h.a1, "curvature_x_per_m");
+    else
+      positive(h.aa, "semi_axis_x_mm");
+    if (h.given == Given::curvatures)
+      positive(h.b1, "curvature_y_per_m");
+    else if (h.given == Given::curvature_and_ratio)
+      positive(h.aob, "axis_ratio");
     else if (h.given == Given::semi_double_elliptic) {
       positive(h.bb_negative, "semi_axis_y_negative_mm");
       positive(h.bb_positive, "semi_axis_y_positive_mm");
-    } else positive(h.bb, "semi_axis_y_mm");
+    } else
+      positive(h.bb, "semi_axis_y_mm");
   }
 
   void gap(const GapInput& g, const BasicCase& c) const {
@@ -128,7 +141,8 @@ class Checker {
         require(count == 6, fmt::format("patch.gap.coefficients_si has {} values, a quadratic gap needs 6", count));
         return;
       case Kind::circular:
-        require(count >= 5, fmt::format("patch.gap.coefficients_si has {} values, a circular gap needs at least 5", count));
+        require(count >= 5,
+                fmt::format("patch.gap.coefficients_si has {} values, a circular gap needs at least 5", count));
         require(g.coefficients[1] != 0.0, "patch.gap: the radius of a circular gap must not be 0");
         return;
       case Kind::sinusoidal:
@@ -137,7 +151,8 @@ class Checker {
         return;
       case Kind::per_element:
         require(count == static_cast<std::size_t>(c.mx) * static_cast<std::size_t>(c.my),
-                fmt::format("patch.gap.coefficients_si has {} values for {} elements", count, static_cast<long>(c.mx) * c.my));
+                fmt::format("patch.gap.coefficients_si has {} values for {} elements", count,
+                            static_cast<long>(c.mx) * c.my));
         return;
     }
   }
@@ -146,8 +161,10 @@ class Checker {
     require(c.mx >= 1 && c.my >= 1, "patch.mx and patch.my are missing");
     require(static_cast<long>(c.mx) * c.my <= kMostElements,
             fmt::format("potential contact too large: {} x {} elements, at most {}", c.mx, c.my, kMostElements));
-    if (const auto* h = std::get_if<HertzInput>(&c.geometry)) hertz(*h);
-    else gap(std::get<GapInput>(c.geometry), c);
+    if (const auto* h = std::get_if<HertzInput>(&c.geometry))
+      hertz(*h);
+    else
+      gap(std::get<GapInput>(c.geometry), c);
     require(!c.normal_force_prescribed || c.normal_force > 0.0, "the normal load is missing",
             "give patch.normal_force_N or patch.approach_mm");
     require(!c.fy_relative || c.fx_relative, "patch.force_y_relative needs patch.force_x_relative");
@@ -172,8 +189,10 @@ class Checker {
 
 void validate_case(const Case& c) {
   const Checker check(c);
-  if (const auto* rail = std::get_if<WheelRailCase>(&c.content)) check.wheel_rail(*rail);
-  else check.basic(std::get<BasicCase>(c.content));
+  if (const auto* rail = std::get_if<WheelRailCase>(&c.content))
+    check.wheel_rail(*rail);
+  else
+    check.basic(std::get<BasicCase>(c.content));
   check.none(contradictions(c));
 }
 
@@ -189,8 +208,10 @@ void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes)
       check.none(contradictions(*previous->second, c));
       const auto step = rolled_step(*previous->second, c);
       const std::string complaint = step && notes != nullptr ? step->complaint() : std::string();
-      check.require(complaint.empty() || !step->too_long(), complaint, "more and shorter steps (case.steps, case.time_step_s)");
-      if (!complaint.empty() && !std::exchange(told, true)) notes->push_back(fmt::format("case {}: {}", c.number, complaint));
+      check.require(complaint.empty() || !step->too_long(), complaint,
+                    "more and shorter steps (case.steps, case.time_step_s)");
+      if (!complaint.empty() && !std::exchange(told, true))
+        notes->push_back(fmt::format("case {}: {}", c.number, complaint));
     }
     previous->second = &c;
   }

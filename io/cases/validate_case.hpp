@@ -12,9 +12,9 @@ namespace treadmark::io {
 /// position of the case otherwise.
 void validate_case(const Case& c);
 
-/// Lets the first case of each sequence start, as it has nothing to continue, and checks that the others fit to what they continue;
-/// throws like validate_case. notes: gets a remark on rolling steps that do not fit the positions, which are errors where they are too
-/// long; null: steps are not looked at.
+/// Lets the first case of each sequence start, as it has nothing to continue, and checks that the others fit to what
+/// they continue; throws like validate_case. notes: gets a remark on rolling steps that do not fit the positions, which
+/// are errors where they are too long; null: steps are not looked at.
 void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes = nullptr);
 
 }  // namespace treadmark::io

@@ -22,7 +22,7 @@ constexpr hsize_t kMaxChunk = 512;        // elements along a side: chunks stay 
 constexpr hssize_t kMostValues = hssize_t{1} << 34;
 constexpr unsigned kMostAttributes = 1000;  // in the header of an object
 constexpr long kLongestName = 4096;
-constexpr double kDensest = 1100.0;       // deflate packs no closer
+constexpr double kDensest = 1100.0;  // deflate packs no closer
 
 [[noreturn]] void cannot_write(std::string_view what) {
   throw Error(ErrorKind::configuration, fmt::format("HDF5: cannot write {}", what), {},
@@ -30,7 +30,8 @@ constexpr double kDensest = 1100.0;       // deflate packs no closer
 }
 
 [[noreturn]] void cannot_read(const std::string& file, const std::string& what) {
-  throw Error(ErrorKind::input_data, fmt::format("HDF5: cannot read {}", what), {file, 0, 0}, "give a file of results that is complete");
+  throw Error(ErrorKind::input_data, fmt::format("HDF5: cannot read {}", what), {file, 0, 0},
+              "give a file of results that is complete");
 }
 
 Hdf5Id written(hid_t id, std::string_view what) {
@@ -39,7 +40,8 @@ Hdf5Id written(hid_t id, std::string_view what) {
 }
 
 void check_name(const std::string& name) {
-  if (!name.empty() && name != "." && name.find('/') == std::string::npos && name.find('\0') == std::string::npos) return;
+  if (!name.empty() && name != "." && name.find('/') == std::string::npos && name.find('\0') == std::string::npos)
+    return;
   throw Error(ErrorKind::configuration, fmt::format("\"{}\" cannot be the name of an object in an HDF5 file", name), {},
               "choose a name without slashes");
 }
@@ -52,13 +54,17 @@ Hdf5Id string_type() {
 }
 
 Hdf5Id make_space(const std::vector<hsize_t>& size, const std::string& name) {
-  return written(size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr), name);
+  return written(
+      size.empty() ? H5Screate(H5S_SCALAR) : H5Screate_simple(static_cast<int>(size.size()), size.data(), nullptr),
+      name);
 }
 
-/// Properties of a new object: without times, so that equal contents give equal bytes; attributes in its header, which has a check sum.
+/// Properties of a new object: without times, so that equal contents give equal bytes; attributes in its header, which
+/// has a check sum.
 Hdf5Id timeless(hid_t kind, const std::string& name) {
   Hdf5Id creation = written(H5Pcreate(kind), name);
-  if (H5Pset_obj_track_times(creation.get(), false) < 0 || H5Pset_attr_phase_change(creation.get(), kMostAttributes, 0) < 0)
+  if (H5Pset_obj_track_times(creation.get(), false) < 0 ||
+      H5Pset_attr_phase_change(creation.get(), kMostAttributes, 0) < 0)
     cannot_write(name);
   return creation;
 }
@@ -76,7 +82,8 @@ struct AttributeWriter {
 
   void write(hid_t type, const std::vector<hsize_t>& size, const void* data) const {
     const Hdf5Id space = make_space(size, name);
-    const Hdf5Id attribute = written(H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
+    const Hdf5Id attribute =
+        written(H5Acreate2(object, name.c_str(), type, space.get(), H5P_DEFAULT, H5P_DEFAULT), name);
     if (H5Awrite(attribute.get(), type, data) < 0) cannot_write(name);
   }
   void operator()(int value) const { write(H5T_NATIVE_INT, {}, &value); }
@@ -111,16 +118,17 @@ void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* 
   hsize_t wanted = 1;
   for (const hsize_t length : size) wanted *= length;
   if (wanted != count)
-    throw Error(ErrorKind::configuration, fmt::format("{} has {} values where its shape asks for {}", what.name, count, wanted));
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} has {} values where its shape asks for {}", what.name, count, wanted));
   const Hdf5Id space = make_space(size, what.name), creation = timeless(H5P_DATASET_CREATE, what.name);
   if (what.compressed && !size.empty() && count > 0 && H5Zfilter_avail(H5Z_FILTER_DEFLATE) > 0) {
     const std::vector<hsize_t> chunk = chunk_size(size);
-    if (H5Pset_chunk(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 || H5Pset_shuffle(creation.get()) < 0 ||
-        H5Pset_deflate(creation.get(), kDeflateLevel) < 0)
+    if (H5Pset_chunk(creation.get(), static_cast<int>(size.size()), chunk.data()) < 0 ||
+        H5Pset_shuffle(creation.get()) < 0 || H5Pset_deflate(creation.get(), kDeflateLevel) < 0)
       cannot_write(what.name);
   }
-  const Hdf5Id dataset =
-      written(H5Dcreate2(group, what.name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), what.name);
+  const Hdf5Id dataset = written(
+      H5Dcreate2(group, what.name.c_str(), type, space.get(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), what.name);
   if (count > 0 && H5Dwrite(dataset.get(), type, H5S_ALL, H5S_ALL, H5P_DEFAULT, data) < 0) cannot_write(what.name);
   AttributeWriter{dataset.get(), "unit"}(what.unit);
   AttributeWriter{dataset.get(), "meaning"}(what.meaning);
@@ -164,7 +172,8 @@ std::vector<std::string> attribute_texts(hid_t object, const std::string& name, 
   const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
   const Hdf5Id type(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
-  if (!read_texts(type, count_of(space), out, [&](hid_t text, char** to) { return H5Aread(attribute.get(), text, to); }))
+  if (!read_texts(type, count_of(space), out,
+                  [&](hid_t text, char** to) { return H5Aread(attribute.get(), text, to); }))
     cannot_read(file, "the attribute " + name);
   return out;
 }
@@ -180,7 +189,8 @@ void read_attribute(hid_t object, const std::string& name, H5T_class_t kind, hid
   const Hdf5Id attribute(H5Aopen(object, name.c_str(), H5P_DEFAULT));
   if (attribute.get() < 0) cannot_read(file, "the attribute " + name);
   const Hdf5Id stored(H5Aget_type(attribute.get())), space(H5Aget_space(attribute.get()));
-  if (stored.get() < 0 || H5Tget_class(stored.get()) != kind || count_of(space) != count || H5Aread(attribute.get(), type, out) < 0)
+  if (stored.get() < 0 || H5Tget_class(stored.get()) != kind || count_of(space) != count ||
+      H5Aread(attribute.get(), type, out) < 0)
     cannot_read(file, "the attribute " + name);
 }
 
@@ -194,10 +204,11 @@ std::vector<std::size_t> shape_of(hid_t group, const std::string& name, const st
   return {size, size + rank};
 }
 
-void require_shape(const std::vector<std::size_t>& found, const std::vector<std::size_t>& wanted, const std::string& name,
-                   const std::string& file) {
+void require_shape(const std::vector<std::size_t>& found, const std::vector<std::size_t>& wanted,
+                   const std::string& name, const std::string& file) {
   if (found == wanted) return;
-  cannot_read(file, fmt::format("{}: it has the shape [{}], not [{}]", name, fmt::join(found, ", "), fmt::join(wanted, ", ")));
+  cannot_read(
+      file, fmt::format("{}: it has the shape [{}], not [{}]", name, fmt::join(found, ", "), fmt::join(wanted, ", ")));
 }
 
 template <class Value>
@@ -236,7 +247,9 @@ Hdf5GroupWriter Hdf5GroupWriter::make_group(const std::string& name) const {
   return Hdf5GroupWriter(written(H5Gcreate2(id_.get(), name.c_str(), H5P_DEFAULT, creation.get(), H5P_DEFAULT), name));
 }
 
-void Hdf5GroupWriter::add(const Attribute& attribute) const { std::visit(AttributeWriter{id_.get(), attribute.name}, attribute.value); }
+void Hdf5GroupWriter::add(const Attribute& attribute) const {
+  std::visit(AttributeWriter{id_.get(), attribute.name}, attribute.value);
+}
 
 void Hdf5GroupWriter::add(std::span<const Attribute> attributes) const {
   for (const Attribute& one : attributes) add(one);
@@ -322,7 +335,9 @@ Mat3 Hdf5GroupReader::matrix(const std::string& name) const {
 
 std::string Hdf5GroupReader::text(const std::string& name) const { return first_text(texts(name), name, file_); }
 
-std::vector<std::string> Hdf5GroupReader::texts(const std::string& name) const { return attribute_texts(id_.get(), name, file_); }
+std::vector<std::string> Hdf5GroupReader::texts(const std::string& name) const {
+  return attribute_texts(id_.get(), name, file_);
+}
 
 std::string Hdf5GroupReader::text_of(const std::string& dataset, const std::string& name) const {
   const Hdf5Id object(H5Dopen2(id_.get(), dataset.c_str(), H5P_DEFAULT));
@@ -338,14 +353,17 @@ std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset) con
   return read_values<std::uint8_t>(id_.get(), dataset, H5T_NATIVE_UINT8, file_);
 }
 
-std::vector<std::size_t> Hdf5GroupReader::shape(const std::string& dataset) const { return shape_of(id_.get(), dataset, file_); }
+std::vector<std::size_t> Hdf5GroupReader::shape(const std::string& dataset) const {
+  return shape_of(id_.get(), dataset, file_);
+}
 
 std::vector<double> Hdf5GroupReader::numbers(const std::string& dataset, const std::vector<std::size_t>& wanted) const {
   require_shape(shape(dataset), wanted, dataset, file_);
   return numbers(dataset);
 }
 
-std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset, const std::vector<std::size_t>& wanted) const {
+std::vector<std::uint8_t> Hdf5GroupReader::bytes(const std::string& dataset,
+                                                 const std::vector<std::size_t>& wanted) const {
   require_shape(shape(dataset), wanted, dataset, file_);
   return bytes(dataset);
 }
@@ -355,7 +373,9 @@ std::vector<std::string> Hdf5GroupReader::strings(const std::string& dataset) co
   if (object.get() < 0) cannot_read(file_, dataset);
   const Hdf5Id type(H5Dget_type(object.get())), space(H5Dget_space(object.get()));
   std::vector<std::string> out;
-  const auto read = [&](hid_t text, char** to) { return H5Dread(object.get(), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, to); };
+  const auto read = [&](hid_t text, char** to) {
+    return H5Dread(object.get(), text, H5S_ALL, H5S_ALL, H5P_DEFAULT, to);
+  };
   if (!read_texts(type, count_of(space), out, read)) cannot_read(file_, dataset);
   return out;
 }

@@ -13,9 +13,9 @@
 
 namespace treadmark::io {
 
-/// A group of an HDF5 file. Errors of all functions but has() and has_attribute(): Error(input_data) that names file and object, for
-/// objects that are missing or hold something else: other types, other sizes, more values than are stored. Not to be used from two
-/// threads at once, not even for different files.
+/// A group of an HDF5 file. Errors of all functions but has() and has_attribute(): Error(input_data) that names file
+/// and object, for objects that are missing or hold something else: other types, other sizes, more values than are
+/// stored. Not to be used from two threads at once, not even for different files.
 class Hdf5GroupReader {
  public:
   bool has(const std::string& name) const;  ///< a group or dataset

@@ -34,7 +34,8 @@ class Hdf5GroupWriter {
   void write(const Hdf5Dataset& dataset, std::span<const std::uint8_t> values) const;
   void write(const Hdf5Dataset& dataset, std::span<const std::string> values) const;  ///< UTF-8
 
-  /// Everything in another HDF5 file becomes a group of this one. Errors: also Error(input_data) where it cannot be read.
+  /// Everything in another HDF5 file becomes a group of this one. Errors: also Error(input_data) where it cannot be
+  /// read.
   void copy_file(const std::filesystem::path& source, const std::string& name) const;
 
  private:

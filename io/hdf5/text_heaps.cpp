@@ -12,15 +12,16 @@
 namespace treadmark::io {
 namespace {
 
-// HDF5 File Format Specification, III.E: signature, version 1, three reserved bytes; size of the heap; then objects: index and number of
-// references of two bytes each, four reserved ones, size of eight, the value filled up to a multiple of eight bytes. Index 0 is what is
-// left free, its size with its head.
+// HDF5 File Format Specification, III.E: signature, version 1, three reserved bytes; size of the heap; then objects:
+// index and number of references of two bytes each, four reserved ones, size of eight, the value filled up to a
+// multiple of eight bytes. Index 0 is what is left free, its size with its head.
 constexpr std::string_view kSignature{"GCOL\1\0\0\0", 8};
 constexpr std::uint64_t kHead = 16, kLargest = std::uint64_t{1} << 32;
 
 std::uint64_t little_endian(std::string_view bytes, std::uint64_t at, int count) {
   std::uint64_t value = 0;
-  for (int i = count - 1; i >= 0; --i) value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::uint64_t>(i)]);
+  for (int i = count - 1; i >= 0; --i)
+    value = value << 8 | static_cast<unsigned char>(bytes[at + static_cast<std::uint64_t>(i)]);
   return value;
 }
 

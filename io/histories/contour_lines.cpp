@@ -18,7 +18,8 @@ using Side = std::size_t;
 
 class Sides {
  public:
-  Sides(const Grid2& grid, std::span<const double> values, double level) : grid_(grid), values_(values), level_(level) {}
+  Sides(const Grid2& grid, std::span<const double> values, double level)
+      : grid_(grid), values_(values), level_(level) {}
 
   bool above(int ix, int iy) const { return value(ix, iy) >= level_; }
   double value(int ix, int iy) const { return values_[grid_.index(ix, iy)]; }

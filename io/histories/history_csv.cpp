@@ -25,7 +25,8 @@ void write_history_csv(const std::filesystem::path& path, const SimulationResult
 void write_events_csv(const std::filesystem::path& path, const SimulationResult& result) {
   std::string out = "t_s,x_m,wheel,kind\n";
   for (const HistoryEvent& event : result.events)
-    out += csv_number(event.time) + ',' + csv_number(event.position) + ',' + csv_cell(event.wheel) + ',' + csv_cell(event.kind) + '\n';
+    out += csv_number(event.time) + ',' + csv_number(event.position) + ',' + csv_cell(event.wheel) + ',' +
+           csv_cell(event.kind) + '\n';
   write_text_file(path, out);
 }
 

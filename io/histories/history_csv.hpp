@@ -8,8 +8,9 @@
 
 namespace treadmark::io {
 
-/// Tables with commas, a line of names first, in SI units; numbers are the shortest that read back exactly. The files appear only
-/// when complete. Errors: Error(configuration) as check_simulation and for files that cannot be written. Thread-safe.
+/// Tables with commas, a line of names first, in SI units; numbers are the shortest that read back exactly. The files
+/// appear only when complete. Errors: Error(configuration) as check_simulation and for files that cannot be written.
+/// Thread-safe.
 
 /// The columns of the history, a line an instant.
 void write_history_csv(const std::filesystem::path& path, const SimulationResult& result);

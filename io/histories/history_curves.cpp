@@ -54,7 +54,9 @@ Curve cut_curve(const Curve& curve, const Range& x) {
       const Point& before = curve[i - 1];
       const bool forward = before[0] < here[0];
       const double first = forward ? low : high, last = forward ? high : low;
-      const auto crosses = [&](double end) { return (before[0] < end) != (here[0] < end) && before[0] != end && here[0] != end; };
+      const auto crosses = [&](double end) {
+        return (before[0] < end) != (here[0] < end) && before[0] != end && here[0] != end;
+      };
       if (!inside(before)) parts.part();
       if (!inside(before) && crosses(first)) parts.add(between(before, here, first));
       if (!inside(here) && crosses(last)) parts.add(between(before, here, last));
@@ -75,7 +77,8 @@ Curve history_curve(const SimulationResult& result, const std::string& x, const 
 
 void set_look(ChartSeries& series, std::size_t index, std::size_t count) {
   series.style = static_cast<int>(index);
-  series.width = count < 2 ? 1.6 : std::lerp(kWidest, kNarrowest, static_cast<double>(index) / static_cast<double>(count - 1));
+  series.width =
+      count < 2 ? 1.6 : std::lerp(kWidest, kNarrowest, static_cast<double>(index) / static_cast<double>(count - 1));
   if (index % 2 != 0) series.dashes = kDashes;
 }
 

@@ -20,8 +20,8 @@ struct Range {
   std::optional<double> low, high;
 };
 
-/// The part of a curve in a range of x, cut by straight interpolation at the ends. Parts that belong not together are parted by a NaN,
-/// as are those where a value is not finite. Thread-safe.
+/// The part of a curve in a range of x, cut by straight interpolation at the ends. Parts that belong not together are
+/// parted by a NaN, as are those where a value is not finite. Thread-safe.
 Curve cut_curve(const Curve& curve, const Range& x);
 
 /// Two columns of a history as a curve. Errors: as column_index. Thread-safe.

@@ -17,7 +17,8 @@ template <class Named>
 void check_names(const std::vector<Named>& list, const char* kind) {
   std::set<std::string> seen;
   for (const Named& one : list) {
-    if (one.name.empty() || one.name == "." || one.name.find('/') != std::string::npos || one.name.find('\0') != std::string::npos)
+    if (one.name.empty() || one.name == "." || one.name.find('/') != std::string::npos ||
+        one.name.find('\0') != std::string::npos)
       refuse(fmt::format("\"{}\" cannot be the name of a {}", one.name, kind));
     if (!seen.insert(one.name).second) refuse(fmt::format("two {}s have the name {}", kind, one.name));
   }

@@ -36,17 +36,18 @@ struct ModeRow {
   std::string shape;  ///< in words
 };
 
-/// What pictures show of a snapshot beside its fields. Stores have the flags of it only: a simulation finds it anew, after a
-/// resumption too.
+/// What pictures show of a snapshot beside its fields. Stores have the flags of it only: a simulation finds it anew,
+/// after a resumption too.
 struct SnapshotScene {
-  bool nominal = false;        ///< the instant at the start of the watched wheel
-  bool drawn = false;          ///< of the watched wheel: a first passage of a pitch angle that was asked for, or a position
-  Grid2 depth_grid = {};       ///< x, y of the track, x from the axle [m]
-  std::vector<double> depth = {};  ///< of the wheel's defect at its points [m], NaN = not known; empty: the wheel has none
+  bool nominal = false;   ///< the instant at the start of the watched wheel
+  bool drawn = false;     ///< of the watched wheel: a first passage of a pitch angle that was asked for, or a position
+  Grid2 depth_grid = {};  ///< x, y of the track, x from the axle [m]
+  std::vector<double> depth =
+      {};  ///< of the wheel's defect at its points [m], NaN = not known; empty: the wheel has none
 };
 
-/// A simulation, complete or not. It holds no wall-clock times, so that the results of an interrupted and resumed simulation equal
-/// those of an undisturbed one.
+/// A simulation, complete or not. It holds no wall-clock times, so that the results of an interrupted and resumed
+/// simulation equal those of an undisturbed one.
 struct SimulationResult {
   std::string version, git;
   std::string input_file, input_sha256;
@@ -62,15 +63,15 @@ struct SimulationResult {
   std::vector<ModeRow> modes;
   RunResult snapshots;                 ///< contact fields at chosen instants: a case each, with numbers of their own
   std::vector<double> snapshot_times;  ///< [s], one a case of the snapshots; may be empty
-  std::vector<SnapshotScene> snapshot_scenes;  ///< one a case of the snapshots; may be empty
+  std::vector<SnapshotScene> snapshot_scenes;              ///< one a case of the snapshots; may be empty
   std::vector<std::pair<std::string, std::string>> swept;  ///< (key, value) of the study that the simulation belongs to
   std::vector<std::byte> checkpoint;                       ///< from which it can go on; may be empty
 
   std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
 };
 
-/// Errors: Error(configuration) where names are empty, repeated or no names of a file's objects, where values are no whole rows,
-/// snapshots and their times or scenes differ in number, or numbers of snapshots are repeated.
+/// Errors: Error(configuration) where names are empty, repeated or no names of a file's objects, where values are no
+/// whole rows, snapshots and their times or scenes differ in number, or numbers of snapshots are repeated.
 void check_simulation(const SimulationResult& result);
 
 /// Index of the column of this name. Errors: Error(configuration) that names those there are.

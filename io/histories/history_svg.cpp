@@ -22,7 +22,9 @@ constexpr double kBetween = 18.0;                  // panels in a stack
 constexpr double kSmall = 400.0, kSmallHeight = 260.0, kSmallGapX = 26.0, kSmallGapY = 64.0;
 constexpr double kLegend = 24.0;  // from the panels
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::configuration, "chart of histories: " + message); }
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorKind::configuration, "chart of histories: " + message);
+}
 
 void check(std::span<const HistoryRun> runs, const HistoryChart& chart) {
   if (chart.y.empty()) refuse("no axis y");
@@ -33,7 +35,8 @@ void check(std::span<const HistoryRun> runs, const HistoryChart& chart) {
   std::vector<HistoryAxis> axes = chart.y;
   axes.push_back(chart.x);
   for (const HistoryAxis& axis : axes)
-    if (!std::isfinite(axis.factor) || !(axis.factor > 0.0)) refuse(fmt::format("the factor of {} is {}", axis.column, axis.factor));
+    if (!std::isfinite(axis.factor) || !(axis.factor > 0.0))
+      refuse(fmt::format("the factor of {} is {}", axis.column, axis.factor));
   const Range& range = chart.x_range;
   for (const auto& end : {range.low, range.high})
     if (end && !std::isfinite(*end)) refuse("an end of the range of x is not finite");
@@ -96,7 +99,9 @@ std::string level_remark(const HistoryChart& spec, double bottom) {
   return words.empty() ? "" : svg_text(kLeft, bottom - 14.0, words, "start", " class=\"remark\"");
 }
 
-std::string title(const std::string& words, double middle) { return svg_text(middle, 22.0, words, "middle", " class=\"title\""); }
+std::string title(const std::string& words, double middle) {
+  return svg_text(middle, 22.0, words, "middle", " class=\"title\"");
+}
 
 std::vector<std::string> panel_names(std::span<const HistoryRun> runs) {
   std::vector<std::string> names;
@@ -181,8 +186,9 @@ std::string history_multiples_svg(std::span<const HistoryRun> runs, const Histor
     chart.y_numbers = i % columns == 0;
     if (chart.y_numbers) chart.y_label = label_of(spec.y.front());
     if (i + columns >= count) chart.x_label = label_of(spec.x);
-    out += draw_chart(chart, {kLeft + static_cast<double>(i % columns) * (panel + kSmallGapX),
-                              kTop + static_cast<double>(i / columns) * (panel_height + kSmallGapY), panel, panel_height});
+    out +=
+        draw_chart(chart, {kLeft + static_cast<double>(i % columns) * (panel + kSmallGapX),
+                           kTop + static_cast<double>(i / columns) * (panel_height + kSmallGapY), panel, panel_height});
   }
   return out + "</svg>\n";
 }
@@ -199,7 +205,8 @@ std::string history_chart_csv(std::span<const HistoryRun> runs, const HistoryCha
     for (std::size_t row = 0; row < result.rows(); ++row) {
       const double* values = result.values.data() + row * result.columns.size();
       const double x = values[indices.front()];
-      if ((spec.x_range.low && !(x >= *spec.x_range.low)) || (spec.x_range.high && !(x <= *spec.x_range.high))) continue;
+      if ((spec.x_range.low && !(x >= *spec.x_range.low)) || (spec.x_range.high && !(x <= *spec.x_range.high)))
+        continue;
       out += csv_cell(run.label) + ',' + csv_cell(run.panel);
       for (const std::size_t index : indices) out += ',' + csv_number(values[index]);
       out += '\n';
@@ -212,11 +219,13 @@ void write_history_svg(const std::filesystem::path& path, std::span<const Histor
   write_text_file(path, history_svg(runs, chart));
 }
 
-void write_history_multiples_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart) {
+void write_history_multiples_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs,
+                                 const HistoryChart& chart) {
   write_text_file(path, history_multiples_svg(runs, chart));
 }
 
-void write_history_chart_csv(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart) {
+void write_history_chart_csv(const std::filesystem::path& path, std::span<const HistoryRun> runs,
+                             const HistoryChart& chart) {
   write_text_file(path, history_chart_csv(runs, chart));
 }
 

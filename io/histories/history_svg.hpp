@@ -13,8 +13,8 @@ namespace treadmark::io {
 
 /// A column of histories as an axis of a chart.
 struct HistoryAxis {
-  std::string column, label;  ///< "ws1_right.Q_N", "Q [kN]"; an empty label: the name of the column
-  double factor = 1.0;        ///< what is drawn over what the column holds
+  std::string column, label;        ///< "ws1_right.Q_N", "Q [kN]"; an empty label: the name of the column
+  double factor = 1.0;              ///< what is drawn over what the column holds
   std::vector<double> levels = {};  ///< values of the column, drawn as dotted lines: a static load
   std::string level_label = {};     ///< what they are; may be empty
 };
@@ -33,23 +33,26 @@ struct HistoryChart {
   Range x_range = {};  ///< in units of the column
 };
 
-/// Histories as an SVG picture: a panel for each axis y above each other, a common axis x, a curve for each run, and a legend where
-/// there are several. Curves are thinned to what pixels show: peaks survive. Thread-safe.
-/// Errors: Error(configuration) for columns that a run does not have, no axis y, factors and ranges that are none, results whose
-/// values are no whole rows.
+/// Histories as an SVG picture: a panel for each axis y above each other, a common axis x, a curve for each run, and a
+/// legend where there are several. Curves are thinned to what pixels show: peaks survive. Thread-safe. Errors:
+/// Error(configuration) for columns that a run does not have, no axis y, factors and ranges that are none, results
+/// whose values are no whole rows.
 std::string history_svg(std::span<const HistoryRun> runs, const HistoryChart& chart);
 
-/// One axis y over x as small panels with the same scales, one for each HistoryRun::panel in order of first appearance; the labels
-/// stand beside their curves. Errors: as above; Error(configuration) unless there is one axis y. Thread-safe.
+/// One axis y over x as small panels with the same scales, one for each HistoryRun::panel in order of first appearance;
+/// the labels stand beside their curves. Errors: as above; Error(configuration) unless there is one axis y.
+/// Thread-safe.
 std::string history_multiples_svg(std::span<const HistoryRun> runs, const HistoryChart& chart);
 
-/// The numbers behind both pictures, before they are thinned, as a table with commas: run, panel, then the columns of x and of each y
-/// within the range of x, exact and in SI units. Errors: as above. Thread-safe.
+/// The numbers behind both pictures, before they are thinned, as a table with commas: run, panel, then the columns of x
+/// and of each y within the range of x, exact and in SI units. Errors: as above. Thread-safe.
 std::string history_chart_csv(std::span<const HistoryRun> runs, const HistoryChart& chart);
 
 /// These write files that appear only when complete. Errors: as above, and Error(configuration).
 void write_history_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart);
-void write_history_multiples_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart);
-void write_history_chart_csv(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart);
+void write_history_multiples_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs,
+                                 const HistoryChart& chart);
+void write_history_chart_csv(const std::filesystem::path& path, std::span<const HistoryRun> runs,
+                             const HistoryChart& chart);
 
 }  // namespace treadmark::io

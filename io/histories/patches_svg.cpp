@@ -26,13 +26,14 @@ constexpr double kLeft = 62.0, kTop = 76.0, kBottom = 48.0, kLegend = 190.0;
 constexpr double kGapX = 20.0, kGapY = 72.0;
 constexpr double kTitleWidth = 116.0;  // of the words above a panel, at least
 constexpr double kTitleFont = 13.0, kTitleGap = 10.0;
-constexpr double kShape = 1.7;         // wished width over height of the picture
+constexpr double kShape = 1.7;  // wished width over height of the picture
 constexpr double kMilli = 1e3;
 constexpr int kMostContours = 8;
-constexpr double kTickShare = 0.75;    // steps of an axis this long part the greatest depth into at most kMostContours
+constexpr double kTickShare = 0.75;  // steps of an axis this long part the greatest depth into at most kMostContours
 
 constexpr const char* kStyle =
-    ".round{fill:none;stroke:#9b0000;stroke-width:1.6}.under{fill:none;stroke:#ffffff;stroke-width:3;stroke-opacity:.75}"
+    ".round{fill:none;stroke:#9b0000;stroke-width:1.6}.under{fill:none;stroke:#ffffff;stroke-width:3;stroke-opacity:."
+    "75}"
     ".depth{fill:none;stroke:#8c8c8c;stroke-width:.9}.head{font-size:13px;font-weight:bold}";
 
 struct Sheet {
@@ -49,7 +50,8 @@ struct Sheet {
 };
 
 std::string title_of(const PatchesPanel& panel) {
-  return panel.title.empty() ? fmt::format("pitch {:.2f}°", panel.result->pitch * 180.0 / std::numbers::pi + 0.0) : panel.title;
+  return panel.title.empty() ? fmt::format("pitch {:.2f}°", panel.result->pitch * 180.0 / std::numbers::pi + 0.0)
+                             : panel.title;
 }
 
 Sheet make_sheet(const Window& window, std::span<const PatchesPanel> panels) {
@@ -107,12 +109,13 @@ std::string draw_round_wheel(const std::vector<PatchPicture>& patches, const Pan
   return fmt::format("<path class=\"under\" d=\"{0}\"/>\n<path class=\"round\" d=\"{0}\"/>\n", path);
 }
 
-std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const Sheet& sheet, double step_mm, int index, int count) {
+std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const Sheet& sheet, double step_mm,
+                       int index, int count) {
   const double width = sheet.width(), height = sheet.height();
   const int column = index % sheet.columns, row = index / sheet.columns;
   const auto at = static_cast<std::size_t>(index);
-  std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n", kLeft + column * sheet.step_x(),
-                                kTop + row * sheet.step_y());
+  std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n",
+                                kLeft + column * sheet.step_x(), kTop + row * sheet.step_y());
   out += svg_text(0.5 * width, -20.0, title_of(panel), "middle", " class=\"title\"");
   out += "<g clip-path=\"url(#panel)\">\n";
   for (const PatchPicture& one : view.contact[at]) out += draw_patch(one, view.top_pressure, sheet.panel);
@@ -134,13 +137,14 @@ std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const
 
 std::string draw_legend(const PatchesView& view, const Sheet& sheet, double step_mm, bool round) {
   const double height = std::min(sheet.picture_height() - kTop - kBottom - 84.0, 220.0);
-  std::string out =
-      fmt::format("<g class=\"legend\" transform=\"translate({:.1f} {:.1f})\">\n", sheet.picture_width() - kLegend + 24.0, kTop);
+  std::string out = fmt::format("<g class=\"legend\" transform=\"translate({:.1f} {:.1f})\">\n",
+                                sheet.picture_width() - kLegend + 24.0, kTop);
   out += svg_text(0.0, -7.0, "pressure [MPa]", "start") + draw_pressure_bar(view.top_pressure, height);
   double y = height + 22.0;
   const auto line = [&](const char* name, const std::string& words) {
     if (std::string_view(name) == "adhesion")
-      out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"16\" height=\"8\" fill=\"{}\"/>\n", y - 4.0, step_colour(kPressureSteps / 2));
+      out += fmt::format("<rect x=\"0\" y=\"{:.1f}\" width=\"16\" height=\"8\" fill=\"{}\"/>\n", y - 4.0,
+                         step_colour(kPressureSteps / 2));
     out += fmt::format("<path class=\"{}\" d=\"M0 {:.1f}h16\"/>\n", name, y);
     out += svg_text(22.0, y + 3.5, words, "start");
     y += 16.0;
@@ -165,7 +169,8 @@ std::string patches_svg(std::span<const PatchesPanel> panels, const std::string&
   const Sheet sheet = make_sheet(view.window, panels);
   const double step_mm = contour_step(panels);
   std::string out = svg_head(sheet.picture_width(), sheet.picture_height(), 10, std::string(kPanelStyle) + kStyle);
-  out += fmt::format("<clipPath id=\"panel\"><rect width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n", sheet.width(), sheet.height());
+  out += fmt::format("<clipPath id=\"panel\"><rect width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n", sheet.width(),
+                     sheet.height());
   out += svg_text(0.5 * (kLeft + sheet.picture_width() - kLegend), 26.0, title, "middle", " class=\"head\"");
   bool round = false;
   for (int i = 0; i < count; ++i) {
@@ -182,7 +187,8 @@ std::string patches_csv(std::span<const PatchesPanel> panels) {
   for (std::size_t i = 0; i < panels.size(); ++i) {
     const PatchesPanel& panel = panels[i];
     const auto row = [&](const char* kind, double x, double y, double value) {
-      out += fmt::format("{},{},{},{:.7g},{:.7g},{}\n", i + 1, csv_number(panel.result->pitch), kind, x, y, csv_number(value));
+      out += fmt::format("{},{},{},{:.7g},{:.7g},{}\n", i + 1, csv_number(panel.result->pitch), kind, x, y,
+                         csv_number(value));
     };
     const auto cells = [&](const std::vector<PatchPicture>& patches, const char* kind) {
       for (const PatchPicture& one : patches)
@@ -190,8 +196,8 @@ std::string patches_csv(std::span<const PatchesPanel> panels) {
           for (int ix = 0; ix < one.nx; ++ix) {
             const auto cell = static_cast<std::size_t>(ix + one.nx * iy);
             if (one.contact[cell] != 0)
-              row(kind, (one.y_low + (iy + 0.5) * one.dy) / kMilli + panel.x_origin, (one.x_low + (ix + 0.5) * one.dx) / kMilli,
-                  one.pressure[cell]);
+              row(kind, (one.y_low + (iy + 0.5) * one.dy) / kMilli + panel.x_origin,
+                  (one.x_low + (ix + 0.5) * one.dx) / kMilli, one.pressure[cell]);
           }
     };
     cells(view.contact[i], "pressure_Pa");
@@ -206,7 +212,8 @@ std::string patches_csv(std::span<const PatchesPanel> panels) {
   return out;
 }
 
-void write_patches_svg(const std::filesystem::path& path, std::span<const PatchesPanel> panels, const std::string& title) {
+void write_patches_svg(const std::filesystem::path& path, std::span<const PatchesPanel> panels,
+                       const std::string& title) {
   write_text_file(path, patches_svg(panels, title));
 }
 

@@ -23,18 +23,20 @@ struct PatchesPanel {
   std::string remark = {};                  ///< below the title; empty: normal force and largest pressure
 };
 
-/// Contact patches at several instants as an SVG picture seen from above: x of the track upwards, the rolling direction, y to the
-/// right; one scale of pressure, windows of one place and size. Shown are pressures, edges of contact and adhesion, the outline of the
-/// round wheel's contact (dark red) and lines of equal depth of the defect (grey). Thread-safe.
-/// Errors: Error(configuration) for fields and depths that do not match their grids.
+/// Contact patches at several instants as an SVG picture seen from above: x of the track upwards, the rolling
+/// direction, y to the right; one scale of pressure, windows of one place and size. Shown are pressures, edges of
+/// contact and adhesion, the outline of the round wheel's contact (dark red) and lines of equal depth of the defect
+/// (grey). Thread-safe. Errors: Error(configuration) for fields and depths that do not match their grids.
 std::string patches_svg(std::span<const PatchesPanel> panels, const std::string& title);
 
 /// The plotted numbers as a table with commas: panel (from 1), pitch_rad, kind, x_m, y_m, value. Kinds: pressure_Pa and
-/// round_wheel_pressure_Pa of the drawn cells in contact, defect_depth_m of points in the windows. Errors: as above. Thread-safe.
+/// round_wheel_pressure_Pa of the drawn cells in contact, defect_depth_m of points in the windows. Errors: as above.
+/// Thread-safe.
 std::string patches_csv(std::span<const PatchesPanel> panels);
 
 /// These write files that appear only when complete. Errors: as above, and Error(configuration).
-void write_patches_svg(const std::filesystem::path& path, std::span<const PatchesPanel> panels, const std::string& title);
+void write_patches_svg(const std::filesystem::path& path, std::span<const PatchesPanel> panels,
+                       const std::string& title);
 void write_patches_csv(const std::filesystem::path& path, std::span<const PatchesPanel> panels);
 
 }  // namespace treadmark::io

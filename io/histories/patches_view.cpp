@@ -58,8 +58,8 @@ PatchesView make_patches_view(std::span<const PatchesPanel> panels) {
     const auto number = &panel - panels.data() + 1;
     if (panel.result == nullptr) throw Error(ErrorKind::configuration, fmt::format("panel {} has no result", number));
     if (!panel.depth.empty() && panel.depth.size() != panel.depth_grid.size())
-      throw Error(ErrorKind::configuration, fmt::format("panel {}: {} depths on a grid of {} points", number, panel.depth.size(),
-                                                        panel.depth_grid.size()));
+      throw Error(ErrorKind::configuration, fmt::format("panel {}: {} depths on a grid of {} points", number,
+                                                        panel.depth.size(), panel.depth_grid.size()));
     view.contact.push_back(pictures(panel.result, panel.x_origin * kMilli));
     view.round_wheel.push_back(pictures(panel.round_wheel, panel.x_origin * kMilli));
     for (const PatchPicture& one : view.contact.back())

@@ -10,8 +10,8 @@
 
 namespace treadmark::io {
 
-/// What the panels of patches_svg show, in the picture's plane: x to the right is y of the track, y upwards is x of the track from the
-/// panel's origin [mm].
+/// What the panels of patches_svg show, in the picture's plane: x to the right is y of the track, y upwards is x of the
+/// track from the panel's origin [mm].
 struct PatchesView {
   std::vector<std::vector<PatchPicture>> contact, round_wheel;  ///< of each panel
   Window window{-10.0, 10.0, -10.0, 10.0};                      ///< of all panels

@@ -22,7 +22,8 @@ class Store {
   const Hdf5GroupReader& root() const { return file_.root(); }
 
   [[noreturn]] void refuse(const std::string& what) const {
-    throw Error(ErrorKind::input_data, "the store of a simulation " + what, {name_, 0, 0}, "give a file that a simulation wrote");
+    throw Error(ErrorKind::input_data, "the store of a simulation " + what, {name_, 0, 0},
+                "give a file that a simulation wrote");
   }
   void require(bool condition, const std::string& where) const {
     if (!condition) refuse("has lists of different lengths in " + where);
@@ -44,7 +45,8 @@ std::vector<std::pair<std::string, std::string>> pairs(const Store& store, const
 std::vector<HistoryColumn> read_columns(const Store& store) {
   const Hdf5GroupReader group = store.root().open_group("history");
   std::vector<HistoryColumn> out;
-  for (const std::string& name : group.texts(kNames)) out.push_back({name, group.text_of(name, "unit"), group.text_of(name, "meaning")});
+  for (const std::string& name : group.texts(kNames))
+    out.push_back({name, group.text_of(name, "unit"), group.text_of(name, "meaning")});
   return out;
 }
 
@@ -76,7 +78,8 @@ std::vector<HistoryEvent> read_events(const Store& store) {
   const Hdf5GroupReader group = store.root().open_group("events");
   const auto times = group.numbers("time"), positions = group.numbers("position");
   const auto wheels = group.strings("wheel"), kinds = group.strings("kind");
-  store.require(positions.size() == times.size() && wheels.size() == times.size() && kinds.size() == times.size(), "events");
+  store.require(positions.size() == times.size() && wheels.size() == times.size() && kinds.size() == times.size(),
+                "events");
   std::vector<HistoryEvent> out;
   for (std::size_t i = 0; i < times.size(); ++i) out.push_back({times[i], positions[i], wheels[i], kinds[i]});
   return out;
@@ -146,7 +149,8 @@ SnapshotSeries read_snapshots(const std::filesystem::path& path) {
   for (const CaseResult& one : run.cases) {
     const Hdf5GroupReader group = fields.open_group(fmt::format("case_{:04}", one.number));
     if (group.has_attribute(kTime)) series.times.push_back(group.number(kTime));
-    if (group.has_attribute(kNominal)) series.scenes.push_back({group.integer(kNominal) != 0, group.integer(kDrawn) != 0});
+    if (group.has_attribute(kNominal))
+      series.scenes.push_back({group.integer(kNominal) != 0, group.integer(kDrawn) != 0});
   }
   store.require(series.times.empty() || series.times.size() == run.cases.size(), kFields);
   store.require(series.scenes.empty() || series.scenes.size() == run.cases.size(), kFields);
@@ -156,8 +160,12 @@ SnapshotSeries read_snapshots(const std::filesystem::path& path) {
 SimulationCheckpoint read_checkpoint(const std::filesystem::path& path) {
   const Store store(path);
   const Hdf5GroupReader& root = store.root();
-  return {root.text("version"),   root.text("git"), root.text("sha256"),
-          root.texts("settings"), pairs(store, "geometry_files", "geometry_sha256"), read_bytes(store)};
+  return {root.text("version"),
+          root.text("git"),
+          root.text("sha256"),
+          root.texts("settings"),
+          pairs(store, "geometry_files", "geometry_sha256"),
+          read_bytes(store)};
 }
 
 }  // namespace treadmark::io

@@ -13,8 +13,9 @@ StudyResult read_study_head(const std::filesystem::path& path) {
   const Hdf5Reader file(path);
   const Hdf5GroupReader& root = file.root();
   if (const std::string format = root.text("format"); format != kStudyFormat)
-    throw Error(ErrorKind::input_data, fmt::format("the store of a study holds \"{}\" where \"{}\" is read", format, kStudyFormat), {path.string(), 0, 0},
-                "give a file that treadmark sweep wrote");
+    throw Error(ErrorKind::input_data,
+                fmt::format("the store of a study holds \"{}\" where \"{}\" is read", format, kStudyFormat),
+                {path.string(), 0, 0}, "give a file that treadmark sweep wrote");
   StudyResult study;
   study.version = root.text("version");
   study.git = root.text("git");

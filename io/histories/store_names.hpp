@@ -10,7 +10,7 @@ inline constexpr const char* kStudyFormat = "treadmark study 1";
 inline constexpr const char* kNames = "names";  // attribute of a group: its datasets in their order
 inline constexpr const char* kCheckpoint = "checkpoint";
 inline constexpr const char* kFields = "fields";
-inline constexpr const char* kTime = "time";        // attributes of a snapshot
+inline constexpr const char* kTime = "time";  // attributes of a snapshot
 inline constexpr const char* kNominal = "nominal";
 inline constexpr const char* kDrawn = "drawn";
 

@@ -14,7 +14,8 @@ namespace treadmark::io {
 namespace {
 
 void require_new(std::set<std::string>& seen, const std::string& name, int number) {
-  if (!seen.insert(name).second) throw Error(ErrorKind::configuration, fmt::format("run {} of a study has {} twice", number, name));
+  if (!seen.insert(name).second)
+    throw Error(ErrorKind::configuration, fmt::format("run {} of a study has {} twice", number, name));
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ StudyTable study_table(const StudyResult& study) {
   int before = 0;
   for (const SimulationRun* run : table.runs) {
     if (run->number <= before)
-      throw Error(ErrorKind::configuration, fmt::format("run {} of a study is there twice or counts from less than 1", run->number));
+      throw Error(ErrorKind::configuration,
+                  fmt::format("run {} of a study is there twice or counts from less than 1", run->number));
     before = run->number;
     std::set<std::string> keys, names;
     for (const auto& [key, value] : run->swept) {

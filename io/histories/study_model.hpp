@@ -13,7 +13,7 @@ namespace treadmark::io {
 
 /// One simulation of a study.
 struct SimulationRun {
-  int number = 0;  ///< from 1
+  int number = 0;                                          ///< from 1
   std::vector<std::pair<std::string, std::string>> swept;  ///< (key, value)
   std::string label, status, message;
   std::vector<NamedValue> summary;
@@ -35,7 +35,8 @@ struct StudyTable {
   std::vector<NamedValue> quantities;  ///< name, unit and description; the value means nothing
 };
 
-/// Errors: Error(configuration) for numbers that are not positive or repeated, and keys or names repeated in a run. Thread-safe.
+/// Errors: Error(configuration) for numbers that are not positive or repeated, and keys or names repeated in a run.
+/// Thread-safe.
 StudyTable study_table(const StudyResult& study);
 
 /// Value of a swept key; nullptr where the run has none.

@@ -21,9 +21,11 @@ void write_runs(const Hdf5GroupWriter& group, const StudyTable& table, Hdf5Datas
 }
 
 void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table) {
-  const Hdf5GroupWriter sweep = root.make_group("sweep"), swept = sweep.make_group("swept"), summary = sweep.make_group("summary");
+  const Hdf5GroupWriter sweep = root.make_group("sweep"), swept = sweep.make_group("swept"),
+                        summary = sweep.make_group("summary");
   using Text = std::string;
-  write_runs<double>(sweep, table, {"number", {}, "1", "of the run, in the name of its group"}, [](auto& run) { return run.number; });
+  write_runs<double>(sweep, table, {"number", {}, "1", "of the run, in the name of its group"},
+                     [](auto& run) { return run.number; });
   write_runs<Text>(sweep, table, {"label", {}, "1", "of the run"}, [](auto& run) { return run.label; });
   write_runs<Text>(sweep, table, {"status", {}, "1", "of the run"}, [](auto& run) { return run.status; });
   write_runs<Text>(sweep, table, {"message", {}, "1", "of the run"}, [](auto& run) { return run.message; });
@@ -47,10 +49,14 @@ void write_study_store(const std::filesystem::path& path, const StudyResult& stu
   const StudyTable table = study_table(study);
   AtomicFile target(path);
   Hdf5Writer file(target.temporary(), path.string());
-  const std::vector<Attribute> identity{{"format", std::string(kStudyFormat)}, {"units", "SI"},
-                                        {"version", study.version},            {"git", study.git},
-                                        {"input", study.input_file},           {"sha256", study.input_sha256},
-                                        {"title", study.title},                {"settings", study.settings}};
+  const std::vector<Attribute> identity{{"format", std::string(kStudyFormat)},
+                                        {"units", "SI"},
+                                        {"version", study.version},
+                                        {"git", study.git},
+                                        {"input", study.input_file},
+                                        {"sha256", study.input_sha256},
+                                        {"title", study.title},
+                                        {"settings", study.settings}};
   file.root().add(identity);
   write_sweep(file.root(), table);
   for (const SimulationRun* run : table.runs)

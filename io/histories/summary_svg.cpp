@@ -18,12 +18,15 @@ namespace treadmark::io {
 namespace {
 
 // Sizes in pixels.
-constexpr double kLeft = 78.0, kTop = 46.0, kBottom = 56.0, kWidth = 560.0, kHeight = 380.0, kLegend = 24.0, kRight = 24.0;
+constexpr double kLeft = 78.0, kTop = 46.0, kBottom = 56.0, kWidth = 560.0, kHeight = 380.0, kLegend = 24.0,
+                 kRight = 24.0;
 constexpr double kRemarkLine = 15.0;
 constexpr double kMargin = 0.04;  // of x, beyond the values
-constexpr int kBlack = 4;  // style of levels and references
+constexpr int kBlack = 4;         // style of levels and references
 
-[[noreturn]] void refuse(const std::string& message) { throw Error(ErrorKind::configuration, "chart of a study: " + message); }
+[[noreturn]] void refuse(const std::string& message) {
+  throw Error(ErrorKind::configuration, "chart of a study: " + message);
+}
 
 double number(const std::string& text, const std::string& key, int run) {
   double value = 0.0;
@@ -61,9 +64,11 @@ std::string line_name(const SimulationRun& run, const StudyTable& table, const s
 SummaryLines make_lines(const StudyResult& study, const SummaryChart& spec) {
   const StudyTable table = study_table(study);
   if (!(spec.x_factor > 0.0) || !(spec.y_factor > 0.0)) refuse("a factor is not positive");
-  if (std::find(table.keys.begin(), table.keys.end(), spec.key) == table.keys.end()) refuse("no run has the swept key " + spec.key);
+  if (std::find(table.keys.begin(), table.keys.end(), spec.key) == table.keys.end())
+    refuse("no run has the swept key " + spec.key);
   const auto same = [&](const NamedValue& one) { return one.name == spec.quantity; };
-  if (std::none_of(table.quantities.begin(), table.quantities.end(), same)) refuse("no run has the quantity " + spec.quantity);
+  if (std::none_of(table.quantities.begin(), table.quantities.end(), same))
+    refuse("no run has the quantity " + spec.quantity);
   SummaryLines out;
   for (const SimulationRun* run : table.runs) {
     const std::string* at = swept_value(*run, spec.key);
@@ -73,7 +78,8 @@ SummaryLines make_lines(const StudyResult& study, const SummaryChart& spec) {
       continue;
     }
     const std::string name = line_name(*run, table, spec.key);
-    auto line = std::find_if(out.lines.begin(), out.lines.end(), [&](const SummaryLine& one) { return one.name == name; });
+    auto line =
+        std::find_if(out.lines.begin(), out.lines.end(), [&](const SummaryLine& one) { return one.name == name; });
     if (line == out.lines.end()) line = out.lines.insert(out.lines.end(), {name, {}});
     line->points.push_back({run->number, x, y});
   }
@@ -142,7 +148,8 @@ std::string summary_svg(const StudyResult& study, const SummaryChart& spec) {
   std::vector<ChartSeries> legend = chart.series;
   if (legend.size() == 1) legend.clear();
   const double below = kRemarkLine * static_cast<double>(all.missing.size());
-  const double height = std::max(kTop + kHeight + kBottom + below, kTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
+  const double height =
+      std::max(kTop + kHeight + kBottom + below, kTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
   const double beside = legend.empty() ? 0.0 : kLegend + legend_width(legend);
   std::string out = svg_head(kLeft + kWidth + (legend.empty() ? kRight : beside), height, kChartFont, kChartStyle);
   out += draw_chart(chart, {kLeft, kTop, kWidth, kHeight});

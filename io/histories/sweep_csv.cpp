@@ -26,7 +26,8 @@ void write_sweep_csv(const std::filesystem::path& path, const StudyResult& study
       const auto found = std::find_if(run->summary.begin(), run->summary.end(), same);
       out += (found != run->summary.end() ? csv_number(found->value) : "") + ',';
     }
-    out += fmt::format("{},{},{},{}\n", run->number, csv_cell(run->label), csv_cell(run->status), csv_cell(run->message));
+    out +=
+        fmt::format("{},{},{},{}\n", run->number, csv_cell(run->label), csv_cell(run->status), csv_cell(run->message));
   }
   write_text_file(path, out);
 }

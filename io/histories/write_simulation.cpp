@@ -11,8 +11,8 @@
 namespace treadmark::io {
 namespace {
 
-void add_pairs(std::vector<Attribute>& list, const std::vector<std::pair<std::string, std::string>>& pairs, const char* firsts,
-               const char* seconds) {
+void add_pairs(std::vector<Attribute>& list, const std::vector<std::pair<std::string, std::string>>& pairs,
+               const char* firsts, const char* seconds) {
   std::vector<std::string> first, second;
   for (const auto& [one, other] : pairs) {
     first.push_back(one);

@@ -22,31 +22,35 @@ struct MapName {
   const char* group;
   const char* unit;
   const char* meaning;
-  BandMap ImportReport::* from;
-  BandMap ImportMaps::* to;
+  BandMap ImportReport::*from;
+  BandMap ImportMaps::*to;
 };
 
 constexpr MapName kMaps[] = {
     {"density", "1/m^2", "points before cleaning", &ImportReport::density, &ImportMaps::density},
     {"removed", "1/m^2", "points that were removed", &ImportReport::removed_map, &ImportMaps::removed},
-    {"fitted", "m", "distance of the fitted surface from its section, positive out of the material", &ImportReport::fitted, &ImportMaps::fitted},
+    {"fitted", "m", "distance of the fitted surface from its section, positive out of the material",
+     &ImportReport::fitted, &ImportMaps::fitted},
     {"residual", "m", "mean of measured less fitted", &ImportReport::residual, &ImportMaps::residual},
     {"noise", "m", "standard deviation of the points", &ImportReport::noise_map, &ImportMaps::noise},
 };
 
 std::vector<double> edges(double from, double to, std::size_t cells) {
   std::vector<double> out;
-  for (std::size_t i = 0; i < cells; ++i) out.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(cells));
+  for (std::size_t i = 0; i < cells; ++i)
+    out.push_back(from + (to - from) * static_cast<double>(i) / static_cast<double>(cells));
   out.push_back(to);
   return out;
 }
 
 [[noreturn]] void refuse(const std::filesystem::path& file, const std::string& what) {
-  throw Error(ErrorKind::input_data, "the file of maps " + what, {file.string(), 0, 0}, "give a file that this program wrote");
+  throw Error(ErrorKind::input_data, "the file of maps " + what, {file.string(), 0, 0},
+              "give a file that this program wrote");
 }
 
 /// Ends and number of cells of equal size.
-void read_edges(const std::filesystem::path& file, const Hdf5GroupReader& group, const char* name, double& from, double& to, std::size_t& cells) {
+void read_edges(const std::filesystem::path& file, const Hdf5GroupReader& group, const char* name, double& from,
+                double& to, std::size_t& cells) {
   const std::vector<double> values = group.numbers(name);
   if (values.size() < 2) refuse(file, fmt::format("has no cells in {}", name));
   cells = values.size() - 1;
@@ -55,7 +59,8 @@ void read_edges(const std::filesystem::path& file, const Hdf5GroupReader& group,
   const std::vector<double> wanted = edges(from, to, cells);
   const double step = (to - from) / static_cast<double>(cells);
   for (std::size_t i = 0; i < values.size(); ++i)
-    if (!(step > 0.0 && std::fabs(values[i] - wanted[i]) <= 1e-6 * step)) refuse(file, fmt::format("has cells of unequal size in {}", name));
+    if (!(step > 0.0 && std::fabs(values[i] - wanted[i]) <= 1e-6 * step))
+      refuse(file, fmt::format("has cells of unequal size in {}", name));
 }
 
 BandMap read_map(const std::filesystem::path& file, const Hdf5GroupReader& group, const char* name) {
@@ -77,13 +82,15 @@ void write_import_maps(const std::filesystem::path& path, const ImportReport& re
   Hdf5Writer file(target.temporary(), path.string());
   file.root().add(Attribute{"format", std::string(kFormat)});
   file.root().add(Attribute{"body", std::string(body_name(report.body))});
-  file.root().write({"nominal_radius", {}, "m", "of a wheel, else 0"}, std::span<const double>(&report.nominal_radius, 1));
+  file.root().write({"nominal_radius", {}, "m", "of a wheel, else 0"},
+                    std::span<const double>(&report.nominal_radius, 1));
   for (const MapName& name : kMaps) {
     const BandMap& map = report.*name.from;
     if (map.value.empty()) continue;
     const Hdf5GroupWriter group = file.root().make_group(name.group);
     const std::vector<double> a = edges(map.a_min, map.a_max, map.rows), s = edges(map.s_min, map.s_max, map.columns);
-    group.write({"a_edges", {a.size()}, "m", "of the rows: along the track, or the circumference at the nominal radius"}, a);
+    group.write(
+        {"a_edges", {a.size()}, "m", "of the rows: along the track, or the circumference at the nominal radius"}, a);
     group.write({"s_edges", {s.size()}, "m", "of the columns: along the section"}, s);
     const std::vector<double> values(map.value.begin(), map.value.end());
     group.write({"value", {map.rows, map.columns}, name.unit, name.meaning, true}, values);

@@ -17,10 +17,11 @@ namespace treadmark::io {
 
 /// Values over the unrolled running band, row after row of equal a; NaN = nothing there.
 struct BandMap {
-  std::size_t rows = 0, columns = 0;   ///< along a (track or circumference), across s (along the section)
-  double a_min = 0.0, a_max = 0.0;     ///< [m] u times the nominal radius of a wheel, x of a rail; ends of the first and last row
-  double s_min = 0.0, s_max = 0.0;     ///< [m]
-  std::vector<float> value;            ///< SI; index = row * columns + column
+  std::size_t rows = 0, columns = 0;  ///< along a (track or circumference), across s (along the section)
+  double a_min = 0.0,
+         a_max = 0.0;  ///< [m] u times the nominal radius of a wheel, x of a rail; ends of the first and last row
+  double s_min = 0.0, s_max = 0.0;  ///< [m]
+  std::vector<float> value;         ///< SI; index = row * columns + column
 };
 
 /// A curve or a heap of points in a section's plane: (y, z) in profile coordinates [m].
@@ -29,13 +30,14 @@ using SectionPoints = std::vector<Vec2>;
 /// What was done to a scan, from the file to the surface, for reports. SI.
 struct ImportReport {
   struct Input {
-    std::string file, sha256, format;   ///< file name without folders
+    std::string file, sha256, format;  ///< file name without folders
     std::size_t points = 0, not_finite = 0;
   };
   struct Removed {
-    std::string reason;                 ///< in words: "stray clusters"
+    std::string reason;  ///< in words: "stray clusters"
     std::size_t count = 0;
-    std::string why;                    ///< the rule and its numbers: "farther than 4.5 standard deviations (0.14 mm) from a quadratic through ..."
+    std::string why;  ///< the rule and its numbers: "farther than 4.5 standard deviations (0.14 mm) from a quadratic
+                      ///< through ..."
   };
   struct Pass {
     int pass = 0;
@@ -45,7 +47,8 @@ struct ImportReport {
   struct Hole {
     double u = 0.0, y = 0.0, diameter = 0.0, area = 0.0;
     bool filled = false;
-    double s = std::numeric_limits<double>::quiet_NaN();  ///< along the section as in the maps [m]; NaN: only y is known
+    double s =
+        std::numeric_limits<double>::quiet_NaN();  ///< along the section as in the maps [m]; NaN: only y is known
   };
   struct Damage {
     double u = 0.0, y = 0.0, length = 0.0, width = 0.0, depth = 0.0, volume = 0.0;
@@ -57,9 +60,9 @@ struct ImportReport {
     int iterations = 0;
   };
   struct Output {
-    std::string file, kind, sha256;      ///< file name without folders; "slices", "triangles", "offsets"
+    std::string file, kind, sha256;  ///< file name without folders; "slices", "triangles", "offsets"
     std::size_t bytes = 0;
-    std::string details;                 ///< "412 slices of 301 points"
+    std::string details;                        ///< "412 slices of 301 points"
     double height_max = 0.0, height_rms = 0.0;  ///< distance of the written surface, read back, from the fitted one [m]
   };
   struct Step {
@@ -69,71 +72,74 @@ struct ImportReport {
 
   std::string version;
   Body body = Body::rail;
-  bool from_map = false;                 ///< a gridded map of deviations: no placement, no points
+  bool from_map = false;  ///< a gridded map of deviations: no placement, no points
   std::vector<Input> inputs;
-  std::string unit, unit_from;           ///< "mm"; "given", "the file", "the size of the wheel"
+  std::string unit, unit_from;  ///< "mm"; "given", "the file", "the size of the wheel"
   std::size_t points_read = 0, points_used = 0;
-  std::vector<Removed> removed;          ///< in the order of the steps
+  std::vector<Removed> removed;  ///< in the order of the steps
   std::vector<std::string> warnings;
 
   // placement
-  std::string nominal;                   ///< name of the nominal profile or "none"
-  Pose X_CS;                             ///< surface frame in the cloud's [m]
+  std::string nominal;  ///< name of the nominal profile or "none"
+  Pose X_CS;            ///< surface frame in the cloud's [m]
   double nominal_radius = 0.0;
   double axis_position_error = 0.0, axis_direction_error = 0.0;  ///< standard errors [m], [rad]
-  double scatter = 0.0, undamaged = 0.0; ///< of the points about the section [m]; part of them that fixed the axis
-  double match_residual = 0.0, match_agreeing = 0.0;             ///< of the section with the nominal profile [m]; part of it
-  bool turned = false;                   ///< the section ran the other way than the nominal one
-  std::string zero;                      ///< what is at u = 0, in words
+  double scatter = 0.0, undamaged = 0.0;  ///< of the points about the section [m]; part of them that fixed the axis
+  double match_residual = 0.0, match_agreeing = 0.0;  ///< of the section with the nominal profile [m]; part of it
+  bool turned = false;                                ///< the section ran the other way than the nominal one
+  std::string zero;                                   ///< what is at u = 0, in words
   std::vector<Pass> passes;
-  double pass_before = 0.0, pass_after = 0.0;   ///< rms distance of passes where they overlap [m]
+  double pass_before = 0.0, pass_after = 0.0;  ///< rms distance of passes where they overlap [m]
 
   // points
-  double spacing = 0.0, gap_a = 0.0, gap_s = 0.0;   ///< mean distance of points; usual distances along and across [m]
-  double noise = 0.0;                    ///< standard deviation of the points [m]
+  double spacing = 0.0, gap_a = 0.0, gap_s = 0.0;  ///< mean distance of points; usual distances along and across [m]
+  double noise = 0.0;                              ///< standard deviation of the points [m]
   double area = 0.0, hole_area = 0.0, hole_limit = 0.0;
-  std::vector<Hole> holes;               ///< largest first
+  std::vector<Hole> holes;  ///< largest first
   // points in cross-sections that became slices as they are; the fit below then serves pictures, damage and zero alone
   struct Sections {
     std::size_t count = 0, fewest_points = 0, most_points = 0;
-    double least_gap = 0.0, widest_gap = 0.0, spread = 0.0;   ///< between them; of their points along the band [m]
-    double smoothing = 0.0;              ///< lambda, of triangles and offsets made of them [m^3]
+    double least_gap = 0.0, widest_gap = 0.0, spread = 0.0;  ///< between them; of their points along the band [m]
+    double smoothing = 0.0;                                  ///< lambda, of triangles and offsets made of them [m^3]
   };
   std::optional<Sections> sections;
   // fit
   std::vector<Level> levels;
   std::size_t fitted_points = 0, held_out_points = 0;
   double residual_rms = 0.0, residual_max = 0.0, held_out_rms = 0.0, held_out_error = 0.0;
-  std::vector<Damage> damage;            ///< largest first
+  std::vector<Damage> damage;  ///< largest first
   double damage_threshold = 0.0;
   double y_min = 0.0, y_max = 0.0, u_min = 0.0, u_max = 0.0;
-  bool closed = false;                   ///< a whole wheel
+  bool closed = false;  ///< a whole wheel
   std::vector<Output> outputs;
-  std::vector<Step> steps;               ///< not part of what is the same each time
-  std::string settings_toml;             ///< all settings as they were used
+  std::vector<Step> steps;    ///< not part of what is the same each time
+  std::string settings_toml;  ///< all settings as they were used
 
   // pictures
-  SectionPoints raw_section;             ///< some thousand of all points read, seen along the axis: (y, z), wheel: z = r - R
-  SectionPoints removed_section;         ///< some thousand of those removed
-  SectionPoints section, nominal_section;  ///< curves; the section from s_min to s_max of the maps, both in the direction of s
-  BandMap density;                       ///< points per m^2 before cleaning, those on the band
-  BandMap removed_map;                   ///< removed points per m^2, those on the band
-  BandMap fitted;                        ///< distance of the fitted surface from the section [m], > 0 out of the material; NaN in open holes
-  BandMap residual;                      ///< mean of measured less fitted [m]
-  BandMap noise_map;                     ///< standard deviation [m]
-  std::vector<std::size_t> residual_histogram;   ///< counts in equal bins from -residual_range to +residual_range
-  double residual_range = 0.0;           ///< [m]
+  SectionPoints raw_section;      ///< some thousand of all points read, seen along the axis: (y, z), wheel: z = r - R
+  SectionPoints removed_section;  ///< some thousand of those removed
+  SectionPoints section,
+      nominal_section;  ///< curves; the section from s_min to s_max of the maps, both in the direction of s
+  BandMap density;      ///< points per m^2 before cleaning, those on the band
+  BandMap removed_map;  ///< removed points per m^2, those on the band
+  BandMap fitted;  ///< distance of the fitted surface from the section [m], > 0 out of the material; NaN in open holes
+  BandMap residual;                             ///< mean of measured less fitted [m]
+  BandMap noise_map;                            ///< standard deviation [m]
+  std::vector<std::size_t> residual_histogram;  ///< counts in equal bins from -residual_range to +residual_range
+  double residual_range = 0.0;                  ///< [m]
 };
 
-/// The whole audit but steps (whose times differ) as JSON text; all lengths in mm or um as the names say; docs/import.schema.json.
+/// The whole audit but steps (whose times differ) as JSON text; all lengths in mm or um as the names say;
+/// docs/import.schema.json.
 std::string import_json(const ImportReport& report, bool with_seconds);
 /// {"steps": [{"step", "seconds"}]}.
 std::string import_times_json(const ImportReport& report);
 /// A page of text for people: what was read, removed, placed, fitted, written; warnings first.
 std::string import_summary(const ImportReport& report);
 
-/// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 and the pictures before.svg, removed.svg, fitted.svg, residual.svg
-/// into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors: Error(configuration) if a file cannot be written.
+/// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 and the pictures before.svg, removed.svg,
+/// fitted.svg, residual.svg into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors:
+/// Error(configuration) if a file cannot be written.
 void write_import_report(const std::string& folder, const ImportReport& report);
 
 }  // namespace treadmark::io

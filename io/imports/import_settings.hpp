@@ -44,12 +44,13 @@ struct ImportSettings {
     double held_out = 0.02;      ///< part of the points that judge the fit
     double tolerance_um =
         0.0;  ///< changes along the band below this need no slice of their own; 0 = by the noise, at most 0.5
-    std::string sections = "auto";  ///< points in cross-sections: keep (they become the slices), fit; auto: keep those that were resampled
+    std::string sections =
+        "auto";  ///< points in cross-sections: keep (they become the slices), fit; auto: keep those that were resampled
     std::string sections_along = "approximate";  ///< kept sections: approximate or interpolate
-    double smoothing_lambda_mm3 = 5.0;  ///< of kept sections before triangles or offsets are made of them
-    std::string base = "fitted";  ///< of offsets: fitted or nominal section
-    std::string mesh = "band";    ///< band: Delaunay over the band; free: advancing front through the points
-    double decimate_um = 0.0;     ///< leave out nodes of triangles that are not needed to this tolerance; 0 = keep all
+    double smoothing_lambda_mm3 = 5.0;           ///< of kept sections before triangles or offsets are made of them
+    std::string base = "fitted";                 ///< of offsets: fitted or nominal section
+    std::string mesh = "band";  ///< band: Delaunay over the band; free: advancing front through the points
+    double decimate_um = 0.0;   ///< leave out nodes of triangles that are not needed to this tolerance; 0 = keep all
   } fit;
   struct {
     double threshold_mm = 0.0;  ///< depth from which damage is listed; 0 = from the noise

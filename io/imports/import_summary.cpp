@@ -145,12 +145,14 @@ void add_fit(Page& page, const ImportReport& report) {
   }
   if (report.sections) {
     const ImportReport::Sections& s = *report.sections;
-    page.row("sections kept", fmt::format("{} of {} points, {} to {} apart; slices are these points, not the fit", s.count,
-                                          s.fewest_points == s.most_points ? grouped(s.most_points)
-                                                                           : fmt::format("{} to {}", s.fewest_points, s.most_points),
-                                          length_text(s.least_gap), length_text(s.widest_gap)));
-    page.row("", fmt::format("smooth slices where they are used; triangles and offsets are smoothed with lambda = {:g} mm3",
-                             1e9 * s.smoothing));
+    page.row("sections kept",
+             fmt::format("{} of {} points, {} to {} apart; slices are these points, not the fit", s.count,
+                         s.fewest_points == s.most_points ? grouped(s.most_points)
+                                                          : fmt::format("{} to {}", s.fewest_points, s.most_points),
+                         length_text(s.least_gap), length_text(s.widest_gap)));
+    page.row("",
+             fmt::format("smooth slices where they are used; triangles and offsets are smoothed with lambda = {:g} mm3",
+                         1e9 * s.smoothing));
     page.row("fit for damage and zero", "");
   }
   if (!report.levels.empty()) {

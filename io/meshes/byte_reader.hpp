@@ -20,7 +20,10 @@ namespace treadmark::io::meshes {
 class ByteReader {
  public:
   ByteReader(std::string_view bytes, std::string file, bool big_endian, std::size_t offset = 0)
-      : bytes_(bytes), file_(std::move(file)), swap_(big_endian != (std::endian::native == std::endian::big)), offset_(offset) {}
+      : bytes_(bytes),
+        file_(std::move(file)),
+        swap_(big_endian != (std::endian::native == std::endian::big)),
+        offset_(offset) {}
 
   std::size_t offset() const { return offset_; }
   std::size_t left() const { return bytes_.size() - offset_; }

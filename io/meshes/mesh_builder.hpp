@@ -15,7 +15,8 @@
 
 namespace treadmark::io::meshes {
 
-/// Collects vertices and polygons; says what is wrong with them through `fail`, which knows the place in the file and throws.
+/// Collects vertices and polygons; says what is wrong with them through `fail`, which knows the place in the file and
+/// throws.
 class MeshBuilder {
  public:
   using Fail = std::function<void(const std::string& message, const std::string& advice)>;
@@ -29,7 +30,8 @@ class MeshBuilder {
 
   void add_vertex(double x, double y, double z, const Fail& fail) {
     const Vec3 v = scale_ * Vec3(x, y, z);
-    if (!v.allFinite()) fail(fmt::format("a coordinate of vertex {} is not finite", mesh_.vertices.size()), "remove or repair it");
+    if (!v.allFinite())
+      fail(fmt::format("a coordinate of vertex {} is not finite", mesh_.vertices.size()), "remove or repair it");
     mesh_.vertices.push_back(v);
   }
 
@@ -37,7 +39,8 @@ class MeshBuilder {
   void add_polygon(const std::vector<std::uint32_t>& corners, const Fail& fail) {
     if (corners.size() < 3)
       fail(fmt::format("a face of {} corners", corners.size()), "faces need at least three corners");
-    for (std::size_t k = 2; k < corners.size(); ++k) mesh_.triangles.push_back({corners[0], corners[k - 1], corners[k]});
+    for (std::size_t k = 2; k < corners.size(); ++k)
+      mesh_.triangles.push_back({corners[0], corners[k - 1], corners[k]});
   }
 
   std::size_t vertex_count() const { return mesh_.vertices.size(); }

@@ -9,8 +9,8 @@
 
 namespace treadmark::io::meshes {
 
-/// What parsers return: coordinates times scale are metres. All errors are Error(input_data) that name `file` and the line or
-/// the byte; nothing is allocated for elements that the text cannot hold.
+/// What parsers return: coordinates times scale are metres. All errors are Error(input_data) that name `file` and the
+/// line or the byte; nothing is allocated for elements that the text cannot hold.
 TriangleMesh parse_ply(std::string_view bytes, const std::string& file, double scale);
 TriangleMesh parse_stl(std::string_view bytes, const std::string& file, double scale);
 TriangleMesh parse_obj(std::string_view text, const std::string& file, double scale);

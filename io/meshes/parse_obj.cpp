@@ -34,7 +34,9 @@ std::uint32_t corner_of(const LineScanner& scanner, const Word& word, std::size_
 TriangleMesh parse_obj(std::string_view text, const std::string& file, double scale) {
   LineScanner scanner(text, file);
   MeshBuilder builder(file, scale);
-  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) { scanner.fail(message, 0, advice); };
+  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) {
+    scanner.fail(message, 0, advice);
+  };
   std::vector<std::uint32_t> corners;
   while (scanner.next_line()) {
     if (const std::size_t comment = scanner.line().find('#'); comment != std::string_view::npos) scanner.cut(comment);

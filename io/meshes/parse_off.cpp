@@ -16,7 +16,8 @@ using profiles::printable;
 using profiles::Word;
 
 void refuse_too_many(const std::string& file, std::uint64_t vertices, std::uint64_t faces) {
-  throw Error(ErrorKind::input_data, fmt::format("{} vertices and {} faces are promised, more than the file holds", vertices, faces),
+  throw Error(ErrorKind::input_data,
+              fmt::format("{} vertices and {} faces are promised, more than the file holds", vertices, faces),
               {file, 0, 0}, "is it truncated?");
 }
 
@@ -27,7 +28,8 @@ class Words {
   /// The first word of the next line that has one.
   Word next_line() {
     while (scanner_.next_line()) {
-      if (const std::size_t comment = scanner_.line().find('#'); comment != std::string_view::npos) scanner_.cut(comment);
+      if (const std::size_t comment = scanner_.line().find('#'); comment != std::string_view::npos)
+        scanner_.cut(comment);
       if (const std::optional<Word> word = scanner_.next_word()) return *word;
     }
     scanner_.fail("the file ends before all elements are read", 0, "is it truncated?");
@@ -51,7 +53,8 @@ bool is_keyword(std::string_view word) {
   return word == "OFF";
 }
 
-/// Binary data are big endian: three 32-bit counts, vertices of floats, faces of 32-bit integers with a number of colours.
+/// Binary data are big endian: three 32-bit counts, vertices of floats, faces of 32-bit integers with a number of
+/// colours.
 TriangleMesh parse_binary(std::string_view bytes, const std::string& file, double scale, std::size_t offset) {
   ByteReader reader(bytes, file, true, offset);
   const std::uint64_t vertices = reader.read<std::uint32_t>(), faces = reader.read<std::uint32_t>();
@@ -59,7 +62,9 @@ TriangleMesh parse_binary(std::string_view bytes, const std::string& file, doubl
   if (vertices > reader.left() / 12 || faces > reader.left() / 8) refuse_too_many(file, vertices, faces);
   MeshBuilder builder(file, scale);
   builder.reserve(vertices, faces);
-  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) { reader.fail(message, advice); };
+  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) {
+    reader.fail(message, advice);
+  };
   for (std::uint64_t i = 0; i < vertices; ++i) {
     const double x = static_cast<double>(reader.read<float>()), y = static_cast<double>(reader.read<float>()),
                  z = static_cast<double>(reader.read<float>());
@@ -68,7 +73,8 @@ TriangleMesh parse_binary(std::string_view bytes, const std::string& file, doubl
   std::vector<std::uint32_t> corners;
   for (std::uint64_t i = 0; i < faces; ++i) {
     const std::uint64_t count = reader.read<std::uint32_t>();
-    if (count > reader.left() / 4) reader.fail(fmt::format("a face of {} corners, more than the file holds", count), "is it damaged?");
+    if (count > reader.left() / 4)
+      reader.fail(fmt::format("a face of {} corners, more than the file holds", count), "is it damaged?");
     corners.clear();
     for (std::uint64_t k = 0; k < count; ++k)
       corners.push_back(builder.corner(static_cast<double>(reader.read<std::uint32_t>()), vertices, fail));
@@ -88,8 +94,8 @@ TriangleMesh parse_off(std::string_view text, const std::string& file, double sc
     while (!line.empty() && (line.back() == '\r' || profiles::is_blank(line.back()))) line.remove_suffix(1);
     if (line == "OFF BINARY") return parse_binary(text, file, scale, first_end + 1);
     if (line.ends_with(" BINARY"))
-      throw Error(ErrorKind::input_data, "binary OFF files are read without further properties of vertices only", {file, 1, 1},
-                  "write it as text or as .ply");
+      throw Error(ErrorKind::input_data, "binary OFF files are read without further properties of vertices only",
+                  {file, 1, 1}, "write it as text or as .ply");
   }
   LineScanner scanner(text, file);
   Words words(scanner);
@@ -113,9 +119,12 @@ TriangleMesh parse_off(std::string_view text, const std::string& file, double sc
 
   MeshBuilder builder(file, scale);
   builder.reserve(vertices, faces);
-  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) { scanner.fail(message, 0, advice); };
+  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) {
+    scanner.fail(message, 0, advice);
+  };
   for (std::uint64_t i = 0; i < vertices; ++i) {
-    const double x = to_number(scanner, words.next_line()), y = to_number(scanner, words.next()), z = to_number(scanner, words.next());
+    const double x = to_number(scanner, words.next_line()), y = to_number(scanner, words.next()),
+                 z = to_number(scanner, words.next());
     builder.add_vertex(x, y, z, fail);  // normals and colours may follow
   }
   std::vector<std::uint32_t> corners;

@@ -43,7 +43,9 @@ class TextSource {
   }
   std::uint64_t left() const { return scanner_.line().size(); }
   static std::uint64_t least_bytes(PlyType) { return 2; }
-  [[noreturn]] void fail(const std::string& message, const std::string& advice) const { scanner_.fail(message, last_, advice); }
+  [[noreturn]] void fail(const std::string& message, const std::string& advice) const {
+    scanner_.fail(message, last_, advice);
+  }
 
  private:
   LineScanner scanner_;
@@ -58,14 +60,22 @@ class BinarySource {
   void next_element() {}
   double read(PlyType type) {
     switch (type) {
-      case PlyType::int8: return reader_.read<std::int8_t>();
-      case PlyType::uint8: return reader_.read<std::uint8_t>();
-      case PlyType::int16: return reader_.read<std::int16_t>();
-      case PlyType::uint16: return reader_.read<std::uint16_t>();
-      case PlyType::int32: return reader_.read<std::int32_t>();
-      case PlyType::uint32: return reader_.read<std::uint32_t>();
-      case PlyType::float32: return static_cast<double>(reader_.read<float>());
-      case PlyType::float64: break;
+      case PlyType::int8:
+        return reader_.read<std::int8_t>();
+      case PlyType::uint8:
+        return reader_.read<std::uint8_t>();
+      case PlyType::int16:
+        return reader_.read<std::int16_t>();
+      case PlyType::uint16:
+        return reader_.read<std::uint16_t>();
+      case PlyType::int32:
+        return reader_.read<std::int32_t>();
+      case PlyType::uint32:
+        return reader_.read<std::uint32_t>();
+      case PlyType::float32:
+        return static_cast<double>(reader_.read<float>());
+      case PlyType::float64:
+        break;
     }
     return reader_.read<double>();
   }
@@ -94,11 +104,14 @@ void skip_property(Source& source, const PlyProperty& property) {
 }
 
 template <class Source>
-TriangleMesh read_elements(Source& source, const PlyHeader& header, std::uint64_t bytes, const std::string& file, double scale) {
+TriangleMesh read_elements(Source& source, const PlyHeader& header, std::uint64_t bytes, const std::string& file,
+                           double scale) {
   const auto refuse = [&](const std::string& message, const std::string& advice) {
     throw Error(ErrorKind::input_data, message, {file, 0, 0}, advice);
   };
-  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) { source.fail(message, advice); };
+  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) {
+    source.fail(message, advice);
+  };
   MeshBuilder builder(file, scale);
   std::uint64_t vertices = 0;
   for (const PlyElement& element : header.elements)
@@ -108,7 +121,8 @@ TriangleMesh read_elements(Source& source, const PlyHeader& header, std::uint64_
     std::uint64_t least = 0;
     for (const PlyProperty& p : element.properties) least += Source::least_bytes(p.list ? p.count_type : p.type);
     if (element.properties.empty()) {
-      if (element.count > 0) refuse(fmt::format("the element {} has no properties", profiles::printable(element.name)), "");
+      if (element.count > 0)
+        refuse(fmt::format("the element {} has no properties", profiles::printable(element.name)), "");
       continue;
     }
     if (element.count > (bytes - header.bytes + 1) / least)
@@ -125,7 +139,8 @@ TriangleMesh read_elements(Source& source, const PlyHeader& header, std::uint64_
       if (p.list && (p.name == "vertex_indices" || p.name == "vertex_index")) list = static_cast<int>(k);
     }
     if (is_vertex && *std::min_element(xyz.begin(), xyz.end()) < 0) refuse("the vertices lack one of x, y, z", "");
-    if (is_face && list < 0) refuse("the faces lack the list vertex_indices", "triangle strips are not read: export triangles");
+    if (is_face && list < 0)
+      refuse("the faces lack the list vertex_indices", "triangle strips are not read: export triangles");
     if (is_vertex) builder.reserve(element.count, 0);
     if (is_face) builder.reserve(0, element.count);
     for (std::uint64_t i = 0; i < element.count; ++i) {
@@ -159,7 +174,8 @@ TriangleMesh parse_ply(std::string_view bytes, const std::string& file, double s
     const auto is_it = [&](const PlyElement& e) { return e.name == name; };
     const auto count = std::count_if(header.elements.begin(), header.elements.end(), is_it);
     if (count != 1)
-      throw Error(ErrorKind::input_data, fmt::format("the header names the element {} {} times", name, count), {file, 0, 0},
+      throw Error(ErrorKind::input_data, fmt::format("the header names the element {} {} times", name, count),
+                  {file, 0, 0},
                   count == 0 ? "is it a point cloud? make triangles of it first" : "it must be there once");
   }
   if (header.format == PlyHeader::Format::ascii) {

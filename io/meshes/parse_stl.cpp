@@ -35,10 +35,13 @@ TriangleMesh parse_binary(std::string_view bytes, const std::string& file, doubl
   const std::uint64_t count = reader.read<std::uint32_t>();
   if (count > kMostElements / 3) reader.fail(fmt::format("{} triangles are too many", count), "is it an STL file?");
   if (reader.left() < count * kFacet)
-    reader.fail(fmt::format("{} triangles are promised, the file holds {}", count, reader.left() / kFacet), "is it truncated?");
+    reader.fail(fmt::format("{} triangles are promised, the file holds {}", count, reader.left() / kFacet),
+                "is it truncated?");
   MeshBuilder builder(file, scale);
   builder.reserve(3 * count, count);
-  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) { reader.fail(message, advice); };
+  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) {
+    reader.fail(message, advice);
+  };
   for (std::uint64_t t = 0; t < count; ++t) {
     reader.skip(3 * sizeof(float));  // the normal follows from the order of the corners
     for (int k = 0; k < 3; ++k) {
@@ -56,7 +59,9 @@ TriangleMesh parse_binary(std::string_view bytes, const std::string& file, doubl
 TriangleMesh parse_text(std::string_view text, const std::string& file, double scale) {
   LineScanner scanner(text, file);
   MeshBuilder builder(file, scale);
-  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) { scanner.fail(message, 0, advice); };
+  const MeshBuilder::Fail fail = [&](const std::string& message, const std::string& advice) {
+    scanner.fail(message, 0, advice);
+  };
   std::vector<std::uint32_t> loop;
   bool in_loop = false, in_solid = false;
   while (scanner.next_line()) {
@@ -64,7 +69,8 @@ TriangleMesh parse_text(std::string_view text, const std::string& file, double s
     if (!first) continue;
     const std::string key = lower(first->text);
     if (key == "vertex") {
-      if (!in_loop) scanner.fail("a vertex outside of a loop", first->column, "it belongs between 'outer loop' and 'endloop'");
+      if (!in_loop)
+        scanner.fail("a vertex outside of a loop", first->column, "it belongs between 'outer loop' and 'endloop'");
       double p[3];
       for (double& c : p) {
         const std::optional<Word> word = scanner.next_word();

@@ -28,13 +28,16 @@ PlyType type_of(const LineScanner& scanner, const Word& word) {
     PlyType type;
   };
   static constexpr Name kNames[] = {
-      {"char", PlyType::int8},     {"int8", PlyType::int8},       {"uchar", PlyType::uint8},     {"uint8", PlyType::uint8},
-      {"short", PlyType::int16},   {"int16", PlyType::int16},     {"ushort", PlyType::uint16},   {"uint16", PlyType::uint16},
-      {"int", PlyType::int32},     {"int32", PlyType::int32},     {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
-      {"float", PlyType::float32}, {"float32", PlyType::float32}, {"double", PlyType::float64},  {"float64", PlyType::float64}};
+      {"char", PlyType::int8},      {"int8", PlyType::int8},       {"uchar", PlyType::uint8},
+      {"uint8", PlyType::uint8},    {"short", PlyType::int16},     {"int16", PlyType::int16},
+      {"ushort", PlyType::uint16},  {"uint16", PlyType::uint16},   {"int", PlyType::int32},
+      {"int32", PlyType::int32},    {"uint", PlyType::uint32},     {"uint32", PlyType::uint32},
+      {"float", PlyType::float32},  {"float32", PlyType::float32}, {"double", PlyType::float64},
+      {"float64", PlyType::float64}};
   for (const Name& n : kNames)
     if (n.name == word.text) return n.type;
-  scanner.fail("unknown type " + printable(word.text), word.column, "known are char, uchar, short, ushort, int, uint, float, double");
+  scanner.fail("unknown type " + printable(word.text), word.column,
+               "known are char, uchar, short, ushort, int, uint, float, double");
 }
 
 std::uint64_t count_of(const LineScanner& scanner, const Word& word) {
@@ -47,7 +50,8 @@ std::uint64_t count_of(const LineScanner& scanner, const Word& word) {
 
 PlyHeader::Format format_of(LineScanner& scanner) {
   const Word format = want(scanner, "the format"), version = want(scanner, "the version");
-  if (version.text != "1.0") scanner.fail("unknown version " + printable(version.text), version.column, "only 1.0 exists");
+  if (version.text != "1.0")
+    scanner.fail("unknown version " + printable(version.text), version.column, "only 1.0 exists");
   if (format.text == "ascii") return PlyHeader::Format::ascii;
   if (format.text == "binary_little_endian") return PlyHeader::Format::little_endian;
   if (format.text == "binary_big_endian") return PlyHeader::Format::big_endian;
@@ -60,13 +64,17 @@ PlyHeader::Format format_of(LineScanner& scanner) {
 std::size_t size_of(PlyType type) {
   switch (type) {
     case PlyType::int8:
-    case PlyType::uint8: return 1;
+    case PlyType::uint8:
+      return 1;
     case PlyType::int16:
-    case PlyType::uint16: return 2;
+    case PlyType::uint16:
+      return 2;
     case PlyType::int32:
     case PlyType::uint32:
-    case PlyType::float32: return 4;
-    case PlyType::float64: break;
+    case PlyType::float32:
+      return 4;
+    case PlyType::float64:
+      break;
   }
   return 8;
 }
@@ -126,7 +134,9 @@ PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
       scanner.fail("unknown line " + printable(key->text) + " in the header", key->column);
     }
   }
-  if (!has_format) throw Error(ErrorKind::input_data, "the header does not name its format", {file, 1, 0}, "a line like 'format ascii 1.0'");
+  if (!has_format)
+    throw Error(ErrorKind::input_data, "the header does not name its format", {file, 1, 0},
+                "a line like 'format ascii 1.0'");
   return header;
 }
 

@@ -25,11 +25,12 @@ bool is_mesh_file(const std::filesystem::path& file) {
 
 TriangleMesh read_mesh(const std::filesystem::path& file, double scale_to_mm, const SourcePosition& asked_by) {
   if (!(scale_to_mm > 0.0 && std::isfinite(scale_to_mm)))
-    throw Error(ErrorKind::configuration, fmt::format("the scale of a mesh must be positive, this is {:g}", scale_to_mm), asked_by,
+    throw Error(ErrorKind::configuration,
+                fmt::format("the scale of a mesh must be positive, this is {:g}", scale_to_mm), asked_by,
                 "it leads to mm: 1 for a file in mm, 1000 for one in metres");
   if (!is_mesh_file(file))
-    throw Error(ErrorKind::input_data, fmt::format("the mesh file '{}' is of no known kind", file.filename().string()), asked_by,
-                "known are .ply, .stl, .obj and .off");
+    throw Error(ErrorKind::input_data, fmt::format("the mesh file '{}' is of no known kind", file.filename().string()),
+                asked_by, "known are .ply, .stl, .obj and .off");
   const std::string bytes = profiles::read_text(file, "mesh", asked_by);
   const std::string name = file.string(), extension = extension_of(file);
   const double scale = 1e-3 * scale_to_mm;

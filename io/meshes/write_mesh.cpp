@@ -37,7 +37,8 @@ std::string lines(Comments comments, const char* start) {
 
 std::string ply(const TriangleMesh& mesh, Comments comments) {
   std::string out = fmt::format(
-      "ply\nformat binary_little_endian 1.0\ncomment millimetres\n{}element vertex {}\nproperty double x\nproperty double y\n"
+      "ply\nformat binary_little_endian 1.0\ncomment millimetres\n{}element vertex {}\nproperty double x\nproperty "
+      "double y\n"
       "property double z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
       lines(comments, "comment"), mesh.vertices.size(), mesh.triangles.size());
   out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
@@ -71,10 +72,12 @@ std::string stl(const TriangleMesh& mesh, Comments comments) {
 /// Text with all digits. OBJ counts vertices from 1 and has letters at the start of lines.
 std::string text(const TriangleMesh& mesh, bool obj, Comments comments) {
   std::string out = obj ? "# millimetres\n" + lines(comments, "#")
-                        : fmt::format("OFF\n# millimetres\n{}{} {} 0\n", lines(comments, "#"), mesh.vertices.size(), mesh.triangles.size());
+                        : fmt::format("OFF\n# millimetres\n{}{} {} 0\n", lines(comments, "#"), mesh.vertices.size(),
+                                      mesh.triangles.size());
   const auto to = std::back_inserter(out);
   for (const Vec3& v : mesh.vertices)
-    fmt::format_to(to, "{}{} {} {}\n", obj ? "v " : "", kMillimetres * v.x(), kMillimetres * v.y(), kMillimetres * v.z());
+    fmt::format_to(to, "{}{} {} {}\n", obj ? "v " : "", kMillimetres * v.x(), kMillimetres * v.y(),
+                   kMillimetres * v.z());
   for (const auto& c : mesh.triangles) {
     const std::uint32_t first = obj ? 1 : 0;
     fmt::format_to(to, "{} {} {} {}\n", obj ? "f" : "3", c[0] + first, c[1] + first, c[2] + first);
@@ -86,18 +89,24 @@ std::string text(const TriangleMesh& mesh, bool obj, Comments comments) {
 
 void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh, std::span<const std::string> comments) {
   const auto refuse = [&](const std::string& why, const std::string& advice) {
-    throw Error(ErrorKind::configuration, fmt::format("the mesh cannot be written to '{}': {}", file.string(), why), {}, advice);
+    throw Error(ErrorKind::configuration, fmt::format("the mesh cannot be written to '{}': {}", file.string(), why), {},
+                advice);
   };
   for (const auto& c : mesh.triangles)
     for (const std::uint32_t v : c)
       if (v >= mesh.vertices.size()) refuse("it names vertices that it lacks", "");
   const std::string extension = profiles::lower(file.extension().string());
   std::string content;
-  if (extension == ".ply") content = ply(mesh, comments);
-  else if (extension == ".stl") content = stl(mesh, comments);
-  else if (extension == ".obj") content = text(mesh, true, comments);
-  else if (extension == ".off") content = text(mesh, false, comments);
-  else refuse("unknown extension", "known are .ply, .stl, .obj and .off");
+  if (extension == ".ply")
+    content = ply(mesh, comments);
+  else if (extension == ".stl")
+    content = stl(mesh, comments);
+  else if (extension == ".obj")
+    content = text(mesh, true, comments);
+  else if (extension == ".off")
+    content = text(mesh, false, comments);
+  else
+    refuse("unknown extension", "known are .ply, .stl, .obj and .off");
 
   // complete under another name before it appears under its own
   std::filesystem::path partial = file;

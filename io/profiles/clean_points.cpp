@@ -104,8 +104,8 @@ bool z_points_up(const RawPoints& p, Body body) {
 bool order_is_wrong(const RawPoints& p, Body body) {
   const std::size_t n = p.size();
   if (n < 2) return false;
-  const auto extreme = body == Body::rail ? std::min_element(p.z.begin(), p.z.end())
-                                          : std::max_element(p.z.begin(), p.z.end());
+  const auto extreme =
+      body == Body::rail ? std::min_element(p.z.begin(), p.z.end()) : std::max_element(p.z.begin(), p.z.end());
   const auto i = static_cast<std::size_t>(extreme - p.z.begin());
   const double wanted = body == Body::rail ? 1.0 : -1.0;
   const double before = i > 0 ? p.y[i] - p.y[i - 1] : 0.0;

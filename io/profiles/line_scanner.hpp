@@ -27,7 +27,8 @@ std::string lower(std::string_view text);
 
 bool is_blank(char c);
 
-/// Walks over a text line by line (LF, CR LF or CR) and over the words of a line. Holds views: the text must outlive it.
+/// Walks over a text line by line (LF, CR LF or CR) and over the words of a line. Holds views: the text must outlive
+/// it.
 class LineScanner {
  public:
   /// Throws Error(input_data) at the first NUL byte, which no text file has. A UTF-8 byte order mark is skipped.
@@ -43,10 +44,10 @@ class LineScanner {
   std::optional<Word> next_word();
 
   std::string_view line() const { return line_; }
-  std::size_t offset() const { return offset_; }           ///< of the next character to look at in line()
+  std::size_t offset() const { return offset_; }  ///< of the next character to look at in line()
   void set_offset(std::size_t offset) { offset_ = offset; }
   const std::string& file() const { return file_; }
-  int number() const { return number_; }                   ///< of the current line, from 1
+  int number() const { return number_; }  ///< of the current line, from 1
 
   SourcePosition at(int column = 0) const { return {file_, number_, column}; }
 

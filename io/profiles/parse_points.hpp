@@ -12,19 +12,19 @@ namespace treadmark::io::profiles {
 
 /// Content of a Simpack rail or wheel profile: points as they stand and what the header asks to do with them.
 struct SimpackContent {
-  RawPoints points;                    ///< file units
-  double near_distance = 1e-4;         ///< point.dist.min, file units
-  double shift_y = 0.0, shift_z = 0.0; ///< file units
-  double y_min = 1.0, y_max = 0.0;     ///< points outside are deleted; no bound unless min < max
-  double z_min = 1.0, z_max = 0.0;     ///< z is clipped; no bound unless min < max
+  RawPoints points;                     ///< file units
+  double near_distance = 1e-4;          ///< point.dist.min, file units
+  double shift_y = 0.0, shift_z = 0.0;  ///< file units
+  double y_min = 1.0, y_max = 0.0;      ///< points outside are deleted; no bound unless min < max
+  double z_min = 1.0, z_max = 0.0;      ///< z is clipped; no bound unless min < max
   bool mirror_y = false, mirror_z = false;
-  bool inversion = false;              ///< points stand in the wrong order
-  double units_per_metre = 1.0;        ///< 1000 for points in mm
+  bool inversion = false;        ///< points stand in the wrong order
+  double units_per_metre = 1.0;  ///< 1000 for points in mm
 };
 
 /// Content of a MiniProf or two-column file.
 struct ColumnContent {
-  RawPoints points;                    ///< file units
+  RawPoints points;  ///< file units
   double offset_y = 0.0, offset_z = 0.0;
 };
 

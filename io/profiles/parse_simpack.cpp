@@ -25,12 +25,17 @@ class SimpackParser {
       drop_comment();
       if (const std::optional<Word> first = scanner_.next_word()) statement(*first);
     }
-    if (!skipped_.empty()) scanner_.fail("the file ends without " + printable(skipped_ + ".end"), 0, "is the file truncated?");
+    if (!skipped_.empty())
+      scanner_.fail("the file ends without " + printable(skipped_ + ".end"), 0, "is the file truncated?");
     switch (section_) {
-      case Section::header: scanner_.fail("the file ends without 'header.end'", 0, "is the file truncated?");
-      case Section::points: scanner_.fail("the file ends without 'point.end'", 0, "is the file truncated?");
-      case Section::spline: scanner_.fail("the file ends without 'spline.end'", 0, "is the file truncated?");
-      case Section::none: break;
+      case Section::header:
+        scanner_.fail("the file ends without 'header.end'", 0, "is the file truncated?");
+      case Section::points:
+        scanner_.fail("the file ends without 'point.end'", 0, "is the file truncated?");
+      case Section::spline:
+        scanner_.fail("the file ends without 'spline.end'", 0, "is the file truncated?");
+      case Section::none:
+        break;
     }
     if (!have_points_) scanner_.fail("no 'point.begin' in the file", 0, "is this a Simpack profile?");
     return std::move(content_);
@@ -89,7 +94,8 @@ class SimpackParser {
                (word == "header.end" && section_ == Section::header)) {
       section_ = Section::none;
     } else {
-      scanner_.fail(printable(first.text) + " ends a section that is not open", first.column, "is a section not ended?");
+      scanner_.fail(printable(first.text) + " ends a section that is not open", first.column,
+                    "is a section not ended?");
     }
   }
 
@@ -133,19 +139,32 @@ class SimpackParser {
   }
 
   void spline_value(const std::string& key) {
-    if (key == "shift.y") content_.shift_y = number(key);
-    else if (key == "shift.z") content_.shift_z = number(key);
-    else if (key == "bound.y.min") content_.y_min = number(key);
-    else if (key == "bound.y.max") content_.y_max = number(key);
-    else if (key == "bound.z.min") content_.z_min = number(key);
-    else if (key == "bound.z.max") content_.z_max = number(key);
-    else if (key == "mirror.y") content_.mirror_y = flag(key);
-    else if (key == "mirror.z") content_.mirror_z = flag(key);
-    else if (key == "inversion") content_.inversion = flag(key);
-    else if (key == "point.dist.min") content_.near_distance = std::max(kSmallestNearDistance, number(key));
-    else if (key == "units.len.f") content_.units_per_metre = positive(key);
-    else if (key == "units.ang.f") positive(key);
-    else if (key == "rotate") no_rotation(key);
+    if (key == "shift.y")
+      content_.shift_y = number(key);
+    else if (key == "shift.z")
+      content_.shift_z = number(key);
+    else if (key == "bound.y.min")
+      content_.y_min = number(key);
+    else if (key == "bound.y.max")
+      content_.y_max = number(key);
+    else if (key == "bound.z.min")
+      content_.z_min = number(key);
+    else if (key == "bound.z.max")
+      content_.z_max = number(key);
+    else if (key == "mirror.y")
+      content_.mirror_y = flag(key);
+    else if (key == "mirror.z")
+      content_.mirror_z = flag(key);
+    else if (key == "inversion")
+      content_.inversion = flag(key);
+    else if (key == "point.dist.min")
+      content_.near_distance = std::max(kSmallestNearDistance, number(key));
+    else if (key == "units.len.f")
+      content_.units_per_metre = positive(key);
+    else if (key == "units.ang.f")
+      positive(key);
+    else if (key == "rotate")
+      no_rotation(key);
   }
 
   Word value(const std::string& key) {
@@ -182,7 +201,7 @@ class SimpackParser {
   Body body_;
   SimpackContent content_;
   Section section_ = Section::none;
-  std::string skipped_;   ///< name of a section without meaning here, until it ends
+  std::string skipped_;  ///< name of a section without meaning here, until it ends
   bool have_points_ = false;
 };
 

@@ -12,7 +12,7 @@ namespace treadmark::io::profiles {
 struct RawPoints {
   std::string file;
   std::vector<double> y, z;
-  std::vector<int> line;   ///< where each point stands in the file
+  std::vector<int> line;  ///< where each point stands in the file
 
   std::size_t size() const { return y.size(); }
 

@@ -209,8 +209,8 @@ std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body bo
 Profile read_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                      const SourcePosition& referenced_from) {
   check_file(file, body, referenced_from);
-  return parse_profile(profiles::read_text(file, "profile", referenced_from), file.string(), profile_format(file),
-                       body, options);
+  return parse_profile(profiles::read_text(file, "profile", referenced_from), file.string(), profile_format(file), body,
+                       options);
 }
 
 }  // namespace treadmark::io

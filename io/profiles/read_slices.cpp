@@ -33,8 +33,8 @@ struct Header {
 };
 
 struct SliceEntry {
-  double value = 0.0;   ///< as written, in the user's unit
-  double u = 0.0;       ///< mm or rad
+  double value = 0.0;  ///< as written, in the user's unit
+  double u = 0.0;      ///< mm or rad
   std::string name;
   SourcePosition where_value, where_name, where_features;
 };
@@ -96,10 +96,11 @@ void check_angles(const std::vector<SliceEntry>& entries) {
   const bool inside = first >= -pi - kAngleTolerance && last <= pi + kAngleTolerance;
   const bool around = first <= -pi + kAngleTolerance && last >= pi - kAngleTolerance;
   if (!inside && !around)
-    throw Error(ErrorKind::input_data,
-                fmt::format("the angles run from {:g} to {:g} rad: they must lie in -pi to pi or contain it", first, last),
-                (last > pi + kAngleTolerance ? entries.back() : entries.front()).where_value,
-                "shift the angles with OFFSET or leave out slices");
+    throw Error(
+        ErrorKind::input_data,
+        fmt::format("the angles run from {:g} to {:g} rad: they must lie in -pi to pi or contain it", first, last),
+        (last > pi + kAngleTolerance ? entries.back() : entries.front()).where_value,
+        "shift the angles with OFFSET or leave out slices");
 }
 
 /// Part numbers, counted from 1: each stands for the feature at the end of that part.
@@ -231,7 +232,8 @@ SliceSet read_slices(const std::filesystem::path& file, Body body, const Profile
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for {} slices, a {} is expected", file.string(),
                             body == Body::rail ? "wheel" : "rail", body == Body::rail ? "rail" : "wheel"),
-                referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from, "exchange the files");
+                referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from,
+                "exchange the files");
   const std::string text = profiles::read_text(file, "slices", referenced_from);
   const std::filesystem::path folder = profiles::portable_path(file.string()).parent_path();
   SliceList list = read_list(text, file.string(), body);
@@ -240,7 +242,8 @@ SliceSet read_slices(const std::filesystem::path& file, Body body, const Profile
     // all slices the same way up: damage can make some of them look otherwise
     std::size_t up = 0, down = 0, own = 0;
     for (const SliceEntry& entry : list.entries) {
-      const auto turned = looks_upside_down(folder / profiles::portable_path(entry.name), body, options, entry.where_name);
+      const auto turned =
+          looks_upside_down(folder / profiles::portable_path(entry.name), body, options, entry.where_name);
       ++(!turned ? own : *turned ? up : down);
     }
     how.mirror_z = own > 0 ? 0 : up > down ? 1 : -1;

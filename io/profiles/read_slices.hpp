@@ -17,7 +17,8 @@ namespace treadmark::io {
 bool is_slices_file(const std::filesystem::path& file);
 
 /// Reads a slices file and the profiles that it names, relative to its own folder and with '/' or '\' between folders.
-/// The options hold for each of the profiles; mirror_z = 0 turns all or none of them over, as most of them look. u = SCALE*(OFFSET + value), rails in metres, wheels in rad.
+/// The options hold for each of the profiles; mirror_z = 0 turns all or none of them over, as most of them look. u =
+/// SCALE*(OFFSET + value), rails in metres, wheels in rad.
 ///
 /// Refused besides what read_profile refuses: fewer than 4 or more than 100000 slices, values that do not increase by
 /// more than 1e-3, an angle outside [-1.5 pi, 1.5 pi] or a range of angles that neither lies in [-pi, pi] nor contains

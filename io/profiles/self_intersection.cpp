@@ -94,7 +94,7 @@ class SegmentTree {
   std::size_t segments_;
   std::size_t leaves_ = 1;
   std::vector<Box> boxes_;
-  std::size_t budget_ = 0;   ///< of comparisons, in proportion to the number of segments
+  std::size_t budget_ = 0;  ///< of comparisons, in proportion to the number of segments
   std::size_t first_ = 0, second_ = 0;
 };
 

@@ -69,8 +69,7 @@ class Sha256 {
     for (std::size_t t = 0; t < 64; ++t) {
       const std::uint32_t choice = (e & f) ^ (~e & g);
       const std::uint32_t majority = (a & b) ^ (a & c) ^ (b & c);
-      const std::uint32_t t1 =
-          h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + choice + kRound[t] + w[t];
+      const std::uint32_t t1 = h + (std::rotr(e, 6) ^ std::rotr(e, 11) ^ std::rotr(e, 25)) + choice + kRound[t] + w[t];
       const std::uint32_t t2 = (std::rotr(a, 2) ^ std::rotr(a, 13) ^ std::rotr(a, 22)) + majority;
       h = g, g = f, f = e, e = d + t1, d = c, c = b, b = a, a = t1 + t2;
     }
@@ -99,7 +98,8 @@ std::string sha256_file(const std::filesystem::path& file) {
   std::ifstream stream;
   if (std::filesystem::is_regular_file(file, code)) stream.open(file, std::ios::binary);
   if (!stream.is_open())
-    throw Error(ErrorKind::input_data, "the file cannot be opened", {file.string(), 0, 0}, "check its name and permissions");
+    throw Error(ErrorKind::input_data, "the file cannot be opened", {file.string(), 0, 0},
+                "check its name and permissions");
   Sha256 hash;
   std::vector<char> piece(1 << 16);
   do {

@@ -28,7 +28,8 @@ class AtomicFile {
   bool committed_ = false;
 };
 
-/// Removes what processes that died have left behind: unfinished files of this kind. Nobody may be writing into the folder.
+/// Removes what processes that died have left behind: unfinished files of this kind. Nobody may be writing into the
+/// folder.
 void remove_leftovers(const std::filesystem::path& folder);
 
 /// Writes a whole text in this manner.

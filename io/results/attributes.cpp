@@ -24,7 +24,9 @@ void add_loads(std::vector<Attribute>& list, const Loads& loads) {
 
 std::vector<Attribute> attributes_of(const PatchResult& patch) {
   std::vector<Attribute> list;
-  const auto add = [&](std::string name, Attribute::Value value) { list.push_back({std::move(name), std::move(value)}); };
+  const auto add = [&](std::string name, Attribute::Value value) {
+    list.push_back({std::move(name), std::move(value)});
+  };
   const Grid2& grid = patch.fields.grid;
   add("frame", "x, s, n: s along the rail profile, n into the rail; X_TC places it in track axes");
   add("X_TC_origin", patch.fields.X_TC.origin);
@@ -85,7 +87,9 @@ std::vector<Attribute> attributes_of(const PatchResult& patch) {
 
 std::vector<Attribute> attributes_of(const CaseResult& result) {
   std::vector<Attribute> list;
-  const auto add = [&](std::string name, Attribute::Value value) { list.push_back({std::move(name), std::move(value)}); };
+  const auto add = [&](std::string name, Attribute::Value value) {
+    list.push_back({std::move(name), std::move(value)});
+  };
   add("number", result.number);
   add("status", std::string(to_string(result.status)));
   add("message", result.message);
@@ -122,7 +126,9 @@ std::vector<Attribute> attributes_of(const CaseResult& result) {
 
 std::vector<Attribute> attributes_of(const RunResult& run) {
   std::vector<Attribute> list;
-  const auto add = [&](std::string name, Attribute::Value value) { list.push_back({std::move(name), std::move(value)}); };
+  const auto add = [&](std::string name, Attribute::Value value) {
+    list.push_back({std::move(name), std::move(value)});
+  };
   add("format", kResultFormat);
   add("units", "SI");
   add("axes", kAxes);

@@ -56,12 +56,14 @@ class Frame {
     for (const AxisTick& tick : x_.ticks()) {
       lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid",
                            x_at(tick.at), box_.y, box_.height);
-      if (!tick.label.empty() && chart.x_numbers) numbers += svg_text(x_at(tick.at), box_.y + box_.height + 16.0, tick.label);
+      if (!tick.label.empty() && chart.x_numbers)
+        numbers += svg_text(x_at(tick.at), box_.y + box_.height + 16.0, tick.label);
     }
     for (const AxisTick& tick : y_.ticks()) {
       lines += fmt::format("<path class=\"{}\" d=\"M{:.1f} {:.1f}h{:.1f}\"/>\n", tick.label.empty() ? "minor" : "grid",
                            box_.x, y_at(tick.at), box_.width);
-      if (!tick.label.empty() && chart.y_numbers) numbers += svg_text(box_.x - 6.0, y_at(tick.at) + 4.0, tick.label, "end");
+      if (!tick.label.empty() && chart.y_numbers)
+        numbers += svg_text(box_.x - 6.0, y_at(tick.at) + 4.0, tick.label, "end");
     }
     return lines + numbers;
   }
@@ -123,7 +125,8 @@ std::vector<std::vector<Pixel>> curve_parts(const ChartSeries& series, const Fra
 std::string draw_curve(const ChartSeries& series, const Frame& frame) {
   std::string path;
   for (const auto& part : curve_parts(series, frame)) path += curve_path(part);
-  return path.empty() ? "" : fmt::format("<path {} stroke-linejoin=\"round\" d=\"{}\"/>\n", stroke(series, false), path);
+  return path.empty() ? ""
+                      : fmt::format("<path {} stroke-linejoin=\"round\" d=\"{}\"/>\n", stroke(series, false), path);
 }
 
 /// The names of curves, each beside its highest place, clear of the others.

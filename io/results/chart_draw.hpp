@@ -31,16 +31,18 @@ struct ChartSeries {
   std::string dashes;  ///< of the line: lengths of strokes and gaps [px]; empty = a full line
   std::vector<ChartPoint> points;
   std::vector<double> levels;  ///< values of y, drawn as dotted lines across the chart
-  std::vector<std::array<double, 2>> curve;  ///< (x, y) of any number, joined without markers, thinned to what pixels show
-  std::string curve_label;                   ///< written beside the highest place of the curve; may be empty
+  std::vector<std::array<double, 2>>
+      curve;                ///< (x, y) of any number, joined without markers, thinned to what pixels show
+  std::string curve_label;  ///< written beside the highest place of the curve; may be empty
 };
 
 struct Chart {
   std::string title, x_label, y_label;
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
   double x_floor = 0.0, y_floor = 0.0;  ///< see ChartAxis; markers at a floor are hollow
-  std::optional<std::array<double, 2>> x_range, y_range;  ///< ends of a linear axis, in place of those around the values
-  bool x_numbers = true, y_numbers = true;                ///< numbers at the ticks
+  std::optional<std::array<double, 2>> x_range,
+      y_range;                              ///< ends of a linear axis, in place of those around the values
+  bool x_numbers = true, y_numbers = true;  ///< numbers at the ticks
   std::vector<ChartSeries> series;
 };
 
@@ -59,6 +61,7 @@ inline constexpr std::string_view kChartStyle =
     ".title{font-size:13px;font-weight:bold}.frame{fill:none;stroke:#444444}.grid{fill:none;stroke:#cccccc;"
     "stroke-width:.8}.minor{fill:none;stroke:#ececec;stroke-width:.7}.line{fill:none}"
     ".level{fill:none;stroke-dasharray:2 4}.mark{stroke-width:1.3}.label{font-size:11px}"
-    ".remark{font-size:11px;fill:#555555}.halo{stroke:#ffffff;stroke-width:3px;paint-order:stroke;stroke-linejoin:round}";
+    ".remark{font-size:11px;fill:#555555}.halo{stroke:#ffffff;stroke-width:3px;paint-order:stroke;stroke-linejoin:"
+    "round}";
 
 }  // namespace treadmark::io

@@ -16,8 +16,8 @@ namespace treadmark::io {
 /// How one body is represented in one candidate.
 struct RepresentedBody {
   std::string backend;
-  double resolution = 0.0;       ///< data spacing [m]; 0 = as given, not sampled again
-  double build_seconds = 0.0;    ///< of this representation, from surface to surface
+  double resolution = 0.0;     ///< data spacing [m]; 0 = as given, not sampled again
+  double build_seconds = 0.0;  ///< of this representation, from surface to surface
   std::size_t memory_bytes = 0;
   SurfaceDifference difference;  ///< from the truth; points = 0 where it was not measured
   std::string note;              ///< repairs, limits; may be empty
@@ -30,26 +30,26 @@ struct ComparisonRow {
   std::string message;
   int patches = 0;
   // the patch that carries most of the load
-  double pmax = 0.0, fn = 0.0, fx = 0.0, fs = 0.0;   ///< [Pa], [N]
-  double x_tr = 0.0, y_tr = 0.0;                     ///< contact reference [m]
-  double approach = 0.0, area = 0.0;                 ///< [m], [m^2]
+  double pmax = 0.0, fn = 0.0, fx = 0.0, fs = 0.0;  ///< [Pa], [N]
+  double x_tr = 0.0, y_tr = 0.0;                    ///< contact reference [m]
+  double approach = 0.0, area = 0.0;                ///< [m], [m^2]
   int ncon = 0;
-  double search_s = 0.0, distance_s = 0.0;           ///< [s]
-  bool comparable = false;    ///< the truth has contact in this case too: the errors below hold
-  double pmax_error = 0.0;    ///< relative, (p - p_truth)/p_truth
-  double area_error = 0.0, approach_error = 0.0;     ///< relative
-  double force_error = 0.0;   ///< |F - F_truth|/|F_truth| of all patches together
-  double position_error = 0.0;                       ///< distance of the references in the track's x-y plane [m]
+  double search_s = 0.0, distance_s = 0.0;        ///< [s]
+  bool comparable = false;                        ///< the truth has contact in this case too: the errors below hold
+  double pmax_error = 0.0;                        ///< relative, (p - p_truth)/p_truth
+  double area_error = 0.0, approach_error = 0.0;  ///< relative
+  double force_error = 0.0;                       ///< |F - F_truth|/|F_truth| of all patches together
+  double position_error = 0.0;                    ///< distance of the references in the track's x-y plane [m]
 };
 
 struct ComparisonCandidate {
-  std::string name;              ///< as asked for, for example "mesh"
-  double resolution = 0.0;       ///< [m]; 0 = as given
+  std::string name;         ///< as asked for, for example "mesh"
+  double resolution = 0.0;  ///< [m]; 0 = as given
   RepresentedBody wheel, rail;
-  std::string failure;           ///< not empty: could not be built or solved, why; then there are no rows
-  std::vector<ComparisonRow> rows;   ///< one per case, in order
-  std::vector<CaseResult> results;   ///< with fields, for pictures
-  std::vector<SampledSurface> surfaces;   ///< of the truth only, where asked for
+  std::string failure;                   ///< not empty: could not be built or solved, why; then there are no rows
+  std::vector<ComparisonRow> rows;       ///< one per case, in order
+  std::vector<CaseResult> results;       ///< with fields, for pictures
+  std::vector<SampledSurface> surfaces;  ///< of the truth only, where asked for
 };
 
 struct Comparison {
@@ -59,9 +59,9 @@ struct Comparison {
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;
   std::vector<std::string> settings;
-  std::string truth;             ///< which candidate the others are measured against, in words: "analytic" ...
-  bool complete = true;          ///< false when interrupted
-  std::vector<ComparisonCandidate> candidates;   ///< the truth first
+  std::string truth;     ///< which candidate the others are measured against, in words: "analytic" ...
+  bool complete = true;  ///< false when interrupted
+  std::vector<ComparisonCandidate> candidates;  ///< the truth first
 };
 
 }  // namespace treadmark::io

@@ -33,15 +33,15 @@ void write_comparison_fields(const std::filesystem::path& path, const Comparison
   AtomicFile target(path);
   Hdf5Writer file(target.temporary(), path.string());
   file.root().add(std::vector<Attribute>{{"format", std::string(kFormat)},
-                   {"units", "SI"},
-                   {"axes", std::string(kAxes)},
-                   {"version", comparison.version},
-                   {"git", comparison.git},
-                   {"input", comparison.input_file},
-                   {"sha256", comparison.input_sha256},
-                   {"settings", comparison.settings},
-                   {"truth", comparison.truth},
-                   {"complete", comparison.complete ? 1 : 0}});
+                                         {"units", "SI"},
+                                         {"axes", std::string(kAxes)},
+                                         {"version", comparison.version},
+                                         {"git", comparison.git},
+                                         {"input", comparison.input_file},
+                                         {"sha256", comparison.input_sha256},
+                                         {"settings", comparison.settings},
+                                         {"truth", comparison.truth},
+                                         {"complete", comparison.complete ? 1 : 0}});
   for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
     const ComparisonCandidate& c = comparison.candidates[i];
     const Hdf5GroupWriter group = file.root().make_group(group_name(i));

@@ -20,8 +20,8 @@ void check_field_sizes(const PatchFields& fields, int case_number, int patch_num
   for (const FieldColumn& column : kFieldColumns) check(column.name, (fields.*column.values).size());
   check("state", fields.state.size());
   if (!fields.row_angle.empty() && fields.row_angle.size() != static_cast<std::size_t>(fields.grid.ny))
-    throw Error(ErrorKind::configuration, fmt::format("case {}, patch {}: {} inclinations of {} rows", case_number, patch_number,
-                                                      fields.row_angle.size(), fields.grid.ny));
+    throw Error(ErrorKind::configuration, fmt::format("case {}, patch {}: {} inclinations of {} rows", case_number,
+                                                      patch_number, fields.row_angle.size(), fields.grid.ny));
 }
 
 }  // namespace treadmark::io

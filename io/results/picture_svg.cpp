@@ -129,7 +129,8 @@ bool differ_in_place(const std::vector<CaseResult>& cases) {
 
 std::string title_of(const CaseResult& result, bool by_place) {
   if (!result.has_wheelset) return fmt::format("case {}", result.number);
-  return by_place ? fmt::format("s {:.4g} mm", 1e3 * result.s) : fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi);
+  return by_place ? fmt::format("s {:.4g} mm", 1e3 * result.s)
+                  : fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi);
 }
 
 std::string draw_panel(const CasePicture& picture, const Layout& layout, bool by_place, double top_pressure, int index,

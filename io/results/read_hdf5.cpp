@@ -59,7 +59,8 @@ SampledSurface read_surface(const Hdf5GroupReader& group, const std::string& nam
 }  // namespace
 
 void refuse_result(const Hdf5GroupReader& where, const std::string& what) {
-  throw Error(ErrorKind::input_data, "the file of results " + what, {where.file(), 0, 0}, "give a file that this program wrote");
+  throw Error(ErrorKind::input_data, "the file of results " + what, {where.file(), 0, 0},
+              "give a file that this program wrote");
 }
 
 CaseResult read_case(const Hdf5GroupReader& group) {
@@ -112,7 +113,8 @@ void require_format(const Hdf5GroupReader& root, const std::string& format) {
     refuse_result(root, fmt::format("holds \"{}\" where \"{}\" is read", found, format));
 }
 
-void check_surface_names(const Hdf5GroupReader& where, std::span<const CaseResult> cases, std::span<const SampledSurface> surfaces) {
+void check_surface_names(const Hdf5GroupReader& where, std::span<const CaseResult> cases,
+                         std::span<const SampledSurface> surfaces) {
   for (const CaseResult& c : cases)
     for (const std::string* name : {&c.wheel_surface, &c.rail_surface})
       if (!name->empty() && surface_index(surfaces, *name) < 0)

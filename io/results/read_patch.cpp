@@ -22,7 +22,8 @@ std::uint64_t patch_id(const Hdf5GroupReader& group, const std::string& text) {
   std::uint64_t value = 0;
   const char* end = text.data() + text.size();
   const auto [stop, failure] = std::from_chars(text.data(), end, value);
-  if (failure != std::errc() || stop != end) refuse_result(group, fmt::format("has \"{}\" as the number of a patch", text));
+  if (failure != std::errc() || stop != end)
+    refuse_result(group, fmt::format("has \"{}\" as the number of a patch", text));
   return value;
 }
 
@@ -50,8 +51,10 @@ Grid2 read_grid(const Hdf5GroupReader& group) {
                    group.number("ds"), group.integer("nx"), group.integer("ny")};
   if (grid.nx < 0 || grid.ny < 0 || static_cast<double>(grid.nx) * grid.ny > kMostElements)
     refuse_result(group, fmt::format("has a patch of {} by {} elements", grid.nx, grid.ny));
-  const bool placed = std::isfinite(grid.x0) && std::isfinite(grid.y0) && std::isfinite(grid.dx) && std::isfinite(grid.dy);
-  if (grid.size() > 0 && !(placed && grid.dx > 0.0 && grid.dy > 0.0)) refuse_result(group, "has a patch whose elements have no size");
+  const bool placed =
+      std::isfinite(grid.x0) && std::isfinite(grid.y0) && std::isfinite(grid.dx) && std::isfinite(grid.dy);
+  if (grid.size() > 0 && !(placed && grid.dx > 0.0 && grid.dy > 0.0))
+    refuse_result(group, "has a patch whose elements have no size");
   return grid;
 }
 
@@ -86,7 +89,8 @@ void count_elements(const Hdf5GroupReader& group, PatchResult& p) {
 
 SubsurfaceBlock read_block(const Hdf5GroupReader& group) {
   const std::vector<std::size_t> size = group.shape("x");
-  if (size.size() != 3 || std::ranges::any_of(size, [](std::size_t n) { return n == 0 || static_cast<double>(n) > kMostElements; }) ||
+  if (size.size() != 3 ||
+      std::ranges::any_of(size, [](std::size_t n) { return n == 0 || static_cast<double>(n) > kMostElements; }) ||
       static_cast<double>(size[0]) * static_cast<double>(size[1]) * static_cast<double>(size[2]) > kMostElements)
     refuse_result(group, "has a block below the surface that is no box of points");
   SubsurfaceBlock block{static_cast<int>(size[2]), static_cast<int>(size[1]), static_cast<int>(size[0]), {}};
@@ -99,7 +103,8 @@ SubsurfaceBlock read_block(const Hdf5GroupReader& group) {
   block.values.resize(size[0] * size[1] * size[2]);
   for (std::size_t k = 0; k < kSubsurfaceColumns.size(); ++k) {
     const auto components = static_cast<std::size_t>(kSubsurfaceColumns[k].components);
-    for (std::size_t i = 0; i < block.values.size(); ++i) kSubsurfaceColumns[k].put(columns[k].data() + i * components, block.values[i]);
+    for (std::size_t i = 0; i < block.values.size(); ++i)
+      kSubsurfaceColumns[k].put(columns[k].data() + i * components, block.values[i]);
   }
   return block;
 }
@@ -118,7 +123,9 @@ void read_blocks(const Hdf5GroupReader& group, PatchResult& p) {
 
 std::optional<Loads> read_loads(const Hdf5GroupReader& group) {
   if (!group.has_attribute("load_force_track")) return {};
-  const auto one = [&](const std::string& axes) { return Load{group.vector("load_force_" + axes), group.vector("load_moment_" + axes)}; };
+  const auto one = [&](const std::string& axes) {
+    return Load{group.vector("load_force_" + axes), group.vector("load_moment_" + axes)};
+  };
   return Loads{one("track"), one("rail"), one("wheelset"), one("wheel")};
 }
 

@@ -30,62 +30,63 @@ struct Loads {
 };
 
 struct PatchFields {
-  Grid2 grid;                                      ///< element centres in contact axes [m]
-  Pose X_TC;                                       ///< pose of the grid's frame (x, s, n) in track axes (identity for a basic case)
-  std::vector<double> gap;                         ///< undeformed distance [m], NaN = no surface
-  std::vector<double> pressure, traction_x, traction_s;        ///< [Pa], on the rail
+  Grid2 grid;               ///< element centres in contact axes [m]
+  Pose X_TC;                ///< pose of the grid's frame (x, s, n) in track axes (identity for a basic case)
+  std::vector<double> gap;  ///< undeformed distance [m], NaN = no surface
+  std::vector<double> pressure, traction_x, traction_s;                ///< [Pa], on the rail
   std::vector<double> displacement_n, displacement_x, displacement_s;  ///< [m]
-  std::vector<double> slip_x, slip_s;              ///< relative slip [-] (shift: [m])
+  std::vector<double> slip_x, slip_s;                                  ///< relative slip [-] (shift: [m])
   std::vector<double> friction;
-  std::vector<std::uint8_t> state;                 ///< 0 exterior, 1 adhesion, 2 slip, 3 plastic
-  std::vector<double> plastic_x, plastic_s;        ///< plastic shear of the interface layer [m]; empty without
-  std::vector<double> yield_stress;                ///< of the interface layer [Pa]; empty without
-  std::vector<double> temperature_1, temperature_2;  ///< of the surfaces of rail and wheel [deg C]; empty unless computed
+  std::vector<std::uint8_t> state;           ///< 0 exterior, 1 adhesion, 2 slip, 3 plastic
+  std::vector<double> plastic_x, plastic_s;  ///< plastic shear of the interface layer [m]; empty without
+  std::vector<double> yield_stress;          ///< of the interface layer [Pa]; empty without
+  std::vector<double> temperature_1,
+      temperature_2;  ///< of the surfaces of rail and wheel [deg C]; empty unless computed
   /// Rigid slip of the surfaces beyond creepages and spin, relative as slip is (shift: [m]); empty = none.
   std::vector<double> extra_slip_x, extra_slip_s;
-  /// Curved reference: inclination of each row against the contact plane [rad]; tractions and slip are in the axes of the row and s is
-  /// the arc length of the reference. Empty: a plane.
+  /// Curved reference: inclination of each row against the contact plane [rad]; tractions and slip are in the axes of
+  /// the row and s is the arc length of the reference. Empty: a plane.
   std::vector<double> row_angle;
 };
 
-/// Where row iy of the elements' edges lies in the contact plane's axes: lateral and normal to it [m]; iy = 0 ... ny. A row is as long
-/// as it is high in the grid, turned by its inclination; the contact reference lies on the plane.
+/// Where row iy of the elements' edges lies in the contact plane's axes: lateral and normal to it [m]; iy = 0 ... ny. A
+/// row is as long as it is high in the grid, turned by its inclination; the contact reference lies on the plane.
 std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s);
 
 struct PatchResult {
-  bool has_reference = false;                      ///< wheel-rail cases only
-  double x_tr = 0.0, y_tr = 0.0, z_tr = 0.0, angle = 0.0;     ///< contact reference in track axes [m], [rad]
-  double x_rail = 0.0, y_rail = 0.0, z_rail = 0.0, s_rail = 0.0;  ///< in rail axes; s along the profile [m]
-  double x_wheel = 0.0, y_wheel = 0.0, z_wheel = 0.0;         ///< in wheel-profile axes [m]
-  double x_wheelset = 0.0, y_wheelset = 0.0, z_wheelset = 0.0;  ///< in wheelset axes [m]
+  bool has_reference = false;                                        ///< wheel-rail cases only
+  double x_tr = 0.0, y_tr = 0.0, z_tr = 0.0, angle = 0.0;            ///< contact reference in track axes [m], [rad]
+  double x_rail = 0.0, y_rail = 0.0, z_rail = 0.0, s_rail = 0.0;     ///< in rail axes; s along the profile [m]
+  double x_wheel = 0.0, y_wheel = 0.0, z_wheel = 0.0;                ///< in wheel-profile axes [m]
+  double x_wheelset = 0.0, y_wheelset = 0.0, z_wheelset = 0.0;       ///< in wheelset axes [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
-  double reference_x = 0.0, reference_s = 0.0;     ///< contact reference in the axes of the grid [m]
-  std::uint64_t id = 0;                            ///< stays with a patch through a sequence in time; 0 = not known
-  std::vector<std::uint64_t> came_from;            ///< patches of the previous instant that it continues
+  double reference_x = 0.0, reference_s = 0.0;                       ///< contact reference in the axes of the grid [m]
+  std::uint64_t id = 0;                  ///< stays with a patch through a sequence in time; 0 = not known
+  std::vector<std::uint64_t> came_from;  ///< patches of the previous instant that it continues
   std::optional<Loads> loads;
   struct LocalForces {
-    double fn = 0.0, fx = 0.0, fs = 0.0;           ///< [N]
+    double fn = 0.0, fx = 0.0, fs = 0.0;  ///< [N]
   };
-  std::optional<LocalForces> local;                ///< curved reference: sums of the components in the axes of the rows
+  std::optional<LocalForces> local;  ///< curved reference: sums of the components in the axes of the rows
   bool has_rolling = false;
-  double chi = 0.0, dq = 0.0, velocity = 0.0;      ///< [rad], [m], [m/s]
-  bool shift = false;                              ///< creepages are lengths, power is work
-  double xi = 0.0, eta = 0.0, phi = 0.0;           ///< [-], [-], [rad/m] (shift: [m], [m], [rad])
-  double fn = 0.0, fx = 0.0, fs = 0.0, mn = 0.0;   ///< on the rail [N], [N m]
-  double fx_relative = 0.0, fs_relative = 0.0;     ///< over mu_static F_n
-  double shear_modulus = 0.0;                      ///< combined G [Pa]
-  double elastic_energy = 0.0;                     ///< [J]
-  double frictional_power = 0.0;                   ///< [W], negative = dissipated; shift: work [J]
-  double approach = 0.0, pmax = 0.0;               ///< [m], [Pa]
+  double chi = 0.0, dq = 0.0, velocity = 0.0;     ///< [rad], [m], [m/s]
+  bool shift = false;                             ///< creepages are lengths, power is work
+  double xi = 0.0, eta = 0.0, phi = 0.0;          ///< [-], [-], [rad/m] (shift: [m], [m], [rad])
+  double fn = 0.0, fx = 0.0, fs = 0.0, mn = 0.0;  ///< on the rail [N], [N m]
+  double fx_relative = 0.0, fs_relative = 0.0;    ///< over mu_static F_n
+  double shear_modulus = 0.0;                     ///< combined G [Pa]
+  double elastic_energy = 0.0;                    ///< [J]
+  double frictional_power = 0.0;                  ///< [W], negative = dissipated; shift: work [J]
+  double approach = 0.0, pmax = 0.0;              ///< [m], [Pa]
   int npot = 0, ncon = 0, nadh = 0, nslip = 0;
   std::optional<double> max_temperature_1, max_temperature_2;  ///< in contact, rail and wheel [deg C]
   PatchFields fields;
-  std::vector<SubsurfaceBlock> subsurface;         ///< in the axes of the patch
+  std::vector<SubsurfaceBlock> subsurface;             ///< in the axes of the patch
   bool subsurface_table = false, full_tensor = false;  ///< a .subs text file is wanted, with all components of stress
-  std::optional<MatFileHead> element_table;        ///< a .mat text file is wanted
-  bool all_elements = false;                       ///< in it, also those not in contact
-  /// Derivatives of the forces on the rail, where they were asked for: by the creepages xi, eta [N], phi [N m] (shift: [N/m], [N/rad])
-  /// of (F_x, F_s), and by the approach of (F_n, F_x, F_s) [N/m].
+  std::optional<MatFileHead> element_table;            ///< a .mat text file is wanted
+  bool all_elements = false;                           ///< in it, also those not in contact
+  /// Derivatives of the forces on the rail, where they were asked for: by the creepages xi, eta [N], phi [N m] (shift:
+  /// [N/m], [N/rad]) of (F_x, F_s), and by the approach of (F_n, F_x, F_s) [N/m].
   struct Sensitivities {
     std::array<std::array<double, 2>, 3> by_creepage{};
     std::array<double, 3> by_approach{};
@@ -98,21 +99,21 @@ struct CaseResult {
   Status status = Status::ok;
   std::string message;
   double seconds = 0.0;
-  bool shown = true;              ///< false: the input asks for no output of this case
+  bool shown = true;  ///< false: the input asks for no output of this case
   bool has_wheelset = false;
-  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;      ///< wheelset [m], [rad]
-  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0; ///< [m/s], [rad/s]
-  Vec3 force_tr = Vec3::Zero(), force_ws = Vec3::Zero();                     ///< on the rail [N]
-  Vec3 moment_rail = Vec3::Zero();    ///< on the rail about the rail marker, track axes [N m]
-  Vec3 moment_wheel = Vec3::Zero();   ///< on the rail about the wheel marker, wheelset axes [N m]
-  std::optional<Loads> loads;         ///< on the rail, sum over the patches
+  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;        ///< wheelset [m], [rad]
+  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;  ///< [m/s], [rad/s]
+  Vec3 force_tr = Vec3::Zero(), force_ws = Vec3::Zero();                       ///< on the rail [N]
+  Vec3 moment_rail = Vec3::Zero();      ///< on the rail about the rail marker, track axes [N m]
+  Vec3 moment_wheel = Vec3::Zero();     ///< on the rail about the wheel marker, wheelset axes [N m]
+  std::optional<Loads> loads;           ///< on the rail, sum over the patches
   std::optional<Vec2> rail_deflection;  ///< of a rail on springs, y and z [m]
   struct Roller {
     double nominal_radius = 0.0, pitch_rate = 0.0;  ///< [m], [rad/s]
   };
-  std::optional<Roller> roller;       ///< in place of the rail
-  /// Poses of the axes of the sampled surfaces in track axes: the wheel's are on its axle and turn with its pitch, the rail's are those of
-  /// its profile, moved back by the wheelset's position along the track.
+  std::optional<Roller> roller;  ///< in place of the rail
+  /// Poses of the axes of the sampled surfaces in track axes: the wheel's are on its axle and turn with its pitch, the
+  /// rail's are those of its profile, moved back by the wheelset's position along the track.
   struct Bodies {
     Pose X_TW, X_TR;
   };
@@ -126,12 +127,12 @@ struct CaseResult {
 
 /// A surface that took part in a run.
 struct SurfaceUse {
-  std::string body;              ///< "wheel" or "rail"
+  std::string body;  ///< "wheel" or "rail"
   std::string backend;
-  double resolution = 0.0;       ///< spacing of the samples it was built from [m]; 0 = built from the data as given
+  double resolution = 0.0;  ///< spacing of the samples it was built from [m]; 0 = built from the data as given
   double build_seconds = 0.0;
   std::size_t memory_bytes = 0;
-  SurfaceDifference fit;         ///< from what it was sampled from; points = 0: not sampled
+  SurfaceDifference fit;  ///< from what it was sampled from; points = 0: not sampled
   std::string note;
 };
 
@@ -141,9 +142,9 @@ struct RunResult {
   double seconds = 0.0;
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
-  std::vector<SurfaceUse> surfaces;    ///< in the order in which the cases ask for them
-  std::vector<std::string> settings;   ///< echo of overrides (--set key=value, --backend)
-  bool complete = true;                ///< false when interrupted: then fewer cases than asked
+  std::vector<SurfaceUse> surfaces;                                  ///< in the order in which the cases ask for them
+  std::vector<std::string> settings;                                 ///< echo of overrides (--set key=value, --backend)
+  bool complete = true;  ///< false when interrupted: then fewer cases than asked
   int cases_total = 0;
   std::vector<CaseResult> cases;
   std::vector<SampledSurface> sampled;  ///< of what the cases used; empty where nobody asked for them

@@ -16,7 +16,8 @@ std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s) {
     return edges;
   }
   edges.emplace_back(0.0, 0.0);
-  for (const double angle : fields.row_angle) edges.push_back(edges.back() + grid.dy * Vec2(std::cos(angle), std::sin(angle)));
+  for (const double angle : fields.row_angle)
+    edges.push_back(edges.back() + grid.dy * Vec2(std::cos(angle), std::sin(angle)));
   // The reference lies between two edges.
   const double place = std::clamp((reference_s - first) / grid.dy, 0.0, static_cast<double>(grid.ny));
   const auto below = std::min(static_cast<std::size_t>(place), edges.size() - 2);

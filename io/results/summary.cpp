@@ -66,10 +66,11 @@ void add_wheelset(Table& table, const CaseResult& result) {
                          three(result.s * 1e3, result.y * 1e3, result.z * 1e3)));
   table.line(fmt::format("  {:<{}}{:<9}{}", "wheelset roll, yaw, pitch", kLabel, "[deg]",
                          three(result.roll * kDegrees, result.yaw * kDegrees, result.pitch * kDegrees)));
-  table.line(fmt::format("  {:<{}}{:<9}{:>{}}", "wheelset pitch rate", kLabel, "[rad/s]", five_digits(result.vpitch), kColumn));
+  table.line(fmt::format("  {:<{}}{:<9}{:>{}}", "wheelset pitch rate", kLabel, "[rad/s]", five_digits(result.vpitch),
+                         kColumn));
   if (const auto& d = result.rail_deflection)
-    table.line(fmt::format("  {:<{}}{:<9}{:>{}}{:>{}}", "rail deflection y, z", kLabel, "[mm]", four_decimals(d->x() * 1e3), kColumn,
-                           four_decimals(d->y() * 1e3), kColumn));
+    table.line(fmt::format("  {:<{}}{:<9}{:>{}}{:>{}}", "rail deflection y, z", kLabel, "[mm]",
+                           four_decimals(d->x() * 1e3), kColumn, four_decimals(d->y() * 1e3), kColumn));
   table.line(fmt::format("  {:<{}}{:<9}{}", "force on rail x, y, z", kLabel, "[N]", three_forces(result.force_tr)));
 }
 
@@ -128,8 +129,10 @@ std::string summary(const SurfaceUse& use) {
   if (use.fit.points > 0)
     text += fmt::format(": at most {:.3g} um and {:.3g} mrad from the surface it was sampled from (rms {:.3g} um)",
                         1e6 * use.fit.height_max, 1e3 * use.fit.slope_max, 1e6 * use.fit.height_rms);
-  if (use.fit.missing > 0) text += fmt::format(", missing at {} of {} points", use.fit.missing, use.fit.missing + use.fit.points);
-  text += fmt::format("; {:.3g} MB, built in {:.2g} s", 1e-6 * static_cast<double>(use.memory_bytes), use.build_seconds);
+  if (use.fit.missing > 0)
+    text += fmt::format(", missing at {} of {} points", use.fit.missing, use.fit.missing + use.fit.points);
+  text +=
+      fmt::format("; {:.3g} MB, built in {:.2g} s", 1e-6 * static_cast<double>(use.memory_bytes), use.build_seconds);
   return use.note.empty() ? text : text + "; " + use.note;
 }
 

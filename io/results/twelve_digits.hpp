@@ -4,7 +4,8 @@
 
 namespace treadmark::io {
 
-/// A finite number rounded to 12 significant digits, as JSON files hold it: changes of unit leave no tail of nines. Thread-safe.
+/// A finite number rounded to 12 significant digits, as JSON files hold it: changes of unit leave no tail of nines.
+/// Thread-safe.
 double twelve_digits(double value);
 
 }  // namespace treadmark::io

@@ -32,9 +32,11 @@ void write_fields(const Hdf5GroupWriter& group, const PatchResult& patch) {
     group.write({std::string(column.name), size, std::string(unit), std::string(column.meaning), true}, values);
   }
   if (!fields.row_angle.empty())
-    group.write({"row_angle", {s.size()}, "rad", "inclination of the rows of a curved reference against the contact plane"},
-                fields.row_angle);
-  if (!fields.state.empty()) group.write({"state", size, "1", "0 exterior, 1 adhesion, 2 slip, 3 plastic", true}, fields.state);
+    group.write(
+        {"row_angle", {s.size()}, "rad", "inclination of the rows of a curved reference against the contact plane"},
+        fields.row_angle);
+  if (!fields.state.empty())
+    group.write({"state", size, "1", "0 exterior, 1 adhesion, 2 slip, 3 plastic", true}, fields.state);
 }
 
 void write_subsurface(const Hdf5GroupWriter& patch_group, const std::vector<SubsurfaceBlock>& blocks) {
@@ -86,13 +88,18 @@ void write_surfaces(const Hdf5GroupWriter& parent, std::span<const SampledSurfac
     group.add({"name", s.name});
     group.add({"closed", s.closed ? 1 : 0});
     const bool angle = s.body == "wheel" || s.closed;
-    group.write({"u", {s.u.size()}, angle ? "rad" : "m", angle ? "stations: angle round the axle" : "stations: x along the rail"}, s.u);
+    group.write({"u",
+                 {s.u.size()},
+                 angle ? "rad" : "m",
+                 angle ? "stations: angle round the axle" : "stations: x along the rail"},
+                s.u);
     const std::vector<std::size_t> size{s.u.size(), static_cast<std::size_t>(s.nv)};
     group.write({"x", size, "m", "forward, in the axes of the body; NaN where there is no surface", true}, s.x);
     group.write({"y", size, "m", "to the right", true}, s.y);
     group.write({"z", size, "m", "down", true}, s.z);
     if (!s.deviation.empty())
-      group.write({"deviation", size, "m", "along the outward normal from the median of the sections", true}, s.deviation);
+      group.write({"deviation", size, "m", "along the outward normal from the median of the sections", true},
+                  s.deviation);
   }
 }
 

@@ -44,8 +44,11 @@ Json kinematics(const PatchResult& patch) {
 }
 
 Json load_json(const Load& load) {
-  return {{"fx_N", number(load.force.x())},           {"fy_N", number(load.force.y())},           {"fz_N", number(load.force.z())},
-          {"mx_Nmm", number(load.moment.x() * kMilli)}, {"my_Nmm", number(load.moment.y() * kMilli)},
+  return {{"fx_N", number(load.force.x())},
+          {"fy_N", number(load.force.y())},
+          {"fz_N", number(load.force.z())},
+          {"mx_Nmm", number(load.moment.x() * kMilli)},
+          {"my_Nmm", number(load.moment.y() * kMilli)},
           {"mz_Nmm", number(load.moment.z() * kMilli)}};
 }
 
@@ -98,9 +101,9 @@ Json patch_json(const PatchResult& patch) {
 
   if (patch.sensitivities) {
     const auto& s = *patch.sensitivities;
-    out["sensitivities"] = {{"fx_by_xi", number(s.by_creepage[0][0])},   {"fs_by_xi", number(s.by_creepage[0][1])},
-                            {"fx_by_eta", number(s.by_creepage[1][0])},  {"fs_by_eta", number(s.by_creepage[1][1])},
-                            {"fx_by_phi", number(s.by_creepage[2][0])},  {"fs_by_phi", number(s.by_creepage[2][1])},
+    out["sensitivities"] = {{"fx_by_xi", number(s.by_creepage[0][0])},    {"fs_by_xi", number(s.by_creepage[0][1])},
+                            {"fx_by_eta", number(s.by_creepage[1][0])},   {"fs_by_eta", number(s.by_creepage[1][1])},
+                            {"fx_by_phi", number(s.by_creepage[2][0])},   {"fs_by_phi", number(s.by_creepage[2][1])},
                             {"fn_by_approach", number(s.by_approach[0])}, {"fx_by_approach", number(s.by_approach[1])},
                             {"fs_by_approach", number(s.by_approach[2])}};
   }
@@ -145,7 +148,8 @@ void add_wheelset(Json& out, const CaseResult& result) {
   if (const auto& d = result.rail_deflection)
     out["rail_deflection"] = {{"y_mm", number(d->x() * kMilli)}, {"z_mm", number(d->y() * kMilli)}};
   if (const auto& r = result.roller)
-    out["roller"] = {{"nominal_radius_mm", number(r->nominal_radius * kMilli)}, {"pitch_rate_rad_s", number(r->pitch_rate)}};
+    out["roller"] = {{"nominal_radius_mm", number(r->nominal_radius * kMilli)},
+                     {"pitch_rate_rad_s", number(r->pitch_rate)}};
 }
 
 Json case_json(const CaseResult& result) {

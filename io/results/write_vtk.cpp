@@ -38,9 +38,11 @@ std::vector<float> traction_vectors(const PatchFields& fields) {
   out.reserve(3 * fields.pressure.size());
   const bool tangential = !fields.traction_x.empty() && !fields.traction_s.empty();
   for (std::size_t i = 0; i < fields.pressure.size(); ++i) {
-    const double angle = fields.row_angle.empty() ? 0.0 : fields.row_angle[i / static_cast<std::size_t>(fields.grid.nx)];
-    const Vec3 t_T = fields.X_TC.rotation * rotation_x(angle) * Vec3(tangential ? fields.traction_x[i] : 0.0,
-                                                 tangential ? fields.traction_s[i] : 0.0, fields.pressure[i]);
+    const double angle =
+        fields.row_angle.empty() ? 0.0 : fields.row_angle[i / static_cast<std::size_t>(fields.grid.nx)];
+    const Vec3 t_T =
+        fields.X_TC.rotation * rotation_x(angle) *
+        Vec3(tangential ? fields.traction_x[i] : 0.0, tangential ? fields.traction_s[i] : 0.0, fields.pressure[i]);
     for (int k = 0; k < 3; ++k) out.push_back(static_cast<float>(t_T[k]));
   }
   return out;
@@ -59,12 +61,13 @@ std::string patch_to_vts(const PatchResult& patch, int case_number, int patch_nu
     if (values.empty()) continue;
     const std::string_view unit = patch.shift ? column.unit_shift : column.unit;
     cells += vtk_data_array(unit == "1" ? std::string(column.name) : fmt::format("{}_{}", column.name, unit),
-                        as_float(values), 1);
+                            as_float(values), 1);
   }
   if (!fields.pressure.empty()) cells += vtk_data_array("traction_on_rail_Pa", traction_vectors(fields), 3);
   if (!fields.state.empty()) cells += vtk_data_array("state", fields.state, 1);
 
-  return vtk_structured_grid(extent, "CellData", cells, vtk_data_array("points_m", corner_points(fields, patch.reference_s), 3));
+  return vtk_structured_grid(extent, "CellData", cells,
+                             vtk_data_array("points_m", corner_points(fields, patch.reference_s), 3));
 }
 
 namespace {
@@ -77,7 +80,8 @@ class VtkFiles {
   void add(int case_number, int part, const std::string& name, const std::string& text) {
     write_text_file(folder_ / name, text);
     written.push_back(folder_ / name);
-    entries += fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", case_number, part, name);
+    entries +=
+        fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", case_number, part, name);
   }
 
   std::vector<std::filesystem::path> written;

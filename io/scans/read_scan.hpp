@@ -18,12 +18,13 @@ namespace treadmark::io {
 
 /// A point cloud as it stands in its file.
 struct Scan {
-  PointCloud cloud;                       ///< numbers of the file, nothing scaled
-  std::string format;                     ///< in words: "PLY, binary little endian", "columns x y z pass, separated by ','"
-  std::optional<LengthUnit> unit;         ///< only where the file itself says it (a comment or a header of a column), and no other
-  std::size_t points_in_file = 0;         ///< = points of the cloud + not_finite + withheld
-  std::size_t not_finite = 0;             ///< left out: NaN or infinite coordinates (scanners write them for lost points)
-  std::size_t withheld = 0;               ///< left out: points that a LAS file marks as withheld, that is deleted
+  PointCloud cloud;    ///< numbers of the file, nothing scaled
+  std::string format;  ///< in words: "PLY, binary little endian", "columns x y z pass, separated by ','"
+  std::optional<LengthUnit>
+      unit;  ///< only where the file itself says it (a comment or a header of a column), and no other
+  std::size_t points_in_file = 0;  ///< = points of the cloud + not_finite + withheld
+  std::size_t not_finite = 0;      ///< left out: NaN or infinite coordinates (scanners write them for lost points)
+  std::size_t withheld = 0;        ///< left out: points that a LAS file marks as withheld, that is deleted
 };
 
 struct ScanReadOptions {
@@ -34,53 +35,58 @@ struct ScanReadOptions {
 /// Whether the name ends like a scan: .ply .stl .obj .off .xyz .asc .txt .csv .las (any case).
 bool is_scan_file(const std::filesystem::path& file);
 
-/// Reads the points (vertices; each once where triangles of an STL file repeat them bit by bit) of a scan, with normals and
-/// passes where the file has them. Read in pieces; what is allocated never exceeds what the file can hold.
-///   .ply  ASCII and binary of both endians, any order of elements and properties; pass: a whole-number property named pass,
+/// Reads the points (vertices; each once where triangles of an STL file repeat them bit by bit) of a scan, with normals
+/// and passes where the file has them. Read in pieces; what is allocated never exceeds what the file can hold.
+///   .ply  ASCII and binary of both endians, any order of elements and properties; pass: a whole-number property named
+///   pass,
 ///         pass_id, scan_id, scan or point_source_id.
-///   .stl  ASCII and binary. .obj: normals only where each vertex has its own. .off: text (normals with NOFF) and binary.
-///   .las  1.0 to 1.4 without compression, formats 0 to 10; pass: the point source ID, unless it is the same everywhere.
+///   .stl  ASCII and binary. .obj: normals only where each vertex has its own. .off: text (normals with NOFF) and
+///   binary. .las  1.0 to 1.4 without compression, formats 0 to 10; pass: the point source ID, unless it is the same
+///   everywhere.
 ///         Points marked as withheld are left out.
-///   .xyz .asc .txt .csv  columns of text. Separators: blanks, tabs, ',' or ';'; decimal commas where something else separates
-///         and there is no decimal point. Comments: # ! % // at the start of a line or behind the numbers, ';' before words.
-///         A leading number of points may stand there. Columns by a line of names (also in a comment: x, y, z, nx, ny, nz,
-///         pass, scan id, line id ..., "X [mm]"), else by their number: 3 = x y z, 6 = x y z nx ny nz where these are unit
-///         vectors in the first lines; what stands behind x y z is ignored otherwise.
-/// Normals become unit vectors; where the file has a zero or NaN they are zero vectors. What was found or assumed is in format.
-/// progress counts bytes. Errors: Error(input_data) with file:line:column or the byte offset, and advice; also when stopped.
+///   .xyz .asc .txt .csv  columns of text. Separators: blanks, tabs, ',' or ';'; decimal commas where something else
+///   separates
+///         and there is no decimal point. Comments: # ! % // at the start of a line or behind the numbers, ';' before
+///         words. A leading number of points may stand there. Columns by a line of names (also in a comment: x, y, z,
+///         nx, ny, nz, pass, scan id, line id ..., "X [mm]"), else by their number: 3 = x y z, 6 = x y z nx ny nz where
+///         these are unit vectors in the first lines; what stands behind x y z is ignored otherwise.
+/// Normals become unit vectors; where the file has a zero or NaN they are zero vectors. What was found or assumed is in
+/// format. progress counts bytes. Errors: Error(input_data) with file:line:column or the byte offset, and advice; also
+/// when stopped.
 Scan read_scan(const std::filesystem::path& file, const ScanReadOptions& options = {}, const Progress& progress = {});
 
-/// Writes points times 1/metres_per(unit) by the extension: .ply (binary little endian, double, with a comment that names the
-/// unit), .xyz .asc .txt .csv (header line with names of columns and unit), .las 1.2 (steps of 0.1 um or finer, the unit as
-/// system identifier). Normals and passes are written where the cloud has them and the format can hold them (LAS has no
-/// normals). points: [m]. The same cloud gives the same bytes; the file appears only when complete.
-/// Errors: Error(configuration) for another extension, a cloud that is empty or not finite, one beyond 400 m for LAS, or a
-/// file that cannot be written.
+/// Writes points times 1/metres_per(unit) by the extension: .ply (binary little endian, double, with a comment that
+/// names the unit), .xyz .asc .txt .csv (header line with names of columns and unit), .las 1.2 (steps of 0.1 um or
+/// finer, the unit as system identifier). Normals and passes are written where the cloud has them and the format can
+/// hold them (LAS has no normals). points: [m]. The same cloud gives the same bytes; the file appears only when
+/// complete. Errors: Error(configuration) for another extension, a cloud that is empty or not finite, one beyond 400 m
+/// for LAS, or a file that cannot be written.
 void write_scan(const std::filesystem::path& file, const PointCloud& cloud, LengthUnit unit);
 
-/// Whether the content of a .csv, .txt or .asc file is a gridded map of deviations and no list of points. A matrix is told by
-/// words or nothing in its first cell beside a first row of numbers; with a number there, by a first row (of at least four
-/// positions) and a first column that increase evenly. False for a file that cannot be read.
+/// Whether the content of a .csv, .txt or .asc file is a gridded map of deviations and no list of points. A matrix is
+/// told by words or nothing in its first cell beside a first row of numbers; with a number there, by a first row (of at
+/// least four positions) and a first column that increase evenly. False for a file that cannot be read.
 bool is_deviation_map(const std::filesystem::path& file);
 
 /// How the numbers of a gridded map are meant.
 struct MapReadOptions {
   Body body = Body::rail;
-  double nominal_radius = 0.0;            ///< wheel: turns lengths along the circumference into angles [m]
-  std::optional<LengthUnit> unit;         ///< of positions along y, along the track or circumference; default: the file's word, else mm
+  double nominal_radius = 0.0;  ///< wheel: turns lengths along the circumference into angles [m]
+  std::optional<LengthUnit>
+      unit;  ///< of positions along y, along the track or circumference; default: the file's word, else mm
   std::optional<LengthUnit> height_unit;  ///< of the deviations; default: the file's word, else as unit
   bool angles_deg = false;                ///< wheel: the rows' positions are degrees, not lengths
   SourcePosition asked_by;
 };
 
-/// A map of deviations: a CSV matrix (first row: lateral positions y, first column: positions x along the track or round the
-/// wheel; empty cells and "nan" = no data) or an ESRI ASCII grid (.asc: ncols, nrows, xllcorner or xllcenter, yllcorner or
-/// yllcenter, cellsize, NODATA_value; columns along x, rows along y with the last row at the least y).
-/// Deviations are positive along +z of a rail (material gone) and along +r of a wheel (material added), as OffsetMap has them.
-/// Units: a comment or the first cell that states one ("unit mm", "[mm]", "deviations in um").
-/// Errors: Error(input_data) with file:line:column: positions that do not increase evenly (within 5 % of a step), ragged rows,
-/// no data at all, deviations that cannot be metres after scaling (beyond 50 mm, with a hint on units), a wheel's rows that go
-/// round more than once. Error(configuration): degrees on a rail, lengths round a wheel without its radius.
+/// A map of deviations: a CSV matrix (first row: lateral positions y, first column: positions x along the track or
+/// round the wheel; empty cells and "nan" = no data) or an ESRI ASCII grid (.asc: ncols, nrows, xllcorner or xllcenter,
+/// yllcorner or yllcenter, cellsize, NODATA_value; columns along x, rows along y with the last row at the least y).
+/// Deviations are positive along +z of a rail (material gone) and along +r of a wheel (material added), as OffsetMap
+/// has them. Units: a comment or the first cell that states one ("unit mm", "[mm]", "deviations in um"). Errors:
+/// Error(input_data) with file:line:column: positions that do not increase evenly (within 5 % of a step), ragged rows,
+/// no data at all, deviations that cannot be metres after scaling (beyond 50 mm, with a hint on units), a wheel's rows
+/// that go round more than once. Error(configuration): degrees on a rail, lengths round a wheel without its radius.
 OffsetMap read_deviation_map(const std::filesystem::path& file, const MapReadOptions& options);
 
 }  // namespace treadmark::io

@@ -21,7 +21,8 @@ struct Step {
 
 Step first_step(std::string_view path, const CaseOverride& change) {
   const std::size_t dot = path.find('.');
-  Step step{path.substr(0, dot), dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1), dot == std::string_view::npos};
+  Step step{path.substr(0, dot), dot == std::string_view::npos ? std::string_view{} : path.substr(dot + 1),
+            dot == std::string_view::npos};
   if (step.head.empty() || (!step.last && step.rest.empty()))
     throw Error(ErrorKind::configuration, fmt::format("'{}' is no path of a key", change.path), change.value.where);
   return step;
@@ -49,7 +50,8 @@ std::size_t element_of(const std::vector<CaseValue>& list, std::string_view whic
   if (error == std::errc{} && end == which.data() + which.size()) {
     if (index < list.size()) return index;
     throw Error(ErrorKind::configuration,
-                fmt::format("{}: the list has {} entries, number {} (counted from 0) does not exist", change.path, list.size(), index),
+                fmt::format("{}: the list has {} entries, number {} (counted from 0) does not exist", change.path,
+                            list.size(), index),
                 change.value.where);
   }
   std::vector<std::string> names;
@@ -70,27 +72,32 @@ void change_table(CaseTable& table, std::string_view path, const CaseOverride& c
   auto found = std::find_if(table.begin(), table.end(), [&](const CaseEntry& entry) { return entry.key == step.head; });
   if (found == table.end())
     found = table.insert(table.end(), {std::string(step.head), change.value.where, {change.value.where, CaseTable{}}});
-  if (step.last) replace(found->value, change);
-  else change_within(found->value, step.rest, change);
+  if (step.last)
+    replace(found->value, change);
+  else
+    change_within(found->value, step.rest, change);
 }
 
 void change_within(CaseValue& value, std::string_view path, const CaseOverride& change) {
   if (auto* table = std::get_if<CaseTable>(&value.data)) return change_table(*table, path, change);
   auto* list = std::get_if<std::vector<CaseValue>>(&value.data);
   if (list == nullptr)
-    throw Error(ErrorKind::configuration, fmt::format("{}: nothing named '{}' is in {}", change.path, path, value.kind()),
-                change.value.where);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{}: nothing named '{}' is in {}", change.path, path, value.kind()), change.value.where);
   const Step step = first_step(path, change);
   CaseValue& element = list->at(element_of(*list, step.head, change));
-  if (step.last) replace(element, change);
-  else change_within(element, step.rest, change);
+  if (step.last)
+    replace(element, change);
+  else
+    change_within(element, step.rest, change);
 }
 
 }  // namespace
 
 void change_value(CaseTable& root, std::string_view path, const CaseOverride& change) {
   constexpr std::size_t kLongestPath = 1000;
-  if (path.size() > kLongestPath) throw Error(ErrorKind::configuration, "the path of a key is too long", change.value.where);
+  if (path.size() > kLongestPath)
+    throw Error(ErrorKind::configuration, "the path of a key is too long", change.value.where);
   change_table(root, path, change);
 }
 

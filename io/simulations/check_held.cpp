@@ -6,8 +6,8 @@
 #include <cmath>
 #include <set>
 
-#include <Eigen/Dense>
 #include <fmt/format.h>
+#include <Eigen/Dense>
 
 #include "treadmark/io/simulations/model_parts.hpp"
 
@@ -25,11 +25,13 @@ bool is_stiff(const SpringSpec& spring) {
 
 void check_touched(const std::vector<BodySpec>& bodies, const std::vector<SpringSpec>& springs) {
   for (const BodySpec& body : bodies)
-    if (std::none_of(springs.begin(), springs.end(), [&](const SpringSpec& s) { return s.body_a == body.name || s.body_b == body.name; }))
+    if (std::none_of(springs.begin(), springs.end(),
+                     [&](const SpringSpec& s) { return s.body_a == body.name || s.body_b == body.name; }))
       fail(fmt::format("nothing holds '{}': no spring touches it", body.name), body, "connect it in [[springs]]");
 }
 
-void check_connected(const std::vector<BodySpec>& bodies, const std::vector<SpringSpec>& springs, const Foundation& foundation) {
+void check_connected(const std::vector<BodySpec>& bodies, const std::vector<SpringSpec>& springs,
+                     const Foundation& foundation) {
   std::set<std::string> reached(foundation.bodies.begin(), foundation.bodies.end());
   for (bool grows = true; grows;) {
     grows = false;
@@ -48,7 +50,8 @@ void check_connected(const std::vector<BodySpec>& bodies, const std::vector<Spri
 /// Stiffness of small movements about the place at rest, in the directions that need to be held.
 class HeldDirections {
  public:
-  HeldDirections(const std::vector<BodySpec>& bodies, const Foundation& foundation) : bodies_(bodies), column_(bodies.size()) {
+  HeldDirections(const std::vector<BodySpec>& bodies, const Foundation& foundation)
+      : bodies_(bodies), column_(bodies.size()) {
     for (std::size_t b = 0; b < bodies.size(); ++b) {
       const auto& ends = foundation.bodies;
       const bool founded = std::find(ends.begin(), ends.end(), bodies[b].name) != ends.end();
@@ -89,7 +92,8 @@ class HeldDirections {
  private:
   /// Motion of a point of a body by its displacement and small rotation.
   void add_motion(Eigen::MatrixXd& stretch, const std::string& name, const Vec3& point, double sign) const {
-    const auto found = std::find_if(bodies_.begin(), bodies_.end(), [&](const BodySpec& body) { return body.name == name; });
+    const auto found =
+        std::find_if(bodies_.begin(), bodies_.end(), [&](const BodySpec& body) { return body.name == name; });
     if (found == bodies_.end()) return;
     const Vec3 arm = point - found->position;
     const auto& column = column_.at(static_cast<std::size_t>(found - bodies_.begin()));
@@ -110,14 +114,16 @@ class HeldDirections {
   }
 
   const std::vector<BodySpec>& bodies_;
-  std::vector<std::array<Eigen::Index, kFreedoms>> column_;   ///< of each body's directions; -1: does not move, or is held
-  std::vector<std::pair<std::size_t, int>> owner_;            ///< of each column: body and direction
+  std::vector<std::array<Eigen::Index, kFreedoms>>
+      column_;                                      ///< of each body's directions; -1: does not move, or is held
+  std::vector<std::pair<std::size_t, int>> owner_;  ///< of each column: body and direction
   Eigen::MatrixXd stiffness_;
 };
 
 }  // namespace
 
-void check_held(const std::vector<BodySpec>& bodies, const std::vector<SpringSpec>& springs, const Foundation& foundation) {
+void check_held(const std::vector<BodySpec>& bodies, const std::vector<SpringSpec>& springs,
+                const Foundation& foundation) {
   check_touched(bodies, springs);
   check_connected(bodies, springs, foundation);
   HeldDirections held(bodies, foundation);

@@ -22,7 +22,8 @@ bool is_part_name(std::string_view text) {
 }
 
 std::array<bool, kFreedoms> free_directions(const TableReader& part) {
-  const CaseValue& list = part.need("free", "list the directions in which it can move: \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"");
+  const CaseValue& list =
+      part.need("free", "list the directions in which it can move: \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"");
   const std::vector<std::string> words = part.words("free");
   if (words.empty())
     throw Error(ErrorKind::configuration, fmt::format("{} is empty", part.path_of("free")), list.where,
@@ -32,8 +33,10 @@ std::array<bool, kFreedoms> free_directions(const TableReader& part) {
   for (std::size_t i = 0; i < words.size(); ++i) {
     const SourcePosition& where = list.list()[i].where;
     check_name(fmt::format("the direction in {}", part.path_of("free")), words[i], known, where);
-    bool& direction = free.at(static_cast<std::size_t>(std::find(known.begin(), known.end(), words[i]) - known.begin()));
-    if (direction) throw Error(ErrorKind::configuration, fmt::format("{} names '{}' twice", part.path_of("free"), words[i]), where);
+    bool& direction =
+        free.at(static_cast<std::size_t>(std::find(known.begin(), known.end(), words[i]) - known.begin()));
+    if (direction)
+      throw Error(ErrorKind::configuration, fmt::format("{} names '{}' twice", part.path_of("free"), words[i]), where);
     direction = true;
   }
   return free;
@@ -44,11 +47,15 @@ void check_inertia(const TableReader& part, const BodySpec& body) {
   for (int axis = 0; axis < 3; ++axis) {
     const auto rotation = static_cast<std::size_t>(axis + 3);
     if (!body.free.at(rotation) || body.inertia[axis] > 0.0) continue;
-    const std::string what = fmt::format("the moment of inertia about {}", kFreedomWords.at(static_cast<std::size_t>(axis)));
+    const std::string what =
+        fmt::format("the moment of inertia about {}", kFreedomWords.at(static_cast<std::size_t>(axis)));
     if (given == nullptr)
-      part.fail(fmt::format("{}: {} is missing, but the body can {}", part.path(), what, kFreedomWords.at(rotation)), "give inertia_kg_m2");
-    throw Error(ErrorKind::configuration,
-                fmt::format("{}: {} must be positive, as the body can {}", part.path(), what, kFreedomWords.at(rotation)), given->where);
+      part.fail(fmt::format("{}: {} is missing, but the body can {}", part.path(), what, kFreedomWords.at(rotation)),
+                "give inertia_kg_m2");
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("{}: {} must be positive, as the body can {}", part.path(), what, kFreedomWords.at(rotation)),
+        given->where);
   }
 }
 
@@ -85,7 +92,8 @@ std::string_view freedom_word(int freedom) { return kFreedomWords.at(static_cast
 std::string part_name(const TableReader& part) {
   const std::string name = part.text("name");
   if (!is_part_name(name))
-    throw Error(ErrorKind::configuration, fmt::format("{} = '{}' is no name of a part", part.path_of("name"), name.substr(0, 100)),
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} = '{}' is no name of a part", part.path_of("name"), name.substr(0, 100)),
                 part.need("name").where, "start with a letter, go on with letters, digits, '_' or '-'");
   return name;
 }

@@ -10,8 +10,8 @@
 
 namespace treadmark::io {
 
-/// The parts that vehicle and track files share. One table may stand for several equal parts at different places, which are then
-/// called by its name and their number from 1. Error(configuration) at the place of what is wrong.
+/// The parts that vehicle and track files share. One table may stand for several equal parts at different places, which
+/// are then called by its name and their number from 1. Error(configuration) at the place of what is wrong.
 
 std::vector<BodySpec> read_bodies(const TableReader& document);
 /// bodies: those that can be connected, beside the ground.

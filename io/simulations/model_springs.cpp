@@ -23,12 +23,13 @@ Places read_place(const TableReader& table, const std::vector<std::string>& know
   const CaseValue& between = table.need("between", "the two bodies that are connected");
   const std::vector<std::string> names = table.words("between");
   if (names.size() != 2)
-    throw Error(ErrorKind::configuration, fmt::format("{} has {} names, it needs 2", table.path_of("between"), names.size()),
-                between.where);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} has {} names, it needs 2", table.path_of("between"), names.size()), between.where);
   for (std::size_t i = 0; i < 2; ++i)
     check_name(fmt::format("{}: the body", table.path_of("between")), names[i], known, between.list()[i].where);
   if (names[0] == names[1])
-    throw Error(ErrorKind::configuration, fmt::format("{} connects '{}' with itself", table.path_of("between"), names[0]), between.where);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} connects '{}' with itself", table.path_of("between"), names[0]), between.where);
   place.body_a = names[0];
   place.body_b = names[1];
   table.need("at_m", "a list of points, one part at each of them");
@@ -45,7 +46,9 @@ std::vector<Places> read_places(const TableReader& part, const std::vector<BodyS
   std::vector<Places> all;
   for (const CaseValue* one : part.tables("places"))
     all.push_back(read_place(TableReader(one->table(), one->where, part.path_of("places"), kPlaceKeys), known));
-  if (all.empty()) throw Error(ErrorKind::configuration, fmt::format("{} is empty", part.path_of("places")), part.need("places").where);
+  if (all.empty())
+    throw Error(ErrorKind::configuration, fmt::format("{} is empty", part.path_of("places")),
+                part.need("places").where);
   return all;
 }
 
@@ -80,9 +83,12 @@ SixValues six(const TableReader& part, std::string_view linear, std::string_view
 }
 
 void check_spring(const TableReader& part, const SpringSpec& spring) {
-  const auto none = [](const SixValues& values) { return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; }); };
+  const auto none = [](const SixValues& values) {
+    return std::all_of(values.begin(), values.end(), [](double v) { return v == 0.0; });
+  };
   if (none(spring.stiffness) && none(spring.damping))
-    part.fail(fmt::format("{} has neither stiffness nor damping", part.path()), "give stiffness_N_per_m, damping_N_s_per_m ...");
+    part.fail(fmt::format("{} has neither stiffness nor damping", part.path()),
+              "give stiffness_N_per_m, damping_N_s_per_m ...");
   for (std::size_t i = 0; i < spring.damping.size(); ++i)
     if (spring.damper_stiffness.at(i) > 0.0 && spring.damping.at(i) == 0.0)
       throw Error(ErrorKind::configuration,
@@ -98,7 +104,8 @@ void check_characteristic(const TableReader& part, const BumpStopSpec& stop) {
   const auto &d = stop.displacement, &f = stop.force;
   if (d.size() < 2) fail("displacement_mm", "needs at least 2 values");
   if (d.size() != f.size()) fail("force_N", fmt::format("has {} values for {} displacements", f.size(), d.size()));
-  if (std::adjacent_find(d.begin(), d.end(), std::greater_equal<>()) != d.end()) fail("displacement_mm", "must increase");
+  if (std::adjacent_find(d.begin(), d.end(), std::greater_equal<>()) != d.end())
+    fail("displacement_mm", "must increase");
   if (std::adjacent_find(f.begin(), f.end(), std::greater<>()) != f.end()) fail("force_N", "must not decrease");
   if (f.front() != 0.0) fail("force_N", "must start from 0");
 }

@@ -34,10 +34,14 @@ Overrides sorted(std::span<const std::string> assignments) {
   Overrides result;
   for (const std::string& one : assignments) {
     CaseOverride change = parse_override(one);
-    if (cut(change.path, "vehicle.")) result.vehicle.push_back(std::move(change));
-    else if (cut(change.path, "track_model.")) result.track.push_back(std::move(change));
-    else if (change.path == "title" || change.path.starts_with("simulation.")) result.simulation.push_back(std::move(change));
-    else result.contact.push_back(one);
+    if (cut(change.path, "vehicle."))
+      result.vehicle.push_back(std::move(change));
+    else if (cut(change.path, "track_model."))
+      result.track.push_back(std::move(change));
+    else if (change.path == "title" || change.path.starts_with("simulation."))
+      result.simulation.push_back(std::move(change));
+    else
+      result.contact.push_back(one);
   }
   return result;
 }
@@ -51,7 +55,8 @@ void change_simulation(CaseTable& document, const std::vector<CaseOverride>& cha
     if (!cut(key, "simulation.") || (key != kDistance && key != kDuration)) continue;
     for (CaseEntry& entry : document)
       if (auto* table = std::get_if<CaseTable>(&entry.value.data); table != nullptr && entry.key == "simulation")
-        std::erase_if(*table, [&](const CaseEntry& e) { return e.key != key && (e.key == kDistance || e.key == kDuration); });
+        std::erase_if(*table,
+                      [&](const CaseEntry& e) { return e.key != key && (e.key == kDistance || e.key == kDuration); });
   }
 }
 
@@ -67,14 +72,16 @@ FileText named_text(const TableReader& simulation, std::string_view key, const s
   const std::filesystem::path path = (folder / name).lexically_normal();
   std::error_code code;
   if (!std::filesystem::is_regular_file(path, code))
-    throw Error(ErrorKind::configuration, fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
+    throw Error(ErrorKind::configuration,
+                fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
                 simulation.need(key).where, "names count from the folder of the simulation file");
   FileText result{{path, {}}, read_text(path)};
   result.file.sha256 = sha256_hex(result.text);
   return result;
 }
 
-void read_models(const TableReader& simulation, const std::filesystem::path& folder, const Overrides& overrides, SimulationFile& out) {
+void read_models(const TableReader& simulation, const std::filesystem::path& folder, const Overrides& overrides,
+                 SimulationFile& out) {
   simulation.need("vehicle", "name the vehicle file");
   const FileText vehicle = named_text(simulation, "vehicle", folder);
   out.vehicle = parse_vehicle_text(vehicle.text, vehicle.file.path.string(), overrides.vehicle);
@@ -91,29 +98,35 @@ void read_models(const TableReader& simulation, const std::filesystem::path& fol
 
 /// With steps of more than an element the elements at the leading edge stick or slip at random.
 void choose_steps(const TableReader& simulation, SimulationFile& out) {
-  if (out.contact.regime == RegimeInput::transient && simulation.find("max_step_elements") == nullptr) out.settings.max_step_elements = 1.0;
+  if (out.contact.regime == RegimeInput::transient && simulation.find("max_step_elements") == nullptr)
+    out.settings.max_step_elements = 1.0;
 }
 
 /// Histories of transient rolling reach two elements back.
 void check_steps(const TableReader& simulation, const SimulationFile& out) {
   const SimulationSettings& s = out.settings;
-  const auto place = [&](std::string_view key) { return simulation.find(key) ? simulation.find(key)->where : simulation.where(); };
+  const auto place = [&](std::string_view key) {
+    return simulation.find(key) ? simulation.find(key)->where : simulation.where();
+  };
   constexpr double kMostElements = 2.0;
   if (out.contact.regime == RegimeInput::transient && s.max_step_elements > kMostElements)
-    throw Error(ErrorKind::configuration,
-                fmt::format("simulation.max_step_elements = {:.6g}: steps of transient rolling must not exceed dt = 2 dx / V",
-                            s.max_step_elements),
-                place("max_step_elements"), "give at most 2, or case.regime = \"steady\"");
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("simulation.max_step_elements = {:.6g}: steps of transient rolling must not exceed dt = 2 dx / V",
+                    s.max_step_elements),
+        place("max_step_elements"), "give at most 2, or case.regime = \"steady\"");
   const double longest = s.longest_step(out.contact.discretisation.dx);
   if (s.min_step > longest)
     throw Error(ErrorKind::configuration,
-                fmt::format("simulation.min_step_us = {:.6g} exceeds the longest step of {:.6g} us", s.min_step * 1e6, longest * 1e6),
+                fmt::format("simulation.min_step_us = {:.6g} exceeds the longest step of {:.6g} us", s.min_step * 1e6,
+                            longest * 1e6),
                 place("min_step_us"), "the longest step follows from max_step_us and max_step_elements * dx / V");
 }
 
 bool has_table(const std::filesystem::path& file, std::string_view key, std::string_view without) {
   std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   if (extension != ".toml") return false;
   const CaseTable document = parse_toml(read_text(file), file.string());
   return find_entry(document, key) != nullptr && (without.empty() || find_entry(document, without) == nullptr);
@@ -121,7 +134,8 @@ bool has_table(const std::filesystem::path& file, std::string_view key, std::str
 
 }  // namespace
 
-SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name, std::span<const std::string> overrides) {
+SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name,
+                             std::span<const std::string> overrides) {
   const Overrides changes = sorted(overrides);
   change_simulation(document, changes.simulation);
   SimulationFile result;
@@ -130,16 +144,20 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   const CaseEntry* simulation_table = nullptr;
   ContactPart contact{{}, changes.contact, name};
   for (const CaseEntry& entry : document) {
-    if (entry.key == "simulation") simulation_table = &entry;
-    else contact.tables.push_back(entry);
-    if (entry.key == "title" && std::holds_alternative<std::string>(entry.value.data)) result.title = entry.value.text();
+    if (entry.key == "simulation")
+      simulation_table = &entry;
+    else
+      contact.tables.push_back(entry);
+    if (entry.key == "title" && std::holds_alternative<std::string>(entry.value.data))
+      result.title = entry.value.text();
   }
   const SourcePosition top{name.string(), 1, 1};
   if (simulation_table == nullptr || !simulation_table->value.is_table())
     throw Error(ErrorKind::configuration, "[simulation] is missing, this is no simulation file",
                 simulation_table == nullptr ? top : simulation_table->value.where, "see docs/simulation-files.md");
 
-  const TableReader simulation(simulation_table->value.table(), simulation_table->value.where, "simulation", kSimulationKeys);
+  const TableReader simulation(simulation_table->value.table(), simulation_table->value.where, "simulation",
+                               kSimulationKeys);
   result.settings = read_settings(simulation);
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
@@ -151,7 +169,8 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   return result;
 }
 
-SimulationFile parse_simulation_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides) {
+SimulationFile parse_simulation_text(std::string_view text, const std::filesystem::path& name,
+                                     std::span<const std::string> overrides) {
   SimulationFile result = simulation_of(parse_toml(text, name.string()), name, overrides);
   result.sha256 = sha256_hex(text);
   return result;

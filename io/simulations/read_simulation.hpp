@@ -12,17 +12,21 @@
 
 namespace treadmark::io {
 
-/// Reads a simulation file (TOML, docs/simulation-files.md) with the vehicle and the track that it names, relative to its folder.
-/// overrides: "key.path=value", applied after everything else: keys of the simulation ("simulation.wheels.0.contact=table") and of the
-/// contact as in a case file ("wheel.flats.0.depth_mm=1.2"), parts of the vehicle and the track by their names
+/// Reads a simulation file (TOML, docs/simulation-files.md) with the vehicle and the track that it names, relative to
+/// its folder. overrides: "key.path=value", applied after everything else: keys of the simulation
+/// ("simulation.wheels.0.contact=table") and of the contact as in a case file ("wheel.flats.0.depth_mm=1.2"), parts of
+/// the vehicle and the track by their names
 /// ("vehicle.bodies.car.mass_kg=30000", "track_model.scale_stiffness=1.5").
-/// Geometry files are resolved but not opened. Throws Error(configuration) with file:line:column. Safe to call from several threads.
+/// Geometry files are resolved but not opened. Throws Error(configuration) with file:line:column. Safe to call from
+/// several threads.
 SimulationFile read_simulation_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// The same for text in memory; name serves for messages and for resolving files.
-SimulationFile parse_simulation_text(std::string_view text, const std::filesystem::path& name, std::span<const std::string> overrides = {});
+SimulationFile parse_simulation_text(std::string_view text, const std::filesystem::path& name,
+                                     std::span<const std::string> overrides = {});
 /// The same for tables that have been parsed already; sha256 stays empty.
-SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name, std::span<const std::string> overrides = {});
+SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name,
+                             std::span<const std::string> overrides = {});
 
 /// Whether a .toml file has a table [simulation] and is no study; whether it has a table [study].
 /// False for other kinds of files, which are not opened. Throws Error(configuration) for TOML that cannot be read.

@@ -55,8 +55,8 @@ BaseTables read_base(const std::filesystem::path& path) {
 BaseTables named_base(const TableReader& study, const CaseTable& document, const std::filesystem::path& folder) {
   for (const CaseEntry& entry : document)
     if (entry.key != "study" && entry.key != "title")
-      throw Error(ErrorKind::configuration, fmt::format("{} stands beside study.base, which says it all", entry.key), entry.key_where,
-                  "change keys of the base in [[study.vary]], or leave study.base out");
+      throw Error(ErrorKind::configuration, fmt::format("{} stands beside study.base, which says it all", entry.key),
+                  entry.key_where, "change keys of the base in [[study.vary]], or leave study.base out");
   std::string name = study.text("base");
   std::replace(name.begin(), name.end(), '\\', '/');
   const std::filesystem::path path = (folder / name).lexically_normal();
@@ -66,7 +66,8 @@ BaseTables named_base(const TableReader& study, const CaseTable& document, const
     throw Error(ErrorKind::configuration, fmt::format("study.base: there is no file {}", path.string()), where,
                 "names count from the folder of the study file");
   if (path.extension() != ".toml") throw Error(ErrorKind::configuration, "study.base must be a .toml file", where);
-  if (is_study_file(path)) throw Error(ErrorKind::configuration, "study.base is a study itself", where, "name a simulation or case file");
+  if (is_study_file(path))
+    throw Error(ErrorKind::configuration, "study.base is a study itself", where, "name a simulation or case file");
   return read_base(path);
 }
 
@@ -75,8 +76,10 @@ std::vector<std::string> apply_to_study(CaseTable& document, std::span<const std
   std::vector<std::string> others;
   for (const std::string& one : overrides) {
     const CaseOverride change = parse_override(one);
-    if (change.path == "title" || change.path.starts_with("study.")) change_value(document, change.path, change);
-    else others.push_back(one);
+    if (change.path == "title" || change.path.starts_with("study."))
+      change_value(document, change.path, change);
+    else
+      others.push_back(one);
   }
   return others;
 }
@@ -88,7 +91,8 @@ void check_not_varied(const std::vector<Variation>& variations, const std::vecto
       for (const VariedValue& value : variation.values)
         for (const std::string& varied : value.overrides)
           if (parse_override(varied).path == change.path)
-            throw Error(ErrorKind::configuration, fmt::format("the study varies {} itself", change.path), change.value.where);
+            throw Error(ErrorKind::configuration, fmt::format("the study varies {} itself", change.path),
+                        change.value.where);
   }
 }
 
@@ -97,7 +101,8 @@ std::string described(const StudyFile& study, const StudyRun& run) {
   for (std::size_t v = 0; v < study.variations.size(); ++v) {
     const Variation& variation = study.variations[v];
     const std::string& name = variation.label.empty() ? variation.key : variation.label;
-    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", name, name.empty() ? "" : " = ", variation.values[run.values[v]].label);
+    text += fmt::format("{}{}{}{}", text.empty() ? "" : ", ", name, name.empty() ? "" : " = ",
+                        variation.values[run.values[v]].label);
   }
   return text;
 }
@@ -119,8 +124,8 @@ void check_runs(const StudyFile& study, const BaseTables& base) {
       base.read(run.overrides);
     } catch (const Error& e) {
       if (study.variations.empty()) throw;
-      throw Error(e.kind(), fmt::format("run {} ({}): {}", run.number, described(study, run), e.message()), place_of(e.where(), study, run),
-                  e.advice());
+      throw Error(e.kind(), fmt::format("run {} ({}): {}", run.number, described(study, run), e.message()),
+                  place_of(e.where(), study, run), e.advice());
     }
   }
 }
@@ -130,7 +135,8 @@ std::string title_of(const CaseTable& document, const TableReader& study, const 
   const CaseEntry* top = find_entry(document, "title");
   if (top == nullptr || study.find("title") != nullptr) return title;
   if (!std::holds_alternative<std::string>(top->value.data))
-    throw Error(ErrorKind::configuration, fmt::format("title must be text, found {}", top->value.kind()), top->value.where);
+    throw Error(ErrorKind::configuration, fmt::format("title must be text, found {}", top->value.kind()),
+                top->value.where);
   return top->value.text();
 }
 
@@ -143,7 +149,8 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
   const CaseEntry* table = find_entry(document, "study");
   if (table == nullptr || !table->value.is_table())
     throw Error(ErrorKind::configuration, "[study] is missing, this is no study file",
-                table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where, "see docs/simulation-files.md");
+                table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where,
+                "see docs/simulation-files.md");
   const TableReader study(table->value.table(), table->value.where, "study", kStudyKeys);
 
   StudyFile result;
@@ -158,7 +165,8 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
   const bool named = study.find("base") != nullptr;
   if (!named && document.size() == 1)
     study.fail("study.base is missing", "name a simulation or case file, or give its tables beside [study]");
-  const BaseTables base = named ? named_base(study, document, file.parent_path()) : base_of(document, file, result.sha256);
+  const BaseTables base =
+      named ? named_base(study, document, file.parent_path()) : base_of(document, file, result.sha256);
   result.base = base.path;
   result.base_is_simulation = base.simulation;
   check_runs(result, base);

@@ -30,7 +30,8 @@ void change_model(CaseTable& document, std::span<const CaseOverride> changes, co
 /// Reader of the table that gives the model its name.
 TableReader main_table(const TableReader& document, const std::string& key, std::span<const std::string_view> known) {
   const CaseTable* table = document.table(key);
-  if (table == nullptr) document.fail(fmt::format("[{0}] is missing, this is no {0} file", key), "see docs/simulation-files.md");
+  if (table == nullptr)
+    document.fail(fmt::format("[{0}] is missing, this is no {0} file", key), "see docs/simulation-files.md");
   TableReader reader(*table, document.find(key)->where, key, known);
   reader.text_or("source", {});
   return reader;
@@ -42,7 +43,8 @@ void scale(SixValues& values, double factor) {
 
 template <class Model>
 void scale_model(Model& model, const TableReader& table) {
-  const double mass = table.number_or("scale_mass", kPositive, 1.0), stiffness = table.number_or("scale_stiffness", kPositive, 1.0),
+  const double mass = table.number_or("scale_mass", kPositive, 1.0),
+               stiffness = table.number_or("scale_stiffness", kPositive, 1.0),
                damping = table.number_or("scale_damping", kNotNegative, 1.0);
   for (BodySpec& body : model.bodies) {
     body.mass *= mass;
@@ -65,13 +67,15 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
     check_name("wheelsets.body: the body", wheelset.body, names_of(bodies), where);
     if (!seen.insert(wheelset.body).second)
       throw Error(ErrorKind::configuration, fmt::format("the body '{}' is a wheelset twice", wheelset.body), where);
-    const auto body = std::find_if(bodies.begin(), bodies.end(), [&](const BodySpec& b) { return b.name == wheelset.body; });
+    const auto body =
+        std::find_if(bodies.begin(), bodies.end(), [&](const BodySpec& b) { return b.name == wheelset.body; });
     if (!body->free.at(static_cast<std::size_t>(Freedom::z)))
       throw Error(ErrorKind::configuration, fmt::format("the wheelset '{}' cannot move in z", wheelset.body), where,
                   "add \"z\" to what is free: the load of its wheels follows from its vertical motion");
     wheelsets.push_back(std::move(wheelset));
   }
-  if (wheelsets.empty()) document.fail("there are no [[wheelsets]]", "name the bodies that run on the rails, the leading one first");
+  if (wheelsets.empty())
+    document.fail("there are no [[wheelsets]]", "name the bodies that run on the rails, the leading one first");
   return wheelsets;
 }
 
@@ -87,7 +91,8 @@ void read_rails(const TableReader& table, TrackModel& track) {
   const std::vector<std::string> rails = table.words("rails");
   if (rails.size() != 2 || rails[0] == rails[1])
     throw Error(ErrorKind::configuration, "track.rails must name two bodies, the left and the right rail", list.where);
-  for (std::size_t i = 0; i < 2; ++i) check_name("track.rails: the body", rails[i], names_of(track.bodies), list.list()[i].where);
+  for (std::size_t i = 0; i < 2; ++i)
+    check_name("track.rails: the body", rails[i], names_of(track.bodies), list.list()[i].where);
   track.left_rail = rails[0];
   track.right_rail = rails[1];
 }

@@ -52,10 +52,11 @@ constexpr Refusal kRefusals[] = {
 void refuse(std::string_view path, const SourcePosition& where) {
   for (const Refusal& one : kRefusals) {
     const bool beginning = one.key.ends_with('_');
-    const bool within = path.starts_with(one.key) && (beginning || path.size() == one.key.size() || path[one.key.size()] == '.');
+    const bool within =
+        path.starts_with(one.key) && (beginning || path.size() == one.key.size() || path[one.key.size()] == '.');
     if (within)
-      throw Error(ErrorKind::configuration, fmt::format("{} has no place in a simulation file: {}", path, one.reason), where,
-                  std::string(one.advice));
+      throw Error(ErrorKind::configuration, fmt::format("{} has no place in a simulation file: {}", path, one.reason),
+                  where, std::string(one.advice));
   }
 }
 
@@ -104,10 +105,11 @@ void check_radius(const ContactPart& part, const SimulationFile& out) {
   constexpr double kSame = 1e-12;
   for (const WheelsetSpec& wheelset : out.vehicle.wheelsets)
     if (std::abs(wheelset.nominal_radius - out.contact.wheelset.nominal_radius) > kSame)
-      throw Error(ErrorKind::configuration,
-                  fmt::format("wheelset.nominal_radius_mm = {:.10g} differs from {:.10g} mm of '{}' in the vehicle file",
-                              out.contact.wheelset.nominal_radius * 1e3, wheelset.nominal_radius * 1e3, wheelset.body),
-                  *where, "leave it out, the vehicle file gives it");
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("wheelset.nominal_radius_mm = {:.10g} differs from {:.10g} mm of '{}' in the vehicle file",
+                      out.contact.wheelset.nominal_radius * 1e3, wheelset.nominal_radius * 1e3, wheelset.body),
+          *where, "leave it out, the vehicle file gives it");
 }
 
 void check_regime(const ContactPart& part, const SimulationFile& out) {
@@ -123,7 +125,8 @@ bool is_measured_wheel(const SurfaceSource& wheel) {
   const auto* file = std::get_if<GeometryFile>(&wheel.geometry);
   if (file == nullptr) return false;
   std::string extension = file->file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(), [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
+  std::transform(extension.begin(), extension.end(), extension.begin(),
+                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
   constexpr std::string_view kWhole[] = {".slcw", ".ply", ".stl", ".obj", ".off", ".vdb"};
   return std::find(std::begin(kWhole), std::end(kWhole), extension) != std::end(kWhole);
 }
@@ -157,11 +160,13 @@ void read_other_wheel(const ContactPart& part, const TableReader& simulation, Si
                   simulation.need("other_wheel").where, "give them in [wheel]");
     return;
   }
-  const auto round = std::find_if(out.wheels.begin(), out.wheels.end(), [](const WheelContactInput& w) { return !w.defects; });
+  const auto round =
+      std::find_if(out.wheels.begin(), out.wheels.end(), [](const WheelContactInput& w) { return !w.defects; });
   if (round == out.wheels.end() || !is_measured_wheel(out.contact.wheel)) return;
-  simulation.fail(fmt::format("[wheel] is measured all around, but the {} wheel of wheelset {} is round: its shape is missing",
-                              round->side == Side::left ? "left" : "right", round->wheelset + 1),
-                  "give [simulation.other_wheel], for example shape.standard = \"S1002\"");
+  simulation.fail(
+      fmt::format("[wheel] is measured all around, but the {} wheel of wheelset {} is round: its shape is missing",
+                  round->side == Side::left ? "left" : "right", round->wheelset + 1),
+      "give [simulation.other_wheel], for example shape.standard = \"S1002\"");
 }
 
 }  // namespace treadmark::io

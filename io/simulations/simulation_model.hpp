@@ -16,36 +16,37 @@ namespace treadmark::io {
 
 /// How the force of one wheel is found.
 enum class ContactModelInput {
-  full,    ///< the contact problem itself, at every instant
-  table,   ///< a table of solutions made beforehand
+  full,   ///< the contact problem itself, at every instant
+  table,  ///< a table of solutions made beforehand
 };
 
 struct WheelContactInput {
-  int wheelset = 0;               ///< from 0, the leading one
+  int wheelset = 0;  ///< from 0, the leading one
   Side side = Side::left;
   ContactModelInput model = ContactModelInput::table;
-  bool defects = false;           ///< false: the wheel is round
-  std::optional<double> pitch;    ///< of the wheelset at the start, the same for both its wheels [rad]; none: 0
+  bool defects = false;         ///< false: the wheel is round
+  std::optional<double> pitch;  ///< of the wheelset at the start, the same for both its wheels [rad]; none: 0
 };
 
 /// Instants at which the fields within the contact patches are kept.
 struct FieldRequests {
-  std::vector<double> pitch;      ///< where a wheelset passes one of these angles, in each revolution [rad]
-  std::vector<double> position;   ///< distance travelled [m]
+  std::vector<double> pitch;     ///< where a wheelset passes one of these angles, in each revolution [rad]
+  std::vector<double> position;  ///< distance travelled [m]
 };
 
 struct SimulationSettings {
-  double speed = 0.0;             ///< [m/s]; > 0
-  double distance = 0.0;          ///< travelled in the whole simulation [m]; > 0
-  double duration = 0.0;          ///< [s]; distance/speed
-  double gravity = 9.81;          ///< [m/s2]
-  double tolerance = 1e-7;        ///< local error of displacements in a step [m]
-  std::optional<double> max_step; ///< [s]
-  double min_step = 1e-9;         ///< [s]
-  double max_step_elements = 2.0; ///< distance travelled in a step over dx; without a wish 1 with transient rolling, else 2
-  double spectral_radius = 0.8;   ///< of the time integration at infinite frequency, 0 ... 1
-  double checkpoint = 10.0;       ///< time of the computer between two checkpoints [s]
-  double output_every = 0.0;      ///< distance between two lines of output [m]; 0 = every step
+  double speed = 0.0;              ///< [m/s]; > 0
+  double distance = 0.0;           ///< travelled in the whole simulation [m]; > 0
+  double duration = 0.0;           ///< [s]; distance/speed
+  double gravity = 9.81;           ///< [m/s2]
+  double tolerance = 1e-7;         ///< local error of displacements in a step [m]
+  std::optional<double> max_step;  ///< [s]
+  double min_step = 1e-9;          ///< [s]
+  double max_step_elements =
+      2.0;  ///< distance travelled in a step over dx; without a wish 1 with transient rolling, else 2
+  double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
+  double checkpoint = 10.0;      ///< time of the computer between two checkpoints [s]
+  double output_every = 0.0;     ///< distance between two lines of output [m]; 0 = every step
 
   /// The longest step that max_step and max_step_elements allow, elements of length dx [s].
   double longest_step(double dx) const;
@@ -54,21 +55,21 @@ struct SimulationSettings {
 /// A file that belongs to a simulation, for its record.
 struct NamedFile {
   std::filesystem::path path;
-  std::string sha256;             ///< hex
+  std::string sha256;  ///< hex
 };
 
 struct SimulationFile {
   std::filesystem::path path;
-  std::string sha256;             ///< of the simulation file itself, hex
+  std::string sha256;  ///< of the simulation file itself, hex
   std::string title;
   SimulationSettings settings;
   FieldRequests fields;
   VehicleModel vehicle;
   NamedFile vehicle_file;
-  std::optional<TrackModel> track;    ///< none: rigid track
+  std::optional<TrackModel> track;  ///< none: rigid track
   std::optional<NamedFile> track_file;
-  /// Bodies and settings of the contact. What the simulation itself finds (side, loads, positions, history) has no meaning here;
-  /// velocity and pitch rate are those of rolling at the speed.
+  /// Bodies and settings of the contact. What the simulation itself finds (side, loads, positions, history) has no
+  /// meaning here; velocity and pitch rate are those of rolling at the speed.
   WheelRailCase contact;
   std::optional<SurfaceSource> other_wheel;  ///< shape of wheels without defects, where `contact.wheel` cannot be it
   std::vector<WheelContactInput> wheels;     ///< all of them: left and right of the leading wheelset, then the next one

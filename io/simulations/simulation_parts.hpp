@@ -26,7 +26,8 @@ struct ContactPart {
   std::vector<std::string> overrides;
   std::filesystem::path name;
 };
-/// Refuses keys that a simulation finds itself, and reads the rest into out.contact and out.notes; out.vehicle and out.settings are set.
+/// Refuses keys that a simulation finds itself, and reads the rest into out.contact and out.notes; out.vehicle and
+/// out.settings are set.
 void read_contact(const ContactPart& part, SimulationFile& out);
 /// [simulation.other_wheel] into out.other_wheel; out.contact and out.wheels are set.
 void read_other_wheel(const ContactPart& part, const TableReader& simulation, SimulationFile& out);

@@ -40,11 +40,12 @@ WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
   wheel.wheelset = table.integer("wheelset", 1, 1e6) - 1;
   if (static_cast<std::size_t>(wheel.wheelset) >= wheelsets)
     throw Error(ErrorKind::configuration,
-                fmt::format("simulation.wheels.wheelset = {}, but the vehicle has {} wheelset{}", wheel.wheelset + 1, wheelsets,
-                            wheelsets == 1 ? "" : "s"),
+                fmt::format("simulation.wheels.wheelset = {}, but the vehicle has {} wheelset{}", wheel.wheelset + 1,
+                            wheelsets, wheelsets == 1 ? "" : "s"),
                 table.need("wheelset").where, "wheelsets count from 1, the leading one");
   wheel.side = table.choice("side", {"left", "right"}) == "left" ? Side::left : Side::right;
-  wheel.model = table.choice("contact", {"full", "table"}) == "full" ? ContactModelInput::full : ContactModelInput::table;
+  wheel.model =
+      table.choice("contact", {"full", "table"}) == "full" ? ContactModelInput::full : ContactModelInput::table;
   wheel.defects = table.flag_or("defects", true);
   wheel.pitch = table.number_if("pitch_deg", kAnyNumber);
   return wheel;
@@ -100,7 +101,8 @@ std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::s
     given[index] = true;
     std::optional<double>& other = wheels[index ^ 1].pitch;
     if (wheel.pitch && other && *other != *wheel.pitch)
-      throw Error(ErrorKind::configuration, fmt::format("wheelset {} has two different pitch angles at the start", wheel.wheelset + 1),
+      throw Error(ErrorKind::configuration,
+                  fmt::format("wheelset {} has two different pitch angles at the start", wheel.wheelset + 1),
                   table.need("pitch_deg").where, "both wheels turn with the axle");
     const std::optional<double> pitch = wheel.pitch ? wheel.pitch : other;
     wheels[index] = wheel;

@@ -42,11 +42,12 @@ void read_series(const TableReader& figure, const std::vector<Variation>& variat
       known.push_back(name);
       if (name == out.series) lines = &variation;
     }
-  check_name(fmt::format("{}: the variation", figure.path_of("series")), out.series, known, figure.need("series").where);
+  check_name(fmt::format("{}: the variation", figure.path_of("series")), out.series, known,
+             figure.need("series").where);
   if (!out.labels.empty() && out.labels.size() != lines->values.size())
     throw Error(ErrorKind::configuration,
-                fmt::format("{} has {} texts for {} values of {}", figure.path_of("labels"), out.labels.size(), lines->values.size(),
-                            out.series),
+                fmt::format("{} has {} texts for {} values of {}", figure.path_of("labels"), out.labels.size(),
+                            lines->values.size(), out.series),
                 figure.need("labels").where);
 }
 
@@ -73,12 +74,14 @@ void read_only(const TableReader& figure, const std::vector<Variation>& variatio
     const SourcePosition& where = figure.need("only").list()[i].where;
     const auto sign = texts[i].find('=');
     if (sign == std::string::npos)
-      throw Error(ErrorKind::configuration, fmt::format("{}: '{}' is not \"key=value\"", figure.path_of("only"), texts[i]), where);
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{}: '{}' is not \"key=value\"", figure.path_of("only"), texts[i]), where);
     const std::string name = texts[i].substr(0, sign);
     check_name(fmt::format("{}: the variation", figure.path_of("only")), name, known, where);
-    const auto variation =
-        std::find_if(variations.begin(), variations.end(), [&](const Variation& v) { return v.key == name || v.label == name; });
-    out.only[static_cast<std::size_t>(variation - variations.begin())].push_back(value_of(*variation, texts[i].substr(sign + 1), where));
+    const auto variation = std::find_if(variations.begin(), variations.end(),
+                                        [&](const Variation& v) { return v.key == name || v.label == name; });
+    out.only[static_cast<std::size_t>(variation - variations.begin())].push_back(
+        value_of(*variation, texts[i].substr(sign + 1), where));
   }
 }
 
@@ -87,7 +90,8 @@ StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& 
   StudyFigure figure;
   figure.file = table.text("file");
   if (figure.file.extension() != ".svg")
-    throw Error(ErrorKind::configuration, fmt::format("{} = '{}' must end with .svg", table.path_of("file"), figure.file.string()),
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} = '{}' must end with .svg", table.path_of("file"), figure.file.string()),
                 table.need("file").where);
   const std::string kind = table.choice("kind", {"history", "summary", "patches"});
   figure.kind = kind == "history" ? Kind::history : kind == "summary" ? Kind::summary : Kind::patches;
@@ -118,7 +122,8 @@ std::vector<StudyFigure> read_figures(const TableReader& study, const std::vecto
     figures.push_back(read_figure(table, variations));
     const auto same = [&](const StudyFigure& figure) { return figure.file == figures.back().file; };
     if (std::count_if(figures.begin(), figures.end(), same) > 1)
-      throw Error(ErrorKind::configuration, fmt::format("two figures would be written to {}", figures.back().file.string()),
+      throw Error(ErrorKind::configuration,
+                  fmt::format("two figures would be written to {}", figures.back().file.string()),
                   table.need("file").where);
   }
   return figures;

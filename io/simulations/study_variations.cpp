@@ -63,13 +63,14 @@ VariedValue set_of_keys(const CaseValue& value, const std::string& path) {
   result.label = table.text("label");
   const CaseValue& set = table.need("set", "a list of \"key=value\"");
   result.overrides = table.words("set");
-  if (result.overrides.empty()) throw Error(ErrorKind::configuration, fmt::format("{} is empty", table.path_of("set")), set.where);
+  if (result.overrides.empty())
+    throw Error(ErrorKind::configuration, fmt::format("{} is empty", table.path_of("set")), set.where);
   for (std::size_t i = 0; i < result.overrides.size(); ++i) {
     try {
       parse_override(result.overrides[i]);
     } catch (const Error& e) {
-      throw Error(ErrorKind::configuration, fmt::format("'{}': {}", result.overrides[i].substr(0, 100), e.message()), set.list()[i].where,
-                  e.advice());
+      throw Error(ErrorKind::configuration, fmt::format("'{}': {}", result.overrides[i].substr(0, 100), e.message()),
+                  set.list()[i].where, e.advice());
     }
   }
   return result;
@@ -78,13 +79,15 @@ VariedValue set_of_keys(const CaseValue& value, const std::string& path) {
 std::vector<VariedValue> listed_values(const TableReader& table, const std::string& key) {
   const CaseValue& list = table.need("values", "a list of values, or from, to and count");
   if (!list.is_list() || list.list().empty())
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a list with at least one value", table.path_of("values")), list.where);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} must be a list with at least one value", table.path_of("values")), list.where);
   std::vector<VariedValue> values;
   for (const CaseValue& one : list.list()) {
     const bool set = one.is_table() && (key.empty() || find_entry(one.table(), "set") != nullptr);
     if (!set && key.empty())
-      throw Error(ErrorKind::configuration, fmt::format("{} is missing", table.path_of("key")), one.where,
-                  "name the key that has these values, or give sets of keys, { label = \"...\", set = [\"key=value\"] }");
+      throw Error(
+          ErrorKind::configuration, fmt::format("{} is missing", table.path_of("key")), one.where,
+          "name the key that has these values, or give sets of keys, { label = \"...\", set = [\"key=value\"] }");
     values.push_back(set ? set_of_keys(one, table.path_of("values")) : single_value(key, one));
   }
   return values;
@@ -92,7 +95,8 @@ std::vector<VariedValue> listed_values(const TableReader& table, const std::stri
 
 std::vector<VariedValue> spaced_values(const TableReader& table, const std::string& key) {
   if (key.empty()) table.fail(fmt::format("{} is missing", table.path_of("key")), "name the key that has these values");
-  const bool logarithmic = table.find("spacing") != nullptr && table.choice("spacing", {"linear", "logarithmic"}) == "logarithmic";
+  const bool logarithmic =
+      table.find("spacing") != nullptr && table.choice("spacing", {"linear", "logarithmic"}) == "logarithmic";
   table.need("to", "from, to and count belong together");
   table.need("count", "from, to and count belong together");
   const KeyLimits limits = logarithmic ? kPositive : kAnyNumber;
@@ -113,13 +117,14 @@ Variation read_variation(const TableReader& table) {
   Variation variation;
   variation.key = table.text_or("key", {});
   if (variation.key.find('=') != std::string::npos)
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a key only", table.path_of("key")), table.need("key").where,
-                "its values stand in values = [...]");
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a key only", table.path_of("key")),
+                table.need("key").where, "its values stand in values = [...]");
   table.exclude("values", "from");
   const bool spaced = table.find("from") != nullptr;
   for (const char* key : {"to", "count", "spacing"})
     if (!spaced && table.find(key) != nullptr)
-      throw Error(ErrorKind::configuration, fmt::format("{} needs {}", table.path_of(key), table.path_of("from")), table.need(key).where);
+      throw Error(ErrorKind::configuration, fmt::format("{} needs {}", table.path_of(key), table.path_of("from")),
+                  table.need(key).where);
   variation.values = spaced ? spaced_values(table, variation.key) : listed_values(table, variation.key);
   variation.label = table.text_or("label", variation.key);
   return variation;
@@ -141,7 +146,8 @@ std::vector<Variation> read_variations(const TableReader& study) {
   }
   double count = 1.0;
   for (const Variation& variation : variations) count *= static_cast<double>(variation.values.size());
-  if (count > kMostValues) study.fail(fmt::format("a study of {:.0f} runs is too large, at most {:.0f}", count, kMostValues));
+  if (count > kMostValues)
+    study.fail(fmt::format("a study of {:.0f} runs is too large, at most {:.0f}", count, kMostValues));
   return variations;
 }
 

@@ -10,14 +10,16 @@
 
 namespace treadmark::io {
 
-TableReader::TableReader(const CaseTable& table, SourcePosition where, std::string path, std::span<const std::string_view> known)
+TableReader::TableReader(const CaseTable& table, SourcePosition where, std::string path,
+                         std::span<const std::string_view> known)
     : table_(table), where_(std::move(where)), path_(std::move(path)), known_(known) {
   for (const CaseEntry& entry : table_) {
     if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
     const std::string near = nearest_key(entry.key, std::vector<std::string>(known_.begin(), known_.end()));
-    throw Error(ErrorKind::configuration, fmt::format("unknown key '{}'", path_of(std::string_view(entry.key).substr(0, 100))),
-                entry.key_where,
-                near.empty() ? "see docs/simulation-files.md for all keys" : fmt::format("did you mean '{}'?", path_of(near)));
+    throw Error(
+        ErrorKind::configuration, fmt::format("unknown key '{}'", path_of(std::string_view(entry.key).substr(0, 100))),
+        entry.key_where,
+        near.empty() ? "see docs/simulation-files.md for all keys" : fmt::format("did you mean '{}'?", path_of(near)));
   }
 }
 
@@ -30,7 +32,8 @@ void TableReader::fail(std::string message, std::string advice) const {
 }
 
 const CaseValue* TableReader::find(std::string_view key) const {
-  const auto found = std::find_if(table_.begin(), table_.end(), [&](const CaseEntry& entry) { return entry.key == key; });
+  const auto found =
+      std::find_if(table_.begin(), table_.end(), [&](const CaseEntry& entry) { return entry.key == key; });
   return found == table_.end() ? nullptr : &found->value;
 }
 
@@ -44,7 +47,8 @@ const CaseTable* TableReader::table(std::string_view key) const {
   const CaseValue* value = find(key);
   if (value == nullptr) return nullptr;
   if (!value->is_table())
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a table, found {}", path_of(key), value->kind()), value->where);
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a table, found {}", path_of(key), value->kind()),
+                value->where);
   return &value->table();
 }
 
@@ -53,7 +57,8 @@ std::vector<const CaseValue*> TableReader::tables(std::string_view key) const {
   const CaseValue* list = find(key);
   if (list == nullptr) return result;
   const auto wrong = [&](const CaseValue& value) {
-    throw Error(ErrorKind::configuration, fmt::format("{0} must be a list of tables, [[{0}]], found {1}", path_of(key), value.kind()),
+    throw Error(ErrorKind::configuration,
+                fmt::format("{0} must be a list of tables, [[{0}]], found {1}", path_of(key), value.kind()),
                 value.where);
   };
   if (!list->is_list()) wrong(*list);
@@ -130,7 +135,8 @@ std::vector<std::string> TableReader::words(std::string_view key) const {
   if (list == nullptr) return {};
   std::vector<std::string> result;
   const auto wrong = [&](const CaseValue& value) {
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a list of texts, found {}", path_of(key), value.kind()), value.where);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} must be a list of texts, found {}", path_of(key), value.kind()), value.where);
   };
   if (!list->is_list()) wrong(*list);
   for (const CaseValue& one : list->list()) {
@@ -150,7 +156,8 @@ std::vector<Vec3> TableReader::points(std::string_view key) const {
   const CaseValue* list = find(key);
   if (list == nullptr) return {};
   if (!list->is_list() || list->list().empty() || !list->list().front().is_list())
-    throw Error(ErrorKind::configuration, fmt::format("{} must be a list of points, [[x, y, z], ...]", path_of(key)), list->where);
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a list of points, [[x, y, z], ...]", path_of(key)),
+                list->where);
   std::vector<Vec3> result;
   for (const CaseValue& one : list->list()) result.push_back(triple_of(path_of(key), one, unit_of_key(key)));
   return result;
@@ -159,8 +166,8 @@ std::vector<Vec3> TableReader::points(std::string_view key) const {
 void TableReader::exclude(std::string_view one, std::string_view other) const {
   const CaseValue* second = find(other);
   if (find(one) != nullptr && second != nullptr)
-    throw Error(ErrorKind::configuration, fmt::format("{} and {} exclude each other", path_of(one), path_of(other)), second->where,
-                "give one of them");
+    throw Error(ErrorKind::configuration, fmt::format("{} and {} exclude each other", path_of(one), path_of(other)),
+                second->where, "give one of them");
 }
 
 Vec3 triple_of(const std::string& path, const CaseValue& value, double unit, KeyLimits limits) {
@@ -170,18 +177,21 @@ Vec3 triple_of(const std::string& path, const CaseValue& value, double unit, Key
   info.at_most = limits.at_most;
   check_value(info, value);
   if (value.list().size() != 3)
-    throw Error(ErrorKind::configuration, fmt::format("{} has {} numbers, it needs 3: x, y, z", path, value.list().size()), value.where);
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} has {} numbers, it needs 3: x, y, z", path, value.list().size()), value.where);
   const std::vector<double> numbers = numbers_of(value, unit);
   return {numbers[0], numbers[1], numbers[2]};
 }
 
-void check_name(std::string_view what, const std::string& name, std::span<const std::string> known, const SourcePosition& where) {
+void check_name(std::string_view what, const std::string& name, std::span<const std::string> known,
+                const SourcePosition& where) {
   if (std::find(known.begin(), known.end(), name) != known.end()) return;
   const std::string near = nearest_key(name, known);
   std::string all;
   for (const std::string& one : known) all += (all.empty() ? "" : ", ") + one;
-  throw Error(ErrorKind::configuration, fmt::format("{} '{}' is not known", what, name.substr(0, 100)), where,
-              near.empty() ? fmt::format("there are: {}", all.substr(0, 400)) : fmt::format("did you mean '{}'?", near));
+  throw Error(
+      ErrorKind::configuration, fmt::format("{} '{}' is not known", what, name.substr(0, 100)), where,
+      near.empty() ? fmt::format("there are: {}", all.substr(0, 400)) : fmt::format("did you mean '{}'?", near));
 }
 
 }  // namespace treadmark::io

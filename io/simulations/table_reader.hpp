@@ -14,12 +14,13 @@
 
 namespace treadmark::io {
 
-/// One table of a file, all of whose keys are known. Values come with their type and range checked, and numbers in SI units by the
-/// ending of their key (unit_of_key). Refers to the table, which must outlive it.
-/// Errors of all functions: Error(configuration) at the place of the value, of a missing one at that of the table.
+/// One table of a file, all of whose keys are known. Values come with their type and range checked, and numbers in SI
+/// units by the ending of their key (unit_of_key). Refers to the table, which must outlive it. Errors of all functions:
+/// Error(configuration) at the place of the value, of a missing one at that of the table.
 class TableReader {
  public:
-  /// path: of the table in messages, "" = top of the file. Refuses keys that are not among known, with the nearest one that is.
+  /// path: of the table in messages, "" = top of the file. Refuses keys that are not among known, with the nearest one
+  /// that is.
   TableReader(const CaseTable& table, SourcePosition where, std::string path, std::span<const std::string_view> known);
 
   const SourcePosition& where() const { return where_; }
@@ -66,7 +67,9 @@ class TableReader {
 /// Three numbers of a list. path: in messages. Error(configuration) at the value.
 Vec3 triple_of(const std::string& path, const CaseValue& value, double unit, KeyLimits limits = kAnyNumber);
 
-/// Error(configuration) for a name that is not among known, with the nearest one: "<what> 'bogi' is not known (did you mean 'bogie'?)".
-void check_name(std::string_view what, const std::string& name, std::span<const std::string> known, const SourcePosition& where);
+/// Error(configuration) for a name that is not among known, with the nearest one: "<what> 'bogi' is not known (did you
+/// mean 'bogie'?)".
+void check_name(std::string_view what, const std::string& name, std::span<const std::string> known,
+                const SourcePosition& where);
 
 }  // namespace treadmark::io

@@ -7,9 +7,9 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/random.hpp"
 #include "treadmark/scans/fit/level_fit.hpp"
 #include "treadmark/scans/fit/significance.hpp"
-#include "treadmark/core/random.hpp"
 
 namespace treadmark::scans {
 namespace {

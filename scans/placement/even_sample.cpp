@@ -4,8 +4,8 @@
 
 #include <algorithm>
 
-#include "treadmark/scans/placement/voxels.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/scans/placement/voxels.hpp"
 
 namespace treadmark::scans {
 
@@ -15,7 +15,8 @@ std::vector<Vec3> even_sample(std::span<const Vec3> points, std::span<const std:
   std::vector<std::size_t> counts(voxels.count());
   std::size_t kept = 0;
   for (std::size_t v = 0; v < voxels.count(); ++v) kept += counts[v] = voxels.points_of(v).size();
-  // the cube in which the first quarter of the points ends: by points, for outliers have cubes of their own, and many of them
+  // the cube in which the first quarter of the points ends: by points, for outliers have cubes of their own, and many
+  // of them
   std::sort(counts.begin(), counts.end());
   std::size_t usual = 1, sum = 0;
   for (const std::size_t count : counts) {

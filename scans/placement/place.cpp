@@ -193,8 +193,7 @@ Placement place(std::span<const Vec3> points, std::span<const std::uint8_t> keep
                 const PlaceSettings& settings) {
   const Body body = settings.body;
   const bool wheel = body == Body::wheel;
-  const std::vector<Vec3> used =
-      even_sample(points, keep, roughly.elements.centre, roughly.elements.size, kMostUsed);
+  const std::vector<Vec3> used = even_sample(points, keep, roughly.elements.centre, roughly.elements.size, kMostUsed);
   const Axis& axis = roughly.rough.axis;
   Vec3 along = axis.direction, out = wheel ? any_perpendicular(along) : outwards(roughly);
   if (!wheel && settings.up) out = *settings.up - along * along.dot(*settings.up);

@@ -50,7 +50,9 @@ struct Placement {
   std::optional<SectionMatch> match;  ///< of the section with the nominal one
   double scatter = 0.0;               ///< of most points about the section: robust standard deviation [m]
   double undamaged = 0.0;             ///< part of the points that fixed the axis
-  double position_error = 0.0, direction_error = 0.0;  ///< standard errors of the axis from the scatter of the points; on arcs below 45 degrees its true error may be several times that [m], [rad]
+  double position_error = 0.0,
+         direction_error = 0.0;  ///< standard errors of the axis from the scatter of the points; on arcs below 45
+                                 ///< degrees its true error may be several times that [m], [rad]
   int iterations = 0;
 };
 

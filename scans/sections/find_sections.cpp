@@ -48,7 +48,8 @@ double run_through(const std::vector<std::uint32_t>& order, const std::vector<Na
   return length;
 }
 
-/// From end to end: as the file has them if that is a way without jumps, else from the field or gauge end to the nearest one not yet met.
+/// From end to end: as the file has them if that is a way without jumps, else from the field or gauge end to the
+/// nearest one not yet met.
 bool put_in_order(std::vector<std::uint32_t>& section, const std::vector<Natural>& at) {
   std::sort(section.begin(), section.end());
   const auto smooth = [&](const std::vector<std::uint32_t>& order) {
@@ -63,13 +64,14 @@ bool put_in_order(std::vector<std::uint32_t>& section, const std::vector<Natural
     low_v = std::min(low_v, at[i].v);
     high_v = std::max(high_v, at[i].v);
   }
-  constexpr double kWinding = 3.0;            // length of a section at most, over how far its ends are apart
-  constexpr std::size_t kFewToSort = 64;      // any order of these may be short
-  if (section.size() >= kFewToSort && run_through(section, at, longest) <= kWinding * std::hypot(high_y - low_y, high_v - low_v) &&
-      smooth(section))
+  constexpr double kWinding = 3.0;        // length of a section at most, over how far its ends are apart
+  constexpr std::size_t kFewToSort = 64;  // any order of these may be short
+  if (section.size() >= kFewToSort &&
+      run_through(section, at, longest) <= kWinding * std::hypot(high_y - low_y, high_v - low_v) && smooth(section))
     return true;
   std::vector<std::uint32_t> left = section, order;
-  auto next = std::max_element(left.begin(), left.end(), [&](std::uint32_t a, std::uint32_t b) { return at[a].y < at[b].y; });
+  auto next =
+      std::max_element(left.begin(), left.end(), [&](std::uint32_t a, std::uint32_t b) { return at[a].y < at[b].y; });
   while (true) {
     order.push_back(*next);
     *next = left.back();
@@ -99,8 +101,8 @@ bool same_places(const MeasuredSections& found, const std::vector<Natural>& at) 
 
 }  // namespace
 
-std::optional<MeasuredSections> find_sections(std::span<const Vec3> points, std::span<const std::uint8_t> keep, const Pose& X_CS, Body body,
-                                              double radius) {
+std::optional<MeasuredSections> find_sections(std::span<const Vec3> points, std::span<const std::uint8_t> keep,
+                                              const Pose& X_CS, Body body, double radius) {
   const bool wheel = body == Body::wheel;
   const double scale = wheel ? radius : 1.0, turn = wheel ? 2.0 * std::numbers::pi * radius : 0.0;
   std::vector<Natural> at(points.size());
@@ -142,7 +144,8 @@ std::optional<MeasuredSections> find_sections(std::span<const Vec3> points, std:
     mean = station[k] + mean / static_cast<double>(end - k);
     out.spread = std::max({out.spread, mean - station[k], station[end - 1] - mean});
     out.u.push_back(mean);
-    out.points.emplace_back(order.begin() + static_cast<std::ptrdiff_t>(k), order.begin() + static_cast<std::ptrdiff_t>(end));
+    out.points.emplace_back(order.begin() + static_cast<std::ptrdiff_t>(k),
+                            order.begin() + static_cast<std::ptrdiff_t>(end));
     k = end;
   }
   if (out.u.size() < kFewestSections) return std::nullopt;

@@ -12,7 +12,8 @@
 
 namespace treadmark::scans::scanner {
 
-/// What random numbers are for. Every purpose has its own, so that noise does not move the lines or change what is lost.
+/// What random numbers are for. Every purpose has its own, so that noise does not move the lines or change what is
+/// lost.
 enum class Purpose : std::uint64_t { positions = 1, noise, drop_outs, outliers, holes, blobs, registration, frame };
 
 /// Random numbers that depend on nothing but (seed, purpose, pass, line).
@@ -35,7 +36,8 @@ class Draws {
       has_other_ = false;
       return other_;
     }
-    const double r = std::sqrt(-2.0 * std::log(1.0 - random_.uniform())), angle = 2.0 * std::numbers::pi * random_.uniform();
+    const double r = std::sqrt(-2.0 * std::log(1.0 - random_.uniform())),
+                 angle = 2.0 * std::numbers::pi * random_.uniform();
     other_ = r * std::sin(angle);
     has_other_ = true;
     return r * std::cos(angle);

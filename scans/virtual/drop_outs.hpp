@@ -6,8 +6,8 @@
 
 namespace treadmark::scans::scanner {
 
-/// Which points along a line get lost: half of them one by one, half in runs of 5 to 15. A renewal process in its steady
-/// state, so that a share is the same at the ends of a line as inside.
+/// Which points along a line get lost: half of them one by one, half in runs of 5 to 15. A renewal process in its
+/// steady state, so that a share is the same at the ends of a line as inside.
 class DropOuts {
  public:
   DropOuts(double share, Draws draws) : draws_(draws) {

@@ -53,11 +53,13 @@ FirstLook part_of(const Surface& surface, const ScannerSettings& settings) {
 
 class Look {
  public:
-  Look(const Surface& surface, const ScannerSettings& settings, FirstLook& part) : surface_(surface), body_(settings.body), part_(part) {
+  Look(const Surface& surface, const ScannerSettings& settings, FirstLook& part)
+      : surface_(surface), body_(settings.body), part_(part) {
     longest_ = (part.y_max - part.y_min) / kPiecesAcross;
     step_ = (part.u_max - part.u_min) / static_cast<double>(kStations);
     for (std::size_t i = 0; i < kSpread; ++i)
-      part.spread.push_back(part.u_min + (part.u_max - part.u_min) * (static_cast<double>(i) + 0.5) / static_cast<double>(kSpread));
+      part.spread.push_back(part.u_min +
+                            (part.u_max - part.u_min) * (static_cast<double>(i) + 0.5) / static_cast<double>(kSpread));
     raster_ = raster(surface, body_, part.spread, part.y_min, part.y_max, longest_);
   }
 

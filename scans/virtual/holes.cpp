@@ -16,8 +16,8 @@ namespace {
 constexpr double kLeastSize = 0.5, kGreatestSize = 1.5;  // diameter / mean diameter
 constexpr double kLeastAspect = 0.5;                     // short axis / long axis
 constexpr double kMostHoles = 2e5;
-constexpr double kGoodEnough = 0.02;                     // of the wanted area, may be missing
-constexpr double kCircle = 0.25 * std::numbers::pi;      // area / diameter^2
+constexpr double kGoodEnough = 0.02;                 // of the wanted area, may be missing
+constexpr double kCircle = 0.25 * std::numbers::pi;  // area / diameter^2
 
 }  // namespace
 
@@ -29,7 +29,9 @@ bool Holes::Hole::contains(const Vec3& p) const {
 
 std::uint64_t Holes::cell(const Vec3& p) const {
   // far cells may share a number: what lies in a hole is decided by its equation
-  const auto index = [&](double x) { return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell_size_))) & 0x1fffffu; };
+  const auto index = [&](double x) {
+    return static_cast<std::uint64_t>(static_cast<std::int64_t>(std::floor(x / cell_size_))) & 0x1fffffu;
+  };
   return index(p.x()) << 42 | index(p.y()) << 21 | index(p.z());
 }
 
@@ -48,18 +50,22 @@ bool Holes::contains(const Vec3& position_S) const {
   if (holes_.empty()) return false;
   const auto found = holes_near_.find(cell(position_S));
   if (found == holes_near_.end()) return false;
-  return std::any_of(found->second.begin(), found->second.end(), [&](std::uint32_t i) { return holes_[i].contains(position_S); });
+  return std::any_of(found->second.begin(), found->second.end(),
+                     [&](std::uint32_t i) { return holes_[i].contains(position_S); });
 }
 
 Holes::Hole Holes::draw(const Patch& patch, Body body, double size, double largest_area, Draws& draws) const {
   const double diameter = size * draws.uniform(kLeastSize, kGreatestSize), aspect = draws.uniform(kLeastAspect, 1.0);
   const double shrink = std::min(1.0, std::sqrt(largest_area / (kCircle * diameter * diameter)));
-  const double a = 0.5 * shrink * diameter / std::sqrt(aspect), b = a * aspect, angle = draws.uniform(0.0, std::numbers::pi);
+  const double a = 0.5 * shrink * diameter / std::sqrt(aspect), b = a * aspect,
+               angle = draws.uniform(0.0, std::numbers::pi);
   const Vec3 along = natural_plane(body, patch.u).rotation.col(0), across = patch.normal_S.cross(along);
   constexpr double kLeastAcross = 1e-6;
-  const Vec3 v = across.norm() > kLeastAcross ? across.normalized() : patch.normal_S.unitOrthogonal(), u = v.cross(patch.normal_S);
+  const Vec3 v = across.norm() > kLeastAcross ? across.normalized() : patch.normal_S.unitOrthogonal(),
+             u = v.cross(patch.normal_S);
   Hole hole;
-  hole.middle = patch.position_S + draws.uniform(-0.5, 0.5) * patch.area / patch.length * u + draws.uniform(-0.5, 0.5) * patch.length * v;
+  hole.middle = patch.position_S + draws.uniform(-0.5, 0.5) * patch.area / patch.length * u +
+                draws.uniform(-0.5, 0.5) * patch.length * v;
   hole.axis_1 = (std::cos(angle) * u + std::sin(angle) * v) / a;
   hole.axis_2 = (std::cos(angle) * v - std::sin(angle) * u) / b;
   hole.normal = patch.normal_S;
@@ -71,9 +77,10 @@ Holes::Hole Holes::draw(const Patch& patch, Body body, double size, double large
 Holes::Holes(const FirstLook& part, Body body, double share, double size, std::uint64_t seed) {
   const double wanted = share * part.area;
   if (wanted > kMostHoles * kCircle * size * size)
-    throw Error(ErrorKind::configuration,
-                fmt::format("holes of {:.3g} mm are too small to cover {:.3g} % of this surface", 1e3 * size, 1e2 * share), {},
-                "ask for larger holes");
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("holes of {:.3g} mm are too small to cover {:.3g} % of this surface", 1e3 * size, 1e2 * share), {},
+        "ask for larger holes");
   // no ball round a hole is wider than two cells
   cell_size_ = 0.5 * kGreatestSize * size / std::sqrt(kLeastAspect) * std::numbers::sqrt2;
 

@@ -11,12 +11,12 @@
 namespace treadmark::scans::scanner {
 namespace {
 
-constexpr double kJitter = 0.25;                              // of the step, to both sides
-constexpr double kFarthestOff = 5e-3;                         // [m] outliers along the beam
-constexpr double kRoom = 50e-3;                               // [m] surroundings beyond the surface
+constexpr double kJitter = 0.25;       // of the step, to both sides
+constexpr double kFarthestOff = 5e-3;  // [m] outliers along the beam
+constexpr double kRoom = 50e-3;        // [m] surroundings beyond the surface
 constexpr std::size_t kBlobs = 5;
-constexpr double kNearestBlob = 15e-3, kFarthestBlob = 40e-3; // [m] from the surface
-constexpr double kBlobSize = 1.5e-3;                          // [m] standard deviation
+constexpr double kNearestBlob = 15e-3, kFarthestBlob = 40e-3;  // [m] from the surface
+constexpr double kBlobSize = 1.5e-3;                           // [m] standard deviation
 
 /// y at even arc lengths, jittered; the same chance for every place of the line.
 std::vector<double> places(const Station& station, double step, Draws draws) {
@@ -70,11 +70,12 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
   Line out;
   Station own;
   if (job.common == nullptr) own = Station(job.surface, settings.body, u, job.raster, job.longest);
-  const std::vector<double> y =
-      places(job.common != nullptr ? *job.common : own, job.step, Draws(seed, Purpose::positions, job.pass_number, line));
+  const std::vector<double> y = places(job.common != nullptr ? *job.common : own, job.step,
+                                       Draws(seed, Purpose::positions, job.pass_number, line));
   if (y.empty()) return out;
 
-  const bool need_normals = settings.noise > 0.0 || settings.noise_lateral > 0.0 || settings.outliers > 0.0 || settings.most_incidence > 0.0;
+  const bool need_normals =
+      settings.noise > 0.0 || settings.noise_lateral > 0.0 || settings.outliers > 0.0 || settings.most_incidence > 0.0;
   std::vector<double> z(y.size()), dzdx(need_normals ? y.size() : 0), dzdy(dzdx.size());
   heights_along(job.surface, settings.body, u, y, {z, dzdx, dzdy});
 
@@ -86,7 +87,8 @@ Line scan_line(const LineJob& job, std::size_t line, double u) {
   for (std::size_t i = 0; i < y.size(); ++i) {
     if (std::isnan(z[i])) continue;
     const bool dropped = settings.drop_outs > 0.0 && drop_outs.next();
-    const Vec3 p_P(0.0, y[i], z[i]), normal_P = need_normals ? normal_in_plane(settings.body, dzdx[i], dzdy[i]) : Vec3::UnitZ();
+    const Vec3 p_P(0.0, y[i], z[i]),
+        normal_P = need_normals ? normal_in_plane(settings.body, dzdx[i], dzdy[i]) : Vec3::UnitZ();
     if (std::fabs(normal_P.z()) < least_cosine) {
       ++out.lost_occlusion;
     } else if (job.holes.contains(X_SP.apply(p_P))) {

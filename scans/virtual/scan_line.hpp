@@ -28,10 +28,10 @@ struct LineJob {
   const Surroundings& around;
   const Pass& pass;
   std::size_t pass_number = 0;
-  Pose X_CS;                      ///< with the error of the pass
-  double step = 0.0;              ///< between points along a line [m]
-  std::span<const double> raster; ///< where every station is looked at first
-  double longest = 0.0;           ///< piece in which the length of a line is measured
+  Pose X_CS;                        ///< with the error of the pass
+  double step = 0.0;                ///< between points along a line [m]
+  std::span<const double> raster;   ///< where every station is looked at first
+  double longest = 0.0;             ///< piece in which the length of a line is measured
   const Station* common = nullptr;  ///< the station of every line, if they are all the same
 };
 

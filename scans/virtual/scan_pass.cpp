@@ -44,7 +44,8 @@ void measure(Pass& pass, const FirstLook& part, bool wheel, double registration,
   pass.middle_S = 0.5 * (low + high);
   if (!(registration > 0.0)) return;
   // an angle about each axis that moves the farthest ends across it by the same length
-  const Vec3 half = 0.5 * (high - low), shift = registration * draws.gaussian3(), turn = registration * draws.gaussian3();
+  const Vec3 half = 0.5 * (high - low), shift = registration * draws.gaussian3(),
+             turn = registration * draws.gaussian3();
   const auto angle = [&](int axis) {
     const double reach = std::max(half[(axis + 1) % 3], half[(axis + 2) % 3]);
     return reach > 0.0 ? turn[axis] / reach : 0.0;

@@ -13,7 +13,7 @@ namespace treadmark::scans::scanner {
 struct Pass {
   double u_min = 0.0, u_max = 0.0, y_min = 0.0, y_max = 0.0;
   Vec3 middle_S = Vec3::Zero();
-  Pose error_S;                ///< takes points to where the pass puts them, in the frame of the surface
+  Pose error_S;                           ///< takes points to where the pass puts them, in the frame of the surface
   double area = 0.0, nominal_area = 0.0;  ///< [m^2] as those of patches
 };
 

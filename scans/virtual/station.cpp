@@ -10,8 +10,8 @@
 namespace treadmark::scans::scanner {
 namespace {
 
-constexpr double kLeastPiece = 1e-8;    // [m] of y; what is still longer than wanted then is a jump, not a flank
-constexpr double kEndAccuracy = 1e-8;   // [m] of y
+constexpr double kLeastPiece = 1e-8;   // [m] of y; what is still longer than wanted then is a jump, not a flank
+constexpr double kEndAccuracy = 1e-8;  // [m] of y
 constexpr std::size_t kLeastPieces = 256;
 constexpr double kMostPieces = 1e7;
 
@@ -113,7 +113,8 @@ std::vector<double> raster(const Surface& surface, Body body, std::span<const do
   const double wanted = std::min((high - low) / longest, kMostPieces);
   const std::size_t n = std::max(kLeastPieces, static_cast<std::size_t>(std::ceil(wanted)));
   std::vector<double> y(n + 1);
-  for (std::size_t i = 0; i <= n; ++i) y[i] = i == n ? high : low + (high - low) * static_cast<double>(i) / static_cast<double>(n);
+  for (std::size_t i = 0; i <= n; ++i)
+    y[i] = i == n ? high : low + (high - low) * static_cast<double>(i) / static_cast<double>(n);
   for (const double u : stations) y = Station(surface, body, u, y, longest).y();
   return y;
 }

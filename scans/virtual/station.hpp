@@ -12,7 +12,8 @@
 
 namespace treadmark::scans::scanner {
 
-/// Heights z or radii r along one station, NaN where there is no surface (the far side of a wheel is none); slopes may be empty.
+/// Heights z or radii r along one station, NaN where there is no surface (the far side of a wheel is none); slopes may
+/// be empty.
 void heights_along(const Surface& surface, Body body, double u, std::span<const double> y, const HeightsOut& out);
 
 /// Unit normal out of the material in the plane of the station. Slopes may be infinite; unknown ones count as level.
@@ -22,7 +23,8 @@ Vec3 normal_in_plane(Body body, double dzdx, double dzdy);
 class Station {
  public:
   Station() = default;
-  /// Looks at raster (ascending y) and between, until no step along the line is longer than longest; jumps are left out.
+  /// Looks at raster (ascending y) and between, until no step along the line is longer than longest; jumps are left
+  /// out.
   Station(const Surface& surface, Body body, double u, std::span<const double> raster, double longest);
 
   double length() const { return arc_.empty() ? 0.0 : arc_.back(); }
@@ -31,7 +33,8 @@ class Station {
   const std::vector<double>& h() const { return h_; }
   /// Arc length from the beginning to each y, the same on both sides of a gap.
   const std::vector<double>& arc() const { return arc_; }
-  /// y at an arc length in [0, length()]. piece is where the search starts, 1 at first, for lengths that do not decrease.
+  /// y at an arc length in [0, length()]. piece is where the search starts, 1 at first, for lengths that do not
+  /// decrease.
   double y_at(double arc, std::size_t& piece) const;
 
  private:

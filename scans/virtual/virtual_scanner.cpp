@@ -20,9 +20,9 @@ namespace {
 
 using namespace scanner;
 
-constexpr std::size_t kBlock = 256;          // lines between two looks at the clock and the request to stop
-constexpr double kPiece = 0.5;               // of the step: in such pieces the length of a line is measured
-constexpr double kFarthest = 1.0;            // [m] of a random frame
+constexpr std::size_t kBlock = 256;  // lines between two looks at the clock and the request to stop
+constexpr double kPiece = 0.5;       // of the step: in such pieces the length of a line is measured
+constexpr double kFarthest = 1.0;    // [m] of a random frame
 
 Pose random_pose(std::uint64_t seed) {
   Draws draws(seed, Purpose::frame);
@@ -54,7 +54,8 @@ Plan plan_lines(const FirstLook& part, const std::vector<Pass>& passes, const Sc
   plan.spacing = settings.spacing > 0.0 ? settings.spacing : std::sqrt(area / static_cast<double>(settings.points));
   plan.points = settings.spacing > 0.0 ? area / (plan.spacing * plan.spacing) : static_cast<double>(settings.points);
   if (plan.points > kMostPoints)
-    throw Error(ErrorKind::configuration, "a virtual scan has 200 million points at most", {}, "ask for a wider spacing or a smaller part");
+    throw Error(ErrorKind::configuration, "a virtual scan has 200 million points at most", {},
+                "ask for a wider spacing or a smaller part");
   for (const Pass& pass : passes) {
     const double width = (pass.u_max - pass.u_min) * part.metres_per_u;
     plan.lines.push_back(std::max<std::size_t>(1, static_cast<std::size_t>(std::llround(width / plan.spacing))));
@@ -68,8 +69,12 @@ Plan plan_lines(const FirstLook& part, const std::vector<Pass>& passes, const Sc
 class Scan {
  public:
   Scan(const Surface& surface, const ScannerSettings& settings, const Progress& progress)
-      : surface_(surface), settings_(settings), progress_(progress), part_(look(surface, settings, progress)),
-        passes_(plan_passes(part_, settings)), plan_(plan_lines(part_, passes_, settings)) {
+      : surface_(surface),
+        settings_(settings),
+        progress_(progress),
+        part_(look(surface, settings, progress)),
+        passes_(plan_passes(part_, settings)),
+        plan_(plan_lines(part_, passes_, settings)) {
     if (settings.holes > 0.0) holes_ = Holes(part_, settings.body, settings.holes, settings.hole_size, settings.seed);
     around_ = surroundings(part_, settings.seed);
     part_.patches = {};  // their room is needed for the cloud
@@ -87,7 +92,9 @@ class Scan {
     scan_.cloud.points.reserve(room);
     if (passes_.size() > 1) scan_.cloud.passes.reserve(room);
     for (std::size_t i = 0; i < passes_.size(); ++i) run_pass(i);
-    if (scan_.cloud.points.empty()) throw Error(ErrorKind::configuration, "not one point is left of the scan", {}, "ask for more points or lose fewer");
+    if (scan_.cloud.points.empty())
+      throw Error(ErrorKind::configuration, "not one point is left of the scan", {},
+                  "ask for more points or lose fewer");
     return std::move(scan_);
   }
 
@@ -96,14 +103,18 @@ class Scan {
     const Pass& pass = passes_[i];
     ScannerTruth& truth = scan_.truth;
     truth.X_pass.push_back(truth.X_CS * pass.error_S * truth.X_CS.inverse());
-    truth.passes.push_back({pass.u_min, pass.u_max, pass.y_min, pass.y_max, truth.X_CS.apply(pass.middle_S), plan_.lines[i], 0});
+    truth.passes.push_back(
+        {pass.u_min, pass.u_max, pass.y_min, pass.y_max, truth.X_CS.apply(pass.middle_S), plan_.lines[i], 0});
 
     const double longest = kPiece * plan_.step;
-    const std::vector<double> looked_at = raster(surface_, settings_.body, part_.spread, pass.y_min, pass.y_max, longest);
-    LineJob job{surface_, settings_, holes_, around_, pass, i, truth.X_CS * pass.error_S, plan_.step, looked_at, longest, nullptr};
+    const std::vector<double> looked_at =
+        raster(surface_, settings_.body, part_.spread, pass.y_min, pass.y_max, longest);
+    LineJob job{surface_,   settings_, holes_,  around_, pass, i, truth.X_CS * pass.error_S,
+                plan_.step, looked_at, longest, nullptr};
     const std::size_t lines = plan_.lines[i];
     Draws draws(settings_.seed, Purpose::positions, i, lines);
-    const double distance = (pass.u_max - pass.u_min) / static_cast<double>(lines), first = pass.u_min + draws.uniform() * distance;
+    const double distance = (pass.u_max - pass.u_min) / static_cast<double>(lines),
+                 first = pass.u_min + draws.uniform() * distance;
     Station common;
     if (surface_.constant_profile()) {
       common = Station(surface_, settings_.body, first, looked_at, longest);

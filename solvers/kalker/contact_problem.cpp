@@ -14,7 +14,8 @@ double at(const std::vector<double>& field, std::size_t i) { return i < field.si
 /// Assumed pressures have no displacement field that belongs to them. Simplified theory has that of its elastic layer.
 bool has_elastic_energy(const ContactProblem& problem) {
   const NormalModel normal = problem.normal_model;
-  return normal != NormalModel::elliptic && normal != NormalModel::parabolic && normal != NormalModel::semi_double_elliptic;
+  return normal != NormalModel::elliptic && normal != NormalModel::parabolic &&
+         normal != NormalModel::semi_double_elliptic;
 }
 
 }  // namespace
@@ -38,7 +39,8 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
       mx += pn * y;
       my -= pn * x;
       mn += py * x - px * y;
-      energy += pn * at(solution.displacement_n, i) + px * at(solution.displacement_x, i) + py * at(solution.displacement_y, i);
+      energy += pn * at(solution.displacement_n, i) + px * at(solution.displacement_x, i) +
+                py * at(solution.displacement_y, i);
       power += px * at(solution.slip_x, i) + py * at(solution.slip_y, i);
       solution.max_pressure = std::max(solution.max_pressure, pn);
     }
@@ -54,7 +56,8 @@ void accumulate_totals(const ContactProblem& problem, ContactSolution& solution)
   solution.elastic_energy = has_elastic_energy(problem) ? 0.5 * energy * area : 0.0;
   const bool rolling = problem.regime == Regime::steady || problem.regime == Regime::transient;
   // with a plastic layer the tangential solver has counted its shear too
-  if (solution.yield_stress.empty()) solution.frictional_power = power * area * (rolling ? problem.rolling.velocity : 1.0);
+  if (solution.yield_stress.empty())
+    solution.frictional_power = power * area * (rolling ? problem.rolling.velocity : 1.0);
 
   // Components below the accuracy of the tractions are zero; the lever is that of the contact's own size.
   const double negligible = 0.5 * problem.settings.eps * ft * area, lever = std::sqrt(solution.elements_contact * area);

@@ -52,7 +52,7 @@ struct ContactSolver::Workspace {
   NormalSolver normal;
   SubPatchSolver sub_patches;
   TangentialSolver tangential;
-  ContactHistory previous, last;   ///< the instant before the last one, and the last one
+  ContactHistory previous, last;  ///< the instant before the last one, and the last one
 
   void solve_normal(const ContactProblem& problem, ContactSolution& solution) {
     if (problem.sub_patches.count > 1)
@@ -158,7 +158,8 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
   if (solution.tangential.status == Status::ok) {
     solution.tangential.status = Status::not_converged;
     solution.tangential.message =
-        fmt::format("normal and tangential problem still change each other by {:.2g} after {} rounds", change, problem.settings.max_coupling);
+        fmt::format("normal and tangential problem still change each other by {:.2g} after {} rounds", change,
+                    problem.settings.max_coupling);
   }
 }
 
@@ -176,7 +177,8 @@ void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, Contact
   const HeatOptions heat{problem.thermal && problem.thermal->reference_quirks};
   const auto by_temperature = [](const FrictionLaw& law) { return law.kind == FrictionLaw::Kind::temperature; };
   const std::vector<FrictionLaw>& rows = problem.friction_of_row;
-  const bool depends = rows.empty() ? by_temperature(problem.friction) : std::any_of(rows.begin(), rows.end(), by_temperature);
+  const bool depends =
+      rows.empty() ? by_temperature(problem.friction) : std::any_of(rows.begin(), rows.end(), by_temperature);
   if (!depends || !problem.thermal) {
     solve_once(problem, solution);
     if (problem.thermal) add_surface_temperatures(problem, solution, heat);
@@ -198,12 +200,14 @@ void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, Contact
     if (change <= kSameTemperature * kSameTemperature * size) return;
     if (round >= problem.settings.max_outer) {
       solution.tangential.status = Status::not_converged;
-      solution.tangential.message = "friction and temperature did not come to terms in " + std::to_string(round) + " rounds";
+      solution.tangential.message =
+          "friction and temperature did not come to terms in " + std::to_string(round) + " rounds";
       return;
     }
     if (round > 1 && change > 0.8 * last_change) relaxation = std::max(0.05, 0.5 * relaxation);
     last_change = change;
-    for (std::size_t i = 0; i < temperature.size(); ++i) temperature[i] += relaxation * (solution.temperature_1[i] - temperature[i]);
+    for (std::size_t i = 0; i < temperature.size(); ++i)
+      temperature[i] += relaxation * (solution.temperature_1[i] - temperature[i]);
   }
 }
 
@@ -232,7 +236,8 @@ void ContactSolver::solve_tangential(const ContactProblem& problem, ContactSolut
   if (problem.sensitivities && problem.tangential_model == TangentialModel::full && solution.elements_contact > 0) {
     const std::vector<double> by_approach = workspace_->normal.pressure_by_approach(problem, solution);
     if (problem.regime != Regime::frictionless) {
-      solution.sensitivities = workspace_->tangential.sensitivities(problem, solution, workspace_->previous, by_approach);
+      solution.sensitivities =
+          workspace_->tangential.sensitivities(problem, solution, workspace_->previous, by_approach);
     } else {
       solution.sensitivities.emplace();
       for (const double p : by_approach) solution.sensitivities->by_approach[0] += p * problem.grid.cell_area();

@@ -4,15 +4,15 @@
 
 #include <memory>
 
-#include "treadmark/solvers/kalker/history/contact_history.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
+#include "treadmark/solvers/kalker/history/contact_history.hpp"
 
 namespace treadmark::kalker {
 
-/// Solves one-patch contact problems: normal and tangential problem (Kalker 1990), one after the other, or in turns until they
-/// agree where each acts on the other (dissimilar bodies; Panagiotopoulos 1975).
-/// Keeps influence coefficients, FFT plans and the last solution, so that a sequence of similar problems is solved fast:
-/// the last solution is the start value whenever the grid indices line up. Keeps the history of shifts and transient rolling.
+/// Solves one-patch contact problems: normal and tangential problem (Kalker 1990), one after the other, or in turns
+/// until they agree where each acts on the other (dissimilar bodies; Panagiotopoulos 1975). Keeps influence
+/// coefficients, FFT plans and the last solution, so that a sequence of similar problems is solved fast: the last
+/// solution is the start value whenever the grid indices line up. Keeps the history of shifts and transient rolling.
 /// Not thread-safe; use one per thread.
 class ContactSolver {
  public:
@@ -25,9 +25,10 @@ class ContactSolver {
   /// Errors: Error(configuration) for inconsistent input. A problem without contact gives Status::no_contact.
   ContactSolution solve_normal(const ContactProblem& problem);
 
-  /// Adds the tangential solution of the problem's regime to a normal solution of the same problem; problem.history says from
-  /// which instant it goes on. What comes out is the last instant from then on. For dissimilar bodies the normal solution changes too.
-  /// Errors: Error(configuration), also for a grid that does not line up with that of the previous instant.
+  /// Adds the tangential solution of the problem's regime to a normal solution of the same problem; problem.history
+  /// says from which instant it goes on. What comes out is the last instant from then on. For dissimilar bodies the
+  /// normal solution changes too. Errors: Error(configuration), also for a grid that does not line up with that of the
+  /// previous instant.
   void solve_tangential(const ContactProblem& problem, ContactSolution& solution);
 
   /// Both.
@@ -36,7 +37,8 @@ class ContactSolver {
   /// Forgets the last solution and the history (not the coefficients).
   void reset();
 
-  /// Everything on which the following solutions depend, to the last bit: opaque, cheap to copy, independent of the solver.
+  /// Everything on which the following solutions depend, to the last bit: opaque, cheap to copy, independent of the
+  /// solver.
   class State;
   std::shared_ptr<const State> save() const;
   void restore(const std::shared_ptr<const State>& state);

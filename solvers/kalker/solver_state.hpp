@@ -13,7 +13,7 @@ namespace treadmark::kalker {
 
 class ContactSolver::State {
  public:
-  ContactHistory previous, last;   ///< the instant before the last one, and the last one
+  ContactHistory previous, last;  ///< the instant before the last one, and the last one
   NormalStart normal;
   std::vector<NormalStart> sub_patches;
   std::optional<TangentialStart> tangential;

@@ -9,7 +9,8 @@
 
 namespace treadmark::kalker {
 
-/// A solver's state as bytes; null stays null. They bear no format number: whoever writes them into something larger gives it one.
+/// A solver's state as bytes; null stays null. They bear no format number: whoever writes them into something larger
+/// gives it one.
 void write(const std::shared_ptr<const ContactSolver::State>& state, ByteWriter& out);
 
 /// Errors: Error(input_data) for bytes that are no state.

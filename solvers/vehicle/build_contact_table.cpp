@@ -22,17 +22,23 @@ namespace {
   throw Error(ErrorKind::configuration, std::move(message), {}, std::move(advice));
 }
 
-void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, double load, const ContactTableOptions& options) {
+void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, double load,
+           const ContactTableOptions& options) {
   if (!geometry.constant_profiles())
-    refuse("a contact table needs a round wheel on a prismatic rail", "use an element that solves the contact of these surfaces");
-  if (p.side != wheelrail::Side::right) refuse("a contact table is made for the right-hand side", "it serves the left-hand side as it is");
+    refuse("a contact table needs a round wheel on a prismatic rail",
+           "use an element that solves the contact of these surfaces");
+  if (p.side != wheelrail::Side::right)
+    refuse("a contact table is made for the right-hand side", "it serves the left-hand side as it is");
   if (p.track.curvature != 0.0) refuse("a contact table is made for straight track");
   if (p.roller) refuse("a contact table knows no rollers");
-  if (!(load > 0.0) || !std::isfinite(load)) refuse("the reference load of a contact table must be positive and finite");
+  if (!(load > 0.0) || !std::isfinite(load))
+    refuse("the reference load of a contact table must be positive and finite");
   for (const double length : {options.lateral_range, options.step, options.element_size})
-    if (!(length > 0.0) || !std::isfinite(length)) refuse("range, step and element size of a contact table must be positive and finite");
+    if (!(length > 0.0) || !std::isfinite(length))
+      refuse("range, step and element size of a contact table must be positive and finite");
   const std::vector<double>& loads = options.relative_loads;
-  if (loads.empty() || !(loads.front() > 0.0) || !std::isfinite(loads.back()) || !std::ranges::is_sorted(loads, std::less_equal<>{}))
+  if (loads.empty() || !(loads.front() > 0.0) || !std::isfinite(loads.back()) ||
+      !std::ranges::is_sorted(loads, std::less_equal<>{}))
     refuse("the relative loads of a contact table must be positive and increase");
   constexpr double kMostSteps = 5000.0;
   if (!(options.step <= options.lateral_range) || options.lateral_range / options.step > kMostSteps)
@@ -61,8 +67,8 @@ struct PatchShape {
   double area = 0.0, aspect_ratio = 1.0;
 };
 
-/// From integrals over the pressures, which do not change in jumps as a count of elements does. For an ellipsoid p_0 sqrt(1 - r^2) the
-/// squared mean of sqrt(p) is 24/25 of the mean of p, and the second moments are a^2/5 and b^2/5.
+/// From integrals over the pressures, which do not change in jumps as a count of elements does. For an ellipsoid p_0
+/// sqrt(1 - r^2) the squared mean of sqrt(p) is 24/25 of the mean of p, and the second moments are a^2/5 and b^2/5.
 PatchShape patch_shape(const wheelrail::PatchSolution& patch) {
   double sum = 0.0, sum_of_roots = 0.0;
   Vec2 centre = Vec2::Zero(), second = Vec2::Zero();
@@ -99,7 +105,8 @@ ContactUnderLoad under_load(double y, double load, const wheelrail::PairSolution
   const Vec3& force = s.load.track.force;
   const Vec3& marker = s.placement.X_TR.origin;
   c.slope = -force.y() / force.z();
-  // On the line of action of the resultant, at the mean height of the patches on the rail; the wheel lies deeper by the approach.
+  // On the line of action of the resultant, at the mean height of the patches on the rail; the wheel lies deeper by the
+  // approach.
   const double z = height / normal_force;
   const double place_y = marker.y() + (s.load.track.moment.x() + (z - marker.z()) * force.y()) / force.z();
   const double to_wheel = 2.5 * c.elastic_energy / load / (1.0 + c.slope * c.slope);
@@ -154,7 +161,8 @@ class Builder {
 /// Those round the central one that have a solution, without a gap.
 std::vector<ContactTableColumn> connected(const std::vector<Attempt>& attempts, std::size_t centre) {
   if (!attempts[centre].solved)
-    throw Error(ErrorKind::numerical, "wheel and rail have no contact in their central position: " + attempts[centre].message, {},
+    throw Error(ErrorKind::numerical,
+                "wheel and rail have no contact in their central position: " + attempts[centre].message, {},
                 "check gauge, flange-back distance and profiles");
   std::size_t first = centre, last = centre;
   while (first > 0 && attempts[first - 1].solved) --first;
@@ -183,8 +191,9 @@ void refine(const Builder& builder, std::vector<ContactTableColumn>& columns) {
 
 }  // namespace
 
-std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
-                                                        double reference_load, const ContactTableOptions& options) {
+std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
+                                                        const wheelrail::Problem& prototype, double reference_load,
+                                                        const ContactTableOptions& options) {
   check(geometry, prototype, reference_load, options);
   const wheelrail::Problem rest = at_rest(prototype, options.element_size);
   const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
@@ -195,13 +204,16 @@ std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometr
   constexpr double kRounding = 1e-9;
   const auto each_way = static_cast<std::size_t>(options.lateral_range / options.step + kRounding);
   std::vector<double> y;
-  for (std::size_t i = 0; i <= 2 * each_way; ++i) y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
+  for (std::size_t i = 0; i <= 2 * each_way; ++i)
+    y.push_back(options.step * (static_cast<double>(i) - static_cast<double>(each_way)));
   std::vector<ContactTableColumn> columns = connected(builder.solve(y), each_way);
   constexpr int kRefinements = 3;
   for (int i = 0; i < kRefinements; ++i) refine(builder, columns);
 
-  const auto nearest = std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
-  return std::make_shared<ContactTable>(columns, loads, static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest, nominal);
+  const auto nearest =
+      std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
+  return std::make_shared<ContactTable>(
+      columns, loads, static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest, nominal);
 }
 
 }  // namespace treadmark::vehicle

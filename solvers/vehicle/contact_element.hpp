@@ -22,40 +22,41 @@ struct RailMotion {
 /// One wheelset over one rail at one instant. wheelset.x: distance travelled along the track; velocities are whole ones
 /// (x: V and what is added to it; pitch: -V/R and what is added to it).
 struct PairMotion {
-  double time = 0.0;                                     ///< [s]
-  wheelrail::SixMotion wheelset, wheelset_velocity;      ///< [m], [rad], [m/s], [rad/s]
+  double time = 0.0;                                 ///< [s]
+  wheelrail::SixMotion wheelset, wheelset_velocity;  ///< [m], [rad], [m/s], [rad/s]
   RailMotion rail;
 };
 
-/// How a patch's force gives way, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C d(velocity),
-/// both diagonal. Serves the convergence of implicit steps only.
+/// How a patch's force gives way, in contact axes: d(force on the rail) = K d(wheel - rail displacement) + C
+/// d(velocity), both diagonal. Serves the convergence of implicit steps only.
 struct PatchTangent {
-  Pose X_TC;                                             ///< contact axes at the contact point, track axes
-  double stiffness_n = 0.0;                              ///< [N/m]
-  double damping_x = 0.0, damping_s = 0.0;               ///< of creep [N s/m]
+  Pose X_TC;                                ///< contact axes at the contact point, track axes
+  double stiffness_n = 0.0;                 ///< [N/m]
+  double damping_x = 0.0, damping_s = 0.0;  ///< of creep [N s/m]
 };
 
 /// What acts between one wheel and one rail.
 struct ContactReaction {
-  Status status = Status::ok;                            ///< no_contact is not a failure
+  Status status = Status::ok;  ///< no_contact is not a failure
   std::string message;
-  wheelrail::Wrench on_rail;                             ///< track axes; moment about the rail marker [N], [N m]
-  wheelrail::Wrench on_wheelset;                         ///< track axes; moment about the wheelset's centre [N], [N m]
-  double lateral_creep_force = 0.0;                      ///< T_y: sum of F_s over the patches, on the rail [N]
-  double longitudinal_creep_force = 0.0;                 ///< T_x: sum of F_x [N]
-  double normal_force = 0.0;                             ///< sum of F_n [N]
-  double least_gap = 0.0;                                ///< < 0: greatest penetration [m]
-  double max_pressure = 0.0;                             ///< [Pa]; 0 where the element does not know
-  double area = 0.0;                                     ///< of contact [m2]
-  double contact_y = 0.0, contact_x = 0.0;               ///< of the most loaded patch, track axes, x from the axle [m]
+  wheelrail::Wrench on_rail;                ///< track axes; moment about the rail marker [N], [N m]
+  wheelrail::Wrench on_wheelset;            ///< track axes; moment about the wheelset's centre [N], [N m]
+  double lateral_creep_force = 0.0;         ///< T_y: sum of F_s over the patches, on the rail [N]
+  double longitudinal_creep_force = 0.0;    ///< T_x: sum of F_x [N]
+  double normal_force = 0.0;                ///< sum of F_n [N]
+  double least_gap = 0.0;                   ///< < 0: greatest penetration [m]
+  double max_pressure = 0.0;                ///< [Pa]; 0 where the element does not know
+  double area = 0.0;                        ///< of contact [m2]
+  double contact_y = 0.0, contact_x = 0.0;  ///< of the most loaded patch, track axes, x from the axle [m]
   int patches = 0;
-  double elastic_energy = 0.0;                           ///< stored in the contact [J]
-  double frictional_power = 0.0;                         ///< dissipated, >= 0 [W]
+  double elastic_energy = 0.0;    ///< stored in the contact [J]
+  double frictional_power = 0.0;  ///< dissipated, >= 0 [W]
   std::vector<PatchTangent> tangents;
 };
 
 /// The force element of one wheel on one rail. Not thread-safe.
-/// evaluate() may be called for any number of trial states, in any order; each goes on from the instant that was accepted last.
+/// evaluate() may be called for any number of trial states, in any order; each goes on from the instant that was
+/// accepted last.
 class ContactElement {
  public:
   virtual ~ContactElement() = default;

@@ -20,7 +20,8 @@ void require(bool holds, const char* message) {
 
 const Columns& checked(const Columns& columns, const std::vector<double>& loads, std::size_t reference_level) {
   require(columns.size() >= 2, "a contact table needs two lateral positions or more");
-  require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) && std::ranges::is_sorted(loads, std::less_equal<>{}),
+  require(!loads.empty() && loads.front() > 0.0 && std::isfinite(loads.back()) &&
+              std::ranges::is_sorted(loads, std::less_equal<>{}),
           "the loads of a contact table must be positive and increase");
   require(reference_level < loads.size(), "a contact table has no such reference level");
   for (const ContactTableColumn& column : columns) {
@@ -56,7 +57,8 @@ ShapeCurve curve(const Columns& columns, std::size_t level, double ContactUnderL
 }
 
 ShapeCurve heights_less_energy(const Columns& columns, double load) {
-  return {positions(columns), along(columns, [&](const ContactTableColumn& c) { return c.under[0].z - c.under[0].elastic_energy / load; }),
+  return {positions(columns),
+          along(columns, [&](const ContactTableColumn& c) { return c.under[0].z - c.under[0].elastic_energy / load; }),
           along(columns, [](const ContactTableColumn& c) { return c.under[0].slope; })};
 }
 

@@ -16,52 +16,54 @@ struct ContactTableOptions {
   double lateral_range = 12e-3;  ///< of the wheel against the rail, to both sides of its central position [m]
   double step = 0.25e-3;         ///< [m]; finer where the contact angle changes fast
   double element_size = 0.5e-3;  ///< of the contact problems, dx = ds [m]
-  /// Loads over the reference load, increasing. One: a Hertzian spring. More: its stiffness follows the profiles from load to load.
+  /// Loads over the reference load, increasing. One: a Hertzian spring. More: its stiffness follows the profiles from
+  /// load to load.
   std::vector<double> relative_loads = {0.3, 0.6, 1.0, 2.0};
 };
 
 /// Contact under one load at one lateral displacement of the wheel against the rail; right-hand side, track axes.
 struct ContactUnderLoad {
-  double z = 0.0;              ///< displacement of the wheel downwards [m]
-  double elastic_energy = 0.0; ///< [J]
-  double slope = 0.0;          ///< tangent of the contact angle [-]
+  double z = 0.0;                       ///< displacement of the wheel downwards [m]
+  double elastic_energy = 0.0;          ///< [J]
+  double slope = 0.0;                   ///< tangent of the contact angle [-]
   double wheel_y = 0.0, wheel_z = 0.0;  ///< contact place on the undeformed wheel, from the wheel's profile origin [m]
-  double area = 0.0;           ///< of contact [m2]
-  double aspect_ratio = 1.0;   ///< a/b of the equivalent ellipse, a in the rolling direction [-]
+  double area = 0.0;                    ///< of contact [m2]
+  double aspect_ratio = 1.0;            ///< a/b of the equivalent ellipse, a in the rolling direction [-]
 };
 
 /// All loads at one lateral displacement.
 struct ContactTableColumn {
-  double y = 0.0;              ///< [m]
+  double y = 0.0;  ///< [m]
   std::vector<ContactUnderLoad> under;
 };
 
 /// How a contact grows from the load before to its own one.
 struct LoadLevel {
-  double load = 0.0;           ///< vertical [N]
-  ShapeCurve compression;      ///< vertical approach since the level before [m]; first level: since Hertzian first touch
-  ShapeCurve area;             ///< of contact at this load [m2]
-  ShapeCurve log_aspect_ratio; ///< ln(a/b) at this load
+  double load = 0.0;       ///< vertical [N]
+  ShapeCurve compression;  ///< vertical approach since the level before [m]; first level: since Hertzian first touch
+  ShapeCurve area;         ///< of contact at this load [m2]
+  ShapeCurve log_aspect_ratio;  ///< ln(a/b) at this load
 };
 
-/// Contact of a round wheel and a prismatic rail under a few loads, against their lateral displacement y, everything else at rest and
-/// upright. Several patches count as one contact that has their load and energy: its place is where their resultant acts, its area their
-/// sum, its aspect ratio their mean by load.
-/// Immutable: one table serves both rails, any number of wheels and threads.
+/// Contact of a round wheel and a prismatic rail under a few loads, against their lateral displacement y, everything
+/// else at rest and upright. Several patches count as one contact that has their load and energy: its place is where
+/// their resultant acts, its area their sum, its aspect ratio their mean by load. Immutable: one table serves both
+/// rails, any number of wheels and threads.
 class ContactTable {
  public:
-  /// columns: by increasing y, each with the contact under every load; reference_level: whose contact places are taken. problem: of which
-  /// track, wheelset, material and friction count; nominal: its placement at rest.
-  /// Errors: Error(configuration) for less than two columns, loads or compressions that do not increase.
-  ContactTable(const std::vector<ContactTableColumn>& columns, const std::vector<double>& loads, std::size_t reference_level,
-               wheelrail::Problem problem, const wheelrail::Placement& nominal);
+  /// columns: by increasing y, each with the contact under every load; reference_level: whose contact places are taken.
+  /// problem: of which track, wheelset, material and friction count; nominal: its placement at rest. Errors:
+  /// Error(configuration) for less than two columns, loads or compressions that do not increase.
+  ContactTable(const std::vector<ContactTableColumn>& columns, const std::vector<double>& loads,
+               std::size_t reference_level, wheelrail::Problem problem, const wheelrail::Placement& nominal);
 
   double y_min() const { return y_min_; }
   double y_max() const { return y_max_; }
   const wheelrail::Problem& problem() const { return problem_; }
   const wheelrail::Placement& nominal() const { return nominal_; }
 
-  /// Height of the first level less its elastic energy over its load [m]. Its slope is the tangent of the contact angle there.
+  /// Height of the first level less its elastic energy over its load [m]. Its slope is the tangent of the contact angle
+  /// there.
   const ShapeCurve& energy_height() const { return energy_height_; }
   const std::vector<LoadLevel>& levels() const { return levels_; }
   const ShapeCurve& wheel_y() const { return wheel_y_; }
@@ -75,11 +77,13 @@ class ContactTable {
   std::vector<LoadLevel> levels_;
 };
 
-/// Solves the contact at every lateral displacement of the range, in parallel. The table covers those round the central position that
-/// have a solution. prototype: material, friction, track and wheelset of a right-hand pair; states and irregularities do not count.
-/// Errors: Error(configuration) for a left-hand prototype, bodies that are not round and prismatic, a curved track, rollers and options
-/// without meaning; Error(numerical) if the bodies do not touch in the central position.
-std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry, const wheelrail::Problem& prototype,
-                                                        double reference_load, const ContactTableOptions& options = {});
+/// Solves the contact at every lateral displacement of the range, in parallel. The table covers those round the central
+/// position that have a solution. prototype: material, friction, track and wheelset of a right-hand pair; states and
+/// irregularities do not count. Errors: Error(configuration) for a left-hand prototype, bodies that are not round and
+/// prismatic, a curved track, rollers and options without meaning; Error(numerical) if the bodies do not touch in the
+/// central position.
+std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
+                                                        const wheelrail::Problem& prototype, double reference_load,
+                                                        const ContactTableOptions& options = {});
 
 }  // namespace treadmark::vehicle

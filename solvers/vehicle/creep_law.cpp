@@ -20,8 +20,9 @@ Limited limit(double linear_force, double bound) {
   return {1.0 - u / 3.0 + u * u / 27.0, (1.0 - u / 3.0) * (1.0 - u / 3.0)};
 }
 
-/// Share of the linear theory's lateral force of spin that is left where the contact slides: there the slips that spin brings ahead of and
-/// behind its pole cancel out. A curve through solutions of the full theory for steep flange contacts (S1002 on 60E1).
+/// Share of the linear theory's lateral force of spin that is left where the contact slides: there the slips that spin
+/// brings ahead of and behind its pole cancel out. A curve through solutions of the full theory for steep flange
+/// contacts (S1002 on 60E1).
 double spin_left(double linear_force, double bound) {
   constexpr double kHalved = 4.0;  // linear force over the friction bound
   if (!(bound > 0.0)) return 0.0;
@@ -31,12 +32,14 @@ double spin_left(double linear_force, double bound) {
 
 }  // namespace
 
-CreepForce creep_force(const CreepContact& contact, const CombinedMaterial& material, const wheelrail::ContactKinematics& k) {
+CreepForce creep_force(const CreepContact& contact, const CombinedMaterial& material,
+                       const wheelrail::ContactKinematics& k) {
   CreepForce out;
   if (!(k.velocity > 0.0)) return out;
   const kalker::KalkerCoefficients c = kalker::kalker_coefficients(contact.a, contact.b, material.poisson);
   const double size_squared = contact.a * contact.b, size = std::sqrt(size_squared);
-  const double by_xi = material.shear_modulus * size_squared * c.c11, by_eta = material.shear_modulus * size_squared * c.c22;
+  const double by_xi = material.shear_modulus * size_squared * c.c11,
+               by_eta = material.shear_modulus * size_squared * c.c22;
   // Backwards is forwards turned about n: creepages change sign, spin does not.
   double by_phi = std::copysign(material.shear_modulus * size_squared * size * c.c23, std::cos(k.chi));
   by_phi *= spin_left(Vec2(by_xi * k.xi, by_eta * k.eta + by_phi * k.phi).norm(), contact.friction_bound);

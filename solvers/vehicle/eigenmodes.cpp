@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <Eigen/Eigenvalues>
 #include <fmt/format.h>
+#include <Eigen/Eigenvalues>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
@@ -47,7 +47,8 @@ FirstOrder first_order(const VehicleOnTrack& vehicle, const SystemState& state) 
 std::vector<Eigenmode> eigenmodes(const VehicleOnTrack& vehicle, const SystemState& state) {
   const FirstOrder system = first_order(vehicle, state);
   const Eigen::EigenSolver<Matrix> solver(system.a);
-  if (solver.info() != Eigen::Success) throw Error(ErrorKind::numerical, "the eigenvalues of the vehicle did not converge");
+  if (solver.info() != Eigen::Success)
+    throw Error(ErrorKind::numerical, "the eigenvalues of the vehicle did not converge");
   const auto n = static_cast<Index>(system.heavy.size());
   std::vector<Eigenmode> modes;
   for (Index j = 0; j < solver.eigenvalues().size(); ++j) {
@@ -60,7 +61,8 @@ std::vector<Eigenmode> eigenmodes(const VehicleOnTrack& vehicle, const SystemSta
     const Eigen::VectorXcd full = solver.eigenvectors().col(j);
     mode.shape = Eigen::VectorXcd::Zero(vehicle.system.mass.size());
     for (Index i = 0; i < n; ++i) mode.shape[system.heavy[static_cast<std::size_t>(i)]] = full[i];
-    for (std::size_t i = 0; i < system.light.size(); ++i) mode.shape[system.light[i]] = full[2 * n + static_cast<Index>(i)];
+    for (std::size_t i = 0; i < system.light.size(); ++i)
+      mode.shape[system.light[i]] = full[2 * n + static_cast<Index>(i)];
     const double largest = mode.shape.cwiseAbs().maxCoeff();
     if (!(largest > 0.0)) continue;
     Index at = 0;

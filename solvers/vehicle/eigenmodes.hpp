@@ -11,10 +11,10 @@ namespace treadmark::vehicle {
 
 /// A damped vibration of the linearised system.
 struct Eigenmode {
-  double frequency = 0.0;       ///< of the damped vibration [Hz]
-  double damping_ratio = 0.0;   ///< share of critical damping; negative: the vibration grows
-  Eigen::VectorXcd shape;       ///< of the coordinates, largest displacement 1
-  std::vector<std::pair<int, double>> shares;   ///< (coordinate, share of the kinetic energy), largest first
+  double frequency = 0.0;                      ///< of the damped vibration [Hz]
+  double damping_ratio = 0.0;                  ///< share of critical damping; negative: the vibration grows
+  Eigen::VectorXcd shape;                      ///< of the coordinates, largest displacement 1
+  std::vector<std::pair<int, double>> shares;  ///< (coordinate, share of the kinetic energy), largest first
 };
 
 /// Vibrations about a state of steady running, contacts linearised by differences at this speed, by frequency.

@@ -14,12 +14,13 @@ double two_thirds(double load) { return std::cbrt(load * load); }
 /// Vertical force over the displacement at one lateral position.
 struct Compression {
   double force = 0.0, stiffness = 0.0, energy = 0.0;
-  double lateral = 0.0;              ///< -dU/dy [N]
+  double lateral = 0.0;  ///< -dU/dy [N]
   double area = 0.0, log_aspect = 0.0;
 };
 
-/// Marches up the levels. In each the displacement is c u with u = (phi - phi_0) / (phi_1 - phi_0), phi = F^(2/3); its complementary energy
-/// is the integral c B(F) of the displacement over the force, and the sum of all by y is the lateral force (Engesser's theorem).
+/// Marches up the levels. In each the displacement is c u with u = (phi - phi_0) / (phi_1 - phi_0), phi = F^(2/3); its
+/// complementary energy is the integral c B(F) of the displacement over the force, and the sum of all by y is the
+/// lateral force (Engesser's theorem).
 Compression compress(const ContactTable& table, double y, const ShapeCurve::Point& touching, double z) {
   Compression out;
   if (!(z > touching.value)) return out;

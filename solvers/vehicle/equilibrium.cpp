@@ -17,14 +17,21 @@ constexpr double kSteps[kPairCoordinates] = {1e-6, 2e-6, 5e-8, 1e-6, 1e-6, 2e-6,
 constexpr double kRateSteps[kPairCoordinates] = {1e-6, 1e-6, 1e-6, 1e-6, 2e-6, 1e-6, 1e-6, 1e-6, 1e-6};
 
 void displace(PairMotion& m, int coordinate, double by) {
-  double* const place[] = {&m.wheelset.x,     &m.wheelset.y, &m.wheelset.z, &m.wheelset.roll, &m.wheelset.pitch,
-                           &m.wheelset.yaw,   &m.rail.y,     &m.rail.z,     &m.rail.roll};
+  double* const place[] = {&m.wheelset.x,   &m.wheelset.y, &m.wheelset.z, &m.wheelset.roll, &m.wheelset.pitch,
+                           &m.wheelset.yaw, &m.rail.y,     &m.rail.z,     &m.rail.roll};
   *place[coordinate] += by;
 }
 
 void accelerate(PairMotion& m, int coordinate, double by) {
-  double* const place[] = {&m.wheelset_velocity.x,   &m.wheelset_velocity.y, &m.wheelset_velocity.z, &m.wheelset_velocity.roll,
-                           &m.wheelset_velocity.pitch, &m.wheelset_velocity.yaw, &m.rail.vy, &m.rail.vz, &m.rail.vroll};
+  double* const place[] = {&m.wheelset_velocity.x,
+                           &m.wheelset_velocity.y,
+                           &m.wheelset_velocity.z,
+                           &m.wheelset_velocity.roll,
+                           &m.wheelset_velocity.pitch,
+                           &m.wheelset_velocity.yaw,
+                           &m.rail.vy,
+                           &m.rail.vz,
+                           &m.rail.vroll};
   *place[coordinate] += by;
 }
 
@@ -61,21 +68,24 @@ class Balance {
         const double one = vehicle_.wheels[i].element->evaluate(vehicle_.motion(i, state)).least_gap;
         gap = gap ? std::max(*gap, one) : one;
       }
-      state.q[system_.wheelsets[set].coordinate[2]] += *gap + std::pow(0.5 * system_.wheelset_load[set] / kHertz, 2.0 / 3.0);
+      state.q[system_.wheelsets[set].coordinate[2]] +=
+          *gap + std::pow(0.5 * system_.wheelset_load[set] / kHertz, 2.0 / 3.0);
     }
     return state;
   }
 
   /// Imbalance of all coordinates. False: a wheel does not touch, or a contact cannot be solved.
   bool imbalance(const SystemState& state, Vector& r, std::vector<ContactReaction>& reactions, std::string& why) const {
-    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v + characteristic_forces(system_, state.q);
+    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v +
+        characteristic_forces(system_, state.q);
     reactions.clear();
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const PairMotion m = vehicle_.motion(i, state);
       reactions.push_back(vehicle_.wheels[i].element->evaluate(m));
       const ContactReaction& reaction = reactions.back();
       if (reaction.status != Status::ok || !(reaction.normal_force > 0.0)) {
-        why = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message.empty() ? "the wheel does not touch the rail" : reaction.message);
+        why = fmt::format("{}: {}", vehicle_.wheels[i].name,
+                          reaction.message.empty() ? "the wheel does not touch the rail" : reaction.message);
         return false;
       }
       r += vehicle_.maps[i].transpose() * generalised_force(reaction, m);
@@ -121,8 +131,10 @@ PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const Syste
   PairTangent t;
   for (int c = 0; c < kPairCoordinates; ++c) {
     if (vehicle.maps[i].row(c).isZero(0.0)) continue;
-    t.stiffness.col(c) = -slope(vehicle, i, m, coarseness * kSteps[c], [c](PairMotion& changed, double by) { displace(changed, c, by); });
-    t.damping.col(c) = -slope(vehicle, i, m, coarseness * kRateSteps[c] * vehicle.speed, [c](PairMotion& changed, double by) { accelerate(changed, c, by); });
+    t.stiffness.col(c) = -slope(vehicle, i, m, coarseness * kSteps[c],
+                                [c](PairMotion& changed, double by) { displace(changed, c, by); });
+    t.damping.col(c) = -slope(vehicle, i, m, coarseness * kRateSteps[c] * vehicle.speed,
+                              [c](PairMotion& changed, double by) { accelerate(changed, c, by); });
   }
   return t;
 }
@@ -173,9 +185,10 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
     if (!better && (coarseness *= kWider) > kWidest) break;
   }
   if (found.residual > settings.acceptable)
-    found.report = {Status::not_converged, found.iterations, found.residual,
-                    fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}", found.residual,
-                                why.empty() ? "" : "; ", why)};
+    found.report = {
+        Status::not_converged, found.iterations, found.residual,
+        fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}",
+                    found.residual, why.empty() ? "" : "; ", why)};
   return found;
 }
 

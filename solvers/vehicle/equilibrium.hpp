@@ -8,33 +8,34 @@
 namespace treadmark::vehicle {
 
 struct EquilibriumSettings {
-  double tolerance = 1e-6;     ///< of every force over the largest wheelset load
-  double acceptable = 1e-4;    ///< where forces jump with the elements in contact and let no state come nearer
+  double tolerance = 1e-6;   ///< of every force over the largest wheelset load
+  double acceptable = 1e-4;  ///< where forces jump with the elements in contact and let no state come nearer
   int max_iterations = 60;
 };
 
 struct Equilibrium {
   Report report;
-  SystemState state;                          ///< v: rates of pitch of wheelsets that roll freely
-  std::vector<ContactReaction> reactions;     ///< of the wheels
-  double residual = 0.0;                      ///< largest force that is not balanced, over the largest wheelset load
+  SystemState state;                       ///< v: rates of pitch of wheelsets that roll freely
+  std::vector<ContactReaction> reactions;  ///< of the wheels
+  double residual = 0.0;                   ///< largest force that is not balanced, over the largest wheelset load
   int iterations = 0;
 };
 
-/// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces, contact
-/// included, are in balance (Newton's method, contact linearised by differences, steps halved until the imbalance falls).
-/// Accepts nothing in the elements.
+/// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,
+/// contact included, are in balance (Newton's method, contact linearised by differences, steps halved until the
+/// imbalance falls). Accepts nothing in the elements.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 
 /// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).
 struct LinearSystem {
-  Matrix stiffness, damping;                  ///< K, C
+  Matrix stiffness, damping;  ///< K, C
 };
 /// coarseness: see linearised.
 LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness = 1.0);
 
-/// -d(generalised force of a wheel)/d(pair coordinates) and /d(their rates) by central differences about a motion: some 1e-6 m and rad (heights 5e-8 m)
-/// wide, times coarseness.
-PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t wheel, const SystemState& state, double coarseness = 1.0);
+/// -d(generalised force of a wheel)/d(pair coordinates) and /d(their rates) by central differences about a motion: some
+/// 1e-6 m and rad (heights 5e-8 m) wide, times coarseness.
+PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t wheel, const SystemState& state,
+                       double coarseness = 1.0);
 
 }  // namespace treadmark::vehicle

@@ -52,8 +52,8 @@ double traction_at(const std::vector<double>& field, const Grid2& grid, double i
   return (1.0 - share) * at(low) + share * at(low + 1);
 }
 
-/// Power that friction dissipates: slip times the mean of the tractions where material is and where it was a rolling step before. With those
-/// at the end of the step alone it would be of first order in the step only.
+/// Power that friction dissipates: slip times the mean of the tractions where material is and where it was a rolling
+/// step before. With those at the end of the step alone it would be of first order in the step only.
 double dissipated(const wheelrail::PatchSolution& patch) {
   const kalker::ContactSolution& c = patch.contact;
   if (c.traction_x.empty() || c.slip_x.empty()) return 0.0;
@@ -82,7 +82,8 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
   return marker;
 }
 
-FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem) : problem_(std::move(problem)), pair_(geometry) {
+FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem)
+    : problem_(std::move(problem)), pair_(geometry) {
   const Vec3 marker = rail_marker_at_rest(geometry, problem_);
   problem_.track.gauge_based = false;
   problem_.track.rail_y0 = marker.y();
@@ -134,7 +135,8 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
     out.elastic_energy += c.elastic_energy;
     out.frictional_power += dissipated(patch);
     out.tangents.push_back(tangent_of(patch, problem_, motion.wheelset.x - past_.x));
-    // Each body feels the force where its creep is measured, the wheel at the depth of the approach: their power is that of the creep.
+    // Each body feels the force where its creep is measured, the wheel at the depth of the approach: their power is
+    // that of the creep.
     const Vec3 arm = patch.frame.X_TC.apply({0.0, 0.0, patch.approach}) - solution.placement.X_TWs.origin;
     const Vec3 force = patch.frame.X_TC.rotation * patch.force_C, moment = patch.frame.X_TC.rotation * patch.moment_C;
     out.on_wheelset += {-force, -(moment + arm.cross(force))};
@@ -179,7 +181,8 @@ void get(Past& past, ByteReader& in) {
 template <class Motion, class Visit>
 void each(Motion& m, Visit&& visit) {
   visit(m.time);
-  for (auto* q : {&m.wheelset, &m.wheelset_velocity}) visit(q->x), visit(q->y), visit(q->z), visit(q->roll), visit(q->yaw), visit(q->pitch);
+  for (auto* q : {&m.wheelset, &m.wheelset_velocity})
+    visit(q->x), visit(q->y), visit(q->z), visit(q->roll), visit(q->yaw), visit(q->pitch);
   auto& r = m.rail;
   visit(r.y), visit(r.z), visit(r.roll), visit(r.vy), visit(r.vz), visit(r.vroll);
 }

@@ -26,8 +26,8 @@ class FullContact : public ContactElement {
   /// What an evaluation goes on from.
   struct Past {
     std::shared_ptr<const wheelrail::Pair::State> state;
-    bool started = false;       ///< there was an instant
-    double x = 0.0;             ///< distance travelled then [m]
+    bool started = false;  ///< there was an instant
+    double x = 0.0;        ///< distance travelled then [m]
   };
   /// An instant as it can be solved again, with all fields and the same bits.
   struct Instant {

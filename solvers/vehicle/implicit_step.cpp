@@ -10,7 +10,7 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kArm = 0.75;   // moments are compared with forces at half the gauge [m]
+constexpr double kArm = 0.75;  // moments are compared with forces at half the gauge [m]
 
 double largest_force(const PairVector& f) {
   double most = 0.0;
@@ -27,18 +27,20 @@ double largest_force(const PairVector& f) {
 struct ImplicitStep::Factors {
   double length = 0.0;
   Eigen::PartialPivLU<Matrix> lu;
-  Matrix by_touched;       ///< accelerations for unit forces at the touched coordinates
-  Matrix among_touched;    ///< those of the touched coordinates
+  Matrix by_touched;     ///< accelerations for unit forces at the touched coordinates
+  Matrix among_touched;  ///< those of the touched coordinates
 };
 
-ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings) : vehicle_(vehicle), settings_(settings) {
+ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings)
+    : vehicle_(vehicle), settings_(settings) {
   if (!(settings.spectral_radius >= 0.5 && settings.spectral_radius <= 1.0))
     throw Error(ErrorKind::configuration, "the spectral radius must lie between 0.5 and 1");
   alpha_ = -(1.0 - settings.spectral_radius) / (1.0 + settings.spectral_radius);
   beta_ = 0.25 * (1.0 - alpha_) * (1.0 - alpha_);
   gamma_ = 0.5 - alpha_;
   for (int c = 0; c < vehicle.system.size(); ++c)
-    if (std::ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); })) touched_.push_back(c);
+    if (std::ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); }))
+      touched_.push_back(c);
   for (const auto& map : vehicle.maps) maps_.push_back(map(Eigen::all, touched_));
   force_scale_ = 0.5 * *std::ranges::max_element(vehicle.system.wheelset_load);
 }
@@ -93,8 +95,11 @@ Step ImplicitStep::take(const Motion& from, double h) {
   const Vector q_known = from.state.q + h * from.state.v + h * h * (0.5 - beta_) * from.a;
   const Vector v_known = from.state.v + h * (1.0 - gamma_) * from.a;
   const double of_q = beta_ * h * h, of_v = gamma_ * h;
-  const auto state_of = [&](const Vector& a) { return SystemState{from.state.time + h, q_known + of_q * a, v_known + of_v * a}; };
-  const Vector known = (1.0 + alpha_) * (s.weight - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
+  const auto state_of = [&](const Vector& a) {
+    return SystemState{from.state.time + h, q_known + of_q * a, v_known + of_v * a};
+  };
+  const Vector known =
+      (1.0 + alpha_) * (s.weight - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
 
   Step step;
   Vector a = predicted_acceleration(from, h);
@@ -120,7 +125,8 @@ Step ImplicitStep::take(const Motion& from, double h) {
       const PairMatrix tangent = (1.0 + alpha_) * (of_q * tangents.back().stiffness + of_v * tangents.back().damping);
       give += maps_[i].transpose() * tangent * maps_[i];
     }
-    // Contacts respond to the difference from the state at which they were evaluated; (S + P' D P) x = b by the small system at P.
+    // Contacts respond to the difference from the state at which they were evaluated; (S + P' D P) x = b by the small
+    // system at P.
     const Vector free = f.lu.solve(right) - a;
     const Matrix small = Matrix::Identity(give.rows(), give.rows()) + f.among_touched * give;
     const Vector change_touched = small.partialPivLu().solve(free(touched_));
@@ -153,8 +159,9 @@ Step ImplicitStep::take(const Motion& from, double h) {
     for (std::size_t i = 0; i < wheels; ++i) end.unbalanced += vehicle_.maps[i].transpose() * end.contact_force[i];
     for (Eigen::Index i = 0; i < a.size(); ++i)
       if (s.mass[i] > 0.0)
-        step.position_error = std::max(step.position_error, std::abs(beta_ - 1.0 / 6.0) * h * h * std::abs(a[i] - from.a[i]) *
-                                                                s.coordinates[static_cast<std::size_t>(i)].arm);
+        step.position_error =
+            std::max(step.position_error, std::abs(beta_ - 1.0 / 6.0) * h * h * std::abs(a[i] - from.a[i]) *
+                                              s.coordinates[static_cast<std::size_t>(i)].arm);
     return step;
   }
   step.why_not = "contact forces and motion did not come to agree within a step";

@@ -11,16 +11,16 @@ namespace treadmark::vehicle {
 /// The system between two steps.
 struct Motion {
   SystemState state;
-  Vector a;                                   ///< accelerations of the scheme
-  Vector a_before;                            ///< a step earlier
-  double step_before = 0.0;                   ///< length of the last step [s]; 0 = none
-  Vector unbalanced;                          ///< f - C v - K q with all forces: M q'' at this time
-  std::vector<PairVector> contact_force;      ///< generalised, of each wheel
+  Vector a;                               ///< accelerations of the scheme
+  Vector a_before;                        ///< a step earlier
+  double step_before = 0.0;               ///< length of the last step [s]; 0 = none
+  Vector unbalanced;                      ///< f - C v - K q with all forces: M q'' at this time
+  std::vector<PairVector> contact_force;  ///< generalised, of each wheel
 };
 
 struct StepSettings {
-  double spectral_radius = 0.8;               ///< of the scheme for fast vibrations, 0.5 (most damping) to 1 (none)
-  double force_tolerance = 1e-3;              ///< what the forces of a step may still change by, over the static wheel load
+  double spectral_radius = 0.8;   ///< of the scheme for fast vibrations, 0.5 (most damping) to 1 (none)
+  double force_tolerance = 1e-3;  ///< what the forces of a step may still change by, over the static wheel load
   int max_iterations = 12;
 };
 
@@ -28,15 +28,16 @@ struct Step {
   bool converged = false;
   std::string why_not;
   Motion end;
-  std::vector<ContactReaction> reactions;     ///< as evaluated last
-  double position_error = 0.0;                ///< estimate of what the step added, by Coordinate::arm [m]
+  std::vector<ContactReaction> reactions;  ///< as evaluated last
+  double position_error = 0.0;             ///< estimate of what the step added, by Coordinate::arm [m]
   int iterations = 0;
 };
 
-/// One step of the scheme of Hilber, Hughes and Taylor (1977), of second order and unconditionally stable for linear systems, with the
-/// error estimate of Zienkiewicz and Xie (1991). Contacts are linearised by their tangents about a predicted state; they are evaluated
-/// again until the forces of the linearised contact differ little from those of the last evaluation.
-/// Coordinates without mass need a damper. Not thread-safe; keeps the factorised system of the last step length.
+/// One step of the scheme of Hilber, Hughes and Taylor (1977), of second order and unconditionally stable for linear
+/// systems, with the error estimate of Zienkiewicz and Xie (1991). Contacts are linearised by their tangents about a
+/// predicted state; they are evaluated again until the forces of the linearised contact differ little from those of the
+/// last evaluation. Coordinates without mass need a damper. Not thread-safe; keeps the factorised system of the last
+/// step length.
 class ImplicitStep {
  public:
   ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& settings);
@@ -56,8 +57,8 @@ class ImplicitStep {
   const VehicleOnTrack& vehicle_;
   StepSettings settings_;
   double alpha_, beta_, gamma_;
-  std::vector<int> touched_;                  ///< coordinates that contacts act on
-  std::vector<Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic>> maps_;   ///< pair coordinates from those
+  std::vector<int> touched_;                                                   ///< coordinates that contacts act on
+  std::vector<Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic>> maps_;  ///< pair coordinates from those
   double force_scale_ = 1.0;
   std::unique_ptr<Factors> factors_;
 };

@@ -20,7 +20,7 @@ constexpr const char* kFreedomNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
 struct PlacedBody {
   BodySpec spec;
   std::array<int, kFreedoms> coordinate;
-  bool axle_boxes = false;   ///< springs do not follow its pitch
+  bool axle_boxes = false;  ///< springs do not follow its pitch
   bool fixed_while_preloading = false;
 };
 
@@ -55,10 +55,12 @@ class Assembly {
       if (!spec.free[i]) continue;
       const double inertia = f < kRotations ? spec.mass : spec.inertia[f - kRotations];
       if (!(inertia > 0.0))
-        throw Error(ErrorKind::configuration, fmt::format("body '{}' has no positive {} but may move in {}", spec.name,
-                                                          f < kRotations ? "mass" : "moment of inertia", kFreedomNames[i]),
+        throw Error(ErrorKind::configuration,
+                    fmt::format("body '{}' has no positive {} but may move in {}", spec.name,
+                                f < kRotations ? "mass" : "moment of inertia", kFreedomNames[i]),
                     spec.where);
-      body.coordinate[i] = add_coordinate(static_cast<int>(bodies_.size()), static_cast<Freedom>(f), name + '.' + kFreedomNames[i], inertia);
+      body.coordinate[i] = add_coordinate(static_cast<int>(bodies_.size()), static_cast<Freedom>(f),
+                                          name + '.' + kFreedomNames[i], inertia);
     }
     if (!by_name_.emplace(name, bodies_.size()).second)
       throw Error(ErrorKind::configuration, fmt::format("there are two bodies '{}'", name), spec.where);
@@ -66,20 +68,22 @@ class Assembly {
   }
 
   int add_coordinate(int body, Freedom freedom, std::string name, double inertia) {
-    system_.coordinates.push_back({body, freedom, std::move(name), static_cast<int>(freedom) < kRotations ? 1.0 : kHalfGauge});
+    system_.coordinates.push_back(
+        {body, freedom, std::move(name), static_cast<int>(freedom) < kRotations ? 1.0 : kHalfGauge});
     inertia_.push_back(inertia);
     return static_cast<int>(inertia_.size()) - 1;
   }
 
   PlacedBody& find(const std::string& name, const SourcePosition& where) {
     const auto found = by_name_.find(name);
-    if (found == by_name_.end()) throw Error(ErrorKind::configuration, fmt::format("there is no body '{}'", name), where);
+    if (found == by_name_.end())
+      throw Error(ErrorKind::configuration, fmt::format("there is no body '{}'", name), where);
     return bodies_[found->second];
   }
 
   /// Displacement of the body's point along (or rotation about) an axis.
-  void add_point(const std::string& name, const std::string& suffix, const SourcePosition& where, const Vec3& point, int freedom, double sign,
-                 Direction& direction) {
+  void add_point(const std::string& name, const std::string& suffix, const SourcePosition& where, const Vec3& point,
+                 int freedom, double sign, Direction& direction) {
     if (name == kGround) return;
     const PlacedBody& body = find(name + suffix, where);
     const auto add = [&](int f, double factor) {
@@ -93,8 +97,8 @@ class Assembly {
     for (int r = 0; r < 3; ++r) add(kRotations + r, Vec3::Unit(r).cross(arm).dot(axis));
   }
 
-  Direction relative(const std::string& a, const std::string& b, const std::string& suffix, const SourcePosition& where, const Vec3& point,
-                     int freedom) {
+  Direction relative(const std::string& a, const std::string& b, const std::string& suffix, const SourcePosition& where,
+                     const Vec3& point, int freedom) {
     Direction direction;
     add_point(a, suffix, where, point, freedom, -1.0, direction);
     add_point(b, suffix, where, point, freedom, 1.0, direction);
@@ -107,7 +111,8 @@ class Assembly {
       const auto i = static_cast<std::size_t>(f);
       const double k = spring.stiffness[i], c = spring.damping[i], series = spring.damper_stiffness[i];
       if (k < 0.0 || c < 0.0 || series < 0.0)
-        throw Error(ErrorKind::configuration, fmt::format("spring '{}' has a negative stiffness or damping in {}", spring.name, kFreedomNames[i]),
+        throw Error(ErrorKind::configuration,
+                    fmt::format("spring '{}' has a negative stiffness or damping in {}", spring.name, kFreedomNames[i]),
                     spring.where);
       if (k == 0.0 && c == 0.0) continue;
       const Direction direction = relative(spring.body_a, spring.body_b, suffix, spring.where, point, f);
@@ -118,7 +123,8 @@ class Assembly {
         continue;
       }
       // Spring to the damper's inner end, which the damper ties to body a.
-      const int inner = add_coordinate(-1, static_cast<Freedom>(f), spring.name + suffix + ".damper_" + kFreedomNames[i], 0.0);
+      const int inner =
+          add_coordinate(-1, static_cast<Freedom>(f), spring.name + suffix + ".damper_" + kFreedomNames[i], 0.0);
       Direction stretched = direction;
       stretched.emplace_back(inner, -1.0);
       terms_.push_back({stretched, series, false});
@@ -127,7 +133,8 @@ class Assembly {
   }
 
   void add_stop(const BumpStopSpec& stop) {
-    stops_.push_back({relative(stop.body_a, stop.body_b, "", stop.where, stop.position, static_cast<int>(stop.direction)), &stop});
+    stops_.push_back(
+        {relative(stop.body_a, stop.body_b, "", stop.where, stop.position, static_cast<int>(stop.direction)), &stop});
   }
 
   void add_wheelset(const WheelsetSpec& spec, const std::optional<TrackModel>& track, std::size_t number) {
@@ -177,7 +184,8 @@ class Assembly {
   void couple_roll_and_yaw(const Multibody::Wheelset& w) {
     const int roll = w.coordinate[3], yaw = w.coordinate[5];
     if (roll < 0 || yaw < 0) return;
-    const PlacedBody& body = bodies_[static_cast<std::size_t>(system_.coordinates[static_cast<std::size_t>(roll)].body)];
+    const PlacedBody& body =
+        bodies_[static_cast<std::size_t>(system_.coordinates[static_cast<std::size_t>(roll)].body)];
     const double momentum = body.spec.inertia.y() * -speed_ / w.nominal_radius;
     system_.damping(roll, yaw) -= momentum;
     system_.damping(yaw, roll) += momentum;
@@ -199,9 +207,11 @@ class Assembly {
     const Vector left = weight(sprung) - k * borne;
     for (Eigen::Index i = 0; i < left.size(); ++i)
       if (std::abs(left[i]) > 1e-6 * (1.0 + weight.cwiseAbs().maxCoeff()))
-        throw Error(ErrorKind::configuration,
-                    fmt::format("nothing bears the weight at {}", system_.coordinates[static_cast<std::size_t>(sprung[static_cast<std::size_t>(i)])].name),
-                    {}, "a spring is missing");
+        throw Error(
+            ErrorKind::configuration,
+            fmt::format("nothing bears the weight at {}",
+                        system_.coordinates[static_cast<std::size_t>(sprung[static_cast<std::size_t>(i)])].name),
+            {}, "a spring is missing");
     Vector q = Vector::Zero(n);
     q(sprung) = borne;
     system_.weight = weight - system_.stiffness * q;
@@ -258,9 +268,10 @@ Vector characteristic_forces(const Multibody& system, const Vector& q, double* e
   return forces;
 }
 
-Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> pair_map(const Multibody& system, int wheelset, wheelrail::Side side,
-                                                                 const Vec3& rail_marker) {
-  Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> map(static_cast<Eigen::Index>(kPairCoordinates), system.mass.size());
+Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> pair_map(const Multibody& system, int wheelset,
+                                                                 wheelrail::Side side, const Vec3& rail_marker) {
+  Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> map(static_cast<Eigen::Index>(kPairCoordinates),
+                                                              system.mass.size());
   map.setZero();
   const Multibody::Wheelset& w = system.wheelsets.at(static_cast<std::size_t>(wheelset));
   for (int f = 0; f < kFreedoms; ++f)

@@ -16,39 +16,39 @@ using Matrix = Eigen::MatrixXd;
 
 /// One coordinate of the whole system.
 struct Coordinate {
-  int body = -1;                       ///< -1: inner end of a damper that has a spring in series; without mass
+  int body = -1;  ///< -1: inner end of a damper that has a spring in series; without mass
   Freedom freedom = Freedom::x;
-  std::string name;                    ///< "bogie1.roll"; a body of the track below wheelset 2: "left_rail@2"
-  double arm = 1.0;                    ///< lengths that a unit of it is worth: 1, of rotations half the gauge [m]
+  std::string name;  ///< "bogie1.roll"; a body of the track below wheelset 2: "left_rail@2"
+  double arm = 1.0;  ///< lengths that a unit of it is worth: 1, of rotations half the gauge [m]
 };
 
 /// A force with a characteristic between two bodies.
 struct CharacteristicForce {
-  Vector direction;                    ///< relative displacement by the coordinates
+  Vector direction;  ///< relative displacement by the coordinates
   std::vector<double> displacement, force;
 };
 
 /// Equations of motion of vehicle and track about their reference configuration, which travels at constant speed:
 ///   M q'' + C q' + K q = f + forces of bump stops and contacts.
-/// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. C contains the gyroscopic coupling of the
-/// wheelsets' roll and yaw. Immutable.
+/// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. C contains the gyroscopic
+/// coupling of the wheelsets' roll and yaw. Immutable.
 struct Multibody {
   std::vector<Coordinate> coordinates;
-  Vector mass;                         ///< diagonal of M
-  Matrix damping, stiffness;           ///< C, K
-  Matrix dissipation;                  ///< symmetric part of C: q' . D q' is the power of the dampers
-  Vector weight;                       ///< f: what wheelsets carry beyond the preloads of their springs
+  Vector mass;                ///< diagonal of M
+  Matrix damping, stiffness;  ///< C, K
+  Matrix dissipation;         ///< symmetric part of C: q' . D q' is the power of the dampers
+  Vector weight;              ///< f: what wheelsets carry beyond the preloads of their springs
   std::vector<CharacteristicForce> characteristics;
-  std::vector<double> wheelset_load;   ///< vertical load of each wheelset on its two rails [N]
+  std::vector<double> wheelset_load;  ///< vertical load of each wheelset on its two rails [N]
 
   struct Wheelset {
-    std::array<int, kFreedoms> coordinate;    ///< -1: not free
+    std::array<int, kFreedoms> coordinate;  ///< -1: not free
     double nominal_radius = 0.0;
-    int left_rail = -1, right_rail = -1;      ///< index into rails; -1: rigid
+    int left_rail = -1, right_rail = -1;  ///< index into rails; -1: rigid
   };
   struct Rail {
-    std::array<int, 3> coordinate;            ///< of its body: y, z, roll; -1: not free
-    Vec3 centre = Vec3::Zero();               ///< of mass, in track axes of the wheelset [m]
+    std::array<int, 3> coordinate;  ///< of its body: y, z, roll; -1: not free
+    Vec3 centre = Vec3::Zero();     ///< of mass, in track axes of the wheelset [m]
   };
   std::vector<Wheelset> wheelsets;
   std::vector<Rail> rails;
@@ -59,7 +59,8 @@ struct Multibody {
 /// speed [m/s], gravity [m/s2]. Errors: Error(configuration) with the place of the body or spring that makes no sense.
 Multibody assemble(const VehicleModel& vehicle, const std::optional<TrackModel>& track, double speed, double gravity);
 
-/// Force of a characteristic at a displacement (odd, linear between its points, continued by the last slope) and its stiffness.
+/// Force of a characteristic at a displacement (odd, linear between its points, continued by the last slope) and its
+/// stiffness.
 struct CharacteristicValue {
   double force = 0.0, stiffness = 0.0, energy = 0.0;
 };
@@ -70,7 +71,7 @@ Vector characteristic_forces(const Multibody& system, const Vector& q, double* e
 
 /// What coordinates the pair of a wheelset and one of its rails moves by: pair coordinates = map * q.
 /// rail_marker: profile origin of the rail in track axes [m].
-Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> pair_map(const Multibody& system, int wheelset, wheelrail::Side side,
-                                                                 const Vec3& rail_marker);
+Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> pair_map(const Multibody& system, int wheelset,
+                                                                 wheelrail::Side side, const Vec3& rail_marker);
 
 }  // namespace treadmark::vehicle

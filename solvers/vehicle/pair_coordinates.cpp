@@ -21,12 +21,13 @@ PairVector generalised_force(const ContactReaction& reaction, const PairMotion& 
   const WheelsetAxes axes(motion.wheelset);
   const auto& [force, moment] = reaction.on_wheelset;
   PairVector f;
-  f << force, moment.dot(axes.roll), moment.dot(axes.pitch), moment.dot(axes.yaw), reaction.on_rail.force.y(), reaction.on_rail.force.z(),
-      reaction.on_rail.moment.x();
+  f << force, moment.dot(axes.roll), moment.dot(axes.pitch), moment.dot(axes.yaw), reaction.on_rail.force.y(),
+      reaction.on_rail.force.z(), reaction.on_rail.moment.x();
   return f;
 }
 
-PairTangent pair_tangent(const ContactReaction& reaction, const PairMotion& motion, const Vec3& rail_marker, double radius) {
+PairTangent pair_tangent(const ContactReaction& reaction, const PairMotion& motion, const Vec3& rail_marker,
+                         double radius) {
   const WheelsetAxes axes(motion.wheelset);
   const Vec3 centre(0.0, motion.wheelset.y, motion.wheelset.z - radius);
   const Vec3 marker = rail_marker + Vec3(0.0, motion.rail.y, motion.rail.z);

@@ -39,7 +39,8 @@ ShapeCurve ShapeCurve::monotone(std::vector<double> x, std::vector<double> value
   std::vector<double> slope(x.size());
   slope.front() = chord(0);
   slope.back() = chord(last - 1);
-  for (std::size_t i = 1; i < last; ++i) slope[i] = mean_slope(chord(i - 1), chord(i), x[i] - x[i - 1], x[i + 1] - x[i]);
+  for (std::size_t i = 1; i < last; ++i)
+    slope[i] = mean_slope(chord(i - 1), chord(i), x[i] - x[i - 1], x[i + 1] - x[i]);
   return {std::move(x), std::move(value), std::move(slope)};
 }
 
@@ -47,9 +48,10 @@ ShapeCurve::Point ShapeCurve::at(double x) const {
   if (x <= x_.front()) return {value_.front() + slope_.front() * (x - x_.front()), slope_.front()};
   if (x >= x_.back()) return {value_.back() + slope_.back() * (x - x_.back()), slope_.back()};
   const auto i = static_cast<std::size_t>(std::ranges::upper_bound(x_, x) - x_.begin()) - 1;
-  const double length = x_[i + 1] - x_[i], chord = (value_[i + 1] - value_[i]) / length, first = slope_[i], last = slope_[i + 1];
-  // The slope runs straight from its first value to 'middle' at the share 'knot' of the way, and on to its last value; the area below it
-  // is the chord's.
+  const double length = x_[i + 1] - x_[i], chord = (value_[i + 1] - value_[i]) / length, first = slope_[i],
+               last = slope_[i + 1];
+  // The slope runs straight from its first value to 'middle' at the share 'knot' of the way, and on to its last value;
+  // the area below it is the chord's.
   double knot = 0.5, middle = 2.0 * chord - 0.5 * (first + last);
   if ((first - chord) * (last - chord) < 0.0) {
     knot = (last - chord) / (last - first);

@@ -6,9 +6,9 @@
 
 namespace treadmark::vehicle {
 
-/// A smooth curve through points: quadratic pieces, two between neighbours, with continuous slope (Schumaker 1983). Between two points
-/// whose slopes embrace the chord's the slope is monotone, so that kinks in the data make no overshoot. Beyond the ends it runs on
-/// straight. Immutable: any number of threads.
+/// A smooth curve through points: quadratic pieces, two between neighbours, with continuous slope (Schumaker 1983).
+/// Between two points whose slopes embrace the chord's the slope is monotone, so that kinks in the data make no
+/// overshoot. Beyond the ends it runs on straight. Immutable: any number of threads.
 class ShapeCurve {
  public:
   struct Point {

@@ -30,7 +30,8 @@ void check(const SimulationSettings& s) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   require(positive(s.duration), "the duration");
   require(positive(s.position_tolerance), "the tolerance of positions");
-  require(positive(s.max_step) && positive(s.min_step) && s.min_step <= s.max_step, "the longest and the shortest step");
+  require(positive(s.max_step) && positive(s.min_step) && s.min_step <= s.max_step,
+          "the longest and the shortest step");
   require(positive(s.first_step), "the first step");
   require(positive(s.max_travel), "the travel of a step");
   require(positive(s.event_tolerance), "the tolerance of events");
@@ -38,7 +39,8 @@ void check(const SimulationSettings& s) {
 
 EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std::vector<ContactReaction>& reactions) {
   EnergyBalance e;
-  e.mechanical = 0.5 * state.v.dot(s.mass.cwiseProduct(state.v)) + 0.5 * state.q.dot(s.stiffness * state.q) - s.weight.dot(state.q);
+  e.mechanical = 0.5 * state.v.dot(s.mass.cwiseProduct(state.v)) + 0.5 * state.q.dot(s.stiffness * state.q) -
+                 s.weight.dot(state.q);
   double stops = 0.0;
   characteristic_forces(s, state.q, &stops);
   e.mechanical += stops;
@@ -46,7 +48,9 @@ EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std:
   return e;
 }
 
-void put(ByteWriter& out, const Vector& v) { out.put(std::span<const double>(v.data(), static_cast<std::size_t>(v.size()))); }
+void put(ByteWriter& out, const Vector& v) {
+  out.put(std::span<const double>(v.data(), static_cast<std::size_t>(v.size())));
+}
 
 void get(ByteReader& in, Vector& v, Eigen::Index size) {
   std::vector<double> values;
@@ -59,14 +63,18 @@ void get(ByteReader& in, Vector& v, Eigen::Index size) {
 }  // namespace
 
 Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const SimulationSettings& settings)
-    : vehicle_(std::make_unique<VehicleOnTrack>(std::move(vehicle))), settings_(settings), scheme_(*vehicle_, settings.step) {
+    : vehicle_(std::make_unique<VehicleOnTrack>(std::move(vehicle))),
+      settings_(settings),
+      scheme_(*vehicle_, settings.step) {
   check(settings);
-  if (vehicle_->maps.size() != vehicle_->wheels.size()) throw Error(ErrorKind::configuration, "the wheels are not connected");
+  if (vehicle_->maps.size() != vehicle_->wheels.size())
+    throw Error(ErrorKind::configuration, "the wheels are not connected");
   for (std::size_t i = 0; i < vehicle_->wheels.size(); ++i) {
     ContactElement& element = *vehicle_->wheels[i].element;
     reactions_.push_back(element.evaluate(vehicle_->motion(i, start)));
     if (reactions_.back().status == Status::failed || reactions_.back().status == Status::not_converged)
-      throw Error(ErrorKind::numerical, fmt::format("{} cannot be solved at the start: {}", vehicle_->wheels[i].name, reactions_.back().message));
+      throw Error(ErrorKind::numerical, fmt::format("{} cannot be solved at the start: {}", vehicle_->wheels[i].name,
+                                                    reactions_.back().message));
     element.accept();
   }
   motion_ = scheme_.start(start, reactions_);
@@ -75,7 +83,8 @@ Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const S
 }
 
 double Simulation::longest_step() const {
-  return std::min({settings_.max_step, settings_.max_travel / vehicle_->speed, settings_.duration - motion_.state.time});
+  return std::min(
+      {settings_.max_step, settings_.max_travel / vehicle_->speed, settings_.duration - motion_.state.time});
 }
 
 Step Simulation::attempt(double length) {
@@ -90,7 +99,8 @@ bool Simulation::changes_contact(const Step& step) const {
   return false;
 }
 
-/// Shortens a step to the first change of contact in it (regula falsi of the gap, Illinois variant); ends just behind the change.
+/// Shortens a step to the first change of contact in it (regula falsi of the gap, Illinois variant); ends just behind
+/// the change.
 Step Simulation::locate_event(const Step& step, double length) {
   constexpr int kMostTrials = 40;
   std::size_t wheel = 0;
@@ -166,10 +176,12 @@ void Simulation::advance() {
     const bool good = step.converged && step.position_error <= settings_.position_tolerance;
     if (good) break;
     ++counts_.rejected;
-    const double factor = step.converged ? std::min(0.8, step_factor(step.position_error, settings_.position_tolerance)) : 0.3;
+    const double factor =
+        step.converged ? std::min(0.8, step_factor(step.position_error, settings_.position_tolerance)) : 0.3;
     if (h * factor < settings_.min_step)
       throw Error(ErrorKind::numerical,
-                  fmt::format("the step became shorter than {:.3g} s at t = {:.9g} s: {}", settings_.min_step, motion_.state.time,
+                  fmt::format("the step became shorter than {:.3g} s at t = {:.9g} s: {}", settings_.min_step,
+                              motion_.state.time,
                               step.converged ? "the error of positions stays above the tolerance" : step.why_not),
                   {}, "look at the forces before this time; a larger tolerance or a finer grid may help");
     h *= factor;
@@ -183,7 +195,8 @@ void Simulation::advance() {
 void Simulation::save(ByteWriter& out) const {
   out.put(kStateFormat);
   out.put(motion_.state.time);
-  for (const Vector* v : {&motion_.state.q, &motion_.state.v, &motion_.a, &motion_.a_before, &motion_.unbalanced}) put(out, *v);
+  for (const Vector* v : {&motion_.state.q, &motion_.state.v, &motion_.a, &motion_.a_before, &motion_.unbalanced})
+    put(out, *v);
   out.put(motion_.step_before);
   out.put(next_step_);
   for (const PairVector& f : motion_.contact_force) put(out, f);
@@ -192,13 +205,16 @@ void Simulation::save(ByteWriter& out) const {
   out.put(events_.size());
   for (const ContactEvent& e : events_) out.put(e.time), out.put(e.wheel), out.put(e.regained);
   for (const EnergyBalance* e : {&energy_, &energy_at_start_})
-    for (const double value : {e->mechanical, e->dampers, e->contact_work, e->drive, e->friction, e->elastic, e->turnover}) out.put(value);
+    for (const double value :
+         {e->mechanical, e->dampers, e->contact_work, e->drive, e->friction, e->elastic, e->turnover})
+      out.put(value);
   out.put(counts_.steps), out.put(counts_.rejected), out.put(counts_.evaluations);
   for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->save(out);
 }
 
 void Simulation::restore(ByteReader& in) {
-  if (in.get<std::uint32_t>() != kStateFormat) throw Error(ErrorKind::input_data, "a saved state is of another version", {}, "start anew");
+  if (in.get<std::uint32_t>() != kStateFormat)
+    throw Error(ErrorKind::input_data, "a saved state is of another version", {}, "start anew");
   const Eigen::Index n = vehicle_->system.size();
   Motion m;
   in.get(m.state.time);
@@ -217,10 +233,13 @@ void Simulation::restore(ByteReader& in) {
   for (auto left = in.get<std::size_t>(); left > 0; --left) {
     ContactEvent& e = events_.emplace_back();
     in.get(e.time), in.get(e.wheel), in.get(e.regained);
-    if (e.wheel >= vehicle_->wheels.size()) throw Error(ErrorKind::input_data, "a saved state belongs to another vehicle", {}, "start anew");
+    if (e.wheel >= vehicle_->wheels.size())
+      throw Error(ErrorKind::input_data, "a saved state belongs to another vehicle", {}, "start anew");
   }
   for (EnergyBalance* e : {&energy_, &energy_at_start_})
-    for (double* value : {&e->mechanical, &e->dampers, &e->contact_work, &e->drive, &e->friction, &e->elastic, &e->turnover}) in.get(*value);
+    for (double* value :
+         {&e->mechanical, &e->dampers, &e->contact_work, &e->drive, &e->friction, &e->elastic, &e->turnover})
+      in.get(*value);
   in.get(counts_.steps), in.get(counts_.rejected), in.get(counts_.evaluations);
   for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->restore(in);
 }

@@ -8,11 +8,11 @@
 namespace treadmark::vehicle {
 
 struct SimulationSettings {
-  double duration = 0.0;             ///< [s]
-  double position_tolerance = 1e-8;  ///< what a step may add to the error of a position [m]
-  double max_step = 1e-3, min_step = 1e-9, first_step = 1e-6;   ///< [s]
-  double max_travel = 1e-3;          ///< of the vehicle per step [m]
-  double event_tolerance = 1e-9;     ///< of the time of an event [s]
+  double duration = 0.0;                                       ///< [s]
+  double position_tolerance = 1e-8;                            ///< what a step may add to the error of a position [m]
+  double max_step = 1e-3, min_step = 1e-9, first_step = 1e-6;  ///< [s]
+  double max_travel = 1e-3;                                    ///< of the vehicle per step [m]
+  double event_tolerance = 1e-9;                               ///< of the time of an event [s]
   StepSettings step;
 };
 
@@ -25,13 +25,13 @@ struct ContactEvent {
 
 /// Energy since the start [J]. Mechanical + dampers = start + work of the contacts + numerical.
 struct EnergyBalance {
-  double mechanical = 0.0;           ///< kinetic, of springs, of bump stops, of weights
-  double dampers = 0.0;              ///< dissipated
-  double contact_work = 0.0;         ///< of the contact forces on the motion about the reference configuration
-  double drive = 0.0;                ///< work that keeps up the speed of the reference configuration
-  double friction = 0.0;             ///< dissipated in the contacts, as they say
-  double elastic = 0.0;              ///< stored in the contacts, as they say
-  double turnover = 0.0;             ///< sum of |work| of all contacts and dampers: what errors are compared with
+  double mechanical = 0.0;    ///< kinetic, of springs, of bump stops, of weights
+  double dampers = 0.0;       ///< dissipated
+  double contact_work = 0.0;  ///< of the contact forces on the motion about the reference configuration
+  double drive = 0.0;         ///< work that keeps up the speed of the reference configuration
+  double friction = 0.0;      ///< dissipated in the contacts, as they say
+  double elastic = 0.0;       ///< stored in the contacts, as they say
+  double turnover = 0.0;      ///< sum of |work| of all contacts and dampers: what errors are compared with
   /// What the integration lost or gained.
   double integration_error(const EnergyBalance& start) const {
     return mechanical - start.mechanical + dampers - contact_work;
@@ -42,17 +42,19 @@ struct EnergyBalance {
   }
 };
 
-/// Integrates a vehicle on a track in time. Steps are as long as the error estimate, the travel per step and the duration allow; they end
-/// where a wheel loses or regains contact. A step that is repeated starts from the same state, contact history included.
-/// Results do not depend on the number of threads. Not thread-safe.
+/// Integrates a vehicle on a track in time. Steps are as long as the error estimate, the travel per step and the
+/// duration allow; they end where a wheel loses or regains contact. A step that is repeated starts from the same state,
+/// contact history included. Results do not depend on the number of threads. Not thread-safe.
 class Simulation {
  public:
-  /// start: from find_equilibrium, or any other state; the wheels of the vehicle must be connected. Accepts the contacts at the start.
-  /// Errors: Error(configuration) for settings that make no sense, Error(numerical) if a contact cannot be solved at the start.
+  /// start: from find_equilibrium, or any other state; the wheels of the vehicle must be connected. Accepts the
+  /// contacts at the start. Errors: Error(configuration) for settings that make no sense, Error(numerical) if a contact
+  /// cannot be solved at the start.
   Simulation(VehicleOnTrack vehicle, const SystemState& start, const SimulationSettings& settings);
 
   bool finished() const { return motion_.state.time >= settings_.duration * (1.0 - 1e-12); }
-  /// One step. Errors: Error(numerical) where the step becomes too short, with the reason; the simulation stays at the last good state.
+  /// One step. Errors: Error(numerical) where the step becomes too short, with the reason; the simulation stays at the
+  /// last good state.
   void advance();
 
   const VehicleOnTrack& vehicle() const { return *vehicle_; }

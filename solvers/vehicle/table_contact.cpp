@@ -20,7 +20,8 @@ constexpr std::uint32_t kMark = 0x54424c31;  // what saved states of this elemen
 void require_finite(const PairMotion& m) {
   const RailMotion& r = m.rail;
   double sum = r.y + r.z + r.roll + r.vy + r.vz + r.vroll;
-  for (const wheelrail::SixMotion* q : {&m.wheelset, &m.wheelset_velocity}) sum += q->x + q->y + q->z + q->roll + q->yaw + q->pitch;
+  for (const wheelrail::SixMotion* q : {&m.wheelset, &m.wheelset_velocity})
+    sum += q->x + q->y + q->z + q->roll + q->yaw + q->pitch;
   if (!std::isfinite(sum)) throw Error(ErrorKind::configuration, "a motion of wheel or rail is not a finite number");
 }
 
@@ -58,14 +59,15 @@ wheelrail::Placement placed(const ContactTable& table, const PairMotion& m) {
 }
 
 /// Seen from the rail, so that a motion of both bodies as one changes nothing.
-RelativePlace relative_place(const wheelrail::Placement& nominal, const wheelrail::Placement& now, const PairMotion& m) {
+RelativePlace relative_place(const wheelrail::Placement& nominal, const wheelrail::Placement& now,
+                             const PairMotion& m) {
   const Vec3 at_rest = nominal.X_TW.origin - nominal.X_TR.origin;
   const Vec3 moved = rotation_x(-m.rail.roll) * (now.X_TW.origin - now.X_TR.origin) - at_rest;
   return {moved.y(), moved.z(), m.wheelset.roll - m.rail.roll};
 }
 
-/// x where the normal through the contact point meets the axle: the pressure of a round wheel has no moment about it, also where yaw moves
-/// the contact ahead or behind.
+/// x where the normal through the contact point meets the axle: the pressure of a round wheel has no moment about it,
+/// also where yaw moves the contact ahead or behind.
 double below_the_axle(const Vec3& point, const Vec3& normal, const Pose& X_TWs) {
   const Vec3 axle = X_TWs.rotation.col(1), arm = point - X_TWs.origin;
   return axle.x() * (arm.y() * normal.z() - arm.z() * normal.y()) / (axle.y() * normal.z() - axle.z() * normal.y());
@@ -74,15 +76,17 @@ double below_the_axle(const Vec3& point, const Vec3& normal, const Pose& X_TWs) 
 ContactReaction not_covered(const ContactTable& table, const RelativePlace& place) {
   ContactReaction r;
   r.status = Status::failed;
-  r.message = fmt::format("the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
-                          "reaches from {:.4g} to {:.4g} mm: the flange climbs, or the wheel leaves the rail",
-                          1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
+  r.message = fmt::format(
+      "the wheel stands {:.4g} mm aside of its central position over the rail (right-hand side); the contact table "
+      "reaches from {:.4g} to {:.4g} mm: the flange climbs, or the wheel leaves the rail",
+      1e3 * place.y, 1e3 * table.y_min(), 1e3 * table.y_max());
   return r;
 }
 
 }  // namespace
 
-TableContact::TableContact(std::shared_ptr<const ContactTable> table, wheelrail::Side side) : table_(std::move(table)), side_(side) {
+TableContact::TableContact(std::shared_ptr<const ContactTable> table, wheelrail::Side side)
+    : table_(std::move(table)), side_(side) {
   if (!table_) throw Error(ErrorKind::configuration, "a contact element has no table");
   problem_ = table_->problem();
   problem_.regime = kalker::Regime::steady;
@@ -109,7 +113,8 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
     return r;
   }
   const double angle = std::atan(elastic.slope) + motion.rail.roll;
-  Pose X_TC{now.X_TW.origin + rotation_x(motion.rail.roll) * Vec3(0.0, elastic.arm_y, elastic.arm_z), rotation_x(angle)};
+  Pose X_TC{now.X_TW.origin + rotation_x(motion.rail.roll) * Vec3(0.0, elastic.arm_y, elastic.arm_z),
+            rotation_x(angle)};
   // The arm ends on the undeformed wheel, the contact point lies on the rail.
   const Vec3 normal = X_TC.rotation.col(2);
   X_TC.origin -= elastic.penetration * normal;
@@ -120,11 +125,14 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   problem_.track.vy = motion.rail.vy, problem_.track.vz = motion.rail.vz, problem_.track.vroll = motion.rail.vroll;
   const wheelrail::ContactKinematics creepage = wheelrail::contact_kinematics(problem_, now, X_TC, elastic.penetration);
   const FrictionLaw law = friction_at(problem_.friction_inclination, problem_.friction_laws, angle, problem_.friction);
-  const CreepForce creep = creep_force({elastic.a, elastic.b, law.static_friction() * elastic.normal_force}, material_, creepage);
+  const CreepForce creep =
+      creep_force({elastic.a, elastic.b, law.static_friction() * elastic.normal_force}, material_, creepage);
 
   const Vec3 force = X_TC.rotation * Vec3(creep.force.x(), creep.force.y(), elastic.normal_force);
   const Vec3 moment = creep.moment * X_TC.rotation.col(2);
-  const auto about = [&](const Vec3& point) { return wheelrail::Wrench{force, (X_TC.origin - point).cross(force) + moment}; };
+  const auto about = [&](const Vec3& point) {
+    return wheelrail::Wrench{force, (X_TC.origin - point).cross(force) + moment};
+  };
   r.on_rail = about(now.X_TR.origin);
   const wheelrail::Wrench at_centre = about(now.X_TWs.origin);
   r.on_wheelset = {-at_centre.force, -at_centre.moment};

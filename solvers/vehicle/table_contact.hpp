@@ -10,12 +10,12 @@
 
 namespace treadmark::vehicle {
 
-/// Fast force element of a round wheel on a prismatic straight rail: a nonlinear Hertzian spring from a table (ElasticContact),
-/// creepages of the rigid bodies' exact velocities, creep forces of the linear theory with saturation (creep_law).
-/// The coefficient of friction is the law's static one. Yaw counts in the creepages and in where the force acts along the rail, not in
-/// the heights: a yawed flange that touches ahead of or behind the axle is taken to touch no sooner. A place that the table does not
-/// cover (flange climbing) gives Status::failed.
-/// It has no memory: accept() does nothing, and there is nothing to save.
+/// Fast force element of a round wheel on a prismatic straight rail: a nonlinear Hertzian spring from a table
+/// (ElasticContact), creepages of the rigid bodies' exact velocities, creep forces of the linear theory with saturation
+/// (creep_law). The coefficient of friction is the law's static one. Yaw counts in the creepages and in where the force
+/// acts along the rail, not in the heights: a yawed flange that touches ahead of or behind the axle is taken to touch
+/// no sooner. A place that the table does not cover (flange climbing) gives Status::failed. It has no memory: accept()
+/// does nothing, and there is nothing to save.
 class TableContact : public ContactElement {
  public:
   /// Errors: Error(configuration) without a table.
@@ -31,7 +31,7 @@ class TableContact : public ContactElement {
 
   std::shared_ptr<const ContactTable> table_;
   wheelrail::Side side_;
-  wheelrail::Problem problem_;   ///< the table's, with the motion at hand
+  wheelrail::Problem problem_;  ///< the table's, with the motion at hand
   CombinedMaterial material_;
 };
 

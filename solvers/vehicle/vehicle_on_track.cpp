@@ -13,21 +13,26 @@ namespace treadmark::vehicle {
 
 void VehicleOnTrack::connect() {
   if (!(speed > 0.0) || !std::isfinite(speed))
-    throw Error(ErrorKind::configuration, "the speed must be positive", {}, "a standing vehicle is a case of `treadmark run`");
+    throw Error(ErrorKind::configuration, "the speed must be positive", {},
+                "a standing vehicle is a case of `treadmark run`");
   const auto count = system.wheelsets.size();
   if (pitch_at_start.empty()) pitch_at_start.assign(count, 0.0);
-  if (pitch_at_start.size() != count) throw Error(ErrorKind::configuration, "there must be one pitch for each wheelset");
+  if (pitch_at_start.size() != count)
+    throw Error(ErrorKind::configuration, "there must be one pitch for each wheelset");
   std::set<std::pair<int, wheelrail::Side>> places;
   maps.clear();
   for (const WheelOnRail& wheel : wheels) {
     if (wheel.wheelset < 0 || static_cast<std::size_t>(wheel.wheelset) >= count)
-      throw Error(ErrorKind::configuration, fmt::format("there is no wheelset {}: the vehicle has {}", wheel.wheelset + 1, count));
-    if (!wheel.element) throw Error(ErrorKind::configuration, fmt::format("wheel {} has no contact element", wheel.name));
+      throw Error(ErrorKind::configuration,
+                  fmt::format("there is no wheelset {}: the vehicle has {}", wheel.wheelset + 1, count));
+    if (!wheel.element)
+      throw Error(ErrorKind::configuration, fmt::format("wheel {} has no contact element", wheel.name));
     if (!places.emplace(wheel.wheelset, wheel.side).second)
       throw Error(ErrorKind::configuration, fmt::format("wheel {} has two contact elements", wheel.name));
     maps.push_back(pair_map(system, wheel.wheelset, wheel.side, wheel.rail_marker));
   }
-  if (places.size() != 2 * count) throw Error(ErrorKind::configuration, "every wheelset needs a contact element at both wheels");
+  if (places.size() != 2 * count)
+    throw Error(ErrorKind::configuration, "every wheelset needs a contact element at both wheels");
 }
 
 PairMotion VehicleOnTrack::motion(std::size_t i, const SystemState& state) const {
@@ -36,13 +41,20 @@ PairMotion VehicleOnTrack::motion(std::size_t i, const SystemState& state) const
   const double pitch_rate = -speed / system.wheelsets[set].nominal_radius;
   PairMotion m;
   m.time = state.time;
-  m.wheelset = {speed * state.time + u[0], u[1], u[2], u[3], u[5], wrap_angle(pitch_at_start[set] + pitch_rate * state.time + u[4])};
+  m.wheelset = {speed * state.time + u[0],
+                u[1],
+                u[2],
+                u[3],
+                u[5],
+                wrap_angle(pitch_at_start[set] + pitch_rate * state.time + u[4])};
   m.wheelset_velocity = {speed + du[0], du[1], du[2], du[3], du[5], pitch_rate + du[4]};
   m.rail = {u[6], u[7], u[8], du[6], du[7], du[8]};
   return m;
 }
 
-double VehicleOnTrack::radius(std::size_t i) const { return system.wheelsets[static_cast<std::size_t>(wheels[i].wheelset)].nominal_radius; }
+double VehicleOnTrack::radius(std::size_t i) const {
+  return system.wheelsets[static_cast<std::size_t>(wheels[i].wheelset)].nominal_radius;
+}
 
 PairTangent VehicleOnTrack::tangent(std::size_t i, const ContactReaction& reaction, const PairMotion& m) const {
   return pair_tangent(reaction, m, wheels[i].rail_marker, radius(i));

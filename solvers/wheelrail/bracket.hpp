@@ -16,8 +16,8 @@ class Bracket {
   double width() const { return x_high_ - x_low_; }
   double value_below() const { return value_low_; }
   double value_above() const { return value_high_; }
-  /// The guess if it lies inside, else the middle. Guesses may close in from one side; where they do not halve the bracket for a while
-  /// they give way to the middle. Of a closed bracket.
+  /// The guess if it lies inside, else the middle. Guesses may close in from one side; where they do not halve the
+  /// bracket for a while they give way to the middle. Of a closed bracket.
   double safeguarded(double guess);
 
  private:

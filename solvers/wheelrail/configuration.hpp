@@ -20,26 +20,26 @@ enum class Side { left, right };
 
 /// Where the rail lies on the track and how it moves.
 struct Track {
-  bool gauge_based = true;              ///< else rail_y0, rail_z0 place the rail's profile origin
-  double gauge_height = 14e-3;          ///< below the top of the rail [m]
-  double gauge_width = 1.435;           ///< [m]
-  double rail_y0 = 0.0, rail_z0 = 0.0;  ///< [m]
-  double cant = 0.0;                    ///< rail inclination, positive = head turned towards the track centre [rad]
-  double curvature = 0.0;               ///< of the track [1/m]
+  bool gauge_based = true;                 ///< else rail_y0, rail_z0 place the rail's profile origin
+  double gauge_height = 14e-3;             ///< below the top of the rail [m]
+  double gauge_width = 1.435;              ///< [m]
+  double rail_y0 = 0.0, rail_z0 = 0.0;     ///< [m]
+  double cant = 0.0;                       ///< rail inclination, positive = head turned towards the track centre [rad]
+  double curvature = 0.0;                  ///< of the track [1/m]
   double dy = 0.0, dz = 0.0, roll = 0.0;   ///< rail irregularity [m], [rad]
   double vy = 0.0, vz = 0.0, vroll = 0.0;  ///< and its rates [m/s], [rad/s]
 };
 
-/// A roller in place of the rail. Geometry::rail is then a surface of revolution about the y axis direction, placed like a rail's
-/// profile: its z = 0 lies at the nominal radius, its axle nominal_radius below. Cant does not apply, s along the track neither:
-/// position.x is where the wheelset's axle stands over the roller's.
+/// A roller in place of the rail. Geometry::rail is then a surface of revolution about the y axis direction, placed
+/// like a rail's profile: its z = 0 lies at the nominal radius, its axle nominal_radius below. Cant does not apply, s
+/// along the track neither: position.x is where the wheelset's axle stands over the roller's.
 struct Roller {
   double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
   double pitch_rate = 0.0;      ///< [rad/s]; positive where a wheel on top of it rolls forward, negative for a ring
 };
 
-/// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the contact
-/// force on the rail in track axes.
+/// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the
+/// contact force on the rail in track axes.
 struct RailSprings {
   double stiffness_y = 1e6, stiffness_z = 1e6;  ///< [N/m]; stiffness_z = 0: no vertical deflection
   double force_y = 0.0, force_z = 0.0;          ///< further forces on the rail [N]
@@ -48,8 +48,8 @@ struct RailSprings {
 
 /// Force against the change of contact force in time: F_damp = c dF/dt, its rate limited.
 struct Damping {
-  double normal = 0.0, tangential = 0.0;                          ///< c_n, c_t [s]
-  double max_rate_normal = 0.0, max_rate_tangential = 0.0;        ///< [N/s]
+  double normal = 0.0, tangential = 0.0;                    ///< c_n, c_t [s]
+  double max_rate_normal = 0.0, max_rate_tangential = 0.0;  ///< [N/s]
 };
 
 struct WheelsetDimensions {
@@ -88,12 +88,12 @@ enum class ReferenceSurface {
 
 /// Grid and patch rules.
 struct Discretisation {
-  double dx = 0.5e-3, ds = 0.5e-3;   ///< element sizes [m]
-  double dq_relative = 1.0;          ///< rolling step over dx
-  double angle_separation = 3.141592653589793;  ///< A_SEP [rad]
-  double separation = 8e-3, combination = 4e-3; ///< D_SEP, D_COMB [m]
-  std::optional<double> turning;     ///< D_TURN [m]; default 2 D_SEP - D_COMB
-  double near_miss = -1e-3;          ///< G_MISS [m]
+  double dx = 0.5e-3, ds = 0.5e-3;               ///< element sizes [m]
+  double dq_relative = 1.0;                      ///< rolling step over dx
+  double angle_separation = 3.141592653589793;   ///< A_SEP [rad]
+  double separation = 8e-3, combination = 4e-3;  ///< D_SEP, D_COMB [m]
+  std::optional<double> turning;                 ///< D_TURN [m]; default 2 D_SEP - D_COMB
+  double near_miss = -1e-3;                      ///< G_MISS [m]
   int max_elements = 20000;
   bool linear_weight = false;
   bool reference_at_deepest = false;
@@ -105,7 +105,7 @@ struct Discretisation {
     reference_locus,  ///< its contact locus, where both profiles are constant
   } search = SearchGrid::refined;
   detection::SearchMethod search_method = detection::SearchMethod::automatic;
-  bool distance_on_mesh = false;   ///< undeformed distance with the reference program's mesh of the wheel
+  bool distance_on_mesh = false;  ///< undeformed distance with the reference program's mesh of the wheel
 };
 
 struct Problem {
@@ -116,10 +116,12 @@ struct Problem {
   std::optional<Roller> roller;
   /// Vertical force on the rail [N], track axes: state.position.z is then sought. Otherwise z is prescribed.
   std::optional<double> vertical_force;
-  /// Longitudinal force on the rail [N], wheelset axes: state.velocity.pitch is then sought. Otherwise the rate is prescribed.
+  /// Longitudinal force on the rail [N], wheelset axes: state.velocity.pitch is then sought. Otherwise the rate is
+  /// prescribed.
   std::optional<double> longitudinal_force;
-  std::optional<RailSprings> rail_springs;         ///< the rail's deflection is then sought
-  /// A shift reads rates as displacements of the step. Transient rolling and shifts go on from the last solution as history says.
+  std::optional<RailSprings> rail_springs;  ///< the rail's deflection is then sought
+  /// A shift reads rates as displacements of the step. Transient rolling and shifts go on from the last solution as
+  /// history says.
   kalker::Regime regime = kalker::Regime::steady;
   kalker::HistoryUse history = kalker::HistoryUse::start;
   /// Steps of transient rolling longer than dt = 2 dx / V: refused, else a remark.
@@ -130,15 +132,15 @@ struct Problem {
   FrictionLaw friction;
   kalker::SolverSettings solver;
   int max_force_iterations = 30;
-  kalker::NormalModel normal_model = kalker::NormalModel::full;            ///< full, kpec or analyn
+  kalker::NormalModel normal_model = kalker::NormalModel::full;  ///< full, kpec or analyn
   kalker::TangentialModel tangential_model = kalker::TangentialModel::full;
   kalker::FastsimSettings fastsim;
-  kalker::InfluenceSettings influence;   ///< of angle-corrected ones the inclinations are the curved reference's
+  kalker::InfluenceSettings influence;  ///< of angle-corrected ones the inclinations are the curved reference's
   std::optional<Thermal> thermal;
   std::optional<Damping> damping;
   bool sensitivities = false;
-  /// Friction at inclinations of the rail's surface [rad], increasing; between them every number of the law is interpolated, beyond them
-  /// it stays. Empty: friction is the same everywhere.
+  /// Friction at inclinations of the rail's surface [rad], increasing; between them every number of the law is
+  /// interpolated, beyond them it stays. Empty: friction is the same everywhere.
   std::vector<double> friction_inclination;
   std::vector<FrictionLaw> friction_laws;
 };

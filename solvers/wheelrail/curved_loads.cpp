@@ -32,7 +32,8 @@ Wrench resultant_on(const detection::ReferenceRows& reference, const Grid2& grid
   return sum;
 }
 
-kalker::InfluenceSettings influence_on(const detection::ReferenceRows& reference, const Grid2& grid, kalker::InfluenceSettings given) {
+kalker::InfluenceSettings influence_on(const detection::ReferenceRows& reference, const Grid2& grid,
+                                       kalker::InfluenceSettings given) {
   if (given.kind != kalker::InfluenceSettings::Kind::angle_corrected) return given;
   require_rows(reference, grid);
   given.inclination = reference.angles();
@@ -41,7 +42,8 @@ kalker::InfluenceSettings influence_on(const detection::ReferenceRows& reference
   return given;
 }
 
-std::vector<FrictionLaw> friction_on(const detection::ReferenceRows& reference, double contact_angle, const Problem& p) {
+std::vector<FrictionLaw> friction_on(const detection::ReferenceRows& reference, double contact_angle,
+                                     const Problem& p) {
   std::vector<FrictionLaw> laws;
   if (p.friction_laws.empty()) return laws;
   for (const detection::ReferenceRow& row : reference.rows)

@@ -57,7 +57,10 @@ class Iteration {
     // Creepages of the order of a ten-thousandth; of a shift, displacements of the order of a thousandth of an element.
     const bool shift = p_.regime == kalker::Regime::shift;
     const double unit = shift ? p_.discretisation.dx / p_.wheelset.nominal_radius : running;
-    RootSearch search({.tolerance = p_.solver.eps * bound, .first_step = 1e-4 * unit, .reach = 0.5 * unit, .resolution = 1e-14 * unit});
+    RootSearch search({.tolerance = p_.solver.eps * bound,
+                       .first_step = 1e-4 * unit,
+                       .reach = 0.5 * unit,
+                       .resolution = 1e-14 * unit});
     RootSearch::State state = RootSearch::State::search;
     // A wheel that turns slower, its rate less negative, brakes: it pulls the rail forward.
     constexpr int kMost = 60;
@@ -68,16 +71,17 @@ class Iteration {
       step_.solve_tangential(out_.pitch_rate);
     }
     if (state == RootSearch::State::found) return true;
-    fail(Status::not_converged,
-         fmt::format("no longitudinal balance: {:.6g} N are prescribed, the contact gives {:.6g} N at most at this load (friction bound {:.6g} N)",
-                     *p_.longitudinal_force, step_.longitudinal_force(), bound));
+    fail(Status::not_converged, fmt::format("no longitudinal balance: {:.6g} N are prescribed, the contact gives "
+                                            "{:.6g} N at most at this load (friction bound {:.6g} N)",
+                                            *p_.longitudinal_force, step_.longitudinal_force(), bound));
     return false;
   }
 
   bool inside_the_rail() {
     if (step_.too_deep() <= 0.0) return false;
-    fail(Status::failed, fmt::format("the wheel lies {:.3g} mm deep inside the rail: check heights and the placement of both",
-                                     1e3 * step_.too_deep()));
+    fail(Status::failed,
+         fmt::format("the wheel lies {:.3g} mm deep inside the rail: check heights and the placement of both",
+                     1e3 * step_.too_deep()));
     return true;
   }
 
@@ -119,7 +123,8 @@ class Iteration {
         tangential_done = false;
       }
       // Too deep for contact mechanics: any large force sends the search back up.
-      const double force = step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
+      const double force =
+          step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
       out_.iterations.emplace_back(z, force);
       out_.z = z;
       state = balance.add(z, force, step_.least_gap());
@@ -142,8 +147,10 @@ class Iteration {
     }
     fail(Status::not_converged,
          state == ForceBalance::State::no_balance
-             ? fmt::format("no vertical balance: the contact force jumps from {:.6g} N to {:.6g} N at z = {:.6g} mm, across the {:.6g} N "
-                           "prescribed", balance.force_below(), balance.force_above(), 1e3 * out_.z, target.at(out_.z))
+             ? fmt::format("no vertical balance: the contact force jumps from {:.6g} N to {:.6g} N at z = {:.6g} mm, "
+                           "across the {:.6g} N "
+                           "prescribed",
+                           balance.force_below(), balance.force_above(), 1e3 * out_.z, target.at(out_.z))
              : fmt::format("the vertical force was not reached within {} iterations", p_.max_force_iterations));
     return false;
   }
@@ -151,8 +158,9 @@ class Iteration {
   void balance_lateral() {
     const RailSprings& k = *p_.rail_springs;
     const double scale = p_.vertical_force.value_or(std::abs(k.force_y) + k.stiffness_y * 1e-3);
-    constexpr double kReach = 0.1;   // a rail does not give way farther [m]
-    RootSearch search({.tolerance = p_.solver.eps * scale, .first_step = k.first_step_y, .reach = kReach, .resolution = 1e-12});
+    constexpr double kReach = 0.1;  // a rail does not give way farther [m]
+    RootSearch search(
+        {.tolerance = p_.solver.eps * scale, .first_step = k.first_step_y, .reach = kReach, .resolution = 1e-12});
     RootSearch::State state = RootSearch::State::search;
     double dy = 0.0;
     constexpr int kMost = 60;
@@ -169,7 +177,8 @@ class Iteration {
     if (state == RootSearch::State::found) return;
     fail(Status::not_converged,
          state == RootSearch::State::jump
-             ? fmt::format("no lateral balance: the force on the rail's springs jumps from {:.6g} N to {:.6g} N at a deflection of {:.6g} mm",
+             ? fmt::format("no lateral balance: the force on the rail's springs jumps from {:.6g} N to {:.6g} N at a "
+                           "deflection of {:.6g} mm",
                            search.residual_below(), search.residual_above(), 1e3 * out_.rail_dy)
              : fmt::format("no lateral balance of the rail's springs within a deflection of {:.3g} mm", 1e3 * kReach));
   }
@@ -181,6 +190,8 @@ class Iteration {
 
 }  // namespace
 
-Balance find_balance(PairStep& step, const Problem& problem, double stiffness) { return Iteration(step, problem, stiffness).run(); }
+Balance find_balance(PairStep& step, const Problem& problem, double stiffness) {
+  return Iteration(step, problem, stiffness).run();
+}
 
 }  // namespace treadmark::wheelrail

@@ -14,16 +14,17 @@ namespace treadmark::wheelrail {
 struct Balance {
   Status status = Status::ok;
   std::string message;
-  double z = 0.0;                    ///< wheelset height over the undeflected rail [m]
-  double pitch_rate = 0.0;           ///< [rad/s]
+  double z = 0.0;                       ///< wheelset height over the undeflected rail [m]
+  double pitch_rate = 0.0;              ///< [rad/s]
   double rail_dy = 0.0, rail_dz = 0.0;  ///< deflection of a rail on springs [m]
-  double stiffness = 0.0;            ///< vertical force / penetration^1.5 at the end [N/m^1.5]; 0 = no contact
+  double stiffness = 0.0;               ///< vertical force / penetration^1.5 at the end [N/m^1.5]; 0 = no contact
   std::vector<std::pair<double, double>> iterations;  ///< (z [m], vertical force [N])
 };
 
-/// Puts the bodies where vertical force, longitudinal force and the rail's springs are in balance, as far as they are prescribed, and
-/// solves the contact there. The pitch rate only acts on tractions, the height on everything, the lateral deflection on the
-/// contact search as well: three loops inside one another, the cheapest innermost. stiffness: guess, as in Balance.
+/// Puts the bodies where vertical force, longitudinal force and the rail's springs are in balance, as far as they are
+/// prescribed, and solves the contact there. The pitch rate only acts on tractions, the height on everything, the
+/// lateral deflection on the contact search as well: three loops inside one another, the cheapest innermost. stiffness:
+/// guess, as in Balance.
 Balance find_balance(PairStep& step, const Problem& right_hand_problem, double stiffness);
 
 }  // namespace treadmark::wheelrail

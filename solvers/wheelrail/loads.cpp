@@ -20,7 +20,9 @@ void flip(Wrench& w) {
 
 Wrenches loads(const Placement& placed, const Pose& X_TC, const Wrench& load_C) {
   const Vec3 force_T = X_TC.rotation * load_C.force, moment_T = X_TC.rotation * load_C.moment;
-  const auto about = [&](const Vec3& point_T) { return Wrench{force_T, (X_TC.origin - point_T).cross(force_T) + moment_T}; };
+  const auto about = [&](const Vec3& point_T) {
+    return Wrench{force_T, (X_TC.origin - point_T).cross(force_T) + moment_T};
+  };
   Wrenches out;
   out.track = about(placed.X_TR.origin);
   out.rail = seen_in(out.track, placed.X_TR.rotation);

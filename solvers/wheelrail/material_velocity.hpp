@@ -19,15 +19,15 @@ struct RigidMotion {
 /// How the material of rail (or roller) and wheel moves, in track axes, which move along with the wheelset.
 struct MaterialVelocity {
   RigidMotion rail, wheel;
-  RigidMotion pitch;   ///< the part of the wheel's motion by the wheelset's pitch rate
+  RigidMotion pitch;  ///< the part of the wheel's motion by the wheelset's pitch rate
 
   /// rail - wheel at one place [m/s].
   Vec3 difference(const Vec3& place_T) const { return rail.at(place_T) - wheel.at(place_T); }
   Vec3 rotation_difference() const { return rail.angular_velocity - wheel.angular_velocity; }
 };
 
-/// Of a right-hand pair. Shifts: displacements of the step. The rail turns with the track curve that the wheelset runs through; a roller
-/// turns about its own axle, whose middle lies over the track's.
+/// Of a right-hand pair. Shifts: displacements of the step. The rail turns with the track curve that the wheelset runs
+/// through; a roller turns about its own axle, whose middle lies over the track's.
 MaterialVelocity material_velocity(const Problem& right_hand_problem, const Placement& placement);
 
 }  // namespace treadmark::wheelrail

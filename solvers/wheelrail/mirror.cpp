@@ -71,10 +71,11 @@ void flip(PatchSolution& p) {
   for (double& angle : p.row_angle) angle = -angle;
 
   kalker::ContactSolution& c = p.contact;
-  for (auto* field : {&p.distance, &c.pressure, &c.traction_x, &c.displacement_n, &c.displacement_x, &c.slip_x, &c.friction, &c.plastic_x,
-                      &c.yield_stress, &c.temperature_1, &c.temperature_2, &p.extra_slip_x})
+  for (auto* field : {&p.distance, &c.pressure, &c.traction_x, &c.displacement_n, &c.displacement_x, &c.slip_x,
+                      &c.friction, &c.plastic_x, &c.yield_stress, &c.temperature_1, &c.temperature_2, &p.extra_slip_x})
     reverse_rows(*field, p.grid);
-  for (auto* field : {&c.traction_y, &c.displacement_y, &c.slip_y, &c.plastic_y, &p.extra_slip_y}) reverse_rows_and_sign(*field, p.grid);
+  for (auto* field : {&c.traction_y, &c.displacement_y, &c.slip_y, &c.plastic_y, &p.extra_slip_y})
+    reverse_rows_and_sign(*field, p.grid);
   reverse_rows(c.state, p.grid);
   c.creepage.eta = -c.creepage.eta;
   c.creepage.phi = -c.creepage.phi;
@@ -109,7 +110,8 @@ Problem mirrored(Problem p) {
 }
 
 PairSolution mirrored(PairSolution s) {
-  for (Pose* pose : {&s.placement.X_TR, &s.placement.X_TS, &s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA}) flip(*pose);
+  for (Pose* pose : {&s.placement.X_TR, &s.placement.X_TS, &s.placement.X_TWs, &s.placement.X_TW, &s.placement.X_TA})
+    flip(*pose);
   for (PatchSolution& patch : s.patches) flip(patch);
   s.load = mirrored(s.load);
   s.rail_deflection_y = -s.rail_deflection_y;

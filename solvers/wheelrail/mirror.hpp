@@ -10,8 +10,8 @@ namespace treadmark::wheelrail {
 /// profiles and prescribed vertical forces are not touched.
 Problem mirrored(Problem problem);
 
-/// The solution seen in the mirror: lateral positions, roll-type angles, lateral forces, moments about x and z change sign,
-/// element rows change order.
+/// The solution seen in the mirror: lateral positions, roll-type angles, lateral forces, moments about x and z change
+/// sign, element rows change order.
 PairSolution mirrored(PairSolution solution);
 
 }  // namespace treadmark::wheelrail

@@ -13,20 +13,23 @@ namespace {
 /// Calls visit(index) for the up to eight neighbours of an element.
 template <class Visit>
 void neighbours(const Grid2& g, std::size_t i, Visit visit) {
-  const int x = static_cast<int>(i % static_cast<std::size_t>(g.nx)), y = static_cast<int>(i / static_cast<std::size_t>(g.nx));
+  const int x = static_cast<int>(i % static_cast<std::size_t>(g.nx)),
+            y = static_cast<int>(i / static_cast<std::size_t>(g.nx));
   for (int iy = std::max(0, y - 1); iy <= std::min(g.ny - 1, y + 1); ++iy)
     for (int ix = std::max(0, x - 1); ix <= std::min(g.nx - 1, x + 1); ++ix)
       if (ix != x || iy != y) visit(g.index(ix, iy));
 }
 
 bool on_border(const Grid2& g, std::size_t i) {
-  const int x = static_cast<int>(i % static_cast<std::size_t>(g.nx)), y = static_cast<int>(i / static_cast<std::size_t>(g.nx));
+  const int x = static_cast<int>(i % static_cast<std::size_t>(g.nx)),
+            y = static_cast<int>(i / static_cast<std::size_t>(g.nx));
   return x == 0 || y == 0 || x == g.nx - 1 || y == g.ny - 1;
 }
 
 }  // namespace
 
-MissingSurface missing_beside_contact(const Grid2& grid, std::span<const double> distance, std::span<const double> pressure) {
+MissingSurface missing_beside_contact(const Grid2& grid, std::span<const double> distance,
+                                      std::span<const double> pressure) {
   MissingSurface found;
   std::vector<bool> seen(grid.size(), false);
   std::vector<std::size_t> part;

@@ -14,8 +14,9 @@ struct MissingSurface {
   int edge = 0;  ///< elements of parts that reach the border of the grid, as beyond the end of a profile
 };
 
-/// distance: NaN = no surface; pressure > 0 = contact; both of grid.size(). Only parts that touch contact count, with all
-/// their elements (holes) or those beside contact (edges). Thread-safe.
-MissingSurface missing_beside_contact(const Grid2& grid, std::span<const double> distance, std::span<const double> pressure);
+/// distance: NaN = no surface; pressure > 0 = contact; both of grid.size(). Only parts that touch contact count, with
+/// all their elements (holes) or those beside contact (edges). Thread-safe.
+MissingSurface missing_beside_contact(const Grid2& grid, std::span<const double> distance,
+                                      std::span<const double> pressure);
 
 }  // namespace treadmark::wheelrail

@@ -25,7 +25,8 @@ namespace {
 // Hertz, sphere on a plane: only the order of magnitude matters to start the force iteration.
 double stiffness_guess(const Material& material) {
   const CombinedMaterial m = combine(material);
-  // Stiffer than any: approximate pressures may fall with depth where parts of the contact go out, and the first balance counts.
+  // Stiffer than any: approximate pressures may fall with depth where parts of the contact go out, and the first
+  // balance counts.
   constexpr double kRadius = 2.4;
   return 4.0 / 3.0 * m.shear_modulus / (1.0 - m.poisson) * std::sqrt(kRadius);
 }
@@ -42,8 +43,8 @@ void note_missing_surface(const PatchSolution& patch, PairSolution& solution) {
   if (missing.hole > 0) {
     solution.status = Status::failed;
     solution.message = "the wheel or the rail has a hole of " + std::to_string(missing.hole) + " elements (" +
-                       std::to_string(1e6 * missing.hole * patch.grid.cell_area()) + " mm2) within contact, at y = " +
-                       std::to_string(1e3 * patch.frame.X_TC.origin.y()) +
+                       std::to_string(1e6 * missing.hole * patch.grid.cell_area()) +
+                       " mm2) within contact, at y = " + std::to_string(1e3 * patch.frame.X_TC.origin.y()) +
                        " mm of the track: pressures round it are not to be trusted; fill the hole in the data";
   } else if (missing.edge > 0 && solution.message.empty()) {
     solution.message = "contact reaches an edge of the wheel's or rail's surface (" + std::to_string(missing.edge) +
@@ -57,11 +58,13 @@ std::string violated_step_rule(const Problem& p, const Instant& previous) {
   constexpr double kMostElements = 2.0, kRounding = 1e-9;
   const double dx = p.discretisation.dx;
   const bool goes_on = p.history != kalker::HistoryUse::start && !p.roller;
-  const double moved = goes_on ? std::abs(p.state.position.x - previous.s) : 0.0, rolled = p.discretisation.dq_relative * dx;
+  const double moved = goes_on ? std::abs(p.state.position.x - previous.s) : 0.0,
+               rolled = p.discretisation.dq_relative * dx;
   const double step = std::max(moved, rolled);
   if (step <= kMostElements * dx * (1.0 + kRounding)) return {};
-  return fmt::format("the step rule dt <= 2 dx / V of transient rolling is violated: a step of {:.6g} mm with elements of {:.6g} mm", 1e3 * step,
-                     1e3 * dx);
+  return fmt::format(
+      "the step rule dt <= 2 dx / V of transient rolling is violated: a step of {:.6g} mm with elements of {:.6g} mm",
+      1e3 * step, 1e3 * dx);
 }
 
 void move_down(PairSolution& s, double dz) {
@@ -98,22 +101,25 @@ void complete(const Problem& p, PairSolution& solution) {
   for (PatchSolution& patch : solution.patches) {
     const kalker::ContactSolution& c = patch.contact;
     if (patch.grid.cell_area() > 1.5 * p.discretisation.dx * p.discretisation.ds)
-      note(solution, Status::ok, fmt::format("elements were enlarged to keep the potential contact area below {} elements",
-                                             p.discretisation.max_elements));
+      note(solution, Status::ok,
+           fmt::format("elements were enlarged to keep the potential contact area below {} elements",
+                       p.discretisation.max_elements));
     note_missing_surface(patch, solution);
     patch.load = loads(solution.placement, patch.frame.X_TC, {patch.force_C, patch.moment_C});
     solution.load += patch.load;
     locate(solution.placement, patch);
     for (const Report* report : {&c.normal, &c.tangential})
       if (report->status != Status::ok)
-        note(solution, report->status, report->message.empty() ? "a contact problem did not converge" : report->message);
+        note(solution, report->status,
+             report->message.empty() ? "a contact problem did not converge" : report->message);
   }
 }
 
 }  // namespace
 
 PhaseTimes& PhaseTimes::operator+=(const PhaseTimes& other) {
-  search_s += other.search_s, distance_s += other.distance_s, normal_s += other.normal_s, tangential_s += other.tangential_s;
+  search_s += other.search_s, distance_s += other.distance_s, normal_s += other.normal_s,
+      tangential_s += other.tangential_s;
   searches += other.searches, distances += other.distances;
   normal_solves += other.normal_solves, tangential_solves += other.tangential_solves;
   return *this;
@@ -138,7 +144,8 @@ void Pair::restore(const std::shared_ptr<const State>& state) { state_ = state ?
 PairSolution Pair::solve(const Problem& problem) {
   validate(problem);
   if (problem.history != kalker::HistoryUse::start && !state_->last.patches.empty() && state_->side != problem.side)
-    throw Error(ErrorKind::configuration, "the history belongs to the other side of the wheelset", {}, "use one pair for each side");
+    throw Error(ErrorKind::configuration, "the history belongs to the other side of the wheelset", {},
+                "use one pair for each side");
   if (problem.side == Side::right) return solve_right_hand(problem, Side::right);
   return mirrored(solve_right_hand(mirrored(problem), Side::left));
 }
@@ -146,10 +153,15 @@ PairSolution Pair::solve(const Problem& problem) {
 Instant Pair::choose_previous(const Problem& p) const {
   Instant previous;
   switch (p.history) {
-    case kalker::HistoryUse::start: break;
+    case kalker::HistoryUse::start:
+      break;
     case kalker::HistoryUse::keep_going:
-    case kalker::HistoryUse::normal_only: previous = state_->last; break;
-    case kalker::HistoryUse::same_instant: previous = state_->previous; break;
+    case kalker::HistoryUse::normal_only:
+      previous = state_->last;
+      break;
+    case kalker::HistoryUse::same_instant:
+      previous = state_->previous;
+      break;
   }
   return previous;
 }

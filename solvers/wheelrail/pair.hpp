@@ -19,28 +19,28 @@ namespace treadmark::wheelrail {
 
 /// One contact patch between wheel and rail, solved.
 struct PatchSolution {
-  detection::ContactPatch region;     ///< where the undeformed bodies interpenetrate
-  detection::ContactFrame frame;      ///< tangent plane, pose in the track frame
-  Grid2 grid;                         ///< potential contact area, contact axes [m]
-  std::vector<double> distance;       ///< undeformed distance h [m], NaN = no surface
-  double approach = 0.0;              ///< rigid penetration [m]
+  detection::ContactPatch region;  ///< where the undeformed bodies interpenetrate
+  detection::ContactFrame frame;   ///< tangent plane, pose in the track frame
+  Grid2 grid;                      ///< potential contact area, contact axes [m]
+  std::vector<double> distance;    ///< undeformed distance h [m], NaN = no surface
+  double approach = 0.0;           ///< rigid penetration [m]
   ContactKinematics kinematics;
-  kalker::ContactSolution contact;    ///< pressures, tractions, forces in contact axes, on the rail
+  kalker::ContactSolution contact;  ///< pressures, tractions, forces in contact axes, on the rail
   /// Where the contact reference lies in the grid's axes [m]: (0, 0), or elsewhere for grids that stay aligned in time.
   Vec2 reference_C = Vec2::Zero();
-  /// Curved reference: inclination of each row against the contact plane [rad]; empty otherwise. Then the contact problem's tractions
-  /// and its force components are local ones ("tilde"), force_C is their resultant.
+  /// Curved reference: inclination of each row against the contact plane [rad]; empty otherwise. Then the contact
+  /// problem's tractions and its force components are local ones ("tilde"), force_C is their resultant.
   std::vector<double> row_angle;
   std::vector<double> extra_slip_x, extra_slip_y;  ///< rigid slip beyond creepage and spin; empty = none
-  Vec3 force_C = Vec3::Zero();        ///< on the rail, contact axes, with damping [N]
-  Vec3 moment_C = Vec3::Zero();       ///< about the contact reference [N m]
+  Vec3 force_C = Vec3::Zero();                     ///< on the rail, contact axes, with damping [N]
+  Vec3 moment_C = Vec3::Zero();                    ///< about the contact reference [N m]
   Wrenches load;
-  std::uint64_t id = 0;               ///< stays with a patch through a sequence in time; > 0
-  std::vector<std::uint64_t> came_from;  ///< patches of the previous instant that it continues
-  Vec3 reference_rail = Vec3::Zero();   ///< contact reference in rail axes [m]
-  Vec3 reference_wheel = Vec3::Zero();  ///< in wheel profile axes (not pitched) [m]
+  std::uint64_t id = 0;                    ///< stays with a patch through a sequence in time; > 0
+  std::vector<std::uint64_t> came_from;    ///< patches of the previous instant that it continues
+  Vec3 reference_rail = Vec3::Zero();      ///< contact reference in rail axes [m]
+  Vec3 reference_wheel = Vec3::Zero();     ///< in wheel profile axes (not pitched) [m]
   Vec3 reference_wheelset = Vec3::Zero();  ///< in wheelset axes [m]
-  double reference_s = 0.0;             ///< arc length along the rail profile from y = 0 [m]
+  double reference_s = 0.0;                ///< arc length along the rail profile from y = 0 [m]
   double angle_rail = 0.0, angle_wheelset = 0.0, angle_wheel = 0.0;  ///< contact angle in those axes [rad]
 };
 
@@ -56,15 +56,15 @@ struct PairSolution {
   Status status = Status::ok;
   std::string message;
   Placement placement;
-  double z = 0.0;                       ///< vertical wheelset position, given or found [m]
-  double pitch_rate = 0.0;              ///< of the wheelset, given or found [rad/s]
-  /// Least distance from rail to wheel along z of the track at this position [m], also where they do not touch; negative: greatest
-  /// penetration. It falls by what the wheel comes down, so that the loss of contact is a simple root of it. NaN where no wheel lies over
-  /// the rail.
+  double z = 0.0;           ///< vertical wheelset position, given or found [m]
+  double pitch_rate = 0.0;  ///< of the wheelset, given or found [rad/s]
+  /// Least distance from rail to wheel along z of the track at this position [m], also where they do not touch;
+  /// negative: greatest penetration. It falls by what the wheel comes down, so that the loss of contact is a simple
+  /// root of it. NaN where no wheel lies over the rail.
   double least_gap = std::numeric_limits<double>::quiet_NaN();
   double rail_deflection_y = 0.0, rail_deflection_z = 0.0;  ///< of a rail on springs [m]
-  std::vector<PatchSolution> patches;   ///< field side first
-  Wrenches load;                        ///< sum over the patches
+  std::vector<PatchSolution> patches;                       ///< field side first
+  Wrenches load;                                            ///< sum over the patches
   std::vector<std::pair<double, double>> force_iterations;  ///< (z [m], vertical force [N])
   PhaseTimes times;
 };
@@ -72,10 +72,11 @@ struct PairSolution {
 struct Instant;
 
 /// Contact of one wheel and one rail (Kalker 1990; Vollebregt's grid-based contact search).
-/// Geometry is set once; solve() is called for one state after the other. Without history (Problem::history == start) results do not
-/// depend on what was solved before; sequences in time go on from the last solution. Every error and every status leaves the pair
-/// usable; a solve that fails with an error leaves the history as it was. Memory does not grow with the number of calls.
-/// Not thread-safe: one Pair per thread; two Pairs on the same surfaces may work at once.
+/// Geometry is set once; solve() is called for one state after the other. Without history (Problem::history == start)
+/// results do not depend on what was solved before; sequences in time go on from the last solution. Every error and
+/// every status leaves the pair usable; a solve that fails with an error leaves the history as it was. Memory does not
+/// grow with the number of calls. Not thread-safe: one Pair per thread; two Pairs on the same surfaces may work at
+/// once.
 class Pair {
  public:
   /// Errors: Error(configuration) if a surface is missing or faces the wrong way.
@@ -84,8 +85,8 @@ class Pair {
   Pair(Pair&&) noexcept;
   Pair& operator=(Pair&&) noexcept;
 
-  /// Errors: Error(configuration) for inconsistent input or numbers that are not finite. Lack of contact or of convergence, forces
-  /// that cannot be balanced, a wheel inside the rail or beside it are statuses.
+  /// Errors: Error(configuration) for inconsistent input or numbers that are not finite. Lack of contact or of
+  /// convergence, forces that cannot be balanced, a wheel inside the rail or beside it are statuses.
   PairSolution solve(const Problem& problem);
 
   /// Forgets the history: the bodies come together from rest.
@@ -101,8 +102,8 @@ class Pair {
   Instant choose_previous(const Problem& problem) const;
 
   Geometry geometry_;
-  std::shared_ptr<const detection::SampledProfile> wheel_profile_;   ///< null unless the wheel is round
-  std::vector<kalker::ContactSolver> solvers_;   ///< by number of the patch; keep coefficients
+  std::shared_ptr<const detection::SampledProfile> wheel_profile_;  ///< null unless the wheel is round
+  std::vector<kalker::ContactSolver> solvers_;                      ///< by number of the patch; keep coefficients
   std::shared_ptr<const State> state_;
 };
 

@@ -10,7 +10,7 @@ namespace treadmark::wheelrail {
 
 class Pair::State {
  public:
-  Instant previous, last;   ///< the instant before the last solution, and what it left
+  Instant previous, last;  ///< the instant before the last solution, and what it left
   Side side = Side::right;
 };
 

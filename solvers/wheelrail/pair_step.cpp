@@ -20,9 +20,16 @@ constexpr double kDeepestOfRadius = 0.02;
 
 }  // namespace
 
-PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
-                   PhaseTimes& times, std::shared_ptr<const detection::SampledProfile> wheel_profile)
-    : geometry_(geometry), wheel_profile_(std::move(wheel_profile)), problem_(problem), previous_(previous), solvers_(solvers), times_(times), tangential_share_(previous.shares) {}
+PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous,
+                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times,
+                   std::shared_ptr<const detection::SampledProfile> wheel_profile)
+    : geometry_(geometry),
+      wheel_profile_(std::move(wheel_profile)),
+      problem_(problem),
+      previous_(previous),
+      solvers_(solvers),
+      times_(times),
+      tangential_share_(previous.shares) {}
 
 bool PairStep::aligned() const {
   return problem_.regime == kalker::Regime::shift || problem_.regime == kalker::Regime::transient;
@@ -34,7 +41,8 @@ bool PairStep::place(double rail_dy) {
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
-  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS, start_.X_TA, std::nullopt, wheel_profile_};
+  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS,
+                                   start_.X_TA,          std::nullopt,          wheel_profile_};
   const Stopwatch watch(times_.search_s);
   search_.emplace(bodies, search_settings(geometry_, moved, start_));
   const double gap = search_->least_gap();
@@ -58,7 +66,8 @@ void PairStep::move(Patch& patch) const {
     s.extra_slip_y = std::move(slip.y);
     return;
   }
-  SurfaceSlip slip = surface_slip(problem_, placement_, s.frame.X_TC, s.grid, *patch.reference, patch.surfaces, s.kinematics);
+  SurfaceSlip slip =
+      surface_slip(problem_, placement_, s.frame.X_TC, s.grid, *patch.reference, patch.surfaces, s.kinematics);
   s.kinematics = slip.kinematics;
   s.extra_slip_x = std::move(slip.extra_x);
   s.extra_slip_y = std::move(slip.extra_y);
@@ -106,7 +115,8 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   c.rolling.velocity = s.kinematics.velocity;
   c.rolling.step = p.regime == kalker::Regime::shift ? 1.0 : p.discretisation.dq_relative * s.grid.dx;
   c.settings = p.solver;
-  c.history = patch.history ? (p.history == kalker::HistoryUse::normal_only ? kalker::HistoryUse::normal_only : kalker::HistoryUse::keep_going)
+  c.history = patch.history ? (p.history == kalker::HistoryUse::normal_only ? kalker::HistoryUse::normal_only
+                                                                            : kalker::HistoryUse::keep_going)
                             : kalker::HistoryUse::start;
   // A wheel that stands still does not creep.
   if (!(s.kinematics.velocity > 0.0)) c.regime = kalker::Regime::frictionless;
@@ -170,12 +180,14 @@ void PairStep::evaluate(double z) {
   }
 }
 
-/// Of the patches that were there when tractions were found last: patches come, go, join and part while the wheel moves.
+/// Of the patches that were there when tractions were found last: patches come, go, join and part while the wheel
+/// moves.
 Vec3 PairStep::share_near(const Rectangle& box) const {
   Vec3 sum = Vec3::Zero();
   double weight = 0.0;
   for (const TangentialShare& t : tangential_share_) {
-    if (t.box.x_min > box.x_max || t.box.x_max < box.x_min || t.box.y_min > box.y_max || t.box.y_max < box.y_min) continue;
+    if (t.box.x_min > box.x_max || t.box.x_max < box.x_min || t.box.y_min > box.y_max || t.box.y_max < box.y_min)
+      continue;
     sum += t.normal_force * t.share;
     weight += t.normal_force;
   }
@@ -199,7 +211,8 @@ void PairStep::solve_tangential(double pitch_rate) {
     resolve_forces(patch);
     patch.predicted_force_C = s.force_C;
     if (patch.normal.force_n > 0.0)
-      tangential_share_.push_back({s.region.extent.box, patch.normal.force_n, (s.force_C - patch.normal_force_C) / patch.normal.force_n});
+      tangential_share_.push_back(
+          {s.region.extent.box, patch.normal.force_n, (s.force_C - patch.normal_force_C) / patch.normal.force_n});
   }
 }
 

@@ -14,13 +14,14 @@
 
 namespace treadmark::wheelrail {
 
-/// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail, patches
-/// with their normal problems per height of the wheel over the rail, tangential problems per pitch rate.
-/// A right-hand problem. wheel_profile: detection::whole_profile() of the wheel or null. The others must outlive this.
+/// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail,
+/// patches with their normal problems per height of the wheel over the rail, tangential problems per pitch rate. A
+/// right-hand problem. wheel_profile: detection::whole_profile() of the wheel or null. The others must outlive this.
 class PairStep {
  public:
-  PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous, std::vector<kalker::ContactSolver>& solvers,
-           PhaseTimes& times, std::shared_ptr<const detection::SampledProfile> wheel_profile);
+  PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous,
+           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times,
+           std::shared_ptr<const detection::SampledProfile> wheel_profile);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other.
   bool place(double rail_dy);
@@ -34,7 +35,8 @@ class PairStep {
   /// How deep the wheel lies in the rail where that is beyond all contact mechanics [m], else 0.
   double too_deep() const { return too_deep_; }
 
-  /// On the rail [N]: after evaluate() with the share of tangential forces as it was found last, after solve_tangential() as it is.
+  /// On the rail [N]: after evaluate() with the share of tangential forces as it was found last, after
+  /// solve_tangential() as it is.
   Vec3 force_T() const;
   double longitudinal_force() const { return (placement_.X_TWs.rotation.transpose() * force_T()).x(); }
   double normal_force() const;
@@ -50,16 +52,16 @@ class PairStep {
  private:
   struct Patch {
     PatchSolution solution;
-    std::vector<double> gap;                     ///< undeformed distance, NaN where another patch may touch
+    std::vector<double> gap;  ///< undeformed distance, NaN where another patch may touch
     std::vector<const PatchMemory*> before;
     std::optional<kalker::ContactHistory> history;
-    Rectangle box;                               ///< in the axes of the grid [m]
+    Rectangle box;  ///< in the axes of the grid [m]
     kalker::SubPatches parts;
     /// Where the rigid slip is that of the surfaces: what elements lie on, and the surfaces over them.
     std::optional<detection::ReferenceRows> reference;
     detection::FacingSurfaces surfaces;
     kalker::ContactSolution normal;
-    Vec3 normal_force_C = Vec3::Zero();          ///< resultant of the pressures
+    Vec3 normal_force_C = Vec3::Zero();  ///< resultant of the pressures
     Vec3 predicted_force_C = Vec3::Zero();
   };
   bool aligned() const;
@@ -80,13 +82,13 @@ class PairStep {
   std::vector<kalker::ContactSolver>& solvers_;
   PhaseTimes& times_;
 
-  Placement start_, placement_;                  ///< at z = start_z_, and as it is
+  Placement start_, placement_;  ///< at z = start_z_, and as it is
   double start_z_ = 0.0, touching_z_ = 0.0, least_gap_ = 0.0, too_deep_ = 0.0;
   double closest_ = std::numeric_limits<double>::quiet_NaN();
   std::optional<detection::ContactSearch> search_;
   std::vector<Patch> patches_;
   std::vector<TangentialShare> tangential_share_;
-  std::vector<char> warm_;                       ///< solvers that have started from the previous instant
+  std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
 
 }  // namespace treadmark::wheelrail

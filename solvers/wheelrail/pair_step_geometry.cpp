@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Where the patches of a step lie: contact frame, elements, undeformed distance, and the patches of the previous instant they continue.
+// Where the patches of a step lie: contact frame, elements, undeformed distance, and the patches of the previous
+// instant they continue.
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -14,8 +15,8 @@
 namespace treadmark::wheelrail {
 namespace {
 
-/// Signed arc length along the rail's section through a point seen from above: as the rail's own data have it, else from y = 0 of the
-/// profile.
+/// Signed arc length along the rail's section through a point seen from above: as the rail's own data have it, else
+/// from y = 0 of the profile.
 double profile_arc_length(const Surface& rail, const Pose& X_TR, const Vec3& point_T) {
   if (dynamic_cast<const ArcLengthParameter*>(&rail) != nullptr) {
     const Vec2 above(point_T.x(), point_T.y());
@@ -56,7 +57,8 @@ void PairStep::link(const Rectangle& box, Patch& patch) const {
   for (const PatchMemory* m : patch.before) patch.solution.came_from.push_back(m->id);
   if (!aligned() || patch.before.empty()) return;
   std::vector<kalker::ContactHistory> parts;
-  for (const PatchMemory* m : patch.before) parts.push_back(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds));
+  for (const PatchMemory* m : patch.before)
+    parts.push_back(on_raster(m->history, shift, problem_.discretisation.dx, problem_.discretisation.ds));
   patch.history = united(parts, problem_.friction.static_friction(), problem_.material.layer_yield);
 }
 
@@ -69,7 +71,8 @@ void PairStep::describe(const detection::ContactPatch& region, const detection::
   s.reference_s = profile_arc_length(*geometry_.rail, placement_.X_TS, X_TC.origin);
   detection::PotentialContactSettings settings{d.dx, d.ds, aligned() ? 0 : d.max_elements, Vec2::Zero()};
   if (aligned())
-    settings.reference = {X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};
+    settings.reference = {
+        X_TC.origin.x() + (problem_.regime == kalker::Regime::shift ? problem_.state.position.x : 0.0), s.reference_s};
   s.reference_C = settings.reference;
   s.grid = detection::potential_contact_grid(bodies, region, s.frame, settings);
   const Rectangle own = extent_of(s.grid);
@@ -97,7 +100,8 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
     undeformed = detection::undeformed_distance(bodies, X_TP, s.grid);
   } else {
     const bool curved = problem_.reference_surface == ReferenceSurface::curved;
-    patch.reference = curved ? detection::curved_reference(bodies, s.frame, s.grid, s.reference_C) : detection::plane_reference(s.grid, s.reference_C);
+    patch.reference = curved ? detection::curved_reference(bodies, s.frame, s.grid, s.reference_C)
+                             : detection::plane_reference(s.grid, s.reference_C);
     patch.surfaces = detection::facing_surfaces(bodies, X_TC, s.grid, *patch.reference);
     if (curved && bodies.distance_mesh) {
       undeformed = detection::projected_distance(bodies, X_TC, s.grid, *patch.reference);
@@ -112,7 +116,8 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
   s.approach = undeformed.approach;
   patch.gap = s.distance;
   if (!patch.history) return;
-  // What the grid was extended by holds tractions of the previous instant, but contact of this one belongs to another patch.
+  // What the grid was extended by holds tractions of the previous instant, but contact of this one belongs to another
+  // patch.
   double least = std::numeric_limits<double>::infinity();
   const double margin = 0.25;
   for (int iy = 0; iy < s.grid.ny; ++iy)

@@ -27,7 +27,8 @@ double coupling_of(const kalker::SubPatches& parts, std::size_t k) {
 
 }  // namespace
 
-PartSlip part_slip(const Problem& p, const Placement& placed, const Surface& rail, const PatchSolution& patch, const kalker::SubPatches& parts) {
+PartSlip part_slip(const Problem& p, const Placement& placed, const Surface& rail, const PatchSolution& patch,
+                   const kalker::SubPatches& parts) {
   PartSlip slip;
   if (parts.count < 2) return slip;
   const Grid2& g = patch.grid;
@@ -36,7 +37,8 @@ PartSlip part_slip(const Problem& p, const Placement& placed, const Surface& rai
   const ContactKinematics& whole = patch.kinematics;
   for (std::size_t k = 0; k < static_cast<std::size_t>(parts.count); ++k) {
     const detection::PatchExtent& extent = patch.region.parts[k];
-    const double z = height_at(rail, placed.X_TS.inverse(), {extent.x, extent.y}), own_share = 1.0 - coupling_of(parts, k);
+    const double z = height_at(rail, placed.X_TS.inverse(), {extent.x, extent.y}),
+                 own_share = 1.0 - coupling_of(parts, k);
     if (std::isnan(z) || !(own_share > 0.0)) continue;
     const Pose X_TP{{extent.x, extent.y, z}, patch.frame.X_TC.rotation};
     const ContactKinematics own = contact_kinematics(p, placed, X_TP, approach_of(patch, parts, k));

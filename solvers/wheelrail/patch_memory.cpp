@@ -21,12 +21,13 @@ Lines lines_of(const Grid2& g) {
 }
 
 Lines united(const Lines& a, const Lines& b) {
-  return {std::min(a.ix_min, b.ix_min), std::max(a.ix_max, b.ix_max), std::min(a.iy_min, b.iy_min), std::max(a.iy_max, b.iy_max)};
+  return {std::min(a.ix_min, b.ix_min), std::max(a.ix_max, b.ix_max), std::min(a.iy_min, b.iy_min),
+          std::max(a.iy_max, b.iy_max)};
 }
 
 Grid2 grid_of(const Lines& l, double dx, double ds) {
-  return {static_cast<double>(l.ix_min) * dx, static_cast<double>(l.iy_min) * ds, dx, ds, static_cast<int>(l.ix_max - l.ix_min + 1),
-          static_cast<int>(l.iy_max - l.iy_min + 1)};
+  return {static_cast<double>(l.ix_min) * dx,        static_cast<double>(l.iy_min) * ds,       dx, ds,
+          static_cast<int>(l.ix_max - l.ix_min + 1), static_cast<int>(l.iy_max - l.iy_min + 1)};
 }
 
 void add(std::vector<double>& sum, const std::vector<double>& field) {
@@ -40,7 +41,8 @@ void add(std::vector<double>& sum, const std::vector<double>& field) {
 std::vector<const PatchMemory*> overlapping(const Instant& instant, const Rectangle& box) {
   std::vector<const PatchMemory*> found;
   for (const PatchMemory& m : instant.patches)
-    if (m.box.x_min <= box.x_max && box.x_min <= m.box.x_max && m.box.y_min <= box.y_max && box.y_min <= m.box.y_max) found.push_back(&m);
+    if (m.box.x_min <= box.x_max && box.x_min <= m.box.x_max && m.box.y_min <= box.y_max && box.y_min <= m.box.y_max)
+      found.push_back(&m);
   return found;
 }
 
@@ -58,7 +60,8 @@ kalker::ContactHistory on_raster(const kalker::ContactHistory& history, double s
   return moved;
 }
 
-kalker::ContactHistory united(const std::vector<kalker::ContactHistory>& histories, double static_friction, double first_yield_stress) {
+kalker::ContactHistory united(const std::vector<kalker::ContactHistory>& histories, double static_friction,
+                              double first_yield_stress) {
   if (histories.size() == 1) return histories.front();
   Lines lines = lines_of(histories.front().grid);
   for (const auto& h : histories) lines = united(lines, lines_of(h.grid));

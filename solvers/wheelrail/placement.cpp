@@ -48,10 +48,11 @@ constexpr double kFinest = 1e-13;
 
 // Boundary of a condition on the height between a point where it holds and one where it does not.
 template <class Condition>
-double boundary(const Surface& surface, const Pose& X_ST, double x_T, double holds, double fails, Condition&& condition) {
+double boundary(const Surface& surface, const Pose& X_ST, double x_T, double holds, double fails,
+                Condition&& condition) {
   while (std::abs(holds - fails) > kFinest) {
-    const Section section =
-        lateral_section(surface, X_ST, x_T, {std::min(holds, fails), std::max(holds, fails)}, std::abs(holds - fails) / kSections);
+    const Section section = lateral_section(surface, X_ST, x_T, {std::min(holds, fails), std::max(holds, fails)},
+                                            std::abs(holds - fails) / kSections);
     const int n = static_cast<int>(section.y.size());
     const bool upwards = fails > holds;
     const double before = std::abs(holds - fails);
@@ -78,7 +79,8 @@ LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T)
   const Section section = lateral_section(surface, X_ST, x_T, box, kScanStep);
   const auto is_hit = [](double z) { return !std::isnan(z); };
   const auto first = std::find_if(section.z.begin(), section.z.end(), is_hit);
-  if (first == section.z.end()) throw Error(ErrorKind::configuration, "the rail has no surface seen from above at this position");
+  if (first == section.z.end())
+    throw Error(ErrorKind::configuration, "the rail has no surface seen from above at this position");
   const auto last = std::find_if(section.z.rbegin(), section.z.rend(), is_hit);
   const auto i = static_cast<std::size_t>(first - section.z.begin());
   const auto j = section.z.size() - 1 - static_cast<std::size_t>(last - section.z.rbegin());
@@ -148,12 +150,11 @@ Placement place(const Geometry& geometry, const Problem& p) {
   if (p.wheelset.tape_line) {
     // In the wheel surface's own frame: lowest point of the section at the tape line.
     tape_height = height_at(*geometry.wheel, Pose{}, {0.0, *p.wheelset.tape_line}) - radius;
-    if (std::isnan(tape_height))
-      throw Error(ErrorKind::configuration, "the tape line lies outside the wheel profile");
+    if (std::isnan(tape_height)) throw Error(ErrorKind::configuration, "the tape line lies outside the wheel profile");
   }
-  const Pose X_WsW{{d.x, 0.5 * p.wheelset.flange_back_distance - p.wheelset.flange_back_position + d.y,
-                    radius - tape_height + d.z},
-                   rotation_x(d.roll) * rotation_z(d.yaw)};
+  const Pose X_WsW{
+      {d.x, 0.5 * p.wheelset.flange_back_distance - p.wheelset.flange_back_position + d.y, radius - tape_height + d.z},
+      rotation_x(d.roll) * rotation_z(d.yaw)};
   placed.X_TW = placed.X_TWs * X_WsW;
   placed.X_TA = placed.X_TW * Pose{{0.0, 0.0, -radius}, rotation_y(q.pitch + d.pitch)};
   return placed;

@@ -6,9 +6,9 @@
 
 namespace treadmark::wheelrail {
 
-/// Frames of a right-hand pair (left-hand problems are mirrored first): track T, rail R, rail surface S (R moved back by the
-/// wheelset's position along the track, so that a variable rail passes below it), wheelset Ws, wheel profile W, wheel
-/// surface A (origin on the axle, pitched).
+/// Frames of a right-hand pair (left-hand problems are mirrored first): track T, rail R, rail surface S (R moved back
+/// by the wheelset's position along the track, so that a variable rail passes below it), wheelset Ws, wheel profile W,
+/// wheel surface A (origin on the axle, pitched).
 struct Placement {
   Pose X_TR, X_TS, X_TWs, X_TW, X_TA;
 };
@@ -17,7 +17,8 @@ struct Placement {
 /// Errors: Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
 Placement place(const Geometry& geometry, const Problem& right_hand_problem);
 
-/// Lateral position of the gauge point and height of the rail top in the rail frame turned to the track's orientation [m].
+/// Lateral position of the gauge point and height of the rail top in the rail frame turned to the track's orientation
+/// [m].
 struct GaugePoint {
   double y = 0.0, z_top = 0.0;
 };

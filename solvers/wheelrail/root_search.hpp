@@ -6,8 +6,8 @@
 
 namespace treadmark::wheelrail {
 
-/// Finds where a residual that mostly grows with x vanishes, step by step: steps of growing length until there is one value of either
-/// sign, then secants inside the bracket, bisection where they do not halve it.
+/// Finds where a residual that mostly grows with x vanishes, step by step: steps of growing length until there is one
+/// value of either sign, then secants inside the bracket, bisection where they do not halve it.
 class RootSearch {
  public:
   enum class State {

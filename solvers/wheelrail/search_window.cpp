@@ -66,7 +66,8 @@ Grid2 coarse_grid(const Problem& p, const Placement& placed, const LateralRange&
   return grid;
 }
 
-/// Rows of the reference program's locus; none for elements so small that Treadmark's own locus, whose rows follow the contact, has to do.
+/// Rows of the reference program's locus; none for elements so small that Treadmark's own locus, whose rows follow the
+/// contact, has to do.
 std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRange& rail) {
   constexpr double kMostRows = 1e5;
   const double step = 0.3 * p.discretisation.ds, rows = std::ceil((rail.y_max - rail.y_min) / step) + 1.0;
@@ -79,14 +80,16 @@ std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRa
 detection::SearchSettings search_settings(const Geometry& geometry, const Problem& p, const Placement& placed) {
   const Discretisation& d = p.discretisation;
   if (!(d.dx > 0.0) || !(d.ds > 0.0)) throw Error(ErrorKind::configuration, "element sizes dx, ds must be positive");
-  if (!(p.wheelset.nominal_radius > 0.0)) throw Error(ErrorKind::configuration, "the nominal wheel radius must be positive");
+  if (!(p.wheelset.nominal_radius > 0.0))
+    throw Error(ErrorKind::configuration, "the nominal wheel radius must be positive");
   const LateralRange rail = visible_range(*geometry.rail, placed.X_TS.inverse(), placed.X_TA.origin.x());
 
   detection::SearchSettings s;
   s.method = d.search_method;
   const bool locus = d.search == Discretisation::SearchGrid::reference_locus;
   s.refine = locus || d.search == Discretisation::SearchGrid::refined;
-  s.grid_T = s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.mesh.emplace().wheel);
+  s.grid_T =
+      s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.mesh.emplace().wheel);
   if (locus) s.locus_rows = locus_rows(p, rail);
   s.refined_dx = 0.3 * d.dx;
   s.refined_dy = 0.3 * d.ds;

@@ -124,7 +124,8 @@ std::shared_ptr<const Pair::State> read_state(ByteReader& in) {
   state->previous = read_instant(content);
   state->last = read_instant(content);
   content.get(state->side);
-  if (!content.at_end() || (state->side != Side::left && state->side != Side::right)) refuse_saved_state("its parts do not fit");
+  if (!content.at_end() || (state->side != Side::left && state->side != Side::right))
+    refuse_saved_state("its parts do not fit");
   return state;
 }
 

@@ -9,8 +9,8 @@
 
 namespace treadmark::wheelrail {
 
-/// What Pair::save() gave as bytes of this machine's order; Pair::restore() of what is read from them, in any process, into a pair of
-/// the same geometry goes on to the same bits. A format number comes first.
+/// What Pair::save() gave as bytes of this machine's order; Pair::restore() of what is read from them, in any process,
+/// into a pair of the same geometry goes on to the same bits. A format number comes first.
 void write(const std::shared_ptr<const Pair::State>& state, ByteWriter& out);
 
 /// Never null. Errors: Error(input_data) for another format and for bytes that are no state.

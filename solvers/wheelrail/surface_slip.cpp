@@ -70,7 +70,8 @@ std::optional<RowHeights> closest_in_row(const Grid2& grid, int iy, const detect
   return closest;
 }
 
-void require_same_grid(const Grid2& grid, const detection::ReferenceRows& reference, const detection::FacingSurfaces& surfaces) {
+void require_same_grid(const Grid2& grid, const detection::ReferenceRows& reference,
+                       const detection::FacingSurfaces& surfaces) {
   if (reference.rows.size() != static_cast<std::size_t>(grid.ny) || surfaces.rail.size() != grid.size() ||
       surfaces.wheel.size() != grid.size())
     throw Error(ErrorKind::configuration, "rows, surfaces and grid of the rigid slip do not belong together");
@@ -89,7 +90,9 @@ SurfaceSlip surface_slip(const Problem& p, const Placement& placed, const Pose& 
 
   const MaterialVelocity material = material_velocity(p, placed);
   const Vec2 offset = spin_offset(p, grid, k.chi);
-  const auto place = [&](int ix, int iy) -> Vec2 { return Vec2(grid.x(ix), grid.y(iy)) - reference.reference_C + offset; };
+  const auto place = [&](int ix, int iy) -> Vec2 {
+    return Vec2(grid.x(ix), grid.y(iy)) - reference.reference_C + offset;
+  };
   const auto missing = [&](std::size_t i) { return std::isnan(surfaces.rail[i] - surfaces.wheel[i]); };
   CreepageFit fit;
   for (int iy = 0; iy < grid.ny; ++iy) {

@@ -29,7 +29,8 @@ void check_motion(const SixMotion& m, const char* name) {
 }
 
 void check_track(const Track& t) {
-  for (const double value : {t.gauge_height, t.gauge_width, t.rail_y0, t.rail_z0, t.cant, t.curvature, t.dy, t.dz, t.roll, t.vy, t.vz, t.vroll})
+  for (const double value : {t.gauge_height, t.gauge_width, t.rail_y0, t.rail_z0, t.cant, t.curvature, t.dy, t.dz,
+                             t.roll, t.vy, t.vz, t.vroll})
     require_finite(value, "a number of the track");
 }
 
@@ -40,10 +41,11 @@ void check_bodies(const Material& m, const FrictionLaw& f) {
     require_finite(poisson, "Poisson's ratio");
     if (poisson < 0.0 || poisson > 0.5) refuse("Poisson's ratio must lie in 0 ... 0.5");
   }
-  for (const double value : {m.layer_flexibility, m.layer_yield, m.layer_hardening, m.sheet_flexibility, m.creep_ratio_1, m.creep_ratio_2,
-                             m.relaxation_time_1, m.relaxation_time_2})
+  for (const double value : {m.layer_flexibility, m.layer_yield, m.layer_hardening, m.sheet_flexibility,
+                             m.creep_ratio_1, m.creep_ratio_2, m.relaxation_time_1, m.relaxation_time_2})
     require_finite(value, "a number of the material");
-  for (const double value : {f.kinetic, f.amplitude_1, f.amplitude_2, f.half_velocity_1, f.half_velocity_2, f.memory_distance, f.memory_velocity})
+  for (const double value : {f.kinetic, f.amplitude_1, f.amplitude_2, f.half_velocity_1, f.half_velocity_2,
+                             f.memory_distance, f.memory_velocity})
     require_finite(value, "a number of the friction law");
 }
 
@@ -51,9 +53,11 @@ void check_forces(const Problem& p) {
   if (p.vertical_force) require_positive(*p.vertical_force, "the prescribed vertical force");
   if (p.longitudinal_force) {
     require_finite(*p.longitudinal_force, "the prescribed longitudinal force");
-    if (p.regime == kalker::Regime::frictionless) refuse("a longitudinal force is prescribed without a tangential problem");
+    if (p.regime == kalker::Regime::frictionless)
+      refuse("a longitudinal force is prescribed without a tangential problem");
     const double running = p.roller ? p.roller->pitch_rate : p.state.velocity.x;
-    if (running == 0.0 && p.regime != kalker::Regime::shift) refuse("a longitudinal force is prescribed for a wheel that stands still", "give a speed");
+    if (running == 0.0 && p.regime != kalker::Regime::shift)
+      refuse("a longitudinal force is prescribed for a wheel that stands still", "give a speed");
   }
   if (p.rail_springs) {
     const RailSprings& k = *p.rail_springs;
@@ -65,7 +69,8 @@ void check_forces(const Problem& p) {
     require_finite(k.force_z, "the vertical force on the rail");
   }
   if (p.damping)
-    for (const double value : {p.damping->normal, p.damping->tangential, p.damping->max_rate_normal, p.damping->max_rate_tangential}) {
+    for (const double value :
+         {p.damping->normal, p.damping->tangential, p.damping->max_rate_normal, p.damping->max_rate_tangential}) {
       require_finite(value, "a number of the damping");
       if (value < 0.0) refuse("damping must not be negative");
     }

@@ -6,7 +6,8 @@
 
 namespace treadmark::wheelrail {
 
-/// Errors: Error(configuration) for numbers that are not finite or have no meaning, and for settings that exclude each other.
+/// Errors: Error(configuration) for numbers that are not finite or have no meaning, and for settings that exclude each
+/// other.
 void validate(const Problem& problem);
 
 }  // namespace treadmark::wheelrail

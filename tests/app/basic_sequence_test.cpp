@@ -31,10 +31,15 @@ TEST(BasicSequence, TheOnsetOfRollingEndsInSteadyRolling) {
   SampleInput input;
   const fs::path onset = input.folder() / "onset.json", steady = input.folder() / "steady.json";
   ASSERT_EQ(run_program({"run", kExample, "--json", onset.string()}).status, 0);
-  ASSERT_EQ(run_program({"run", kExample, "--set", "case.regime=steady", "--set", "case.history=start", "--json", steady.string()}).status, 0);
+  ASSERT_EQ(run_program({"run", kExample, "--set", "case.regime=steady", "--set", "case.history=start", "--json",
+                         steady.string()})
+                .status,
+            0);
   const Json a = read(onset), b = read(steady);
   ASSERT_EQ(a["cases"].size(), 57u);
-  const auto xi = [](const Json& run, std::size_t k) { return run["cases"][k]["patches"][0]["kinematics"]["xi"].get<double>(); };
+  const auto xi = [](const Json& run, std::size_t k) {
+    return run["cases"][k]["patches"][0]["kinematics"]["xi"].get<double>();
+  };
   EXPECT_NEAR(xi(a, 56), xi(b, 56), 1e-4 * std::fabs(xi(b, 56)));
   EXPECT_LT(std::fabs(xi(a, 1)), 0.7 * std::fabs(xi(a, 56))) << "the first step creeps less";
   const Json& s = a["cases"][56]["patches"][0]["sensitivities"];
@@ -97,7 +102,8 @@ TEST(BasicSequence, WritesTablesAndLeavesOutWhatIsNotWanted) {
   std::ifstream mat(folder / "tables.0002.mat"), subs(folder / "tables.0002.subs");
   const auto lines = [](std::ifstream& in) {
     int count = 0;
-    for (std::string line; std::getline(in, line);) count += line.empty() || line.find('%') != std::string::npos ? 0 : 1;
+    for (std::string line; std::getline(in, line);)
+      count += line.empty() || line.find('%') != std::string::npos ? 0 : 1;
     return count;
   };
   EXPECT_EQ(lines(mat), 6 + 120) << "six lines of head and all elements";

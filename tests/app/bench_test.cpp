@@ -30,8 +30,8 @@ using ::testing::HasSubstr;
 using treadmark::testing::run_program;
 
 constexpr BenchGrid kSmall{0.5e-3, 3000};
-const char* kTimes[] = {"build_s",       "ns_per_height", "ns_per_height_tilted", "ns_per_normal",
-                        "search_cold_s", "search_warm_s", "distance_s"};
+const char* kTimes[] = {"build_s",       "ns_per_height", "ns_per_height_tilted", "ns_per_normal", "search_cold_s",
+                        "search_warm_s", "distance_s"};
 
 BenchSettings small_settings(std::vector<std::string> backends) {
   BenchSettings settings;
@@ -91,7 +91,8 @@ TEST(Bench, AgreesAndHasTimesInEveryBackend) {
   EXPECT_TRUE(report.complete);
   EXPECT_TRUE(report.agrees());
   EXPECT_EQ(report.truth, "analytic");
-  ASSERT_EQ(report.rows.size(), 2 * backend_names().size());  // rail and wheel, formulas once, the others at one resolution
+  ASSERT_EQ(report.rows.size(),
+            2 * backend_names().size());  // rail and wheel, formulas once, the others at one resolution
   for (const BenchRow& row : report.rows) {
     SCOPED_TRACE(row.backend + " " + row.reason);
     EXPECT_GT(row.height, 0.0);
@@ -110,7 +111,8 @@ TEST(Bench, AgreesAndHasTimesInEveryBackend) {
 TEST(Bench, WhatDisagreesSaysWhyAndHasNoTimes) {
   const BenchScene scene = make_bench_scene(bench_case(), kSmall);
   const auto always = [](const std::string&) { return true; };
-  for (const auto& [fault, words] : {std::pair{Wrong::Fault::raised, "from the surface as given"}, {Wrong::Fault::slopes, "slopes differ"},
+  for (const auto& [fault, words] : {std::pair{Wrong::Fault::raised, "from the surface as given"},
+                                     {Wrong::Fault::slopes, "slopes differ"},
                                      {Wrong::Fault::hole, "no height where there is a surface"},
                                      {Wrong::Fault::grids, "from its own single heights"}}) {
     BenchPair pair{"wrong", 2e-3, scene.rail->surface, std::make_shared<Wrong>(scene.wheel->surface, fault), 1.0, 1.0};
@@ -137,7 +139,9 @@ TEST(Bench, WhatDisagreesSaysWhyAndHasNoTimes) {
 TEST(Bench, DistancesThatDisagreeTakeTheTimesOfBothBodies) {
   const BenchScene scene = make_bench_scene(bench_case(), kSmall);
   // less than what a coarse mesh may change with the direction of sight, but the same direction asked for in two ways
-  const BenchPair pair{"wrong", 2e-3, scene.rail->surface, std::make_shared<Wrong>(scene.wheel->surface, Wrong::Fault::grids_a_little), 1.0, 1.0};
+  const BenchPair pair{
+      "wrong", 2e-3, scene.rail->surface, std::make_shared<Wrong>(scene.wheel->surface, Wrong::Fault::grids_a_little),
+      1.0,     1.0};
   const auto rows = measure_pair(scene, pair, 1e-3, [](const std::string&) { return true; });
   ASSERT_TRUE(rows.has_value());
   for (const BenchRow& row : *rows) {
@@ -195,7 +199,8 @@ TEST(Bench, ThePageOfFiguresHasTheColumnsOfTheTable) {
   std::string table = bench_markdown({});
   table.erase(0, table.find("\n\n") + 2);  // the machine
   EXPECT_THAT(page, HasSubstr(table));
-  for (const std::string_view backend : backend_names()) EXPECT_THAT(page, HasSubstr("| " + std::string(backend) + " | "));
+  for (const std::string_view backend : backend_names())
+    EXPECT_THAT(page, HasSubstr("| " + std::string(backend) + " | "));
 }
 
 TEST(Bench, MedianOfRepeats) {
@@ -207,8 +212,9 @@ TEST(Bench, MedianOfRepeats) {
 TEST(BenchCommand, WritesTableAndFiles) {
   const treadmark::testing::SampleInput input;
   const auto folder = input.folder() / "out";
-  const auto result = run_program({"bench", "--backends", "analytic,spline", "--resolutions", "2", "--seconds-per-measure", "0.001", "-o",
-                                   folder.string(), "--json", (input.folder() / "b.json").string(), "--set", "wheelset.pitch_deg=2"});
+  const auto result = run_program({"bench", "--backends", "analytic,spline", "--resolutions", "2",
+                                   "--seconds-per-measure", "0.001", "-o", folder.string(), "--json",
+                                   (input.folder() / "b.json").string(), "--set", "wheelset.pitch_deg=2"});
   EXPECT_EQ(result.status, 0) << result.err;
   EXPECT_THAT(result.out, HasSubstr("patches"));
   EXPECT_THAT(result.out, HasSubstr("spline"));
@@ -223,8 +229,8 @@ TEST(BenchCommand, WritesTableAndFiles) {
 
 TEST(BenchCommand, TakesCasesAndPrintsMarkdown) {
   const treadmark::testing::SampleInput input;
-  const auto result = run_program({"bench", input.inp().string(), "--backends", "spline", "--resolutions", "1", "--seconds-per-measure",
-                                   "0.001", "--markdown", "--threads", "2"});
+  const auto result = run_program({"bench", input.inp().string(), "--backends", "spline", "--resolutions", "1",
+                                   "--seconds-per-measure", "0.001", "--markdown", "--threads", "2"});
   EXPECT_EQ(result.status, 0) << result.err << result.out;
   EXPECT_THAT(result.out, HasSubstr("| spline | - | rail | 0 |"));  // as given
   EXPECT_THAT(result.out, HasSubstr("| spline | 1 | wheel |"));

@@ -8,12 +8,12 @@
 #include <cmath>
 #include <filesystem>
 
-#include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/app/compare_cases.hpp"
 #include "treadmark/app/run_cases.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 
@@ -116,8 +116,8 @@ TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
 TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
   const treadmark::testing::SampleInput input;
   io::CaseFile file = io::read_any_case(input.inp(), {});
-  // the same search for all: the locus, which round wheels get else, finds the lowest point 1e-8 m from the grid's, and the reference
-  // program's mesh follows the data, which offsets do not have
+  // the same search for all: the locus, which round wheels get else, finds the lowest point 1e-8 m from the grid's, and
+  // the reference program's mesh follows the data, which offsets do not have
   for (io::Case& c : file.cases) {
     auto& d = std::get<io::WheelRailCase>(c.content).discretisation;
     d.method = 5;
@@ -197,12 +197,13 @@ TEST(CompareCommand, WritesTableFilesAndPictures) {
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", kFlat);
   const auto folder = input.folder() / "out";
-  const auto r = treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "spline,mesh-flat",
-                                                  "--resolutions", "2,1", "-o", folder.string()});
+  const auto r = treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends",
+                                                  "spline,mesh-flat", "--resolutions", "2,1", "-o", folder.string()});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("analytic (truth)"));
   EXPECT_THAT(r.out, HasSubstr("mesh-flat"));
-  for (const char* file : {"compare.json", "compare.csv", "table.txt", "fields.h5", "pressures.svg", "errors.svg", "costs.svg"})
+  for (const char* file :
+       {"compare.json", "compare.csv", "table.txt", "fields.h5", "pressures.svg", "errors.svg", "costs.svg"})
     EXPECT_GT(std::filesystem::file_size(folder / file), 100u) << file;
   const io::Comparison fields = io::read_comparison_fields(folder / "fields.h5");
   ASSERT_EQ(fields.candidates.size(), 5u);  // the truth, and two at two resolutions
@@ -211,11 +212,17 @@ TEST(CompareCommand, WritesTableFilesAndPictures) {
     EXPECT_FALSE(c.results.front().patches.empty());
     EXPECT_EQ(c.surfaces.size(), &c == &fields.candidates.front() ? 2u : 0u);
   }
-  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "clay"}).status, 2);
-  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--resolutions", "-1"}).status, 2);
+  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "clay"})
+                .status,
+            2);
+  EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--resolutions", "-1"})
+                .status,
+            2);
   EXPECT_EQ(treadmark::testing::run_program({"compare", "missing.toml"}).status, 2);
   EXPECT_EQ(treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends", "spline",
-                                             "--wheel-backends", "mesh"}).status, 2);
+                                             "--wheel-backends", "mesh"})
+                .status,
+            2);
 }
 
 }  // namespace

@@ -45,11 +45,12 @@ double largest_pressure(const std::filesystem::path& file) {
 
 class Convert : public ::testing::TestWithParam<std::tuple<std::string, double>> {};
 
-INSTANTIATE_TEST_SUITE_P(Kinds, Convert,
-                         ::testing::Values(std::tuple{std::string("wheel.ply"), 2e-3}, std::tuple{std::string("wheel.stl"), 2e-3}, std::tuple{std::string("wheel.obj"), 2e-3},
-                                           std::tuple{std::string("wheel.off"), 2e-3}, std::tuple{std::string("wheel.vdb"), 1e-3},
-                                           std::tuple{std::string("wheel.slcw"), 1e-3}),
-                         [](const auto& which) { return std::get<0>(which.param).substr(6); });
+INSTANTIATE_TEST_SUITE_P(
+    Kinds, Convert,
+    ::testing::Values(std::tuple{std::string("wheel.ply"), 2e-3}, std::tuple{std::string("wheel.stl"), 2e-3},
+                      std::tuple{std::string("wheel.obj"), 2e-3}, std::tuple{std::string("wheel.off"), 2e-3},
+                      std::tuple{std::string("wheel.vdb"), 1e-3}, std::tuple{std::string("wheel.slcw"), 1e-3}),
+    [](const auto& which) { return std::get<0>(which.param).substr(6); });
 
 TEST_P(Convert, TheFileGivesTheSameContact) {
   const auto [name, tolerance] = GetParam();
@@ -63,7 +64,8 @@ TEST_P(Convert, TheFileGivesTheSameContact) {
   EXPECT_LT(converted.fit.height_max, 1.5e-5);
   EXPECT_GT(converted.fit.points, 1000u);
   input.write("again.toml", flat_case("shape.file = \"" + name + "\"\n"));
-  const double given = largest_pressure(input.folder() / "flat.toml"), again = largest_pressure(input.folder() / "again.toml");
+  const double given = largest_pressure(input.folder() / "flat.toml"),
+               again = largest_pressure(input.folder() / "again.toml");
   EXPECT_NEAR(again / given, 1.0, tolerance);
 }
 
@@ -137,7 +139,8 @@ TEST(ConvertCommand, ReportsTheFit) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("triangles, rail as mesh at 2 mm: at most"));
   EXPECT_TRUE(std::filesystem::exists(out));
-  EXPECT_EQ(treadmark::testing::run_program({"convert", (input.folder() / "none.prr").string(), out.string()}).status, 3);
+  EXPECT_EQ(treadmark::testing::run_program({"convert", (input.folder() / "none.prr").string(), out.string()}).status,
+            3);
 }
 
 }  // namespace

@@ -14,8 +14,8 @@
 namespace treadmark::app {
 namespace {
 
-constexpr double kLoad = 80e3;         // of the example [N]
-constexpr double kBetween = 765e-3;    // y between the patches on nose and wing [m]
+constexpr double kLoad = 80e3;       // of the example [N]
+constexpr double kBetween = 765e-3;  // y between the patches on nose and wing [m]
 
 /// The example's wheel at other positions along the track.
 io::CaseFile passage(double from, double to, double step) {

@@ -14,8 +14,8 @@
 
 #include "treadmark/app/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/length_unit.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
@@ -317,8 +317,8 @@ void write_sections(const fs::path& file, const SurfaceSpec& spec, double rough)
 
 TEST_F(ImportCommand, SectionsThatSomebodyResampledStayAsTheyAre) {
   write_sections(input.folder() / "gauge.xyz", wheel(), 3e-6);
-  const auto r = import({path("gauge.xyz"), "-o", path("kept.slcw"), "-o", path("kept.vdb"), "--json", path("kept.json"), "--set",
-                         "clean.strays=false"});
+  const auto r = import({path("gauge.xyz"), "-o", path("kept.slcw"), "-o", path("kept.vdb"), "--json",
+                         path("kept.json"), "--set", "clean.strays=false"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("360 of 61 points"));
   const Json kept = json("kept.json");
@@ -334,8 +334,8 @@ TEST_F(ImportCommand, SectionsThatSomebodyResampledStayAsTheyAre) {
   EXPECT_EQ(slices.profiles.front().y.size(), 61u);
   EXPECT_TRUE(slices.approximate_u);
   // fitted if that is wanted, and other settings that have no meaning are refused
-  const auto fitted = import({path("gauge.xyz"), "-o", path("fit.slcw"), "--json", path("fit.json"), "--set", "fit.sections=fit",
-                              "--set", "clean.strays=false"});
+  const auto fitted = import({path("gauge.xyz"), "-o", path("fit.slcw"), "--json", path("fit.json"), "--set",
+                              "fit.sections=fit", "--set", "clean.strays=false"});
   ASSERT_EQ(fitted.status, 0) << fitted.err;
   EXPECT_TRUE(json("fit.json")["fit"]["kept_sections"].is_null());
   scan("lines.xyz", {"--body", "wheel", "--points", "60000"});
@@ -360,7 +360,8 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
     for (std::size_t k = 0; k < slices.u.size(); ++k)
       for (std::size_t i = 0; i < slices.profiles[k].y.size(); ++i) {
         const double r = 0.49 + slices.profiles[k].z[i], u = slices.u[k];
-        const Vec3 p = 1e3 * (turn * Vec3(r * std::sin(u), slices.profiles[k].y[i], r * std::cos(u)) + Vec3(0.5, -0.2, 0.1));
+        const Vec3 p =
+            1e3 * (turn * Vec3(r * std::sin(u), slices.profiles[k].y[i], r * std::cos(u)) + Vec3(0.5, -0.2, 0.1));
         out << p.x() << ' ' << p.y() << ' ' << p.z() << '\n';
       }
   }
@@ -368,8 +369,8 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
   std::ostringstream direction;
   direction.precision(12);
   direction << "placement.zero_direction=[" << zero.x() << ", " << zero.y() << ", " << zero.z() << "]";
-  const auto r = import({path("flat.xyz"), "-o", path("flat.slcw"), "--set", "placement.zero=direction", "--set", direction.str(),
-                         "--json", path("flat.json")});
+  const auto r = import({path("flat.xyz"), "-o", path("flat.slcw"), "--set", "placement.zero=direction", "--set",
+                         direction.str(), "--json", path("flat.json")});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_NEAR(json("flat.json")["frame"]["nominal_radius_mm"].get<double>(), 490.0, 0.03);
   const auto results = [&](const std::string& wheel_file, const std::string& name) {
@@ -389,7 +390,8 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
     EXPECT_EQ(run.status, 0) << run.err;
     return json(name + ".json");
   };
-  const Json direct = results((folder / "S1002_flat.slcw").string(), "direct"), imported = results("flat.slcw", "imported");
+  const Json direct = results((folder / "S1002_flat.slcw").string(), "direct"),
+             imported = results("flat.slcw", "imported");
   ASSERT_EQ(direct["cases"].size(), imported["cases"].size());
   for (std::size_t k = 0; k < direct["cases"].size(); ++k) {
     const Json &a = direct["cases"][k]["patches"], &b = imported["cases"][k]["patches"];
@@ -398,7 +400,8 @@ TEST_F(ImportCommand, TheMeasuredFlatComesBackWithItsContactResults) {
       for (const char* what : {"pmax_MPa", "fn_N"})
         EXPECT_NEAR(b[i][what].get<double>() / a[i][what].get<double>(), 1.0, 2e-3) << what << " case " << k;
       for (const char* what : {"x_tr_mm", "y_tr_mm"})
-        EXPECT_NEAR(b[i]["reference"][what].get<double>(), a[i]["reference"][what].get<double>(), 0.02) << what << " case " << k;
+        EXPECT_NEAR(b[i]["reference"][what].get<double>(), a[i]["reference"][what].get<double>(), 0.02)
+            << what << " case " << k;
     }
   }
 }

@@ -51,7 +51,9 @@ TEST_P(ManchesterLocus, EqualsTheGrid) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Sides, ManchesterLocus, ::testing::Values("mbench_a22_left.inp", "mbench_a22_right.inp"),
-                         [](const auto& side) { return std::string(side.param).find("left") != std::string::npos ? "left" : "right"; });
+                         [](const auto& side) {
+                           return std::string(side.param).find("left") != std::string::npos ? "left" : "right";
+                         });
 
 }  // namespace
 }  // namespace treadmark::app

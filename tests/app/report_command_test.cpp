@@ -18,7 +18,8 @@ namespace fs = std::filesystem;
 TEST(ReportCommand, OfAFolderEqualsThatOfTheRun) {
   const SampleInput input;
   const std::string folder = (input.folder() / "out").string();
-  const ProgramResult run = run_program({"run", input.inp().string(), "-o", folder, "--report", folder + "/at-once.html"});
+  const ProgramResult run =
+      run_program({"run", input.inp().string(), "-o", folder, "--report", folder + "/at-once.html"});
   ASSERT_EQ(run.status, 0) << run.err;
   const ProgramResult later = run_program({"report", folder});
   ASSERT_EQ(later.status, 0) << later.err;
@@ -50,7 +51,8 @@ TEST(ReportCommand, BadInputIsNamed) {
   EXPECT_THAT(empty.err, HasSubstr("holds no results"));
   input.write("fields.h5", "this is no HDF5 file");
   EXPECT_EQ(run_program({"report", folder}).status, 3);
-  const ProgramResult several = run_program({"run", input.inp().string(), input.inp().string(), "--report", folder + "/x.html"});
+  const ProgramResult several =
+      run_program({"run", input.inp().string(), input.inp().string(), "--report", folder + "/x.html"});
   EXPECT_EQ(several.status, 2);
   EXPECT_THAT(several.err, HasSubstr("one case file"));
 }

@@ -25,13 +25,15 @@ std::string slurp(const std::filesystem::path& file) {
 
 std::filesystem::path capture_file(const char* stream) {
   static std::atomic<int> count{0};
-  const std::string name = "treadmark_run_" + std::to_string(getpid()) + "_" + std::to_string(count.fetch_add(1)) + stream;
+  const std::string name =
+      "treadmark_run_" + std::to_string(getpid()) + "_" + std::to_string(count.fetch_add(1)) + stream;
   return std::filesystem::temp_directory_path() / name;
 }
 
 }  // namespace
 
-RunningProgram::RunningProgram(const std::vector<std::string>& command) : out_(capture_file(".out")), err_(capture_file(".err")) {
+RunningProgram::RunningProgram(const std::vector<std::string>& command)
+    : out_(capture_file(".out")), err_(capture_file(".err")) {
   std::vector<std::string> words = command;
   for (std::string& word : words)
     if (word == "treadmark") word = TREADMARK_PROGRAM;
@@ -72,8 +74,10 @@ void RunningProgram::send(int signal) {
 ProgramResult RunningProgram::wait() {
   int status = 0;
   while (!ended_)
-    if (waitpid(process_, &status, 0) == process_) ended_ = status;
-    else if (errno != EINTR) throw std::system_error(errno, std::generic_category(), "waitpid");
+    if (waitpid(process_, &status, 0) == process_)
+      ended_ = status;
+    else if (errno != EINTR)
+      throw std::system_error(errno, std::generic_category(), "waitpid");
   return {WIFEXITED(*ended_) ? WEXITSTATUS(*ended_) : -1, slurp(out_), slurp(err_)};
 }
 

@@ -13,7 +13,8 @@
 
 namespace treadmark::testing {
 
-/// A program that runs beside the test: {"treadmark", ...} is the one under test, another first word is looked up in PATH.
+/// A program that runs beside the test: {"treadmark", ...} is the one under test, another first word is looked up in
+/// PATH.
 class RunningProgram {
  public:
   explicit RunningProgram(const std::vector<std::string>& command);

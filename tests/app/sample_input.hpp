@@ -7,8 +7,8 @@
 
 namespace treadmark::testing {
 
-/// A folder with a complete, small wheel-rail case in CONTACT's input format (rail.prr, wheel.txt, case.inp), removed at the
-/// end. Tests break one file of it at a time.
+/// A folder with a complete, small wheel-rail case in CONTACT's input format (rail.prr, wheel.txt, case.inp), removed
+/// at the end. Tests break one file of it at a time.
 class SampleInput {
  public:
   SampleInput();

@@ -27,16 +27,20 @@ struct Wanted {
 /// S1002 on 60E1; runs it and samples its surfaces.
 io::RunResult run(const Wanted& wanted) {
   const treadmark::testing::SampleInput input;
-  input.write("case.toml", "[case]\nside = \"" + wanted.side + "\"\nregime = \"none\"\n[wheel]\n"
-                               "shape.standard = \"S1002\"\n" + wanted.wheel +
-                               "[rail]\nshape.standard = \"60E1\"\n" + wanted.rail +
-                               "[track]\ngauge_mm = 1435.0\ngauge_height_mm = 14.0\n" + wanted.more +
-                               "[wheelset]\nflange_back_distance_mm = 1360.0\nflange_back_position_mm = -70.0\nnominal_radius_mm = 460.0\n"
-                               "vertical_force_N = 80e3\n[material]\nshear_modulus_GPa = 82.0\npoisson_ratio = 0.28\n"
-                               "[friction]\ncoefficient = 0.3\n"
-                               "[discretisation]\ndx_mm = 1.0\nds_mm = 1.0\nangle_separation_deg = 90.0\n"
-                               "separation_mm = 8.0\ncombination_mm = 4.0\n"
-                               "[[cases]]\n" + wanted.cases + "\n");
+  input.write(
+      "case.toml",
+      "[case]\nside = \"" + wanted.side +
+          "\"\nregime = \"none\"\n[wheel]\n"
+          "shape.standard = \"S1002\"\n" +
+          wanted.wheel + "[rail]\nshape.standard = \"60E1\"\n" + wanted.rail +
+          "[track]\ngauge_mm = 1435.0\ngauge_height_mm = 14.0\n" + wanted.more +
+          "[wheelset]\nflange_back_distance_mm = 1360.0\nflange_back_position_mm = -70.0\nnominal_radius_mm = 460.0\n"
+          "vertical_force_N = 80e3\n[material]\nshear_modulus_GPa = 82.0\npoisson_ratio = 0.28\n"
+          "[friction]\ncoefficient = 0.3\n"
+          "[discretisation]\ndx_mm = 1.0\nds_mm = 1.0\nangle_separation_deg = 90.0\n"
+          "separation_mm = 8.0\ncombination_mm = 4.0\n"
+          "[[cases]]\n" +
+          wanted.cases + "\n");
   const io::CaseFile file = io::read_any_case(input.folder() / "case.toml", {});
   SurfaceStore store;
   io::RunResult result = run_cases(file, store);
@@ -91,7 +95,8 @@ void expect_contacts_on_surfaces(const io::RunResult& result) {
       if (rail.closed) continue;
       EXPECT_LE(rail.u.front(), on_rail.x() - 0.149);
       EXPECT_GE(rail.u.back(), on_rail.x() + 0.149);
-      const auto height = between(rail, nearest_station(rail, on_rail.x()), on_rail.y(), [&](std::size_t i) { return rail.z[i]; });
+      const auto height =
+          between(rail, nearest_station(rail, on_rail.x()), on_rail.y(), [&](std::size_t i) { return rail.z[i]; });
       ASSERT_TRUE(height);
       EXPECT_NEAR(*height, on_rail.z(), 15e-6);
     }
@@ -110,8 +115,11 @@ TEST(SampledSurfaces, AFreshFlatIsAsDeepAsItsChord) {
   const double inner = std::sqrt(kRadius * kRadius - kFlat * kFlat / 4.0);
   double deepest = 0.0, longest = 0.0;
   for (int i = 0; i < wheel.nu; ++i) {
-    const double u = wheel.u[static_cast<std::size_t>(i)], depth = std::fabs(u) < 1.0 ? std::max(0.0, kRadius - inner / std::cos(u)) : 0.0;
-    longest = std::max(longest, (i + 1 < wheel.nu ? wheel.u[static_cast<std::size_t>(i) + 1] : wheel.u[0] + 2.0 * std::numbers::pi) - u);
+    const double u = wheel.u[static_cast<std::size_t>(i)],
+                 depth = std::fabs(u) < 1.0 ? std::max(0.0, kRadius - inner / std::cos(u)) : 0.0;
+    longest = std::max(
+        longest,
+        (i + 1 < wheel.nu ? wheel.u[static_cast<std::size_t>(i) + 1] : wheel.u[0] + 2.0 * std::numbers::pi) - u);
     for (int k = 1; k + 1 < wheel.nv; ++k) {
       const std::size_t at = wheel.index(i, k), left = wheel.index(i, k - 1), right = wheel.index(i, k + 1);
       if (std::isnan(wheel.x[left]) || std::isnan(wheel.x[at]) || std::isnan(wheel.x[right])) continue;
@@ -122,7 +130,8 @@ TEST(SampledSurfaces, AFreshFlatIsAsDeepAsItsChord) {
       deepest = std::min(deepest, wheel.deviation[at]);
     }
     // The profile crosses the nominal radius at y = 0, where its cone is nearly straight.
-    EXPECT_NEAR(between(wheel, i, 0.0, [&](std::size_t at) { return wheel_radius(wheel, at); }).value(), kRadius - depth, 2e-6);
+    EXPECT_NEAR(between(wheel, i, 0.0, [&](std::size_t at) { return wheel_radius(wheel, at); }).value(),
+                kRadius - depth, 2e-6);
   }
   EXPECT_NEAR(deepest, -(kRadius - inner), 3e-6);
   EXPECT_NEAR(longest, 2.0 * std::numbers::pi / 180.0, 1e-9);
@@ -152,9 +161,10 @@ TEST(SampledSurfaces, LeftHandPairsAreMirrored) {
 }
 
 TEST(SampledSurfaces, CorrugationIsADeviationOfTheRail) {
-  const io::RunResult result = run({.rail = "[[rail.corrugations]]\nx_start_mm = -500.0\nx_end_mm = 500.0\nramp_mm = 50.0\n"
-                                            "waves = [ { wavelength_mm = 50.0, amplitude_um = 30.0 } ]\n",
-                                    .cases = "wheelset.s_mm = [10]"});
+  const io::RunResult result =
+      run({.rail = "[[rail.corrugations]]\nx_start_mm = -500.0\nx_end_mm = 500.0\nramp_mm = 50.0\n"
+                   "waves = [ { wavelength_mm = 50.0, amplitude_um = 30.0 } ]\n",
+           .cases = "wheelset.s_mm = [10]"});
   const io::SampledSurface& rail = surface(result, "rail_1");
   EXPECT_FALSE(rail.closed);
   EXPECT_TRUE(surface(result, "wheel_1").deviation.empty());
@@ -170,8 +180,8 @@ TEST(SampledSurfaces, CorrugationIsADeviationOfTheRail) {
 }
 
 TEST(SampledSurfaces, ARollerIsARing) {
-  const io::RunResult result = run({.more = "[roller]\nnominal_radius_mm = 500.0\npitch_rate_rad_s = 20.0\n",
-                                    .cases = "wheelset.y_mm = [0, 1]"});
+  const io::RunResult result = run(
+      {.more = "[roller]\nnominal_radius_mm = 500.0\npitch_rate_rad_s = 20.0\n", .cases = "wheelset.y_mm = [0, 1]"});
   const io::SampledSurface& roller = surface(result, "rail_1");
   EXPECT_EQ(roller.body, "rail");
   EXPECT_TRUE(roller.closed);
@@ -193,7 +203,8 @@ TEST(SampledSurfaces, APartlySampledWheelIsCompletedAsGiven) {
   const std::string far_flat = "[[wheel.flats]]\nshape = \"fresh\"\nlength_mm = 60.0\ntheta_center_deg = 120.0\n";
   for (const std::string backend : {"offset", "spline", "mesh"}) {
     SCOPED_TRACE(backend);
-    const io::RunResult result = run({.wheel = "backend = \"" + backend + "\"\nresolution_mm = 0.5\n" + kChord + far_flat});
+    const io::RunResult result =
+        run({.wheel = "backend = \"" + backend + "\"\nresolution_mm = 0.5\n" + kChord + far_flat});
     const io::SampledSurface& wheel = surface(result, "wheel_1");
     EXPECT_TRUE(wheel.closed);
     int middle = 0;

@@ -58,7 +58,9 @@ class ScanCommand : public ::testing::Test {
     return run_program(arguments);
   }
 
-  static Vec3 vector(const Json& list) { return Vec3(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>()); }
+  static Vec3 vector(const Json& list) {
+    return Vec3(list.at(0).get<double>(), list.at(1).get<double>(), list.at(2).get<double>());
+  }
 
   treadmark::testing::SampleInput input;
 };
@@ -69,14 +71,18 @@ TEST_F(ScanCommand, WritesTheRailInTheUnitAskedFor) {
     double mm, rounding;  // [mm]
   };
   constexpr double kExact = 1e-9, kLas = 2e-4;  // LAS: 0.1 um or finer integers
-  for (const File& file : {File{"rail.ply", "mm", 1.0, kExact}, File{"rail.xyz", "m", 1e3, kExact}, File{"rail.csv", "in", 25.4, kExact},
-                           File{"rail.ply", "um", 1e-3, kExact}, File{"rail.las", "mm", 1.0, kLas}}) {
-    const auto r = scan(file.name, {"--body", "rail", "--range-mm", "-40", "60", "--points", "4000", "--unit", file.unit});
+  for (const File& file :
+       {File{"rail.ply", "mm", 1.0, kExact}, File{"rail.xyz", "m", 1e3, kExact}, File{"rail.csv", "in", 25.4, kExact},
+        File{"rail.ply", "um", 1e-3, kExact}, File{"rail.las", "mm", 1.0, kLas}}) {
+    const auto r =
+        scan(file.name, {"--body", "rail", "--range-mm", "-40", "60", "--points", "4000", "--unit", file.unit});
     ASSERT_EQ(r.status, 0) << r.err;
     EXPECT_THAT(r.out, HasSubstr("points of a rail in " + std::string(file.unit)));
     const io::Scan back = io::read_scan(path(file.name));
     EXPECT_NEAR(static_cast<double>(back.cloud.points.size()), 4000.0, 40.0);
-    if (back.unit) { EXPECT_EQ(symbol(*back.unit), file.unit) << file.name; }
+    if (back.unit) {
+      EXPECT_EQ(symbol(*back.unit), file.unit) << file.name;
+    }
     double least = 1e9, most = -1e9;
     std::size_t on_crown = 0;
     for (const Vec3& p : back.cloud.points) {
@@ -94,8 +100,9 @@ TEST_F(ScanCommand, WritesTheRailInTheUnitAskedFor) {
 }
 
 TEST_F(ScanCommand, TheTruthMapsAWheelBack) {
-  const auto r = scan("wheel.ply", {"--body", "wheel", "--points", "20000", "--frame", "random", "--seed", "7", "--range-deg=-20,30", "--range-y-mm",
-                                    "-20,58", "--passes", "2", "--registration-mm", "0.1", "--truth", path("truth.json")});
+  const auto r = scan("wheel.ply", {"--body", "wheel", "--points", "20000", "--frame", "random", "--seed", "7",
+                                    "--range-deg=-20,30", "--range-y-mm", "-20,58", "--passes", "2",
+                                    "--registration-mm", "0.1", "--truth", path("truth.json")});
   ASSERT_EQ(r.status, 0) << r.err;
   const Json truth = Json::parse(input.read("truth.json"));
   const io::Scan back = io::read_scan(path("wheel.ply"));
@@ -139,9 +146,25 @@ TEST_F(ScanCommand, TheTruthMapsAWheelBack) {
 }
 
 TEST_F(ScanCommand, CountsAddUpAndTheSummaryHasThem) {
-  const std::vector<std::string> faults{"--body", "rail", "--range-mm=-100,100", "--points", "50000", "--noise-mm", "0.02", "--noise-lateral-mm",
-                                        "0.01", "--outliers", "0.02", "--holes", "0.05", "--hole-size-mm", "6", "--drop-outs", "0.1",
-                                        "--most-incidence-deg", "70"};
+  const std::vector<std::string> faults{"--body",
+                                        "rail",
+                                        "--range-mm=-100,100",
+                                        "--points",
+                                        "50000",
+                                        "--noise-mm",
+                                        "0.02",
+                                        "--noise-lateral-mm",
+                                        "0.01",
+                                        "--outliers",
+                                        "0.02",
+                                        "--holes",
+                                        "0.05",
+                                        "--hole-size-mm",
+                                        "6",
+                                        "--drop-outs",
+                                        "0.1",
+                                        "--most-incidence-deg",
+                                        "70"};
   std::vector<std::string> with_truth = faults;
   with_truth.insert(with_truth.end(), {"--truth", "-"});
   const auto json = scan("rail.ply", with_truth);
@@ -157,7 +180,8 @@ TEST_F(ScanCommand, CountsAddUpAndTheSummaryHasThem) {
   EXPECT_NEAR(truth.at("spacing_mm").get<double>(), std::sqrt(truth.at("area_mm2").get<double>() / 50000.0), 1e-9);
   const auto text = scan("again.ply", faults);
   ASSERT_EQ(text.status, 0);
-  EXPECT_THAT(text.out, HasSubstr("outliers " + std::to_string(count("outliers")) + "; lost: " + std::to_string(count("lost_holes")) + " in holes"));
+  EXPECT_THAT(text.out, HasSubstr("outliers " + std::to_string(count("outliers")) +
+                                  "; lost: " + std::to_string(count("lost_holes")) + " in holes"));
   EXPECT_EQ(input.read("again.ply"), input.read("rail.ply"));  // byte by byte
   std::vector<std::string> one_thread = faults;
   one_thread.insert(one_thread.end(), {"--threads", "1"});

@@ -33,9 +33,11 @@ TEST(ToProblem, CarriesEverySetting) {
   EXPECT_EQ(p.roller.value().pitch_rate, 12.0);
   EXPECT_EQ(p.longitudinal_force, std::optional(-3e3));
   const wheelrail::RailSprings s = p.rail_springs.value();
-  EXPECT_THAT((std::vector{s.stiffness_y, s.stiffness_z, s.force_y, s.force_z, s.first_step_y}), ElementsAre(1e5, 2e5, 3.0, 4.0, 5e-4));
+  EXPECT_THAT((std::vector{s.stiffness_y, s.stiffness_z, s.force_y, s.force_z, s.first_step_y}),
+              ElementsAre(1e5, 2e5, 3.0, 4.0, 5e-4));
   const wheelrail::Damping d = p.damping.value();
-  EXPECT_THAT((std::vector{d.normal, d.tangential, d.max_rate_normal, d.max_rate_tangential}), ElementsAre(1e-4, 2e-4, 3e6, 4e6));
+  EXPECT_THAT((std::vector{d.normal, d.tangential, d.max_rate_normal, d.max_rate_tangential}),
+              ElementsAre(1e-4, 2e-4, 3e6, 4e6));
   EXPECT_EQ(p.regime, kalker::Regime::transient);
   EXPECT_EQ(p.history, kalker::HistoryUse::keep_going);
   EXPECT_EQ(p.reference_surface, wheelrail::ReferenceSurface::curved);
@@ -45,7 +47,8 @@ TEST(ToProblem, CarriesEverySetting) {
   EXPECT_TRUE(p.sensitivities);
   EXPECT_EQ(p.material.layer_yield, 30e6);
   const wheelrail::Problem plain = to_problem({}, true);
-  EXPECT_FALSE(plain.roller || plain.longitudinal_force || plain.rail_springs || plain.damping || plain.thermal || plain.sensitivities);
+  EXPECT_FALSE(plain.roller || plain.longitudinal_force || plain.rail_springs || plain.damping || plain.thermal ||
+               plain.sensitivities);
   EXPECT_EQ(plain.regime, kalker::Regime::steady);
   EXPECT_EQ(plain.reference_surface, wheelrail::ReferenceSurface::plane);
 }
@@ -54,13 +57,15 @@ TEST(ToProblem, RegimesAndHistories) {
   io::WheelRailCase c;
   using From = io::RegimeInput;
   using To = kalker::Regime;
-  for (const auto& [from, to] : {std::pair{From::none, To::frictionless}, std::pair{From::shift, To::shift}, std::pair{From::steady, To::steady}}) {
+  for (const auto& [from, to] : {std::pair{From::none, To::frictionless}, std::pair{From::shift, To::shift},
+                                 std::pair{From::steady, To::steady}}) {
     c.regime = from;
     EXPECT_EQ(to_problem(c, true).regime, to);
   }
   using H = io::HistoryInput;
   using U = kalker::HistoryUse;
-  for (const auto& [from, to] : {std::pair{H::start, U::start}, std::pair{H::normal_only, U::normal_only}, std::pair{H::same_instant, U::same_instant}}) {
+  for (const auto& [from, to] : {std::pair{H::start, U::start}, std::pair{H::normal_only, U::normal_only},
+                                 std::pair{H::same_instant, U::same_instant}}) {
     c.history = from;
     EXPECT_EQ(to_problem(c, true).history, to);
   }
@@ -245,14 +250,15 @@ TEST(GroupsInTime, CasesThatDependOnOthersFollowThem) {
     file.cases.push_back(one);
   };
   add(0, R::steady, H::start);
-  add(0, R::steady, H::keep_going);           // steady rolling has no history
+  add(0, R::steady, H::keep_going);  // steady rolling has no history
   add(1, R::transient, H::start);
-  add(0, R::transient, H::keep_going);        // goes on from case 1
+  add(0, R::transient, H::keep_going);  // goes on from case 1
   add(1, R::shift, H::keep_going);
-  add(0, R::steady, H::keep_going, true);     // damped against case 3
+  add(0, R::steady, H::keep_going, true);  // damped against case 3
   add(1, R::transient, H::start);
   add(1, R::transient, H::same_instant);
-  EXPECT_THAT(groups_in_time(file), ElementsAre(ElementsAre(0), ElementsAre(1, 3, 5), ElementsAre(2, 4), ElementsAre(6, 7)));
+  EXPECT_THAT(groups_in_time(file),
+              ElementsAre(ElementsAre(0), ElementsAre(1, 3, 5), ElementsAre(2, 4), ElementsAre(6, 7)));
 }
 
 }  // namespace

@@ -27,7 +27,8 @@ TEST(WheelRailTables, ElementsAndPointsBelowTheSurface) {
   const SampleInput input;
   input.edit("case.inp", " 1203100    C-P", " 1203103    C-P");
   input.edit("case.inp", " 0001321    H-G", " 0002321    H-G");
-  input.edit("case.inp", " 10000. 0.0  0.0    0.0    0.0    -21.73\n", " 10000. 0.0  0.0    0.0    0.0    -21.73\n 2 1\n 1\n 2 0.5 1.0\n 9\n 1 1 1\n 0.\n 0.\n 3.\n 0\n");
+  input.edit("case.inp", " 10000. 0.0  0.0    0.0    0.0    -21.73\n",
+             " 10000. 0.0  0.0    0.0    0.0    -21.73\n 2 1\n 1\n 2 0.5 1.0\n 9\n 1 1 1\n 0.\n 0.\n 3.\n 0\n");
   const fs::path folder = input.folder() / "out";
   const ProgramResult r = run_program({"run", input.inp().string(), "-o", folder.string()});
   ASSERT_EQ(r.status, 0) << r.err;
@@ -37,7 +38,8 @@ TEST(WheelRailTables, ElementsAndPointsBelowTheSurface) {
   const int npot = patch["elements"]["npot"];
   EXPECT_EQ(lines_of_numbers(folder / "case.0001a.mat"), 6 + npot);
   EXPECT_EQ(lines_of_numbers(folder / "case.0001a.subs"), 1 + 2 * npot + 1 + 1);
-  EXPECT_EQ(lines_of_numbers(folder / "case.0002a.mat"), 6 + run["cases"][1]["patches"][0]["elements"]["ncon"].get<int>());
+  EXPECT_EQ(lines_of_numbers(folder / "case.0002a.mat"),
+            6 + run["cases"][1]["patches"][0]["elements"]["ncon"].get<int>());
   EXPECT_FALSE(fs::exists(folder / "case.0002a.subs"));
 }
 

@@ -41,12 +41,11 @@ class Conformance : public ::testing::TestWithParam<Subject> {
   std::shared_ptr<const Surface> surface_ = GetParam().make();
 };
 
-INSTANTIATE_TEST_SUITE_P(Backends, Conformance, ::testing::ValuesIn(subjects()),
-                         [](const auto& which) {
-                           std::string name = which.param.shape.name + "__" + which.param.contestant.backend;
-                           std::replace(name.begin(), name.end(), '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Backends, Conformance, ::testing::ValuesIn(subjects()), [](const auto& which) {
+  std::string name = which.param.shape.name + "__" + which.param.contestant.backend;
+  std::replace(name.begin(), name.end(), '-', '_');
+  return name;
+});
 
 TEST_P(Conformance, NamesItsBackendAndFacesTheOtherBody) {
   EXPECT_EQ(surface_->backend(), subject().contestant.backend);
@@ -56,7 +55,8 @@ TEST_P(Conformance, NamesItsBackendAndFacesTheOtherBody) {
 
 TEST_P(Conformance, HeightsMatchABruteForceLineSearch) {
   const double tolerance = subject().tolerance().height;
-  // where the line only grazes the surface, or close to the ends of the profile, tiny errors decide between hit and miss
+  // where the line only grazes the surface, or close to the ends of the profile, tiny errors decide between hit and
+  // miss
   constexpr double kGrazing = 0.1, kEnd = 1e-4;
   const bool wheel = shape().spec.body == Body::wheel;
   const Grid2 g = coarse_grid();
@@ -69,7 +69,8 @@ TEST_P(Conformance, HeightsMatchABruteForceLineSearch) {
         const BruteHit hit = brute_force(shape(), X, x, y);
         const bool hit_at_end = !std::isnan(hit.z) && (hit.y < shape().y_min + kEnd || hit.y > shape().y_max - kEnd);
         if (!std::isnan(hit.z) && hit.slant > kGrazing && !hit_at_end) {
-          ASSERT_FALSE(std::isnan(z)) << "missed at " << x << ' ' << y << ", brute force " << hit.z << " slant " << hit.slant;
+          ASSERT_FALSE(std::isnan(z)) << "missed at " << x << ' ' << y << ", brute force " << hit.z << " slant "
+                                      << hit.slant;
           // never inside of the outermost hit
           const double deeper = (wheel ? hit.z - z : z - hit.z) * hit.slant;
           ASSERT_LE(deeper, tolerance) << "at " << x << ' ' << y << " slant " << hit.slant;
@@ -126,7 +127,8 @@ TEST_P(Conformance, SlopesMatchDifferencesOfHeights) {
       moved[k] = evaluate(*surface_, X, h);
     }
     for (std::size_t i = 0; i < g.size(); ++i) {
-      const double dzdx = (moved[0].z[i] - moved[1].z[i]) / (2 * kStep), dzdy = (moved[2].z[i] - moved[3].z[i]) / (2 * kStep);
+      const double dzdx = (moved[0].z[i] - moved[1].z[i]) / (2 * kStep),
+                   dzdy = (moved[2].z[i] - moved[3].z[i]) / (2 * kStep);
       if (std::isnan(f.z[i]) || std::isnan(dzdx) || std::isnan(dzdy)) continue;
       if (std::fabs(f.dzdx[i]) > 3.0 || std::fabs(f.dzdy[i]) > 3.0) continue;  // differences lose digits there
       ++compared;
@@ -134,7 +136,8 @@ TEST_P(Conformance, SlopesMatchDifferencesOfHeights) {
     }
   }
   EXPECT_GT(compared, 1000);
-  EXPECT_LE(wrong, compared / (subject().contestant.creases() ? 40 : 200));  // 2 um differences across edges 0.5 mm apart
+  EXPECT_LE(wrong,
+            compared / (subject().contestant.creases() ? 40 : 200));  // 2 um differences across edges 0.5 mm apart
 }
 
 TEST_P(Conformance, TilesGiveTheWholeGrid) {
@@ -145,7 +148,8 @@ TEST_P(Conformance, TilesGiveTheWholeGrid) {
     const int half_x = g.nx / 2, half_y = g.ny / 3;
     for (int part = 0; part < 4; ++part) {
       const int bx = part % 2 ? half_x : 0, by = part / 2 ? half_y : 0;
-      const Grid2 tile{g.x(bx), g.y(by), g.dx, g.dy, part % 2 ? g.nx - half_x : half_x, part / 2 ? g.ny - half_y : half_y};
+      const Grid2 tile{
+          g.x(bx), g.y(by), g.dx, g.dy, part % 2 ? g.nx - half_x : half_x, part / 2 ? g.ny - half_y : half_y};
       const Fields f = evaluate(*surface_, X, tile);
       for (int iy = 0; iy < tile.ny; ++iy)
         for (int ix = 0; ix < tile.nx; ++ix) {
@@ -223,7 +227,8 @@ TEST_P(Conformance, HeightBoundsHoldEveryHeight) {
   int hit = 0, small = 0, loose = 0;
   for (int trial = 0; trial < 400; ++trial) {
     Pose X = shape().planes[static_cast<std::size_t>(trial) % shape().planes.size()];
-    X.rotation = X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
+    X.rotation =
+        X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
     const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)), height = std::pow(10.0, -4.0 + 2.5 * unit(random));
     const double x = 0.1 * (unit(random) - 0.5), y = 0.15 * (unit(random) - 0.5);
     const Rectangle r{x, x + width, y, y + height};
@@ -266,18 +271,22 @@ TEST_P(Conformance, BoundsOfManyRectanglesHoldEveryHeight) {
   int hit = 0, small = 0, loose = 0;
   for (int trial = 0; trial < 60; ++trial) {
     Pose X = shape().planes[static_cast<std::size_t>(trial) % shape().planes.size()];
-    if (trial % 3 != 0) X.rotation = X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
+    if (trial % 3 != 0)
+      X.rotation =
+          X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
     const double width = std::pow(10.0, -3.5 + 1.5 * unit(random)), height = std::pow(10.0, -3.5 + 1.5 * unit(random));
     const double x = 0.1 * (unit(random) - 0.5), y = 0.15 * (unit(random) - 0.5);
     // some overlap, some leave gaps
-    const RectangleGrid r{{x, x + width, y, y + height}, width * (0.6 + unit(random)), height * (0.6 + unit(random)), 4, 3};
+    const RectangleGrid r{
+        {x, x + width, y, y + height}, width * (0.6 + unit(random)), height * (0.6 + unit(random)), 4, 3};
     std::vector<HeightBounds> bounds(r.size());
     surface_->height_bounds(X, r, bounds);
     for (int iy = 0; iy < r.ny; ++iy)
       for (int ix = 0; ix < r.nx; ++ix) {
         const Rectangle one = r.at(ix, iy);
         const HeightBounds& b = bounds[r.index(ix, iy)];
-        const Fields f = evaluate(*surface_, X, {one.x_min, one.y_min, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints});
+        const Fields f = evaluate(
+            *surface_, X, {one.x_min, one.y_min, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints});
         constexpr double kRounding = 1e-10;
         double z_min = std::numeric_limits<double>::infinity(), z_max = -z_min;
         bool everywhere = true;
@@ -366,7 +375,8 @@ TEST_P(Conformance, CurvaturesMatchSecondDifferencesInTheTangentPlane) {
       T.rotation.col(1) = n.cross(e).normalized();
       T.rotation.col(0) = T.rotation.col(1).cross(n);
       const Fields h = evaluate(*surface_, T, {-kStep, -kStep, kStep, kStep, 3, 3});
-      const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep), hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
+      const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep),
+                   hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
       const double hxy = (h.z[8] - h.z[6] - h.z[2] + h.z[0]) / (4 * kStep * kStep);
       if (std::isnan(hxx + hyy + hxy)) continue;
       const double mean = -side * 0.5 * (hxx + hyy), spread = std::hypot(0.5 * (hxx - hyy), hxy);

@@ -13,10 +13,11 @@
 namespace treadmark::testing {
 
 // Where the promises come from. analytic: closed form, rounding only; the published joints of S1002 are steps of up to
-// 0.12 um. spline: a cubic spline rounds off the jumps of curvature between the arcs: up to 77/m over a spacing h = 0.25 mm,
-// that is about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm. nurbs, mesh: the same at 0.5 mm.
-// mesh-flat: h^2/(8 r) and h/r on the arc of r = 12 mm. offset: exact where nothing is damaged. The ends of the fresh flat
-// turn by k = 44 mrad: facets and bilinear offsets cut up to k h/4 = 5.4 um off there, splines up to about k h/8 = 2.7 um.
+// 0.12 um. spline: a cubic spline rounds off the jumps of curvature between the arcs: up to 77/m over a spacing h =
+// 0.25 mm, that is about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm. nurbs, mesh: the same
+// at 0.5 mm. mesh-flat: h^2/(8 r) and h/r on the arc of r = 12 mm. offset: exact where nothing is damaged. The ends of
+// the fresh flat turn by k = 44 mrad: facets and bilinear offsets cut up to k h/4 = 5.4 um off there, splines up to
+// about k h/8 = 2.7 um.
 std::vector<Contestant> contestants() {
   return {
 #define TREADMARK_CONTESTANT(backend, resolution, constant, damaged) {backend, resolution, constant, damaged},
@@ -43,15 +44,14 @@ Shape rail_shape(std::string name, SurfaceSpec spec, std::function<double(double
   s.r_high = 0.05;
   s.u_min = -0.15;
   s.u_max = 0.45;
-  s.planes = {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0), pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
+  s.planes = {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0),    pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
               pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02), pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1),
-              pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),
-              pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
+              pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),    pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
   return s;
 }
 
-Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, std::function<double(double, double)> depth,
-                  double y_min, double y_max) {
+Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z,
+                  std::function<double(double, double)> depth, double y_min, double y_max) {
   const double R = spec.nominal_radius;
   Shape s;
   s.name = std::move(name);
@@ -70,26 +70,31 @@ Shape wheel_shape(std::string name, SurfaceSpec spec, std::function<double(doubl
     const double r = R + out;
     return pose({r * std::sin(theta), y, r * std::cos(theta)}, roll, yaw, pitch);
   };
-  s.planes = {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0), at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0), at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3),
-              at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01), at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0),
+  s.planes = {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0), at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0),
+              at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3), at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01),
+              at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0),
               // from behind the flange, which hides its root; rows run across the fold in the last one
               at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0), at(0.0, -0.045, 0.02, 0.9, 1.4, 0.0)};
   return s;
 }
 
-/// The profile turned about an axle at z = radius; planes stand on the roller as they would on the rail, at some angle round it.
+/// The profile turned about an axle at z = radius; planes stand on the roller as they would on the rail, at some angle
+/// round it.
 Shape roller_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
   const double R = spec.roller_radius;
   Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
-  s.outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : std::hypot(p.x(), p.z() - R) - (R - z(p.y())); };
+  s.outside = [=](const Vec3& p) {
+    return p.y() < y_min || p.y() > y_max ? kNaN : std::hypot(p.x(), p.z() - R) - (R - z(p.y()));
+  };
   s.u_min = -0.35 * R;
   s.u_max = 0.42 * R;
   const auto at = [R](double theta, double y, double down, double roll, double yaw, double pitch) {
     const double r = R - down;
     return pose({r * std::sin(theta), y, R - r * std::cos(theta)}, roll, yaw, pitch);
   };
-  s.planes = {at(0.0, 0.001, -0.0004, 0.0, 0.0, 0.0), at(0.0, 0.012, 0.0, 0.07, 0.0, 0.0), at(0.3, -0.02, 0.003, -0.45, 0.03, -0.3),
-              at(0.02, 0.005, 0.001, 0.02, -0.4, 0.1), at(-0.01, -0.03, 0.008, -1.1, 0.01, 0.0), at(0.0, 0.03, 0.008, 1.5, 1.3, 0.0)};
+  s.planes = {at(0.0, 0.001, -0.0004, 0.0, 0.0, 0.0),   at(0.0, 0.012, 0.0, 0.07, 0.0, 0.0),
+              at(0.3, -0.02, 0.003, -0.45, 0.03, -0.3), at(0.02, 0.005, 0.001, 0.02, -0.4, 0.1),
+              at(-0.01, -0.03, 0.008, -1.1, 0.01, 0.0), at(0.0, 0.03, 0.008, 1.5, 1.3, 0.0)};
   return s;
 }
 
@@ -97,7 +102,9 @@ Shape roller_shape(std::string name, SurfaceSpec spec, std::function<double(doub
 Shape ring_shape(std::string name, SurfaceSpec spec, std::function<double(double)> z, double y_min, double y_max) {
   const double R = -spec.roller_radius;
   Shape s = rail_shape(std::move(name), std::move(spec), z, y_min, y_max);
-  s.outside = [=](const Vec3& p) { return p.y() < y_min || p.y() > y_max ? kNaN : R + z(p.y()) - std::hypot(p.x(), p.z() + R); };
+  s.outside = [=](const Vec3& p) {
+    return p.y() < y_min || p.y() > y_max ? kNaN : R + z(p.y()) - std::hypot(p.x(), p.z() + R);
+  };
   s.u_min = -0.12;
   s.u_max = 0.15;
   s.varies = true;
@@ -105,8 +112,9 @@ Shape ring_shape(std::string name, SurfaceSpec spec, std::function<double(double
     const double r = R + down;
     return pose({r * std::sin(theta), y, -R + r * std::cos(theta)}, roll, yaw, pitch);
   };
-  s.planes = {at(0.0, 0.0013, -0.0004, 0.0, 0.0, 0.0), at(0.0, 0.0117, 0.0, 0.07, 0.0, 0.0), at(0.15, -0.02, 0.003, -0.45, 0.03, 0.15),
-              at(0.02, 0.0047, 0.001, 0.02, -0.4, 0.1), at(-0.01, -0.0297, 0.0081, -1.1, 0.01, 0.0), at(0.0, 0.0297, 0.0083, 1.5, 1.3, 0.0)};
+  s.planes = {at(0.0, 0.0013, -0.0004, 0.0, 0.0, 0.0),     at(0.0, 0.0117, 0.0, 0.07, 0.0, 0.0),
+              at(0.15, -0.02, 0.003, -0.45, 0.03, 0.15),   at(0.02, 0.0047, 0.001, 0.02, -0.4, 0.1),
+              at(-0.01, -0.0297, 0.0081, -1.1, 0.01, 0.0), at(0.0, 0.0297, 0.0083, 1.5, 1.3, 0.0)};
   return s;
 }
 
@@ -114,13 +122,22 @@ Shape ring_shape(std::string name, SurfaceSpec spec, std::function<double(double
 Shape two_part_shape() {
   constexpr double kRadius = 0.06, kEnd = 0.5, kOverlap = 0.05;
   const auto arc = [](double from, double to, double y, double z) {
-    return ArcChain{kRadius * std::sin(from) - y, kRadius * (1.0 - std::cos(from)) - z, from, {{kRadius * (to - from), 1.0 / kRadius}}};
+    return ArcChain{kRadius * std::sin(from) - y,
+                    kRadius * (1.0 - std::cos(from)) - z,
+                    from,
+                    {{kRadius * (to - from), 1.0 / kRadius}}};
   };
-  Shape s = rail_shape("two_part_rail", {Body::rail, 0.0, arc(-kEnd, kEnd, 0.0, 0.0), {}},
-                       [](double y) { return kRadius - std::sqrt(kRadius * kRadius - y * y); }, -kRadius * std::sin(kEnd), kRadius * std::sin(kEnd));
+  Shape s = rail_shape(
+      "two_part_rail", {Body::rail, 0.0, arc(-kEnd, kEnd, 0.0, 0.0), {}},
+      [](double y) { return kRadius - std::sqrt(kRadius * kRadius - y * y); }, -kRadius * std::sin(kEnd),
+      kRadius * std::sin(kEnd));
   s.natural = [arc] {
     const auto part = [&](double from, double to, double y, double z) {
-      return SurfacePart{std::make_shared<const NaturalSurface>(create_natural({Body::rail, 0.0, arc(from, to, y, z), {}})), {0.1, y, z}, "", 0.0};
+      return SurfacePart{
+          std::make_shared<const NaturalSurface>(create_natural({Body::rail, 0.0, arc(from, to, y, z), {}})),
+          {0.1, y, z},
+          "",
+          0.0};
     };
     return join_surfaces({part(-kEnd, kOverlap, -0.015, 0.002), part(-kOverlap, kEnd, 0.02, 0.0)});
   };
@@ -157,8 +174,8 @@ double s1002_mm(double S) {
     return power_sum({-4.320221063e3, -1.038384026e3, -1.065501873e2, -6.051367875, -2.054332446e-1, -4.169739389e-3,
                       -4.687195829e-5, -2.252755540e-7});
   if (S < 32.15796)
-    return power_sum({0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8, 5.309217349e-15,
-                      -5.957839843e-12, 2.646656573e-13});
+    return power_sum({0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8,
+                      5.309217349e-15, -5.957839843e-12, 2.646656573e-13});
   return 1.364323640 - 0.066666667 * S;
 }
 
@@ -188,33 +205,43 @@ std::vector<Shape> shapes() {
     two_arcs.start_z = 0.06 * (1.0 - std::cos(0.5));
     two_arcs.start_angle = -0.5;
     two_arcs.segments = {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}};
-    const auto z = [](double y) { const double r = y < 0 ? 0.06 : 0.3; return r - std::sqrt(r * r - y * y); };
-    all.push_back(rail_shape("two_arc_rail", {Body::rail, 0.0, two_arcs, {}}, z, two_arcs.start_y, 0.3 * std::sin(0.1)));
+    const auto z = [](double y) {
+      const double r = y < 0 ? 0.06 : 0.3;
+      return r - std::sqrt(r * r - y * y);
+    };
+    all.push_back(
+        rail_shape("two_arc_rail", {Body::rail, 0.0, two_arcs, {}}, z, two_arcs.start_y, 0.3 * std::sin(0.1)));
   }
-  all.push_back(rail_shape("rail_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}},
-                           [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+  all.push_back(rail_shape(
+      "rail_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}},
+      [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
   all.push_back(two_part_shape());
-  all.push_back(roller_shape("roller_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, 0.5},
-                             [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+  all.push_back(roller_shape(
+      "roller_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, 0.5},
+      [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
   {
     ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
-    all.push_back(roller_shape("barrel_roller", {Body::rail, 0.0, barrel, {}, 0.2},
-                               [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
+    all.push_back(roller_shape(
+        "barrel_roller", {Body::rail, 0.0, barrel, {}, 0.2},
+        [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
   }
   {
     ArcChain barrel{-0.08 * std::sin(0.6), 0.08 * (1.0 - std::cos(0.6)), -0.6, {{0.08 * 1.2, 1.0 / 0.08}}};
-    all.push_back(ring_shape("barrel_ring", {Body::rail, 0.0, barrel, {}, -0.6},
-                             [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
-    all.push_back(ring_shape("ring_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, -0.7},
-                             [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
+    all.push_back(ring_shape(
+        "barrel_ring", {Body::rail, 0.0, barrel, {}, -0.6},
+        [](double y) { return 0.08 - std::sqrt(0.08 * 0.08 - y * y); }, -0.08 * std::sin(0.6), 0.08 * std::sin(0.6)));
+    all.push_back(ring_shape(
+        "ring_60e1", {Body::rail, 0.0, StandardProfile{"60E1"}, {}, -0.7},
+        [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3));
   }
   {
     ArcChain barrel{-0.05 * std::sin(0.8), -0.05 * (1.0 - std::cos(0.8)), 0.8, {{0.05 * 1.6, -1.0 / 0.05}}};
-    all.push_back(wheel_shape("barrel_wheel", {Body::wheel, 0.3, barrel, {}},
-                              [](double y) { return std::sqrt(0.05 * 0.05 - y * y) - 0.05; }, no_depth, -0.05 * std::sin(0.8),
-                              0.05 * std::sin(0.8)));
+    all.push_back(wheel_shape(
+        "barrel_wheel", {Body::wheel, 0.3, barrel, {}}, [](double y) { return std::sqrt(0.05 * 0.05 - y * y) - 0.05; },
+        no_depth, -0.05 * std::sin(0.8), 0.05 * std::sin(0.8)));
   }
-  all.push_back(wheel_shape("wheel_s1002", {Body::wheel, 0.46, StandardProfile{"S1002"}, {}}, s1002, no_depth, -0.07, 0.06));
+  all.push_back(
+      wheel_shape("wheel_s1002", {Body::wheel, 0.46, StandardProfile{"S1002"}, {}}, s1002, no_depth, -0.07, 0.06));
   {
     WheelFlat flat;
     flat.shape = WheelFlat::Shape::rounded;
@@ -224,24 +251,26 @@ std::vector<Shape> shapes() {
     flat.y_center = 0.004;
     flat.width = 0.05;
     // the angle is x/R with R = 0.46 m
-    all.push_back(wheel_shape("rounded_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {flat}}}, s1002,
-                              [](double theta, double y) { return flat_test_depth(theta, y, 0.46); }, -0.07, 0.06));
+    all.push_back(wheel_shape(
+        "rounded_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {flat}}}, s1002,
+        [](double theta, double y) { return flat_test_depth(theta, y, 0.46); }, -0.07, 0.06));
     WheelFlat cut;
     cut.shape = WheelFlat::Shape::fresh;
     cut.length = 0.04;
     cut.theta_center = -0.005;
-    all.push_back(wheel_shape("fresh_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {cut}}}, s1002,
-                              [](double theta, double) { return chord_test_depth(theta, 0.46); }, -0.07, 0.06));
+    all.push_back(wheel_shape(
+        "fresh_flat", {Body::wheel, 0.46, StandardProfile{"S1002"}, {.flats = {cut}}}, s1002,
+        [](double theta, double) { return chord_test_depth(theta, 0.46); }, -0.07, 0.06));
   }
   {
     Defects defects;
     Polygonization polygon;
     polygon.harmonics = {{1, 0.1e-3, 0.3}, {20, 20e-6, -0.7}};
     defects.polygonizations = {polygon};
-    all.push_back(wheel_shape("polygonal_wheel", {Body::wheel, 0.46, StandardProfile{"S1002"}, defects}, s1002,
-                              [](double theta, double) {
-                                return -0.1e-3 * std::cos(theta - 0.3) - 20e-6 * std::cos(20.0 * theta + 0.7);
-                              }, -0.07, 0.06));
+    all.push_back(wheel_shape(
+        "polygonal_wheel", {Body::wheel, 0.46, StandardProfile{"S1002"}, defects}, s1002,
+        [](double theta, double) { return -0.1e-3 * std::cos(theta - 0.3) - 20e-6 * std::cos(20.0 * theta + 0.7); },
+        -0.07, 0.06));
   }
   {
     Squat squat;
@@ -252,8 +281,9 @@ std::vector<Shape> shapes() {
     squat.y_center = 0.004;
     Defects defects;
     defects.squats = {squat};
-    Shape shape = rail_shape("squat_rail", {Body::rail, 0.0, StandardProfile{"60E1"}, defects},
-                             [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3);
+    Shape shape = rail_shape(
+        "squat_rail", {Body::rail, 0.0, StandardProfile{"60E1"}, defects},
+        [](double y) { return 1e-3 * rail_60e1_mm(1e3 * y); }, -37.05e-3, 37.05e-3);
     shape.outside = [](const Vec3& p) {
       if (std::fabs(p.y()) > 37.05e-3) return kNaN;
       const double x = p.x() - 0.31, y = p.y() - 0.004;
@@ -287,7 +317,9 @@ std::vector<Subject> subjects() {
   return all;
 }
 
-std::ostream& operator<<(std::ostream& out, const Subject& s) { return out << s.contestant.backend << '_' << s.shape.name; }
+std::ostream& operator<<(std::ostream& out, const Subject& s) {
+  return out << s.contestant.backend << '_' << s.shape.name;
+}
 
 Vec3 gradient(const Shape& shape, const Vec3& p) {
   constexpr double kStep = 1e-7;

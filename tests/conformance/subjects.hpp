@@ -20,12 +20,12 @@ struct Shape {
   SurfaceSpec spec;
   /// Distance-like function: 0 on the surface, > 0 outside the material; NaN where the profile ends.
   std::function<double(const Vec3&)> outside;
-  double y_min, y_max;         ///< ends of the profile, surface frame [m]
-  double r_low, r_high;        ///< wheel: radii, rail: heights between which brute force looks [m]
-  double u_min, u_max;         ///< part that is sampled: x [m] or theta [rad]
-  std::vector<Pose> planes;    ///< planes near the surface, in its frame
+  double y_min, y_max;                        ///< ends of the profile, surface frame [m]
+  double r_low, r_high;                       ///< wheel: radii, rail: heights between which brute force looks [m]
+  double u_min, u_max;                        ///< part that is sampled: x [m] or theta [rad]
+  std::vector<Pose> planes;                   ///< planes near the surface, in its frame
   std::function<NaturalSurface()> natural{};  ///< what is represented; without it made from spec
-  bool varies = false;         ///< more than one cross-section, though there is no damage
+  bool varies = false;                        ///< more than one cross-section, though there is no damage
 };
 
 /// How a backend joins the suite, and what it promises.
@@ -36,17 +36,19 @@ struct Tolerance {
 };
 struct Contestant {
   std::string backend;
-  double resolution;   ///< of its samples [m], 0 = its own
-  Tolerance constant;  ///< for shapes of one cross-section
-  Tolerance damaged;   ///< for shapes with defects
-  bool facets() const { return backend == "mesh-flat"; }          ///< slopes jump everywhere
+  double resolution;                                      ///< of its samples [m], 0 = its own
+  Tolerance constant;                                     ///< for shapes of one cross-section
+  Tolerance damaged;                                      ///< for shapes with defects
+  bool facets() const { return backend == "mesh-flat"; }  ///< slopes jump everywhere
   bool creases() const { return facets() || backend == "offset-bilinear"; }
 };
 
 struct Subject {
   Shape shape;
   Contestant contestant;
-  const Tolerance& tolerance() const { return shape.spec.defects.empty() && !shape.varies ? contestant.constant : contestant.damaged; }
+  const Tolerance& tolerance() const {
+    return shape.spec.defects.empty() && !shape.varies ? contestant.constant : contestant.damaged;
+  }
   std::shared_ptr<const Surface> make() const;
 };
 

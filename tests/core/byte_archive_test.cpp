@@ -20,7 +20,8 @@ namespace {
 
 enum class Colour : std::uint8_t { red, green, blue };
 
-const std::vector<double> kNumbers{0.1, -0.0, std::numeric_limits<double>::denorm_min(), std::numeric_limits<double>::infinity(),
+const std::vector<double> kNumbers{0.1, -0.0, std::numeric_limits<double>::denorm_min(),
+                                   std::numeric_limits<double>::infinity(),
                                    std::bit_cast<double>(std::uint64_t{0x7ff8000000000abc})};
 
 ByteWriter one_of_each() {
@@ -117,9 +118,9 @@ TEST(GridArchive, GivesAGridAndItsFieldBack) {
 TEST(GridArchive, RefusesWhatIsNoGridAndWhatIsNoFieldOnIt) {
   const double nan = std::nan("");
   const Grid2 good{0.0, 0.0, 1e-3, 1e-3, 2, 2};
-  for (const auto& spoil : std::vector<std::function<void(Grid2&)>>{[&](Grid2& g) { g.x0 = nan; }, [&](Grid2& g) { g.dx = -g.dx; },
-                                                                    [&](Grid2& g) { g.dy = 0.0; }, [&](Grid2& g) { g.nx = 0; },
-                                                                    [&](Grid2& g) { g.ny = -3; }}) {
+  for (const auto& spoil : std::vector<std::function<void(Grid2&)>>{
+           [&](Grid2& g) { g.x0 = nan; }, [&](Grid2& g) { g.dx = -g.dx; }, [&](Grid2& g) { g.dy = 0.0; },
+           [&](Grid2& g) { g.nx = 0; }, [&](Grid2& g) { g.ny = -3; }}) {
     Grid2 bad = good;
     spoil(bad);
     ByteWriter out;

@@ -13,7 +13,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRounding = 1e-15;
 
-void expect_near(const Vec3& a, const Vec3& b) { EXPECT_LT((a - b).norm(), kRounding) << a.transpose() << " and " << b.transpose(); }
+void expect_near(const Vec3& a, const Vec3& b) {
+  EXPECT_LT((a - b).norm(), kRounding) << a.transpose() << " and " << b.transpose();
+}
 
 TEST(Rotations, TurnByTheRightHandRule) {
   const Vec3 x = Vec3::UnitX(), y = Vec3::UnitY(), z = Vec3::UnitZ();

@@ -25,7 +25,8 @@ class Marked final : public Surface {
     for (int iy = 0; iy < p.grid.ny; ++iy)
       for (int ix = 0; ix < p.grid.nx; ++ix) {
         const double x = p.grid.x(ix), y = p.grid.y(iy);
-        if (!out.z.empty()) out.z[p.grid.index(ix, iy)] = x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x + 10.0 * y;
+        if (!out.z.empty())
+          out.z[p.grid.index(ix, iy)] = x < 0.0 ? std::numeric_limits<double>::quiet_NaN() : x + 10.0 * y;
       }
   }
   void do_locate(const Pose&, std::span<const Vec2>, std::span<SurfacePoint>) const override {}

@@ -56,7 +56,8 @@ TEST(ContactPatch, SubPatchesFurtherApartKeepTheirExtents) {
   ASSERT_EQ(result.size(), 1u);
   ASSERT_EQ(result[0].parts.size(), 2u);
   EXPECT_EQ(result[0].parts[0].box.y_min, 7e-3);
-  EXPECT_NEAR(sub_patch_coupling(patch_distance(result[0].parts[0], result[0].parts[1]), rules()), std::pow(0.5, 0.8), 1e-12);
+  EXPECT_NEAR(sub_patch_coupling(patch_distance(result[0].parts[0], result[0].parts[1]), rules()), std::pow(0.5, 0.8),
+              1e-12);
   EXPECT_EQ(sub_patch_coupling(3e-3, rules()), 1.0);
   EXPECT_EQ(sub_patch_coupling(9e-3, rules()), 0.0);
 }
@@ -67,7 +68,8 @@ TEST(ContactPatch, KeepsDifferentAnglesApart) {
 
 TEST(ContactPatch, AnglesTurnContinuouslyTowardsTheMerge) {
   const auto at = [](double distance) {
-    return combine_patches({patch(0.0, 1e-3, 0.1, 1.0), patch(1e-3 + distance, 2e-3 + distance, 0.3, 1.0)}, {}, rules());
+    return combine_patches({patch(0.0, 1e-3, 0.1, 1.0), patch(1e-3 + distance, 2e-3 + distance, 0.3, 1.0)}, {},
+                           rules());
   };
   const auto far = at(13e-3), at_turning = at(12e-3), half = at(10e-3), nearly = at(8.001e-3), merged = at(7.999e-3);
   EXPECT_NEAR(far[0].inclination, 0.3, 1e-12);

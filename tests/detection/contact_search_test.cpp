@@ -64,7 +64,8 @@ TEST_P(RolledPlane, PatchFrameAndDistanceAreThoseOfTheBall) {
   EXPECT_GT(grid.x(grid.nx - 1), half_width);
   EXPECT_LT(grid.y0, -half_width);
   EXPECT_GT(grid.y(grid.ny - 1), half_width);
-  EXPECT_NEAR(std::remainder(grid.x0, grid.dx), 0.0, 1e-15) << "elements lie at whole multiples of dx from the reference";
+  EXPECT_NEAR(std::remainder(grid.x0, grid.dx), 0.0, 1e-15)
+      << "elements lie at whole multiples of dx from the reference";
 
   const UndeformedDistance undeformed = undeformed_distance(scene.bodies, frame.X_TC, grid);
   const double offset = frame.X_TC.origin.y() / std::cos(roll);  // of the reference along the plane

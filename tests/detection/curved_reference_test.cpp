@@ -17,7 +17,10 @@ constexpr double kGroove = 10.4e-3, kMeridian = 10e-3, kWheelRadius = 0.42;
 
 /// Chain of a circle whose lowest point is the origin: a groove, or a wheel's tread that fits into it.
 ArcChain round_chain(double radius, double half_angle) {
-  return {-radius * std::sin(half_angle), -radius * (1.0 - std::cos(half_angle)), half_angle, {{2.0 * radius * half_angle, -1.0 / radius}}};
+  return {-radius * std::sin(half_angle),
+          -radius * (1.0 - std::cos(half_angle)),
+          half_angle,
+          {{2.0 * radius * half_angle, -1.0 / radius}}};
 }
 
 /// A wheel in a groove with the same centre of meridian and groove, all of it moved.
@@ -27,14 +30,16 @@ struct ConcentricGroove {
   BodyPair bodies;
 
   explicit ConcentricGroove(const Pose& X_TG = {}) {
-    bodies = {groove.get(), wheel.get(), X_TG, X_TG * Pose{{0.0, 0.0, kMeridian - kGroove - kWheelRadius}, Mat3::Identity()}};
+    bodies = {groove.get(), wheel.get(), X_TG,
+              X_TG * Pose{{0.0, 0.0, kMeridian - kGroove - kWheelRadius}, Mat3::Identity()}};
   }
 };
 
 ContactFrame frame_at_bottom(double angle, const Pose& X_TG = {}) { return {{X_TG.origin, rotation_x(angle)}, angle}; }
 
 constexpr double kMean = 0.5 * (kGroove + kMeridian);
-/// Directions are averaged a step ahead of where they are used: of second order in the gap over the radius, which is wide here.
+/// Directions are averaged a step ahead of where they are used: of second order in the gap over the radius, which is
+/// wide here.
 constexpr double kAngle = 2e-5;
 
 TEST(CurvedReference, LiesHalfWayBetweenConcentricCircles) {
@@ -56,7 +61,8 @@ TEST(CurvedReference, IsTheSameCurveSeenFromATurnedContactPlane) {
   const double turn = 0.35, place = turn * kMean;
   const ConcentricGroove pair;
   const Grid2 grid{0.0, -6e-3, 1e-3, 0.25e-3, 1, 49};
-  const ContactFrame turned{{{0.0, kGroove * std::sin(turn), kGroove * (std::cos(turn) - 1.0)}, rotation_x(-turn)}, -turn};
+  const ContactFrame turned{{{0.0, kGroove * std::sin(turn), kGroove * (std::cos(turn) - 1.0)}, rotation_x(-turn)},
+                            -turn};
   const ContactFrame straight = frame_at_bottom(0.0);
   const ReferenceRows a = curved_reference(pair.bodies, straight, grid, {0.0, -place});
   const ReferenceRows b = curved_reference(pair.bodies, turned, grid);
@@ -143,8 +149,8 @@ TEST(ProjectedDistance, OnAPlaneIsTheDistanceInThatPlane) {
   for (std::size_t i = 0; i < grid.size(); ++i) EXPECT_NEAR(projected.distance[i], plain.distance[i], 1e-15);
 }
 
-// A gap measured along the contact plane's normal, times the cosine of the surface's inclination, is the gap along the surface's own
-// normal up to the second order in the gap over the radius.
+// A gap measured along the contact plane's normal, times the cosine of the surface's inclination, is the gap along the
+// surface's own normal up to the second order in the gap over the radius.
 TEST(ProjectedDistance, OfNearSurfacesIsTheDistanceAlongTheirNormal) {
   const ConcentricGroove pair;
   const Grid2 grid{0.0, -6e-3, 0.5e-3, 0.25e-3, 1, 49};
@@ -153,7 +159,8 @@ TEST(ProjectedDistance, OfNearSurfacesIsTheDistanceAlongTheirNormal) {
   const UndeformedDistance projected = projected_distance(pair.bodies, frame.X_TC, grid, curve);
   constexpr double kGap = kGroove - kMeridian;
   for (int iy = 0; iy < grid.ny; ++iy) {
-    const double gap = projected.distance[grid.index(0, iy)] - projected.approach, tangent = std::tan(curve.rows[static_cast<std::size_t>(iy)].angle);
+    const double gap = projected.distance[grid.index(0, iy)] - projected.approach,
+                 tangent = std::tan(curve.rows[static_cast<std::size_t>(iy)].angle);
     EXPECT_NEAR(gap, kGap, kGap * kGap / kMean * (0.05 + tangent * tangent)) << grid.y(iy);
   }
 }

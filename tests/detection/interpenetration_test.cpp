@@ -58,12 +58,13 @@ TEST(Interpenetration, SeparateRegionsAreFoundDeepestFirstAndNearMissesLast) {
   const auto bump = [](double x, double y, double x0, double y0, double depth) {
     return 5.0 * ((x - x0) * (x - x0) + (y - y0) * (y - y0)) - depth;
   };
-  const auto regions = find_regions(field_of(kGrid,
-                                             [&](double x, double y) {
-                                               return std::min({bump(x, y, -5e-3, -4e-3, 2e-5), bump(x, y, 4e-3, 5e-3, 6e-5),
-                                                                bump(x, y, 5e-3, -6e-3, -1e-5)});
-                                             }),
-                                    0.0, PenetrationWeight::squared, 2e-5);
+  const auto regions =
+      find_regions(field_of(kGrid,
+                            [&](double x, double y) {
+                              return std::min({bump(x, y, -5e-3, -4e-3, 2e-5), bump(x, y, 4e-3, 5e-3, 6e-5),
+                                               bump(x, y, 5e-3, -6e-3, -1e-5)});
+                            }),
+                   0.0, PenetrationWeight::squared, 2e-5);
   ASSERT_EQ(regions.size(), 3u);
   EXPECT_NEAR(regions[0].x, 4e-3, 1e-5);
   EXPECT_NEAR(regions[1].x, -5e-3, 1e-5);
@@ -72,21 +73,24 @@ TEST(Interpenetration, SeparateRegionsAreFoundDeepestFirstAndNearMissesLast) {
 }
 
 TEST(Interpenetration, NothingTouchesWithoutPenetrationOrOverMissingSurface) {
-  EXPECT_TRUE(find_regions(field_of(kGrid, [](double x, double) { return 1e-6 + x * x; }), 0.0, PenetrationWeight::squared, 0.0).empty());
+  EXPECT_TRUE(
+      find_regions(field_of(kGrid, [](double x, double) { return 1e-6 + x * x; }), 0.0, PenetrationWeight::squared, 0.0)
+          .empty());
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  EXPECT_TRUE(find_regions(field_of(kGrid, [nan](double, double) { return nan; }), 0.0, PenetrationWeight::squared, 0.0).empty());
+  EXPECT_TRUE(find_regions(field_of(kGrid, [nan](double, double) { return nan; }), 0.0, PenetrationWeight::squared, 0.0)
+                  .empty());
 }
 
 TEST(Interpenetration, PlateauGivesOneRegion) {
-  const auto regions = find_regions(
-      field_of(kGrid, [](double x, double y) { return std::max(-1e-5, std::hypot(x, y) * 0.02 - 4e-5); }),
-      0.0, PenetrationWeight::squared, 0.0);
+  const auto regions =
+      find_regions(field_of(kGrid, [](double x, double y) { return std::max(-1e-5, std::hypot(x, y) * 0.02 - 4e-5); }),
+                   0.0, PenetrationWeight::squared, 0.0);
   ASSERT_EQ(regions.size(), 1u);
   EXPECT_NEAR(regions[0].x, 0.0, 1e-5);
 }
 
-// Oracle: every negative point must lie in exactly the boxes that flood filling with diagonals would give or in larger ones,
-// and none may be lost.
+// Oracle: every negative point must lie in exactly the boxes that flood filling with diagonals would give or in larger
+// ones, and none may be lost.
 TEST(Interpenetration, RandomFieldsLoseNoPenetratingPoint) {
   std::mt19937 random(7);
   std::normal_distribution<double> normal;

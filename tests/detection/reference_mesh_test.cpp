@@ -57,13 +57,16 @@ struct Scene {
     wheel->heights({bodies.X_TW.inverse() * X_TC, g}, {exact, {}, {}});
     mesh_heights(bodies, X_TC, g, mesh);
     double most = 0.0;
-    for (std::size_t i = 0; i < g.size(); ++i) most = std::max(most, std::isnan(mesh[i]) ? 1.0 : std::abs(mesh[i] - exact[i]));
+    for (std::size_t i = 0; i < g.size(); ++i)
+      most = std::max(most, std::isnan(mesh[i]) ? 1.0 : std::abs(mesh[i] - exact[i]));
     return most;
   }
 };
 
 std::shared_ptr<const Surface> standard_rail() { return analytic::make_standard_surface({"60E1"}, Body::rail, 0.0); }
-std::shared_ptr<const Surface> standard_wheel() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius); }
+std::shared_ptr<const Surface> standard_wheel() {
+  return analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius);
+}
 
 TEST(ReferenceMesh, NaturalCurveFollowsACircle) {
   std::vector<Vec2> points;
@@ -97,7 +100,8 @@ TEST(ReferenceMesh, OfARoundWheelMayHaveItsOriginFarOff) {
   Scene scene(standard_rail(), standard_wheel());
   const double near = scene.greatest_difference(scene.grid);
   // Away along the wheel's own sections, so that the lines stay where they are.
-  const Mat3 M = scene.bodies.X_TW.rotation * rotation_y(lowest_angle(scene.bodies.X_TW)), C = M.transpose() * scene.X_TC.rotation;
+  const Mat3 M = scene.bodies.X_TW.rotation * rotation_y(lowest_angle(scene.bodies.X_TW)),
+             C = M.transpose() * scene.X_TC.rotation;
   const Vec2 direction = Vec2(C(1, 1), -C(1, 0)).normalized();
   const Vec2 far = 5000.0 * scene.grid.dx / (C(0, 0) * direction.x() + C(0, 1) * direction.y()) * direction;
   scene.X_TC.origin -= scene.X_TC.rotation * Vec3(far.x(), far.y(), 0.0);
@@ -107,7 +111,8 @@ TEST(ReferenceMesh, OfARoundWheelMayHaveItsOriginFarOff) {
 }
 
 TEST(ReferenceMesh, LinesOfARoundWheelPassThroughTheOriginHoweverFar) {
-  // Elements on the lines of the mesh meet the wheel itself, roughness or not: from a level wheel's origin arcs are all but widths.
+  // Elements on the lines of the mesh meet the wheel itself, roughness or not: from a level wheel's origin arcs are all
+  // but widths.
   Profile rough;
   rough.body = Body::wheel;
   for (int i = 60; i >= -60; --i) rough.y.push_back(0.5e-3 * i), rough.z.push_back(5e-6 * std::sin(0.9 * i));
@@ -166,7 +171,8 @@ TEST(ReferenceMesh, PlanesAndAnglesGiveOneFacettedWheel) {
   // Both are chords of the same round wheel.
   const auto wheel = standard_wheel();
   const Pose X_TW{{0.0, 0.0, -kRadius}, rotation_z(0.01) * rotation_y(-2.0)};
-  const WheelFacets angles{WheelFacets::Sections::angles, 0.1, 401, 0.5e-3}, planes{WheelFacets::Sections::planes, 0.1 * kRadius, 401, 0.5e-3};
+  const WheelFacets angles{WheelFacets::Sections::angles, 0.1, 401, 0.5e-3},
+      planes{WheelFacets::Sections::planes, 0.1 * kRadius, 401, 0.5e-3};
   const Grid2 grid{-5e-3, -10e-3, 0.7e-3, 0.9e-3, 15, 21};
   std::vector<double> by_angles(grid.size()), by_planes(grid.size()), exact(grid.size());
   FacetWheel(*wheel, X_TW, angles).heights(grid, by_angles);

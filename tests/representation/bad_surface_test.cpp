@@ -14,8 +14,8 @@
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/representation/kinds.hpp"
 
-// Broken triangles, files of offsets and defects get one clear message with the right exit status, or are repaired so that
-// the contact is that of the sound surface.
+// Broken triangles, files of offsets and defects get one clear message with the right exit status, or are repaired so
+// that the contact is that of the sound surface.
 
 namespace treadmark::testing {
 namespace {
@@ -62,7 +62,8 @@ class BadSurface : public ::testing::Test {
     text.replace(text.find("RAIL"), 4, rail);
     folder.write("case.toml", text);
     std::filesystem::remove(json());
-    std::vector<std::string> arguments{"run", (folder.folder() / "case.toml").string(), "--json", json().string(), "--quiet"};
+    std::vector<std::string> arguments{"run", (folder.folder() / "case.toml").string(), "--json", json().string(),
+                                       "--quiet"};
     arguments.insert(arguments.end(), options.begin(), options.end());
     return run_program(arguments);
   }
@@ -102,7 +103,8 @@ class BadSurface : public ::testing::Test {
     return (mesh.vertices[t[0]] + mesh.vertices[t[1]] + mesh.vertices[t[2]]) / 3.0;
   }
 
-  void expect_same_contact(const TriangleMesh& repaired, double tolerance, const std::vector<std::string>& options = {}) {
+  void expect_same_contact(const TriangleMesh& repaired, double tolerance,
+                           const std::vector<std::string>& options = {}) {
     ASSERT_EQ(run_mesh(sound(), options).status, 0);
     const nlohmann::json truth = only_patch();
     const ProgramResult r = run_mesh(repaired, options);
@@ -155,7 +157,8 @@ TriangleMesh with_slivers(const TriangleMesh& sound, double share) {
   std::map<std::pair<std::uint32_t, std::uint32_t>, std::vector<std::size_t>> edges;
   for (std::size_t i = 0; i < sound.triangles.size(); ++i)
     for (int k = 0; k < 3; ++k) {
-      const std::uint32_t a = sound.triangles[i][static_cast<std::size_t>(k)], b = sound.triangles[i][static_cast<std::size_t>((k + 1) % 3)];
+      const std::uint32_t a = sound.triangles[i][static_cast<std::size_t>(k)],
+                          b = sound.triangles[i][static_cast<std::size_t>((k + 1) % 3)];
       edges[{std::min(a, b), std::max(a, b)}].push_back(i);
     }
   std::vector<bool> used(sound.triangles.size(), false);
@@ -178,8 +181,8 @@ TriangleMesh with_slivers(const TriangleMesh& sound, double share) {
 }
 
 TEST_F(BadSurface, SliversChangeNothing) {
-  // On the triangles themselves. The smooth refinement fits its polynomials to the corners as they are; one corner more on
-  // some edges moves it by its own error.
+  // On the triangles themselves. The smooth refinement fits its polynomials to the corners as they are; one corner more
+  // on some edges moves it by its own error.
   expect_same_contact(with_slivers(sound(), 1e-6), kSame, {"--rail-backend", "mesh-flat"});
   expect_same_contact(with_slivers(sound(), 1e-6), 1e-3);
 }
@@ -221,7 +224,8 @@ TEST_F(BadSurface, WrongUnits) {
     TriangleMesh mesh = sound();
     for (Vec3& v : mesh.vertices) v *= factor;
     expect_refused(run_mesh(mesh), 3, {"rail.ply", factor < 1.0 ? "only 0.000" : "no rail is"});
-    const ProgramResult scaled = run_rail("shape.file = \"rail.ply\"\nshape.scale_to_mm = " + std::to_string(1.0 / factor));
+    const ProgramResult scaled =
+        run_rail("shape.file = \"rail.ply\"\nshape.scale_to_mm = " + std::to_string(1.0 / factor));
     EXPECT_EQ(scaled.status, 0) << scaled.err;
   }
 }
@@ -267,7 +271,9 @@ TEST_F(BadOffsets, OfTheOtherBodyOrAnotherRadius) {
 class BadDefect : public BadSurface {
  protected:
   void expect_flat_refused(const std::string& numbers, const std::vector<std::string>& words) {
-    expect_refused(run("shape.standard = \"S1002\"\n[[wheel.flats]]\nshape = \"rounded\"\n" + numbers, "shape.standard = \"60E1\""), 2, words);
+    expect_refused(run("shape.standard = \"S1002\"\n[[wheel.flats]]\nshape = \"rounded\"\n" + numbers,
+                       "shape.standard = \"60E1\""),
+                   2, words);
   }
   void expect_rail_refused(const std::string& defect, const std::vector<std::string>& words) {
     expect_refused(run_rail("shape.standard = \"60E1\"\n" + defect), 2, words);
@@ -276,31 +282,40 @@ class BadDefect : public BadSurface {
 
 TEST_F(BadDefect, FlatsBeyondTheAxle) {
   for (const char* depth : {"240.0", "460.0", "600.0"})
-    expect_flat_refused("length_mm = 160.0\ndepth_mm = " + std::string(depth), {"case.toml:", "wheel.flats[0]", "depth"});
+    expect_flat_refused("length_mm = 160.0\ndepth_mm = " + std::string(depth),
+                        {"case.toml:", "wheel.flats[0]", "depth"});
 }
 
 TEST_F(BadDefect, FlatsAndSquatsSteeperThanTheyCanBe) {
-  expect_flat_refused("length_mm = 160.0\ndepth_mm = 100.0", {"wheel.flats[0]", "too deep for its length", "45 degrees"});
-  expect_rail_refused("[[rail.squats]]\nlength_mm = 40.0\nwidth_mm = 30.0\ndepth_mm = 20.0", {"rail.squats[0]", "too deep for its length", "45 degrees"});
+  expect_flat_refused("length_mm = 160.0\ndepth_mm = 100.0",
+                      {"wheel.flats[0]", "too deep for its length", "45 degrees"});
+  expect_rail_refused("[[rail.squats]]\nlength_mm = 40.0\nwidth_mm = 30.0\ndepth_mm = 20.0",
+                      {"rail.squats[0]", "too deep for its length", "45 degrees"});
 }
 
-constexpr const char* kStations = "stations = [{ x_mm = -500.0, y_mm = 0.0, z_mm = 1.0 }, { x_mm = 500.0, y_mm = 0.0, z_mm = 1.0 }]\n";
+constexpr const char* kStations =
+    "stations = [{ x_mm = -500.0, y_mm = 0.0, z_mm = 1.0 }, { x_mm = 500.0, y_mm = 0.0, z_mm = 1.0 }]\n";
 
 TEST_F(BadDefect, CutterThatIsNoGraph) {
   // more than a half circle
-  expect_rail_refused(std::string("[[rail.milling_paths]]\nstart_y_mm = -10.0\nstart_z_mm = 5.0\nstart_angle_deg = -60.0\n"
-                                  "section = [{ length_mm = 40.0, radius_mm = 10.0 }]\n") + kStations,
-                      {"rail.milling_paths[0]"});
+  expect_rail_refused(
+      std::string("[[rail.milling_paths]]\nstart_y_mm = -10.0\nstart_z_mm = 5.0\nstart_angle_deg = -60.0\n"
+                  "section = [{ length_mm = 40.0, radius_mm = 10.0 }]\n") +
+          kStations,
+      {"rail.milling_paths[0]"});
   // a cutter that is a graph, rolled until it is none
-  expect_rail_refused("[[rail.milling_paths]]\nstart_y_mm = -10.0\nsection = [{ length_mm = 20.0 }]\n"
-                      "stations = [{ x_mm = -500.0, y_mm = 0.0, z_mm = 1.0 }, { x_mm = 500.0, y_mm = 0.0, z_mm = 1.0, roll_deg = 85.0 }]\n",
-                      {"rail.milling_paths[0]"});
+  expect_rail_refused(
+      "[[rail.milling_paths]]\nstart_y_mm = -10.0\nsection = [{ length_mm = 20.0 }]\n"
+      "stations = [{ x_mm = -500.0, y_mm = 0.0, z_mm = 1.0 }, { x_mm = 500.0, y_mm = 0.0, z_mm = 1.0, roll_deg = 85.0 "
+      "}]\n",
+      {"rail.milling_paths[0]"});
 }
 
 TEST_F(BadDefect, PathsThatGoBack) {
-  expect_rail_refused("[[rail.milling_paths]]\nstart_y_mm = -10.0\nsection = [{ length_mm = 20.0 }]\n"
-                      "stations = [{ x_mm = 0.0, y_mm = 0.0, z_mm = 1.0 }, { x_mm = -5.0, y_mm = 0.0, z_mm = 1.0 }]\n",
-                      {"rail.milling_paths[0]"});
+  expect_rail_refused(
+      "[[rail.milling_paths]]\nstart_y_mm = -10.0\nsection = [{ length_mm = 20.0 }]\n"
+      "stations = [{ x_mm = 0.0, y_mm = 0.0, z_mm = 1.0 }, { x_mm = -5.0, y_mm = 0.0, z_mm = 1.0 }]\n",
+      {"rail.milling_paths[0]"});
 }
 
 }  // namespace

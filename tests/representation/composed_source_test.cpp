@@ -76,7 +76,8 @@ TEST(ComposedSource, TheStoreKeepsPartsRollersAndCrossingsApart) {
 TEST(ComposedSource, KinksAndSeamsComeFromFiles) {
   const std::filesystem::path folder = std::filesystem::path(::testing::TempDir()) / "treadmark_composed_source";
   std::filesystem::create_directories(folder);
-  const NaturalSurface wheel = create_natural({Body::wheel, 0.46, StandardProfile{"S1002"}, {.polygonizations = {{{{1, 0.5e-3, 0.5}}, 0.0, 0.0}}}});
+  const NaturalSurface wheel = create_natural(
+      {Body::wheel, 0.46, StandardProfile{"S1002"}, {.polygonizations = {{{{1, 0.5e-3, 0.5}}, 0.0, 0.0}}}});
   SliceSet slices = to_slices(wheel, {"", 20e-3, {}});
   slices.u.pop_back();
   slices.profiles.pop_back();
@@ -87,7 +88,8 @@ TEST(ComposedSource, KinksAndSeamsComeFromFiles) {
     // slopes round the wheel just before and after the first slice
     const auto slope = [&](double theta) {
       double z = 0.0, dzdx = 0.0;
-      surface.surface->heights({{Vec3::Zero(), rotation_y(theta)}, {0.0, 0.0, 1.0, 1.0, 1, 1}}, {{&z, 1}, {&dzdx, 1}, {}});
+      surface.surface->heights({{Vec3::Zero(), rotation_y(theta)}, {0.0, 0.0, 1.0, 1.0, 1, 1}},
+                               {{&z, 1}, {&dzdx, 1}, {}});
       return dzdx;
     };
     return std::fabs(slope(slices.u.front() - 1e-7) - slope(slices.u.front() + 1e-7));

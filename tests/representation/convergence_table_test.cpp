@@ -38,8 +38,8 @@ Line compute(const std::string& backend, double spacing_mm) {
   Region sampled, compared;
   sampled.u_min = -0.2;
   sampled.u_max = 0.2;
-  // off the ends of the flat (theta = +-0.163, y = -24 and 36 mm) and the joints of S1002 (y = -26 and 32 mm), where the
-  // curvature jumps
+  // off the ends of the flat (theta = +-0.163, y = -24 and 36 mm) and the joints of S1002 (y = -26 and 32 mm), where
+  // the curvature jumps
   compared.u_min = -0.12;
   compared.u_max = 0.12;
   compared.y_min = -0.012;
@@ -60,7 +60,8 @@ std::vector<Line> documented() {
     Line line;
     char bar = 0;
     std::istringstream words(text);
-    if (inside && words >> bar >> line.backend >> bar >> line.spacing_mm >> bar >> line.max >> bar >> line.rms >> bar >> line.slope)
+    if (inside && words >> bar >> line.backend >> bar >> line.spacing_mm >> bar >> line.max >> bar >> line.rms >> bar >>
+                      line.slope)
       lines.push_back(line);
   }
   return lines;
@@ -68,14 +69,15 @@ std::vector<Line> documented() {
 
 std::string markdown(const Line& line) {
   char text[160];
-  std::snprintf(text, sizeof text, "| %s | %g | %.1e | %.1e | %.1e |", line.backend.c_str(), line.spacing_mm, line.max, line.rms,
-                line.slope);
+  std::snprintf(text, sizeof text, "| %s | %g | %.1e | %.1e | %.1e |", line.backend.c_str(), line.spacing_mm, line.max,
+                line.rms, line.slope);
   return text;
 }
 
 class RepresentationTable : public ::testing::TestWithParam<std::string> {};
 INSTANTIATE_TEST_SUITE_P(Backends, RepresentationTable,
-                         ::testing::Values("spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"),
+                         ::testing::Values("spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic",
+                                           "offset-bilinear"),
                          [](const auto& which) {
                            std::string name = which.param;
                            for (char& c : name) c = c == '-' ? '_' : c;
@@ -89,8 +91,9 @@ struct Orders {
 
 TEST_P(RepresentationTable, DocumentShowsWhatIsComputedAndOrdersHold) {
   static const std::map<std::string, Orders> promised{
-      {"spline", {4.0, 4.0, 3.0}},    {"nurbs", {4.0, 4.0, 3.0}},  {"mesh", {4.0, 4.0, 3.0}},           {"offset", {4.0, 4.0, 3.0}},
-      {"mesh-flat", {2.0, 2.0, 1.0}}, {"offset-quadratic", {3.0, 3.0, 2.0}}, {"offset-bilinear", {2.0, 2.0, 1.0}}};
+      {"spline", {4.0, 4.0, 3.0}},         {"nurbs", {4.0, 4.0, 3.0}},     {"mesh", {4.0, 4.0, 3.0}},
+      {"offset", {4.0, 4.0, 3.0}},         {"mesh-flat", {2.0, 2.0, 1.0}}, {"offset-quadratic", {3.0, 3.0, 2.0}},
+      {"offset-bilinear", {2.0, 2.0, 1.0}}};
   // Below this the 32-bit numbers of the offsets are what is left [m]; splines in 64 bits go on.
   constexpr double kLeast = 3e-10;
   constexpr double kIrregular = 0.4;  // of the order: where the points of comparison lie in the cells
@@ -118,7 +121,9 @@ TEST_P(RepresentationTable, DocumentShowsWhatIsComputedAndOrdersHold) {
   std::size_t last = lines.size() - 1;
   while (GetParam() == "offset" && last > 1 && lines[last].max < kLeast) --last;
   const double halvings = static_cast<double>(last);
-  const auto order = [&](double Line::*error) { return std::log2(lines.front().*error / (lines[last].*error)) / halvings; };
+  const auto order = [&](double Line::*error) {
+    return std::log2(lines.front().*error / (lines[last].*error)) / halvings;
+  };
   EXPECT_GT(order(&Line::max), orders.max - kIrregular);
   EXPECT_GT(order(&Line::rms), orders.rms - kIrregular);
   EXPECT_GT(order(&Line::slope), orders.slope - kIrregular);

@@ -42,7 +42,8 @@ constexpr double kRadius = 0.46;
 /// Observed orders between the coarsest and the finest of three spacings, each half of the one before.
 void expect_orders(const Difference (&d)[3]) {
   constexpr double kHeight = 3.0, kSlope = 2.0;  // a cubic spline has 4 and 3
-  EXPECT_GT(0.5 * std::log2(d[0].height / d[2].height), kHeight) << d[0].height << ' ' << d[1].height << ' ' << d[2].height;
+  EXPECT_GT(0.5 * std::log2(d[0].height / d[2].height), kHeight)
+      << d[0].height << ' ' << d[1].height << ' ' << d[2].height;
   EXPECT_GT(0.5 * std::log2(d[0].slope / d[2].slope), kSlope) << d[0].slope << ' ' << d[1].slope << ' ' << d[2].slope;
   EXPECT_GT(d[0].height, 1e-11) << "too smooth to see an order";
   EXPECT_LT(d[2].height, 1e-9);

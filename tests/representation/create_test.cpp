@@ -31,11 +31,12 @@ void expect_refused(const SurfaceSpec& spec, const char* words) {
   expect_refused(ErrorKind::configuration, words, [&] { create_natural(spec); });
 }
 
-constexpr const char* kAll = "available: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic, offset-bilinear";
+constexpr const char* kAll =
+    "available: analytic, spline, nurbs, mesh, mesh-flat, offset, offset-quadratic, offset-bilinear";
 
 TEST(CreateSurface, ListsWhatThereIs) {
-  EXPECT_THAT(backend_names(), ElementsAre("analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic",
-                                           "offset-bilinear"));
+  EXPECT_THAT(backend_names(), ElementsAre("analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset",
+                                           "offset-quadratic", "offset-bilinear"));
   EXPECT_THAT(standard_profile_names(), ElementsAre("60E1", "S1002"));
 }
 
@@ -61,8 +62,10 @@ TEST(CreateSurface, RefusesUnknownBackends) {
 }
 
 TEST(CreateSurface, RefusesShapesOfTheOtherBody) {
-  expect_refused({Body::rail, 0.0, StandardProfile{"S1002"}, {}}, "the standard profile S1002 belongs to a wheel, not to a rail");
-  expect_refused({Body::wheel, 0.46, StandardProfile{"60E1"}, {}}, "the standard profile 60E1 belongs to a rail, not to a wheel");
+  expect_refused({Body::rail, 0.0, StandardProfile{"S1002"}, {}},
+                 "the standard profile S1002 belongs to a wheel, not to a rail");
+  expect_refused({Body::wheel, 0.46, StandardProfile{"60E1"}, {}},
+                 "the standard profile 60E1 belongs to a rail, not to a wheel");
   expect_refused({Body::rail, 0.0, StandardProfile{"UIC61"}, {}}, "unknown standard profile 'UIC61'");
   const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 1e-3);
   expect_refused({Body::rail, 0.0, points, {}}, "belongs to a wheel, not to a rail");
@@ -105,23 +108,29 @@ TEST(CreateSurface, MeasuredShapesTakeDefectsToo) {
   EXPECT_TRUE(round.constant_profile());
   // in the middle of the flat its depth is missing, seen from its own angle
   const Pose plane{Vec3::Zero(), rotation({0.0, 0.0, 0.005})};
-  EXPECT_NEAR(height_at(*round.surface, plane, {0.0, 0.004}) - height_at(*wheel.surface, plane, {0.0, 0.004}), 0.3e-3, 1e-9);
+  EXPECT_NEAR(height_at(*round.surface, plane, {0.0, 0.004}) - height_at(*wheel.surface, plane, {0.0, 0.004}), 0.3e-3,
+              1e-9);
 }
 
 TEST(Represent, FormulasOnlyFromFormulas) {
   const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 1e-3);
   const NaturalSurface given = create_natural({Body::wheel, 0.46, points, {}});
-  expect_refused(ErrorKind::configuration, "the backend 'analytic' needs a formula", [&] { represent(given, {"analytic", 0.0, {}}); });
-  EXPECT_EQ(represent(create_natural(s1002(one_polygonization())), {"analytic", 0.0, {}}).surface->backend(), "analytic");
+  expect_refused(ErrorKind::configuration, "the backend 'analytic' needs a formula", [&] {
+    represent(given, {"analytic", 0.0, {}});
+  });
+  EXPECT_EQ(represent(create_natural(s1002(one_polygonization())), {"analytic", 0.0, {}}).surface->backend(),
+            "analytic");
 }
 
 TEST(Represent, ResolutionsMustBePositiveOrNothing) {
   const NaturalSurface rail = create_natural(rail_60e1());
-  for (const double resolution : {-1e-3, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
+  for (const double resolution :
+       {-1e-3, std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::infinity()})
     for (const auto backend : backend_names()) {
       if (backend == "analytic") continue;  // needs none
-      expect_refused(ErrorKind::configuration, "the resolution of a surface must be positive",
-                     [&] { represent(rail, {std::string(backend), resolution, {}}); });
+      expect_refused(ErrorKind::configuration, "the resolution of a surface must be positive", [&] {
+        represent(rail, {std::string(backend), resolution, {}});
+      });
     }
 }
 
@@ -139,9 +148,13 @@ TEST(Represent, OffsetsRefuseSurfacesWithGaps) {
   region.u_min = -0.03;
   region.u_max = 0.03;
   TriangleMesh mesh = to_triangles(rail, {"", 1e-3, region});
-  std::erase_if(mesh.triangles, [&](const auto& t) { return std::fabs(mesh.vertices[t[0]].x()) < 0.02 && std::fabs(mesh.vertices[t[0]].y()) < 0.01; });
+  std::erase_if(mesh.triangles, [&](const auto& t) {
+    return std::fabs(mesh.vertices[t[0]].x()) < 0.02 && std::fabs(mesh.vertices[t[0]].y()) < 0.01;
+  });
   rail = create_natural({Body::rail, 0.0, mesh, {}});
-  expect_refused(ErrorKind::input_data, "offsets cannot represent this rail", [&] { represent(rail, {"offset", 1e-3, {}}); });
+  expect_refused(ErrorKind::input_data, "offsets cannot represent this rail", [&] {
+    represent(rail, {"offset", 1e-3, {}});
+  });
 }
 
 }  // namespace

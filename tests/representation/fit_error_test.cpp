@@ -47,7 +47,8 @@ void expect_reported_right(const NaturalSurface& natural, const Representation& 
 
 TEST(FitError, OfAWheelWithAFlat) {
   const NaturalSurface wheel = create_natural(s1002(one_flat()));
-  for (const char* backend : {"nurbs", "mesh", "mesh-flat"}) expect_reported_right(wheel, {backend, 2e-3, of(-0.06, 0.07)});
+  for (const char* backend : {"nurbs", "mesh", "mesh-flat"})
+    expect_reported_right(wheel, {backend, 2e-3, of(-0.06, 0.07)});
 }
 
 TEST(FitError, OfARailWithASquat) {

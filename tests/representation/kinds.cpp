@@ -30,11 +30,14 @@ Region wider(Region r, Body body) {
 }
 
 ArcChain arcs(Body body) {
-  if (body == Body::rail) return {-0.06 * std::sin(0.4), 0.06 * (1.0 - std::cos(0.4)), -0.4, {{0.06 * 0.4, 1.0 / 0.06}, {0.03, 1.0 / 0.3}}};
+  if (body == Body::rail)
+    return {-0.06 * std::sin(0.4), 0.06 * (1.0 - std::cos(0.4)), -0.4, {{0.06 * 0.4, 1.0 / 0.06}, {0.03, 1.0 / 0.3}}};
   return {-0.03, 0.0, 0.05, {{0.03, -1.0 / 0.5}, {0.03, -1.0 / 0.3}}};
 }
 
-std::string base_name(Body body, const std::string& shape) { return (body == Body::wheel ? "wheel_" : "rail_") + shape; }
+std::string base_name(Body body, const std::string& shape) {
+  return (body == Body::wheel ? "wheel_" : "rail_") + shape;
+}
 
 }  // namespace
 
@@ -75,7 +78,8 @@ Defects one_squat() {
 
 std::vector<Kind> kinds() {
   std::vector<Kind> all;
-  const auto add_body = [&](Body body, const SurfaceSpec& standard, const std::vector<std::pair<std::string, Defects>>& damage) {
+  const auto add_body = [&](Body body, const SurfaceSpec& standard,
+                            const std::vector<std::pair<std::string, Defects>>& damage) {
     const Region region = sampled(body);
     const NaturalSurface natural = create_natural(standard);
     const Representation samples{"", kStep, wider(region, body)};
@@ -103,12 +107,17 @@ std::vector<Kind> kinds() {
 
 std::ostream& operator<<(std::ostream& out, const Kind& kind) { return out << kind.name; }
 
-Distance distance(const Surface& reference, const Surface& candidate, Body body, const Region& region, int n, double margin, double aside) {
+Distance distance(const Surface& reference, const Surface& candidate, Body body, const Region& region, int n,
+                  double margin, double aside) {
   // planes of their own: straight up at the station (rail), turned to it (wheel)
   const double turn = aside / reference.bounds().max.z();
-  const auto plane = [&](double u) { return body == Body::rail ? Pose{{u, 0.0, 0.0}, Mat3::Identity()} : Pose{Vec3::Zero(), rotation({0.0, 0.0, u - turn})}; };
+  const auto plane = [&](double u) {
+    return body == Body::rail ? Pose{{u, 0.0, 0.0}, Mat3::Identity()}
+                              : Pose{Vec3::Zero(), rotation({0.0, 0.0, u - turn})};
+  };
   const Box3 box = reference.bounds();
-  const double y_min = std::max(region.y_min, box.min.y() + margin), y_max = std::min(region.y_max, box.max.y() - margin);
+  const double y_min = std::max(region.y_min, box.min.y() + margin),
+               y_max = std::min(region.y_max, box.max.y() - margin);
   constexpr double kGolden1 = 0.7548776662466927, kGolden2 = 0.5698402909980532;  // Roberts' sequence in two dimensions
   Distance d;
   double sum = 0.0, weights = 0.0;

@@ -8,8 +8,8 @@
 #include "treadmark/app/compare_cases.hpp"
 #include "treadmark/tests/representation/example_cases.hpp"
 
-// Any representation of the wheel rolls on any of the rail: spline, mesh and offset on spline, mesh and offset, for damaged and
-// undamaged bodies, give the patches that the formulas give.
+// Any representation of the wheel rolls on any of the rail: spline, mesh and offset on spline, mesh and offset, for
+// damaged and undamaged bodies, give the patches that the formulas give.
 
 namespace treadmark::app {
 namespace {
@@ -24,13 +24,13 @@ struct Errors {
   }
 };
 
-// Samples 0.5 mm apart; elements of 1 mm. The undamaged S1002 touches where its published zones join: the representations
-// round that joint off over a spacing, each in its way.
+// Samples 0.5 mm apart; elements of 1 mm. The undamaged S1002 touches where its published zones join: the
+// representations round that joint off over a spacing, each in its way.
 constexpr Errors kAllowed{
-    4e-3,    // greatest pressure, relative
-    0.02,    // area: two whole elements of a hundred
-    5e-4,    // every force on the rail against the normal force of the patch
-    20e-6,   // contact reference [m]
+    4e-3,   // greatest pressure, relative
+    0.02,   // area: two whole elements of a hundred
+    5e-4,   // every force on the rail against the normal force of the patch
+    20e-6,  // contact reference [m]
 };
 
 double area_of(const io::PatchResult& p) { return p.ncon * p.fields.grid.cell_area(); }
@@ -80,8 +80,8 @@ void expect_nine_equal(bool flat, const Defects& of_rail) {
   ::testing::Test::RecordProperty("area", std::to_string(worst.area));
   ::testing::Test::RecordProperty("force", std::to_string(worst.force));
   ::testing::Test::RecordProperty("position_mm", std::to_string(1e3 * worst.position));
-  ::testing::Test::RecordProperty("patches", std::to_string(truth.patches.size()) + ", elements " +
-                                                 std::to_string(truth.patches.front().ncon));
+  ::testing::Test::RecordProperty(
+      "patches", std::to_string(truth.patches.size()) + ", elements " + std::to_string(truth.patches.front().ncon));
 }
 
 Defects corrugated() {

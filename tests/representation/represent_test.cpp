@@ -19,12 +19,14 @@ using ::testing::HasSubstr;
 
 class EveryKind : public ::testing::TestWithParam<Kind> {};
 
-INSTANTIATE_TEST_SUITE_P(Represent, EveryKind, ::testing::ValuesIn(kinds()), [](const auto& which) { return which.param.name; });
+INSTANTIATE_TEST_SUITE_P(Represent, EveryKind, ::testing::ValuesIn(kinds()),
+                         [](const auto& which) { return which.param.name; });
 
 constexpr double kResolution = 1e-3;  ///< [m]
 
-// Samples h = 1 mm apart. Splines and fitted patches round off jumps of curvature of up to k = 77/m by about k h^2/12 = 6 um
-// where these lie in the middle of a cell; triangles cut k h^2/8 = 10 um off arcs. Elsewhere far less: see the rms.
+// Samples h = 1 mm apart. Splines and fitted patches round off jumps of curvature of up to k = 77/m by about k h^2/12 =
+// 6 um where these lie in the middle of a cell; triangles cut k h^2/8 = 10 um off arcs. Elsewhere far less: see the
+// rms.
 constexpr double kSmoothMax = 5e-6, kFacetsMax = 10e-6, kSmoothRms = 0.5e-6, kFacetsRms = 3e-6;
 /// What points, slices and triangles 0.5 mm apart differ from the formula.
 constexpr double kGivenMax = 4e-6, kGivenRms = 0.4e-6;
@@ -36,7 +38,8 @@ TEST_P(EveryKind, NaturallyIsWhatItIsGivenAs) {
   EXPECT_EQ(natural.surface->facing(), kind.spec.body == Body::wheel ? Facing::down : Facing::up);
   const bool one_section = kind.natural == "analytic" || std::holds_alternative<Profile>(kind.spec.shape);
   EXPECT_EQ(natural.constant_profile(), one_section && kind.spec.defects.empty());
-  const Distance d = distance(*create_natural(kind.formula).surface, *natural.surface, kind.spec.body, kind.region, 4000);
+  const Distance d =
+      distance(*create_natural(kind.formula).surface, *natural.surface, kind.spec.body, kind.region, 4000);
   EXPECT_GT(d.points, 3500);
   EXPECT_EQ(d.missing, 0);
   EXPECT_LE(d.max, kGivenMax);
@@ -54,7 +57,9 @@ TEST_P(EveryKind, BecomesEveryBackend) {
     EXPECT_EQ(r.surface->backend(), backend);
     EXPECT_EQ(r.surface->facing(), natural.surface->facing());
     EXPECT_EQ(r.resampled, backend != "analytic");
-    if (r.resampled) { EXPECT_EQ(r.resolution, kResolution); }
+    if (r.resampled) {
+      EXPECT_EQ(r.resolution, kResolution);
+    }
     EXPECT_EQ(r.region.u_min, kind.region.u_min);
     EXPECT_EQ(r.region.u_max, kind.region.u_max);
     const Distance d = distance(*natural.surface, *r.surface, kind.spec.body, kind.region, 1500, 2e-3);
@@ -94,7 +99,9 @@ TEST(Represent, GivenTrianglesServeBothRefinementsDirectly) {
   for (std::size_t i = 0; i < mesh.vertices.size(); i += 97) {
     const Vec3& v = mesh.vertices[i];
     for (const Surface* s : {natural.surface.get(), flat.surface.get()})
-      if (const double z = height_at(*s, {}, {v.x(), v.y()}); !std::isnan(z)) { EXPECT_NEAR(z, v.z(), 1e-12); }
+      if (const double z = height_at(*s, {}, {v.x(), v.y()}); !std::isnan(z)) {
+        EXPECT_NEAR(z, v.z(), 1e-12);
+      }
   }
 }
 
@@ -115,7 +122,9 @@ TEST(Represent, ResolutionAndRegionAreWhatWasAsked) {
     EXPECT_NEAR(box.max.y(), region.y_max, 2.1e-3);
     EXPECT_NEAR(box.min.x(), kWheelRadius * std::sin(0.1), 4.2e-3);
     EXPECT_NEAR(box.max.x(), kWheelRadius * std::sin(0.15), 4.2e-3);
-    const auto at = [&](double theta, double y) { return height_at(*r.surface, {Vec3::Zero(), rotation({0.0, 0.0, theta})}, {0.0, y}); };
+    const auto at = [&](double theta, double y) {
+      return height_at(*r.surface, {Vec3::Zero(), rotation({0.0, 0.0, theta})}, {0.0, y});
+    };
     EXPECT_FALSE(std::isnan(at(0.101, 0.0)));
     EXPECT_FALSE(std::isnan(at(0.149, 0.0)));
     EXPECT_TRUE(std::isnan(at(0.09, 0.0)));
@@ -151,7 +160,8 @@ TEST(Represent, DefaultResolutionIsHalfAMillimetre) {
 
 TEST(Represent, RailsWithoutEndsAreSampledHalfAMetreToBothSidesWithANote) {
   const NaturalSurface rail = create_natural(rail_60e1(one_squat()));
-  for (const std::string backend : {"spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"}) {
+  for (const std::string backend :
+       {"spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"}) {
     SCOPED_TRACE(backend);
     const RepresentedSurface r = represent(rail, {backend, 4e-3, {}});
     EXPECT_EQ(r.region.u_min, -kDefaultHalfLength);
@@ -174,7 +184,8 @@ TEST(Represent, OffsetsNoteTheirVoxels) {
 
 TEST(Represent, RepairedTrianglesAreNoted) {
   const std::vector<Kind> all = kinds();
-  SurfaceSpec spec = std::find_if(all.begin(), all.end(), [](const Kind& k) { return k.name == "rail_triangles"; })->spec;
+  SurfaceSpec spec =
+      std::find_if(all.begin(), all.end(), [](const Kind& k) { return k.name == "rail_triangles"; })->spec;
   auto& mesh = std::get<TriangleMesh>(spec.shape);
   std::swap(mesh.triangles[10][0], mesh.triangles[10][1]);
   mesh.triangles.push_back(mesh.triangles[50]);
@@ -182,7 +193,8 @@ TEST(Represent, RepairedTrianglesAreNoted) {
   const NaturalSurface natural = create_natural(spec);
   EXPECT_THAT(represent(natural, {}).note, HasSubstr("1 flipped triangles turned"));
   EXPECT_THAT(represent(natural, {"mesh-flat", 0.0, {}}).note,
-              HasSubstr("repaired the mesh: 1 triangles without area removed, 1 duplicate triangles removed, 1 flipped triangles turned."));
+              HasSubstr("repaired the mesh: 1 triangles without area removed, 1 duplicate triangles removed, 1 flipped "
+                        "triangles turned."));
 }
 
 }  // namespace

@@ -15,13 +15,14 @@ namespace {
 
 /// Greatest errors that are promised, over all cases.
 struct Promise {
-  double pmax;          ///< relative
-  double area = 0.03;   ///< relative: whole elements only, about 90 round the edge of 900
-  double force = 2e-3;  ///< of the vector on the rail; its vertical part is prescribed
+  double pmax;               ///< relative
+  double area = 0.03;        ///< relative: whole elements only, about 90 round the edge of 900
+  double force = 2e-3;       ///< of the vector on the rail; its vertical part is prescribed
   double position = 0.4e-3;  ///< [m]
 };
 
-void expect_close(const std::vector<double>& pitch_deg, double resolution, const std::map<std::string, Promise>& promises) {
+void expect_close(const std::vector<double>& pitch_deg, double resolution,
+                  const std::map<std::string, Promise>& promises) {
   CompareSettings settings;
   for (const auto& [backend, promise] : promises) settings.backends.push_back(backend);
   settings.resolutions = {resolution};
@@ -55,17 +56,19 @@ void expect_close(const std::vector<double>& pitch_deg, double resolution, const
       force = std::max(force, row.force_error);
       position = std::max(position, row.position_error);
     }
-    ::testing::Test::RecordProperty(candidate.name, std::to_string(pmax) + " " + std::to_string(area) + " " + std::to_string(force) + " " +
-                                       std::to_string(1e3 * position) + " mm, built in " +
-                                       std::to_string(candidate.wheel.build_seconds) + " s");
+    ::testing::Test::RecordProperty(candidate.name, std::to_string(pmax) + " " + std::to_string(area) + " " +
+                                                        std::to_string(force) + " " + std::to_string(1e3 * position) +
+                                                        " mm, built in " +
+                                                        std::to_string(candidate.wheel.build_seconds) + " s");
   }
 }
 
-// Wanted of 1 mm: spline and offset 1 %, mesh 2 %, its triangles 5 %; of 0.25 mm: everything 1 %. What is promised here is
-// less, some times what is found, so that a loss of an order shows.
+// Wanted of 1 mm: spline and offset 1 %, mesh 2 %, its triangles 5 %; of 0.25 mm: everything 1 %. What is promised here
+// is less, some times what is found, so that a loss of an order shows.
 TEST(WheelFlat, SamplesOfOneMillimetre) {
-  expect_close({-4.0, 0.0, 10.0}, 1e-3,
-               {{"spline", {1e-4}}, {"nurbs", {2e-4}}, {"offset", {2e-4}}, {"offset-quadratic", {2e-3}}, {"mesh", {5e-4}}});
+  expect_close(
+      {-4.0, 0.0, 10.0}, 1e-3,
+      {{"spline", {1e-4}}, {"nurbs", {2e-4}}, {"offset", {2e-4}}, {"offset-quadratic", {2e-3}}, {"mesh", {5e-4}}});
 }
 
 TEST(WheelFlat, FlatTrianglesOfOneMillimetre) { expect_close({-4.0, 0.0, 10.0}, 1e-3, {{"mesh-flat", {0.05}}}); }

@@ -62,15 +62,18 @@ TEST_P(Locus, EqualsTheGrid) {
         ContactSearch grid(pair, s);
         const double least = grid.at(grid.least_gap()).least_gap + grid.least_gap();
         const auto a = locus.at(least + depth), b = grid.at(least + depth);
-        const std::string where = "y = " + std::to_string(y) + ", yaw = " + std::to_string(yaw) + ", depth " + std::to_string(depth);
+        const std::string where =
+            "y = " + std::to_string(y) + ", yaw = " + std::to_string(yaw) + ", depth " + std::to_string(depth);
         ASSERT_EQ(a.patches.size(), b.patches.size()) << where;
         two_patches += a.patches.size() == 2;
         for (std::size_t i = 0; i < a.patches.size(); ++i) {
           const auto &u = a.patches[i], &v = b.patches[i];
           const double position = std::hypot(u.x - v.x, u.y - v.y);
           const auto &e = u.extent.box, &f = v.extent.box;
-          const double extent = std::max({std::abs(e.x_min - f.x_min), std::abs(e.x_max - f.x_max), std::abs(e.y_min - f.y_min), std::abs(e.y_max - f.y_max)});
-          // The locus takes the wheel along x as a circle with a cubic part: less exact on a yawed flange at 70 degrees.
+          const double extent = std::max({std::abs(e.x_min - f.x_min), std::abs(e.x_max - f.x_max),
+                                          std::abs(e.y_min - f.y_min), std::abs(e.y_max - f.y_max)});
+          // The locus takes the wheel along x as a circle with a cubic part: less exact on a yawed flange at 70
+          // degrees.
           const bool steep = std::abs(u.inclination) > 0.9;
           EXPECT_LT(position, steep ? 2e-5 : 1e-5) << where;
           EXPECT_LT(extent, steep ? 3e-4 : 5e-5) << where;
@@ -82,7 +85,8 @@ TEST_P(Locus, EqualsTheGrid) {
   EXPECT_GT(two_patches, 0);
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, Locus, ::testing::Values("analytic", "spline"), [](const auto& backend) { return std::string(backend.param); });
+INSTANTIATE_TEST_SUITE_P(Backends, Locus, ::testing::Values("analytic", "spline"),
+                         [](const auto& backend) { return std::string(backend.param); });
 
 TEST(LocusMethod, IsForConstantProfilesAlongTheTrackOnly) {
   const Profiles p = profiles("analytic");

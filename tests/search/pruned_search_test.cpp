@@ -20,8 +20,8 @@ using detection::SearchMethod;
 
 class PrunedSearch : public ::testing::TestWithParam<std::string_view> {};
 
-// Values at the points are the same but for rounding: heights may depend on how a grid is cut by 1e-12 m. An extent is where
-// the gap is zero: at a grazing angle it moves by more than the gap does.
+// Values at the points are the same but for rounding: heights may depend on how a grid is cut by 1e-12 m. An extent is
+// where the gap is zero: at a grazing angle it moves by more than the gap does.
 constexpr double kSame = 1e-9;
 
 int configurations() {
@@ -89,7 +89,11 @@ detection::BodyPair touching(const Bodies& bodies) {
 detection::SearchSettings over(double x_half, double y_half) {
   constexpr double kStepX = 0.2e-3, kStepY = 0.05e-3;
   detection::SearchSettings s;
-  s.grid_T = {-x_half, -y_half, kStepX, kStepY, static_cast<int>(std::lround(2.0 * x_half / kStepX)) + 1,
+  s.grid_T = {-x_half,
+              -y_half,
+              kStepX,
+              kStepY,
+              static_cast<int>(std::lround(2.0 * x_half / kStepX)) + 1,
               static_cast<int>(std::lround(2.0 * y_half / kStepY)) + 1};
   return s;
 }
@@ -103,7 +107,8 @@ TEST_P(PrunedSearch, WorkFollowsThePatchAndNotTheWindow) {
     EXPECT_EQ(found.patches.size(), 1u);
     return static_cast<double>(search.points_evaluated());
   };
-  const double once = evaluated(over(0.05, 0.036)), twice = evaluated(over(0.1, 0.036)), all = evaluated(over(0.1, 0.072));
+  const double once = evaluated(over(0.05, 0.036)), twice = evaluated(over(0.1, 0.036)),
+               all = evaluated(over(0.1, 0.072));
   EXPECT_LT(twice, 1.1 * once);
   EXPECT_LT(all, 1.1 * twice);
   EXPECT_GT(once, 0.0);

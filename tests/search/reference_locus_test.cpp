@@ -31,7 +31,10 @@ struct StandardPair {
   std::shared_ptr<const Surface> wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}}, "spline");
 
   detection::BodyPair placed(double y, double yaw) const {
-    return {rail.get(), wheel.get(), {Vec3::Zero(), rotation_x(-1.0 / 40.0)}, {{0.0, y, -kRadius}, rotation({0.3 * yaw, yaw, 0.5})}};
+    return {rail.get(),
+            wheel.get(),
+            {Vec3::Zero(), rotation_x(-1.0 / 40.0)},
+            {{0.0, y, -kRadius}, rotation({0.3 * yaw, yaw, 0.5})}};
   }
 };
 
@@ -61,7 +64,8 @@ TEST(ReferenceLocus, EqualsTreadmarksOwnOnSmoothProfiles) {
       two_patches += a.patches.size() == 2;
       for (std::size_t i = 0; i < a.patches.size(); ++i) {
         const ContactPatch &u = a.patches[i], &v = b.patches[i];
-        // A flange at 70 degrees is met at an x that the first order in the yaw angle gives less well, and is short across.
+        // A flange at 70 degrees is met at an x that the first order in the yaw angle gives less well, and is short
+        // across.
         if (std::abs(u.inclination) > 0.9) continue;
         ++compared;
         EXPECT_NEAR(u.x, v.x, 0.1e-3) << where;
@@ -99,7 +103,8 @@ struct Heads {
   }
   detection::BodyPair pair() const { return {rail.get(), wheel.get(), {}, {{0.0, 0.0, -kRadius}, Mat3::Identity()}}; }
   static double gap(double y) {
-    return kRailHead - std::sqrt(kRailHead * kRailHead - y * y) + kWheelHead - std::sqrt(kWheelHead * kWheelHead - y * y);
+    return kRailHead - std::sqrt(kRailHead * kRailHead - y * y) + kWheelHead -
+           std::sqrt(kWheelHead * kWheelHead - y * y);
   }
 };
 
@@ -123,7 +128,8 @@ TEST(ReferenceLocus, SumsPenetrationOverItsRows) {
       const double half = std::sqrt(pen / kappa), h = 2.0 * half / kParts;
       double integral = 0.0;
       for (int k = 0; k <= kParts; ++k) {
-        const double x = -half + k * h, c = pen - kappa * x * x, value = weight == PenetrationWeight::linear ? c : c * c;
+        const double x = -half + k * h, c = pen - kappa * x * x,
+                     value = weight == PenetrationWeight::linear ? c : c * c;
         integral += (k == 0 || k == kParts ? 1.0 : k % 2 == 1 ? 4.0 : 2.0) * value * h / 3.0;
       }
       sum += integral, sum_y += integral * y, sum_a += integral * inclination;
@@ -166,9 +172,11 @@ TEST(ReferenceLocus, AnswersThreadsAlike) {
   const auto one = locus.at(locus.least() + 1e-4, -1.0, PenetrationWeight::squared, false);
   std::vector<ContactLocus::Found> many(4);
   std::vector<std::thread> threads;
-  for (auto& found : many) threads.emplace_back([&] { found = locus.at(locus.least() + 1e-4, -1.0, PenetrationWeight::squared, false); });
+  for (auto& found : many)
+    threads.emplace_back([&] { found = locus.at(locus.least() + 1e-4, -1.0, PenetrationWeight::squared, false); });
   for (auto& thread : threads) thread.join();
-  for (const auto& found : many) EXPECT_EQ(difference({found.patches, found.least_gap}, {one.patches, one.least_gap}, 0.0), "");
+  for (const auto& found : many)
+    EXPECT_EQ(difference({found.patches, found.least_gap}, {one.patches, one.least_gap}, 0.0), "");
 }
 
 TEST(ReferenceLocus, NeedsConstantProfilesAndIsNaNBesideTheRail) {

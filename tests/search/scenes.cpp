@@ -59,7 +59,9 @@ SurfaceSpec flat_wheel() {
   return spec;
 }
 
-double uniform(std::mt19937& random, double low, double high) { return std::uniform_real_distribution<double>(low, high)(random); }
+double uniform(std::mt19937& random, double low, double high) {
+  return std::uniform_real_distribution<double>(low, high)(random);
+}
 bool maybe(std::mt19937& random, double share) { return uniform(random, 0.0, 1.0) < share; }
 
 }  // namespace
@@ -82,7 +84,8 @@ detection::BodyPair random_pair(const Bodies& bodies, std::mt19937& random) {
   detection::BodyPair pair;
   pair.rail = bodies.rails[random() % bodies.rails.size()].get();
   pair.wheel = bodies.wheels[random() % bodies.wheels.size()].get();
-  pair.X_TR = {{uniform(random, -0.02, 0.02), uniform(random, -0.01, 0.01), 0.0}, rotation_x(uniform(random, -0.06, 0.06))};
+  pair.X_TR = {{uniform(random, -0.02, 0.02), uniform(random, -0.01, 0.01), 0.0},
+               rotation_x(uniform(random, -0.06, 0.06))};
   // Some over the edge of the rail, most near the middle.
   const double reach = maybe(random, 0.15) ? 0.07 : 0.012;
   pair.X_TW = {{uniform(random, -0.005, 0.005), uniform(random, -reach, reach), -kRadius},
@@ -122,7 +125,8 @@ std::string difference(const detection::SearchResult& a, const detection::Search
     const detection::ContactPatch &p = a.patches[i], &q = b.patches[i];
     compare("x", p.x, q.x);
     compare("y", p.y, q.y);
-    compare("inclination", p.inclination, q.inclination, 1000.0);  // next to a jump of curvature slopes of offsets are good to 1e-4 at single points
+    compare("inclination", p.inclination, q.inclination,
+            1000.0);  // next to a jump of curvature slopes of offsets are good to 1e-4 at single points
     compare("weight", p.weight, q.weight);
     compare("deepest gap", p.least_gap, q.least_gap);
     if (p.parts.size() != q.parts.size()) {

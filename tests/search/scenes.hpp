@@ -12,8 +12,8 @@
 
 namespace treadmark::testing {
 
-/// Rails and wheels in one representation: a standard rail with a squat and one with waves, a rail with three humps and a step along the track (like the
-/// nose of a crossing), a wheel with two flats.
+/// Rails and wheels in one representation: a standard rail with a squat and one with waves, a rail with three humps and
+/// a step along the track (like the nose of a crossing), a wheel with two flats.
 struct Bodies {
   std::vector<std::shared_ptr<const Surface>> rails, wheels;
 };

@@ -29,7 +29,8 @@ inline void expect_documented(const std::string& name, int n, const std::vector<
       ASSERT_TRUE(words >> bar >> printed) << "docs/convergence.md should read\n" << expected.str();
       // Half a unit of the second digit, and a little for the last bits of the transforms.
       EXPECT_NEAR(printed, e, 0.052 * std::pow(10.0, std::floor(std::log10(std::abs(e)))))
-          << "docs/convergence.md should read\n" << expected.str();
+          << "docs/convergence.md should read\n"
+          << expected.str();
     }
     return;
   }

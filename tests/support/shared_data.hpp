@@ -23,10 +23,10 @@ inline std::optional<std::filesystem::path> shared_folder() {
 }  // namespace treadmark::testing
 
 /// Skips a test that needs the reference data; in CI (CI=true) a missing folder is a failure instead.
-#define TREADMARK_REQUIRE_SHARED()                                                                    \
-  const auto shared = treadmark::testing::shared_folder();                                            \
-  if (!shared) {                                                                                      \
-    const char* ci = std::getenv("CI");                                                               \
+#define TREADMARK_REQUIRE_SHARED()                                                                        \
+  const auto shared = treadmark::testing::shared_folder();                                                \
+  if (!shared) {                                                                                          \
+    const char* ci = std::getenv("CI");                                                                   \
     if (ci != nullptr && std::string(ci) == "true") FAIL() << "reference data folder 'shared' not found"; \
-    GTEST_SKIP() << "reference data folder 'shared' not found";                                       \
+    GTEST_SKIP() << "reference data folder 'shared' not found";                                           \
   }

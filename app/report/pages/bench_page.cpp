@@ -29,8 +29,10 @@ std::vector<Row> rows_of(const JsonTree& bench) {
   for (const JsonTree& node : bench.at("rows").items()) {
     const double resolution = node.number("resolution_mm");
     const std::string backend = node.text("backend"), body = node.text("body");
-    if (body != "wheel" && body != "rail") node.at("body").refuse(fmt::format("is \"{}\" where wheel or rail is expected", body));
-    rows.push_back({node, resolution > 0.0 ? fmt::format("{} {:.4g} mm", backend, resolution) : backend, body == "wheel"});
+    if (body != "wheel" && body != "rail")
+      node.at("body").refuse(fmt::format("is \"{}\" where wheel or rail is expected", body));
+    rows.push_back(
+        {node, resolution > 0.0 ? fmt::format("{} {:.4g} mm", backend, resolution) : backend, body == "wheel"});
   }
   return rows;
 }
@@ -44,21 +46,25 @@ std::string joined(const std::vector<std::string>& parts) {
 void add_banners(const JsonTree& bench, const std::vector<Row>& rows, Section& overview) {
   if (!bench.flag("complete"))
     overview.blocks.emplace_back(
-        Banner{Banner::Kind::failed, "Interrupted.", fmt::format("Only what was finished is here: {}.", counted(rows.size(), "row"))});
+        Banner{Banner::Kind::failed, "Interrupted.",
+               fmt::format("Only what was finished is here: {}.", counted(rows.size(), "row"))});
   std::size_t wrong = 0;
   std::string reasons;
   for (const Row& row : rows) {
     if (row.node.flag("agrees")) continue;
-    reasons += fmt::format("{}{}, {}: {}", wrong++ == 0 ? "" : "; ", row.label, row.node.text("body"), row.node.text("reason"));
+    reasons += fmt::format("{}{}, {}: {}", wrong++ == 0 ? "" : "; ", row.label, row.node.text("body"),
+                           row.node.text("reason"));
   }
   if (wrong > 0)
-    overview.blocks.emplace_back(Banner{Banner::Kind::failed, fmt::format("{} of {} without figures:", wrong, counted(rows.size(), "row")),
-                                        fmt::format("what does not agree, or could not be built, is not timed. {}.", reasons)});
+    overview.blocks.emplace_back(
+        Banner{Banner::Kind::failed, fmt::format("{} of {} without figures:", wrong, counted(rows.size(), "row")),
+               fmt::format("what does not agree, or could not be built, is not timed. {}.", reasons)});
   if (rows.empty()) overview.blocks.emplace_back(Banner{Banner::Kind::note, "No rows.", "Nothing was measured."});
 }
 
 /// The least of a quantity over rows, and whose it is.
-Cards::Card least(const std::vector<Row>& rows, const char* label, const char* key, double factor, const char* unit, bool rail_too) {
+Cards::Card least(const std::vector<Row>& rows, const char* label, const char* key, double factor, const char* unit,
+                  bool rail_too) {
   double best = NAN;
   std::string whose;
   for (const Row& row : rows) {
@@ -73,7 +79,8 @@ Cards::Card least(const std::vector<Row>& rows, const char* label, const char* k
 Cards cards_of(const JsonTree& bench, const std::vector<Row>& rows) {
   const auto agree = std::ranges::count_if(rows, [](const Row& row) { return row.node.flag("agrees"); });
   Cards cards;
-  cards.cards = {{"Rows that agree", fmt::format("{} of {}", agree, rows.size()), "with the surfaces as given and with single heights"},
+  cards.cards = {{"Rows that agree", fmt::format("{} of {}", agree, rows.size()),
+                  "with the surfaces as given and with single heights"},
                  least(rows, "Fastest height on the wheel", "ns_per_height", 1.0, "ns", false),
                  least(rows, "Fastest first search", "search_cold_s", kMilli, "ms", false),
                  least(rows, "Fastest distance", "distance_s", kMilli, "ms", false),
@@ -89,7 +96,8 @@ Facts facts_of(const JsonTree& bench) {
                    {"Date", bench.text("date")},
                    {"Version", git.empty() ? made.text("version") : fmt::format("{} ({})", made.text("version"), git)},
                    {"Compiler", bench.text("compiler")}};
-  for (const auto& [library, version] : bench.at("libraries").entries()) facts.entries.emplace_back(library, version.text());
+  for (const auto& [library, version] : bench.at("libraries").entries())
+    facts.entries.emplace_back(library, version.text());
   facts.entries.emplace_back("Input", file.empty() ? "the built-in case" : file);
   if (!file.empty()) facts.entries.emplace_back("SHA-256 of the input", input.text("sha256"));
   const std::string settings = joined(bench.at("settings").texts());
@@ -114,8 +122,8 @@ struct Quantity {
 };
 
 /// Points over the representations, a series a quantity of one body.
-Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit, double factor, const std::vector<Quantity>& quantities,
-               bool wheel) {
+Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit, double factor,
+               const std::vector<Quantity>& quantities, bool wheel) {
   const std::vector<std::string> names = names_of(rows);
   Panel panel{label, unit, true};
   for (const Quantity& quantity : quantities) {
@@ -128,7 +136,8 @@ Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit
       series.y[place] = value > 0.0 ? value : NAN;
       series.texts[place] = fmt::format("{}, {}: {} {}", row.label, quantity.name, shown({value, 3}), unit);
     }
-    if (std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); })) panel.series.push_back(std::move(series));
+    if (std::ranges::any_of(series.y, [](double y) { return std::isfinite(y); }))
+      panel.series.push_back(std::move(series));
   }
   return panel;
 }
@@ -157,21 +166,24 @@ Section charts_of(const std::vector<Row>& rows) {
                                       {"tilted", "ns_per_height_tilted"},
                                       {"tilted, with slopes", "ns_per_normal"},
                                       {"what the offsets lie on", "base_ns_per_height"}};
-  const std::vector<Quantity> detection{
-      {"first search", "search_cold_s"}, {"after a small move", "search_warm_s"}, {"undeformed distance", "distance_s"}};
+  const std::vector<Quantity> detection{{"first search", "search_cold_s"},
+                                        {"after a small move", "search_warm_s"},
+                                        {"undeformed distance", "distance_s"}};
   Section section{"costs", "Costs"};
   const auto add = [&](const char* id, const char* title, ChartView view, const char* note) {
     if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
   };
   add("heights", "Time of a height",
-      chart_of(rows, {panel_of(rows, "on the wheel", "ns", 1.0, heights, true), panel_of(rows, "on the rail", "ns", 1.0, heights, false)}),
+      chart_of(rows, {panel_of(rows, "on the wheel", "ns", 1.0, heights, true),
+                      panel_of(rows, "on the rail", "ns", 1.0, heights, false)}),
       "Level: the plane is level with the body. Tilted: rolled, yawed and pitched by 0.05, 0.03 and 0.02 rad.");
-  add("detection", "Contact detection", chart_of(rows, {panel_of(rows, "wheel on rail", "ms", kMilli, detection, true)}),
+  add("detection", "Contact detection",
+      chart_of(rows, {panel_of(rows, "wheel on rail", "ms", kMilli, detection, true)}),
       "Wheel and rail both in this representation.");
   add("memory", "Size, construction and accuracy",
-      chart_of(rows,
-               {both_bodies(rows, "memory", "MB", kMegabytes, "memory_bytes"), both_bodies(rows, "time to build", "ms", kMilli, "build_s"),
-                both_bodies(rows, "largest deviation", "µm", 1.0, "difference_um")}),
+      chart_of(rows, {both_bodies(rows, "memory", "MB", kMegabytes, "memory_bytes"),
+                      both_bodies(rows, "time to build", "ms", kMilli, "build_s"),
+                      both_bodies(rows, "largest deviation", "µm", 1.0, "difference_um")}),
       "Deviation: largest normal distance from the surface as given. Zero is not shown.");
   return section;
 }
@@ -184,8 +196,9 @@ Table table_of(const std::vector<Row>& rows) {
       {"ns_per_normal", {"with slopes", "ns"}},   {"base_ns_per_height", {"base of offsets", "ns"}},
       {"search_cold_s", {"first search", "s"}},   {"search_warm_s", {"after a small move", "s"}},
       {"distance_s", {"distance", "s"}},          {"patches", {"patches"}}};
-  Table table{
-      "rows", "All figures. Times stand only where everything agrees.", {{"representation"}, {"resolution", "mm"}, {"body"}, {"agrees"}}};
+  Table table{"rows",
+              "All figures. Times stand only where everything agrees.",
+              {{"representation"}, {"resolution", "mm"}, {"body"}, {"agrees"}}};
   for (const auto& [key, column] : quantities) table.columns.push_back(column);
   table.columns.push_back({"reason"});
   for (const Row& row : rows) {
@@ -193,7 +206,8 @@ Table table_of(const std::vector<Row>& rows) {
     line.cells = {row.node.text("backend"), Number{row.node.number("resolution_mm")}, row.node.text("body"),
                   std::string(row.node.flag("agrees") ? "yes" : "no")};
     for (const auto& [key, column] : quantities)
-      line.cells.emplace_back(Number{(column.unit == "MB" ? kMegabytes : 1.0) * row.node.number(key), column.unit.empty() ? 12 : 3});
+      line.cells.emplace_back(
+          Number{(column.unit == "MB" ? kMegabytes : 1.0) * row.node.number(key), column.unit.empty() ? 12 : 3});
     line.cells.emplace_back(row.node.text("reason"));
     table.rows.push_back(std::move(line));
   }
@@ -207,9 +221,9 @@ Page bench_page(const std::filesystem::path& folder) {
   const JsonTree& bench = file.root;
   const std::vector<Row> rows = rows_of(bench);
   const std::string input = bench.at("input").text("file");
-  Page page{
-      "bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
-      fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"), bench.text("machine"))};
+  Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
+            fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"),
+                        bench.text("machine"))};
   page.document = std::move(file.text);
   Section overview{"overview", "Overview"};
   add_banners(bench, rows, overview);

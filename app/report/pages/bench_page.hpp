@@ -8,7 +8,8 @@
 
 namespace treadmark::app::report {
 
-/// Report of a folder of `treadmark bench`: its bench.json. Errors: Error(input_data) for a file that is missing, broken or lacks keys.
+/// Report of a folder of `treadmark bench`: its bench.json. Errors: Error(input_data) for a file that is missing,
+/// broken or lacks keys.
 Page bench_page(const std::filesystem::path& folder);
 
 }  // namespace treadmark::app::report

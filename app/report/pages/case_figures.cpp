@@ -30,7 +30,8 @@ double total(const Case& result, double io::PatchResult::*member) {
 
 double largest(const Case& result, double io::PatchResult::*member) {
   double most = NAN;
-  for (const io::PatchResult& patch : result.patches) most = std::isnan(most) ? patch.*member : std::max(most, patch.*member);
+  for (const io::PatchResult& patch : result.patches)
+    most = std::isnan(most) ? patch.*member : std::max(most, patch.*member);
   return most;
 }
 
@@ -119,7 +120,9 @@ std::vector<Axis> case_axes(const io::RunResult& run) {
 
 std::vector<std::string> step_names(const io::RunResult& run) {
   const Axis first = case_axes(run).front();  // what tells the cases apart
-  const char* word = first.label == "position along the track" ? "s" : first.label == "lateral displacement" ? "y" : first.label.c_str();
+  const char* word = first.label == "position along the track" ? "s"
+                     : first.label == "lateral displacement"   ? "y"
+                                                               : first.label.c_str();
   std::vector<std::string> names;
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
     names.push_back(fmt::format("case {}", run.cases[i].number));
@@ -142,15 +145,18 @@ Timeline case_timeline(const io::RunResult& run) {
 ChartView case_chart(const io::RunResult& run) {
   ChartView view;
   view.linked = true;
-  view.panels.push_back(
-      one("largest pressure", "MPa", over_cases(run, [](const Case& c) { return kMega * largest(c, &io::PatchResult::pmax); })));
+  view.panels.push_back(one("largest pressure", "MPa",
+                            over_cases(run, [](const Case& c) { return kMega * largest(c, &io::PatchResult::pmax); })));
   view.panels.push_back(force_panel(run));
-  view.panels.push_back(one("contact area", "mm²", over_cases(run, [](const Case& c) { return kSquareMilli * contact_area(c); })));
+  view.panels.push_back(
+      one("contact area", "mm²", over_cases(run, [](const Case& c) { return kSquareMilli * contact_area(c); })));
   if (any_wheelset(run))
-    view.panels.push_back(one("vertical position of the wheelset", "mm", over_cases(run, [](const Case& c) { return kMilli * c.z; })));
-  else
     view.panels.push_back(
-        one("approach", "mm", over_cases(run, [](const Case& c) { return kMilli * largest(c, &io::PatchResult::approach); })));
+        one("vertical position of the wheelset", "mm", over_cases(run, [](const Case& c) { return kMilli * c.z; })));
+  else
+    view.panels.push_back(one("approach", "mm", over_cases(run, [](const Case& c) {
+                                return kMilli * largest(c, &io::PatchResult::approach);
+                              })));
   return view;
 }
 
@@ -162,7 +168,11 @@ Table case_table(const io::RunResult& run) {
   for (std::size_t k = 0; k + 1 < axes.size(); ++k) table.columns.push_back({axes[k].label, axes[k].unit});
   table.columns.insert(table.columns.end(), {{"patches"}, {"p_max", "MPa"}, {"area", "mm²"}});
   for (const char* name : {"x", "y", "z"})
-    table.columns.push_back({fmt::format("F_{}", wheelset ? name : name[0] == 'z' ? "n" : name[0] == 'y' ? "s" : "x"), "kN"});
+    table.columns.push_back({fmt::format("F_{}", wheelset         ? name
+                                                 : name[0] == 'z' ? "n"
+                                                 : name[0] == 'y' ? "s"
+                                                                  : "x"),
+                             "kN"});
   table.columns.push_back({"time", "s"});
   table.columns.push_back({"message"});
   for (std::size_t i = 0; i < run.cases.size(); ++i) {
@@ -173,7 +183,8 @@ Table case_table(const io::RunResult& run) {
     row.cells.emplace_back(Number{kMega * largest(c, &io::PatchResult::pmax)});
     row.cells.emplace_back(Number{kSquareMilli * contact_area(c)});
     const Vec3 force =
-        wheelset ? c.force_tr : Vec3(total(c, &io::PatchResult::fx), total(c, &io::PatchResult::fs), total(c, &io::PatchResult::fn));
+        wheelset ? c.force_tr
+                 : Vec3(total(c, &io::PatchResult::fx), total(c, &io::PatchResult::fs), total(c, &io::PatchResult::fn));
     for (int k = 0; k < 3; ++k) row.cells.emplace_back(Number{kKilo * force[k]});
     row.cells.emplace_back(Number{c.seconds, 3});
     row.cells.emplace_back(c.message);
@@ -183,10 +194,13 @@ Table case_table(const io::RunResult& run) {
 }
 
 Table patch_table(const io::RunResult& run) {
-  Table table{"patches", "Contact patches. x, y, z: contact reference in track axes; forces and creepages in contact axes.", {}};
-  table.columns = {{"case"},           {"patch"},     {"x", "mm"},   {"y", "mm"},      {"z", "mm"},        {"contact angle", "°"},
-                   {"F_n", "kN"},      {"F_x", "kN"}, {"F_s", "kN"}, {"p_max", "MPa"}, {"approach", "mm"}, {"area", "mm²"},
-                   {"slip area", "%"}, {"ξ"},         {"η"},         {"φ", "rad/mm"}};
+  Table table{"patches",
+              "Contact patches. x, y, z: contact reference in track axes; forces and creepages in contact axes.",
+              {}};
+  table.columns = {
+      {"case"},           {"patch"},     {"x", "mm"},   {"y", "mm"},      {"z", "mm"},        {"contact angle", "°"},
+      {"F_n", "kN"},      {"F_x", "kN"}, {"F_s", "kN"}, {"p_max", "MPa"}, {"approach", "mm"}, {"area", "mm²"},
+      {"slip area", "%"}, {"ξ"},         {"η"},         {"φ", "rad/mm"}};
   for (std::size_t i = 0; i < run.cases.size(); ++i)
     for (std::size_t k = 0; k < run.cases[i].patches.size(); ++k) {
       const io::PatchResult& p = run.cases[i].patches[k];
@@ -195,9 +209,10 @@ Table patch_table(const io::RunResult& run) {
       const double slip = p.ncon > 0 ? 100.0 * p.nslip / p.ncon : NAN;
       for (const double value :
            {static_cast<double>(run.cases[i].number), p.id > 0 ? static_cast<double>(p.id) : static_cast<double>(k + 1),
-            none * kMilli * p.x_tr, none * kMilli * p.y_tr, none * kMilli * p.z_tr, none * kDegrees * p.angle, kKilo * p.fn, kKilo * p.fx,
-            kKilo * p.fs, kMega * p.pmax, kMilli * p.approach, kSquareMilli * p.ncon * p.fields.grid.cell_area(), slip, rolls * p.xi,
-            rolls * p.eta, rolls * p.phi / kMilli})
+            none * kMilli * p.x_tr, none * kMilli * p.y_tr, none * kMilli * p.z_tr, none * kDegrees * p.angle,
+            kKilo * p.fn, kKilo * p.fx, kKilo * p.fs, kMega * p.pmax, kMilli * p.approach,
+            kSquareMilli * p.ncon * p.fields.grid.cell_area(), slip, rolls * p.xi, rolls * p.eta,
+            rolls * p.phi / kMilli})
         row.cells.emplace_back(Number{value});
       table.rows.push_back(std::move(row));
     }

@@ -15,7 +15,8 @@ namespace treadmark::app::report {
 /// A frame a case; the frames keep the run alive. name: of the set.
 FrameSet frames_of(const std::shared_ptr<const io::RunResult>& run, std::string name);
 
-/// What varies from case to case: pitch, position ... in the order in which people would choose it; the number of the case comes last.
+/// What varies from case to case: pitch, position ... in the order in which people would choose it; the number of the
+/// case comes last.
 std::vector<Axis> case_axes(const io::RunResult& run);
 
 /// A step a case.

@@ -47,12 +47,14 @@ std::shared_ptr<const io::RunResult> in_order(std::vector<io::CaseResult> result
 
 }  // namespace
 
-ComparedFields compared_fields(std::vector<io::ComparisonCandidate> stored, const ComparedCandidates& all, const std::string& file) {
+ComparedFields compared_fields(std::vector<io::ComparisonCandidate> stored, const ComparedCandidates& all,
+                               const std::string& file) {
   ComparedFields out;
   std::vector<std::string> frame_names;
   for (const ComparedCandidate& candidate : all.candidates) {
     if (candidate.solved == 0) continue;
-    const auto found = std::ranges::find_if(stored, [&](const io::ComparisonCandidate& c) { return same(c, candidate); });
+    const auto found =
+        std::ranges::find_if(stored, [&](const io::ComparisonCandidate& c) { return same(c, candidate); });
     if (found == stored.end()) refuse(file, fmt::format("there are none of {}", candidate.label));
     const auto run = in_order(std::move(found->results), all.cases);
     const bool truth = &candidate == all.truth();

@@ -23,11 +23,14 @@ double time_ms(const Candidate& c) { return kMilli * c.mean_seconds(); }
 double memory(const Candidate& c) { return c.memory_MB(); }
 double build_ms(const Candidate& c) { return kMilli * c.build_s; }
 
-std::string with_unit(double value, const char* unit) { return std::isfinite(value) ? fmt::format("{} {}", shown({value, 3}), unit) : "–"; }
+std::string with_unit(double value, const char* unit) {
+  return std::isfinite(value) ? fmt::format("{} {}", shown({value, 3}), unit) : "–";
+}
 
 std::string hover(const Candidate& c) {
-  return fmt::format("{}: error of the largest pressure {}, surface {}, {} a case, {}", c.label, with_unit(c.pmax_error_percent, "%"),
-                     with_unit(c.height_max_um, "µm"), with_unit(time_ms(c), "ms"), with_unit(c.memory_MB(), "MB"));
+  return fmt::format("{}: error of the largest pressure {}, surface {}, {} a case, {}", c.label,
+                     with_unit(c.pmax_error_percent, "%"), with_unit(c.height_max_um, "µm"),
+                     with_unit(time_ms(c), "ms"), with_unit(c.memory_MB(), "MB"));
 }
 
 /// Candidates with a resolution by their backends, coarse before fine, in the order in which the backends appear.
@@ -35,14 +38,16 @@ std::vector<std::vector<const Candidate*>> by_backend(const ComparedCandidates& 
   std::vector<std::vector<const Candidate*>> groups;
   for (const Candidate& c : all.candidates) {
     if (c.as_given()) continue;
-    const auto known = std::ranges::find_if(groups, [&](const auto& group) { return group.front()->backend == c.backend; });
+    const auto known =
+        std::ranges::find_if(groups, [&](const auto& group) { return group.front()->backend == c.backend; });
     if (known == groups.end())
       groups.push_back({&c});
     else
       known->push_back(&c);
   }
   for (auto& group : groups)
-    std::ranges::stable_sort(group, [](const Candidate* a, const Candidate* b) { return a->resolution_mm > b->resolution_mm; });
+    std::ranges::stable_sort(
+        group, [](const Candidate* a, const Candidate* b) { return a->resolution_mm > b->resolution_mm; });
   return groups;
 }
 
@@ -53,7 +58,8 @@ double placed(double value, double least) {
 }
 
 /// A curve a backend; what has no resolution becomes a level.
-Panel over_resolution(const ComparedCandidates& all, const char* label, const char* unit, Value value, double least, bool with_truth) {
+Panel over_resolution(const ComparedCandidates& all, const char* label, const char* unit, Value value, double least,
+                      bool with_truth) {
   Panel panel{label, unit, true};
   for (const auto& group : by_backend(all)) {
     Series series{group.front()->backend, {}, {}, Series::Marks::both};
@@ -89,7 +95,8 @@ ChartView accuracy_chart(const ComparedCandidates& all) {
 ChartView cost_chart(const ComparedCandidates& all) {
   ChartView view;
   view.x = resolution_axis();
-  view.panels = {over_resolution(all, "detection", "ms", time_ms, 0.0, true), over_resolution(all, "memory", "MB", memory, 0.0, true),
+  view.panels = {over_resolution(all, "detection", "ms", time_ms, 0.0, true),
+                 over_resolution(all, "memory", "MB", memory, 0.0, true),
                  over_resolution(all, "time to build", "ms", build_ms, 0.0, true)};
   return view;
 }
@@ -123,8 +130,9 @@ std::vector<const Candidate*> drawn_over_cases(const ComparedCandidates& all) {
   if (solved.size() <= kFew) return solved;
   std::vector<const Candidate*> out;
   for (const Candidate* c : solved) {
-    const bool finest = std::ranges::none_of(
-        solved, [&](const Candidate* other) { return other->backend == c->backend && other->resolution_mm < c->resolution_mm; });
+    const bool finest = std::ranges::none_of(solved, [&](const Candidate* other) {
+      return other->backend == c->backend && other->resolution_mm < c->resolution_mm;
+    });
     if (c == all.truth() || c->as_given() || finest) out.push_back(c);
   }
   return out;
@@ -145,36 +153,38 @@ ChartView case_errors_chart(const ComparedCandidates& all) {
     }
     return out;
   };
-  view.panels = {panel("largest pressure", "MPa", "pmax_MPa", 1.0, true), panel("error of p_max", "%", "pmax_error_percent", 1.0, false),
-                 panel("normal force", "kN", "fn_N", 1e-3, true), panel("error of the force", "%", "force_error_percent", 1.0, false),
+  view.panels = {panel("largest pressure", "MPa", "pmax_MPa", 1.0, true),
+                 panel("error of p_max", "%", "pmax_error_percent", 1.0, false),
+                 panel("normal force", "kN", "fn_N", 1e-3, true),
+                 panel("error of the force", "%", "force_error_percent", 1.0, false),
                  panel("error of the position", "mm", "position_error_mm", 1.0, false)};
   return view;
 }
 
 Table candidate_table(const ComparedCandidates& all) {
-  Table table{
-      "candidates",
-      "Representations. Errors are the largest in size over the cases, deviations those of the worse of wheel and rail, times of search "
-      "and distance means per case; build and memory are of wheel and rail together.",
-      {{"representation"},
-       {"resolution", "mm"},
-       {"wheel"},
-       {"rail"},
-       {"cases"},
-       {"ok"},
-       {"error of p_max", "%"},
-       {"error of area", "%"},
-       {"error of force", "%"},
-       {"error of position", "mm"},
-       {"largest deviation", "µm"},
-       {"rms deviation", "µm"},
-       {"slope", "mrad"},
-       {"curvature", "1/m"},
-       {"search", "ms"},
-       {"distance", "ms"},
-       {"build", "s"},
-       {"memory", "MB"},
-       {"notes"}}};
+  Table table{"candidates",
+              "Representations. Errors are the largest in size over the cases, deviations those of the worse of wheel "
+              "and rail, times of search "
+              "and distance means per case; build and memory are of wheel and rail together.",
+              {{"representation"},
+               {"resolution", "mm"},
+               {"wheel"},
+               {"rail"},
+               {"cases"},
+               {"ok"},
+               {"error of p_max", "%"},
+               {"error of area", "%"},
+               {"error of force", "%"},
+               {"error of position", "mm"},
+               {"largest deviation", "µm"},
+               {"rms deviation", "µm"},
+               {"slope", "mrad"},
+               {"curvature", "1/m"},
+               {"search", "ms"},
+               {"distance", "ms"},
+               {"build", "s"},
+               {"memory", "MB"},
+               {"notes"}}};
   for (const Candidate& c : all.candidates) {
     Table::Row row;
     row.cells = {c.backend + (&c == all.truth() ? " (truth)" : ""),
@@ -183,9 +193,9 @@ Table candidate_table(const ComparedCandidates& all) {
                  c.rail.text("backend"),
                  Number{static_cast<double>(c.solved)},
                  Number{static_cast<double>(c.ok)}};
-    for (const double value :
-         {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm, c.height_max_um, c.height_rms_um,
-          c.slope_max_mrad, c.curvature_max_per_m, kMilli * c.mean_search_s, kMilli * c.mean_distance_s, c.build_s, c.memory_MB()})
+    for (const double value : {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm,
+                               c.height_max_um, c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m,
+                               kMilli * c.mean_search_s, kMilli * c.mean_distance_s, c.build_s, c.memory_MB()})
       row.cells.emplace_back(Number{value, 3});
     std::string notes = c.failure.empty() ? "" : "failed: " + c.failure;
     for (const auto& [body, node] : {std::pair{"wheel", &c.wheel}, {"rail", &c.rail}})
@@ -228,19 +238,22 @@ Table compared_row_table(const ComparedCandidates& all) {
                                          {"build_s", {"build", "s"}, 3},
                                          {"memory_bytes", {"memory", "MB"}, 3, 1e-6}};
   Table table{"rows",
-              "Every case with every representation. Pressure to elements in contact are of the patch that carries most of the load; x and "
+              "Every case with every representation. Pressure to elements in contact are of the patch that carries "
+              "most of the load; x and "
               "y are its "
-              "reference in track axes, forces act on the rail. Errors exist where both this representation and the truth have contact.",
+              "reference in track axes, forces act on the rail. Errors exist where both this representation and the "
+              "truth have contact.",
               {{"case"}, {"representation"}, {"wheel"}, {"rail"}, {"status"}}};
   for (const Quantity& q : quantities) table.columns.push_back(q.column);
   for (std::size_t i = 0; i < all.cases.size(); ++i)
     for (const Candidate& c : all.candidates) {
       if (!c.rows[i]) continue;
       const JsonTree& node = *c.rows[i];
-      Table::Row row{
-          {Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"), node.text("rail_backend"), node.text("status")},
-          static_cast<int>(i)};
-      for (const Quantity& q : quantities) row.cells.emplace_back(Number{q.factor * node.number_or_nan(q.key), q.digits});
+      Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"),
+                      node.text("rail_backend"), node.text("status")},
+                     static_cast<int>(i)};
+      for (const Quantity& q : quantities)
+        row.cells.emplace_back(Number{q.factor * node.number_or_nan(q.key), q.digits});
       table.rows.push_back(std::move(row));
     }
   return table;

@@ -10,7 +10,8 @@
 
 namespace treadmark::app::report {
 
-/// Errors and deviations of zero lie below any logarithmic axis: the charts show them, and all smaller ones, here [%, µm].
+/// Errors and deviations of zero lie below any logarithmic axis: the charts show them, and all smaller ones, here [%,
+/// µm].
 inline constexpr double kLeastShown = 1e-3;
 
 /// Largest error of the largest pressure and largest deviation of the surface over the resolution, a curve a backend.
@@ -22,8 +23,8 @@ ChartView cost_chart(const ComparedCandidates& all);
 /// Largest error of the largest pressure over the mean time of search and distance.
 ChartView trade_chart(const ComparedCandidates& all);
 
-/// The candidates whose results are drawn over the cases: all where they are few, else the truth, the data as given, and of every backend
-/// the finest.
+/// The candidates whose results are drawn over the cases: all where they are few, else the truth, the data as given,
+/// and of every backend the finest.
 std::vector<const ComparedCandidate*> drawn_over_cases(const ComparedCandidates& all);
 
 /// Largest pressure, normal force and their errors over the steps of a timeline with a step a case.

@@ -23,7 +23,8 @@ using Candidate = ComparedCandidate;
 std::string listed(const std::vector<int>& cases) {
   constexpr std::size_t kMost = 12;
   std::string out = "case ";
-  for (std::size_t i = 0; i < std::min(cases.size(), kMost); ++i) out += fmt::format("{}{}", i == 0 ? "" : ", ", cases[i]);
+  for (std::size_t i = 0; i < std::min(cases.size(), kMost); ++i)
+    out += fmt::format("{}{}", i == 0 ? "" : ", ", cases[i]);
   return cases.size() > kMost ? out + " ..." : out;
 }
 
@@ -37,7 +38,8 @@ std::vector<int> cases_with(const ComparedCandidates& all, const Candidate& cand
   return out;
 }
 
-void add_status(const ComparedCandidates& all, const char* status, Banner::Kind kind, const char* heading, Section& overview) {
+void add_status(const ComparedCandidates& all, const char* status, Banner::Kind kind, const char* heading,
+                Section& overview) {
   std::string text;
   for (const Candidate& candidate : all.candidates) {
     if (!candidate.failure.empty()) continue;
@@ -49,27 +51,30 @@ void add_status(const ComparedCandidates& all, const char* status, Banner::Kind 
 
 void add_banners(const JsonTree& comparison, const ComparedCandidates& all, Section& overview) {
   if (!comparison.flag("complete"))
-    overview.blocks.emplace_back(
-        Banner{Banner::Kind::failed, "Interrupted.",
-               fmt::format("{} finished; representations or cases are missing here.",
-                           counted(all.candidates.size(), "representation") + (all.candidates.size() == 1 ? " was" : " were"))});
+    overview.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
+                                        fmt::format("{} finished; representations or cases are missing here.",
+                                                    counted(all.candidates.size(), "representation") +
+                                                        (all.candidates.size() == 1 ? " was" : " were"))});
   for (const Candidate& candidate : all.candidates)
     if (!candidate.failure.empty())
       overview.blocks.emplace_back(Banner{Banner::Kind::failed, candidate.label + " failed.", candidate.failure});
   add_status(all, "failed", Banner::Kind::failed, "Cases that failed:", overview);
   add_status(all, nullptr, Banner::Kind::failed, "Cases that are missing:", overview);
-  add_status(all, "not_converged", Banner::Kind::warning, "Cases that did not converge; judge them with care:", overview);
+  add_status(all, "not_converged", Banner::Kind::warning,
+             "Cases that did not converge; judge them with care:", overview);
   add_status(all, "no_contact", Banner::Kind::note, "Cases without contact:", overview);
 }
 
-/// The candidates whose errors tell how good the representations can be: those of the finest resolution, or those as given.
+/// The candidates whose errors tell how good the representations can be: those of the finest resolution, or those as
+/// given.
 std::vector<const Candidate*> finest(const ComparedCandidates& all) {
   double least = INFINITY;
   for (const Candidate& c : all.candidates)
     if (!c.as_given() && std::isfinite(c.pmax_error_percent)) least = std::fmin(least, c.resolution_mm);
   std::vector<const Candidate*> out;
   for (const Candidate& c : all.candidates)
-    if (&c != all.truth() && std::isfinite(c.pmax_error_percent) && (std::isinf(least) ? c.as_given() : c.resolution_mm == least))
+    if (&c != all.truth() && std::isfinite(c.pmax_error_percent) &&
+        (std::isinf(least) ? c.as_given() : c.resolution_mm == least))
       out.push_back(&c);
   return out;
 }
@@ -79,22 +84,24 @@ Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
   const Candidate* fastest = nullptr;
   for (const Candidate& c : all.candidates) {
     if (!c.failure.empty()) ++failed;
-    if (std::isfinite(c.mean_seconds()) && (fastest == nullptr || c.mean_seconds() < fastest->mean_seconds())) fastest = &c;
+    if (std::isfinite(c.mean_seconds()) && (fastest == nullptr || c.mean_seconds() < fastest->mean_seconds()))
+      fastest = &c;
   }
   Cards cards;
-  cards.cards = {
-      {"Representations", fmt::format("{}", all.candidates.size()), failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
-      {"Cases", fmt::format("{}", all.cases.size()), ""}};
+  cards.cards = {{"Representations", fmt::format("{}", all.candidates.size()),
+                  failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
+                 {"Cases", fmt::format("{}", all.cases.size()), ""}};
   const std::vector<const Candidate*> judged = finest(all);
   if (!judged.empty()) {
-    const auto [best, worst] = std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->pmax_error_percent; });
+    const auto [best, worst] =
+        std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->pmax_error_percent; });
     const auto error = [](const Candidate* c) { return fmt::format("{} %", shown({c->pmax_error_percent, 3})); };
     cards.cards.push_back({"Least error of pressure", error(*best), (*best)->label});
     if (judged.size() > 1) cards.cards.push_back({"Greatest error of pressure", error(*worst), (*worst)->label});
   }
   if (fastest != nullptr)
-    cards.cards.push_back(
-        {"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})), fastest->label + ", a case"});
+    cards.cards.push_back({"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})),
+                           fastest->label + ", a case"});
   cards.cards.push_back({"Wall-clock time", duration_text(comparison.at("treadmark").number("seconds")),
                          counted(comparison.at("treadmark").count("threads"), "thread")});
   return cards;
@@ -102,8 +109,14 @@ Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
 
 Facts facts_of(const JsonTree& comparison) {
   const JsonTree made = comparison.at("treadmark"), input = comparison.at("input");
-  Origin origin{made.text("version"), made.text("git"), input.text("file"), input.text("sha256"), {}, comparison.at("settings").texts()};
-  for (const JsonTree& file : input.at("geometry").items()) origin.geometry_sha256.emplace_back(file.text("file"), file.text("sha256"));
+  Origin origin{made.text("version"),
+                made.text("git"),
+                input.text("file"),
+                input.text("sha256"),
+                {},
+                comparison.at("settings").texts()};
+  for (const JsonTree& file : input.at("geometry").items())
+    origin.geometry_sha256.emplace_back(file.text("file"), file.text("sha256"));
   Facts facts = origin_facts(origin);
   facts.entries.insert(facts.entries.begin() + 1, {"Truth", comparison.text("truth")});
   return facts;
@@ -129,13 +142,16 @@ Section accuracy_section(const ComparedCandidates& all) {
     if (!view.panels.empty()) section.blocks.emplace_back(Figure{id, title, std::move(view), note});
   };
   add("accuracy-chart", "Accuracy over resolution", accuracy_chart(all),
-      "Largest error of the largest pressure and largest deviation of wheel and rail, over all cases. Values below 0.001, zero included, "
+      "Largest error of the largest pressure and largest deviation of wheel and rail, over all cases. Values below "
+      "0.001, zero included, "
       "are shown at 0.001. Levels belong to data as given, which is not sampled.");
   add("trade-chart", "Accuracy against time", trade_chart(all),
-      "p_max: largest error of the largest pressure over the cases. Towards the lower left it is faster and more accurate. Errors below "
+      "p_max: largest error of the largest pressure over the cases. Towards the lower left it is faster and more "
+      "accurate. Errors below "
       "0.001 % are shown there.");
   add("cost-chart", "Cost over resolution", cost_chart(all),
-      "Detection: contact search and undeformed distance, mean over the cases. Memory and time to build: wheel and rail together.");
+      "Detection: contact search and undeformed distance, mean over the cases. Memory and time to build: wheel and "
+      "rail together.");
   return section;
 }
 
@@ -153,7 +169,8 @@ Page compare_page(const std::filesystem::path& folder) {
   page.full_data = "fields.h5";
 
   std::optional<ComparedFields> fields;
-  if (!all.cases.empty() && files.has("fields.h5", "contact fields")) fields = read_compared_fields(files.path("fields.h5"), all);
+  if (!all.cases.empty() && files.has("fields.h5", "contact fields"))
+    fields = read_compared_fields(files.path("fields.h5"), all);
   Section contact{"contact", "Contact"};
   if (!all.cases.empty()) page.timeline = timeline_of(all, fields ? &*fields : nullptr);
   if (fields) {
@@ -165,16 +182,18 @@ Page compare_page(const std::filesystem::path& folder) {
     if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail, the truth", SceneView{0}});
   } else {
     if (page.timeline) page.timeline->frames.clear();
-    append(contact.blocks, files.picture("pressures.svg", "pressures", "Contact pressures",
-                                         "The first case, and those in which the errors of the largest pressure differ most."));
+    append(contact.blocks,
+           files.picture("pressures.svg", "pressures", "Contact pressures",
+                         "The first case, and those in which the errors of the largest pressure differ most."));
   }
   if (all.cases.size() > 1) {
     const std::vector<const Candidate*> drawn = drawn_over_cases(all);
     const auto solved = std::ranges::count_if(all.candidates, [](const Candidate& c) { return c.solved > 0; });
-    contact.blocks.emplace_back(Figure{"cases-chart", "Results over the cases", case_errors_chart(all),
-                                       static_cast<std::size_t>(solved) > drawn.size()
-                                           ? "Of every representation the finest resolution; the others are in the table below."
-                                           : "Of the patch that carries most of the load."});
+    contact.blocks.emplace_back(
+        Figure{"cases-chart", "Results over the cases", case_errors_chart(all),
+               static_cast<std::size_t>(solved) > drawn.size()
+                   ? "Of every representation the finest resolution; the others are in the table below."
+                   : "Of the patch that carries most of the load."});
   }
 
   Section overview{"overview", "Overview"};

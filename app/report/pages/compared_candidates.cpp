@@ -16,7 +16,8 @@ bool same(double a, double b) { return a == b || (std::isnan(a) && std::isnan(b)
 
 bool belongs(const JsonTree& row, const ComparedCandidate& candidate) {
   return row.text("backend") == candidate.backend && same(row.number("resolution_mm"), candidate.resolution_mm) &&
-         row.text("wheel_backend") == candidate.wheel.text("backend") && row.text("rail_backend") == candidate.rail.text("backend");
+         row.text("wheel_backend") == candidate.wheel.text("backend") &&
+         row.text("rail_backend") == candidate.rail.text("backend");
 }
 
 /// fmax passes over what is not known.
@@ -43,7 +44,8 @@ double mean(const ComparedCandidate& candidate, const char* key) {
 }
 
 ComparedCandidate read_candidate(const JsonTree& node) {
-  ComparedCandidate out{node.text("backend"), {}, {}, node.number("resolution_mm"), node.at("wheel"), node.at("rail"), {}};
+  ComparedCandidate out{node.text("backend"), {}, {}, node.number("resolution_mm"), node.at("wheel"),
+                        node.at("rail"),      {}};
   if (out.resolution_mm == 0.0) out.resolution_mm = ComparedCandidate::kNone;
   out.label = out.as_given() ? out.backend : fmt::format("{} {:.4g} mm", out.backend, out.resolution_mm);
   if (const auto failure = node.find("failure")) out.failure = failure->text();
@@ -82,7 +84,8 @@ ComparedCandidates read_compared(const JsonTree& comparison) {
   out.cases.erase(std::unique(out.cases.begin(), out.cases.end()), out.cases.end());
   for (ComparedCandidate& candidate : out.candidates) candidate.rows.resize(out.cases.size());
   for (const JsonTree& row : rows) {
-    const auto candidate = std::ranges::find_if(out.candidates, [&](const ComparedCandidate& c) { return belongs(row, c); });
+    const auto candidate =
+        std::ranges::find_if(out.candidates, [&](const ComparedCandidate& c) { return belongs(row, c); });
     if (candidate == out.candidates.end()) row.refuse("belongs to none of the candidates");
     const auto place = std::ranges::lower_bound(out.cases, row.at("case").integer()) - out.cases.begin();
     candidate->rows[static_cast<std::size_t>(place)] = row;

@@ -41,7 +41,8 @@ struct ComparedCandidates {
   const ComparedCandidate* truth() const { return candidates.empty() ? nullptr : &candidates.front(); }
 };
 
-/// Candidates and rows of a comparison file. Errors: Error(input_data) for missing keys, and for rows that belong to no candidate.
+/// Candidates and rows of a comparison file. Errors: Error(input_data) for missing keys, and for rows that belong to no
+/// candidate.
 ComparedCandidates read_compared(const JsonTree& comparison);
 
 }  // namespace treadmark::app::report

@@ -31,7 +31,8 @@ std::vector<Block> OptionalFiles::note() const {
   if (missing_.empty()) return {};
   std::string files;
   for (const std::string& file : missing_) files += (files.empty() ? "" : ", ") + file;
-  return {Banner{Banner::Kind::note, "Files that are not in the folder:", fmt::format("{}. The page shows what is left.", files)}};
+  return {Banner{Banner::Kind::note,
+                 "Files that are not in the folder:", fmt::format("{}. The page shows what is left.", files)}};
 }
 
 void append(std::vector<Block>& to, std::vector<Block> blocks) {

@@ -10,7 +10,8 @@
 
 namespace treadmark::app::report {
 
-/// A result folder's files that a page can do without. What is not there is remembered, to be said on the page. Not thread-safe.
+/// A result folder's files that a page can do without. What is not there is remembered, to be said on the page. Not
+/// thread-safe.
 class OptionalFiles {
  public:
   explicit OptionalFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
@@ -21,7 +22,8 @@ class OptionalFiles {
   bool has(const std::string& file, const std::string& what);
 
   /// A picture as a figure; nothing if it is not there.
-  std::vector<Block> picture(const std::string& file, const std::string& id, const std::string& title, const std::string& note = {});
+  std::vector<Block> picture(const std::string& file, const std::string& id, const std::string& title,
+                             const std::string& note = {});
 
   /// The text of a file; empty if it is not there. Errors: Error(input_data) where it cannot be read.
   std::string text(const std::string& file, const std::string& what);

@@ -31,7 +31,8 @@ ShownUnit shown_unit(const std::string& column) {
   return {1.0, ""};
 }
 
-std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns, std::size_t most) {
+std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns,
+                                      std::size_t most) {
   const std::size_t rows = result.rows();
   std::vector<std::size_t> out;
   std::vector<std::size_t> watched;
@@ -71,8 +72,8 @@ std::optional<std::vector<double>> column_at(const io::SimulationResult& result,
   return out;
 }
 
-std::optional<Panel> history_panel(const io::SimulationResult& result, const std::string& label, const std::vector<NamedColumn>& columns,
-                                   const std::vector<std::size_t>& rows) {
+std::optional<Panel> history_panel(const io::SimulationResult& result, const std::string& label,
+                                   const std::vector<NamedColumn>& columns, const std::vector<std::size_t>& rows) {
   Panel panel{label, ""};
   for (const NamedColumn& one : columns)
     if (auto values = column_at(result, one.column, rows)) {

@@ -18,12 +18,14 @@ struct ShownUnit {
   std::string name;
 };
 
-/// By the ending of the column's name: _N in kN, _Pa in MPa, _m2 in mm², _rad in degrees, gaps and small displacements in mm.
+/// By the ending of the column's name: _N in kN, _Pa in MPa, _m2 in mm², _rad in degrees, gaps and small displacements
+/// in mm.
 ShownUnit shown_unit(const std::string& column);
 
-/// Rows of a history of which at most `most` are to be shown, in order: first and last, and in each of many stretches those with the
-/// least and the greatest value of each column, so that no peak is lost.
-std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns, std::size_t most);
+/// Rows of a history of which at most `most` are to be shown, in order: first and last, and in each of many stretches
+/// those with the least and the greatest value of each column, so that no peak is lost.
+std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns,
+                                      std::size_t most);
 
 /// Values of a column at these rows in the shown unit; nothing where there is no such column.
 std::optional<std::vector<double>> column_at(const io::SimulationResult& result, const std::string& column,
@@ -33,7 +35,7 @@ std::optional<std::vector<double>> column_at(const io::SimulationResult& result,
 struct NamedColumn {
   std::string column, name;
 };
-std::optional<Panel> history_panel(const io::SimulationResult& result, const std::string& label, const std::vector<NamedColumn>& columns,
-                                   const std::vector<std::size_t>& rows);
+std::optional<Panel> history_panel(const io::SimulationResult& result, const std::string& label,
+                                   const std::vector<NamedColumn>& columns, const std::vector<std::size_t>& rows);
 
 }  // namespace treadmark::app::report

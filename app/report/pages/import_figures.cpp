@@ -42,7 +42,8 @@ double limit_of(const io::BandMap& map) {
 }
 
 /// A mark that crosses the seam of a whole wheel stands at both ends.
-void add_mark(std::vector<MapView::Mark>& marks, const Points& points, const std::string& label, const io::BandMap& map, double round_mm) {
+void add_mark(std::vector<MapView::Mark>& marks, const Points& points, const std::string& label, const io::BandMap& map,
+              double round_mm) {
   const double low = kMilli * map.a_min, high = kMilli * map.a_max;
   for (const double turn : {0.0, -round_mm, round_mm}) {
     if (turn != 0.0 && round_mm == 0.0) continue;
@@ -78,7 +79,8 @@ std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::Import
   const io::BandMap& map = maps.fitted;
   if (!io::is_drawable(map)) return marks;
   const bool wheel = maps.body == Body::wheel;
-  const double round_mm = wheel && report.at("range").flag("closed") ? 2.0 * std::numbers::pi * kMilli * maps.nominal_radius : 0.0;
+  const double round_mm =
+      wheel && report.at("range").flag("closed") ? 2.0 * std::numbers::pi * kMilli * maps.nominal_radius : 0.0;
   const auto along = [&](const JsonTree& node) {
     return wheel ? std::numbers::pi / 180.0 * node.number("u_deg") * kMilli * maps.nominal_radius : node.number("u_mm");
   };
@@ -87,16 +89,18 @@ std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::Import
     const double a = along(hole), s = hole.number("s_mm"), diameter = hole.number("diameter_mm");
     if (++count > kMostHoles) break;
     if (std::isfinite(a + s) && diameter > 0.0)
-      add_mark(marks, ellipse(a, s, diameter), hole.flag("filled") ? "" : fmt::format("open, {} mm", shown({diameter, 2})), map, round_mm);
+      add_mark(marks, ellipse(a, s, diameter),
+               hole.flag("filled") ? "" : fmt::format("open, {} mm", shown({diameter, 2})), map, round_mm);
   }
   count = 0;
   for (const JsonTree& damage : report.at("damage").items()) {
-    const double a = along(damage), s = damage.number("s_mm"), length = damage.number("length_mm"), width = damage.number("width_mm"),
-                 depth = damage.number("depth_mm");
+    const double a = along(damage), s = damage.number("s_mm"), length = damage.number("length_mm"),
+                 width = damage.number("width_mm"), depth = damage.number("depth_mm");
     if (++count > kMostDamage) break;
     if (std::isfinite(a + s + length + width))
       add_mark(marks, rectangle(a, s, length, width),
-               fmt::format("{}: {} mm {}", count, shown({std::fabs(depth), 3}), depth < 0.0 ? "high" : "deep"), map, round_mm);
+               fmt::format("{}: {} mm {}", count, shown({std::fabs(depth), 3}), depth < 0.0 ? "high" : "deep"), map,
+               round_mm);
   }
   return marks;
 }
@@ -127,7 +131,8 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
   bool limited = false;
   for (std::size_t iy = 0; iy < ny; ++iy)
     for (std::size_t ix = 0; ix < nx; ++ix) {
-      double value = mean(map, ix * map.rows / nx, (ix + 1) * map.rows / nx, iy * map.columns / ny, (iy + 1) * map.columns / ny);
+      double value =
+          mean(map, ix * map.rows / nx, (ix + 1) * map.rows / nx, iy * map.columns / ny, (iy + 1) * map.columns / ny);
       if (std::fabs(value) > limit) {
         value = std::copysign(limit, value);
         limited = true;
@@ -138,8 +143,10 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
   view.marks = std::move(marks);
   const auto add_note = [&](const std::string& words) { what.note += (what.note.empty() ? "" : " ") + words; };
   if (nx < map.rows || ny < map.columns)
-    add_note(fmt::format("Means over {:.2g} mm x {:.2g} mm; maps.h5 has {} x {} cells.", view.dx, view.dy, map.rows, map.columns));
-  if (limited) add_note(fmt::format("Values of more than {} {} are shown as that.", shown({what.factor * limit, 3}), what.unit));
+    add_note(fmt::format("Means over {:.2g} mm x {:.2g} mm; maps.h5 has {} x {} cells.", view.dx, view.dy, map.rows,
+                         map.columns));
+  if (limited)
+    add_note(fmt::format("Values of more than {} {} are shown as that.", shown({what.factor * limit, 3}), what.unit));
   return {Figure{what.id, what.title, std::move(view), std::move(what.note)}};
 }
 
@@ -151,7 +158,8 @@ ChartView residual_chart(const JsonTree& fit) {
   if (counts.empty() || !(range > 0.0)) return view;
   Axis axis{"measured less fitted", "µm"};
   const double width = 2.0 * range / static_cast<double>(counts.size());
-  for (std::size_t i = 0; i < counts.size(); ++i) axis.values.push_back(-range + (static_cast<double>(i) + 0.5) * width);
+  for (std::size_t i = 0; i < counts.size(); ++i)
+    axis.values.push_back(-range + (static_cast<double>(i) + 0.5) * width);
   view.x = std::move(axis);
   view.panels = {{"points", "", false, {{"points", counts}}, {}}};
   return view;

@@ -11,8 +11,8 @@
 
 namespace treadmark::app::report {
 
-/// Maps of an import as views, averaged where they are finer than a page needs; nothing of a map without values. Marks are outlines of
-/// holes and damage as report.json has them.
+/// Maps of an import as views, averaged where they are finer than a page needs; nothing of a map without values. Marks
+/// are outlines of holes and damage as report.json has them.
 std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::ImportMaps& maps);
 
 struct MapFigure {
@@ -24,8 +24,8 @@ struct MapFigure {
   std::string note = {};
 };
 
-/// A figure of a map, or nothing without values. Few values far beyond all others would take all colours: they are shown at a limit, which
-/// the note says.
+/// A figure of a map, or nothing without values. Few values far beyond all others would take all colours: they are
+/// shown at a limit, which the note says.
 std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what, std::vector<MapView::Mark> marks = {});
 
 /// mm, or µm where all values are small: unit and factor from metres.

@@ -7,7 +7,8 @@
 
 namespace treadmark::app::report {
 
-/// Tables of the report of an import (docs/import.schema.json), a line an entry. Errors: Error(input_data) for keys that are missing.
+/// Tables of the report of an import (docs/import.schema.json), a line an entry. Errors: Error(input_data) for keys
+/// that are missing.
 
 Table input_table(const JsonTree& report);
 Table removed_table(const JsonTree& report);

@@ -111,9 +111,13 @@ SourcePosition position(const std::string& file, const std::string& text, std::s
 
 }  // namespace
 
-void JsonTree::fail(const std::string& what) const { throw Error(ErrorKind::input_data, what, {*file_, 0, 0}, kAdvice); }
+void JsonTree::fail(const std::string& what) const {
+  throw Error(ErrorKind::input_data, what, {*file_, 0, 0}, kAdvice);
+}
 
-void JsonTree::refuse(const std::string& what) const { fail(fmt::format("{} {}", place_.empty() ? "the file" : place_, what)); }
+void JsonTree::refuse(const std::string& what) const {
+  fail(fmt::format("{} {}", place_.empty() ? "the file" : place_, what));
+}
 
 JsonTree JsonTree::child(const JsonNode& node, std::string place) const {
   return {std::shared_ptr<const JsonNode>(node_, &node), file_, std::move(place)};
@@ -161,7 +165,8 @@ std::optional<JsonTree> JsonTree::find(std::string_view key) const {
 std::vector<JsonTree> JsonTree::items() const {
   if (node_->kind != Kind::list) fail(wrong_kind(*node_, place_, "a list"));
   std::vector<JsonTree> out;
-  for (std::size_t i = 0; i < node_->items.size(); ++i) out.push_back(child(node_->items[i], fmt::format("{}[{}]", place_, i)));
+  for (std::size_t i = 0; i < node_->items.size(); ++i)
+    out.push_back(child(node_->items[i], fmt::format("{}[{}]", place_, i)));
   return out;
 }
 
@@ -224,13 +229,15 @@ JsonFile read_json_file(const std::filesystem::path& file) {
   std::string text = io::profiles::read_text(file, "result", {});
   Builder builder;
   const bool read = Json::sax_parse(text, &builder);
-  if (builder.too_deep) throw Error(ErrorKind::input_data, "the file is nested too deeply", {file.string(), 0, 0}, kAdvice);
+  if (builder.too_deep)
+    throw Error(ErrorKind::input_data, "the file is nested too deeply", {file.string(), 0, 0}, kAdvice);
   if (!read || builder.error_at > 0)
     throw Error(ErrorKind::input_data, "the file is no JSON, or was cut off",
                 position(file.string(), text, std::max<std::size_t>(1, builder.error_at)), kAdvice);
   if (builder.root.kind != Kind::object)
     throw Error(ErrorKind::input_data, wrong_kind(builder.root, {}, "an object"), {file.string(), 0, 0}, kAdvice);
-  return {JsonTree(std::make_shared<const JsonNode>(std::move(builder.root)), std::make_shared<const std::string>(file.string()), {}),
+  return {JsonTree(std::make_shared<const JsonNode>(std::move(builder.root)),
+                   std::make_shared<const std::string>(file.string()), {}),
           std::move(text)};
 }
 

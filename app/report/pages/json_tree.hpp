@@ -16,8 +16,9 @@ namespace treadmark::app::report {
 struct JsonNode;
 struct JsonFile;
 
-/// A value in a JSON file that knows its file and its place there. Cheap to copy; keeps the whole file's values alive. Thread-safe.
-/// Errors of everything that asks for more than is there: Error(input_data) that names the file and the place ("rows[3].pmax_MPa").
+/// A value in a JSON file that knows its file and its place there. Cheap to copy; keeps the whole file's values alive.
+/// Thread-safe. Errors of everything that asks for more than is there: Error(input_data) that names the file and the
+/// place ("rows[3].pmax_MPa").
 class JsonTree {
  public:
   /// Of an object: whether it has the key; a key whose value is null is there.
@@ -65,7 +66,8 @@ struct JsonFile {
   std::string text;  ///< the file as it is
 };
 
-/// Reads a result file. Errors: Error(input_data) for files that are missing, no JSON (with the line), nested too deeply, or no object.
+/// Reads a result file. Errors: Error(input_data) for files that are missing, no JSON (with the line), nested too
+/// deeply, or no object.
 JsonFile read_json_file(const std::filesystem::path& file);
 
 }  // namespace treadmark::app::report

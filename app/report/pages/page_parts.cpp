@@ -11,7 +11,8 @@ namespace treadmark::app::report {
 
 Facts origin_facts(const Origin& origin) {
   Facts facts;
-  facts.entries.emplace_back("Version", origin.git.empty() ? origin.version : fmt::format("{} ({})", origin.version, origin.git));
+  facts.entries.emplace_back("Version",
+                             origin.git.empty() ? origin.version : fmt::format("{} ({})", origin.version, origin.git));
   facts.entries.emplace_back("Input", origin.input_file);
   facts.entries.emplace_back("SHA-256 of the input", origin.input_sha256);
   for (const auto& [file, sha256] : origin.geometry_sha256) facts.entries.emplace_back(file, sha256);
@@ -26,7 +27,9 @@ std::string title_of(const std::string& input_file) {
   return stem.empty() ? "result" : stem;
 }
 
-std::string counted(std::size_t count, const std::string& word) { return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s"); }
+std::string counted(std::size_t count, const std::string& word) {
+  return fmt::format("{} {}{}", count, word, count == 1 ? "" : "s");
+}
 
 std::string duration_text(double seconds) {
   if (!std::isfinite(seconds) || seconds < 0.0) return "–";

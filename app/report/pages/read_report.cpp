@@ -32,10 +32,12 @@ std::string text_or_nothing(const fs::path& file) {
 }
 
 Page run_in(const fs::path& folder) {
-  return run_page(std::make_shared<io::RunResult>(io::read_hdf5(folder / "fields.h5")), text_or_nothing(folder / "result.json"));
+  return run_page(std::make_shared<io::RunResult>(io::read_hdf5(folder / "fields.h5")),
+                  text_or_nothing(folder / "result.json"));
 }
 
-/// simulation.h5: of a simulation that ended, be it by Ctrl-C; unfinished.h5: what a killed one left at its last checkpoint.
+/// simulation.h5: of a simulation that ended, be it by Ctrl-C; unfinished.h5: what a killed one left at its last
+/// checkpoint.
 Page simulation_in(const fs::path& store) {
   auto result = std::make_shared<io::SimulationResult>(io::read_simulation(store));
   io::SnapshotSeries snapshots = io::read_snapshots(store);
@@ -48,9 +50,11 @@ Page simulation_in(const fs::path& store) {
 }  // namespace
 
 Page read_report(const fs::path& given) {
-  const fs::path folder = fs::is_regular_file(given) ? (given.has_parent_path() ? given.parent_path() : fs::path(".")) : given;
+  const fs::path folder =
+      fs::is_regular_file(given) ? (given.has_parent_path() ? given.parent_path() : fs::path(".")) : given;
   if (!fs::is_directory(folder))
-    throw Error(ErrorKind::input_data, "there is no such folder", {given.string()}, "give a folder that a command wrote with -o");
+    throw Error(ErrorKind::input_data, "there is no such folder", {given.string()},
+                "give a folder that a command wrote with -o");
   const auto has = [&](const char* name) { return fs::exists(folder / name); };
   if (has("compare.json")) return compare_page(folder);
   if (has("bench.json")) return bench_page(folder);
@@ -60,7 +64,8 @@ Page read_report(const fs::path& given) {
     if (has(store)) return simulation_in(folder / store);
   if (has("fields.h5")) return run_in(folder);
   throw Error(ErrorKind::input_data, "the folder holds no results", {folder.string()},
-              "results are fields.h5 (run), compare.json, bench.json, report.json (import --report), simulation.h5 and study.id (sweep)");
+              "results are fields.h5 (run), compare.json, bench.json, report.json (import --report), simulation.h5 and "
+              "study.id (sweep)");
 }
 
 }  // namespace treadmark::app::report

@@ -17,9 +17,9 @@ namespace {
 /// What went wrong comes first.
 void add_banners(const io::RunResult& run, Section& overview) {
   if (!run.complete)
-    overview.blocks.emplace_back(
-        Banner{Banner::Kind::failed, "Interrupted.",
-               fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total)});
+    overview.blocks.emplace_back(Banner{
+        Banner::Kind::failed, "Interrupted.",
+        fmt::format("{} of {} cases were finished; the others are missing here.", run.cases.size(), run.cases_total)});
   const auto list = [&](Status status) {
     std::string numbers;
     std::size_t count = 0;
@@ -31,8 +31,8 @@ void add_banners(const io::RunResult& run, Section& overview) {
     std::string first;
     for (const io::CaseResult& c : run.cases)
       if (first.empty() && c.status == Status::failed) first = c.message;
-    overview.blocks.emplace_back(
-        Banner{Banner::Kind::failed, counted(count, "case") + " failed.", fmt::format("Case {}. First message: {}", numbers, first)});
+    overview.blocks.emplace_back(Banner{Banner::Kind::failed, counted(count, "case") + " failed.",
+                                        fmt::format("Case {}. First message: {}", numbers, first)});
   }
   if (const auto [count, numbers] = list(Status::not_converged); count > 0)
     overview.blocks.emplace_back(Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.",
@@ -41,7 +41,8 @@ void add_banners(const io::RunResult& run, Section& overview) {
     overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
 }
 
-Cards::Card extreme(const io::RunResult& run, const char* label, const char* unit, double factor, double (*value)(const io::CaseResult&)) {
+Cards::Card extreme(const io::RunResult& run, const char* label, const char* unit, double factor,
+                    double (*value)(const io::CaseResult&)) {
   double best = NAN;
   int number = 0;
   for (const io::CaseResult& c : run.cases) {
@@ -62,7 +63,8 @@ Cards cards_of(const io::RunResult& run) {
     if (c.status == Status::ok) ++solved;
     patches = std::max(patches, c.patches.size());
   }
-  cards.cards.push_back({"Cases solved", fmt::format("{} of {}", solved, run.cases_total), run.complete ? "" : "interrupted"});
+  cards.cards.push_back(
+      {"Cases solved", fmt::format("{} of {}", solved, run.cases_total), run.complete ? "" : "interrupted"});
   cards.cards.push_back(extreme(run, "Largest pressure", "MPa", 1e-6, [](const io::CaseResult& c) {
     double most = NAN;
     for (const io::PatchResult& p : c.patches) most = std::isnan(most) ? p.pmax : std::max(most, p.pmax);
@@ -74,7 +76,8 @@ Cards cards_of(const io::RunResult& run) {
     return sum;
   }));
   cards.cards.push_back({"Patches at once", fmt::format("{}", patches), "at most"});
-  cards.cards.push_back({"Wall-clock time", duration_text(run.seconds), counted(static_cast<std::size_t>(run.threads), "thread")});
+  cards.cards.push_back(
+      {"Wall-clock time", duration_text(run.seconds), counted(static_cast<std::size_t>(run.threads), "thread")});
   return cards;
 }
 
@@ -82,7 +85,8 @@ Section overview(const io::RunResult& run) {
   Section section{"overview", "Overview"};
   add_banners(run, section);
   section.blocks.emplace_back(cards_of(run));
-  section.blocks.emplace_back(origin_facts({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings}));
+  section.blocks.emplace_back(
+      origin_facts({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings}));
   return section;
 }
 
@@ -90,8 +94,9 @@ Section overview(const io::RunResult& run) {
 
 Page run_page(std::shared_ptr<const io::RunResult> run, std::string document) {
   Page page{"run", title_of(run->input_file), ""};
-  page.lead = fmt::format("{} {}", counted(run->cases.size(), "case"),
-                          std::ranges::any_of(run->cases, &io::CaseResult::has_wheelset) ? "of a wheel on a rail" : "of a contact patch");
+  page.lead = fmt::format(
+      "{} {}", counted(run->cases.size(), "case"),
+      std::ranges::any_of(run->cases, &io::CaseResult::has_wheelset) ? "of a wheel on a rail" : "of a contact patch");
   page.document = std::move(document);
   page.full_data = "fields.h5";
   page.sections.push_back(overview(*run));

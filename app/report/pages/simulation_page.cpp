@@ -32,13 +32,14 @@ std::string value_text(double value, const std::string& name) {
 
 void add_banners(const Result& result, Section& section) {
   if (result.status == "interrupted")
-    section.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
-                                       fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.",
-                                                   result.message, result.message.empty() ? "" : ". ")});
+    section.blocks.emplace_back(
+        Banner{Banner::Kind::failed, "Interrupted.",
+               fmt::format("{}{}The history ends before the end of the track; treadmark simulate --resume goes on.",
+                           result.message, result.message.empty() ? "" : ". ")});
   if (result.status == "failed") section.blocks.emplace_back(Banner{Banner::Kind::failed, "Failed.", result.message});
   if (!result.events.empty())
-    section.blocks.emplace_back(
-        Banner{Banner::Kind::note, "Loss of contact.", counted(result.events.size(), "event") + " in the table below."});
+    section.blocks.emplace_back(Banner{Banner::Kind::note, "Loss of contact.",
+                                       counted(result.events.size(), "event") + " in the table below."});
 }
 
 Cards cards_of(const Result& result) {
@@ -49,7 +50,8 @@ Cards cards_of(const Result& result) {
   };
   const double at = summary_of(result, "q_max_x_m");
   card("Largest vertical force", "q_max_N", std::isfinite(at) ? fmt::format("at x = {} m", shown({at})) : "");
-  card("Over the static force", "q_max_over_static", fmt::format("static {}", value_text(summary_of(result, "q_static_N"), "q_static_N")));
+  card("Over the static force", "q_max_over_static",
+       fmt::format("static {}", value_text(summary_of(result, "q_static_N"), "q_static_N")));
   card("Least vertical force", "q_min_N", "");
   card("Largest pressure", "pmax_Pa", "");
   card("Loss of contact", "contact_lost", "times");
@@ -58,7 +60,8 @@ Cards cards_of(const Result& result) {
 
 Table named_table(const char* id, const char* caption, const std::vector<io::NamedValue>& values) {
   Table table{id, caption, {{"quantity"}, {"meaning"}, {"value"}, {"unit"}}};
-  for (const io::NamedValue& one : values) table.rows.push_back({{one.name, one.description, Number{one.value, 6}, one.unit}});
+  for (const io::NamedValue& one : values)
+    table.rows.push_back({{one.name, one.description, Number{one.value, 6}, one.unit}});
   return table;
 }
 
@@ -101,10 +104,12 @@ Section histories(const Result& result, const Rows& rows) {
   add(forces, history_panel(result, "vertical force Q", {{"Q_N", "Q"}}, rows));
   if (!forces.panels.empty() && !result.values.empty() && result.columns.size() > 2)
     forces.panels.front().levels.push_back({forces.panels.front().series.front().y.front(), "at the start"});
-  add(forces, history_panel(result, "lateral force", {{"Ty_N", "lateral creep force T_y"}, {"Y_N", "lateral force Y"}}, rows));
+  add(forces,
+      history_panel(result, "lateral force", {{"Ty_N", "lateral creep force T_y"}, {"Y_N", "lateral force Y"}}, rows));
   add(forces, history_panel(result, "longitudinal creep force", {{"Tx_N", "T_x"}}, rows));
   add(forces, history_panel(result, "largest pressure", {{"pmax_Pa", "p_max"}}, rows));
-  section.blocks.emplace_back(Figure{"forces", fmt::format("Forces of {}", watched), std::move(forces), "Forces act on the rail."});
+  section.blocks.emplace_back(
+      Figure{"forces", fmt::format("Forces of {}", watched), std::move(forces), "Forces act on the rail."});
 
   ChartView contact{true};
   add(contact, history_panel(result, "contact area", {{"area_m2", "area"}}, rows));
@@ -121,9 +126,11 @@ Section histories(const Result& result, const Rows& rows) {
     section.blocks.emplace_back(Figure{"wheels", "All wheels", std::move(all)});
 
   ChartView energy{true};
-  add(energy, history_panel(result, "dissipated", {{"energy.friction_J", "friction"}, {"energy.dampers_J", "dampers"}}, rows));
-  add(energy, history_panel(result, "energy that does not add up",
-                            {{"energy.integration_error_J", "time integration"}, {"energy.contact_error_J", "contact"}}, rows));
+  add(energy,
+      history_panel(result, "dissipated", {{"energy.friction_J", "friction"}, {"energy.dampers_J", "dampers"}}, rows));
+  add(energy,
+      history_panel(result, "energy that does not add up",
+                    {{"energy.integration_error_J", "time integration"}, {"energy.contact_error_J", "contact"}}, rows));
   if (!energy.panels.empty()) section.blocks.emplace_back(Figure{"energy", "Energy", std::move(energy)});
   return section;
 }
@@ -134,11 +141,15 @@ Section tables(const Result& result) {
   section.blocks.emplace_back(named_table("static", "Static equilibrium at the start", result.statics));
   if (!result.events.empty()) {
     Table events{"events", "Loss of contact", {{"t", "s"}, {"x", "m"}, {"wheel"}, {"event"}}};
-    for (const io::HistoryEvent& e : result.events) events.rows.push_back({{Number{e.time, 6}, Number{e.position, 6}, e.wheel, e.kind}});
+    for (const io::HistoryEvent& e : result.events)
+      events.rows.push_back({{Number{e.time, 6}, Number{e.position, 6}, e.wheel, e.kind}});
     section.blocks.emplace_back(std::move(events));
   }
-  Table modes{"modes", "Modes of the vehicle on the track about its equilibrium", {{"frequency", "Hz"}, {"damping ratio"}, {"shape"}}};
-  for (const io::ModeRow& mode : result.modes) modes.rows.push_back({{Number{mode.frequency_Hz}, Number{mode.damping_ratio}, mode.shape}});
+  Table modes{"modes",
+              "Modes of the vehicle on the track about its equilibrium",
+              {{"frequency", "Hz"}, {"damping ratio"}, {"shape"}}};
+  for (const io::ModeRow& mode : result.modes)
+    modes.rows.push_back({{Number{mode.frequency_Hz}, Number{mode.damping_ratio}, mode.shape}});
   if (!modes.rows.empty()) section.blocks.emplace_back(std::move(modes));
   return section;
 }
@@ -149,12 +160,13 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document)
   Page page{"simulation", result->title.empty() ? title_of(result->input_file) : result->title, ""};
   page.document = std::move(document);
   page.full_data = "simulation.h5";
-  page.lead = fmt::format("Simulation in time, {}, {} written down", result->status, counted(result->rows(), "instant"));
+  page.lead =
+      fmt::format("Simulation in time, {}, {} written down", result->status, counted(result->rows(), "instant"));
   Section overview{"overview", "Overview"};
   add_banners(*result, overview);
   overview.blocks.emplace_back(cards_of(*result));
-  overview.blocks.emplace_back(
-      origin_facts({result->version, result->git, result->input_file, result->input_sha256, result->geometry_sha256, result->settings}));
+  overview.blocks.emplace_back(origin_facts({result->version, result->git, result->input_file, result->input_sha256,
+                                             result->geometry_sha256, result->settings}));
   page.sections.push_back(std::move(overview));
 
   const std::shared_ptr<const io::RunResult> snapshots(result, &result->snapshots);
@@ -163,9 +175,11 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document)
     const Rows rows = thinned_rows(*result, {"Q_N", "Ty_N", "pmax_Pa", "gap_m"}, kMostRows);
     Timeline timeline{"instant"};
     const std::vector<double> times = column_at(*result, "t_s", rows).value_or(std::vector<double>());
-    if (auto x = column_at(*result, "x_m", rows)) timeline.axes.push_back({"distance travelled", "m", false, std::move(*x)});
+    if (auto x = column_at(*result, "x_m", rows))
+      timeline.axes.push_back({"distance travelled", "m", false, std::move(*x)});
     timeline.axes.push_back({"time", "s", false, times});
-    if (auto pitch = column_at(*result, "pitch_rad", rows)) timeline.axes.push_back({"pitch angle", "°", false, std::move(*pitch)});
+    if (auto pitch = column_at(*result, "pitch_rad", rows))
+      timeline.axes.push_back({"pitch angle", "°", false, std::move(*pitch)});
     if (fields && !result->snapshot_times.empty()) timeline.frames = frames_at(*result, times);
     page.timeline = std::move(timeline);
     page.sections.push_back(histories(*result, rows));
@@ -173,15 +187,17 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document)
   if (fields) {
     FrameSet set = frames_of(snapshots, "snapshots");
     for (std::size_t k = 0; k < set.frames.size(); ++k) {
-      if (k < result->snapshot_times.size()) set.frames[k].name = fmt::format("t = {} s", shown({result->snapshot_times[k], 5}));
-      if (k < result->snapshot_scenes.size() && result->snapshot_scenes[k].nominal && !set.nominal) set.nominal = static_cast<int>(k);
+      if (k < result->snapshot_times.size())
+        set.frames[k].name = fmt::format("t = {} s", shown({result->snapshot_times[k], 5}));
+      if (k < result->snapshot_scenes.size() && result->snapshot_scenes[k].nominal && !set.nominal)
+        set.nominal = static_cast<int>(k);
     }
     page.sets.push_back(std::move(set));
     page.surfaces = snapshots->sampled;
     if (!page.timeline || page.timeline->frames.empty()) page.timeline = case_timeline(*snapshots);
     Section contact{"contact", "Contact at the snapshots"};
-    contact.blocks.emplace_back(
-        Figure{"patches-view", "Contact patches", ContactView{{0}}, "The last snapshot taken until the chosen instant."});
+    contact.blocks.emplace_back(Figure{"patches-view", "Contact patches", ContactView{{0}},
+                                       "The last snapshot taken until the chosen instant."});
     if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
     page.sections.insert(page.sections.begin() + 1, std::move(contact));
   }

@@ -10,7 +10,8 @@
 
 namespace treadmark::app::report {
 
-/// Report of a simulation in time, complete or not, with its snapshots if it has any. document: JSON text, may be empty.
+/// Report of a simulation in time, complete or not, with its snapshots if it has any. document: JSON text, may be
+/// empty.
 Page simulation_page(std::shared_ptr<const io::SimulationResult> result, std::string document);
 
 }  // namespace treadmark::app::report

@@ -56,7 +56,8 @@ StudyOnDisk read_study_folder(const fs::path& folder) {
   const fs::path whole = folder / "sweep.h5";  // written when all runs are finished
   if (fs::exists(whole)) out.study = io::read_study_head(whole);
   if (out.study.input_file.empty())
-    out.study.input_file = folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
+    out.study.input_file =
+        folder.filename().empty() ? folder.parent_path().filename().string() : folder.filename().string();
   for (const int number : runs_of(folder / "study.id")) {
     const fs::path store = folder / "runs" / fmt::format("run_{:04}", number) / "simulation.h5";
     if (!fs::exists(store)) {

@@ -8,8 +8,8 @@
 
 namespace treadmark::app::report {
 
-/// The folder of a study, also while runs are being solved or after they were interrupted. Errors: Error(input_data). Not to be called
-/// from two threads at once.
+/// The folder of a study, also while runs are being solved or after they were interrupted. Errors: Error(input_data).
+/// Not to be called from two threads at once.
 StudyOnDisk read_study_folder(const std::filesystem::path& folder);
 
 }  // namespace treadmark::app::report

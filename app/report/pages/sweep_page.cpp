@@ -113,7 +113,8 @@ ChartView over_key(const io::StudyTable& table, const std::string& key, const st
 ChartView history_by_run(const io::StudyTable& table) {
   ChartView view;
   view.x = Axis{"distance travelled", "m", false, {}};
-  for (const auto& [column, label] : kColumns) view.panels.push_back({label, shown_unit(column).name, false, {Series{label, {}}}});
+  for (const auto& [column, label] : kColumns)
+    view.panels.push_back({label, shown_unit(column).name, false, {Series{label, {}}}});
   for (const io::SimulationRun* run : table.runs) {
     ChartView::Curves curves;
     curves.y.assign(kColumns.size(), std::vector<std::vector<double>>(1));
@@ -138,7 +139,8 @@ bool has_history(const ChartView& view) {
 Table run_table(const io::StudyTable& table) {
   Table out{"runs", "Runs of the study", {{"run"}}};
   for (const std::string& key : table.keys) out.columns.push_back({key});
-  for (const io::NamedValue& quantity : table.quantities) out.columns.push_back({quantity.name, shown_unit(quantity.name).name});
+  for (const io::NamedValue& quantity : table.quantities)
+    out.columns.push_back({quantity.name, shown_unit(quantity.name).name});
   out.columns.push_back({"status"});
   out.columns.push_back({"message"});
   for (std::size_t i = 0; i < table.runs.size(); ++i) {
@@ -165,22 +167,25 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
     std::string numbers;
     for (std::size_t k = 0; k < std::min<std::size_t>(12, disk.unfinished.size()); ++k)
       numbers += fmt::format("{}{}", k > 0 ? ", " : "", disk.unfinished[k]);
-    section.blocks.emplace_back(
-        Banner{Banner::Kind::failed, "Not finished.",
-               fmt::format("{} missing: run {}{}. The same treadmark sweep command goes on.", counted(disk.unfinished.size(), "run"),
-                           numbers, disk.unfinished.size() > 12 ? " ..." : "")});
+    section.blocks.emplace_back(Banner{
+        Banner::Kind::failed, "Not finished.",
+        fmt::format("{} missing: run {}{}. The same treadmark sweep command goes on.",
+                    counted(disk.unfinished.size(), "run"), numbers, disk.unfinished.size() > 12 ? " ..." : "")});
   }
   std::size_t failed = 0;
   std::string first;
   for (const io::SimulationRun& run : study.runs)
     if (run.status != "complete") {
       ++failed;
-      if (first.empty()) first = fmt::format("{}: {}{}{}", run_name(run), run.status, run.message.empty() ? "" : ", ", run.message);
+      if (first.empty())
+        first = fmt::format("{}: {}{}{}", run_name(run), run.status, run.message.empty() ? "" : ", ", run.message);
     }
   if (failed > 0)
-    section.blocks.emplace_back(Banner{Banner::Kind::failed, counted(failed, "run") + " did not complete.", "The first: " + first});
+    section.blocks.emplace_back(
+        Banner{Banner::Kind::failed, counted(failed, "run") + " did not complete.", "The first: " + first});
   Cards cards;
-  cards.cards.push_back({"Runs", fmt::format("{} of {}", study.runs.size(), study.runs.size() + disk.unfinished.size())});
+  cards.cards.push_back(
+      {"Runs", fmt::format("{} of {}", study.runs.size(), study.runs.size() + disk.unfinished.size())});
   for (const std::string& quantity : kQuantities) {
     double most = NAN;
     std::string where;
@@ -197,7 +202,8 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
     cards.cards.push_back({known->description, fmt::format("{} {}", shown({unit.factor * most}), unit.name), where});
   }
   section.blocks.emplace_back(std::move(cards));
-  section.blocks.emplace_back(origin_facts({study.version, study.git, study.input_file, study.input_sha256, {}, study.settings}));
+  section.blocks.emplace_back(
+      origin_facts({study.version, study.git, study.input_file, study.input_sha256, {}, study.settings}));
   return section;
 }
 
@@ -218,8 +224,8 @@ Page sweep_page(const StudyOnDisk& disk) {
       if (const auto x = numbers_of(table, key)) {
         timeline.axes.push_back({key, unit_of_key(key), false, *x});
         if (ChartView view = over_key(table, key, *x); !view.panels.empty())
-          summaries.blocks.emplace_back(
-              Figure{fmt::format("summary-{}", ++number), "Over " + key, std::move(view), "A click on a point chooses its run."});
+          summaries.blocks.emplace_back(Figure{fmt::format("summary-{}", ++number), "Over " + key, std::move(view),
+                                               "A click on a point chooses its run."});
       }
     Axis runs{"run", ""};
     for (const io::SimulationRun* run : table.runs) runs.values.push_back(run->number);
@@ -227,11 +233,13 @@ Page sweep_page(const StudyOnDisk& disk) {
     page.timeline = std::move(timeline);
     if (!summaries.blocks.empty()) page.sections.push_back(std::move(summaries));
     if (ChartView history = history_by_run(table); has_history(history))
-      page.sections.push_back({"history", "History of a run", {Figure{"history-of-run", "Forces of the chosen run", std::move(history)}}});
+      page.sections.push_back(
+          {"history", "History of a run", {Figure{"history-of-run", "Forces of the chosen run", std::move(history)}}});
     page.sections.push_back({"runs", "Runs", {run_table(table)}});
   }
   Section pictures{"figures", "Figures of the study"};
-  for (const auto& [name, svg] : disk.pictures) pictures.blocks.emplace_back(Figure{"picture-" + name, name, PictureView{svg}});
+  for (const auto& [name, svg] : disk.pictures)
+    pictures.blocks.emplace_back(Figure{"picture-" + name, name, PictureView{svg}});
   if (!pictures.blocks.empty()) page.sections.push_back(std::move(pictures));
   return page;
 }

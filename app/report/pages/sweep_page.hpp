@@ -18,8 +18,9 @@ struct StudyOnDisk {
   std::vector<std::pair<std::string, std::string>> pictures;  ///< (file name, SVG)
 };
 
-/// Report of a study: summaries over the swept keys, the history of the chosen run, the pictures that the study asked for.
-/// Reads the histories from the stores of the runs. Errors: Error(input_data). Not to be called from two threads at once.
+/// Report of a study: summaries over the swept keys, the history of the chosen run, the pictures that the study asked
+/// for. Reads the histories from the stores of the runs. Errors: Error(input_data). Not to be called from two threads
+/// at once.
 Page sweep_page(const StudyOnDisk& study);
 
 }  // namespace treadmark::app::report

@@ -40,11 +40,13 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
     refuse("friction is the same everywhere", "use the full tangential model for friction by row or by temperature");
   const bool extra = !problem.extra_slip_x.empty() || !problem.extra_slip_y.empty();
   if (extra && problem.tangential_model == TangentialModel::fastrip)
-    refuse("strip theory does not take slip given for every element into account", "use the full tangential model, or FASTSIM");
+    refuse("strip theory does not take slip given for every element into account",
+           "use the full tangential model, or FASTSIM");
   for (const auto& slip : {problem.extra_slip_x, problem.extra_slip_y})
     if (!slip.empty() && slip.size() != problem.grid.size()) refuse("slip is not given for every element");
   const double flexibility = problem.fastsim.flexibility;
-  if (problem.tangential_model == TangentialModel::fastsim_one_flexibility && !(flexibility > 0.0 && std::isfinite(flexibility)))
+  if (problem.tangential_model == TangentialModel::fastsim_one_flexibility &&
+      !(flexibility > 0.0 && std::isfinite(flexibility)))
     refuse("the one flexibility is " + std::to_string(flexibility) + " m/Pa", "it must be positive");
 }
 
@@ -53,7 +55,10 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
 class Sweep {
  public:
   Sweep(const ContactProblem& problem, ContactSolution& solution)
-      : problem_(problem), solution_(solution), sign_(rolling_sign(problem)), dq_(problem.grid.dx),
+      : problem_(problem),
+        solution_(solution),
+        sign_(rolling_sign(problem)),
+        dq_(problem.grid.dx),
         equivalent_(equivalent_ellipse(problem.grid, solution.pressure)) {
     normal_force_ = std::accumulate(solution.pressure.begin(), solution.pressure.end(), 0.0) * problem.grid.cell_area();
   }
@@ -65,7 +70,8 @@ class Sweep {
 
  private:
   void row(int iy, const Creepage& creepage, double mu, const Flexibilities& flex);
-  void element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex, Vec2& u);
+  void element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,
+               Vec2& u);
 
   const ContactProblem& problem_;
   ContactSolution& solution_;
@@ -78,15 +84,16 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
   const Grid2& grid = problem_.grid;
   const double mu = problem_.friction.at(problem_.rolling.velocity * std::hypot(creepage.xi, creepage.eta));
   const Flexibilities flex = flexibilities(problem_, creepage, mu, normal_force_, equivalent_, blended);
-  for (auto* field : {&solution_.traction_x, &solution_.traction_y, &solution_.displacement_x, &solution_.displacement_y,
-                      &solution_.slip_x, &solution_.slip_y})
+  for (auto* field : {&solution_.traction_x, &solution_.traction_y, &solution_.displacement_x,
+                      &solution_.displacement_y, &solution_.slip_x, &solution_.slip_y})
     field->assign(grid.size(), 0.0);
   solution_.friction.assign(grid.size(), mu);
   solution_.state.assign(grid.size(), ElementState::exterior);
 
   for (int iy = 0; iy < grid.ny; ++iy) row(iy, creepage, mu, flex);
   if (problem_.tangential_model == TangentialModel::fastrip && mu * normal_force_ > 0.0)
-    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_), solution_);
+    apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_),
+                       solution_);
   const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
   return Vec2(sum(solution_.traction_x), sum(solution_.traction_y)) * grid.cell_area();
 }

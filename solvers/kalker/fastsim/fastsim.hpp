@@ -6,22 +6,23 @@
 
 namespace treadmark::kalker {
 
-/// Steady rolling by simplified theory. The rolling step is dx, the direction of rolling 0 or pi. Friction depends on the
-/// one slip velocity V sqrt(xi^2 + eta^2). Slope reduction after Spiryagin et al. (2013). By problem.tangential_model:
+/// Steady rolling by simplified theory. The rolling step is dx, the direction of rolling 0 or pi. Friction depends on
+/// the one slip velocity V sqrt(xi^2 + eta^2). Slope reduction after Spiryagin et al. (2013). By
+/// problem.tangential_model:
 /// - fastsim: FASTSIM (Kalker 1982), three flexibilities from the linear theory, blended with a single one for large
 ///   creepage;
 /// - fastsim_one_flexibility: FASTSIM with fastsim.flexibility in both directions and for spin;
-/// - fastrip: FaStrip (Sichani, Enblom & Berg 2016): tractions of strip theory where it finds adhesion, the directions of
+/// - fastrip: FaStrip (Sichani, Enblom & Berg 2016): tractions of strip theory where it finds adhesion, the directions
+/// of
 ///   FASTSIM elsewhere (strip_theory.hpp).
 /// Thread-safe: no state is kept.
 ///
-/// In: problem.grid, material, friction, creepage or relative forces, rolling, fastsim, hertz (its semi-axes replace those
-/// of an ellipse equivalent to the contact area in the flexibilities); solution.pressure.
-/// Out: traction_x/y, displacement_x/y (of the simplified theory), slip_x/y, friction, state, creepage, rolling_step and
-/// the report `tangential`. Prescribed forces are found by Newton iterations on the creepage to settings.eps times the
-/// friction bound; a force that friction cannot transmit gives Status::not_converged.
-/// Errors: Error(configuration) for another regime than steady, other directions of rolling, sizes that do not fit, a flexibility
-/// that is not positive.
+/// In: problem.grid, material, friction, creepage or relative forces, rolling, fastsim, hertz (its semi-axes replace
+/// those of an ellipse equivalent to the contact area in the flexibilities); solution.pressure. Out: traction_x/y,
+/// displacement_x/y (of the simplified theory), slip_x/y, friction, state, creepage, rolling_step and the report
+/// `tangential`. Prescribed forces are found by Newton iterations on the creepage to settings.eps times the friction
+/// bound; a force that friction cannot transmit gives Status::not_converged. Errors: Error(configuration) for another
+/// regime than steady, other directions of rolling, sizes that do not fit, a flexibility that is not positive.
 void solve_fastsim(const ContactProblem& problem, ContactSolution& solution);
 
 }  // namespace treadmark::kalker

@@ -46,22 +46,24 @@ Flexibilities of_linear_theory(const ContactProblem& problem, const Creepage& cr
   const double a = hertzian ? problem.hertz->semi_axis_x : equivalent.a;
   const double b = hertzian ? problem.hertz->semi_axis_y : equivalent.b;
   const KalkerCoefficients c = kalker_coefficients(a, b, material.poisson);
-  double l1 = 8.0 * a / (3.0 * c.c11 * g), l2 = 8.0 * a / (3.0 * c.c22 * g), l3 = pi * a * std::sqrt(a / b) / (4.0 * c.c23 * g);
+  double l1 = 8.0 * a / (3.0 * c.c11 * g), l2 = 8.0 * a / (3.0 * c.c22 * g),
+         l3 = pi * a * std::sqrt(a / b) / (4.0 * c.c23 * g);
 
   const double xi = creepage.xi, eta = creepage.eta, phi = creepage.phi;
   if (blended && (xi != 0.0 || eta != 0.0 || phi != 0.0) && bound > 0.0) {
     const double spin = phi * (pi * a * a / 4.0) / (8.0 * a / 3.0);
     const double single = (xi * xi + eta * eta + spin * spin) / (xi * xi / l1 + eta * eta / l2 + spin * spin / l3);
     const double xi_full = bound / (a * b * g * c.c11), eta_full = bound / (a * b * g * c.c22);
-    const double weight = std::min(
-        1.0, std::sqrt((xi * xi + eta * eta) / (squared(xi_full) + squared(eta_full))) / 3.0);
+    const double weight =
+        std::min(1.0, std::sqrt((xi * xi + eta * eta) / (squared(xi_full) + squared(eta_full))) / 3.0);
     for (double* l : {&l1, &l2, &l3}) *l = (1.0 - weight) * *l + weight * single;
   }
   return {l1, l2, l1 / l3, l2 / l3, 1.0};
 }
 
 /// Less slope at small creepage, after Spiryagin et al. (2013).
-double reduced_slope(const ContactProblem& problem, const Creepage& creepage, double bound, const EquivalentEllipse& equivalent) {
+double reduced_slope(const ContactProblem& problem, const Creepage& creepage, double bound,
+                     const EquivalentEllipse& equivalent) {
   const FastsimSettings& s = problem.fastsim;
   const CombinedMaterial material = combine(problem.material);
   const double with_spin = creepage.eta + equivalent.a * creepage.phi;

@@ -22,7 +22,8 @@ struct Row {
 };
 
 /// Ratio of the smaller to the larger semi-axis 0.1, 0.2 .. 1.0.
-constexpr std::array<Row, 10> kNarrow{{  // a <= b
+constexpr std::array<Row, 10> kNarrow{{
+    // a <= b
     {{2.51, 3.31, 4.85}, {2.51, 2.52, 2.53}, {0.334, 0.473, 0.731}},
     {{2.59, 3.37, 4.81}, {2.59, 2.63, 2.66}, {0.483, 0.603, 0.809}},
     {{2.68, 3.44, 4.80}, {2.68, 2.75, 2.81}, {0.607, 0.715, 0.889}},
@@ -34,7 +35,8 @@ constexpr std::array<Row, 10> kNarrow{{  // a <= b
     {{3.29, 4.01, 5.12}, {3.29, 3.54, 3.82}, {1.23, 1.36, 1.51}},
     {{3.40, 4.12, 5.20}, {3.40, 3.67, 3.98}, {1.33, 1.47, 1.63}},
 }};
-constexpr std::array<Row, 10> kLong{{  // a > b
+constexpr std::array<Row, 10> kLong{{
+    // a > b
     {{10.7, 11.7, 12.9}, {10.7, 12.8, 16.0}, {12.2, 14.6, 18.0}},
     {{6.96, 7.78, 8.82}, {6.96, 8.14, 9.79}, {5.72, 6.63, 7.89}},
     {{5.57, 6.34, 7.34}, {5.57, 6.40, 7.51}, {3.79, 4.32, 5.01}},
@@ -56,14 +58,16 @@ KalkerCoefficients asymptotic(bool narrow, double g, double nu) {
             pi * std::sqrt(g) / (3.0 * (1.0 - nu)) * (1.0 + nu * (std::log(16.0 / g) - 5.0))};
   const double l = std::log(16.0 / (g * g)), three = 3.0 - std::log(4.0);
   const double d = (1.0 - nu) * l + 2.0 * nu;
-  return {2.0 * pi / ((l - 2.0 * nu) * g) * (1.0 + three / (l - 2.0 * nu)), 2.0 * pi / (g * d) * (1.0 + (1.0 - nu) * three / d),
+  return {2.0 * pi / ((l - 2.0 * nu) * g) * (1.0 + three / (l - 2.0 * nu)),
+          2.0 * pi / (g * d) * (1.0 + (1.0 - nu) * three / d),
           2.0 * pi / (3.0 * g * std::sqrt(g) * ((1.0 - nu) * l - 2.0 + 4.0 * nu))};
 }
 
 double interpolate(const Triple& low, const Triple& high, double share, double nu) {
   Triple c;
   for (std::size_t i = 0; i < 3; ++i) c[i] = low[i] + share * (high[i] - low[i]);
-  const double compliance = 8.0 * (nu - 0.25) * (nu - 0.5) / c[0] - 16.0 * nu * (nu - 0.5) / c[1] + 8.0 * nu * (nu - 0.25) / c[2];
+  const double compliance =
+      8.0 * (nu - 0.25) * (nu - 0.5) / c[0] - 16.0 * nu * (nu - 0.5) / c[1] + 8.0 * nu * (nu - 0.25) / c[2];
   return 1.0 / compliance;
 }
 
@@ -71,7 +75,8 @@ double interpolate(const Triple& low, const Triple& high, double share, double n
 
 KalkerCoefficients kalker_coefficients(double a, double b, double poisson) {
   if (!(a > 0.0) || !(b > 0.0) || !(poisson >= 0.0 && poisson <= 0.5))
-    throw Error(ErrorKind::configuration, "Kalker's coefficients need positive semi-axes and Poisson's ratio in 0 .. 0.5");
+    throw Error(ErrorKind::configuration,
+                "Kalker's coefficients need positive semi-axes and Poisson's ratio in 0 .. 0.5");
   const bool narrow = a <= b;
   const double g = narrow ? a / b : b / a;
   if (g < kLeastTableRatio) return asymptotic(narrow, g, poisson);

@@ -10,9 +10,9 @@ struct KalkerCoefficients {
   double c11 = 0.0, c22 = 0.0, c23 = 0.0;
 };
 
-/// Interpolated in Kalker's table (1990, app. E): linear in the ratio of the semi-axes, 1/C quadratic in Poisson's ratio;
-/// asymptotic formulas for ratios below 0.101. a is the semi-axis in the rolling direction.
-/// Errors: Error(configuration) unless a, b > 0 and 0 <= poisson <= 0.5.
+/// Interpolated in Kalker's table (1990, app. E): linear in the ratio of the semi-axes, 1/C quadratic in Poisson's
+/// ratio; asymptotic formulas for ratios below 0.101. a is the semi-axis in the rolling direction. Errors:
+/// Error(configuration) unless a, b > 0 and 0 <= poisson <= 0.5.
 KalkerCoefficients kalker_coefficients(double a, double b, double poisson);
 
 }  // namespace treadmark::kalker

@@ -96,7 +96,8 @@ StripTheory::Solution StripTheory::solve(double half_length, double lateral, dou
 Vec2 StripTheory::traction(const Solution& strip, double x) const {
   const double whole = half_circle(strip.half_length, x) / a_;
   const double adhesion = half_circle(strip.half_length - strip.shift, x - strip.shift) / a_;
-  return greatest_ * Vec2(sign_ * strip.kappa * (whole - adhesion), strip.lambda * whole - (strip.lambda - strip.spin) * adhesion);
+  return greatest_ *
+         Vec2(sign_ * strip.kappa * (whole - adhesion), strip.lambda * whole - (strip.lambda - strip.spin) * adhesion);
 }
 
 void apply_strip_theory(const ContactProblem& problem, const StripTheory& theory, ContactSolution& solution) {

@@ -7,9 +7,9 @@
 
 namespace treadmark::kalker {
 
-/// Strip theory as FaStrip uses it (Sichani, Enblom & Berg 2016): the two-dimensional solutions of rolling for each strip,
-/// creepages scaled so that the linear theory's forces of the whole patch result for small creepage. Along a strip x grows in the
-/// direction of rolling, from the strip's middle. Thread-safe.
+/// Strip theory as FaStrip uses it (Sichani, Enblom & Berg 2016): the two-dimensional solutions of rolling for each
+/// strip, creepages scaled so that the linear theory's forces of the whole patch result for small creepage. Along a
+/// strip x grows in the direction of rolling, from the strip's middle. Thread-safe.
 class StripTheory {
  public:
   /// equivalent: ellipse with the area and extents of the contact; its Hertzian pressure for normal_force [N] is the
@@ -21,7 +21,7 @@ class StripTheory {
   /// What holds in one strip.
   struct Solution {
     bool full_slip = true;
-    double half_length = 0.0, shift = 0.0;        ///< a_j, d [m]
+    double half_length = 0.0, shift = 0.0;         ///< a_j, d [m]
     double kappa = 0.0, lambda = 0.0, spin = 0.0;  ///< [-]
 
     bool adheres(double x) const { return !full_slip && x > 2.0 * shift - half_length; }
@@ -40,9 +40,9 @@ class StripTheory {
   double xi_ = 0.0, eta_ = 0.0, phi_ = 0.0;  ///< scaled creepages [-], in the direction of the traction
 };
 
-/// Replaces the tractions of FASTSIM in a solution by those of strip theory in its adhesion areas, and scales them to the
-/// friction bound elsewhere; slip is that of FASTSIM, 0 in adhesion. A strip where the theory gives more than greatest()
-/// keeps FASTSIM. Tractions never exceed the friction bound.
+/// Replaces the tractions of FASTSIM in a solution by those of strip theory in its adhesion areas, and scales them to
+/// the friction bound elsewhere; slip is that of FASTSIM, 0 in adhesion. A strip where the theory gives more than
+/// greatest() keeps FASTSIM. Tractions never exceed the friction bound.
 void apply_strip_theory(const ContactProblem& problem, const StripTheory& theory, ContactSolution& solution);
 
 }  // namespace treadmark::kalker

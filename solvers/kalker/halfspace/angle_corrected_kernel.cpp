@@ -13,15 +13,27 @@ namespace treadmark::kalker {
 namespace {
 
 InfluenceBlock with_rotated_loads(const InfluenceBlock& a, double c, double s) {
-  return {.xx = a.xx, .xy = a.xy * c + a.xn * s, .xn = a.xn * c - a.xy * s,
-          .yx = a.yx, .yy = a.yy * c + a.yn * s, .yn = a.yn * c - a.yy * s,
-          .nx = a.nx, .ny = a.ny * c + a.nn * s, .nn = a.nn * c - a.ny * s};
+  return {.xx = a.xx,
+          .xy = a.xy * c + a.xn * s,
+          .xn = a.xn * c - a.xy * s,
+          .yx = a.yx,
+          .yy = a.yy * c + a.yn * s,
+          .yn = a.yn * c - a.yy * s,
+          .nx = a.nx,
+          .ny = a.ny * c + a.nn * s,
+          .nn = a.nn * c - a.ny * s};
 }
 
 InfluenceBlock with_rotated_displacements(const InfluenceBlock& a, double c, double s) {
-  return {.xx = a.xx,                 .xy = a.xy,                 .xn = a.xn,
-          .yx = a.yx * c - a.nx * s,  .yy = a.yy * c - a.ny * s,  .yn = a.yn * c - a.nn * s,
-          .nx = a.yx * s + a.nx * c,  .ny = a.yy * s + a.ny * c,  .nn = a.yn * s + a.nn * c};
+  return {.xx = a.xx,
+          .xy = a.xy,
+          .xn = a.xn,
+          .yx = a.yx * c - a.nx * s,
+          .yy = a.yy * c - a.ny * s,
+          .yn = a.yn * c - a.nn * s,
+          .nx = a.yx * s + a.nx * c,
+          .ny = a.yy * s + a.ny * c,
+          .nn = a.yn * s + a.nn * c};
 }
 
 }  // namespace
@@ -31,14 +43,17 @@ AngleFactors::AngleFactors(double alpha)
 
 InfluenceBlock corrected_for_angle(const InfluenceBlock& a, const AngleFactors& alpha, AngleCorrection correction) {
   switch (correction) {
-    case AngleCorrection::rotated_loads: return with_rotated_loads(a, alpha.c, alpha.s);
+    case AngleCorrection::rotated_loads:
+      return with_rotated_loads(a, alpha.c, alpha.s);
     case AngleCorrection::rotated_loads_but_xn: {
       InfluenceBlock block = with_rotated_loads(a, alpha.c, alpha.s);
       block.xn = a.xn;
       return block;
     }
-    case AngleCorrection::rotated_displacements: return with_rotated_displacements(a, alpha.c, alpha.s);
-    case AngleCorrection::half_and_half: break;
+    case AngleCorrection::rotated_displacements:
+      return with_rotated_displacements(a, alpha.c, alpha.s);
+    case AngleCorrection::half_and_half:
+      break;
   }
   return with_rotated_displacements(with_rotated_loads(a, alpha.half_c, alpha.half_s), alpha.half_c, alpha.half_s);
 }

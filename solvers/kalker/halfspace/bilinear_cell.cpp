@@ -31,7 +31,8 @@ PointSolutionIntegrals primitives(double x, double y, const Weights& w) {
   const double xxy = (y * y_log - x * r) / 2.0, xyy = (x * x_log - y * r) / 2.0, xy = r * r * log_r / 2.0;
   const double angles = (x * x_angle - y * y_angle) / 2.0;
   return {
-      .r = w[0] * (x_log + y_log) + w[1] * (x * x_log + y * r) / 2.0 + w[2] * (y * y_log + x * r) / 2.0 + w[3] * r * r * r / 3.0,
+      .r = w[0] * (x_log + y_log) + w[1] * (x * x_log + y * r) / 2.0 + w[2] * (y * y_log + x * r) / 2.0 +
+           w[3] * r * r * r / 3.0,
       .xx = w[0] * y_log + w[1] * y * r + w[2] * xxy + w[3] * r * (2.0 * y * y - x * x) / 3.0,
       .xy = -w[0] * r + w[1] * xxy + w[2] * xyy + w[3] * (x * x * x_log + y * y * y_log - x * y * r) / 3.0,
       .x = w[0] * (y * log_r + x_angle) + w[1] * (angles + x * y / 2.0) + w[2] * xy +
@@ -53,7 +54,8 @@ PointSolutionIntegrals in_closed_form(const LinearSide& x, const LinearSide& y) 
   return sum;
 }
 
-/// Enough Gauss nodes for rounding accuracy: the error falls as the size of the Bernstein ellipse that reaches the origin.
+/// Enough Gauss nodes for rounding accuracy: the error falls as the size of the Bernstein ellipse that reaches the
+/// origin.
 GaussRule rule_for(double length, double distance) {
   constexpr double kDigits = 36.0;  // natural logarithm of the accuracy
   const double ellipse = std::asinh(2.0 * distance / length);
@@ -71,7 +73,11 @@ PointSolutionIntegrals by_quadrature(const LinearSide& x, const LinearSide& y, d
       const double inverse = 1.0 / std::sqrt(px * px + py * py);
       const double weight = inverse * weight_x * rule_y.weights[iy] * std::lerp(y.at_begin, y.at_end, share_y);
       const double cosine = px * inverse, sine = py * inverse;
-      sum += {.r = weight, .xx = weight * cosine * cosine, .xy = weight * cosine * sine, .x = weight * cosine, .y = weight * sine};
+      sum += {.r = weight,
+              .xx = weight * cosine * cosine,
+              .xy = weight * cosine * sine,
+              .x = weight * cosine,
+              .y = weight * sine};
     }
   }
   return sum;
@@ -93,7 +99,8 @@ PointSolutionIntegrals integrate_cell(const LinearSide& x, const LinearSide& y) 
   const bool split_x = x.length > 2.0 * y.length, split_y = y.length > 2.0 * x.length;
   if (!split_x && !split_y) return in_closed_form(x, y);
   PointSolutionIntegrals sum;
-  for (const LinearSide& half : halves(split_x ? x : y)) sum += split_x ? integrate_cell(half, y) : integrate_cell(x, half);
+  for (const LinearSide& half : halves(split_x ? x : y))
+    sum += split_x ? integrate_cell(half, y) : integrate_cell(x, half);
   return sum;
 }
 

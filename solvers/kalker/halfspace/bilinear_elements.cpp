@@ -16,7 +16,8 @@ BilinearElements::BilinearElements(double dx, double dy, double poisson, double 
 }
 
 InfluenceBlock BilinearElements::at(double X, double Y) const {
-  const double unit = std::sqrt(dx_ * dy_), dx = dx_ / unit, dy = dy_ / unit, x = std::abs(X) / unit, y = std::abs(Y) / unit;
+  const double unit = std::sqrt(dx_ * dy_), dx = dx_ / unit, dy = dy_ / unit, x = std::abs(X) / unit,
+               y = std::abs(Y) / unit;
   PointSolutionIntegrals integral;
   for (const LinearSide& side_x : {LinearSide{x - dx, dx, 0.0, 1.0}, LinearSide{x, dx, 1.0, 0.0}})
     for (const LinearSide& side_y : {LinearSide{y - dy, dy, 0.0, 1.0}, LinearSide{y, dy, 1.0, 0.0}})

@@ -21,7 +21,8 @@ struct Rectangle {
   double y2() const { return Y + 0.5 * dy; }
 };
 
-/// ln(r2 / r1) of the ends of the horizontal edge at y, times factor; zero where a factor of zero meets a corner at the origin.
+/// ln(r2 / r1) of the ends of the horizontal edge at y, times factor; zero where a factor of zero meets a corner at the
+/// origin.
 double edge_logarithm(const Rectangle& a, double y, double factor) {
   const double x1 = a.x1(), r1_squared = x1 * x1 + y * y;
   if (factor == 0.0 || r1_squared == 0.0) return 0.0;
@@ -31,9 +32,11 @@ double edge_logarithm(const Rectangle& a, double y, double factor) {
 /// Double difference of y ln r over the corners, for X, Y >= 0.
 double logarithms(const Rectangle& a) {
   if (a.Y <= a.dy) return edge_logarithm(a, a.y2(), a.y2()) - edge_logarithm(a, a.y1(), a.y1());
-  // Far away both edges give nearly the same: mean and difference, the latter from the ratio of products of opposite corners.
+  // Far away both edges give nearly the same: mean and difference, the latter from the ratio of products of opposite
+  // corners.
   const double x1 = a.x1(), x2 = a.x2(), y1 = a.y1(), y2 = a.y2();
-  const double difference = 0.5 * std::log1p(-4.0 * a.X * a.Y * a.dx * a.dy / ((x1 * x1 + y2 * y2) * (x2 * x2 + y1 * y1)));
+  const double difference =
+      0.5 * std::log1p(-4.0 * a.X * a.Y * a.dx * a.dy / ((x1 * x1 + y2 * y2) * (x2 * x2 + y1 * y1)));
   return a.Y * difference + 0.5 * (edge_logarithm(a, y1, a.dy) + edge_logarithm(a, y2, a.dy));
 }
 

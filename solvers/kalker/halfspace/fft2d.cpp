@@ -43,8 +43,9 @@ RealFft2d::RealFft2d(int nx, int ny) : RealFft2d(nx, ny, ny) {}
 
 RealFft2d::RealFft2d(int nx, int ny, int active_rows) : nx_(nx), ny_(ny), active_rows_(active_rows) {
   if (nx < 2 || nx % 2 != 0 || ny < 1 || active_rows < 1 || active_rows > ny)
-    throw Error(ErrorKind::configuration, "a Fourier transform of " + std::to_string(nx) + " x " + std::to_string(ny) +
-                                              " values with " + std::to_string(active_rows) + " active rows",
+    throw Error(ErrorKind::configuration,
+                "a Fourier transform of " + std::to_string(nx) + " x " + std::to_string(ny) + " values with " +
+                    std::to_string(active_rows) + " active rows",
                 {}, "nx must be even and positive, 1 <= active_rows <= ny");
   plan_ = shared_plan(nx, ny, active_rows);
 }
@@ -56,7 +57,8 @@ void check_sizes(bool fit) {
 }
 
 void check_aligned(const void* memory) {
-  if (!is_aligned(memory)) throw Error(ErrorKind::configuration, "an array of a Fourier transform does not begin at a cache line");
+  if (!is_aligned(memory))
+    throw Error(ErrorKind::configuration, "an array of a Fourier transform does not begin at a cache line");
 }
 
 }  // namespace

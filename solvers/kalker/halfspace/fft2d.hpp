@@ -12,9 +12,9 @@ namespace treadmark::kalker {
 class FftPlan;
 
 /// Unnormalised discrete Fourier transform of real fields with ny rows of nx values: inverse(forward(x)) = nx * ny * x.
-/// Only the first active_rows rows of the field exist; the others are taken as zero by forward and not computed by inverse.
-/// Plans are shared by the whole process. All members may be called from any number of threads at the same time.
-/// Results do not depend on threads or alignment; arrays of AlignedVector spare a copy.
+/// Only the first active_rows rows of the field exist; the others are taken as zero by forward and not computed by
+/// inverse. Plans are shared by the whole process. All members may be called from any number of threads at the same
+/// time. Results do not depend on threads or alignment; arrays of AlignedVector spare a copy.
 class RealFft2d {
  public:
   /// nx must be even. Errors: Error(configuration) for odd or non-positive sizes, or active_rows outside 1..ny.
@@ -33,10 +33,12 @@ class RealFft2d {
   /// spectrum is overwritten.
   void inverse(std::span<std::complex<double>> spectrum, std::span<double> real) const;
 
-  /// The two halves of forward and inverse: along the active rows, each to nx/2+1 complex numbers and back, and along the columns,
-  /// in place. What is multiplied row by row may stand between them. All arrays are overwritten and must begin at
-  /// cache lines (AlignedVector).
-  std::size_t rows_size() const { return static_cast<std::size_t>(nx_ / 2 + 1) * static_cast<std::size_t>(active_rows_); }
+  /// The two halves of forward and inverse: along the active rows, each to nx/2+1 complex numbers and back, and along
+  /// the columns, in place. What is multiplied row by row may stand between them. All arrays are overwritten and must
+  /// begin at cache lines (AlignedVector).
+  std::size_t rows_size() const {
+    return static_cast<std::size_t>(nx_ / 2 + 1) * static_cast<std::size_t>(active_rows_);
+  }
   void forward_rows(std::span<double> real, std::span<std::complex<double>> rows) const;
   void inverse_rows(std::span<std::complex<double>> rows, std::span<double> real) const;
   void forward_columns(std::span<std::complex<double>> spectrum) const;
@@ -51,8 +53,8 @@ class RealFft2d {
 /// if that is at most a fifth larger.
 int good_fft_size(int n);
 
-/// A number of rows >= ny for which transforms along columns are fast: columns of 32, 64 or 128 values are one kernel of FFTW each,
-/// several times faster than the lengths between them. Rows that are not active cost nothing else.
+/// A number of rows >= ny for which transforms along columns are fast: columns of 32, 64 or 128 values are one kernel
+/// of FFTW each, several times faster than the lengths between them. Rows that are not active cost nothing else.
 int fast_columns(int ny);
 
 /// "FFTW" or "KISS FFT": the library that was compiled in.

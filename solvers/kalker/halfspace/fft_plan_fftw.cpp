@@ -24,8 +24,8 @@ class FftwPlan final : public FftPlan {
     AlignedVector<double> real(static_cast<std::size_t>(nx) * static_cast<std::size_t>(active_rows));
     AlignedVector<std::complex<double>> spectrum(static_cast<std::size_t>(columns) * static_cast<std::size_t>(ny));
     constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
-    rows_forward_ = fftw_plan_many_dft_r2c(1, &nx, active_rows, real.data(), nullptr, 1, nx, raw(spectrum.data()), nullptr,
-                                           1, columns, kFlags);
+    rows_forward_ = fftw_plan_many_dft_r2c(1, &nx, active_rows, real.data(), nullptr, 1, nx, raw(spectrum.data()),
+                                           nullptr, 1, columns, kFlags);
     rows_inverse_ = fftw_plan_many_dft_c2r(1, &nx, active_rows, raw(spectrum.data()), nullptr, 1, columns, real.data(),
                                            nullptr, 1, nx, kFlags);
     if (!rows_forward_ || !rows_inverse_) throw std::bad_alloc();

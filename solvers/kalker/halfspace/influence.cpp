@@ -33,7 +33,8 @@ double distance_integral(double X, double Y, double dx, double dy) {
 }  // namespace
 
 UncoupledCoefficients influence(double X, double Y, double dx, double dy, double poisson) {
-  const double x1 = std::abs(X) - 0.5 * dx, x2 = std::abs(X) + 0.5 * dx, y1 = std::abs(Y) - 0.5 * dy, y2 = std::abs(Y) + 0.5 * dy;
+  const double x1 = std::abs(X) - 0.5 * dx, x2 = std::abs(X) + 0.5 * dx, y1 = std::abs(Y) - 0.5 * dy,
+               y2 = std::abs(Y) + 0.5 * dy;
   const double across = log_integral(x1, x2, y1, y2);  // of y ln(x + r)
   const double along = log_integral(y1, y2, x1, x2);   // of x ln(y + r)
   return {.nn = (1.0 - poisson) * std::numbers::inv_pi * (across + along),

@@ -30,8 +30,8 @@ class InfluenceKernel {
 
   /// Coefficients at (X, Y) [m], the observation point minus the centre of the loaded element. Thread-safe.
   virtual InfluenceBlock at(double X, double Y) const = 0;
-  /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y, xn and nx odd in X and even in Y, yn and ny the other way round:
-  /// as for half-spaces.
+  /// xx, yy, nn even in X and in Y, xy = yx odd in X and in Y, xn and nx odd in X and even in Y, yn and ny the other
+  /// way round: as for half-spaces.
   virtual bool symmetric() const = 0;
   /// The same for Y alone.
   virtual bool symmetric_in_y() const { return symmetric(); }
@@ -39,12 +39,13 @@ class InfluenceKernel {
   virtual bool coupled() const = 0;
 };
 
-/// The kernel for elements of dx by dy [m] of a pair of bodies; flexibilities of layers and sheets are not in it. velocity: of rolling
-/// [m/s], direction along +x (chi = 0) or -x (chi = pi); both matter for viscoelastic bodies only.
-/// Errors: Error(configuration) for combinations without meaning (viscoelastic bodies with K != 0, other directions or other than
-/// half-space coefficients; a table for other steps; a variant that does not exist) and for inclinations row by row, see
-/// RowInclination.
-std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material, const InfluenceSettings& settings, double dx,
-                                                             double dy, double velocity, double chi);
+/// The kernel for elements of dx by dy [m] of a pair of bodies; flexibilities of layers and sheets are not in it.
+/// velocity: of rolling [m/s], direction along +x (chi = 0) or -x (chi = pi); both matter for viscoelastic bodies only.
+/// Errors: Error(configuration) for combinations without meaning (viscoelastic bodies with K != 0, other directions or
+/// other than half-space coefficients; a table for other steps; a variant that does not exist) and for inclinations row
+/// by row, see RowInclination.
+std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material,
+                                                             const InfluenceSettings& settings, double dx, double dy,
+                                                             double velocity, double chi);
 
 }  // namespace treadmark::kalker

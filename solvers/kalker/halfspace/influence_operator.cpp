@@ -16,7 +16,8 @@ constexpr std::array kCoefficients{&InfluenceBlock::xx, &InfluenceBlock::xy, &In
                                    &InfluenceBlock::nx, &InfluenceBlock::ny, &InfluenceBlock::nn};
 
 double checked(double shear_modulus) {
-  if (!(shear_modulus > 0.0)) throw Error(ErrorKind::configuration, "influence of elements on each other needs a positive shear modulus");
+  if (!(shear_modulus > 0.0))
+    throw Error(ErrorKind::configuration, "influence of elements on each other needs a positive shear modulus");
   return shear_modulus;
 }
 
@@ -24,9 +25,12 @@ double checked(double shear_modulus) {
 
 InfluenceOperator::InfluenceOperator(int nx, int ny, double dx, double dy, double shear_modulus,
                                      std::shared_ptr<const InfluenceKernel> kernel, double shift_x, double shift_y)
-    : shear_modulus_(checked(shear_modulus)), transform_(nx, ny),
+    : shear_modulus_(checked(shear_modulus)),
+      transform_(nx, ny),
       table_(std::make_shared<BlockTable>(nx, ny, dx, dy, std::move(kernel), shift_x, shift_y)),
-      field_1_(transform_.spectrum_size()), field_2_(transform_.spectrum_size()), sum_(transform_.spectrum_size()) {}
+      field_1_(transform_.spectrum_size()),
+      field_2_(transform_.spectrum_size()),
+      sum_(transform_.spectrum_size()) {}
 
 const Spectrum& InfluenceOperator::spectrum(Coefficient coefficient) {
   if (coefficient == &InfluenceBlock::yx && kernel().symmetric()) coefficient = &InfluenceBlock::xy;
@@ -52,8 +56,9 @@ TurnedProduct& InfluenceOperator::turned() {
   return *turned_;
 }
 
-void InfluenceOperator::tangential_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> ux,
-                                                 std::span<double> uy, const RowInclination* rows) {
+void InfluenceOperator::tangential_by_tangential(std::span<const double> px, std::span<const double> py,
+                                                 std::span<double> ux, std::span<double> uy,
+                                                 const RowInclination* rows) {
   if (rows) return turned().apply(*rows, {.x = px, .y = py, .n = {}}, {.x = ux, .y = uy, .n = {}});
   transform_.forward(px, field_1_);
   transform_.forward(py, field_2_);
@@ -74,8 +79,8 @@ void InfluenceOperator::tangential_by_normal(std::span<const double> pn, std::sp
   invert(&InfluenceBlock::yn, nullptr, uy);
 }
 
-void InfluenceOperator::normal_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> un,
-                                             const RowInclination* rows) {
+void InfluenceOperator::normal_by_tangential(std::span<const double> px, std::span<const double> py,
+                                             std::span<double> un, const RowInclination* rows) {
   if (rows) return turned().apply(*rows, {.x = px, .y = py, .n = {}}, {.x = {}, .y = {}, .n = un});
   if (!coupled({px.size(), py.size(), un.size()})) return std::fill(un.begin(), un.end(), 0.0);
   transform_.forward(px, field_1_);

@@ -19,7 +19,8 @@ class InfluenceTable {
   /// C [m] at an available offset (observation minus source).
   double operator()(int dix, int diy) const {
     const int ix = dix < 0 ? -dix : dix, iy = diy < 0 ? -diy : diy;
-    const double value = values_[static_cast<std::size_t>(ix) + static_cast<std::size_t>(nx_) * static_cast<std::size_t>(iy)];
+    const double value =
+        values_[static_cast<std::size_t>(ix) + static_cast<std::size_t>(nx_) * static_cast<std::size_t>(iy)];
     return odd_ && (dix < 0) != (diy < 0) ? -value : value;
   }
 

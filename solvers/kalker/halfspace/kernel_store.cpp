@@ -12,10 +12,16 @@ bool viscoelastic(const Material& m) { return m.creep_ratio_1 != 0.0 || m.creep_
 
 std::vector<double> all_numbers(const ContactProblem& p, const InfluenceSettings& influence) {
   const Material& m = p.material;
-  std::vector<double> out{static_cast<double>(influence.kind), p.grid.dx, p.grid.dy, m.shear_modulus_1, m.shear_modulus_2,
-                          m.poisson_1, m.poisson_2};
+  std::vector<double> out{static_cast<double>(influence.kind),
+                          p.grid.dx,
+                          p.grid.dy,
+                          m.shear_modulus_1,
+                          m.shear_modulus_2,
+                          m.poisson_1,
+                          m.poisson_2};
   if (viscoelastic(m))
-    out.insert(out.end(), {m.creep_ratio_1, m.creep_ratio_2, m.relaxation_time_1, m.relaxation_time_2, p.rolling.velocity, p.rolling.chi});
+    out.insert(out.end(), {m.creep_ratio_1, m.creep_ratio_2, m.relaxation_time_1, m.relaxation_time_2,
+                           p.rolling.velocity, p.rolling.chi});
   if (influence.kind == InfluenceSettings::Kind::angle_corrected) {
     out.push_back(influence.variant);
     out.insert(out.end(), influence.position.begin(), influence.position.end());
@@ -30,7 +36,8 @@ KernelChoice KernelStore::get(const ContactProblem& problem) {
   const InfluenceSettings& wanted = problem.influence;
   if (wanted.kind != InfluenceSettings::Kind::angle_corrected || wanted.linear) return kernel_of(problem, wanted);
   if (viscoelastic(problem.material)) return kernel_of(problem, wanted);  // refuses
-  if (!inclination_ || last_.variant != wanted.variant || last_.position != wanted.position || last_.inclination != wanted.inclination) {
+  if (!inclination_ || last_.variant != wanted.variant || last_.position != wanted.position ||
+      last_.inclination != wanted.inclination) {
     inclination_ = std::make_shared<InclinationTable>(wanted);
     last_ = wanted;
   }
@@ -49,8 +56,8 @@ KernelChoice KernelStore::kernel_of(const ContactProblem& problem, const Influen
       return entries_.front().choice;
     }
   KernelChoice choice;
-  choice.kernel = make_influence_kernel(problem.material, settings, problem.grid.dx, problem.grid.dy, problem.rolling.velocity,
-                                        problem.rolling.chi);
+  choice.kernel = make_influence_kernel(problem.material, settings, problem.grid.dx, problem.grid.dy,
+                                        problem.rolling.velocity, problem.rolling.chi);
   choice.standard = settings.kind == InfluenceSettings::Kind::constant && !viscoelastic(problem.material);
   choice.coupled = choice.kernel->coupled();
   entries_.push_front({numbers, settings.table, choice});

@@ -16,9 +16,11 @@ namespace treadmark::kalker {
 /// The kernel that a problem asks for.
 struct KernelChoice {
   std::shared_ptr<const InfluenceKernel> kernel;
-  bool standard = true;    ///< constant elements on half-spaces, whatever K: products within normal and tangential problem are the usual ones
+  bool standard = true;  ///< constant elements on half-spaces, whatever K: products within normal and tangential
+                         ///< problem are the usual ones
   bool coupled = false;
-  /// Angle-corrected coefficients row by row: by what those of the kernel, the half-space's, are turned between rows; else none.
+  /// Angle-corrected coefficients row by row: by what those of the kernel, the half-space's, are turned between rows;
+  /// else none.
   std::shared_ptr<const InclinationTable> inclination;
 
   /// Of `count` rows of a grid from row `first` on; none where coefficients are not turned.
@@ -37,14 +39,14 @@ class KernelStore {
 
  private:
   struct Entry {
-    std::vector<double> numbers;                    ///< all that the kernel depends on
+    std::vector<double> numbers;  ///< all that the kernel depends on
     std::shared_ptr<const NumericalInfluence> table;
     KernelChoice choice;
   };
   KernelChoice kernel_of(const ContactProblem& problem, const InfluenceSettings& settings);
 
   std::list<Entry> entries_;
-  InfluenceSettings last_;                          ///< inclinations row by row asked for last, and what was made of them
+  InfluenceSettings last_;  ///< inclinations row by row asked for last, and what was made of them
   std::shared_ptr<const InclinationTable> inclination_;
 };
 

@@ -20,7 +20,8 @@ namespace {
 
 }  // namespace
 
-RowInclination::RowInclination(std::vector<double> angle, AngleCorrection correction) : angle_(std::move(angle)), correction_(correction) {
+RowInclination::RowInclination(std::vector<double> angle, AngleCorrection correction)
+    : angle_(std::move(angle)), correction_(correction) {
   const auto fill = [&](RowFactor factor, auto function) {
     auto& values = values_[static_cast<std::size_t>(factor)];
     values.reserve(angle_.size());
@@ -36,8 +37,9 @@ RowInclination::RowInclination(std::vector<double> angle, AngleCorrection correc
 InclinationTable::InclinationTable(const InfluenceSettings& settings)
     : position_(settings.position), inclination_(settings.inclination), correction_(angle_correction(settings)) {
   if (position_.size() != inclination_.size() || position_.size() < 2)
-    refuse(std::to_string(position_.size()) + " positions have " + std::to_string(inclination_.size()) + " inclinations",
-           "give one inclination for each position, at least two");
+    refuse(
+        std::to_string(position_.size()) + " positions have " + std::to_string(inclination_.size()) + " inclinations",
+        "give one inclination for each position, at least two");
   for (std::size_t i = 0; i < position_.size(); ++i) {
     if (!std::isfinite(position_[i]) || !std::isfinite(inclination_[i]))
       refuse("a position or an inclination is not finite", "check the table of inclinations");

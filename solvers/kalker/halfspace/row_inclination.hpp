@@ -42,8 +42,9 @@ class RowInclination {
 /// Inclination of a surface along y: linear between given positions, its first and last slope beyond them.
 class InclinationTable {
  public:
-  /// settings: positions [m] that increase, inclinations [rad], variant. Errors: Error(configuration) for less than two positions,
-  /// another number of inclinations, positions that do not increase, numbers that are not finite, or an unknown variant.
+  /// settings: positions [m] that increase, inclinations [rad], variant. Errors: Error(configuration) for less than two
+  /// positions, another number of inclinations, positions that do not increase, numbers that are not finite, or an
+  /// unknown variant.
   explicit InclinationTable(const InfluenceSettings& settings);
 
   /// [rad] at y [m].

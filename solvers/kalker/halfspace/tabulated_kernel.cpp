@@ -23,14 +23,14 @@ void check(const NumericalInfluence* table, const InfluenceKernel* outside, doub
   if (table->nx < 1 || table->ny < 1 || table->nx % 2 == 0 || table->ny % 2 == 0 ||
       table->values.size() != static_cast<std::size_t>(table->nx) * static_cast<std::size_t>(table->ny))
     throw Error(ErrorKind::configuration,
-                "a table of " + std::to_string(table->values.size()) + " coefficients of influence for " + std::to_string(table->nx) +
-                    " x " + std::to_string(table->ny) + " offsets",
+                "a table of " + std::to_string(table->values.size()) + " coefficients of influence for " +
+                    std::to_string(table->nx) + " x " + std::to_string(table->ny) + " offsets",
                 {}, "the numbers of offsets are odd, and each has its coefficients");
   if (differ(table->dx, dx) || differ(table->dy, dy))
     throw Error(ErrorKind::configuration,
                 "coefficients of influence for elements of " + std::to_string(table->dx * 1e3) + " mm x " +
-                    std::to_string(table->dy * 1e3) + " mm do not fit elements of " + std::to_string(dx * 1e3) + " mm x " +
-                    std::to_string(dy * 1e3) + " mm",
+                    std::to_string(table->dy * 1e3) + " mm do not fit elements of " + std::to_string(dx * 1e3) +
+                    " mm x " + std::to_string(dy * 1e3) + " mm",
                 {}, "use the grid that the coefficients were computed for");
   for (const auto& values : table->values)
     if (!std::all_of(values.begin(), values.end(), [](double value) { return std::isfinite(value); }))
@@ -41,7 +41,9 @@ InfluenceBlock block_of(const std::array<double, 9>& v) {
   return {.xx = v[4], .xy = v[5], .xn = v[3], .yx = v[7], .yy = v[8], .yn = v[6], .nx = v[1], .ny = v[2], .nn = v[0]};
 }
 
-std::array<double, 9> values_of(const InfluenceBlock& b) { return {b.nn, b.nx, b.ny, b.xn, b.xx, b.xy, b.yn, b.yx, b.yy}; }
+std::array<double, 9> values_of(const InfluenceBlock& b) {
+  return {b.nn, b.nx, b.ny, b.xn, b.xx, b.xy, b.yn, b.yx, b.yy};
+}
 
 InfluenceBlock between(const InfluenceBlock& a, const InfluenceBlock& b, double share) {
   std::array<double, 9> mixed = values_of(a);
@@ -50,12 +52,15 @@ InfluenceBlock between(const InfluenceBlock& a, const InfluenceBlock& b, double 
   return block_of(mixed);
 }
 
-/// The interval of a row of count offsets in which a position lies, and how far; values at the ends may be off by rounding.
+/// The interval of a row of count offsets in which a position lies, and how far; values at the ends may be off by
+/// rounding.
 struct Interval {
   Interval(double position, int count)
       : inside(position >= -kRounding && position <= count - 1 + kRounding),
-        index(std::clamp(static_cast<int>(std::clamp(position, 0.0, static_cast<double>(count))), 0, std::max(count - 2, 0))),
-        next(std::min(index + 1, count - 1)), share(std::clamp(position - index, 0.0, 1.0)) {}
+        index(std::clamp(static_cast<int>(std::clamp(position, 0.0, static_cast<double>(count))), 0,
+                         std::max(count - 2, 0))),
+        next(std::min(index + 1, count - 1)),
+        share(std::clamp(position - index, 0.0, 1.0)) {}
   static constexpr double kRounding = 1e-6;
   bool inside;
   int index, next;
@@ -68,9 +73,13 @@ bool is_mirror_image(const InfluenceBlock& a, const InfluenceBlock& b, bool in_x
 
 }  // namespace
 
-TabulatedKernel::TabulatedKernel(std::shared_ptr<const NumericalInfluence> table, std::shared_ptr<const InfluenceKernel> outside, double dx,
-                                 double dy)
-    : nx_((check(table.get(), outside.get(), dx, dy), table->nx)), ny_(table->ny), dx_(dx), dy_(dy), outside_(std::move(outside)) {
+TabulatedKernel::TabulatedKernel(std::shared_ptr<const NumericalInfluence> table,
+                                 std::shared_ptr<const InfluenceKernel> outside, double dx, double dy)
+    : nx_((check(table.get(), outside.get(), dx, dy), table->nx)),
+      ny_(table->ny),
+      dx_(dx),
+      dy_(dy),
+      outside_(std::move(outside)) {
   blocks_.reserve(table->values.size());
   for (const auto& values : table->values) blocks_.push_back(block_of(values));
   coupled_ = outside_->coupled() || std::any_of(blocks_.begin(), blocks_.end(), [](const InfluenceBlock& b) {
@@ -91,7 +100,8 @@ InfluenceBlock TabulatedKernel::at(double X, double Y) const {
   if (!x.inside || !y.inside) return outside_->at(X, Y);
   const auto row = [&](int iy) {
     const auto first = static_cast<std::size_t>(iy) * static_cast<std::size_t>(nx_);
-    return between(blocks_[first + static_cast<std::size_t>(x.index)], blocks_[first + static_cast<std::size_t>(x.next)], x.share);
+    return between(blocks_[first + static_cast<std::size_t>(x.index)],
+                   blocks_[first + static_cast<std::size_t>(x.next)], x.share);
   };
   return between(row(y.index), row(y.next), y.share);
 }

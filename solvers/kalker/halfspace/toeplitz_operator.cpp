@@ -84,8 +84,8 @@ Spectrum ToeplitzTransform::whole_spectrum(std::span<const double> padded) const
     std::fill(std::copy(begin, begin + static_cast<std::ptrdiff_t>(count), rows.begin()), rows.end(), 0.0);
     fft_.forward(rows, band);
     for (int ky = 0; ky < py; ++ky) {
-      const std::complex<double> shift =
-          std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(product(ky, first) % static_cast<std::size_t>(py)) / py);
+      const std::complex<double> shift = std::polar(
+          1.0, -2.0 * std::numbers::pi * static_cast<double>(product(ky, first) % static_cast<std::size_t>(py)) / py);
       for (std::size_t k = product(ky, columns); k < product(ky + 1, columns); ++k) sum[k] += shift * band[k];
     }
   }
@@ -108,7 +108,8 @@ Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) 
   field.reserve(product(px, py));
   const double scale = 1.0 / (static_cast<double>(px) * py);
   for (int iy = 0; iy < py; ++iy)
-    for (int ix = 0; ix < px; ++ix) field.push_back(scale * kernel(2 * ix <= px ? ix : ix - px, 2 * iy <= py ? iy : iy - py));
+    for (int ix = 0; ix < px; ++ix)
+      field.push_back(scale * kernel(2 * ix <= px ? ix : ix - px, 2 * iy <= py ? iy : iy - py));
   return whole_spectrum(field);
 }
 

@@ -25,8 +25,8 @@ void add_product(std::span<std::complex<double>> sum, std::span<const std::compl
                  std::span<const std::complex<double>> factor, double weight = 1.0);
 
 /// Zero-padded transforms of fields with ny rows of nx values, for convolutions with kernels of index offsets.
-/// u = K p reads: forward(p, s); multiply s by kernel_spectrum(K); inverse(s, u). Sums of several kernels and fields are
-/// formed between the transforms. Const members may be called from any number of threads.
+/// u = K p reads: forward(p, s); multiply s by kernel_spectrum(K); inverse(s, u). Sums of several kernels and fields
+/// are formed between the transforms. Const members may be called from any number of threads.
 class ToeplitzTransform {
  public:
   ToeplitzTransform(int nx, int ny);
@@ -39,8 +39,8 @@ class ToeplitzTransform {
   /// Spectrum of a kernel, scaled so that a product with a field's spectrum needs no further factor.
   Spectrum kernel_spectrum(const OffsetKernel& kernel) const;
   /// The same product, but the kernel is evaluated at all offsets of the padded field, |dix| <= padded_nx/2 and
-  /// |diy| <= padded_ny/2. For a symmetric decaying kernel the spectrum is then free of the ripples that a cut leaves, so
-  /// that its reciprocal makes a preconditioner.
+  /// |diy| <= padded_ny/2. For a symmetric decaying kernel the spectrum is then free of the ripples that a cut leaves,
+  /// so that its reciprocal makes a preconditioner.
   Spectrum wrapped_kernel_spectrum(const OffsetKernel& kernel) const;
   /// field -> kernel * field. Sizes nx * ny; input and output may be the same.
   void convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,
@@ -48,8 +48,8 @@ class ToeplitzTransform {
   void forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const;
   /// spectrum is overwritten.
   void inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const;
-  /// Transforms along the rows only, ny rows of padded_nx/2+1 values, so that rows may be multiplied by factors (one a row)
-  /// before and after a convolution. The inverse overwrites its rows.
+  /// Transforms along the rows only, ny rows of padded_nx/2+1 values, so that rows may be multiplied by factors (one a
+  /// row) before and after a convolution. The inverse overwrites its rows.
   std::size_t rows_size() const { return fft_.rows_size(); }
   void forward_rows(std::span<const double> field, std::span<std::complex<double>> rows) const;
   void inverse_rows(std::span<std::complex<double>> rows, std::span<double> field) const;

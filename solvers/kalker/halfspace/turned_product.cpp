@@ -12,23 +12,36 @@ namespace treadmark::kalker {
 
 namespace {
 
-/// What of the half-space's coefficients is convolved. mean, difference: halves of yy + nn and yy - nn; skew: of yn - ny.
+/// What of the half-space's coefficients is convolved. mean, difference: halves of yy + nn and yy - nn; skew: of yn -
+/// ny.
 enum class Combination { xx, xy, xn, yx, yy, yn, nx, ny, nn, mean, difference, skew };
 
 double value(const InfluenceBlock& a, Combination combination) {
   switch (combination) {
-    case Combination::xx: return a.xx;
-    case Combination::xy: return a.xy;
-    case Combination::xn: return a.xn;
-    case Combination::yx: return a.yx;
-    case Combination::yy: return a.yy;
-    case Combination::yn: return a.yn;
-    case Combination::nx: return a.nx;
-    case Combination::ny: return a.ny;
-    case Combination::nn: return a.nn;
-    case Combination::mean: return 0.5 * (a.yy + a.nn);
-    case Combination::difference: return 0.5 * (a.yy - a.nn);
-    case Combination::skew: return 0.5 * (a.yn - a.ny);
+    case Combination::xx:
+      return a.xx;
+    case Combination::xy:
+      return a.xy;
+    case Combination::xn:
+      return a.xn;
+    case Combination::yx:
+      return a.yx;
+    case Combination::yy:
+      return a.yy;
+    case Combination::yn:
+      return a.yn;
+    case Combination::nx:
+      return a.nx;
+    case Combination::ny:
+      return a.ny;
+    case Combination::nn:
+      return a.nn;
+    case Combination::mean:
+      return 0.5 * (a.yy + a.nn);
+    case Combination::difference:
+      return 0.5 * (a.yy - a.nn);
+    case Combination::skew:
+      return 0.5 * (a.yn - a.ny);
   }
   return 0.0;
 }
@@ -61,9 +74,10 @@ struct Term {
 std::vector<Part> parts_of_rotated_loads(bool but_xn) {
   using enum Combination;
   using enum RowFactor;
-  std::vector<Part> parts{{kX, kX, xx, one}, {kX, kY, xy, cosine}, {kX, kY, xn, sine},
-                          {kY, kX, yx, one}, {kY, kY, yy, cosine}, {kY, kY, yn, sine}, {kY, kN, yn, cosine}, {kY, kN, yy, sine, -1.0},
-                          {kN, kX, nx, one}, {kN, kY, ny, cosine}, {kN, kY, nn, sine}, {kN, kN, nn, cosine}, {kN, kN, ny, sine, -1.0}};
+  std::vector<Part> parts{{kX, kX, xx, one},       {kX, kY, xy, cosine}, {kX, kY, xn, sine},   {kY, kX, yx, one},
+                          {kY, kY, yy, cosine},    {kY, kY, yn, sine},   {kY, kN, yn, cosine}, {kY, kN, yy, sine, -1.0},
+                          {kN, kX, nx, one},       {kN, kY, ny, cosine}, {kN, kY, nn, sine},   {kN, kN, nn, cosine},
+                          {kN, kN, ny, sine, -1.0}};
   if (but_xn)
     parts.push_back({kX, kN, xn, one});
   else
@@ -74,29 +88,46 @@ std::vector<Part> parts_of_rotated_loads(bool but_xn) {
 std::vector<Part> parts_of_rotated_displacements() {
   using enum Combination;
   using enum RowFactor;
-  return {{kX, kX, xx, one},    {kX, kY, xy, one},          {kX, kN, xn, one},
-          {kY, kX, yx, cosine}, {kY, kX, nx, sine, -1.0},   {kY, kY, yy, cosine}, {kY, kY, ny, sine, -1.0},
-          {kY, kN, yn, cosine}, {kY, kN, nn, sine, -1.0},   {kN, kX, nx, cosine}, {kN, kX, yx, sine},
-          {kN, kY, ny, cosine}, {kN, kY, yy, sine},         {kN, kN, nn, cosine}, {kN, kN, yn, sine}};
+  return {{kX, kX, xx, one},        {kX, kY, xy, one},    {kX, kN, xn, one},        {kY, kX, yx, cosine},
+          {kY, kX, nx, sine, -1.0}, {kY, kY, yy, cosine}, {kY, kY, ny, sine, -1.0}, {kY, kN, yn, cosine},
+          {kY, kN, nn, sine, -1.0}, {kN, kX, nx, cosine}, {kN, kX, yx, sine},       {kN, kY, ny, cosine},
+          {kN, kY, yy, sine},       {kN, kN, nn, cosine}, {kN, kN, yn, sine}};
 }
 
 std::vector<Part> parts_of_half_and_half() {
   using enum Combination;
   using enum RowFactor;
   return {{kX, kX, xx, one},
-          {kX, kY, xy, half_cosine}, {kX, kY, xn, half_sine}, {kX, kN, xn, half_cosine}, {kX, kN, xy, half_sine, -1.0},
-          {kY, kX, yx, half_cosine}, {kY, kX, nx, half_sine, -1.0}, {kN, kX, nx, half_cosine}, {kN, kX, yx, half_sine},
-          {kY, kY, difference, one}, {kY, kY, mean, cosine}, {kY, kY, skew, sine},
-          {kN, kN, difference, one, -1.0}, {kN, kN, mean, cosine}, {kN, kN, skew, sine},
-          {kY, kN, skew, cosine}, {kY, kN, mean, sine, -1.0}, {kN, kY, skew, cosine, -1.0}, {kN, kY, mean, sine}};
+          {kX, kY, xy, half_cosine},
+          {kX, kY, xn, half_sine},
+          {kX, kN, xn, half_cosine},
+          {kX, kN, xy, half_sine, -1.0},
+          {kY, kX, yx, half_cosine},
+          {kY, kX, nx, half_sine, -1.0},
+          {kN, kX, nx, half_cosine},
+          {kN, kX, yx, half_sine},
+          {kY, kY, difference, one},
+          {kY, kY, mean, cosine},
+          {kY, kY, skew, sine},
+          {kN, kN, difference, one, -1.0},
+          {kN, kN, mean, cosine},
+          {kN, kN, skew, sine},
+          {kY, kN, skew, cosine},
+          {kY, kN, mean, sine, -1.0},
+          {kN, kY, skew, cosine, -1.0},
+          {kN, kY, mean, sine}};
 }
 
 std::vector<Part> parts_of(AngleCorrection correction) {
   switch (correction) {
-    case AngleCorrection::rotated_loads: return parts_of_rotated_loads(false);
-    case AngleCorrection::rotated_loads_but_xn: return parts_of_rotated_loads(true);
-    case AngleCorrection::rotated_displacements: return parts_of_rotated_displacements();
-    case AngleCorrection::half_and_half: break;
+    case AngleCorrection::rotated_loads:
+      return parts_of_rotated_loads(false);
+    case AngleCorrection::rotated_loads_but_xn:
+      return parts_of_rotated_loads(true);
+    case AngleCorrection::rotated_displacements:
+      return parts_of_rotated_displacements();
+    case AngleCorrection::half_and_half:
+      break;
   }
   return parts_of_half_and_half();
 }
@@ -106,15 +137,26 @@ std::vector<Term> terms_of(const std::vector<Part>& parts) {
   std::vector<Term> terms;
   for (const Part& part : parts) {
     const auto add = [&](RowFactor observed, RowFactor loaded, double sign) {
-      terms.push_back({part.displacement, observed, part.traction, loaded, static_cast<std::size_t>(part.combination), sign * part.weight});
+      terms.push_back({part.displacement, observed, part.traction, loaded, static_cast<std::size_t>(part.combination),
+                       sign * part.weight});
     };
     using enum RowFactor;
     switch (part.function) {
-      case one: add(one, one, 1.0); break;
-      case cosine: add(cosine, cosine, 1.0), add(sine, sine, 1.0); break;
-      case sine: add(cosine, sine, 1.0), add(sine, cosine, -1.0); break;
-      case half_cosine: add(half_cosine, half_cosine, 1.0), add(half_sine, half_sine, 1.0); break;
-      case half_sine: add(half_cosine, half_sine, 1.0), add(half_sine, half_cosine, -1.0); break;
+      case one:
+        add(one, one, 1.0);
+        break;
+      case cosine:
+        add(cosine, cosine, 1.0), add(sine, sine, 1.0);
+        break;
+      case sine:
+        add(cosine, sine, 1.0), add(sine, cosine, -1.0);
+        break;
+      case half_cosine:
+        add(half_cosine, half_cosine, 1.0), add(half_sine, half_sine, 1.0);
+        break;
+      case half_sine:
+        add(half_cosine, half_sine, 1.0), add(half_sine, half_cosine, -1.0);
+        break;
     }
   }
   return terms;
@@ -123,8 +165,11 @@ std::vector<Term> terms_of(const std::vector<Part>& parts) {
 }  // namespace
 
 TurnedProduct::TurnedProduct(ToeplitzTransform transform, HalfSpace half_space, bool coupled)
-    : transform_(std::move(transform)), half_space_(std::move(half_space)), coupled_(coupled),
-      sum_(transform_.spectrum_size()), result_(transform_.rows_size()) {}
+    : transform_(std::move(transform)),
+      half_space_(std::move(half_space)),
+      coupled_(coupled),
+      sum_(transform_.spectrum_size()),
+      result_(transform_.rows_size()) {}
 
 const Spectrum& TurnedProduct::kernel(std::size_t combination) {
   Spectrum& known = kernels_[combination];
@@ -149,8 +194,8 @@ void TurnedProduct::load(const TractionFields& p, std::span<const std::complex<d
 void TurnedProduct::apply(const RowInclination& rows, const TractionFields& p, const DisplacementFields& u,
                           std::span<const std::complex<double>> along_rows) {
   if (rows.size() != static_cast<std::size_t>(transform_.ny()))
-    throw Error(ErrorKind::configuration,
-                "a box of " + std::to_string(transform_.ny()) + " rows was given " + std::to_string(rows.size()) + " inclinations");
+    throw Error(ErrorKind::configuration, "a box of " + std::to_string(transform_.ny()) + " rows was given " +
+                                              std::to_string(rows.size()) + " inclinations");
   const std::array<std::span<double>, 3> wanted{u.x, u.y, u.n};
   const std::array<bool, 3> given{!p.x.empty(), !p.y.empty(), !p.n.empty()};
   std::vector<Part> parts = parts_of(rows.correction());
@@ -176,7 +221,8 @@ void TurnedProduct::apply(const RowInclination& rows, const TractionFields& p, c
       for (const Term& term : terms) {
         if (term.displacement != axis || static_cast<std::size_t>(term.observed) != factor) continue;
         if (!std::exchange(any, true)) std::fill(sum_.begin(), sum_.end(), 0.0);
-        add_product(sum_, loads_[term.traction][static_cast<std::size_t>(term.loaded)], kernel(term.combination), term.weight);
+        add_product(sum_, loads_[term.traction][static_cast<std::size_t>(term.loaded)], kernel(term.combination),
+                    term.weight);
       }
       if (any) transform_.add_inverse_columns(sum_, rows.values(static_cast<RowFactor>(factor)), result_);
     }

@@ -42,8 +42,8 @@ class MemoryIntegral {
 
  private:
   static constexpr int kNodes = 12;
-  /// Errors fall as this number to the power -2 kNodes: the size of the ellipse about a panel (of complex distances) that is free of
-  /// singular points.
+  /// Errors fall as this number to the power -2 kNodes: the size of the ellipse about a panel (of complex distances)
+  /// that is free of singular points.
   static constexpr double kSmallestEllipse = 3.0;
 
   void integrate(double begin, double end) {
@@ -62,8 +62,8 @@ class MemoryIntegral {
   }
 
   bool converges(double begin, double end) const {
-    constexpr double kLongestPanel = 4.0;      // relaxation distances
-    constexpr double kSmallestPanel = 1e-6;    // of the element, where the path crosses a border or meets a corner
+    constexpr double kLongestPanel = 4.0;    // relaxation distances
+    constexpr double kSmallestPanel = 1e-6;  // of the element, where the path crosses a border or meets a corner
     if (end - begin > kLongestPanel * body_.relaxation_distance) return false;
     if (end - begin < kSmallestPanel * size_) return true;
     const double middle = 0.5 * (begin + end), half = 0.5 * (end - begin);
@@ -91,9 +91,11 @@ ViscoelasticKernel::ViscoelasticKernel(std::vector<ViscoelasticBody> bodies, Ker
     throw Error(ErrorKind::configuration, "the borders of an element without width are no basis for an integration");
   for (const ViscoelasticBody& body : bodies_) {
     if (!body.elastic || body.elastic->coupled() || !body.elastic->symmetric())
-      throw Error(ErrorKind::configuration, "viscoelastic bodies need the coefficients of uncoupled elastic half-spaces");
+      throw Error(ErrorKind::configuration,
+                  "viscoelastic bodies need the coefficients of uncoupled elastic half-spaces");
     if (!(body.relaxation_distance >= 0.0 && std::isfinite(body.relaxation_distance) && body.creep_ratio >= 0.0))
-      throw Error(ErrorKind::configuration, "creep ratios and relaxation distances of viscoelastic bodies must not be negative");
+      throw Error(ErrorKind::configuration,
+                  "creep ratios and relaxation distances of viscoelastic bodies must not be negative");
   }
 }
 
@@ -103,7 +105,8 @@ InfluenceBlock ViscoelasticKernel::at(double X, double Y) const {
     const bool delayed = body.creep_ratio > 0.0 && body.relaxation_distance > 0.0;
     add_tangential_and_normal(sum, body.weight * (delayed ? 1.0 : 1.0 + body.creep_ratio), body.elastic->at(X, Y));
     if (delayed)
-      add_tangential_and_normal(sum, body.weight * body.creep_ratio, MemoryIntegral(body, borders_, ahead_, X, Y).compute());
+      add_tangential_and_normal(sum, body.weight * body.creep_ratio,
+                                MemoryIntegral(body, borders_, ahead_, X, Y).compute());
   }
   return sum;
 }

@@ -28,8 +28,8 @@ struct KernelBorders {
 /// The integral is accurate to about 1e-10 relative to the coefficient.
 class ViscoelasticKernel final : public InfluenceKernel {
  public:
-  /// ahead: 1 for rolling in the direction of +x, -1 for -x. Errors: Error(configuration) without elastic kernels, for coupled ones,
-  /// for negative distances or ratios, or without borders.
+  /// ahead: 1 for rolling in the direction of +x, -1 for -x. Errors: Error(configuration) without elastic kernels, for
+  /// coupled ones, for negative distances or ratios, or without borders.
   ViscoelasticKernel(std::vector<ViscoelasticBody> bodies, KernelBorders borders, double ahead);
 
   InfluenceBlock at(double X, double Y) const override;

@@ -34,7 +34,8 @@ ContactHistory history_of(const ContactProblem& problem, const ContactSolution& 
   return out;
 }
 
-ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double static_friction, double first_yield_stress) {
+ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double static_friction,
+                       double first_yield_stress) {
   if (history.empty() || history.grid == grid) return history;
   const Grid2& from = history.grid;
   const double ox = (grid.x0 - from.x0) / grid.dx, oy = (grid.y0 - from.y0) / grid.dy;
@@ -43,7 +44,8 @@ ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double 
     throw Error(ErrorKind::configuration, "a history cannot be carried to elements of another size", {},
                 "keep the steps dx and dy, or start without history");
   if (std::fabs(ox - std::round(ox)) > kLinedUp || std::fabs(oy - std::round(oy)) > kLinedUp)
-    throw Error(ErrorKind::configuration, "a history cannot be carried to a grid that is not displaced by whole elements", {},
+    throw Error(ErrorKind::configuration,
+                "a history cannot be carried to a grid that is not displaced by whole elements", {},
                 "move the grid by multiples of dx and dy, or start without history");
   const long sx = std::lround(ox), sy = std::lround(oy);
   const auto moved = [&](const std::vector<double>& field, double outside) {
@@ -73,10 +75,12 @@ std::vector<double> carried(const Grid2& grid, const std::vector<double>& field,
   constexpr double kRound = 1e-9;  // of an element: a step of whole elements shall not blend neighbours
   const double ox = dx / grid.dx, oy = dy / grid.dy;
   const double fx = std::floor(ox + kRound), fy = std::floor(oy + kRound);
-  const double tx = std::fmax(0.0, ox - fx) > kRound ? ox - fx : 0.0, ty = std::fmax(0.0, oy - fy) > kRound ? oy - fy : 0.0;
+  const double tx = std::fmax(0.0, ox - fx) > kRound ? ox - fx : 0.0,
+               ty = std::fmax(0.0, oy - fy) > kRound ? oy - fy : 0.0;
   const auto at = [&](long ix, long iy) {
-    return ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny ? outside
-                                                             : field[grid.index(static_cast<int>(ix), static_cast<int>(iy))];
+    return ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny
+               ? outside
+               : field[grid.index(static_cast<int>(ix), static_cast<int>(iy))];
   };
   std::vector<double> out(grid.size());
   for (int iy = 0; iy < grid.ny; ++iy)

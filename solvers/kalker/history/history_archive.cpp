@@ -8,7 +8,8 @@ namespace treadmark::kalker {
 
 void write(const ContactHistory& h, ByteWriter& out) {
   write(h.grid, out);
-  for (const auto* field : {&h.pressure, &h.traction_x, &h.traction_y, &h.friction, &h.plastic_x, &h.plastic_y, &h.yield_stress})
+  for (const auto* field :
+       {&h.pressure, &h.traction_x, &h.traction_y, &h.friction, &h.plastic_x, &h.plastic_y, &h.yield_stress})
     out.put(*field);
 }
 

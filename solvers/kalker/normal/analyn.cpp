@@ -22,7 +22,8 @@ struct Vertex {
 
 Vertex vertex(const Interpenetration& overlap, int iy, bool at_element) {
   const int ix = overlap.deepest_column(iy);
-  const double behind = overlap.distance(ix - 1, iy), here = overlap.distance(ix, iy), ahead = overlap.distance(ix + 1, iy);
+  const double behind = overlap.distance(ix - 1, iy), here = overlap.distance(ix, iy),
+               ahead = overlap.distance(ix + 1, iy);
   Vertex result{overlap.grid().x(ix), here};
   const double second = behind - 2.0 * here + ahead;
   if (at_element || !std::isfinite(second) || !(second > 0.0)) return result;
@@ -36,7 +37,9 @@ Vertex vertex(const Interpenetration& overlap, int iy, bool at_element) {
 double curvature_along(const Interpenetration& overlap, int iy) {
   const int ix = overlap.deepest_column(iy);
   const double here = overlap.distance(ix, iy), dx = overlap.grid().dx;
-  const auto greater_neighbour = [&](int k) { return std::max(overlap.distance(ix - k, iy), overlap.distance(ix + k, iy)); };
+  const auto greater_neighbour = [&](int k) {
+    return std::max(overlap.distance(ix - k, iy), overlap.distance(ix + k, iy));
+  };
   if (!std::isfinite(greater_neighbour(1))) {  // at the border: the inner side, mirrored
     const double inner = std::min(overlap.distance(ix - 1, iy), overlap.distance(ix + 1, iy));
     return std::isfinite(inner) ? std::max(kLeastCurvature, (inner - here) / (dx * dx)) : kLeastCurvature;
@@ -68,7 +71,8 @@ double curvature_across(const Interpenetration& overlap, int iy) {
 
 }  // namespace
 
-std::vector<double> analyn_pressure(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks) {
+std::vector<double> analyn_pressure(const Interpenetration& overlap, const CombinedMaterial& material,
+                                    bool reference_quirks) {
   const Grid2& grid = overlap.grid();
   const ElementBox& box = overlap.box();
   double depth = 0.0;

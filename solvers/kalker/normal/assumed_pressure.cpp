@@ -28,8 +28,7 @@ Pressure pressure_of(const ContactProblem& problem) {
 
 }  // namespace
 
-void assume_pressure(const ContactProblem& problem, NormalOperatorCache& operators,
-                     ContactSolution& solution) {
+void assume_pressure(const ContactProblem& problem, NormalOperatorCache& operators, ContactSolution& solution) {
   const Pressure pressure = pressure_of(problem);
   const HertzShape& hertz = *problem.hertz;
   const Grid2& grid = problem.grid;

@@ -76,9 +76,9 @@ void BoundConstrainedCg::start(const BoxProblem& problem) {
 
 void BoundConstrainedCg::update_residual(const BoxProblem& problem) {
   if (problem.sum_prescribed) {
-    approach = sum_of(p.size(), [in = inside_.data(), h = problem.gap.data(), w = u.data()](std::size_t i) {
-                 return in[i] * (h[i] + w[i]);
-               }) / count_;
+    approach = sum_of(p.size(), [in = inside_.data(), h = problem.gap.data(),
+                                 w = u.data()](std::size_t i) { return in[i] * (h[i] + w[i]); }) /
+               count_;
   }
   for (std::size_t i = 0; i < p.size(); ++i) e_[i] = problem.gap[i] - approach + u[i];
 }

@@ -15,18 +15,18 @@ inline constexpr double kNeverInContact = 1e30;
 /// Normal contact on a box of elements: find p >= 0 with p e = 0, e = gap - approach + A p >= 0.
 struct BoxProblem {
   const NormalOperator* op = nullptr;
-  std::span<const double> gap;    ///< [m], rows of nx
+  std::span<const double> gap;  ///< [m], rows of nx
   int nx = 0, ny = 0;
-  bool sum_prescribed = false;    ///< sum of p given, approach unknown; else approach given
-  double pressure_sum = 0.0;      ///< [Pa]
-  double eps = 1e-5;              ///< wanted accuracy of p relative to its rms
+  bool sum_prescribed = false;  ///< sum of p given, approach unknown; else approach given
+  double pressure_sum = 0.0;    ///< [Pa]
+  double eps = 1e-5;            ///< wanted accuracy of p relative to its rms
   int max_iterations = 999;
   /// Sides behind which the grid continues: contact in their border elements stops the iteration.
   bool open_left = false, open_right = false, open_low = false, open_high = false;
 };
 
-/// Conjugate gradients that let elements enter and leave the contact at every iteration (Polonsky & Keer 1999, Vollebregt
-/// 2014), preconditioned by the inverse of the convolution.
+/// Conjugate gradients that let elements enter and leave the contact at every iteration (Polonsky & Keer 1999,
+/// Vollebregt 2014), preconditioned by the inverse of the convolution.
 class BoundConstrainedCg {
  public:
   enum class Outcome { converged, box_too_small, iteration_limit, no_contact };
@@ -54,7 +54,7 @@ class BoundConstrainedCg {
 
   AlignedVector<double> inside_;  ///< 1 in contact, 0 outside
   AlignedVector<double> e_, r_, r_previous_, z_, v_, q_;
-  double count_ = 0.0;            ///< elements in contact
+  double count_ = 0.0;  ///< elements in contact
 };
 
 }  // namespace treadmark::kalker

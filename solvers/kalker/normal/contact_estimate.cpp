@@ -62,7 +62,8 @@ ContactEstimate estimate_contact(const ContactProblem& problem, std::span<const 
     return estimate;
   }
   // The grid's area indented as a punch gives the order of magnitude to start with.
-  const double start = problem.normal_force / (2.0 * e_star * std::sqrt(static_cast<double>(grid.size()) * grid.cell_area()));
+  const double start =
+      problem.normal_force / (2.0 * e_star * std::sqrt(static_cast<double>(grid.size()) * grid.cell_area()));
   const double depth = depth_for_force(problem.normal_force, estimate.least_gap, gap, grid.cell_area(), e_star, start);
   estimate.approach = estimate.least_gap + depth;
   estimate.threshold = kContactShare * depth;

@@ -17,7 +17,8 @@ double dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
 
 }  // namespace
 
-AlignedVector<double> pressure_of_unit_approach(const NormalOperator& op, const AlignedVector<double>& inside, double eps) {
+AlignedVector<double> pressure_of_unit_approach(const NormalOperator& op, const AlignedVector<double>& inside,
+                                                double eps) {
   const std::size_t n = inside.size();
   AlignedVector<double> q(n, 0.0), r(inside), z(n), v(n, 0.0), image(n);
   double old = 0.0, first = 0.0;

@@ -6,8 +6,9 @@
 
 namespace treadmark::kalker {
 
-/// Pressures that press the contact area down by one length: A q = 1 where inside is 1, q = 0 elsewhere [Pa/m]. By conjugate gradients
-/// to a relative accuracy eps. Fields of the operator's box.
-AlignedVector<double> pressure_of_unit_approach(const NormalOperator& op, const AlignedVector<double>& inside, double eps);
+/// Pressures that press the contact area down by one length: A q = 1 where inside is 1, q = 0 elsewhere [Pa/m]. By
+/// conjugate gradients to a relative accuracy eps. Fields of the operator's box.
+AlignedVector<double> pressure_of_unit_approach(const NormalOperator& op, const AlignedVector<double>& inside,
+                                                double eps);
 
 }  // namespace treadmark::kalker

@@ -9,8 +9,8 @@
 
 namespace treadmark::kalker {
 
-/// Normal displacement of the problem's bodies, sheet included, [m] inside a box of elements by the pressures [Pa] inside that box; elements
-/// outside the box are left alone. Fields have the grid's size.
+/// Normal displacement of the problem's bodies, sheet included, [m] inside a box of elements by the pressures [Pa]
+/// inside that box; elements outside the box are left alone. Fields have the grid's size.
 void half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
                              std::span<const double> pressure, std::span<double> displacement);
 

@@ -8,9 +8,9 @@
 namespace treadmark::kalker {
 
 /// Contact of two smooth bodies with h = A x^2 + B y^2 on an ellipse, or h = A x^2 on a strip of finite length (line
-/// contact): Hertz 1882, Johnson 1985 ch. 4. A line contact has curvature_y = 0 and semi_axis_y = half the strip's length.
-/// The load is a force [N] or an approach [m]; the other one is computed. The approach of a line contact is not defined
-/// by the theory: it stays 0, and prescribing it is an error.
+/// contact): Hertz 1882, Johnson 1985 ch. 4. A line contact has curvature_y = 0 and semi_axis_y = half the strip's
+/// length. The load is a force [N] or an approach [m]; the other one is computed. The approach of a line contact is not
+/// defined by the theory: it stays 0, and prescribing it is an error.
 struct HertzLoad {
   bool force_prescribed = true;
   double value = 0.0;  ///< force [N] or approach [m], > 0

@@ -13,7 +13,8 @@ namespace {
 /// Shape of the contact is judged from where the bodies overlap by more than this share of the depth.
 constexpr double kShapeLevel = 0.5;
 
-/// From a to b, where a level lies between the distances at both, as a share of the way; half the way without a neighbour.
+/// From a to b, where a level lies between the distances at both, as a share of the way; half the way without a
+/// neighbour.
 double share_to_level(double inside, double outside, double level) {
   return std::isfinite(outside) ? (level - inside) / (outside - inside) : 0.5;
 }
@@ -80,18 +81,21 @@ CutLevel cut_level(const Interpenetration& overlap, const CombinedMaterial& mate
 }
 
 /// Half ellipse over the elements first .. last of a row, which ends where the distance passes the level.
-void fill_run(const Interpenetration& overlap, int iy, int first, int last, double level, std::vector<double>& distribution) {
+void fill_run(const Interpenetration& overlap, int iy, int first, int last, double level,
+              std::vector<double>& distribution) {
   const Grid2& grid = overlap.grid();
   const double start =
       grid.x(first) - grid.dx * share_to_level(overlap.distance(first, iy), overlap.distance(first - 1, iy), level);
-  const double end = grid.x(last) + grid.dx * share_to_level(overlap.distance(last, iy), overlap.distance(last + 1, iy), level);
+  const double end =
+      grid.x(last) + grid.dx * share_to_level(overlap.distance(last, iy), overlap.distance(last + 1, iy), level);
   for (int ix = first; ix <= last; ++ix)
     distribution[grid.index(ix, iy)] = std::sqrt(std::max(0.0, (grid.x(ix) - start) * (end - grid.x(ix))));
 }
 
 }  // namespace
 
-std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material, bool reference_quirks) {
+std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material,
+                                      bool reference_quirks) {
   const Grid2& grid = overlap.grid();
   const CutLevel cut = cut_level(overlap, material);
   std::vector<double> distribution(grid.size(), 0.0);

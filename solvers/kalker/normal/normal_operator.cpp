@@ -30,13 +30,15 @@ Spectrum reciprocal(const Spectrum& spectrum, double transform_size) {
 
 NormalOperator NormalOperatorCache::get(int nx, int ny, int first_row, const ContactProblem& problem) {
   const CombinedMaterial material = combine(problem.material);
-  const double dx = problem.grid.dx, dy = problem.grid.dy, poisson = material.poisson, shear_modulus = material.shear_modulus;
+  const double dx = problem.grid.dx, dy = problem.grid.dy, poisson = material.poisson,
+               shear_modulus = material.shear_modulus;
   const double sheet = problem.material.sheet_flexibility;
   const KernelChoice choice = kernels_.get(problem);
   const std::shared_ptr<const InfluenceKernel> kernel = choice.unusual();
   const bool turned = choice.inclination != nullptr;
   const bool other_elements = !table_ || table_->dx() != dx || table_->dy() != dy || table_->poisson() != poisson;
-  if (other_elements || shear_modulus_ != shear_modulus || kernel_ != kernel || sheet_ != sheet || turned_ != turned) operators_.clear();
+  if (other_elements || shear_modulus_ != shear_modulus || kernel_ != kernel || sheet_ != sheet || turned_ != turned)
+    operators_.clear();
   if (other_elements) table_.emplace(Component::nn, dx, dy, poisson);
   shear_modulus_ = shear_modulus;
   kernel_ = kernel;

@@ -18,19 +18,21 @@ namespace treadmark::kalker {
 /// Coefficients of pressures on a box of elements of one size.
 struct NormalInfluence {
   ToeplitzTransform transform;
-  Spectrum influence;                    ///< C/G [m/Pa]; of coefficients that are turned row by row those before
+  Spectrum influence;  ///< C/G [m/Pa]; of coefficients that are turned row by row those before
   Spectrum preconditioner;
-  std::optional<TurnedProduct> turned;   ///< of coefficients that are turned row by row
+  std::optional<TurnedProduct> turned;  ///< of coefficients that are turned row by row
 };
 
-/// Normal displacement by pressure on a box of elements, u = (1/G) C p, and an approximate inverse of it. Not thread-safe.
+/// Normal displacement by pressure on a box of elements, u = (1/G) C p, and an approximate inverse of it. Not
+/// thread-safe.
 class NormalOperator {
  public:
   NormalOperator(std::shared_ptr<NormalInfluence> coefficients, std::optional<RowInclination> rows)
       : coefficients_(std::move(coefficients)), rows_(std::move(rows)) {}
 
   void displacement(std::span<const double> pressure, std::span<double> u) const {
-    if (rows_) return coefficients_->turned->apply(*rows_, {.x = {}, .y = {}, .n = pressure}, {.x = {}, .y = {}, .n = u});
+    if (rows_)
+      return coefficients_->turned->apply(*rows_, {.x = {}, .y = {}, .n = pressure}, {.x = {}, .y = {}, .n = u});
     coefficients_->transform.convolve(coefficients_->influence, pressure, u);
   }
   void precondition(std::span<const double> residual, std::span<double> z) const {
@@ -48,7 +50,8 @@ class NormalOperatorCache {
   /// Sizes of boxes are rounded up to few values, so that operators are met again.
   static int rounded_up(int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; }
 
-  /// For a box of elements of the problem, from row `first_row` of its grid on: its coefficients of influence, bodies and thin sheet.
+  /// For a box of elements of the problem, from row `first_row` of its grid on: its coefficients of influence, bodies
+  /// and thin sheet.
   NormalOperator get(int nx, int ny, int first_row, const ContactProblem& problem);
 
  private:

@@ -245,8 +245,8 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   solution.normal.residual = cg.residual;
   if (outcome == BoundConstrainedCg::Outcome::iteration_limit) {
     solution.status = solution.normal.status = Status::not_converged;
-    solution.normal.message = "the normal problem did not reach the accuracy in " + std::to_string(cg.iterations) +
-                              " iterations";
+    solution.normal.message =
+        "the normal problem did not reach the accuracy in " + std::to_string(cg.iterations) + " iterations";
     paste(grid, solution.displacement_n, box, cg.u);
   }
   last_grid = grid;
@@ -269,7 +269,8 @@ void NormalSolver::start_from(NormalStart start) {
 
 std::vector<double> NormalSolver::pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution) {
   const Grid2& grid = problem.grid;
-  if (solution.pressure.size() != grid.size()) refuse("the pressures belong to another grid", "solve the problem first");
+  if (solution.pressure.size() != grid.size())
+    refuse("the pressures belong to another grid", "solve the problem first");
   std::vector<double> out(grid.size(), 0.0), inside(grid.size(), 0.0);
   for (std::size_t i = 0; i < inside.size(); ++i) inside[i] = solution.pressure[i] > 0.0 ? 1.0 : 0.0;
   const ElementBox whole = bounding_box(grid, [&](std::size_t i) { return inside[i] > 0.0; });

@@ -17,9 +17,10 @@ struct NormalStart {
 
 /// Frictionless normal contact of one patch: pressures p >= 0 with p e = 0 for the deformed distance
 /// e = h - approach + u_n >= 0, for a prescribed force or approach (Kalker 1990; method in README.md of this folder).
-/// Work grows with the size of the contact, not of the potential contact area. Keeps influence coefficients and the last
-/// pressures; the latter start the next problem when its grid has the same steps and is displaced by whole elements.
-/// Not thread-safe; use one per thread. Results depend on the sequence of problems only within the accuracy asked for.
+/// Work grows with the size of the contact, not of the potential contact area. Keeps influence coefficients and the
+/// last pressures; the latter start the next problem when its grid has the same steps and is displaced by whole
+/// elements. Not thread-safe; use one per thread. Results depend on the sequence of problems only within the accuracy
+/// asked for.
 class NormalSolver {
  public:
   NormalSolver();
@@ -30,13 +31,13 @@ class NormalSolver {
   /// Out: pressure, displacement_n (in the box of elements that interpenetrate, else 0), state (adhesion = in contact),
   /// approach, force_n, max_pressure, status and the report `normal`, whose residual is the estimated error of the
   /// pressures relative to their rms; settings.eps is the accuracy asked for. The other fields are emptied.
-  /// normal_model elliptic, parabolic or semi_double_elliptic: pressures from problem.hertz, about the origin of the grid's
-  /// axes; kpec, analyn: approximate ones at a prescribed approach (virtual_penetration.hpp).
-  /// No element in contact: Status::no_contact. Errors: Error(configuration) for inconsistent input.
+  /// normal_model elliptic, parabolic or semi_double_elliptic: pressures from problem.hertz, about the origin of the
+  /// grid's axes; kpec, analyn: approximate ones at a prescribed approach (virtual_penetration.hpp). No element in
+  /// contact: Status::no_contact. Errors: Error(configuration) for inconsistent input.
   void solve(const ContactProblem& problem, ContactSolution& solution);
 
-  /// Change of the pressures with the approach [Pa/m], the contact area staying as it is: their sum times the cell area is the normal
-  /// stiffness. Errors: Error(configuration) for a solution of another grid.
+  /// Change of the pressures with the approach [Pa/m], the contact area staying as it is: their sum times the cell area
+  /// is the normal stiffness. Errors: Error(configuration) for a solution of another grid.
   std::vector<double> pressure_by_approach(const ContactProblem& problem, const ContactSolution& solution);
 
   /// Forgets the last pressures (not the coefficients).

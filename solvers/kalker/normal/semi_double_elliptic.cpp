@@ -14,15 +14,18 @@ HertzShape hertz_semi_double_elliptic(double a, double b_minus, double b_plus, c
                                       const CombinedMaterial& material) {
   for (const double b : {b_minus, b_plus})
     if (!(b > 0.0) || !std::isfinite(b))
-      throw Error(ErrorKind::configuration, "semi-double-elliptic contact: a semi-axis along y is " + std::to_string(b) + " m",
-                  {}, "it must be positive and finite");
+      throw Error(ErrorKind::configuration,
+                  "semi-double-elliptic contact: a semi-axis along y is " + std::to_string(b) + " m", {},
+                  "it must be positive and finite");
   HertzShape shape = hertz_from_semi_axes(a, 0.5 * (b_minus + b_plus), load, material);
   shape.semi_axis_y_minus = b_minus;
   shape.semi_axis_y_plus = b_plus;
   return shape;
 }
 
-bool is_semi_double_elliptic(const HertzShape& shape) { return shape.semi_axis_y_minus > 0.0 && shape.semi_axis_y_plus > 0.0; }
+bool is_semi_double_elliptic(const HertzShape& shape) {
+  return shape.semi_axis_y_minus > 0.0 && shape.semi_axis_y_plus > 0.0;
+}
 
 double semi_double_elliptic_pressure(const HertzShape& shape, double x, double y) {
   const double from_joint = y - 0.5 * (shape.semi_axis_y_minus - shape.semi_axis_y_plus);

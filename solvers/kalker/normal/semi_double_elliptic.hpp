@@ -10,8 +10,8 @@ namespace treadmark::kalker {
 /// towards -y and b_plus towards +y, joined at y0 = (b_minus - b_plus)/2 [m], so that the patch fills -b .. b with
 /// b = (b_minus + b_plus)/2. Pressure of each half as in a Hertzian contact; both share the greatest one,
 /// 1.5 F/(pi a b).
-/// Returned: semi-axes a, b, b_minus, b_plus; curvatures and approach are those of the ellipse with semi-axes a and b, which
-/// stands for the unknown geometry. Errors: Error(configuration) for values that are not positive.
+/// Returned: semi-axes a, b, b_minus, b_plus; curvatures and approach are those of the ellipse with semi-axes a and b,
+/// which stands for the unknown geometry. Errors: Error(configuration) for values that are not positive.
 HertzShape hertz_semi_double_elliptic(double a, double b_minus, double b_plus, const HertzLoad& load,
                                       const CombinedMaterial& material);
 

@@ -20,7 +20,8 @@ void check(const ContactProblem& problem) {
   using Model = NormalModel;
   const Model model = problem.normal_model;
   if (problem.force_prescribed || (model != Model::full && model != Model::kpec && model != Model::analyn))
-    throw Error(ErrorKind::configuration, "sub-patches need a prescribed approach and pressures that follow from the gap", {},
+    throw Error(ErrorKind::configuration,
+                "sub-patches need a prescribed approach and pressures that follow from the gap", {},
                 "use the full normal problem, KPEC or ANALYN");
   if (s.part.size() != problem.grid.size() || s.coupling.size() != n * n)
     throw Error(ErrorKind::configuration, "sub-patches need a part for every element and a factor for every pair");
@@ -127,9 +128,8 @@ void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solut
     solution.status = solution.normal.status = Status::no_contact;
     return;
   }
-  const bool parts_converged = std::none_of(parts.begin(), parts.end(), [](const ContactSolution& s) {
-    return s.status == Status::not_converged;
-  });
+  const bool parts_converged = std::none_of(parts.begin(), parts.end(),
+                                            [](const ContactSolution& s) { return s.status == Status::not_converged; });
   if (!parts_converged || change > problem.settings.eps * largest) {
     solution.status = solution.normal.status = Status::not_converged;
     solution.normal.message = "the sub-patches of a contact did not come to agree";

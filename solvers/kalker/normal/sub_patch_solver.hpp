@@ -9,8 +9,8 @@
 
 namespace treadmark::kalker {
 
-/// Normal problem of a patch with sub-patches: each one is solved with the displacement that the others cause in it, scaled
-/// by the coupling factors, in turn until nothing changes. The parts lie apart, so that a few rounds suffice.
+/// Normal problem of a patch with sub-patches: each one is solved with the displacement that the others cause in it,
+/// scaled by the coupling factors, in turn until nothing changes. The parts lie apart, so that a few rounds suffice.
 /// Not thread-safe; keeps coefficients and the last solution of every part.
 class SubPatchSolver {
  public:

@@ -22,12 +22,14 @@ void check(const ContactProblem& problem) {
     throw Error(ErrorKind::configuration, name + message, {}, advice);
   };
   const Grid2& grid = problem.grid;
-  if (problem.force_prescribed) refuse("the force cannot be prescribed", "prescribe the approach, or use the full model");
+  if (problem.force_prescribed)
+    refuse("the force cannot be prescribed", "prescribe the approach, or use the full model");
   if (grid.nx < 3 || grid.ny < 3)
     refuse("the grid has " + std::to_string(grid.nx) + " x " + std::to_string(grid.ny) + " elements",
            "curvatures need three or more in both directions");
   if (problem.gap.size() != grid.size())
-    refuse("the gap has " + std::to_string(problem.gap.size()) + " values for " + std::to_string(grid.size()) + " elements",
+    refuse("the gap has " + std::to_string(problem.gap.size()) + " values for " + std::to_string(grid.size()) +
+               " elements",
            "give one per element");
   for (const double h : problem.gap)
     if (std::isinf(h) && h < 0.0) refuse("the gap is not finite", "mark elements without contact by NaN");
@@ -35,7 +37,8 @@ void check(const ContactProblem& problem) {
 
 }  // namespace
 
-void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators, ContactSolution& solution) {
+void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators,
+                               ContactSolution& solution) {
   check(problem);
   const Grid2& grid = problem.grid;
   const Interpenetration overlap(grid, problem.gap, problem.approach);
@@ -43,7 +46,8 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
   const CombinedMaterial material = combine(problem.material);
   const bool kpec = problem.normal_model == NormalModel::kpec, quirks = problem.settings.reference_quirks;
   if (!overlap.box().empty())
-    solution.pressure = kpec ? kpec_distribution(overlap, material, quirks) : analyn_pressure(overlap, material, quirks);
+    solution.pressure =
+        kpec ? kpec_distribution(overlap, material, quirks) : analyn_pressure(overlap, material, quirks);
   const bool any = std::any_of(solution.pressure.begin(), solution.pressure.end(), [](double p) { return p > 0.0; });
   if (!any) {
     solution.status = solution.normal.status = Status::no_contact;

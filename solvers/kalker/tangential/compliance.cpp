@@ -19,7 +19,8 @@ std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_
 Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx, key.ny) {
   tabulate();
   const int px = transform_.padded_nx(), py = transform_.padded_ny();
-  // What is even and odd in both directions: all of a symmetric kernel, and a fair stand-in for others in the preconditioner.
+  // What is even and odd in both directions: all of a symmetric kernel, and a fair stand-in for others in the
+  // preconditioner.
   const ComplianceKernel even = [this](int dix, int diy) -> ComplianceBlock {
     if (symmetric()) {
       const Entry e = at(dix, diy);
@@ -137,16 +138,20 @@ InfluenceBlock Compliance::half_space_at(int dix, int diy) {
 }
 
 Compliance::Entry Compliance::at(int dix, int loaded_row, int observed_row, const RowInclination& rows) {
-  const InfluenceBlock block = corrected_for_angle(half_space_at(dix, observed_row - loaded_row),
-                                                   AngleFactors(rows.difference(loaded_row, observed_row)), rows.correction());
+  const InfluenceBlock block =
+      corrected_for_angle(half_space_at(dix, observed_row - loaded_row),
+                          AngleFactors(rows.difference(loaded_row, observed_row)), rows.correction());
   return {block.xx, block.xy, block.yx, block.yy};
 }
 
-/// Rolling goes along rows, so that the difference between an element and the one ahead commutes with what is done to rows.
-void Compliance::apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px, std::span<const double> py,
-                              std::span<double> ux, std::span<double> uy) {
+/// Rolling goes along rows, so that the difference between an element and the one ahead commutes with what is done to
+/// rows.
+void Compliance::apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px,
+                              std::span<const double> py, std::span<double> ux, std::span<double> uy) {
   if (!turned_)
-    turned_.emplace(transform_, [this](int dix, int diy) { return half_space_at(dix, diy); }, key_.kernel && key_.kernel->coupled());
+    turned_.emplace(
+        transform_, [this](int dix, int diy) { return half_space_at(dix, diy); },
+        key_.kernel && key_.kernel->coupled());
   std::span<const std::complex<double>> along_rows;
   if (transport == Transport::forward) along_rows = step_;
   if (transport == Transport::backward) along_rows = step_back_;

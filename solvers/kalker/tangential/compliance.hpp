@@ -26,15 +26,15 @@ struct ComplianceKey {
   int nx = 0, ny = 0;         ///< elements of the box
   double dx = 0.0, dy = 0.0;  ///< [m]
   double poisson = 0.0, shear_modulus = 0.0;
-  double layer = 0.0;         ///< flexibility of a thin elastic layer [m/Pa]
-  std::shared_ptr<const InfluenceKernel> kernel;   ///< none: constant elements on half-spaces
+  double layer = 0.0;                             ///< flexibility of a thin elastic layer [m/Pa]
+  std::shared_ptr<const InfluenceKernel> kernel;  ///< none: constant elements on half-spaces
   friend bool operator==(const ComplianceKey&, const ComplianceKey&) = default;
 };
 
 /// Tangential displacements of a box of elements under tangential tractions, both components: u = B p, with
-/// B = C/G + layer. A step of steady rolling changes the displacement of a particle by u(x) - u(x + dx) = B (p - p_ahead),
-/// which is B times a difference along the row, so that all products need the same three transforms.
-/// Fields are nx * ny values each [Pa], [m]. Not thread-safe: work arrays are members.
+/// B = C/G + layer. A step of steady rolling changes the displacement of a particle by u(x) - u(x + dx) = B (p -
+/// p_ahead), which is B times a difference along the row, so that all products need the same three transforms. Fields
+/// are nx * ny values each [Pa], [m]. Not thread-safe: work arrays are members.
 class Compliance {
  public:
   explicit Compliance(const ComplianceKey& key);
@@ -44,15 +44,15 @@ class Compliance {
   const ComplianceKey& key() const { return key_; }
   std::size_t size() const { return transform_.size(); }
 
-  /// Displacement (none) or its change in a step of rolling. rows: inclinations by which the coefficients, then those of half-spaces,
-  /// are turned from row to row, or none.
+  /// Displacement (none) or its change in a step of rolling. rows: inclinations by which the coefficients, then those
+  /// of half-spaces, are turned from row to row, or none.
   void apply(Transport transport, std::span<const double> px, std::span<const double> py, std::span<double> ux,
              std::span<double> uy, const RowInclination* rows = nullptr);
   /// Approximately the p with B p = u, no matter how rows are turned.
   InverseCompliance& inverse() { return *inverse_; }
 
   struct Entry {
-    double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;   ///< displacement by traction
+    double xx = 0.0, xy = 0.0, yx = 0.0, yy = 0.0;  ///< displacement by traction
   };
   /// Coefficients at an offset "observation minus source", |dix| <= nx, |diy| < ny [m/Pa].
   Entry at(int dix, int diy) const;
@@ -65,19 +65,19 @@ class Compliance {
   void tabulate();
   Entry wide_at(int dix, int diy) const;
   InfluenceBlock half_space_at(int dix, int diy);
-  void apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px, std::span<const double> py,
-                    std::span<double> ux, std::span<double> uy);
+  void apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px,
+                    std::span<const double> py, std::span<double> ux, std::span<double> uy);
   template <class Multiply>
   void multiply(Transport transport, const Multiply& at);
 
   ComplianceKey key_;
   ToeplitzTransform transform_;
-  std::vector<Entry> table_;                  ///< offsets 0..padded_nx/2, 0..padded_ny/2; all signs unless symmetric
-  std::vector<Block> symbol_;                 ///< symmetric kernels
-  std::vector<Spectrum> spectra_;             ///< others: xx, xy, yx, yy
-  std::vector<std::complex<double>> step_, step_back_;   ///< 1 - exp(+-2 pi i k / padded_nx)
+  std::vector<Entry> table_;       ///< offsets 0..padded_nx/2, 0..padded_ny/2; all signs unless symmetric
+  std::vector<Block> symbol_;      ///< symmetric kernels
+  std::vector<Spectrum> spectra_;  ///< others: xx, xy, yx, yy
+  std::vector<std::complex<double>> step_, step_back_;  ///< 1 - exp(+-2 pi i k / padded_nx)
   Spectrum spectrum_x_, spectrum_y_;
-  std::optional<BlockTable> half_space_;      ///< all components, for rows that are turned; made when needed
+  std::optional<BlockTable> half_space_;  ///< all components, for rows that are turned; made when needed
   std::optional<TurnedProduct> turned_;
   std::optional<InverseCompliance> inverse_;
 };

@@ -21,7 +21,8 @@ constexpr double kRoughest = 1e-3, kRoughness = 30.0, kRefinement = 0.01;
 
 }  // namespace
 
-CreepageSearch search_creepage(const ContactProblem& problem, PatchSolver& solver, const std::optional<Creepage>& estimate) {
+CreepageSearch search_creepage(const ContactProblem& problem, PatchSolver& solver,
+                               const std::optional<Creepage>& estimate) {
   CreepageSearch outcome;
   outcome.creepage = problem.creepage;
   const double fx = problem.fx_relative.value_or(0.0), fy = problem.fy_relative.value_or(0.0);
@@ -31,8 +32,9 @@ CreepageSearch search_creepage(const ContactProblem& problem, PatchSolver& solve
   if (size > 0.0 && (size >= kFullSliding || !(total > 0.0))) {
     solver.slide({fx / size, fy / size});
     outcome.status = Status::not_converged;
-    outcome.message = "the prescribed tangential force reaches the limit of friction: the contact slides, at a creepage "
-                      "that is not determined";
+    outcome.message =
+        "the prescribed tangential force reaches the limit of friction: the contact slides, at a creepage "
+        "that is not determined";
     return outcome;
   }
   if (!(total > 0.0)) {

@@ -16,8 +16,9 @@ struct CreepageSearch {
   std::string message;
 };
 
-/// Creepages by which the prescribed forces of the problem arise; the others stay as given. solver: of the patch, left in the
-/// solution. estimate: of the creepages, from a similar problem.
-CreepageSearch search_creepage(const ContactProblem& problem, PatchSolver& solver, const std::optional<Creepage>& estimate);
+/// Creepages by which the prescribed forces of the problem arise; the others stay as given. solver: of the patch, left
+/// in the solution. estimate: of the creepages, from a similar problem.
+CreepageSearch search_creepage(const ContactProblem& problem, PatchSolver& solver,
+                               const std::optional<Creepage>& estimate);
 
 }  // namespace treadmark::kalker

@@ -65,9 +65,8 @@ GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::sp
         out[i] = image_[i];
         out[n + i] = image_[n + i];
       } else {
-        out[i] = kind_[i] == kSlip
-                     ? image_[i] * tangent_[i] + image_[n + i] * tangent_[n + i] + stiffness_[i] * v[i]
-                     : 0.0;
+        out[i] =
+            kind_[i] == kSlip ? image_[i] * tangent_[i] + image_[n + i] * tangent_[n + i] + stiffness_[i] * v[i] : 0.0;
         out[n + i] = 0.0;
       }
     }
@@ -94,9 +93,8 @@ GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::sp
         continue;
       }
       const double coupled = 1.0 / (1.0 + damping_[i]);
-      const double t = kind_[i] == kSlip ? coupled * (px * tangent_[i] + py * tangent_[n + i] +
-                                                      (1.0 - coupled) * own * v[i])
-                                         : 0.0;
+      const double t =
+          kind_[i] == kSlip ? coupled * (px * tangent_[i] + py * tangent_[n + i] + (1.0 - coupled) * own * v[i]) : 0.0;
       out[i] = t;
       out[n + i] = 0.0;
       px = t * tangent_[i];
@@ -196,8 +194,8 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
 }
 
 Field2 FrictionNewton::sensitivity(const FrictionProblem& problem, const FrictionState& state,
-                                   const Field2& rigid_slip_change, std::span<const double> bound_change, double tolerance,
-                                   int max_inner) {
+                                   const Field2& rigid_slip_change, std::span<const double> bound_change,
+                                   double tolerance, int max_inner) {
   linearise(problem, state);
   Field2 rhs(rigid_slip_change), change(rhs.size());
   const std::size_t n = problem.bound.size();

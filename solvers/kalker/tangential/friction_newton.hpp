@@ -8,26 +8,27 @@
 namespace treadmark::kalker {
 
 struct NewtonSettings {
-  double eps = 1e-5;          ///< accuracy of tractions relative to their rms
+  double eps = 1e-5;  ///< accuracy of tractions relative to their rms
   int max_steps = 40;
-  int max_inner = 60;         ///< GMRES iterations a step
+  int max_inner = 60;  ///< GMRES iterations a step
 };
 
 struct NewtonResult {
   bool converged = false;
   int steps = 0;
-  int products = 0;           ///< products with A
+  int products = 0;  ///< products with A
 };
 
 /// Semismooth Newton method on the friction conditions. Unknowns of a step are both components in adhesion elements and
-/// the component along the circle of slip elements; the linear systems are solved by GMRES, as exactly as is worthwhile.
+/// the component along the circle of slip elements; the linear systems are solved by GMRES, as exactly as is
+/// worthwhile.
 class FrictionNewton {
  public:
   /// state: start tractions in, solution out (updated).
   NewtonResult solve(const FrictionProblem& problem, FrictionState& state, const NewtonSettings& settings);
 
-  /// Change of tractions due to a small change of the rigid slip and of the bound (empty: none), with adhesion and slip areas as in
-  /// the state.
+  /// Change of tractions due to a small change of the rigid slip and of the bound (empty: none), with adhesion and slip
+  /// areas as in the state.
   Field2 sensitivity(const FrictionProblem& problem, const FrictionState& state, const Field2& rigid_slip_change,
                      std::span<const double> bound_change, double tolerance, int max_inner);
 
@@ -40,8 +41,8 @@ class FrictionNewton {
   /// Free directions: (1,0),(0,1) in adhesion; the tangent in slip (y part zero); nothing where the bound is zero.
   std::vector<char> kind_;
   Field2 tangent_;
-  std::vector<double> stiffness_;   ///< of the circle: excess / (g r) [m/Pa]
-  std::vector<double> damping_;     ///< stiffness relative to the diagonal
+  std::vector<double> stiffness_;  ///< of the circle: excess / (g r) [m/Pa]
+  std::vector<double> damping_;    ///< stiffness relative to the diagonal
   Field2 field_, image_;
   Gmres gmres_;
 };

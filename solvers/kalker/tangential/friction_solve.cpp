@@ -30,13 +30,14 @@ FrictionSolveResult FrictionSolve::run(const FrictionProblem& problem, FrictionS
     result.converged = newton.converged;
     if (newton.converged || result.sweeps >= max_iterations) return result;
     if (!sweeps) sweeps.emplace(*problem.matrix);
-    result.sweeps += sweeps->run(problem, state.traction, kSweepAccuracy * eps,
-                                 std::min(count, max_iterations - result.sweeps));
+    result.sweeps +=
+        sweeps->run(problem, state.traction, kSweepAccuracy * eps, std::min(count, max_iterations - result.sweeps));
     state.update(problem);
   }
 }
 
-FrictionSolveResult FrictionSolve::run_sweeps(const FrictionProblem& problem, FrictionState& state, double eps, int max_iterations) {
+FrictionSolveResult FrictionSolve::run_sweeps(const FrictionProblem& problem, FrictionState& state, double eps,
+                                              int max_iterations) {
   limit_to_bound(state.traction, problem.bound);
   FrictionSweeps sweeps(*problem.matrix);
   FrictionSolveResult result;

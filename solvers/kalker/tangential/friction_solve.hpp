@@ -8,8 +8,8 @@ namespace treadmark::kalker {
 
 struct FrictionSolveResult {
   bool converged = false;
-  int steps = 0;    ///< Newton steps
-  int sweeps = 0;   ///< of the fall-back
+  int steps = 0;   ///< Newton steps
+  int sweeps = 0;  ///< of the fall-back
 };
 
 /// Newton's method, and Gauss-Seidel sweeps to get on where it makes no progress.

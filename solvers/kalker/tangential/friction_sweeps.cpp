@@ -119,8 +119,7 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
         k[0] -= other.xx;
         k[1] -= other.yy;
       }
-      const std::array<double, 2> q =
-          element_traction(k, {sx - k[0] * p[i], sy - k[1] * p[n + i]}, problem.bound[i]);
+      const std::array<double, 2> q = element_traction(k, {sx - k[0] * p[i], sy - k[1] * p[n + i]}, problem.bound[i]);
       const double ax = q[0] - p[i], ay = q[1] - p[n + i];
       add(node(i), ax, ay);
       if (rolling_) add(node(last) + static_cast<std::size_t>(behind), -ax, -ay);

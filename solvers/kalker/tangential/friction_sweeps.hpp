@@ -8,9 +8,9 @@
 
 namespace treadmark::kalker {
 
-/// Block Gauss-Seidel sweeps over the elements: slow, but hard to stop. In rolling the unknowns are increments along the
-/// row: an element in adhesion takes those behind it along, up to the next slip element (Vollebregt 2010).
-/// Each element's 2x2 friction problem is solved exactly. Cost of a sweep: the square of the number of elements.
+/// Block Gauss-Seidel sweeps over the elements: slow, but hard to stop. In rolling the unknowns are increments along
+/// the row: an element in adhesion takes those behind it along, up to the next slip element (Vollebregt 2010). Each
+/// element's 2x2 friction problem is solved exactly. Cost of a sweep: the square of the number of elements.
 class FrictionSweeps {
  public:
   explicit FrictionSweeps(const PatchOperator& matrix);
@@ -26,14 +26,14 @@ class FrictionSweeps {
 
   Compliance& compliance_;
   const Patch& patch_;
-  const RowInclination* rows_;       ///< none unless coefficients are turned row by row
+  const RowInclination* rows_;  ///< none unless coefficients are turned row by row
   bool rolling_;
-  int width_;                        ///< columns of the node array: the box and one column on either side
+  int width_;  ///< columns of the node array: the box and one column on either side
   std::vector<double> nodes_x_, nodes_y_;
-  /// Offsets "observation minus source" in reverse order of x, so that a row of sources is read forwards; for every difference of
-  /// rows or, where coefficients are turned, from every row of sources to the row observed at present.
+  /// Offsets "observation minus source" in reverse order of x, so that a row of sources is read forwards; for every
+  /// difference of rows or, where coefficients are turned, from every row of sources to the row observed at present.
   std::vector<Compliance::Entry> table_;
-  int turned_row_ = -1;              ///< the row observed at present
+  int turned_row_ = -1;  ///< the row observed at present
 };
 
 /// Argument of the minimum of q.K q/2 + c.q over |q| <= bound, K = diag(k): a traction with slip K q + c.

@@ -16,8 +16,8 @@ struct GmresResult {
   double residual = 0.0;  ///< relative to the right-hand side
 };
 
-/// Right-preconditioned GMRES without restart (Saad and Schultz 1986): matrix * x = b, from x = 0, until the residual has
-/// fallen to `tolerance` times |b| or `max_iterations` are done. Memory for the basis is kept between calls.
+/// Right-preconditioned GMRES without restart (Saad and Schultz 1986): matrix * x = b, from x = 0, until the residual
+/// has fallen to `tolerance` times |b| or `max_iterations` are done. Memory for the basis is kept between calls.
 class Gmres {
  public:
   GmresResult solve(const LinearMap& matrix, const LinearMap& preconditioner, std::span<const double> b,

@@ -16,7 +16,8 @@ constexpr double kLeastYield = 0.1;  ///< softening ends at this share of the fi
 InterfaceLayer::InterfaceLayer(const Material& material, const Patch& patch)
     : yield_(material.layer_yield), hardening_(material.layer_hardening), patch_(patch) {}
 
-InterfaceLayer::Shear InterfaceLayer::divide(std::span<const double> friction_bound, std::span<const double> distance) const {
+InterfaceLayer::Shear InterfaceLayer::divide(std::span<const double> friction_bound,
+                                             std::span<const double> distance) const {
   const std::size_t n = friction_bound.size();
   Shear out{std::vector<double>(n), std::vector<double>(n, yield_), std::vector<char>(n, 0)};
   if (!plastic()) return out;
@@ -24,8 +25,10 @@ InterfaceLayer::Shear InterfaceLayer::divide(std::span<const double> friction_bo
   const bool steady = patch_.transport != Transport::none;
   for (std::size_t i = 0; i < n; ++i) {
     double start = yield_;
-    if (!before_.empty()) start = before_[i];
-    else if (steady && patch_.ahead[i] >= 0) start = out.yield[static_cast<std::size_t>(patch_.ahead[i])];
+    if (!before_.empty())
+      start = before_[i];
+    else if (steady && patch_.ahead[i] >= 0)
+      start = out.yield[static_cast<std::size_t>(patch_.ahead[i])];
     double shear = 0.0;
     if (start < friction_bound[i]) {
       // the layer shears alone until hardening brings it up to friction
@@ -39,7 +42,8 @@ InterfaceLayer::Shear InterfaceLayer::divide(std::span<const double> friction_bo
   return out;
 }
 
-std::vector<double> InterfaceLayer::bound(std::span<const double> friction_bound, std::span<const double> distance) const {
+std::vector<double> InterfaceLayer::bound(std::span<const double> friction_bound,
+                                          std::span<const double> distance) const {
   std::vector<double> out(friction_bound.begin(), friction_bound.end());
   if (!plastic()) return out;
   const Shear shear = divide(friction_bound, distance);

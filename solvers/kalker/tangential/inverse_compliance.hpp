@@ -17,13 +17,13 @@ struct ComplianceBlock {
 
 using ComplianceKernel = std::function<ComplianceBlock(int dix, int diy)>;
 
-/// Transform of a kernel that is the same at opposite offsets (hence real), on the ring of elements of `fft`, divided by
-/// their number. Offsets beyond the active rows of `fft` count as zero; the part that is odd in either direction vanishes
-/// half-way round.
+/// Transform of a kernel that is the same at opposite offsets (hence real), on the ring of elements of `fft`, divided
+/// by their number. Offsets beyond the active rows of `fft` count as zero; the part that is odd in either direction
+/// vanishes half-way round.
 std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const RealFft2d& fft);
 
-/// Tractions that cause given displacements in a box of elements, if the box were repeated without end: a cheap approximate
-/// inverse, because the exact one decays fast with the distance. Not thread-safe.
+/// Tractions that cause given displacements in a box of elements, if the box were repeated without end: a cheap
+/// approximate inverse, because the exact one decays fast with the distance. Not thread-safe.
 class InverseCompliance {
  public:
   InverseCompliance(int nx, int ny, const ComplianceKernel& kernel);

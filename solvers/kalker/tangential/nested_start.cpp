@@ -8,14 +8,14 @@ namespace treadmark::kalker {
 
 namespace {
 
-constexpr int kSmallPatch = 400;      ///< elements; below, Newton's method from zero is as fast
-constexpr double kAccuracy = 3e-3;    ///< of the coarse problem; its discretisation error is larger
+constexpr int kSmallPatch = 400;    ///< elements; below, Newton's method from zero is as fast
+constexpr double kAccuracy = 3e-3;  ///< of the coarse problem; its discretisation error is larger
 constexpr int kCoarseSweeps = 8;
 
 }  // namespace
 
-Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<const double> bound, const Field2& known_slip,
-                    ComplianceCache& cache) {
+Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<const double> bound,
+                    const Field2& known_slip, ComplianceCache& cache) {
   const std::size_t n = patch.cell.size();
   Field2 start(2 * n);
   if (patch.size() < kSmallPatch) return start;

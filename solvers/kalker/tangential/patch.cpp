@@ -10,7 +10,8 @@ namespace treadmark::kalker {
 
 namespace {
 
-/// Next size whose transforms use all of their length, so that contact areas of nearly the same size share coefficients.
+/// Next size whose transforms use all of their length, so that contact areas of nearly the same size share
+/// coefficients.
 int roomy(int n) { return good_fft_size(2 * n - 1) / 2; }
 
 }  // namespace
@@ -55,7 +56,8 @@ PatchOperator::PatchOperator(const Patch& patch, Compliance& compliance, std::op
     : patch_(patch), compliance_(compliance), rows_(std::move(rows)) {
   in_x_.assign(compliance.size(), 0.0);
   in_y_ = out_x_ = out_y_ = inverse_x_ = inverse_y_ = in_x_;
-  const Compliance::Entry own = compliance.at(0, 0), ahead = compliance.at(patch.transport == Transport::backward ? -1 : 1, 0);
+  const Compliance::Entry own = compliance.at(0, 0),
+                          ahead = compliance.at(patch.transport == Transport::backward ? -1 : 1, 0);
   diagonal_ = 0.5 * (own.xx + own.yy);
   if (patch.transport != Transport::none) diagonal_ -= 0.5 * (ahead.xx + ahead.yy);
 }
@@ -78,7 +80,9 @@ void PatchOperator::gather(std::span<const double> x, std::span<const double> y,
 
 void PatchOperator::multiply(Transport transport, std::span<const double> p) {
   // The same tractions are asked for again when an iteration ends: bits are compared, so that nothing changes by this.
-  if (transport == last_transport_ && p.size() == last_.size() && std::memcmp(p.data(), last_.data(), p.size_bytes()) == 0) return;
+  if (transport == last_transport_ && p.size() == last_.size() &&
+      std::memcmp(p.data(), last_.data(), p.size_bytes()) == 0)
+    return;
   scatter(p);
   compliance_.apply(transport, in_x_, in_y_, out_x_, out_y_, rows());
   last_.assign(p.begin(), p.end());

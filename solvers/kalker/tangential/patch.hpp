@@ -14,15 +14,16 @@ namespace treadmark::kalker {
 /// Two values an element: all x components, then all y components.
 using Field2 = std::vector<double>;
 
-/// The elements in contact, in the order in which material passes them: row by row, from the leading to the trailing edge.
+/// The elements in contact, in the order in which material passes them: row by row, from the leading to the trailing
+/// edge.
 struct Patch {
-  Grid2 grid;                      ///< of the problem
+  Grid2 grid;  ///< of the problem
   Transport transport = Transport::none;
-  int box_x = 0, box_y = 0;        ///< grid indices of the box's first element
-  int box_nx = 0, box_ny = 0;      ///< size of the box; at least one column is free of contact
-  std::vector<int> column, row;    ///< grid indices
-  std::vector<std::size_t> cell;   ///< index in the box
-  std::vector<int> ahead;          ///< element next to it towards the leading edge, -1 if not in contact
+  int box_x = 0, box_y = 0;       ///< grid indices of the box's first element
+  int box_nx = 0, box_ny = 0;     ///< size of the box; at least one column is free of contact
+  std::vector<int> column, row;   ///< grid indices
+  std::vector<std::size_t> cell;  ///< index in the box
+  std::vector<int> ahead;         ///< element next to it towards the leading edge, -1 if not in contact
 
   int size() const { return static_cast<int>(cell.size()); }
   std::size_t grid_index(int i) const {
@@ -36,7 +37,8 @@ Patch make_patch(const Grid2& grid, Transport transport, const std::vector<Eleme
 /// Products of a patch's tractions with its coefficients. Not thread-safe.
 class PatchOperator {
  public:
-  /// Both must outlive the operator. rows: inclinations of the rows of the patch's box by which coefficients are turned, or none.
+  /// Both must outlive the operator. rows: inclinations of the rows of the patch's box by which coefficients are
+  /// turned, or none.
   PatchOperator(const Patch& patch, Compliance& compliance, std::optional<RowInclination> rows = {});
 
   const Patch& patch() const { return patch_; }
@@ -67,7 +69,7 @@ class PatchOperator {
   std::optional<RowInclination> rows_;
   double diagonal_ = 0.0;
   AlignedVector<double> in_x_, in_y_, out_x_, out_y_, inverse_x_, inverse_y_;
-  Field2 last_;                                ///< tractions of out; empty = none
+  Field2 last_;  ///< tractions of out; empty = none
   Transport last_transport_ = Transport::none;
 };
 

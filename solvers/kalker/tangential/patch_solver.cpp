@@ -24,14 +24,21 @@ constexpr double kSmallestRelaxation = 0.02;
 
 }  // namespace
 
-ComplianceKey compliance_key(const Patch& patch, const Material& material, std::shared_ptr<const InfluenceKernel> kernel) {
+ComplianceKey compliance_key(const Patch& patch, const Material& material,
+                             std::shared_ptr<const InfluenceKernel> kernel) {
   const CombinedMaterial combined = combine(material);
-  return {patch.box_nx,     patch.box_ny,           patch.grid.dx,
-          patch.grid.dy,    combined.poisson,       combined.shear_modulus,
-          material.layer_flexibility, std::move(kernel)};
+  return {patch.box_nx,
+          patch.box_ny,
+          patch.grid.dx,
+          patch.grid.dy,
+          combined.poisson,
+          combined.shear_modulus,
+          material.layer_flexibility,
+          std::move(kernel)};
 }
 
-PatchSolver::PatchSolver(const ContactProblem& problem, const Patch& patch, PatchConditions conditions, ComplianceCache& cache)
+PatchSolver::PatchSolver(const ContactProblem& problem, const Patch& patch, PatchConditions conditions,
+                         ComplianceCache& cache)
     : input_(problem),
       patch_(patch),
       conditions_(std::move(conditions)),
@@ -80,8 +87,9 @@ void PatchSolver::start_from(Field2 traction, std::vector<double> slip_speed) {
 
 bool PatchSolver::solve_at_fixed_friction(double eps) {
   const bool sweeps = input_.settings.method == SolverSettings::Method::sweeps;
-  const FrictionSolveResult result = sweeps ? friction_solve_.run_sweeps(problem_, state_, eps, input_.settings.max_iterations)
-                                            : friction_solve_.run(problem_, state_, eps, input_.settings.max_iterations);
+  const FrictionSolveResult result =
+      sweeps ? friction_solve_.run_sweeps(problem_, state_, eps, input_.settings.max_iterations)
+             : friction_solve_.run(problem_, state_, eps, input_.settings.max_iterations);
   steps_ += result.steps;
   sweeps_ += result.sweeps;
   return result.converged;
@@ -103,9 +111,11 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
       if (layer_.plastic()) {
         // what the layer shears does not slide
         const InterfaceLayer::Shear shear = layer_.divide(friction_bound(), slip_distance());
-        for (std::size_t i = 0; i < speed.size(); ++i) speed[i] = std::max(0.0, speed[i] - shear.distance[i] / time_step());
+        for (std::size_t i = 0; i < speed.size(); ++i)
+          speed[i] = std::max(0.0, speed[i] - shear.distance[i] / time_step());
       }
-      friction_ = friction_of_slip(patch_, laws_, speed, time_step(), conditions_.friction_before, conditions_.temperature);
+      friction_ =
+          friction_of_slip(patch_, laws_, speed, time_step(), conditions_.friction_before, conditions_.temperature);
     }
     set_bound();
   };
@@ -126,8 +136,8 @@ bool PatchSolver::solve(const Creepage& creepage, double eps) {
   friction_unsettled_ = false;
   if (fixed) return solve_at_fixed_friction(eps);
 
-  // Slip speeds and coefficients of friction by relaxed substitution: shorter steps when changes reverse, longer ones when they go on
-  // in the same direction, as where a solution gives way to another one.
+  // Slip speeds and coefficients of friction by relaxed substitution: shorter steps when changes reverse, longer ones
+  // when they go on in the same direction, as where a solution gives way to another one.
   double relaxation = 1.0;
   std::vector<double> last;
   for (int round = 0; round < std::max(1, input_.settings.max_outer); ++round) {
@@ -177,13 +187,15 @@ void PatchSolver::take(const Creepage& creepage, Field2 traction, std::vector<do
 }
 
 Field2 PatchSolver::change_by_creepage(const Creepage& unit) {
-  return friction_solve_.newton().sensitivity(problem_, state_, conditions_.known_slip.rigid(unit), {}, kExactSensitivity, kExactIterations);
+  return friction_solve_.newton().sensitivity(problem_, state_, conditions_.known_slip.rigid(unit), {},
+                                              kExactSensitivity, kExactIterations);
 }
 
 Field2 PatchSolver::change_by_pressure(std::span<const double> more) {
   std::vector<double> bound(more.size());
   for (std::size_t i = 0; i < bound.size(); ++i) bound[i] = friction_[i] * more[i];
-  return friction_solve_.newton().sensitivity(problem_, state_, Field2(2 * more.size(), 0.0), bound, kExactSensitivity, kExactIterations);
+  return friction_solve_.newton().sensitivity(problem_, state_, Field2(2 * more.size(), 0.0), bound, kExactSensitivity,
+                                              kExactIterations);
 }
 
 void PatchSolver::slide(std::array<double, 2> direction) {

@@ -15,13 +15,13 @@ namespace treadmark::kalker {
 
 /// What a patch has to go by, per element of the patch.
 struct PatchConditions {
-  std::vector<double> pressure;          ///< [Pa]
+  std::vector<double> pressure;  ///< [Pa]
   KnownSlip known_slip;
-  std::vector<double> friction_before;   ///< transient: coefficients of the material a step ago; else empty
-  std::vector<double> temperature;       ///< of body 1's surface [deg C], for friction that depends on it; else empty
-  std::vector<double> yield_before;      ///< likewise the yield stress of the layer [Pa]
-  std::shared_ptr<const InfluenceKernel> kernel;   ///< none: constant elements on half-spaces
-  std::optional<RowInclination> rows;    ///< of the patch's box where coefficients are turned row by row
+  std::vector<double> friction_before;  ///< transient: coefficients of the material a step ago; else empty
+  std::vector<double> temperature;      ///< of body 1's surface [deg C], for friction that depends on it; else empty
+  std::vector<double> yield_before;     ///< likewise the yield stress of the layer [Pa]
+  std::shared_ptr<const InfluenceKernel> kernel;  ///< none: constant elements on half-spaces
+  std::optional<RowInclination> rows;             ///< of the patch's box where coefficients are turned row by row
 };
 
 /// The friction problem of one patch at creepages that may change from call to call; starts from the last solution.
@@ -30,13 +30,14 @@ class PatchSolver {
   /// problem, patch and cache must outlive the solver.
   PatchSolver(const ContactProblem& problem, const Patch& patch, PatchConditions conditions, ComplianceCache& cache);
 
-  /// Start values: tractions [Pa] and slip speeds [m/s], the latter for friction that depends on them. Plastic shear counts as slip.
+  /// Start values: tractions [Pa] and slip speeds [m/s], the latter for friction that depends on them. Plastic shear
+  /// counts as slip.
   void start_from(Field2 traction, std::vector<double> slip_speed);
   /// Slip speed of all elements to start from [m/s].
   void set_slip_speed(double speed) { slip_speed_.assign(slip_speed_.size(), speed); }
 
-  /// Tractions for given creepages to a relative accuracy eps, with friction that fits the slip. False if the accuracy was
-  /// not reached.
+  /// Tractions for given creepages to a relative accuracy eps, with friction that fits the slip. False if the accuracy
+  /// was not reached.
   bool solve(const Creepage& creepage, double eps);
 
   /// Sum of tractions relative to the static bound: x, y.
@@ -45,8 +46,8 @@ class PatchSolver {
   std::array<double, 2> relative_stiffness(int component);
   /// Takes tractions and friction coefficients of a solution over, per element of the patch.
   void take(const Creepage& creepage, Field2 traction, std::vector<double> friction);
-  /// Change of tractions with creepage [Pa per unit], and with pressures that grow everywhere in proportion to `more` [Pa]: both by
-  /// the linearised system, accurate to a share of 1e-6.
+  /// Change of tractions with creepage [Pa per unit], and with pressures that grow everywhere in proportion to `more`
+  /// [Pa]: both by the linearised system, accurate to a share of 1e-6.
   Field2 change_by_creepage(const Creepage& unit);
   Field2 change_by_pressure(std::span<const double> more);
   /// Every element slides against a given direction.
@@ -81,7 +82,7 @@ class PatchSolver {
   PatchConditions conditions_;
   FrictionOfPatch laws_;
   InterfaceLayer layer_;
-  double static_bound_ = 0.0;         ///< sum of static friction times pressure
+  double static_bound_ = 0.0;  ///< sum of static friction times pressure
   ComplianceCache& cache_;
   ComplianceKey key_;
   PatchOperator matrix_;
@@ -90,12 +91,13 @@ class PatchSolver {
   FrictionState state_;
   Creepage creepage_;
   std::vector<double> friction_, slip_speed_;
-  std::array<Field2, 2> predicted_;   ///< change of tractions per unit of creepage, by relative_stiffness
+  std::array<Field2, 2> predicted_;  ///< change of tractions per unit of creepage, by relative_stiffness
   bool started_ = false, friction_unsettled_ = false;
   int steps_ = 0, sweeps_ = 0;
 };
 
 /// Coefficients that a patch needs. kernel: none for constant elements on half-spaces.
-ComplianceKey compliance_key(const Patch& patch, const Material& material, std::shared_ptr<const InfluenceKernel> kernel = {});
+ComplianceKey compliance_key(const Patch& patch, const Material& material,
+                             std::shared_ptr<const InfluenceKernel> kernel = {});
 
 }  // namespace treadmark::kalker

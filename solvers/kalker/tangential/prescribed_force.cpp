@@ -12,7 +12,7 @@ namespace {
 
 using Pair = std::array<double, 2>;
 
-constexpr double kLargestGrowth = 4.0;    ///< of the creepage in one step of one unknown
+constexpr double kLargestGrowth = 4.0;  ///< of the creepage in one step of one unknown
 constexpr double kShortestStep = 1.0 / 64.0;
 
 double deviation(const ForceSearchSettings& s, const ForceSample& f) {
@@ -41,7 +41,8 @@ ForceSearchResult find_one(const ForceSearchSettings& s, const std::function<For
     const double excess = sample.force[0] - s.target[0];
     (excess > 0.0 ? low : high) = x;
     double slope = sample.derivative[0][0];
-    if (!s.exact_derivatives && result.iterations > 1 && x != last_x) slope = (sample.force[0] - last_force) / (x - last_x);
+    if (!s.exact_derivatives && result.iterations > 1 && x != last_x)
+      slope = (sample.force[0] - last_force) / (x - last_x);
     last_x = x;
     last_force = sample.force[0];
     double next = slope < 0.0 ? x - excess / slope : (excess > 0.0 ? infinity : -infinity);
@@ -66,7 +67,8 @@ bool newton_step(const std::array<Pair, 2>& j, const Pair& residual, Pair& step)
   const double det = j[0][0] * j[1][1] - j[0][1] * j[1][0];
   const double size = std::hypot(j[0][0], j[0][1]) * std::hypot(j[1][0], j[1][1]);
   if (!(std::abs(det) > 1e-10 * size)) return false;
-  step = {-(residual[0] * j[1][1] - residual[1] * j[0][1]) / det, -(residual[1] * j[0][0] - residual[0] * j[1][0]) / det};
+  step = {-(residual[0] * j[1][1] - residual[1] * j[0][1]) / det,
+          -(residual[1] * j[0][0] - residual[0] * j[1][0]) / det};
   return true;
 }
 
@@ -106,7 +108,8 @@ ForceSearchResult find_two(const ForceSearchSettings& s, const std::function<For
       there = evaluate(y);
       ++result.iterations;
       if (finish(y, there)) return result;
-      if (std::hypot(there.force[0] - s.target[0], there.force[1] - s.target[1]) < size || length <= kShortestStep) break;
+      if (std::hypot(there.force[0] - s.target[0], there.force[1] - s.target[1]) < size || length <= kShortestStep)
+        break;
     }
     if (s.exact_derivatives) {
       j = there.derivative;
@@ -126,8 +129,7 @@ ForceSearchResult find_two(const ForceSearchSettings& s, const std::function<For
 
 }  // namespace
 
-ForceSearchResult find_creepage(const ForceSearchSettings& settings,
-                                const std::function<ForceSample(Pair)>& evaluate) {
+ForceSearchResult find_creepage(const ForceSearchSettings& settings, const std::function<ForceSample(Pair)>& evaluate) {
   return settings.count == 1 ? find_one(settings, evaluate) : find_two(settings, evaluate);
 }
 

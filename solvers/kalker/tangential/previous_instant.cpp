@@ -32,7 +32,8 @@ Box box_around(const Patch& patch, std::span<const double> pressure, std::span<c
     for (int iy = 0; iy < grid.ny && !field.empty(); ++iy)
       for (int ix = 0; ix < grid.nx; ++ix)
         if (field[grid.index(ix, iy)] != 0.0) include(ix, iy);
-  for (int i = 0; i < patch.size(); ++i) include(patch.column[static_cast<std::size_t>(i)], patch.row[static_cast<std::size_t>(i)]);
+  for (int i = 0; i < patch.size(); ++i)
+    include(patch.column[static_cast<std::size_t>(i)], patch.row[static_cast<std::size_t>(i)]);
   const auto roomy = [](int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; };
   Box out{x0, y0, roomy(x1 - x0 + 1), roomy(y1 - y0 + 1)};
   out.nx = std::max(out.nx, x1 - x0 + 1);
@@ -50,8 +51,8 @@ std::vector<double> cut(const Grid2& grid, const Box& box, std::span<const doubl
 }
 
 /// Values of a box at the elements of a patch, times factor, added to one component.
-void add_to_patch(const Patch& patch, const Box& box, const std::vector<double>& ux, const std::vector<double>& uy, double factor,
-                  Field2& out) {
+void add_to_patch(const Patch& patch, const Box& box, const std::vector<double>& ux, const std::vector<double>& uy,
+                  double factor, Field2& out) {
   const std::size_t n = patch.cell.size();
   for (std::size_t i = 0; i < n; ++i) {
     const std::size_t at = static_cast<std::size_t>(patch.row[i] - box.y) * static_cast<std::size_t>(box.nx) +
@@ -61,15 +62,16 @@ void add_to_patch(const Patch& patch, const Box& box, const std::vector<double>&
   }
 }
 
-/// How much of the step the material of each element has been in contact: less than 1 where the step is longer than the way from
-/// the leading edge, which lies one element ahead of the last one in contact. Empty if it is 1 everywhere.
+/// How much of the step the material of each element has been in contact: less than 1 where the step is longer than the
+/// way from the leading edge, which lies one element ahead of the last one in contact. Empty if it is 1 everywhere.
 std::vector<double> share_of_step(const Patch& patch, const RollingStep& step) {
   const Grid2& grid = patch.grid;
   constexpr double kWhole = 0.9999;
   std::vector<char> contact(grid.size(), 0);
   for (int i = 0; i < patch.size(); ++i) contact[patch.grid_index(i)] = 1;
   const double cx = step.shift_x / step.distance, cy = step.shift_y / step.distance;
-  const double element = std::min(std::fabs(cx) > 1e-9 ? grid.dx / std::fabs(cx) : 1e30, std::fabs(cy) > 1e-9 ? grid.dy / std::fabs(cy) : 1e30);
+  const double element = std::min(std::fabs(cx) > 1e-9 ? grid.dx / std::fabs(cx) : 1e30,
+                                  std::fabs(cy) > 1e-9 ? grid.dy / std::fabs(cy) : 1e30);
   std::vector<double> out(patch.cell.size(), 1.0);
   bool any = false;
   for (std::size_t i = 0; i < out.size(); ++i) {
@@ -78,7 +80,9 @@ std::vector<double> share_of_step(const Patch& patch, const RollingStep& step) {
     for (;; ++steps) {
       const long ix = patch.column[i] + std::lround((steps + 1) * element * cx / grid.dx),
                  iy = patch.row[i] + std::lround((steps + 1) * element * cy / grid.dy);
-      if (ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny || contact[grid.index(static_cast<int>(ix), static_cast<int>(iy))] == 0) break;
+      if (ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny ||
+          contact[grid.index(static_cast<int>(ix), static_cast<int>(iy))] == 0)
+        break;
       if (steps * element > step.distance) break;
     }
     const double share = (steps + 1) * element / step.distance;
@@ -93,7 +97,8 @@ std::vector<double> share_of_step(const Patch& patch, const RollingStep& step) {
 }  // namespace
 
 InfluenceOperator& OperatorStore::get(int nx, int ny, const Grid2& grid, double shear_modulus,
-                                      const std::shared_ptr<const InfluenceKernel>& kernel, double shift_x, double shift_y) {
+                                      const std::shared_ptr<const InfluenceKernel>& kernel, double shift_x,
+                                      double shift_y) {
   for (auto it = entries_.begin(); it != entries_.end(); ++it)
     if (it->nx == nx && it->ny == ny && it->dx == grid.dx && it->dy == grid.dy && it->shear_modulus == shear_modulus &&
         it->shift_x == shift_x && it->shift_y == shift_y && it->kernel == kernel) {
@@ -106,8 +111,9 @@ InfluenceOperator& OperatorStore::get(int nx, int ny, const Grid2& grid, double 
   return entries_.front().product;
 }
 
-PatchConditions patch_conditions(const ContactProblem& problem, const Patch& patch, const RollingStep& step, const KernelChoice& kernel,
-                                 std::span<const double> pressure, const ContactHistory& previous, OperatorStore& operators) {
+PatchConditions patch_conditions(const ContactProblem& problem, const Patch& patch, const RollingStep& step,
+                                 const KernelChoice& kernel, std::span<const double> pressure,
+                                 const ContactHistory& previous, OperatorStore& operators) {
   const Grid2& grid = problem.grid;
   const std::size_t n = patch.cell.size();
   const double g = combine(problem.material).shear_modulus;
@@ -134,7 +140,8 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
     }
   // Displacements now by pressures of dissimilar bodies, and displacements of the same material a step ago.
   const ContactHistory& then = previous;
-  const Box box = box_around(patch, pressure, history ? std::span<const double>(then.pressure) : std::span<const double>{});
+  const Box box =
+      box_around(patch, pressure, history ? std::span<const double>(then.pressure) : std::span<const double>{});
   const std::size_t size = static_cast<std::size_t>(box.nx) * static_cast<std::size_t>(box.ny);
   const std::optional<RowInclination> inclination = kernel.rows(grid, box.y, box.ny);
   const RowInclination* rows = inclination ? &*inclination : nullptr;
@@ -144,7 +151,8 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
     operators.get(box.nx, box.ny, grid, g, kernel.kernel, 0.0, 0.0).tangential_by_normal(p, ux, uy, rows);
     add_to_patch(patch, box, ux, uy, 1.0, known.other);
     if (steady)
-      operators.get(box.nx, box.ny, grid, g, kernel.kernel, step.shift_x, step.shift_y).tangential_by_normal(p, before_x, before_y, rows);
+      operators.get(box.nx, box.ny, grid, g, kernel.kernel, step.shift_x, step.shift_y)
+          .tangential_by_normal(p, before_x, before_y, rows);
   }
   if (history) {
     const std::vector<double> px = cut(grid, box, then.traction_x), py = cut(grid, box, then.traction_y);
@@ -178,9 +186,14 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
   for (std::size_t i = 0; i < known.share.size() && history; ++i) {
     if (known.share[i] >= 1.0) continue;
     const double way = known.share[i] * step.distance;
-    const int ix = std::clamp(patch.column[i] - box.x + static_cast<int>(std::lround(way * step.shift_x / step.distance / grid.dx)), 0, box.nx - 1),
-              iy = std::clamp(patch.row[i] - box.y + static_cast<int>(std::lround(way * step.shift_y / step.distance / grid.dy)), 0, box.ny - 1);
-    const std::size_t at = static_cast<std::size_t>(iy) * static_cast<std::size_t>(box.nx) + static_cast<std::size_t>(ix),
+    const int ix = std::clamp(
+                  patch.column[i] - box.x + static_cast<int>(std::lround(way * step.shift_x / step.distance / grid.dx)),
+                  0, box.nx - 1),
+              iy = std::clamp(
+                  patch.row[i] - box.y + static_cast<int>(std::lround(way * step.shift_y / step.distance / grid.dy)), 0,
+                  box.ny - 1);
+    const std::size_t at = static_cast<std::size_t>(iy) * static_cast<std::size_t>(box.nx) +
+                           static_cast<std::size_t>(ix),
                       own = static_cast<std::size_t>(patch.row[i] - box.y) * static_cast<std::size_t>(box.nx) +
                             static_cast<std::size_t>(patch.column[i] - box.x);
     known.other[i] += before_x[own] - edge_x[at];
@@ -196,12 +209,14 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
     return values;
   };
   out.friction_before = of_material(then.friction, problem.friction.static_friction());
-  if (problem.material.layer_yield > 0.0) out.yield_before = of_material(then.yield_stress, problem.material.layer_yield);
+  if (problem.material.layer_yield > 0.0)
+    out.yield_before = of_material(then.yield_stress, problem.material.layer_yield);
   return out;
 }
 
-void add_displacement_by_pressure(const ContactProblem& problem, const KernelChoice& kernel, std::span<const double> pressure,
-                                  OperatorStore& operators, std::span<double> ux, std::span<double> uy) {
+void add_displacement_by_pressure(const ContactProblem& problem, const KernelChoice& kernel,
+                                  std::span<const double> pressure, OperatorStore& operators, std::span<double> ux,
+                                  std::span<double> uy) {
   const Grid2& grid = problem.grid;
   std::vector<double> x(grid.size()), y(grid.size());
   const std::optional<RowInclination> rows = kernel.rows(grid, 0, grid.ny);
@@ -213,8 +228,9 @@ void add_displacement_by_pressure(const ContactProblem& problem, const KernelCho
   }
 }
 
-std::vector<double> displacement_by_traction(const ContactProblem& problem, const KernelChoice& kernel, std::span<const double> px,
-                                             std::span<const double> py, OperatorStore& operators) {
+std::vector<double> displacement_by_traction(const ContactProblem& problem, const KernelChoice& kernel,
+                                             std::span<const double> px, std::span<const double> py,
+                                             OperatorStore& operators) {
   const Grid2& grid = problem.grid;
   std::vector<double> u(grid.size());
   const std::optional<RowInclination> rows = kernel.rows(grid, 0, grid.ny);

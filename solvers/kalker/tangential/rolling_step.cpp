@@ -24,10 +24,12 @@ RollingStep rolling_step(const ContactProblem& problem) {
   RollingStep step;
   if (problem.regime == Regime::shift || problem.regime == Regime::frictionless) return step;
   const Rolling& rolling = problem.rolling;
-  if (!(rolling.velocity > 0.0)) refuse("the rolling velocity must be positive", "give its magnitude; the direction is chi");
+  if (!(rolling.velocity > 0.0))
+    refuse("the rolling velocity must be positive", "give its magnitude; the direction is chi");
   step.rolling = true;
   const double chi = std::remainder(rolling.chi, 2.0 * std::numbers::pi);
-  const bool forward = std::abs(chi) < kAngleTolerance, backward = std::abs(std::abs(chi) - std::numbers::pi) < kAngleTolerance;
+  const bool forward = std::abs(chi) < kAngleTolerance,
+             backward = std::abs(std::abs(chi) - std::numbers::pi) < kAngleTolerance;
   if (problem.regime == Regime::steady) {
     if (!forward && !backward)
       refuse("steady rolling in direction " + std::to_string(rolling.chi) + " rad is not supported",
@@ -35,7 +37,8 @@ RollingStep rolling_step(const ContactProblem& problem) {
     step.transport = forward ? Transport::forward : Transport::backward;
     step.distance = problem.grid.dx;
   } else {
-    if (!(rolling.step > 0.0)) refuse("the rolling step must be positive in transient rolling", "give dq, best as large as dx");
+    if (!(rolling.step > 0.0))
+      refuse("the rolling step must be positive in transient rolling", "give dq, best as large as dx");
     step.distance = rolling.step;
   }
   step.time = step.distance / rolling.velocity;

@@ -18,7 +18,7 @@ namespace treadmark::kalker {
 
 namespace {
 
-constexpr double kAlignment = 1e-6;          ///< of two grids, in elements
+constexpr double kAlignment = 1e-6;  ///< of two grids, in elements
 
 [[noreturn]] void refuse(const std::string& message, const std::string& advice) {
   throw Error(ErrorKind::configuration, message, {}, advice);
@@ -37,16 +37,16 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
   const CombinedMaterial combined = combine(problem.material);
   if (!(combined.shear_modulus > 0.0)) refuse("the shear modulus must be positive", "check the material");
   const Creepage& c = problem.creepage;
-  for (const double value : {c.xi, c.eta, c.phi, c.spin_x, c.spin_y, problem.fx_relative.value_or(0.0),
-                             problem.fy_relative.value_or(0.0)})
+  for (const double value :
+       {c.xi, c.eta, c.phi, c.spin_x, c.spin_y, problem.fx_relative.value_or(0.0), problem.fy_relative.value_or(0.0)})
     if (!std::isfinite(value)) refuse("a creepage, spin centre or tangential force is not finite", "check the input");
   if (problem.extra_slip_x.size() != problem.extra_slip_y.size() ||
       (!problem.extra_slip_x.empty() && problem.extra_slip_x.size() != grid.size()))
     refuse("the given slip does not have two values for each of " + std::to_string(grid.size()) + " elements",
            "give one pair each, or none");
   if (!problem.friction_of_row.empty() && problem.friction_of_row.size() != static_cast<std::size_t>(grid.ny))
-    refuse("there are " + std::to_string(problem.friction_of_row.size()) + " friction laws for " + std::to_string(grid.ny) +
-               " rows",
+    refuse("there are " + std::to_string(problem.friction_of_row.size()) + " friction laws for " +
+               std::to_string(grid.ny) + " rows",
            "give one for each row, or one for all");
   if (!(problem.friction.static_friction() >= 0.0))
     refuse("the coefficient of friction is negative", "check the friction law");
@@ -76,7 +76,9 @@ struct TangentialSolver::Workspace {
 };
 
 bool TangentialSolver::Workspace::start(const ContactProblem& problem, const Patch& patch, PatchSolver& solver) const {
-  if (!last || last->steady != (patch.transport != Transport::none) || last->forward != (patch.transport != Transport::backward)) return false;
+  if (!last || last->steady != (patch.transport != Transport::none) ||
+      last->forward != (patch.transport != Transport::backward))
+    return false;
   const auto offset = offset_between(last->grid, problem.grid);
   if (!offset) return false;
   const std::size_t n = patch.cell.size();
@@ -121,8 +123,8 @@ void TangentialSolver::Workspace::store(const ContactProblem& problem, const Pat
 namespace {
 
 /// Plastic shear of the layer, the distances of before included.
-void write_layer(const ContactProblem& problem, const Patch& patch, const PatchSolver& solver, const ContactHistory& previous,
-                 ContactSolution& solution) {
+void write_layer(const ContactProblem& problem, const Patch& patch, const PatchSolver& solver,
+                 const ContactHistory& previous, ContactSolution& solution) {
   const std::size_t size = problem.grid.size(), n = patch.cell.size();
   const InterfaceLayer::Shear shear = solver.layer_shear();
   const FrictionState& state = solver.state();
@@ -199,7 +201,8 @@ void TangentialSolver::reset() { workspace_->last.reset(); }
 std::optional<TangentialStart> TangentialSolver::start() const { return workspace_->last; }
 void TangentialSolver::start_from(std::optional<TangentialStart> start) { workspace_->last = std::move(start); }
 
-std::vector<double> TangentialSolver::normal_displacement(const ContactProblem& problem, const ContactSolution& solution) {
+std::vector<double> TangentialSolver::normal_displacement(const ContactProblem& problem,
+                                                          const ContactSolution& solution) {
   const KernelChoice kernel = workspace_->kernels.get(problem);
   if (!kernel.coupled || solution.traction_x.empty()) return {};
   return displacement_by_traction(problem, kernel, solution.traction_x, solution.traction_y, workspace_->operators);
@@ -233,13 +236,15 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     return;
   }
   const KernelChoice kernel = workspace_->kernels.get(problem);
-  PatchConditions conditions = patch_conditions(problem, patch, step, kernel, solution.pressure, previous, workspace_->operators);
+  PatchConditions conditions =
+      patch_conditions(problem, patch, step, kernel, solution.pressure, previous, workspace_->operators);
   for (int i = 0; i < patch.size() && !solution.temperature_1.empty(); ++i)
     conditions.temperature.push_back(solution.temperature_1[patch.grid_index(i)]);
   PatchSolver solver(problem, patch, std::move(conditions), workspace_->cache);
   const bool warm = workspace_->start(problem, patch, solver);
   if (problem.settings.first_slip != SolverSettings::FirstSlip::last)
-    solver.set_slip_speed(problem.settings.first_slip == SolverSettings::FirstSlip::above ? problem.rolling.velocity : 0.0);
+    solver.set_slip_speed(problem.settings.first_slip == SolverSettings::FirstSlip::above ? problem.rolling.velocity
+                                                                                          : 0.0);
 
   CreepageSearch outcome;
   if (problem.fx_relative || problem.fy_relative) {
@@ -251,13 +256,12 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
     if (!solver.solve(problem.creepage, problem.settings.eps)) outcome.status = Status::not_converged;
   }
   if (outcome.status != Status::ok && outcome.message.empty())
-    outcome.message =
-        solver.friction_unsettled()
-            ? "friction and slip velocity did not come to terms in " + std::to_string(problem.settings.max_outer) +
-                  " rounds"
-            : "the friction conditions are violated by " + std::to_string(solver.residual()) +
-                  " of the friction bound after " + std::to_string(solver.steps()) + " Newton steps and " +
-                  std::to_string(solver.sweeps()) + " sweeps";
+    outcome.message = solver.friction_unsettled()
+                          ? "friction and slip velocity did not come to terms in " +
+                                std::to_string(problem.settings.max_outer) + " rounds"
+                          : "the friction conditions are violated by " + std::to_string(solver.residual()) +
+                                " of the friction bound after " + std::to_string(solver.steps()) +
+                                " Newton steps and " + std::to_string(solver.sweeps()) + " sweeps";
   workspace_->store(problem, patch, solver, outcome.creepage);
 
   solution.creepage = outcome.creepage;
@@ -268,7 +272,8 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
                                  solution.displacement_y);
 }
 
-Sensitivities TangentialSolver::sensitivities(const ContactProblem& problem, const ContactSolution& solution, const ContactHistory& previous,
+Sensitivities TangentialSolver::sensitivities(const ContactProblem& problem, const ContactSolution& solution,
+                                              const ContactHistory& previous,
                                               std::span<const double> pressure_by_approach) {
   if (solution.traction_x.size() != problem.grid.size() || pressure_by_approach.size() != problem.grid.size())
     refuse("sensitivities need the solution of the same problem", "solve it first");
@@ -278,7 +283,8 @@ Sensitivities TangentialSolver::sensitivities(const ContactProblem& problem, con
   Sensitivities out;
   if (n == 0) return out;
   PatchSolver solver(problem, patch,
-                     patch_conditions(problem, patch, step, workspace_->kernels.get(problem), solution.pressure, previous, workspace_->operators),
+                     patch_conditions(problem, patch, step, workspace_->kernels.get(problem), solution.pressure,
+                                      previous, workspace_->operators),
                      workspace_->cache);
   Field2 traction(2 * n);
   std::vector<double> friction(n), more_pressure(n);

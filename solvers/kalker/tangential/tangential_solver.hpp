@@ -5,8 +5,8 @@
 #include <memory>
 #include <optional>
 
-#include "treadmark/solvers/kalker/history/contact_history.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
+#include "treadmark/solvers/kalker/history/contact_history.hpp"
 
 namespace treadmark::kalker {
 
@@ -19,11 +19,11 @@ struct TangentialStart {
   bool force_prescribed = false;
 };
 
-/// Tangential problem of one patch with given pressures: tractions, slip, division into adhesion and slip areas, and the
-/// creepages that belong to prescribed forces (Kalker 1990; method in README.md of this folder).
-/// Keeps influence coefficients and the last tractions; the latter are the start values of the next problem when its grid
-/// has the same steps and is displaced by whole elements. Not thread-safe; use one per thread. Results depend on the
-/// sequence of problems only within the accuracy asked for (settings.eps), and not on the number of threads.
+/// Tangential problem of one patch with given pressures: tractions, slip, division into adhesion and slip areas, and
+/// the creepages that belong to prescribed forces (Kalker 1990; method in README.md of this folder). Keeps influence
+/// coefficients and the last tractions; the latter are the start values of the next problem when its grid has the same
+/// steps and is displaced by whole elements. Not thread-safe; use one per thread. Results depend on the sequence of
+/// problems only within the accuracy asked for (settings.eps), and not on the number of threads.
 class TangentialSolver {
  public:
   TangentialSolver();
@@ -31,23 +31,24 @@ class TangentialSolver {
   TangentialSolver(TangentialSolver&&) noexcept;
   TangentialSolver& operator=(TangentialSolver&&) noexcept;
 
-  /// In: problem.grid, material, friction, regime shift, transient or steady, creepage, rolling, settings; solution.pressure and
-  /// solution.state (not exterior = in contact; an empty state: where the pressure is positive).
-  /// Out: traction_x/y, displacement_x/y (elements of the contact area's bounding box, else 0), slip_x/y, friction, state,
-  /// creepage, rolling_step and the report `tangential`: residual is the rms violation of the friction conditions
-  /// relative to the rms friction bound. A solution that misses the accuracy has Status::not_converged.
+  /// In: problem.grid, material, friction, regime shift, transient or steady, creepage, rolling, settings;
+  /// solution.pressure and solution.state (not exterior = in contact; an empty state: where the pressure is positive).
+  /// Out: traction_x/y, displacement_x/y (elements of the contact area's bounding box, else 0), slip_x/y, friction,
+  /// state, creepage, rolling_step and the report `tangential`: residual is the rms violation of the friction
+  /// conditions relative to the rms friction bound. A solution that misses the accuracy has Status::not_converged.
   /// previous: the instant before, on the problem's grid or empty. frictional_power is that of slip and plastic shear.
   /// Errors: Error(configuration) for inconsistent sizes, directions of steady rolling other than 0 and pi, steps or
   /// velocities that are not positive.
   /// solution.temperature_1, if it is there, decides on friction that depends on temperature.
   void solve(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous = {});
 
-  /// Change of the last solution's forces with the creepages and the approach. pressure_by_approach: per element [Pa/m].
-  /// Errors: Error(configuration) without a solution of this problem.
-  Sensitivities sensitivities(const ContactProblem& problem, const ContactSolution& solution, const ContactHistory& previous,
-                              std::span<const double> pressure_by_approach);
+  /// Change of the last solution's forces with the creepages and the approach. pressure_by_approach: per element
+  /// [Pa/m]. Errors: Error(configuration) without a solution of this problem.
+  Sensitivities sensitivities(const ContactProblem& problem, const ContactSolution& solution,
+                              const ContactHistory& previous, std::span<const double> pressure_by_approach);
 
-  /// Whether tangential tractions and normal displacements have to do with each other (dissimilar bodies, curved contact).
+  /// Whether tangential tractions and normal displacements have to do with each other (dissimilar bodies, curved
+  /// contact).
   bool couples(const ContactProblem& problem);
   /// Normal displacement of all elements by the tangential tractions of a solution [m]; empty if there is none.
   std::vector<double> normal_displacement(const ContactProblem& problem, const ContactSolution& solution);

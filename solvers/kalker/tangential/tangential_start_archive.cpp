@@ -18,7 +18,8 @@ TangentialStart read_tangential_start(ByteReader& in) {
   TangentialStart start;
   start.grid = read_grid(in);
   for (bool* value : {&start.steady, &start.forward, &start.force_prescribed}) in.get(*value);
-  for (auto* field : {&start.traction_x, &start.traction_y, &start.bound, &start.slip_speed}) read_field(in, start.grid, false, *field);
+  for (auto* field : {&start.traction_x, &start.traction_y, &start.bound, &start.slip_speed})
+    read_field(in, start.grid, false, *field);
   Creepage& c = start.creepage;
   for (double* value : {&c.xi, &c.eta, &c.phi, &c.spin_x, &c.spin_y}) in.get(*value);
   return start;

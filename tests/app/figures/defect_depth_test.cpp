@@ -48,7 +48,8 @@ double height(double x, double pitch) {
 TEST(DefectDepth, IsTheMissingHeightOfAPitchedFlat) {
   const Grid2 grid{-60e-3, kLateral - 10e-3, 5e-3, 5e-3, 25, 5};
   for (const double pitch : {0.0, 0.05, -0.1}) {
-    const auto depth = DefectDepth(wheel(true), wheel(false)).over(grid, pitched(pitch, kLateral), wheelrail::Side::right);
+    const auto depth =
+        DefectDepth(wheel(true), wheel(false)).over(grid, pitched(pitch, kLateral), wheelrail::Side::right);
     ASSERT_EQ(depth.size(), grid.size());
     for (int iy = 0; iy < grid.ny; ++iy)
       for (int ix = 0; ix < grid.nx; ++ix) {
@@ -84,7 +85,8 @@ TEST(DefectDepth, ALeftWheelIsTheMirrorImage) {
 
 TEST(DefectDepth, BesideTheWheelItIsNotKnown) {
   const Grid2 grid{0.0, kLateral + 60e-3, 1e-3, 1e-3, 2, 2};
-  for (const double depth : DefectDepth(wheel(true), wheel(false)).over(grid, pitched(0.0, kLateral), wheelrail::Side::right))
+  for (const double depth :
+       DefectDepth(wheel(true), wheel(false)).over(grid, pitched(0.0, kLateral), wheelrail::Side::right))
     EXPECT_TRUE(std::isnan(depth));
 }
 

@@ -36,13 +36,12 @@ std::vector<std::string> with(const std::vector<std::string>& settings) {
   return all;
 }
 
-io::SimulationResult simulated(const std::vector<std::string>& settings, const SimulationOptions& options = {}, const Progress& progress = {}) {
+io::SimulationResult simulated(const std::vector<std::string>& settings, const SimulationOptions& options = {},
+                               const Progress& progress = {}) {
   const io::SimulationFile file = io::read_simulation_file(example("figure7.toml"), settings);
   SurfaceStore store;
   return run_simulation(file, store, options, progress);
 }
-
-
 
 TEST(ShippedFigures, EightPanelsOverTheFlat) {
   const testing::TemporaryFolder folder;
@@ -75,9 +74,9 @@ TEST(ShippedFigures, EightPanelsOverTheFlat) {
 }
 
 TEST(ShippedFigures, OnlyTheFirstPassageOfTheWatchedWheelIsDrawn) {
-  const io::SimulationResult result =
-      simulated(with({"simulation.fields.pitch_deg=[40, 59]", "simulation.distance_m=3.2", "simulation.speed_m_s=60",
-                      R"(simulation.wheels=[{ wheelset = 1, side = "left", contact = "full", pitch_deg = 60.0, defects = false }, { wheelset = 1, side = "right", contact = "full", defects = false }])"}));
+  const io::SimulationResult result = simulated(with(
+      {"simulation.fields.pitch_deg=[40, 59]", "simulation.distance_m=3.2", "simulation.speed_m_s=60",
+       R"(simulation.wheels=[{ wheelset = 1, side = "left", contact = "full", pitch_deg = 60.0, defects = false }, { wheelset = 1, side = "right", contact = "full", defects = false }])"}));
   EXPECT_EQ(result.snapshots.cases.size(), 10u);  // of both wheels: the start, and two revolutions
   const auto panels = patches_panels(result);
   ASSERT_EQ(panels.size(), 2u);
@@ -129,25 +128,29 @@ void draw(const std::string& name, const std::vector<std::string>& changes, cons
 TEST(ShippedFigures, TheoriesGetALineEachInTwoPanels) {
   const testing::TemporaryFolder folder;
   std::vector<std::string> settings(kQuick.begin(), kQuick.begin() + 2);
-  settings.insert(settings.end(), {R"(study.vary.1.values=[{label="2 mm", set=["discretisation.dx_mm=2", "discretisation.ds_mm=2"]}])",
-                                   "study.figures.0.x_range=[0, 0.022]"});
+  settings.insert(settings.end(),
+                  {R"(study.vary.1.values=[{label="2 mm", set=["discretisation.dx_mm=2", "discretisation.ds_mm=2"]}])",
+                   "study.figures.0.x_range=[0, 0.022]"});
   draw("figure5.toml", settings, folder.path());
   const std::string svg = io::read_text(folder.path() / "figure5.svg");
   testing::read_xml(svg);
-  for (const char* text : {"FASTSIM, 2 mm", "steady rolling, 2 mm", "transient rolling, 2 mm", "Q [kN]", "Ty [kN]"}) EXPECT_THAT(svg, HasSubstr(text));
+  for (const char* text : {"FASTSIM, 2 mm", "steady rolling, 2 mm", "transient rolling, 2 mm", "Q [kN]", "Ty [kN]"})
+    EXPECT_THAT(svg, HasSubstr(text));
   EXPECT_THAT(io::read_text(folder.path() / "figure5.csv"), HasSubstr("run,panel,t_s,Q_N,Ty_N"));
 }
 
 TEST(ShippedFigures, SpeedsArePointsAndSomeOfThemPanels) {
   const testing::TemporaryFolder folder;
   draw("figure6.toml",
-       with({"study.vary.0.values=[20, 40, 60]", "simulation.distance_m=0.06", R"(study.figures.1.only=["V [m/s]=20", "simulation.speed_m_s=60"])",
-             "study.figures.1.x_range=[0, 0.06]"}),
+       with({"study.vary.0.values=[20, 40, 60]", "simulation.distance_m=0.06",
+             R"(study.figures.1.only=["V [m/s]=20", "simulation.speed_m_s=60"])", "study.figures.1.x_range=[0, 0.06]"}),
        folder.path());
-  const std::string speeds = io::read_text(folder.path() / "figure6-speed.svg"), histories = io::read_text(folder.path() / "figure6-histories.svg");
+  const std::string speeds = io::read_text(folder.path() / "figure6-speed.svg"),
+                    histories = io::read_text(folder.path() / "figure6-histories.svg");
   testing::read_xml(speeds);
   testing::read_xml(histories);
-  for (const char* text : {"cant = none", "cant = 1:40", "published, 1:40", "published, no cant"}) EXPECT_THAT(speeds, HasSubstr(text));
+  for (const char* text : {"cant = none", "cant = 1:40", "published, 1:40", "published, no cant"})
+    EXPECT_THAT(speeds, HasSubstr(text));
   for (const char* text : {"V = 20 m/s", "V = 60 m/s", "no cant"}) EXPECT_THAT(histories, HasSubstr(text));
   EXPECT_EQ(histories.find("V = 40 m/s"), std::string::npos);
   EXPECT_EQ(io::read_text(folder.path() / "figure6-histories.csv").find("V = 40"), std::string::npos);
@@ -155,7 +158,9 @@ TEST(ShippedFigures, SpeedsArePointsAndSomeOfThemPanels) {
 
 TEST(ShippedFigures, TracksAreCompared) {
   const testing::TemporaryFolder folder;
-  draw("figure6-track.toml", with({"simulation.distance_m=0.04", "study.figures.1.x_range=[0, 0.04]", "study.figures.2.x_range=[0, 0.04]"}), folder.path());
+  draw("figure6-track.toml",
+       with({"simulation.distance_m=0.04", "study.figures.1.x_range=[0, 0.04]", "study.figures.2.x_range=[0, 0.04]"}),
+       folder.path());
   for (const char* file : {"figure6-track.svg", "figure6-track-8.svg", "figure6-track-60.svg"}) {
     const std::string svg = io::read_text(folder.path() / file);
     testing::read_xml(svg);

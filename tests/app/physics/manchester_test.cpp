@@ -5,8 +5,8 @@
 
 #include <gtest/gtest.h>
 
-#include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
 
@@ -34,7 +34,8 @@ TEST(Manchester, StandsOnItsWheelsWith54p55Kilonewton) {
   constexpr double kLoad = 44482.0 * 9.81 / 8.0;
   for (int set = 1; set <= 4; ++set) {
     EXPECT_NEAR(value(r.statics, "wheelset" + std::to_string(set) + ".load_N"), 2.0 * kLoad, 1.0);
-    for (const char* side : {"_left", "_right"}) EXPECT_NEAR(value(r.statics, "ws" + std::to_string(set) + side + ".Q_N"), kLoad, 10.0);
+    for (const char* side : {"_left", "_right"})
+      EXPECT_NEAR(value(r.statics, "ws" + std::to_string(set) + side + ".Q_N"), kLoad, 10.0);
   }
   EXPECT_NEAR(kLoad, 54.55e3, 5.0);
 }
@@ -42,24 +43,29 @@ TEST(Manchester, StandsOnItsWheelsWith54p55Kilonewton) {
 /// Heavy bodies on soft springs move by themselves: frequencies by hand, damping left out.
 TEST(Manchester, EigenfrequenciesByHand) {
   SurfaceStore store;
-  const auto file = example({"simulation.wheels.0.contact=table", "vehicle.scale_damping=1e-3", "track_model.scale_damping=1e-3"});
+  const auto file =
+      example({"simulation.wheels.0.contact=table", "vehicle.scale_damping=1e-3", "track_model.scale_damping=1e-3"});
   BuiltVehicle built = build_vehicle(file, store);
   const vehicle::Equilibrium e = vehicle::find_equilibrium(built.vehicle);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
   const auto modes = vehicle::eigenmodes(built.vehicle, e.state);
   const auto frequency = [&](const std::string& most, double share) {
     for (const auto& m : modes)
-      if (built.vehicle.system.coordinates[static_cast<std::size_t>(m.shares[0].first)].name.starts_with(most) && m.shares[0].second > share)
+      if (built.vehicle.system.coordinates[static_cast<std::size_t>(m.shares[0].first)].name.starts_with(most) &&
+          m.shares[0].second > share)
         return m.frequency;
     ADD_FAILURE() << "no mode of " << most;
     return 0.0;
   };
-  const auto hertz = [](double stiffness, double mass) { return std::sqrt(stiffness / mass) / (2.0 * std::numbers::pi); };
+  const auto hertz = [](double stiffness, double mass) {
+    return std::sqrt(stiffness / mass) / (2.0 * std::numbers::pi);
+  };
   // The car on 4 secondary springs in series with the primary ones of both bogies.
   const double secondary = 4 * 0.43e6, primary = 16 / 2.0 * 1.22e6;
   EXPECT_NEAR(frequency("car.z", 0.9), hertz(secondary * primary / (secondary + primary), 32000.0), 0.02);
   const double pitch_secondary = secondary * 9.5 * 9.5, pitch_primary = primary * 9.5 * 9.5;
-  EXPECT_NEAR(frequency("car.pitch", 0.9), hertz(pitch_secondary * pitch_primary / (pitch_secondary + pitch_primary), 1.97e6), 0.03);
+  EXPECT_NEAR(frequency("car.pitch", 0.9),
+              hertz(pitch_secondary * pitch_primary / (pitch_secondary + pitch_primary), 1.97e6), 0.03);
   // Bogies bounce between their springs, both alike.
   double bounce = 0.0;
   for (const auto& m : modes) {
@@ -99,13 +105,15 @@ TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
 }
 
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFullContact) {
-  check_energy_of_a_free_run({"simulation.wheels.0.defects=false", "simulation.distance_m=1", "case.regime=steady"}, 1e-9);
+  check_energy_of_a_free_run({"simulation.wheels.0.defects=false", "simulation.distance_m=1", "case.regime=steady"},
+                             1e-9);
 }
 
 /// One passage of the flat in each representation of the wheel: the same forces within 2 % of the largest.
 TEST(FlatAtSpeed, RepresentationsGiveTheSameForces) {
   const std::vector<std::string> common{"simulation.distance_m=0.36", "simulation.wheels.0.pitch_deg=25",
-                                        "discretisation.dx_mm=1.0", "discretisation.ds_mm=1.0", "wheel.resolution_mm=1.0"};
+                                        "discretisation.dx_mm=1.0", "discretisation.ds_mm=1.0",
+                                        "wheel.resolution_mm=1.0"};
   const auto run = [&](const std::string& backend) {
     std::vector<std::string> overrides = common;
     if (!backend.empty()) overrides.push_back("wheel.backend=" + backend);

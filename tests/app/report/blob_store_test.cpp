@@ -47,7 +47,8 @@ std::vector<double> read_back(const Packed& packed, const std::vector<std::strin
   std::vector<double> out;
   for (std::size_t i = 0; i < packed.count; ++i) {
     std::uint32_t code = 0;
-    for (std::size_t k = 0; k < width; ++k) code |= static_cast<std::uint32_t>(bytes.at(packed.offset + k * packed.count + i)) << (8U * k);
+    for (std::size_t k = 0; k < width; ++k)
+      code |= static_cast<std::uint32_t>(bytes.at(packed.offset + k * packed.count + i)) << (8U * k);
     if (packed.precision == Precision::single)
       out.push_back(std::bit_cast<float>(code));
     else if (packed.none && code == (width == 1 ? 255U : 65535U))

@@ -148,7 +148,8 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
     }
   const Table& candidates = table_of(page, "candidates");
   ASSERT_EQ(candidates.rows.size(), 3u);
-  EXPECT_EQ(numbers_in(candidates, "largest deviation")[2], document["candidates"][2]["wheel"]["height_max_um"].get<double>());
+  EXPECT_EQ(numbers_in(candidates, "largest deviation")[2],
+            document["candidates"][2]["wheel"]["height_max_um"].get<double>());
 
   ASSERT_TRUE(page.timeline.has_value());
   EXPECT_EQ(page.timeline->count(), 2u);
@@ -157,7 +158,8 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
   ASSERT_EQ(page.sets.size(), 3u);
   EXPECT_EQ(page.sets[0].name, "analytic (truth)");
   EXPECT_EQ(page.sets[2].name, "mesh-flat 2 mm");
-  EXPECT_EQ(page.sets[2].frames[1].result->patches.front().pmax, comparison.candidates[2].results[1].patches.front().pmax);
+  EXPECT_EQ(page.sets[2].frames[1].result->patches.front().pmax,
+            comparison.candidates[2].results[1].patches.front().pmax);
   EXPECT_THAT(std::get<ContactView>(figure_of(page, "contact-view").view).sets, ElementsAre(0, 1, 2));
   EXPECT_FALSE(has_figure(page, "pressures"));
 
@@ -247,7 +249,8 @@ TEST_F(ComparePage, RefusesFilesThatDoNotFit) {
   io::Comparison other = made_up_comparison();
   other.candidates.pop_back();
   io::write_comparison_fields(folder_.path() / "fields.h5", other);
-  EXPECT_THAT(error_of([&] { page_of(made_up_comparison()); }), HasSubstr("fields.h5: the fields do not belong to the comparison"));
+  EXPECT_THAT(error_of([&] { page_of(made_up_comparison()); }),
+              HasSubstr("fields.h5: the fields do not belong to the comparison"));
   std::filesystem::remove(folder_.path() / "fields.h5");
   page_of(made_up_comparison());
   Json document = json();

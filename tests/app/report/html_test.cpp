@@ -39,7 +39,8 @@ Page nasty_page() {
 TEST(Html, TextsFromResultsStayText) {
   for (const bool live : {true, false}) {
     const std::string html = to_html(nasty_page(), {live});
-    const std::string without_script = live && !page_script().empty() ? html.substr(0, html.size() - page_script().size()) : html;
+    const std::string without_script =
+        live && !page_script().empty() ? html.substr(0, html.size() - page_script().size()) : html;
     EXPECT_THAT(html, Not(HasSubstr("<img src=x")));
     EXPECT_THAT(without_script, Not(HasSubstr("<script>alert")));
     EXPECT_THAT(html, HasSubstr("&lt;img src=x onerror=alert(1)&gt; &amp; &quot;q&quot; &#39;a&#39;"));

@@ -55,12 +55,13 @@ TEST_F(ImportPage, HasTheNumbersOfTheFile) {
   const Page page = page_of(treadmark::testing::sample_report());
   const Json document = json();
   EXPECT_EQ(page.kind, "import");
-  EXPECT_THAT(section_ids(page),
-              ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "steps", "settings", "summary"));
+  EXPECT_THAT(section_ids(page), ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "steps",
+                                             "settings", "summary"));
   const auto same = [&](const char* table, const char* column, const Json& list, const char* key) {
     const std::vector<double> shown = numbers_in(table_of(page, table), column);
     ASSERT_EQ(shown.size(), list.size()) << table;
-    for (std::size_t i = 0; i < shown.size(); ++i) EXPECT_EQ(shown[i], list[i][key].get<double>()) << table << ' ' << column;
+    for (std::size_t i = 0; i < shown.size(); ++i)
+      EXPECT_EQ(shown[i], list[i][key].get<double>()) << table << ' ' << column;
   };
   same("damage", "depth", document["damage"], "depth_mm");
   same("damage", "angle", document["damage"], "u_deg");
@@ -89,7 +90,8 @@ TEST_F(ImportPage, HasTheNumbersOfTheFile) {
 TEST_F(ImportPage, WarningsComeFirstAndMarkupArrivesAsText) {
   const Page page = page_of(treadmark::testing::sample_report());
   EXPECT_THAT(banners_of(page), StartsWith("warning: Warning. 2.1 % of the band has no points"));
-  EXPECT_THAT(banners_of(page), HasSubstr("warning: 1 hole stays open. There is no surface there; the widest is 18 mm across.\n"));
+  EXPECT_THAT(banners_of(page),
+              HasSubstr("warning: 1 hole stays open. There is no surface there; the widest is 18 mm across.\n"));
   EXPECT_THAT(texts_in(table_of(page, "inputs"), "file"), Contains("wheel <b>& \"second\".xyz"));
   const std::string html = to_html(page, {.live = false});
   EXPECT_THAT(html, AllOf(HasSubstr("wheel &lt;b&gt;&amp; &quot;second&quot;.xyz"), HasSubstr("S1002 &lt;t32.5&gt;")));
@@ -106,14 +108,16 @@ TEST_F(ImportPage, MapsAreThoseOfTheImport) {
   EXPECT_NEAR(fitted.nx * fitted.dx, 1e3 * report.fitted.a_max, 1e-6);
   EXPECT_NEAR(fitted.x0, 0.5 * fitted.dx, 1e-9);
   const auto at = [&](double a, double s) {
-    const int ix = static_cast<int>((a - fitted.x0) / fitted.dx + 0.5), iy = static_cast<int>((s - fitted.y0) / fitted.dy + 0.5);
+    const int ix = static_cast<int>((a - fitted.x0) / fitted.dx + 0.5),
+              iy = static_cast<int>((s - fitted.y0) / fitted.dy + 0.5);
     return fitted.values[static_cast<std::size_t>(iy * fitted.nx + ix)];
   };
   EXPECT_NEAR(at(1200.0, 60.0), -0.85, 0.03);  // the deepest place of the flat
   EXPECT_NEAR(at(2300.0, 75.0), -0.4, 0.05);   // the pit, 12 mm wide, averaged over some mm
   EXPECT_NEAR(at(700.0, 20.0), 0.025 * std::sin(3.0 * 0.7 / 0.46), 0.002);
   EXPECT_TRUE(std::isnan(at(1900.0, 50.0)));  // the hole
-  for (const char* id : {"density-map", "removed-map", "residual-map", "noise-map"}) EXPECT_TRUE(has_figure(page, id)) << id;
+  for (const char* id : {"density-map", "removed-map", "residual-map", "noise-map"})
+    EXPECT_TRUE(has_figure(page, id)) << id;
   const auto& noise = std::get<MapView>(figure_of(page, "noise-map").view);
   EXPECT_EQ(noise.nx, 290);  // as fine as it was
   EXPECT_NEAR(noise.values[3], 1e6 * static_cast<double>(report.noise_map.value[3 * 28]), 1e-6);
@@ -124,7 +128,8 @@ TEST_F(ImportPage, HolesAndDamageAreOutlinedAlsoAcrossTheSeam) {
   const auto& marks = std::get<MapView>(figure_of(page, "fitted-map").view).marks;
   std::vector<std::string> labels;
   for (const auto& mark : marks) labels.push_back(mark.label);
-  EXPECT_THAT(labels, ElementsAre("open, 18 mm", "1: 0.850 mm deep", "2: 0.400 mm deep", "3: 0.300 mm high", "3: 0.300 mm high"));
+  EXPECT_THAT(labels, ElementsAre("open, 18 mm", "1: 0.850 mm deep", "2: 0.400 mm deep", "3: 0.300 mm high",
+                                  "3: 0.300 mm high"));
   const auto range = [](const MapView::Mark& mark, std::size_t axis) {
     double low = mark.points.front()[axis], high = low;
     for (const auto& point : mark.points) low = std::min(low, point[axis]), high = std::max(high, point[axis]);
@@ -142,13 +147,16 @@ TEST_F(ImportPage, HolesAndDamageAreOutlinedAlsoAcrossTheSeam) {
 
 TEST_F(ImportPage, WorksWithTheReportAlone) {
   page_of(treadmark::testing::sample_report());
-  for (const char* file :
-       {"maps.h5", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg", "fitted.svg", "residual.svg"})
+  for (const char* file : {"maps.h5", "times.json", "summary.txt", "settings.toml", "before.svg", "removed.svg",
+                           "fitted.svg", "residual.svg"})
     std::filesystem::remove(folder_.path() / file);
   const Page page = import_page(folder_.path());
-  EXPECT_THAT(banners_of(page), HasSubstr("note: Files that are not in the folder: maps.h5 (maps over the band), fitted.svg (a picture)"));
+  EXPECT_THAT(
+      banners_of(page),
+      HasSubstr("note: Files that are not in the folder: maps.h5 (maps over the band), fitted.svg (a picture)"));
   EXPECT_THAT(banners_of(page), AllOf(HasSubstr("times.json"), HasSubstr("summary.txt")));
-  EXPECT_THAT(section_ids(page), ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "settings"));
+  EXPECT_THAT(section_ids(page),
+              ElementsAre("overview", "surface", "points", "placement", "fit", "outputs", "settings"));
   EXPECT_FALSE(has_figure(page, "fitted-map"));
   EXPECT_THAT(to_html(page, {.live = false}), HasSubstr("</html>"));
 }
@@ -184,7 +192,8 @@ TEST_F(ImportPage, OfARealImportOfAMap) {
 }
 
 TEST_F(ImportPage, RefusesBrokenFiles) {
-  EXPECT_THAT(error_of([&] { import_page(folder_.path()); }), AllOf(StartsWith("input data: "), HasSubstr("report.json' does not exist")));
+  EXPECT_THAT(error_of([&] { import_page(folder_.path()); }),
+              AllOf(StartsWith("input data: "), HasSubstr("report.json' does not exist")));
   page_of(treadmark::testing::sample_report());
   const Json document = json();
   Json broken = document;
@@ -194,13 +203,15 @@ TEST_F(ImportPage, RefusesBrokenFiles) {
   broken = document;
   broken["coverage"]["holes"] = 3;
   folder_.write("report.json", broken.dump());
-  EXPECT_THAT(error_of([&] { import_page(folder_.path()); }), HasSubstr("coverage.holes is a number where a list is expected"));
+  EXPECT_THAT(error_of([&] { import_page(folder_.path()); }),
+              HasSubstr("coverage.holes is a number where a list is expected"));
   folder_.write("report.json", document.dump());
   folder_.write("maps.h5", "no maps");
   EXPECT_THAT(error_of([&] { import_page(folder_.path()); }), HasSubstr("maps.h5"));
   std::filesystem::remove(folder_.path() / "maps.h5");
   folder_.write("times.json", "{\"steps\": [{\"step\": 1}]}");
-  EXPECT_THAT(error_of([&] { import_page(folder_.path()); }), HasSubstr("times.json: steps[0].step is a number where a text is expected"));
+  EXPECT_THAT(error_of([&] { import_page(folder_.path()); }),
+              HasSubstr("times.json: steps[0].step is a number where a text is expected"));
 }
 
 }  // namespace

@@ -25,7 +25,8 @@ class JsonTreeFile : public ::testing::Test {
 };
 
 TEST_F(JsonTreeFile, HoldsValuesOfEveryKind) {
-  const std::string text = R"({"n": -1.5e3, "big": 9007199254740992, "none": null, "t": "µ <b>\n\u00e9", "f": true, "list": [1, null, 3],
+  const std::string text =
+      R"({"n": -1.5e3, "big": 9007199254740992, "none": null, "t": "µ <b>\n\u00e9", "f": true, "list": [1, null, 3],
                                "words": ["a", ""], "inner": {"z": 1, "a": {"deep": [[], {}]}}})";
   const JsonFile file = read_json_file(folder_.write("a.json", text));
   EXPECT_EQ(file.text, text);
@@ -74,7 +75,8 @@ TEST_F(JsonTreeFile, ErrorsNameThePlace) {
 }
 
 TEST_F(JsonTreeFile, RefusesWhatIsNoJson) {
-  EXPECT_THAT(error_of([&] { read_json_file(folder_.path() / "missing.json"); }), HasSubstr("missing.json' does not exist"));
+  EXPECT_THAT(error_of([&] { read_json_file(folder_.path() / "missing.json"); }),
+              HasSubstr("missing.json' does not exist"));
   EXPECT_THAT(error_of([&] { read("{\n \"a\": 1,\n \"b\" 2}"); }), HasSubstr("a.json:3:"));
   for (const char* text : {"", "{", "{\"a\": [1, 2", "nothing", "{\"a\": 1} x", "{\"a\": 1e999}", "{\"a\": \"\xff\"}"})
     EXPECT_THAT(error_of([&] { read(text); }), HasSubstr("is no JSON, or was cut off")) << text;

@@ -69,7 +69,9 @@ std::string card_of(const Page& page, const std::string& label) {
 std::string banners_of(const Page& page) {
   std::string out;
   find<Banner>(page, [&](const Banner& banner) {
-    out += banner.kind == Banner::Kind::failed ? "failed: " : banner.kind == Banner::Kind::warning ? "warning: " : "note: ";
+    out += banner.kind == Banner::Kind::failed    ? "failed: "
+           : banner.kind == Banner::Kind::warning ? "warning: "
+                                                  : "note: ";
     out += banner.heading + " " + banner.text + "\n";
     return false;
   });
@@ -78,7 +80,8 @@ std::string banners_of(const Page& page) {
 
 std::vector<double> numbers_in(const Table& table, const std::string& column) {
   std::vector<double> out;
-  for (const Table::Row& row : table.rows) out.push_back(std::get<Number>(row.cells.at(column_of(table, column))).value);
+  for (const Table::Row& row : table.rows)
+    out.push_back(std::get<Number>(row.cells.at(column_of(table, column))).value);
   return out;
 }
 

@@ -19,7 +19,8 @@ using ::testing::HasSubstr;
 using ::testing::Not;
 using namespace treadmark::testing;
 
-/// A patch of nx by ny elements in contact within a grid with an empty frame, pressure 1 MPa times the number of the element.
+/// A patch of nx by ny elements in contact within a grid with an empty frame, pressure 1 MPa times the number of the
+/// element.
 io::PatchResult sample_patch(int nx, int ny, int empty) {
   io::PatchResult patch;
   patch.has_reference = true;
@@ -67,9 +68,12 @@ TEST(RunPage, TablesHoldTheNumbers) {
   EXPECT_EQ(page.title, "flat");
   EXPECT_THAT(banners_of(page), Not(HasSubstr("failed")));
   const Table& cases = table_of(page, "cases");
-  EXPECT_THAT(numbers_in(cases, "p_max"), ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{12, 15, 18}));
-  EXPECT_THAT(numbers_in(cases, "F_z"), ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{100, 100.001, 100.002}));
-  EXPECT_THAT(numbers_in(cases, "area"), ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{3, 3.75, 4.5}));
+  EXPECT_THAT(numbers_in(cases, "p_max"),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{12, 15, 18}));
+  EXPECT_THAT(numbers_in(cases, "F_z"),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{100, 100.001, 100.002}));
+  EXPECT_THAT(numbers_in(cases, "area"),
+              ::testing::Pointwise(::testing::DoubleNear(1e-9), std::vector<double>{3, 3.75, 4.5}));
   EXPECT_EQ(table_of(page, "patches").rows.size(), 3u);
   EXPECT_EQ(numbers_in(table_of(page, "patches"), "slip area")[0], 50.0);
   EXPECT_THAT(card_of(page, "Largest pressure"), HasSubstr("18 MPa"));

@@ -21,11 +21,15 @@ using namespace treadmark::testing;
 std::shared_ptr<io::SimulationResult> sample(std::size_t rows, std::size_t peak) {
   auto result = std::make_shared<io::SimulationResult>();
   result->title = "A flat at 40 m/s";
-  result->columns = {{"t_s", "s", "time"}, {"x_m", "m", "distance"}, {"Q_N", "N", "vertical force on the rail (ws1_right)"},
-                     {"Ty_N", "N", "lateral creep force on the rail (ws1_right)"}, {"ws1_left.Q_N", "N", "vertical force on the rail"}};
+  result->columns = {{"t_s", "s", "time"},
+                     {"x_m", "m", "distance"},
+                     {"Q_N", "N", "vertical force on the rail (ws1_right)"},
+                     {"Ty_N", "N", "lateral creep force on the rail (ws1_right)"},
+                     {"ws1_left.Q_N", "N", "vertical force on the rail"}};
   for (std::size_t k = 0; k < rows; ++k) {
     const double t = 1e-4 * static_cast<double>(k);
-    for (const double value : {t, 40.0 * t, k == peak ? 3e5 : 5e4 + 1e3 * std::sin(90.0 * t), -200.0, 5.1e4}) result->values.push_back(value);
+    for (const double value : {t, 40.0 * t, k == peak ? 3e5 : 5e4 + 1e3 * std::sin(90.0 * t), -200.0, 5.1e4})
+      result->values.push_back(value);
   }
   result->summary = {{"q_max_N", 3e5, "N", "largest vertical force"}, {"q_max_x_m", 0.4, "m", "where"}};
   result->statics = {{"ws1_right.Q_N", 5e4, "N", "vertical force"}};
@@ -53,7 +57,8 @@ TEST(SimulationPage, UnfinishedAndFailedOnesSaySo) {
   auto interrupted = sample(30, 7);
   interrupted->status = "interrupted";
   interrupted->message = "stopped at t = 0.003 s";
-  EXPECT_THAT(banners_of(simulation_page(interrupted, "")), ::testing::StartsWith("failed: Interrupted. stopped at t = 0.003 s"));
+  EXPECT_THAT(banners_of(simulation_page(interrupted, "")),
+              ::testing::StartsWith("failed: Interrupted. stopped at t = 0.003 s"));
   auto failed = sample(0, 0);
   failed->status = "failed";
   failed->message = "no <balance>";

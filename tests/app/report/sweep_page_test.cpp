@@ -23,7 +23,8 @@ class StoppedStudy : public ::testing::Test {
  protected:
   StoppedStudy() {
     std::string identity = "treadmark 0.1.0 abc\nbase 123\n";
-    for (int run = 1; run <= 6; ++run) identity += fmt::format("run {}\n  swept speed_m_s: {}\n", run, 10 * ((run + 1) / 2));
+    for (int run = 1; run <= 6; ++run)
+      identity += fmt::format("run {}\n  swept speed_m_s: {}\n", run, 10 * ((run + 1) / 2));
     io::write_text_file(folder_.path() / "study.id", identity);
     for (int run = 1; run <= 4; ++run) write_run(run);
     io::write_text_file(folder_.path() / "force.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>");

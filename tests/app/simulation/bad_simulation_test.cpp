@@ -18,7 +18,8 @@ using ::testing::HasSubstr;
 
 class BadSimulation : public ::testing::Test {
  protected:
-  ProgramResult run(const std::string& verb, const std::string& file, const std::vector<std::string>& options = {}) const {
+  ProgramResult run(const std::string& verb, const std::string& file,
+                    const std::vector<std::string>& options = {}) const {
     std::vector<std::string> words{verb, input.path(file), "-o", input.path("out")};
     words.insert(words.end(), options.begin(), options.end());
     return run_program(words);
@@ -77,7 +78,9 @@ TEST_F(BadSimulation, UnknownKeyWithWhatWasMeant) {
   expect_refused({"simulation\\.toml:6:[0-9]+", "sped_m_s", "speed_m_s"});
 }
 
-TEST_F(BadSimulation, UnknownKeyOfAnOverride) { expect_refused({"wheel\\.flts"}, {"--set", "wheel.flts.0.depth_mm=1"}); }
+TEST_F(BadSimulation, UnknownKeyOfAnOverride) {
+  expect_refused({"wheel\\.flts"}, {"--set", "wheel.flts.0.depth_mm=1"});
+}
 
 TEST_F(BadSimulation, VehicleThatIsNotThere) {
   input.edit("simulation.toml", "vehicle = \"vehicle.toml\"", "vehicle = \"absent.toml\"");

@@ -15,12 +15,14 @@ using ::testing::HasSubstr;
 
 TEST(CheckSimulation, SimulationsAndStudiesAreReadWithoutSolving) {
   const SampleSimulation input;
-  const ProgramResult r = run_program({"check", input.path("simulation.toml"), input.path("study.toml"), input.path("case.inp")});
+  const ProgramResult r =
+      run_program({"check", input.path("simulation.toml"), input.path("study.toml"), input.path("case.inp")});
   EXPECT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("simulation.toml: a simulation, no errors"));
   EXPECT_THAT(r.out, HasSubstr("study.toml: 4 runs, no errors"));
   EXPECT_THAT(r.out, HasSubstr("case.inp: 2 cases, no errors"));
-  for (const auto& entry : std::filesystem::directory_iterator(input.folder())) EXPECT_NE(entry.path().extension(), ".h5");
+  for (const auto& entry : std::filesystem::directory_iterator(input.folder()))
+    EXPECT_NE(entry.path().extension(), ".h5");
 }
 
 TEST(CheckSimulation, OverridesAreChecked) {
@@ -33,9 +35,11 @@ TEST(CheckSimulation, OverridesAreChecked) {
 TEST(CheckSimulation, TablesNeedRoundWheels) {
   const SampleSimulation input;
   input.use_slices();
-  input.edit("simulation.toml", "shape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]", "shape.file = \"wheel.slcw\"");
+  input.edit("simulation.toml", "shape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]",
+             "shape.file = \"wheel.slcw\"");
   input.edit("simulation.toml", "[case]", "[simulation.other_wheel]\nshape.standard = \"S1002\"\n\n[case]");
-  const std::vector<std::string> check{"check", input.path("simulation.toml"), "--set", "simulation.wheels.1.contact=table"};
+  const std::vector<std::string> check{"check", input.path("simulation.toml"), "--set",
+                                       "simulation.wheels.1.contact=table"};
   const ProgramResult good = run_program(check);
   EXPECT_EQ(good.status, 0) << good.err;
   input.edit("simulation.toml", "shape.standard = \"60E1\"",

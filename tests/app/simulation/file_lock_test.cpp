@@ -23,7 +23,8 @@ class FileLockTest : public ::testing::Test {
     std::error_code ignored;
     std::filesystem::remove(file, ignored);
   }
-  const std::filesystem::path file = std::filesystem::temp_directory_path() / ("treadmark_lock_" + std::to_string(getpid()));
+  const std::filesystem::path file =
+      std::filesystem::temp_directory_path() / ("treadmark_lock_" + std::to_string(getpid()));
 };
 
 TEST_F(FileLockTest, OneHolderAtATime) {

@@ -22,10 +22,12 @@ class Resume : public ::testing::Test {
   void SetUp() override { input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.15"); }
 
   std::vector<std::string> command(const std::string& folder, std::vector<std::string> options = {}) const {
-    options.insert(options.begin(), {"treadmark", "simulate", input.path("simulation.toml"), "--quiet", "-o", input.path(folder)});
+    options.insert(options.begin(),
+                   {"treadmark", "simulate", input.path("simulation.toml"), "--quiet", "-o", input.path(folder)});
     return options;
   }
-  /// Lets the program run until it has written a checkpoint that was not there before, and a little longer. False: it ended before.
+  /// Lets the program run until it has written a checkpoint that was not there before, and a little longer. False: it
+  /// ended before.
   bool wait_for_checkpoint(RunningProgram& program, const std::string& folder) const {
     const fs::path file = input.path(folder + "/unfinished.h5");
     std::error_code none;
@@ -50,7 +52,8 @@ class Resume : public ::testing::Test {
     ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
     int resumed = 0;
     for (const int delay_ms : {0, 20, 60, 150}) {
-      RunningProgram program(command("killed", resumed > 0 ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
+      RunningProgram program(
+          command("killed", resumed > 0 ? std::vector<std::string>{"--resume"} : std::vector<std::string>{}));
       if (!wait_for_checkpoint(program, "killed")) break;
       std::this_thread::sleep_for(std::chrono::milliseconds(delay_ms));
       program.send(SIGKILL);

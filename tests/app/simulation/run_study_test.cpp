@@ -88,13 +88,15 @@ TEST_F(RunStudy, ResultsDoNotTellWhatElseTheWorkerRead) {
   for (const io::SimulationRun& run : outcome.study.runs) {
     std::vector<std::string> files;
     for (const auto& [name, hash] : io::read_simulation(run.store).geometry_sha256) files.push_back(name);
-    EXPECT_EQ(files, (std::vector<std::string>{run.number % 2 == 1 ? "rail.prr" : "other.prr", "vehicle.toml", "track.toml"}));
+    EXPECT_EQ(files,
+              (std::vector<std::string>{run.number % 2 == 1 ? "rail.prr" : "other.prr", "vehicle.toml", "track.toml"}));
   }
 }
 
 TEST_F(RunStudy, ARunWithoutEquilibriumTellsWhereItComesFrom) {
   input.edit("study.toml", "values = [20, 40]", "values = [20]");
-  input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]", "key = \"simulation.gravity_m_s2\"\nvalues = [1e5]");
+  input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]",
+             "key = \"simulation.gravity_m_s2\"\nvalues = [1e5]");
   input.edit("study.toml", "series = \"wheel.flats.0.depth_mm\"", "series = \"simulation.gravity_m_s2\"");
   const StudyOutcome outcome = run_study(study(), options, {});
   ASSERT_EQ(outcome.study.runs.size(), 1u);
@@ -124,8 +126,8 @@ TEST_F(RunStudy, ErrorsOfARunStopTheStudy) {
 }
 
 void forget_launchers() {
-  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK", "SLURM_NTASKS", "SLURM_STEP_NUM_TASKS",
-                           "SLURM_PROCID"})
+  for (const char* name : {"OMPI_COMM_WORLD_SIZE", "OMPI_COMM_WORLD_RANK", "PMI_SIZE", "PMI_RANK", "SLURM_NTASKS",
+                           "SLURM_STEP_NUM_TASKS", "SLURM_PROCID"})
     unsetenv(name);
 }
 

@@ -49,7 +49,8 @@ Table read_table(const std::string& text) {
   for (std::istringstream fields(line); std::getline(fields, field, ',');) table.names.push_back(field);
   while (std::getline(lines, line)) {
     table.rows.emplace_back();
-    for (std::istringstream fields(line); std::getline(fields, field, ',');) table.rows.back().push_back(std::stod(field));
+    for (std::istringstream fields(line); std::getline(fields, field, ',');)
+      table.rows.back().push_back(std::stod(field));
   }
   return table;
 }
@@ -90,7 +91,8 @@ TEST_F(Simulate, TheSummaryCountsStepsThatAreNotWrittenDown) {
   const Table history = read_table(input.read("some/history.csv"));
   EXPECT_EQ(few_lines["rows"], history.rows.size());
   EXPECT_LT(5 * history.rows.size(), all_steps["rows"]);
-  EXPECT_LT(std::ranges::max(history.column("Q_N")), few_lines["summary"]["q_max_N"]) << "no peak is missing: the test says nothing";
+  EXPECT_LT(std::ranges::max(history.column("Q_N")), few_lines["summary"]["q_max_N"])
+      << "no peak is missing: the test says nothing";
 }
 
 TEST_F(Simulate, JsonGoesToAFileBesideTheTable) {
@@ -118,12 +120,14 @@ TEST_F(Simulate, ModesGoToAFileBesideTheText) {
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("f [Hz]"));
   EXPECT_FALSE(nlohmann::json::parse(input.read("modes.json"))["modes"].empty());
-  const ProgramResult nowhere = run({"--modes", "--json", input.path("simulation.toml/modes.json")});  // a file, no folder
+  const ProgramResult nowhere =
+      run({"--modes", "--json", input.path("simulation.toml/modes.json")});  // a file, no folder
   EXPECT_EQ(nowhere.status, 2) << nowhere.err;
 }
 
 TEST_F(Simulate, SetChangesAKey) {
-  const ProgramResult r = run({"-o", out(), "--set", "simulation.speed_m_s=10", "--set", "simulation.distance_m=0.02", "--json", "-"});
+  const ProgramResult r =
+      run({"-o", out(), "--set", "simulation.speed_m_s=10", "--set", "simulation.distance_m=0.02", "--json", "-"});
   ASSERT_EQ(r.status, 0) << r.err;
   const Table history = read_table(input.read("out/history.csv"));
   EXPECT_NEAR(history.column("x_m").back() / history.column("t_s").back(), 10.0, 1e-9);
@@ -139,7 +143,8 @@ TEST_F(Simulate, QuietSaysNothingButResults) {
 }
 
 TEST_F(Simulate, FieldsAreDrawnAndStored) {
-  const ProgramResult r = run({"-o", out(), "--set", "simulation.fields.position_m=[0.005]", "--set", "simulation.distance_m=0.01"});
+  const ProgramResult r =
+      run({"-o", out(), "--set", "simulation.fields.position_m=[0.005]", "--set", "simulation.distance_m=0.01"});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(std::filesystem::exists(out() + "/pressure.svg"));
   const io::SnapshotSeries snapshots = io::read_snapshots(out() + "/simulation.h5");
@@ -166,8 +171,8 @@ TEST_F(Simulate, AnyNumberOfThreadsGivesTheSameBytes) {
 
 TEST_F(Simulate, AFailureOnTheWayKeepsWhatThereIs) {
   // Half a picometre of local error cannot be met with steps that may not become shorter than a microsecond.
-  const ProgramResult r = run({"-o", out(), "--set", "simulation.tolerance_um=1e-9", "--set", "simulation.min_step_us=1", "--set",
-                               "simulation.max_step_us=2"});
+  const ProgramResult r = run({"-o", out(), "--set", "simulation.tolerance_um=1e-9", "--set",
+                               "simulation.min_step_us=1", "--set", "simulation.max_step_us=2"});
   EXPECT_EQ(r.status, 1) << r.out;
   EXPECT_THAT(r.err, StartsWith("treadmark: "));
   EXPECT_TRUE(std::filesystem::exists(out() + "/simulation.h5"));

@@ -37,8 +37,8 @@ class Sweep : public ::testing::Test {
     return false;
   }
   void expect_same(const std::string& one, const std::string& other) const {
-    for (const char* file : {"sweep.h5", "sweep.csv", "force-by-distance.svg", "force-by-distance.csv", "force-by-speed.svg",
-                             "force-by-speed.csv"}) {
+    for (const char* file : {"sweep.h5", "sweep.csv", "force-by-distance.svg", "force-by-distance.csv",
+                             "force-by-speed.svg", "force-by-speed.csv"}) {
       const std::string bytes = input.read(one + '/' + file);
       EXPECT_FALSE(bytes.empty()) << file;
       EXPECT_TRUE(bytes == input.read(other + '/' + file)) << file << " differs";
@@ -64,12 +64,13 @@ TEST_F(Sweep, WritesTableStoreAndFigures) {
 
 TEST_F(Sweep, ARunEqualsItsSimulationAlone) {
   ASSERT_EQ(run("out").status, 0);
-  ASSERT_EQ(run_program({"simulate", input.path("simulation.toml"), "-o", input.path("alone"), "--set", "simulation.speed_m_s=40", "--set",
-                         "wheel.flats.0.depth_mm=0.5"})
+  ASSERT_EQ(run_program({"simulate", input.path("simulation.toml"), "-o", input.path("alone"), "--set",
+                         "simulation.speed_m_s=40", "--set", "wheel.flats.0.depth_mm=0.5"})
                 .status,
             0);
   // The history as drawn by the study has run, distance and force of each instant.
-  const std::string history = input.read("alone/history.csv"), last = history.substr(history.rfind('\n', history.size() - 2) + 1);
+  const std::string history = input.read("alone/history.csv"),
+                    last = history.substr(history.rfind('\n', history.size() - 2) + 1);
   const std::string force = last.substr(0, last.find(',', last.find(',', last.find(',') + 1) + 1));
   const std::string distance_and_force = force.substr(force.find(',') + 1);
   EXPECT_THAT(input.read("out/force-by-distance.csv"), HasSubstr(distance_and_force));
@@ -84,7 +85,8 @@ TEST_F(Sweep, AnyNumberOfThreadsGivesTheSameBytes) {
 TEST_F(Sweep, GoesOnWhereItWasKilled) {
   ASSERT_EQ(run("undisturbed").status, 0);
   int kills = 0;
-  for (const char* file : {"runs/run_0001/unfinished.h5", "runs/run_0002/simulation.h5", "runs/run_0003/unfinished.h5"}) {
+  for (const char* file :
+       {"runs/run_0001/unfinished.h5", "runs/run_0002/simulation.h5", "runs/run_0003/unfinished.h5"}) {
     RunningProgram program(command("killed", {"--threads", "1"}));
     if (!wait_for(program, std::string("killed/") + file)) continue;
     program.send(SIGKILL);
@@ -177,7 +179,8 @@ TEST_F(Sweep, AFailedRunIsAResult) {
   input.edit("simulation.toml", "distance_m = 0.06", "distance_m = 0.01");
   input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]",
              "label = \"steps\"\nvalues = [{ label = \"free\", set = [\"simulation.min_step_us=0.001\"] },\n"
-             "{ label = \"coarse\", set = [\"simulation.min_step_us=1\", \"simulation.max_step_us=2\", \"simulation.tolerance_um=1e-9\"] }]");
+             "{ label = \"coarse\", set = [\"simulation.min_step_us=1\", \"simulation.max_step_us=2\", "
+             "\"simulation.tolerance_um=1e-9\"] }]");
   input.edit("study.toml", "series = \"wheel.flats.0.depth_mm\"", "series = \"steps\"");
   const ProgramResult r = run("out");
   EXPECT_EQ(r.status, 1) << r.err;
@@ -187,12 +190,16 @@ TEST_F(Sweep, AFailedRunIsAResult) {
 }
 
 TEST_F(Sweep, CasesMayBeSweptToo) {
-  input.write("case.toml", "[wheel]\nshape.standard = \"S1002\"\n[rail]\nshape.standard = \"60E1\"\n[track]\ncant = \"1:40\"\n[wheelset]\n"
-                           "vertical_force_N = 60e3\nnominal_radius_mm = 460\n[discretisation]\ndx_mm = 1\nds_mm = 1\n");
-  input.write("study.toml", "[study]\nbase = \"case.toml\"\n[[study.vary]]\nkey = \"wheelset.y_mm\"\nvalues = [0, 2]\n"
-                            "[[study.vary]]\nkey = \"wheelset.vertical_force_N\"\nvalues = [50e3, 100e3]\n"
-                            "[[study.figures]]\nfile = \"pressure.svg\"\nkind = \"summary\"\nx = \"wheelset.y_mm\"\ny = [\"pmax_Pa\"]\n"
-                            "series = \"wheelset.vertical_force_N\"\n");
+  input.write(
+      "case.toml",
+      "[wheel]\nshape.standard = \"S1002\"\n[rail]\nshape.standard = \"60E1\"\n[track]\ncant = \"1:40\"\n[wheelset]\n"
+      "vertical_force_N = 60e3\nnominal_radius_mm = 460\n[discretisation]\ndx_mm = 1\nds_mm = 1\n");
+  input.write(
+      "study.toml",
+      "[study]\nbase = \"case.toml\"\n[[study.vary]]\nkey = \"wheelset.y_mm\"\nvalues = [0, 2]\n"
+      "[[study.vary]]\nkey = \"wheelset.vertical_force_N\"\nvalues = [50e3, 100e3]\n"
+      "[[study.figures]]\nfile = \"pressure.svg\"\nkind = \"summary\"\nx = \"wheelset.y_mm\"\ny = [\"pmax_Pa\"]\n"
+      "series = \"wheelset.vertical_force_N\"\n");
   const ProgramResult r = run("out");
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_TRUE(fs::exists(input.path("out/pressure.svg")));

@@ -13,14 +13,15 @@ namespace treadmark::testing {
 /// > 0 outside of the material, < 0 inside, NaN where there is nothing.
 using Outside = std::function<double(const Vec3&)>;
 
-/// Height of the outermost sign change along the normal of a plane, in fine steps and by bisection; NaN if there is none.
-/// wheel: from above along -z, else from below along +z. slant: cosine between line and normal there.
+/// Height of the outermost sign change along the normal of a plane, in fine steps and by bisection; NaN if there is
+/// none. wheel: from above along -z, else from below along +z. slant: cosine between line and normal there.
 struct Crossing {
   double z = std::numeric_limits<double>::quiet_NaN(), slant = 0.0;
   Vec3 gradient = Vec3::Zero();
 };
 
-inline Crossing first_crossing(const Outside& outside, const Pose& X, double x, double y, bool wheel, double reach, double step) {
+inline Crossing first_crossing(const Outside& outside, const Pose& X, double x, double y, bool wheel, double reach,
+                               double step) {
   const auto f = [&](double t) { return outside(X.apply({x, y, wheel ? -t : t})); };
   double before = f(-reach);
   for (double t = -reach + step; t < reach; t += step) {

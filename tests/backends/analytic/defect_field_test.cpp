@@ -40,13 +40,16 @@ TEST_P(DefectFields, JetsMatchDifferenceQuotientsOfTheFormula) {
     const OffsetJet jet = field_->jet(u, y);
     ASSERT_NEAR(jet.value, f(u, y), 1e-15) << u << ' ' << y;
     if (jet.value != 0.0) ++changed;
-    const auto d1 = [&](double a, double b, double h) { return (f(u + a * h, y + b * h) - f(u - a * h, y - b * h)) / (2.0 * h); };
+    const auto d1 = [&](double a, double b, double h) {
+      return (f(u + a * h, y + b * h) - f(u - a * h, y - b * h)) / (2.0 * h);
+    };
     const auto d2 = [&](double a, double b, double h) {
       return (f(u + a * h, y + b * h) - 2.0 * f(u, y) + f(u - a * h, y - b * h)) / (h * h);
     };
     const double scale = 1.0 + std::fabs(jet.d_uu) + std::fabs(jet.d_yy);
     const double d_uy = (f(u + kSecond, y + kSecond) - f(u + kSecond, y - kSecond) - f(u - kSecond, y + kSecond) +
-                         f(u - kSecond, y - kSecond)) / (4.0 * kSecond * kSecond);
+                         f(u - kSecond, y - kSecond)) /
+                        (4.0 * kSecond * kSecond);
     const bool good = std::fabs(jet.d_u - d1(1, 0, kFirst)) < kFirstTolerance * scale &&
                       std::fabs(jet.d_y - d1(0, 1, kFirst)) < kFirstTolerance * scale &&
                       std::fabs(jet.d_uu - d2(1, 0, kSecond)) < kSecondTolerance * scale &&
@@ -55,7 +58,8 @@ TEST_P(DefectFields, JetsMatchDifferenceQuotientsOfTheFormula) {
     if (!good) ++wrong;
   }
   EXPECT_GT(changed, kPoints / 20);
-  EXPECT_LE(wrong, kPoints / 40) << "second derivatives jump where a shape begins, but differences see that on thin lines only";
+  EXPECT_LE(wrong, kPoints / 40)
+      << "second derivatives jump where a shape begins, but differences see that on thin lines only";
 }
 
 TEST_P(DefectFields, ManyPointsAtOnceAreTheJets) {

@@ -54,9 +54,14 @@ inline std::vector<NamedDefects> offset_defects() {
     return (0.1e-3 * std::cos(7 * t - 0.3) - 0.02e-3 * std::cos(20 * t + 1.0)) * fade(y - 0.002, 0.06);
   };
   all.push_back({"polygon", Body::wheel, {.polygonizations = {polygon}}, polygon_offset, -4.0, 4.0, -0.04, 0.04});
-  all.push_back({"polygon_and_flats", Body::wheel, {.flats = {rounded, fresh}, .polygonizations = {polygon}},
-                 [=](double t, double y) { return polygon_offset(t, y) + rounded_offset(t, y) + fresh_offset(t, y); }, -3.3, 3.3,
-                 -0.03, 0.04});
+  all.push_back({"polygon_and_flats",
+                 Body::wheel,
+                 {.flats = {rounded, fresh}, .polygonizations = {polygon}},
+                 [=](double t, double y) { return polygon_offset(t, y) + rounded_offset(t, y) + fresh_offset(t, y); },
+                 -3.3,
+                 3.3,
+                 -0.03,
+                 0.04});
 
   Squat squat{.length = 0.04, .width = 0.025, .depth = 0.3e-3, .x_center = 0.01, .y_center = -0.005};
   squat.second_depth = 0.5e-3;
@@ -64,7 +69,8 @@ inline std::vector<NamedDefects> offset_defects() {
   squat.second_distance = 0.03;
   squat.second_y_offset = 0.002;
   const auto squat_offset = [=](double x, double y) {
-    return 0.3e-3 * fade(x - 0.01, 0.04) * fade(y + 0.005, 0.025) + 0.5e-3 * fade(x + 0.02, 0.04) * fade(y + 0.003, 0.03);
+    return 0.3e-3 * fade(x - 0.01, 0.04) * fade(y + 0.005, 0.025) +
+           0.5e-3 * fade(x + 0.02, 0.04) * fade(y + 0.003, 0.03);
   };
   all.push_back({"squat", Body::rail, {.squats = {squat}}, squat_offset, -0.05, 0.04, -0.025, 0.02});
 
@@ -84,11 +90,23 @@ inline std::vector<NamedDefects> offset_defects() {
       const double t = std::clamp((side * y - 0.012) / 0.015, 0.0, 1.0);
       return 2e-3 * fade(x - 0.02, 0.3) * std::pow(std::sin(0.5 * kPi * t), 2);
     };
-    all.push_back({side < 0 ? "collapse_left" : "collapse_right", Body::rail, {.gauge_corner_collapses = {collapse}}, offset, -0.15,
-                   0.2, -0.035, 0.035});
+    all.push_back({side < 0 ? "collapse_left" : "collapse_right",
+                   Body::rail,
+                   {.gauge_corner_collapses = {collapse}},
+                   offset,
+                   -0.15,
+                   0.2,
+                   -0.035,
+                   0.035});
   }
-  all.push_back({"squat_on_corrugation", Body::rail, {.squats = {squat}, .corrugations = {waves}},
-                 [=](double x, double y) { return squat_offset(x, y) + waves_offset(x, y); }, -0.15, 0.18, -0.03, 0.04});
+  all.push_back({"squat_on_corrugation",
+                 Body::rail,
+                 {.squats = {squat}, .corrugations = {waves}},
+                 [=](double x, double y) { return squat_offset(x, y) + waves_offset(x, y); },
+                 -0.15,
+                 0.18,
+                 -0.03,
+                 0.04});
   return all;
 }
 

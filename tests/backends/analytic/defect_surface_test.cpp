@@ -52,8 +52,10 @@ TEST_P(DamagedSurface, HeightsAndSlopesMatchABruteForceSearch) {
   int compared = 0, changed = 0, odd = 0;
   for (const RollYawPitch& turn : {RollYawPitch{}, RollYawPitch{0.3, 0.1, -0.05}, RollYawPitch{-0.5, -0.8, 0.15}}) {
     Pose X{{0.0, 0.002, wheel ? kTestRadius : 0.001}, rotation(turn)};
-    if (wheel) X = Pose{Vec3::Zero(), rotation_y(middle)} * X;
-    else X.origin.x() = middle;
+    if (wheel)
+      X = Pose{Vec3::Zero(), rotation_y(middle)} * X;
+    else
+      X.origin.x() = middle;
     const Grid2 g{-0.0351, -0.0213, 0.0041, 0.0029, 17, 15};
     std::vector<double> z(g.size()), dzdx(g.size()), dzdy(g.size());
     surface->heights({X, g}, {z, dzdx, dzdy});
@@ -80,8 +82,8 @@ TEST_P(DamagedSurface, HeightsAndSlopesMatchABruteForceSearch) {
 TEST(DamagedSurface, FlatsBuiltInOrAddedAreTheSame) {
   const WheelFlat flat{WheelFlat::Shape::rounded, 0.1, 1e-3, 0.0, 0.005, 0.05};
   const auto built_in = analytic::make_standard_surface({"S1002"}, Body::wheel, kTestRadius, {flat});
-  const auto added = analytic::add_defects(analytic::make_standard_surface({"S1002"}, Body::wheel, kTestRadius), {.flats = {flat}},
-                                           Body::wheel, kTestRadius);
+  const auto added = analytic::add_defects(analytic::make_standard_surface({"S1002"}, Body::wheel, kTestRadius),
+                                           {.flats = {flat}}, Body::wheel, kTestRadius);
   const Pose X{{0.0, 0.0, kTestRadius}, rotation({0.05, 0.02, 0.03})};
   for (double x = -0.06; x < 0.06; x += 0.0047)
     for (double y = -0.02; y < 0.03; y += 0.0037)
@@ -105,21 +107,29 @@ TEST(DamagedSurface, RefusesWhatMakesNoSense) {
   deep.depth = 0.02;
   backwards.second_distance = -0.01;
   EXPECT_EQ(refusal({.squats = {good, good}}, Body::rail), "none");
-  EXPECT_THAT(refusal({.squats = {good, deep}}, Body::rail), HasSubstr("rail.squats[1]: a dip is too deep for its length"));
+  EXPECT_THAT(refusal({.squats = {good, deep}}, Body::rail),
+              HasSubstr("rail.squats[1]: a dip is too deep for its length"));
   EXPECT_THAT(refusal({.squats = {backwards}}, Body::rail), HasSubstr("must not be negative"));
   EXPECT_THAT(refusal({.squats = {good}}, Body::wheel), HasSubstr("belong to rails"));
-  EXPECT_THAT(refusal({.flats = {{WheelFlat::Shape::rounded, 0.1, 1e-3, 0, 0, 0}}}, Body::rail), HasSubstr("belong to wheels"));
-  EXPECT_THAT(refusal({.flats = {{WheelFlat::Shape::rounded, 0.9, 0.24, 0, 0, 0}}}, Body::wheel), HasSubstr("wheel.flats[0]: the depth"));
+  EXPECT_THAT(refusal({.flats = {{WheelFlat::Shape::rounded, 0.1, 1e-3, 0, 0, 0}}}, Body::rail),
+              HasSubstr("belong to wheels"));
+  EXPECT_THAT(refusal({.flats = {{WheelFlat::Shape::rounded, 0.9, 0.24, 0, 0, 0}}}, Body::wheel),
+              HasSubstr("wheel.flats[0]: the depth"));
   EXPECT_THAT(refusal({.polygonizations = {{{{0, 1e-4, 0.0}}, 0.0, 0.0}}}, Body::wheel), HasSubstr("at least 1"));
   EXPECT_THAT(refusal({.polygonizations = {{{}, 0.0, 0.0}}}, Body::wheel), HasSubstr("at least one harmonic"));
-  EXPECT_EQ(refusal({.polygonizations = {{{{7, -1e-4, 0.0}}, 0.0, 0.0}}}, Body::wheel), "none");  // phase turned by half a wave
-  EXPECT_THAT(refusal({.corrugations = {{{{0.05, 1e-5, 0.0}}, 0.0, 0.1, 0.06, 0.0, 0.0}}}, Body::rail), HasSubstr("longer than half"));
-  EXPECT_THAT(refusal({.corrugations = {{{{0.05, std::nan(""), 0.0}}, 0.0, 0.1, 0.02, 0.0, 0.0}}}, Body::rail), HasSubstr("finite"));
-  EXPECT_THAT(refusal({.gauge_corner_collapses = {{0.3, 1e-3, 0.01, 0.0, 0.0, 0}}}, Body::rail), HasSubstr("gauge side"));
+  EXPECT_EQ(refusal({.polygonizations = {{{{7, -1e-4, 0.0}}, 0.0, 0.0}}}, Body::wheel),
+            "none");  // phase turned by half a wave
+  EXPECT_THAT(refusal({.corrugations = {{{{0.05, 1e-5, 0.0}}, 0.0, 0.1, 0.06, 0.0, 0.0}}}, Body::rail),
+              HasSubstr("longer than half"));
+  EXPECT_THAT(refusal({.corrugations = {{{{0.05, std::nan(""), 0.0}}, 0.0, 0.1, 0.02, 0.0, 0.0}}}, Body::rail),
+              HasSubstr("finite"));
+  EXPECT_THAT(refusal({.gauge_corner_collapses = {{0.3, 1e-3, 0.01, 0.0, 0.0, 0}}}, Body::rail),
+              HasSubstr("gauge side"));
   MillingPath mill{{{-0.1, 0, 0, 0}, {0.1, 0, 0, 0}}, -0.02, 0.0, 0.0, {{0.04, 0.0}}};
   EXPECT_EQ(refusal({.milling_paths = {mill}}, Body::rail), "none");
   mill.stations[1].z = 0.5;
-  EXPECT_THAT(refusal({.milling_paths = {mill}}, Body::rail), HasSubstr("rail.milling_paths[0]: the path is steeper than 45 degrees"));
+  EXPECT_THAT(refusal({.milling_paths = {mill}}, Body::rail),
+              HasSubstr("rail.milling_paths[0]: the path is steeper than 45 degrees"));
   mill.stations[1] = {0.1, 0, 0, 1.4};
   EXPECT_THAT(refusal({.milling_paths = {mill}}, Body::rail), HasSubstr("too steep"));
   mill.stations[1] = {0.1, 0, 0, 0};

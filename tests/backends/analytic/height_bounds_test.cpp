@@ -31,7 +31,9 @@ std::vector<WheelFlat> several_flats() {
   fresh.theta_center = -0.1;
   fresh.y_center = 0.01;
   fresh.width = 0.04;
-  return {{WheelFlat::Shape::rounded, 0.16, 1.4e-3, 0.0, 6e-3, 0.06}, fresh, {WheelFlat::Shape::rounded, 0.03, 4e-4, 0.08, 0.0, 0.0}};
+  return {{WheelFlat::Shape::rounded, 0.16, 1.4e-3, 0.0, 6e-3, 0.06},
+          fresh,
+          {WheelFlat::Shape::rounded, 0.03, 4e-4, 0.08, 0.0, 0.0}};
 }
 
 std::vector<Subject> subjects() {
@@ -45,13 +47,14 @@ std::vector<Subject> subjects() {
   const auto milled = [](const std::shared_ptr<const Surface>& base, const std::vector<MillingPath>& paths) {
     return analytic::add_defects(base, {.milling_paths = paths}, Body::rail, 0.0);
   };
-  return {{"wheel", analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46), 0.1, 0.46},
-          {"wheel_with_flats", analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46, several_flats()), 0.1, 0.46},
-          {"ball", analytic::make_revolved_surface(analytic::barrel_chain(0.3, 0.2), 0.3), 0.1, 0.3},
-          {"rail", rail, 0.2, 0.0},
-          {"milled_rail", milled(big, {MilledRail{true}.path()}), 0.15, 0.0},
-          {"twice_milled_rail", milled(rail, {MilledRail{true}.path(), MilledRail{false}.path()}), 0.15, 0.0},
-          {"grooved_rail", milled(big, {narrow}), 0.1, 0.0}};
+  return {
+      {"wheel", analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46), 0.1, 0.46},
+      {"wheel_with_flats", analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46, several_flats()), 0.1, 0.46},
+      {"ball", analytic::make_revolved_surface(analytic::barrel_chain(0.3, 0.2), 0.3), 0.1, 0.3},
+      {"rail", rail, 0.2, 0.0},
+      {"milled_rail", milled(big, {MilledRail{true}.path()}), 0.15, 0.0},
+      {"twice_milled_rail", milled(rail, {MilledRail{true}.path(), MilledRail{false}.path()}), 0.15, 0.0},
+      {"grooved_rail", milled(big, {narrow}), 0.1, 0.0}};
 }
 
 class HeightBoundsOf : public ::testing::TestWithParam<Subject> {
@@ -67,9 +70,12 @@ class HeightBoundsOf : public ::testing::TestWithParam<Subject> {
     std::vector<double> z(kPoints * kPoints);
     for (int trial = 0; trial < trials; ++trial) {
       const double theta = wheel ? 0.15 * either(random) : 0.0;
-      const Vec3 origin(s.radius * std::sin(theta), 0.02 * either(random), s.radius * std::cos(theta) + 0.01 * either(random));
-      const Pose X{origin, rotation({tilt * either(random), 0.3 * tilt * either(random), theta + 0.3 * tilt * either(random)})};
-      const double width = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random))), height = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random)));
+      const Vec3 origin(s.radius * std::sin(theta), 0.02 * either(random),
+                        s.radius * std::cos(theta) + 0.01 * either(random));
+      const Pose X{origin,
+                   rotation({tilt * either(random), 0.3 * tilt * either(random), theta + 0.3 * tilt * either(random)})};
+      const double width = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random))),
+                   height = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random)));
       const double x = s.reach * either(random), y = 0.07 * either(random);
       const HeightBounds bounds = s.surface->height_bounds(X, {x, x + width, y, y + height});
       const Grid2 g{x, y, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints};

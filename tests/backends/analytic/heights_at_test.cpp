@@ -13,8 +13,12 @@ namespace {
 using treadmark::testing::expect_heights_at_gives_heights;
 
 TEST(HeightsAt, RailsGiveTheHeightsOfGrids) {
-  EXPECT_GT(expect_heights_at_gives_heights(*make_prismatic_surface(cylinder_chain(0.3, 1.2)), treadmark::testing::rail_planes()), 3000);
-  EXPECT_GT(expect_heights_at_gives_heights(*make_standard_surface({"60E1"}, Body::rail, 0.0), treadmark::testing::rail_planes()), 3000);
+  EXPECT_GT(expect_heights_at_gives_heights(*make_prismatic_surface(cylinder_chain(0.3, 1.2)),
+                                            treadmark::testing::rail_planes()),
+            3000);
+  EXPECT_GT(expect_heights_at_gives_heights(*make_standard_surface({"60E1"}, Body::rail, 0.0),
+                                            treadmark::testing::rail_planes()),
+            3000);
 }
 
 TEST(HeightsAt, WheelsGiveTheHeightsOfGrids) {
@@ -23,7 +27,8 @@ TEST(HeightsAt, WheelsGiveTheHeightsOfGrids) {
   flat.depth = 0.8e-3;
   const auto planes = treadmark::testing::wheel_planes(0.46);
   EXPECT_GT(expect_heights_at_gives_heights(*make_standard_surface({"S1002"}, Body::wheel, 0.46), planes), 3000);
-  EXPECT_GT(expect_heights_at_gives_heights(*make_standard_surface({"S1002"}, Body::wheel, 0.46, {flat}), planes), 3000);
+  EXPECT_GT(expect_heights_at_gives_heights(*make_standard_surface({"S1002"}, Body::wheel, 0.46, {flat}), planes),
+            3000);
   EXPECT_GT(expect_heights_at_gives_heights(*make_revolved_surface(barrel_chain(0.05, 0.8), 0.46), planes), 3000);
 }
 

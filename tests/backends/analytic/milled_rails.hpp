@@ -10,8 +10,8 @@
 
 namespace treadmark::testing {
 
-/// A rail of one big arc, R 80 mm, milled by a cutter of one arc, R 60 mm, that sinks and moves aside along a path of two
-/// stations, hence straight, or of three, and rolls. The formulas know nothing of chains and splines.
+/// A rail of one big arc, R 80 mm, milled by a cutter of one arc, R 60 mm, that sinks and moves aside along a path of
+/// two stations, hence straight, or of three, and rolls. The formulas know nothing of chains and splines.
 struct MilledRail {
   static constexpr double kRail = 0.08, kCutter = 0.06, kHalf = 0.4;  ///< radii, half angle of the cutter section
   bool curved = false;
@@ -56,7 +56,8 @@ struct MilledRail {
     if (along <= 0.0) return along;
     const At a = at(p.x());
     const double e_y = p.y() - a.y, e_z = p.z() - a.z;
-    const double s = std::cos(a.roll) * e_y + std::sin(a.roll) * e_z, q = std::cos(a.roll) * e_z - std::sin(a.roll) * e_y;
+    const double s = std::cos(a.roll) * e_y + std::sin(a.roll) * e_z,
+                 q = std::cos(a.roll) * e_z - std::sin(a.roll) * e_y;
     const double ends = kCutter * std::sin(kHalf) - std::fabs(s);
     if (ends <= 0.0) return ends;
     return std::min({kCutter - std::sqrt(kCutter * kCutter - s * s) - q, ends, along});
@@ -72,8 +73,9 @@ struct MilledRail {
     const auto pose = [](double x, double y, double z, double roll, double yaw, double pitch) {
       return Pose{{x, y, z}, rotation({roll, yaw, pitch})};
     };
-    return {pose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0), pose(0.01, 0.002, 0.001, 0.2, 0.0, 0.0), pose(0.02, -0.004, 0.0, -0.3, 0.1, -0.05),
-            pose(0.0, 0.0, 0.0, 0.5, -1.2, 0.2), pose(0.01, -0.01, 0.004, -0.9, 0.3, 0.1), pose(-0.02, 0.01, 0.004, 1.0, 0.7, -0.6)};
+    return {pose(0.0, 0.0, 0.0, 0.0, 0.0, 0.0),        pose(0.01, 0.002, 0.001, 0.2, 0.0, 0.0),
+            pose(0.02, -0.004, 0.0, -0.3, 0.1, -0.05), pose(0.0, 0.0, 0.0, 0.5, -1.2, 0.2),
+            pose(0.01, -0.01, 0.004, -0.9, 0.3, 0.1),  pose(-0.02, 0.01, 0.004, 1.0, 0.7, -0.6)};
   }
 };
 

@@ -18,7 +18,8 @@ class MilledSurface : public ::testing::TestWithParam<bool> {
  protected:
   MilledRail rail_{GetParam()};
   std::shared_ptr<const Surface> base_ = analytic::make_prismatic_surface(MilledRail::rail());
-  std::shared_ptr<const Surface> surface_ = analytic::add_defects(base_, {.milling_paths = {rail_.path()}}, Body::rail, 0.0);
+  std::shared_ptr<const Surface> surface_ =
+      analytic::add_defects(base_, {.milling_paths = {rail_.path()}}, Body::rail, 0.0);
   Grid2 grid_{-0.0621, -0.0293, 0.00431, 0.00193, 31, 31};
 
   struct Fields {
@@ -117,7 +118,8 @@ TEST_P(MilledSurface, CurvaturesMatchSecondDifferences) {
     T.rotation.col(1) = T.rotation.col(2).cross(Vec3::UnitX()).normalized();
     T.rotation.col(0) = T.rotation.col(1).cross(T.rotation.col(2));
     const Fields h = evaluate(T, {-kStep, -kStep, kStep, kStep, 3, 3});
-    const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep), hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
+    const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep),
+                 hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
     const double hxy = (h.z[8] - h.z[6] - h.z[2] + h.z[0]) / (4 * kStep * kStep);
     if (std::isnan(hxx + hyy + hxy)) continue;
     ++compared;
@@ -135,7 +137,8 @@ TEST_P(MilledSurface, BoundsHoldHeightsAndAreOfUse) {
   for (int trial = 0; trial < 400; ++trial) {
     const auto planes = rail_.planes();
     Pose X = planes[static_cast<std::size_t>(trial) % planes.size()];
-    X.rotation = X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
+    X.rotation =
+        X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
     const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)), height = std::pow(10.0, -4.0 + 2.5 * unit(random));
     const double x = 0.13 * (unit(random) - 0.5), y = 0.07 * (unit(random) - 0.5);
     const HeightBounds bounds = surface_->height_bounds(X, {x, x + width, y, y + height});
@@ -166,7 +169,8 @@ TEST(FlattenedHeads, AreCutAsTheFieldSays) {
   for (double x = -0.12; x < 0.22; x += 0.0037)
     for (double y = -0.03; y < 0.03; y += 0.0019) {
       const double offset = field->jet(x, y).value;
-      EXPECT_NEAR(height_at(*surface, Pose{}, {x, y}), height_at(*base, Pose{}, {x, y}) + offset, 1e-15) << x << ' ' << y;
+      EXPECT_NEAR(height_at(*surface, Pose{}, {x, y}), height_at(*base, Pose{}, {x, y}) + offset, 1e-15)
+          << x << ' ' << y;
       if (offset > 0.0) ++cut;
     }
   EXPECT_GT(cut, 300);

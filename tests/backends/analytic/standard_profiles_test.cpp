@@ -24,8 +24,8 @@ TEST(S1002, PassesThroughThePublishedPoints) {
   // EN 13715: tape circle, flange tip (y = -55, z = 28), end of the 70 degree face, flange back
   const GraphCurve curve = s1002_curve();
   constexpr double kPrinted = 1e-3 * kMm;  // the standard prints three decimals
-  const double points[][2] = {{0.0, 0.0}, {-26.0, 2.741}, {-35.0, 6.867}, {-38.427, 12.0}, {-39.765, 15.675}, {-49.663, 26.748},
-                              {-55.0, 28.0}, {-62.765, 25.149}, {-70.0, 9.519}};
+  const double points[][2] = {{0.0, 0.0},        {-26.0, 2.741}, {-35.0, 6.867},    {-38.427, 12.0}, {-39.765, 15.675},
+                              {-49.663, 26.748}, {-55.0, 28.0},  {-62.765, 25.149}, {-70.0, 9.519}};
   for (const auto& p : points) {
     // prints of y are rounded too: allow for the slope there
     const double y = p[0] * kMm;
@@ -43,7 +43,7 @@ TEST(S1002, JointsMatchAsPublished) {
     const double y = curve.piece_end(i);
     EXPECT_EQ(y, curve.piece_start(i + 1));
     const Jet left = curve.jet(y, i), right = curve.jet(y, i + 1);
-    EXPECT_NEAR(left.h, right.h, 1.3e-4 * kMm) << "y = " << y;   // the polynomials' own rounding
+    EXPECT_NEAR(left.h, right.h, 1.3e-4 * kMm) << "y = " << y;  // the polynomials' own rounding
     EXPECT_NEAR(left.dh, right.dh, 3e-5 * (1.0 + left.dh * left.dh)) << "y = " << y;
   }
 }
@@ -104,8 +104,8 @@ TEST(Rail60E1, HasThePublishedJoints) {
   const auto chain = resolve(rail_60e1_chain());
   ASSERT_EQ(chain.size(), 7u);
   constexpr double kDigits = 1e-6 * kMm;
-  const double joints[][2] = {{-35.999811, 14.299958}, {-26.0265, 2.302524}, {-10.228, 0.174404}, {10.228, 0.174404},
-                              {26.0265, 2.302524},    {35.999811, 14.299958}};
+  const double joints[][2] = {{-35.999811, 14.299958}, {-26.0265, 2.302524}, {-10.228, 0.174404},
+                              {10.228, 0.174404},      {26.0265, 2.302524},  {35.999811, 14.299958}};
   for (std::size_t i = 1; i < chain.size(); ++i) {
     EXPECT_NEAR(chain[i].y, joints[i - 1][0] * kMm, kDigits);
     EXPECT_NEAR(chain[i].z, joints[i - 1][1] * kMm, kDigits);

@@ -114,7 +114,8 @@ TEST(RevolvedSurface, CylindricalWheelInClosedForm) {
   constexpr double R = 0.46;
   const auto wheel = make_revolved_surface(straight_chain(0.05), R);
   const Pose X{{0.0, 0.0, R}, Mat3::Identity()};
-  for (const double x : {0.0, 0.01, -0.2, 0.45999}) EXPECT_NEAR(height_at(*wheel, X, {x, 0.03}), std::sqrt(R * R - x * x) - R, kRounding);
+  for (const double x : {0.0, 0.01, -0.2, 0.45999})
+    EXPECT_NEAR(height_at(*wheel, X, {x, 0.03}), std::sqrt(R * R - x * x) - R, kRounding);
   EXPECT_TRUE(std::isnan(height_at(*wheel, X, {0.4601, 0.03})));
   EXPECT_TRUE(std::isnan(height_at(*wheel, X, {0.0, 0.0501})));
   const SurfacePoint p = locate_at(*wheel, X, {0.1, 0.02});

@@ -17,12 +17,14 @@ namespace treadmark::analytic {
 namespace {
 
 std::vector<WheelFlat> flats() {
-  return {{WheelFlat::Shape::rounded, 0.06, 0.8e-3, 0.02, 6e-3, 0.05}, {WheelFlat::Shape::fresh, 0.05, 0.0, -0.05, 0.0, 0.0}};
+  return {{WheelFlat::Shape::rounded, 0.06, 0.8e-3, 0.02, 6e-3, 0.05},
+          {WheelFlat::Shape::fresh, 0.05, 0.0, -0.05, 0.0, 0.0}};
 }
 
 std::vector<Pose> planes() {
   std::vector<Pose> all;
-  for (const RollYawPitch& a : {RollYawPitch{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.04, 0.03, 0.02}, {-0.6, 0.1, 0.0}, {0.9, 1.2, 0.1}})
+  for (const RollYawPitch& a :
+       {RollYawPitch{0.0, 0.0, 0.0}, {0.05, 0.0, 0.0}, {0.04, 0.03, 0.02}, {-0.6, 0.1, 0.0}, {0.9, 1.2, 0.1}})
     all.push_back({{0.0, a.roll < -0.5 ? -0.03 : 0.0, 0.46}, rotation(a)});
   return all;
 }
@@ -48,7 +50,8 @@ TEST(SmallCalls, GiveTheWholeGrid) {
         for (int by = 0; by + ny <= g.ny; by += 2 * ny + 3)
           for (int bx = 0; bx + nx <= g.nx; bx += 2 * nx + 5) {
             const Grid2 part{g.x(bx), g.y(by), g.dx, g.dy, nx, ny};
-            surface->heights({X, part}, {{one.data(), part.size()}, {one_x.data(), part.size()}, {one_y.data(), part.size()}});
+            surface->heights({X, part},
+                             {{one.data(), part.size()}, {one_x.data(), part.size()}, {one_y.data(), part.size()}});
             for (int iy = 0; iy < ny; ++iy)
               for (int ix = 0; ix < nx; ++ix) {
                 const std::size_t i = g.index(bx + ix, by + iy), k = part.index(ix, iy);

@@ -79,7 +79,8 @@ TEST(MovingSection, SplinesThroughItsSlicesFollowItExactly) {
     for (double x = -0.3; x < 0.7; x += 0.0137) {
       const analytic::SectionOffset o = analytic::section_offset(m, x);
       for (double y = -0.034; y < 0.035; y += 0.0041)
-        ASSERT_NEAR(height_at(*surface.surface, {}, {x, y + o.y}), o.z + height_at(*section.surface, {}, {x, y}), 1e-11) << x << ' ' << y;
+        ASSERT_NEAR(height_at(*surface.surface, {}, {x, y + o.y}), o.z + height_at(*section.surface, {}, {x, y}), 1e-11)
+            << x << ' ' << y;
     }
   }
 }
@@ -90,7 +91,8 @@ TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
   region.u_max = 0.23;
   for (const MovingSection& m : {nose(), wing()}) {
     const NaturalSurface natural = create_natural(moving(m));
-    for (const std::string backend : {"spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"}) {
+    for (const std::string backend :
+         {"spline", "nurbs", "mesh", "mesh-flat", "offset", "offset-quadratic", "offset-bilinear"}) {
       SCOPED_TRACE(backend);
       const RepresentedSurface r = represent(natural, {backend, 1e-3, region});
       const SurfaceDifference d = fit_error(natural, r);
@@ -123,7 +125,8 @@ TEST(MovingSection, OffsetsOfAWingThatMovesFarAsideFollowIt) {
     const Pose tilted{{0.2, 0.02, 0.0}, Eigen::AngleAxisd(0.3, Vec3::UnitX()).toRotationMatrix()};
     for (double x = -0.05; x < 0.05; x += 0.0097)
       for (double y = -0.02; y < 0.02; y += 0.0041)
-        worst_tilted = std::max(worst_tilted, std::fabs(height_at(*r.surface, tilted, {x, y}) - height_at(*natural.surface, tilted, {x, y})));
+        worst_tilted = std::max(worst_tilted, std::fabs(height_at(*r.surface, tilted, {x, y}) -
+                                                        height_at(*natural.surface, tilted, {x, y})));
     EXPECT_LE(worst_tilted, 3e-6);
   }
 }
@@ -158,7 +161,8 @@ TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
   std::size_t compared = 0, absent = 0;
   for (double x = 0.02; x < 0.38; x += 0.0037)
     for (double s = 1e-3; s < 0.079; s += 0.71e-3) {
-      const double y = 0.1 * x + s, z = height_at(*natural.surface, {}, {x, y}), got = height_at(*r.surface, {}, {x, y});
+      const double y = 0.1 * x + s, z = height_at(*natural.surface, {}, {x, y}),
+                   got = height_at(*r.surface, {}, {x, y});
       ASSERT_EQ(std::isnan(z), std::isnan(got)) << x << ' ' << s;
       if (std::isnan(z)) {
         ++absent;
@@ -175,7 +179,8 @@ TEST(Crossing, TheNoseTakesOverFromTheWing) {
   const auto part = [](const MovingSection& m, const Vec3& offset, const char* backend) {
     return SurfacePart{std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, 1e-3};
   };
-  const NaturalSurface crossing = join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.03, 0.0}, "")});
+  const NaturalSurface crossing =
+      join_surfaces({part(nose(), {0.0, -0.02, 0.0}, ""), part(wing(), {0.0, 0.03, 0.0}, "")});
   const auto top = [&](const Surface& s, double x) {
     double least = INFINITY, at = NAN;
     for (double y = -0.07; y < 0.12; y += 0.5e-3)
@@ -190,7 +195,8 @@ TEST(Crossing, TheNoseTakesOverFromTheWing) {
   const double meet = 0.2 - 1e-3 / 0.1;
   EXPECT_GT(top(*crossing.surface, meet - 0.03).x(), 0.0);
   EXPECT_LT(top(*crossing.surface, meet + 0.03).x(), 0.0);
-  const NaturalSurface mixed = join_surfaces({part(nose(), {0.0, -0.02, 0.0}, "mesh"), part(wing(), {0.0, 0.03, 0.0}, "")});
+  const NaturalSurface mixed =
+      join_surfaces({part(nose(), {0.0, -0.02, 0.0}, "mesh"), part(wing(), {0.0, 0.03, 0.0}, "")});
   const RepresentedSurface r = represent(mixed, {"", 0.0, {0.1, 0.2, -1.0, 1.0}});
   EXPECT_EQ(r.surface->backend(), "mesh+spline");
   for (const double x : {0.11, 0.15, 0.19}) EXPECT_NEAR(top(*r.surface, x).y(), top(*crossing.surface, x).y(), 2e-6);
@@ -235,7 +241,8 @@ SliceSet roof(bool kink) {
 }
 
 TEST(Kinks, TheSurfaceTurnsSharplyAlongThem) {
-  const NaturalSurface sharp = create_natural({Body::rail, 0.0, roof(true), {}}), smooth = create_natural({Body::rail, 0.0, roof(false), {}});
+  const NaturalSurface sharp = create_natural({Body::rail, 0.0, roof(true), {}}),
+                       smooth = create_natural({Body::rail, 0.0, roof(false), {}});
   EXPECT_EQ(sharp.surface->backend(), "spline");
   double worst_sharp = 0.0, worst_smooth = 0.0;
   for (int i = 1; i < 8; ++i) {

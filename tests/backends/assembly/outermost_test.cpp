@@ -23,7 +23,8 @@ struct Fields {
   /// Also where both are missing.
   friend bool operator==(const Fields& a, const Fields& b) {
     const auto same = [](double p, double q) { return p == q || (std::isnan(p) && std::isnan(q)); };
-    return std::ranges::equal(a.z, b.z, same) && std::ranges::equal(a.dzdx, b.dzdx, same) && std::ranges::equal(a.dzdy, b.dzdy, same);
+    return std::ranges::equal(a.z, b.z, same) && std::ranges::equal(a.dzdx, b.dzdx, same) &&
+           std::ranges::equal(a.dzdy, b.dzdy, same);
   }
 };
 
@@ -34,7 +35,8 @@ Fields evaluate(const Surface& surface, const Pose& X, const Grid2& g) {
 }
 
 const Grid2 kGrid{-0.04, -0.05, 1.3e-3, 1.1e-3, 60, 90};
-const std::vector<Pose> kPlanes{{}, {{0.0, 0.01, 0.002}, rotation({-0.5, 0.1, 0.05})}, {{0.01, -0.02, 0.0}, rotation({0.8, -0.2, 0.0})}};
+const std::vector<Pose> kPlanes{
+    {}, {{0.0, 0.01, 0.002}, rotation({-0.5, 0.1, 0.05})}, {{0.01, -0.02, 0.0}, rotation({0.8, -0.2, 0.0})}};
 
 /// A cylinder along x of radius 40 mm.
 SurfacePtr cylinder() { return analytic::make_prismatic_surface(analytic::cylinder_chain(0.04, 0.7)); }
@@ -59,7 +61,9 @@ TEST(Outermost, OfASurfaceAndItselfIsThatSurface) {
 
 TEST(Outermost, OfTwoCylindersIsTheLesserHeight) {
   const SurfacePtr both = outermost_of({cylinder_at(-0.02, 0.0), cylinder_at(0.015, 1e-3)});
-  const auto circle = [](double y) { return std::fabs(y) <= 0.04 * std::sin(0.7) ? 0.04 - std::sqrt(0.04 * 0.04 - y * y) : INFINITY; };
+  const auto circle = [](double y) {
+    return std::fabs(y) <= 0.04 * std::sin(0.7) ? 0.04 - std::sqrt(0.04 * 0.04 - y * y) : INFINITY;
+  };
   int left = 0, right = 0, none = 0;
   for (double y = -0.06; y < 0.06; y += 0.7e-3) {
     const double a = circle(y + 0.02), b = 1e-3 + circle(y - 0.015), z = height_at(*both, {}, {0.3, y});
@@ -73,7 +77,8 @@ TEST(Outermost, OfTwoCylindersIsTheLesserHeight) {
     std::vector<SurfacePoint> p(1);
     both->locate({}, std::vector<Vec2>{{0.3, y}}, p);
     const double middle_y = a < b ? -0.02 : 0.015, middle_z = a < b ? 0.04 : 0.041;
-    EXPECT_LE((p[0].normal_S - Vec3(0.0, y - middle_y, z - middle_z) / 0.04).norm(), 1e-12) << "the normal is that of the part that wins";
+    EXPECT_LE((p[0].normal_S - Vec3(0.0, y - middle_y, z - middle_z) / 0.04).norm(), 1e-12)
+        << "the normal is that of the part that wins";
     EXPECT_NEAR(p[0].curvature_1, 25.0, 1e-9);
   }
   EXPECT_GT(std::min({left, right, none}), 20);
@@ -81,7 +86,8 @@ TEST(Outermost, OfTwoCylindersIsTheLesserHeight) {
 }
 
 TEST(Outermost, NeitherOrderNorThreadsMatter) {
-  const SurfacePtr a = cylinder_at(-0.02, 0.0), b = create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}}, "spline"),
+  const SurfacePtr a = cylinder_at(-0.02, 0.0),
+                   b = create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}}, "spline"),
                    c = cylinder_at(0.05, -0.002);
   const SurfacePtr forward = outermost_of({a, b, c}), backward = outermost_of({c, b, a});
   EXPECT_EQ(forward->backend(), "analytic+spline");
@@ -102,14 +108,18 @@ TEST(Outermost, NeitherOrderNorThreadsMatter) {
       double least = NAN;
       for (const SurfacePtr& part : {a, b, c}) least = std::fmin(least, height_at(*part, X, p));
       ASSERT_EQ(std::isnan(least), std::isnan(one.z[k]));
-      if (!std::isnan(least)) { ASSERT_NEAR(one.z[k], least, 1e-12); }
+      if (!std::isnan(least)) {
+        ASSERT_NEAR(one.z[k], least, 1e-12);
+      }
     }
   }
 }
 
 TEST(Outermost, PartsOfABodyHaveTheirOwnBackends) {
-  const auto given = std::make_shared<const NaturalSurface>(create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}));
-  const NaturalSurface whole = join_surfaces({{given, {0.0, -0.04, 0.0}, "mesh", 1e-3}, {given, {0.0, 0.04, 0.001}, "", 0.0}});
+  const auto given =
+      std::make_shared<const NaturalSurface>(create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}));
+  const NaturalSurface whole =
+      join_surfaces({{given, {0.0, -0.04, 0.0}, "mesh", 1e-3}, {given, {0.0, 0.04, 0.001}, "", 0.0}});
   EXPECT_EQ(whole.surface->backend(), "analytic");
   const Region region{-0.02, 0.02, -0.1, 0.1};
   EXPECT_EQ(represent(whole, {"", 0.0, region}).surface->backend(), "analytic+mesh");
@@ -130,7 +140,8 @@ TEST(Outermost, RefusesWhatMakesNoBody) {
   EXPECT_THROW(outermost_of({rail, nullptr}), Error);
   EXPECT_THROW(outermost_of({rail, wheel}), Error);
   EXPECT_THROW(join_surfaces({}), Error);
-  const auto given = std::make_shared<const NaturalSurface>(create_natural({Body::wheel, 0.46, StandardProfile{"S1002"}, {}}));
+  const auto given =
+      std::make_shared<const NaturalSurface>(create_natural({Body::wheel, 0.46, StandardProfile{"S1002"}, {}}));
   EXPECT_THROW(join_surfaces({{given, {0.0, 0.0, 0.1}, "", 0.0}}), Error);
   EXPECT_THROW(place_surface(nullptr, {}), Error);
 }
@@ -143,7 +154,9 @@ TEST(Placed, SurfacesMoveAsTheirFramesDo) {
     const Fields before = evaluate(*rail, X_BP, kGrid), after = evaluate(*moved, X_SB * X_BP, kGrid);
     for (std::size_t i = 0; i < kGrid.size(); ++i) {
       ASSERT_EQ(std::isnan(before.z[i]), std::isnan(after.z[i]));
-      if (!std::isnan(before.z[i])) { ASSERT_NEAR(before.z[i], after.z[i], 1e-11); }
+      if (!std::isnan(before.z[i])) {
+        ASSERT_NEAR(before.z[i], after.z[i], 1e-11);
+      }
     }
   }
   EXPECT_FALSE(moved->constant_profile());

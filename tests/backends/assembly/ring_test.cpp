@@ -34,7 +34,9 @@ TEST(Ring, IsACircleInEveryBackend) {
     const RepresentedSurface r = represent(natural, {std::string(backend), 1e-3, region});
     EXPECT_EQ(r.surface->backend(), backend);
     const bool facets = backend == "mesh-flat" || backend == "offset-bilinear";
-    const double tolerance = backend == "analytic" ? 1e-14 : facets ? 1.5e-6 : 2e-8;  // facets: h^2 (1/(8 R) + 1/(8 R_crown))
+    const double tolerance = backend == "analytic" ? 1e-14
+                             : facets              ? 1.5e-6
+                                                   : 2e-8;  // facets: h^2 (1/(8 R) + 1/(8 R_crown))
     for (const double x : {-0.12, -0.0103, 0.0, 0.0307, 0.14})
       for (const double y : {-0.0202, 0.0, 0.0131})
         EXPECT_NEAR(height_at(*r.surface, {}, {x, y}), height(x, y), tolerance) << x << ' ' << y;
@@ -48,7 +50,8 @@ TEST(Ring, OfPointsIsThatOfTheFormula) {
   spec.shape = analytic::sample_profile(std::get<ArcChain>(spec.shape), Body::rail, 0.5e-3);
   const NaturalSurface natural = create_natural(spec);
   EXPECT_EQ(natural.surface->backend(), "spline");
-  for (double x = -0.3; x < 0.31; x += 0.043) EXPECT_NEAR(height_at(*natural.surface, {}, {x, 0.0117}), height(x, 0.0117), 1e-8) << x;
+  for (double x = -0.3; x < 0.31; x += 0.043)
+    EXPECT_NEAR(height_at(*natural.surface, {}, {x, 0.0117}), height(x, 0.0117), 1e-8) << x;
 }
 
 TEST(Ring, TrianglesAboveTheAxleHideNothing) {

@@ -18,7 +18,10 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 
 ArcChain barrel(double radius, double half_angle) {
-  return {-radius * std::sin(half_angle), radius * (1.0 - std::cos(half_angle)), -half_angle, {{2.0 * radius * half_angle, 1.0 / radius}}};
+  return {-radius * std::sin(half_angle),
+          radius * (1.0 - std::cos(half_angle)),
+          -half_angle,
+          {{2.0 * radius * half_angle, 1.0 / radius}}};
 }
 
 SurfaceSpec roller(ArcChain chain, double radius) { return {Body::rail, 0.0, std::move(chain), {}, radius}; }
@@ -37,7 +40,9 @@ TEST(Roller, ACylinderIsACircleInEveryBackend) {
     EXPECT_EQ(r.surface->backend(), backend);
     EXPECT_EQ(r.surface->facing(), Facing::up);
     for (const double x : {-0.2, -0.01, 0.0, 0.0003, 0.15})
-      EXPECT_NEAR(height_at(*r.surface, {}, {x, 0.007}), kRadius - std::sqrt(kRadius * kRadius - x * x), 3.0 * kTolerance) << x;
+      EXPECT_NEAR(height_at(*r.surface, {}, {x, 0.007}), kRadius - std::sqrt(kRadius * kRadius - x * x),
+                  3.0 * kTolerance)
+          << x;
     // all round, as samples of a closed wheel
     for (double theta = -3.1; theta < 3.2; theta += 0.31)
       EXPECT_NEAR(height_at(*r.surface, at_angle(kRadius, theta), {0.0, -0.011}), 0.0, kTolerance) << theta;
@@ -138,7 +143,8 @@ TEST(Roller, TrianglesAndSlicesComeBackAsTheSameRoller) {
   const auto compare = [&](const NaturalSurface& other) {
     for (double x = -0.025; x < 0.03; x += 0.01)
       for (double y = -0.025; y < 0.03; y += 0.01)
-        EXPECT_NEAR(height_at(*other.surface, {}, {x, y}), height_at(*natural.surface, {}, {x, y}), 5e-8) << x << ' ' << y;
+        EXPECT_NEAR(height_at(*other.surface, {}, {x, y}), height_at(*natural.surface, {}, {x, y}), 5e-8)
+            << x << ' ' << y;
   };
   compare(create_natural(again));
   again.shape = to_slices(natural, wanted, &sampled);
@@ -165,7 +171,8 @@ TEST(Roller, DefectsLieAtArcLengthsFromTheTop) {
     SCOPED_TRACE(backend);
     const RepresentedSurface r = represent(natural, {std::string(backend), 0.5e-3, region});
     for (double x = 0.3; x < 0.38; x += 0.0037)  // in the full stretch: deeper by a cos(2 pi (x - x_start)/wavelength)
-      EXPECT_NEAR(height_at(*r.surface, at_angle(kRadius, x / kRadius), {0.0, 0.004}), 20e-6 * std::cos(2.0 * kPi * (x - 0.2) / 0.04), 0.5e-6)
+      EXPECT_NEAR(height_at(*r.surface, at_angle(kRadius, x / kRadius), {0.0, 0.004}),
+                  20e-6 * std::cos(2.0 * kPi * (x - 0.2) / 0.04), 0.5e-6)
           << x;
   }
   for (const double x : {0.0, 0.19, -0.4, 0.7})
@@ -187,7 +194,8 @@ TEST(Roller, RefusesWhatMakesNoSense) {
   EXPECT_THROW(create_natural({Body::wheel, 0.46, StandardProfile{"S1002"}, {}, 0.5}), Error);
   spec.defects = {};
   EXPECT_THROW(write_offsets("/nowhere/roller.vdb", create_natural(spec), {}), Error);
-  SliceSet long_rail = to_slices(create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}), {"", 10e-3, {-2.0, 2.0, -1.0, 1.0}});
+  SliceSet long_rail =
+      to_slices(create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}}), {"", 10e-3, {-2.0, 2.0, -1.0, 1.0}});
   EXPECT_THROW(create_natural({Body::rail, 0.0, long_rail, {}, 0.5}), Error);
 }
 

@@ -34,8 +34,10 @@ void expect_grid_is_list(const Surface& surface, const Pose& X, const Grid2& g, 
   for (std::size_t i = 0; i < g.size(); ++i) {
     const double steep = 1.0 + zx[i] * zx[i] + zy[i] * zy[i];
     ASSERT_TRUE(same(f.z[i], z[i], 1e-12 * steep)) << f.z[i] << " and " << z[i] << " at " << points[i].transpose();
-    ASSERT_TRUE(same(alone[i], f.z[i], 1e-13 * steep)) << alone[i] << " and " << f.z[i] << " at " << points[i].transpose();
-    // both ways stop within 2e-10 m of the hit sideways, where damage and profile bend by up to 100/m; seen obliquely, more
+    ASSERT_TRUE(same(alone[i], f.z[i], 1e-13 * steep))
+        << alone[i] << " and " << f.z[i] << " at " << points[i].transpose();
+    // both ways stop within 2e-10 m of the hit sideways, where damage and profile bend by up to 100/m; seen obliquely,
+    // more
     ASSERT_TRUE(same(f.dzdx[i], zx[i], 1e-6 * steep * steep)) << f.dzdx[i] << " and " << zx[i];
     ASSERT_TRUE(same(f.dzdy[i], zy[i], 1e-6 * steep * steep)) << f.dzdy[i] << " and " << zy[i];
     hits += !std::isnan(z[i]);
@@ -43,16 +45,20 @@ void expect_grid_is_list(const Surface& surface, const Pose& X, const Grid2& g, 
 }
 
 TEST(DisplacedGrid, EqualsListsOfPointsForAllSteps) {
-  const auto wheel = make_displaced_surface(s1002(), std::make_shared<BumpField>(-0.8e-3, 0.01, 0.004, 0.06 / kR, 0.05, true), Body::wheel, "x");
-  const auto rail = make_displaced_surface(rail_60e1(), std::make_shared<BumpField>(0.7e-3, 0.002, 0.005, 0.05, 0.03, false), Body::rail, "x");
+  const auto wheel = make_displaced_surface(
+      s1002(), std::make_shared<BumpField>(-0.8e-3, 0.01, 0.004, 0.06 / kR, 0.05, true), Body::wheel, "x");
+  const auto rail = make_displaced_surface(
+      rail_60e1(), std::make_shared<BumpField>(0.7e-3, 0.002, 0.005, 0.05, 0.03, false), Body::rail, "x");
   int hits = 0;
   for (const bool is_wheel : {true, false})
     for (const Pose& X : is_wheel ? wheel_planes(kR) : rail_planes())
       for (const double step : {0.11e-3, 0.53e-3, 1.9e-3, 3.1e-3})
         for (const int nx : {1, 19}) {
           const int ny = 23;
-          expect_grid_is_list(is_wheel ? *wheel : *rail, X, {-0.5 * step * nx + 1e-4, -0.5 * step * ny, step, 0.9 * step, nx, ny}, hits);
-          if (HasFatalFailure()) FAIL() << "plane from " << X.origin.transpose() << " step " << step << (is_wheel ? " wheel" : " rail");
+          expect_grid_is_list(is_wheel ? *wheel : *rail, X,
+                              {-0.5 * step * nx + 1e-4, -0.5 * step * ny, step, 0.9 * step, nx, ny}, hits);
+          if (HasFatalFailure())
+            FAIL() << "plane from " << X.origin.transpose() << " step " << step << (is_wheel ? " wheel" : " rail");
         }
   EXPECT_GT(hits, 20000);
 }
@@ -62,7 +68,8 @@ TEST(DisplacedGrid, WidthsAcrossTheRimMatchLists) {
   const auto wheel = make_displaced_surface(s1002(), std::make_shared<ConstantField>(-0.3e-3), Body::wheel, "x");
   int hits = 0;
   for (const auto& [roll, yaw] : {std::pair{0.0, 0.0}, {0.03, 0.0}, {-0.06, 0.01}}) {
-    expect_grid_is_list(*wheel, pose({0.0, 0.0, kR}, roll, yaw, 0.0), {-0.0101, -0.0751, 0.0013, 0.0011, 17, 133}, hits);
+    expect_grid_is_list(*wheel, pose({0.0, 0.0, kR}, roll, yaw, 0.0), {-0.0101, -0.0751, 0.0013, 0.0011, 17, 133},
+                        hits);
     if (HasFatalFailure()) FAIL() << roll;
   }
   EXPECT_GT(hits, 3000);

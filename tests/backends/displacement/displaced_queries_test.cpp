@@ -26,18 +26,21 @@ std::shared_ptr<const Surface> wheel(bool exact) {
   f.y_center = 0.004;
   f.width = 0.05;
   if (exact) return analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
-  return make_displaced_surface(analytic::make_standard_surface({"S1002"}, Body::wheel, kR),
-                                std::make_shared<BumpField>(-f.depth, f.theta_center, f.y_center, f.length / kR, f.width, true),
-                                Body::wheel, "displaced");
+  return make_displaced_surface(
+      analytic::make_standard_surface({"S1002"}, Body::wheel, kR),
+      std::make_shared<BumpField>(-f.depth, f.theta_center, f.y_center, f.length / kR, f.width, true), Body::wheel,
+      "displaced");
 }
 
 /// A cylindrical rail with a dent (amount > 0) or a weld bead standing out.
 std::shared_ptr<const Surface> rail(double amount) {
   return make_displaced_surface(analytic::make_prismatic_surface(analytic::cylinder_chain(kCylinder, 0.1)),
-                                std::make_shared<BumpField>(amount, 0.002, 0.005, 0.02, 0.015, false), Body::rail, "displaced");
+                                std::make_shared<BumpField>(amount, 0.002, 0.005, 0.02, 0.015, false), Body::rail,
+                                "displaced");
 }
 double rail_z(double amount, double x, double y) {
-  return kCylinder - std::sqrt(kCylinder * kCylinder - y * y) + BumpField(amount, 0.002, 0.005, 0.02, 0.015, false).jet(x, y).value;
+  return kCylinder - std::sqrt(kCylinder * kCylinder - y * y) +
+         BumpField(amount, 0.002, 0.005, 0.02, 0.015, false).jet(x, y).value;
 }
 
 /// First crossing of the line with the formula from above, in fine steps.
@@ -107,7 +110,9 @@ TEST(DisplacedQueries, LocateFindsPositionNormalAndCurvatures) {
       // differences over 1e-5 m straddle a few joints of the profile
       const double scale = 1.0 + std::fabs(a[i].curvature_1) + std::fabs(a[i].curvature_2);
       ++compared;
-      if (std::fabs(a[i].curvature_1 - b[i].curvature_1) + std::fabs(a[i].curvature_2 - b[i].curvature_2) > 2e-5 * scale) ++wrong;
+      if (std::fabs(a[i].curvature_1 - b[i].curvature_1) + std::fabs(a[i].curvature_2 - b[i].curvature_2) >
+          2e-5 * scale)
+        ++wrong;
     }
   }
   EXPECT_GT(compared, 1500);
@@ -124,7 +129,8 @@ TEST(DisplacedQueries, CurvaturesOnARailMatchTheFormula) {
     const double p = j.d_u, q = j.d_y + at.y() / root, r = j.d_uu, s = j.d_uy,
                  t = j.d_yy + kCylinder * kCylinder / (root * root * root), w = 1.0 + p * p + q * q;
     // z down: the body is convex where z bends downwards
-    const double mean = 0.5 * ((1 + q * q) * r - 2 * p * q * s + (1 + p * p) * t) / std::pow(w, 1.5), gauss = (r * t - s * s) / (w * w);
+    const double mean = 0.5 * ((1 + q * q) * r - 2 * p * q * s + (1 + p * p) * t) / std::pow(w, 1.5),
+                 gauss = (r * t - s * s) / (w * w);
     const double spread = std::sqrt(std::max(0.0, mean * mean - gauss));
     for (const Pose& X : {pose({0, 0, 0}, 0.0, 0.0, 0.0)}) {
       SurfacePoint point;
@@ -151,7 +157,8 @@ TEST(DisplacedQueries, TilesThreadsAndScatteredPointsGiveTheSame) {
       }
       std::vector<Vec2> points;
       for (std::size_t i = 0; i < kGrid.size(); ++i) {
-        ASSERT_TRUE(same(one.z[i], many.z[i], 0.0) && same(one.dzdx[i], many.dzdx[i], 0.0) && same(one.dzdy[i], many.dzdy[i], 0.0));
+        ASSERT_TRUE(same(one.z[i], many.z[i], 0.0) && same(one.dzdx[i], many.dzdx[i], 0.0) &&
+                    same(one.dzdy[i], many.dzdy[i], 0.0));
         points.push_back({kGrid.x(static_cast<int>(i) % kGrid.nx), kGrid.y(static_cast<int>(i) / kGrid.nx)});
       }
       std::vector<double> z(points.size());

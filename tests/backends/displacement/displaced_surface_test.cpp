@@ -37,8 +37,8 @@ std::shared_ptr<BumpField> flat_field(const WheelFlat& f) {
 
 std::shared_ptr<const Surface> round_wheel() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kR); }
 
-/// Both surfaces in all planes. Slopes enter with a power: errors along a steep line, and of its steepness. The analytic
-/// wheel takes its slopes from a point within 3e-8 m of the hit, where 1/12 mm is the greatest curvature.
+/// Both surfaces in all planes. Slopes enter with a power: errors along a steep line, and of its steepness. The
+/// analytic wheel takes its slopes from a point within 3e-8 m of the hit, where 1/12 mm is the greatest curvature.
 void expect_equal(const Surface& expected, const Surface& found, const std::vector<Pose>& planes, int allowed_odd = 0) {
   constexpr double kHeight = 2e-12, kSlope = 2.5e-6;
   int compared = 0, odd = 0;
@@ -54,8 +54,8 @@ void expect_equal(const Surface& expected, const Surface& found, const std::vect
       if (!good) {
         ++odd;
         if (odd > allowed_odd)
-          ADD_FAILURE() << "plane " << &X - planes.data() << " point " << i << ": " << a.z[i] << " and " << b.z[i] << " slopes " << a.dzdx[i]
-                        << ' ' << b.dzdx[i] << ", " << a.dzdy[i] << ' ' << b.dzdy[i];
+          ADD_FAILURE() << "plane " << &X - planes.data() << " point " << i << ": " << a.z[i] << " and " << b.z[i]
+                        << " slopes " << a.dzdx[i] << ' ' << b.dzdx[i] << ", " << a.dzdy[i] << ' ' << b.dzdy[i];
         if (odd > allowed_odd + 5) return;
       }
     }
@@ -66,13 +66,15 @@ void expect_equal(const Surface& expected, const Surface& found, const std::vect
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlat) {
   const WheelFlat f = flat(0.05);
   const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
-  expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"), wheel_planes(kR));
+  expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"),
+               wheel_planes(kR));
 }
 
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAcrossTheFlange) {
   const WheelFlat f = flat(0.2, -0.004, -0.03);
   const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
-  expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"), wheel_planes(kR),
+  expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"),
+               wheel_planes(kR),
                // a sheet of the base that only the edge of another one hides is not seen through the contract
                3);
 }
@@ -86,7 +88,8 @@ TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAtTheSeam) {
 }
 
 TEST(DisplacedSurface, AConstantOffsetIsAnotherRadiusOrHeight) {
-  const auto thicker = make_displaced_surface(round_wheel(), std::make_shared<ConstantField>(1e-3), Body::wheel, "displaced");
+  const auto thicker =
+      make_displaced_surface(round_wheel(), std::make_shared<ConstantField>(1e-3), Body::wheel, "displaced");
   expect_equal(*analytic::make_standard_surface({"S1002"}, Body::wheel, kR + 1e-3), *thicker, wheel_planes(kR));
 
   const auto rail = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
@@ -95,7 +98,8 @@ TEST(DisplacedSurface, AConstantOffsetIsAnotherRadiusOrHeight) {
   const auto cylinder = analytic::make_prismatic_surface(chain);
   chain.start_z -= 1e-3;
   expect_equal(*analytic::make_prismatic_surface(chain),
-               *make_displaced_surface(cylinder, std::make_shared<ConstantField>(-1e-3), Body::rail, "displaced"), rail_planes());
+               *make_displaced_surface(cylinder, std::make_shared<ConstantField>(-1e-3), Body::rail, "displaced"),
+               rail_planes());
   EXPECT_NEAR(height_at(*lower, {}, {0.0, 0.0}), -1e-3, 1e-15);
 }
 
@@ -107,7 +111,8 @@ TEST(DisplacedSurface, WhereNothingReachesTheBaseStandsBitwise) {
     const Fields a = evaluate(*base, X, kGrid), b = evaluate(*displaced, X, kGrid);
     for (std::size_t i = 0; i < kGrid.size(); ++i) {
       if (std::isnan(a.z[i])) continue;
-      const Vec3 p = X.apply({kGrid.x(static_cast<int>(i) % kGrid.nx), kGrid.y(static_cast<int>(i) / kGrid.nx), a.z[i]});
+      const Vec3 p =
+          X.apply({kGrid.x(static_cast<int>(i) % kGrid.nx), kGrid.y(static_cast<int>(i) / kGrid.nx), a.z[i]});
       const bool outside = std::fabs(std::atan2(p.x(), p.z()) - 0.01) * kR > 0.031 || std::fabs(p.y() - 0.004) > 0.011;
       if (outside) {
         EXPECT_EQ(a.z[i], b.z[i]);

@@ -56,8 +56,8 @@ class Gap : public Surface {
 };
 
 /// Grids against the careful search, line by line.
-int expect_as_searched(const std::shared_ptr<const Surface>& base, const displacement::OffsetField& field, double most, Body body,
-                       const Pose& X, const Grid2& g) {
+int expect_as_searched(const std::shared_ptr<const Surface>& base, const displacement::OffsetField& field, double most,
+                       Body body, const Pose& X, const Grid2& g) {
   const std::shared_ptr<const displacement::OffsetField> shared(&field, [](const auto*) {});
   const auto surface = displacement::make_displaced_surface(base, shared, body, "x");
   const Fields f = evaluate(*surface, X, g);
@@ -71,8 +71,10 @@ int expect_as_searched(const std::shared_ptr<const Surface>& base, const displac
   for (std::size_t i = 0; i < points.size(); i += 7) {
     const double searched = displacement::DisplacedLine(view, points[i].x(), points[i].y()).search(most);
     const double steep = 1.0 + f.dzdx[i] * f.dzdx[i] + f.dzdy[i] * f.dzdy[i];
-    EXPECT_TRUE(same(f.z[i], searched, 1e-12 * (std::isnan(steep) ? 1.0 : steep))) << f.z[i] << " and " << searched << " at " << points[i].transpose();
-    EXPECT_TRUE(same(list[i], searched, 1e-12 * (std::isnan(steep) ? 1.0 : steep))) << list[i] << " and " << searched << " at " << points[i].transpose();
+    EXPECT_TRUE(same(f.z[i], searched, 1e-12 * (std::isnan(steep) ? 1.0 : steep)))
+        << f.z[i] << " and " << searched << " at " << points[i].transpose();
+    EXPECT_TRUE(same(list[i], searched, 1e-12 * (std::isnan(steep) ? 1.0 : steep)))
+        << list[i] << " and " << searched << " at " << points[i].transpose();
     hits += !std::isnan(searched);
   }
   return hits;
@@ -134,7 +136,8 @@ TEST(FastWay, InterpolatesTheBaseOnlyWhereItIsAsGoodAsAsking) {
             if (!known[k]) continue;
             ++good;
             const double steep = 1.0 + ex[k] * ex[k] + ey[k] * ey[k];
-            ASSERT_NEAR(h[k], e[k], 1e-12 * steep) << points[k].transpose() << " step " << step << " plane from " << X.origin.transpose();
+            ASSERT_NEAR(h[k], e[k], 1e-12 * steep)
+                << points[k].transpose() << " step " << step << " plane from " << X.origin.transpose();
             ASSERT_NEAR(hx[k], ex[k], 3e-8 * steep * steep);
             ASSERT_NEAR(hy[k], ey[k], 3e-8 * steep * steep);
           }
@@ -164,17 +167,20 @@ TEST(FastWay, BothKernelsAgree) {
       for (int k = 0; k < 3; ++k) axes.along[k] = R(0, k), axes.across[k] = R(1, k), axes.up[k] = R(2, k);
       Row theta = some(0.3), s, c;
       for (std::size_t i = 0; i < kMany; ++i) s[i] = std::sin(theta[i]), c[i] = std::cos(theta[i]);
-      const Row t = some(0.1), d = some(1e-3), d_u = some(1e-2), d_y = some(0.1), per_r = some(0.1, 2.2), h = some(0.1), hx = some(1.0), hy = some(1.0);
+      const Row t = some(0.1), d = some(1e-3), d_u = some(1e-2), d_y = some(0.1), per_r = some(0.1, 2.2), h = some(0.1),
+                hx = some(1.0), hy = some(1.0);
       Row out[2][7];
       for (int k = 0; k < 2; ++k) {
         Row* o = out[k];
-        const displacement::BandPoints p{t.data(), d.data(), d_u.data(), d_y.data(), s.data(), c.data(), per_r.data(), h.data(), hx.data(), hy.data(),
-                                         o[0].data(), o[1].data(), o[2].data(), o[3].data(), o[4].data(), o[5].data(), o[6].data()};
+        const displacement::BandPoints p{t.data(),     d.data(),    d_u.data(),  d_y.data(),  s.data(),    c.data(),
+                                         per_r.data(), h.data(),    hx.data(),   hy.data(),   o[0].data(), o[1].data(),
+                                         o[2].data(),  o[3].data(), o[4].data(), o[5].data(), o[6].data()};
         const displacement::BandKernel& kernel = k == 0 ? slow : *fast;
         (trial % 2 == 0 ? kernel.solve_moved : kernel.solve_tangent)(axes, kMany, p);
       }
       for (int k = 0; k < 7; ++k)
-        for (std::size_t i = 0; i < kMany; ++i) ASSERT_NEAR(out[0][k][i], out[1][k][i], 1e-13 * (1.0 + std::fabs(out[0][k][i])));
+        for (std::size_t i = 0; i < kMany; ++i)
+          ASSERT_NEAR(out[0][k][i], out[1][k][i], 1e-13 * (1.0 + std::fabs(out[0][k][i])));
     }
     std::array<std::array<double, kMany + 4>, 6> z;
     for (auto& row : z)

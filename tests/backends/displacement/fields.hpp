@@ -37,11 +37,13 @@ class BumpField : public displacement::OffsetField {
       const double turns = 2.0 * std::numbers::pi * std::round(0.5 * (a + b) / (2.0 * std::numbers::pi));
       a -= turns, b -= turns;
     }
-    const bool apart_u = (a > 0.5 * length_u || b < -0.5 * length_u) &&
-                         !(periodic && (b > 2.0 * std::numbers::pi - 0.5 * length_u || a < -2.0 * std::numbers::pi + 0.5 * length_u));
+    const bool apart_u =
+        (a > 0.5 * length_u || b < -0.5 * length_u) &&
+        !(periodic && (b > 2.0 * std::numbers::pi - 0.5 * length_u || a < -2.0 * std::numbers::pi + 0.5 * length_u));
     if (apart_y || apart_u) return {};
     const double pi = std::numbers::pi;
-    return {std::min(0.0, amount), std::max(0.0, amount), std::fabs(amount) * pi / length_u, std::fabs(amount) * pi / length_y};
+    return {std::min(0.0, amount), std::max(0.0, amount), std::fabs(amount) * pi / length_u,
+            std::fabs(amount) * pi / length_y};
   }
   std::size_t memory_bytes() const override { return sizeof(*this); }
 };
@@ -70,7 +72,9 @@ inline Fields evaluate(const Surface& surface, const Pose& X, const Grid2& grid)
   return f;
 }
 
-inline Pose pose(const Vec3& origin, double roll, double yaw, double pitch) { return {origin, rotation({roll, yaw, pitch})}; }
+inline Pose pose(const Vec3& origin, double roll, double yaw, double pitch) {
+  return {origin, rotation({roll, yaw, pitch})};
+}
 
 /// Level, rolled, yawed and steep planes near a wheel of radius R, two of them from behind the flange.
 inline std::vector<Pose> wheel_planes(double R) {
@@ -78,14 +82,15 @@ inline std::vector<Pose> wheel_planes(double R) {
     const double r = R + out;
     return pose({r * std::sin(theta), y, r * std::cos(theta)}, roll, yaw, pitch);
   };
-  return {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0),     at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0), at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3),
-          at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01), at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0), at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0),
+  return {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0),       at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0),
+          at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3),   at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01),
+          at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0), at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0),
           at(0.0, -0.045, 0.02, 0.9, 1.4, 0.0)};
 }
 inline std::vector<Pose> rail_planes() {
-  return {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0), pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
+  return {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0),    pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
           pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02), pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1),
-          pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0), pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
+          pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),    pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
 }
 
 inline bool same(double a, double b, double tolerance) {

@@ -22,7 +22,8 @@ TriangleMesh head(double step) {
 /// A wheel with a flange-like bump whose root is hidden in rolled views.
 double flanged(double y) { return 0.46 - y / 20.0 + 0.028 / (1.0 + std::exp((y + 0.045) / 0.004)); }
 TriangleMesh wheel(double step, double half) {
-  return wheel_net(-0.068, 0.05, static_cast<int>(0.118 / step) + 1, half, static_cast<int>(2 * half * 0.46 / step), flanged);
+  return wheel_net(-0.068, 0.05, static_cast<int>(0.118 / step) + 1, half, static_cast<int>(2 * half * 0.46 / step),
+                   flanged);
 }
 
 struct Scene {
@@ -35,14 +36,18 @@ std::vector<Scene> scenes() {
   const auto on_wheel = [](double theta, double y, double roll, double yaw, double pitch) {
     return pose({0.46 * std::sin(theta), y, 0.46 * std::cos(theta)}, roll, yaw, pitch);
   };
-  return {{head(2e-3), Body::rail,
-           {pose({0.03, 0.0, 0.0}), pose({0.03, 0.01, 0.001}, 0.4, 0.2, 0.1), pose({0.02, -0.01, 0.002}, -1.3, 1.1, 0.0),
-            pose({0.03, 0.0, 0.01}, 1.57, 0.3, 0.0)}},
-          {wheel(4e-3, kPi), Body::wheel,
-           {on_wheel(0.0, 0.001, 0.0, 0.0, 0.0), on_wheel(0.3, -0.02, -0.3, 0.2, 0.3), on_wheel(0.0, -0.045, 0.9, 1.4, 0.0),
-            on_wheel(0.0, -0.03, -1.0, 0.1, 0.2)}},
-          {wheel(4e-3, 0.3), Body::wheel,
-           {on_wheel(0.0, 0.001, 0.0, 0.0, 0.0), on_wheel(0.28, 0.0, 0.2, 0.0, 0.3), pose({0.0, 0.0, 0.0}, kPi, 0.0, 0.0)}}};
+  return {{head(2e-3),
+           Body::rail,
+           {pose({0.03, 0.0, 0.0}), pose({0.03, 0.01, 0.001}, 0.4, 0.2, 0.1),
+            pose({0.02, -0.01, 0.002}, -1.3, 1.1, 0.0), pose({0.03, 0.0, 0.01}, 1.57, 0.3, 0.0)}},
+          {wheel(4e-3, kPi),
+           Body::wheel,
+           {on_wheel(0.0, 0.001, 0.0, 0.0, 0.0), on_wheel(0.3, -0.02, -0.3, 0.2, 0.3),
+            on_wheel(0.0, -0.045, 0.9, 1.4, 0.0), on_wheel(0.0, -0.03, -1.0, 0.1, 0.2)}},
+          {wheel(4e-3, 0.3),
+           Body::wheel,
+           {on_wheel(0.0, 0.001, 0.0, 0.0, 0.0), on_wheel(0.28, 0.0, 0.2, 0.0, 0.3),
+            pose({0.0, 0.0, 0.0}, kPi, 0.0, 0.0)}}};
 }
 
 Grid2 grid_over(double x, double y, int n) { return {-x, -y, 2.0 * x / n, 2.0001 * y / n, n + 1, n + 1}; }
@@ -50,7 +55,8 @@ Grid2 grid_over(double x, double y, int n) { return {-x, -y, 2.0 * x / n, 2.0001
 TEST(MeshHeights, FacetsMatchBruteForce) {
   for (const Scene& scene : scenes())
     for (const Pose& X : scene.planes) {
-      const auto surface = make_mesh_surface(scene.mesh, scene.body, kFacets), oracle = make_mesh_oracle(scene.mesh, scene.body, kFacets);
+      const auto surface = make_mesh_surface(scene.mesh, scene.body, kFacets),
+                 oracle = make_mesh_oracle(scene.mesh, scene.body, kFacets);
       // the brute force takes triangles as they stand; those of nets face away from the axle
       TriangleMesh mesh = scene.mesh;
       if (scene.body == Body::rail)
@@ -87,7 +93,8 @@ TEST(MeshHeights, SinglePrecisionFindsWhatDoubleDoes) {
     shift(rail, {offset, 0.0, 0.0});
     for (const Refinement refinement : {Refinement::facets, Refinement::smooth}) {
       const MeshOptions options{.refinement = refinement};
-      const auto surface = make_mesh_surface(rail, Body::rail, options), oracle = make_mesh_oracle(rail, Body::rail, options);
+      const auto surface = make_mesh_surface(rail, Body::rail, options),
+                 oracle = make_mesh_oracle(rail, Body::rail, options);
       for (Pose X : {pose({0.03, 0.0, 0.0}), pose({0.03, 0.001, 0.001}, 0.3, 0.4, 0.1)}) {
         X.origin.x() += offset;
         const Grid2 g = grid_over(0.035, 0.03, 200);
@@ -133,7 +140,8 @@ void expect_no_miss(const TriangleMesh& mesh, Body body, const Pose& X, int rays
   const double side = body == Body::wheel ? 1.0 : -1.0;
   while (static_cast<int>(points.size()) < rays) {
     const auto& c = mesh.triangles[pick(random)];
-    const Vec3 a = mesh.vertices[c[0]], b = mesh.vertices[c[1]], n = (b - a).cross(mesh.vertices[c[2]] - a).normalized();
+    const Vec3 a = mesh.vertices[c[0]], b = mesh.vertices[c[1]],
+               n = (b - a).cross(mesh.vertices[c[2]] - a).normalized();
     if (std::fabs(n.dot(X.rotation.col(2))) < least_slant) continue;
     if (body == Body::wheel && side * X.rotation.col(2).dot(Vec3(a.x(), 0.0, a.z())) < 0.0) continue;
     const std::size_t kind = points.size() % 3;
@@ -157,8 +165,8 @@ TEST(MeshHeights, NoLineThroughAVertexOrAnEdgeIsMissed) {
   TriangleMesh far = rail;
   shift(far, {100.0, 0.0, 0.0});
   expect_no_miss(far, Body::rail, pose({100.05, 0.0, 0.0}, 0.21, 0.33, 0.11), kRays, 3, 0.5);
-  expect_no_miss(wheel_net(-0.05, 0.05, 41, kPi, 300, barrel(0.46, 0.5)), Body::wheel, pose({0.0, 0.0, 0.46}, 0.05, 0.3, 0.2),
-                 kRays, 4, 0.1);
+  expect_no_miss(wheel_net(-0.05, 0.05, 41, kPi, 300, barrel(0.46, 0.5)), Body::wheel,
+                 pose({0.0, 0.0, 0.46}, 0.05, 0.3, 0.2), kRays, 4, 0.1);
 }
 
 TEST(MeshHeights, NeighboursAgreeOnTheirEdge) {
@@ -188,7 +196,8 @@ TEST(MeshHeights, NeighboursAgreeOnTheirEdge) {
 
 /// The ray caster may be built otherwise next time: on edges and at vertices, too, the result must not depend on it.
 TEST(MeshHeights, LinesThroughVerticesAndEdgesAreRepeatable) {
-  const TriangleMesh ridge = net(101, 101, [](int i, int j) { return Vec3(1e-3 * (i - 50), 1e-3 * (j - 50), 1e-4 * ((i + j) % 2)); });
+  const TriangleMesh ridge =
+      net(101, 101, [](int i, int j) { return Vec3(1e-3 * (i - 50), 1e-3 * (j - 50), 1e-4 * ((i + j) % 2)); });
   Fields first;
   for (const int threads : {1, 2, 4}) {
     ThreadLimit limit(threads);
@@ -209,7 +218,8 @@ TEST(MeshHeights, HolesStayHoles) {
   };
   std::erase_if(rail.triangles, [&](const auto& c) { return (middle(c) - Vec3(0.05, 0.0, 0.0)).norm() < 0.01; });
   MeshRepair repair;
-  const auto surface = make_mesh_surface(rail, Body::rail, kFacets, &repair), full = make_mesh_surface(whole, Body::rail, kFacets);
+  const auto surface = make_mesh_surface(rail, Body::rail, kFacets, &repair),
+             full = make_mesh_surface(whole, Body::rail, kFacets);
   EXPECT_EQ(repair.boundary_loops, 2u);
   EXPECT_TRUE(std::isnan(height_at(*surface, pose({0.05, 0.0, 0.0}), {0.0, 0.0})));
   EXPECT_TRUE(surface->height_bounds(pose({0.05, 0.0, 0.0}), {-0.003, 0.003, -0.003, 0.003}).empty);
@@ -238,7 +248,8 @@ TEST(MeshHeights, SliversGiveNoWrongNumbers) {
   for (const Refinement refinement : {Refinement::facets, Refinement::smooth}) {
     const auto surface = make_mesh_surface(rail, Body::rail, {.refinement = refinement});
     const Fields f = evaluate(*surface, pose({0.0, 0.0, 0.0}), g);
-    const double tolerance = refinement == Refinement::facets ? 4e-5 : 1e-6;  // chords of up to 8 mm over the arc of 100 mm
+    const double tolerance =
+        refinement == Refinement::facets ? 4e-5 : 1e-6;  // chords of up to 8 mm over the arc of 100 mm
     for (std::size_t i = 0; i < g.size(); ++i) {
       const double y = g.y(static_cast<int>(i) / g.nx), z = 0.1 - std::sqrt(0.01 - y * y), slope = y / (0.1 - z);
       ASSERT_NEAR(f.z[i], z, tolerance);
@@ -266,7 +277,8 @@ TEST(MeshHeights, TilesThreadsAndScatteredPointsAgree) {
         const Grid2 tile{g.x(61), g.y(33), g.dx, g.dy, 40, 51};
         const Fields part = evaluate(*surface, X, tile);
         std::vector<Vec2> points;
-        for (std::size_t i = 0; i < g.size(); ++i) points.push_back({g.x(static_cast<int>(i) % g.nx), g.y(static_cast<int>(i) / g.nx)});
+        for (std::size_t i = 0; i < g.size(); ++i)
+          points.push_back({g.x(static_cast<int>(i) % g.nx), g.y(static_cast<int>(i) / g.nx)});
         std::vector<double> scattered(points.size());
         surface->heights_at(X, points, {scattered, {}, {}});
         for (std::size_t i = 0; i < g.size(); ++i) {

@@ -25,7 +25,8 @@ void add(TriangleMesh& mesh, const TriangleMesh& other) {
 
 /// A section of straight pieces with sharp edges, a step that is upright and one that is undercut.
 Vec2 steps(double s) {
-  static const Vec2 corners[] = {{-0.03, 0.012}, {-0.02, 0.004}, {-0.02, 0.0}, {0.0, 0.001}, {-0.004, 0.006}, {0.015, 0.007}, {0.03, 0.02}};
+  static const Vec2 corners[] = {{-0.03, 0.012},  {-0.02, 0.004}, {-0.02, 0.0}, {0.0, 0.001},
+                                 {-0.004, 0.006}, {0.015, 0.007}, {0.03, 0.02}};
   const double at = s * 6.0;
   const int k = std::min(5, static_cast<int>(at));
   return corners[k] + (at - k) * (corners[k + 1] - corners[k]);
@@ -39,8 +40,9 @@ struct Shape {
 };
 
 std::vector<Shape> shapes() {
-  const std::vector<Pose> over{pose({0.03, 0.0, 0.0}), pose({0.03, 0.001, 0.001}, 0.05, 0.02, 0.03), pose({0.03, 0.0, 0.0}, 0.6, 0.3, -0.2),
-                               pose({0.03, 0.0, 0.0}, 1.57, 0.2, 0.0), pose({0.0313, 0.0, 0.0}, -1.2, 0.9, 0.1)};
+  const std::vector<Pose> over{pose({0.03, 0.0, 0.0}), pose({0.03, 0.001, 0.001}, 0.05, 0.02, 0.03),
+                               pose({0.03, 0.0, 0.0}, 0.6, 0.3, -0.2), pose({0.03, 0.0, 0.0}, 1.57, 0.2, 0.0),
+                               pose({0.0313, 0.0, 0.0}, -1.2, 0.9, 0.1)};
   std::vector<Shape> all;
   all.push_back({"head", rail_net(0.0, 0.06, 31, 47, arc_section(0.025, 1.9)), Body::rail, over});
   all.push_back({"sharp edges and steep walls", rail_net(0.0, 0.06, 41, 61, steps), Body::rail, over});
@@ -50,7 +52,8 @@ std::vector<Shape> shapes() {
   all.push_back(std::move(holes));
   Shape sheets{"sheets one over the other", rail_net(0.0, 0.06, 31, 21, arc_section(0.08, 0.4)), Body::rail, over};
   for (const double depth : {0.002, 0.0035}) {
-    TriangleMesh below = scattered_sheet(0.03, 22, [](double x, double y) { return 1e-3 * std::sin(150 * x + 80 * y); }, 0.6, 3);
+    TriangleMesh below = scattered_sheet(
+        0.03, 22, [](double x, double y) { return 1e-3 * std::sin(150 * x + 80 * y); }, 0.6, 3);
     shift(below, {0.03, 0.0, depth});
     add(sheets.mesh, below);
   }
@@ -59,8 +62,11 @@ std::vector<Shape> shapes() {
   const auto on_wheel = [](double theta, double roll, double yaw, double pitch) {
     return pose({0.46 * std::sin(theta), 0.0, 0.46 * std::cos(theta)}, roll, yaw, pitch);
   };
-  all.push_back({"wheel", wheel_net(-0.068, 0.05, 40, kPi, 700, [](double y) { return 0.46 - y / 20.0 + 0.028 / (1.0 + std::exp((y + 0.045) / 0.004)); }),
-                 Body::wheel, {on_wheel(0.0, 0.0, 0.0, 0.0), on_wheel(0.3, -0.3, 0.2, 0.3), on_wheel(0.0, 0.9, 1.4, 0.0)}});
+  all.push_back({"wheel",
+                 wheel_net(-0.068, 0.05, 40, kPi, 700,
+                           [](double y) { return 0.46 - y / 20.0 + 0.028 / (1.0 + std::exp((y + 0.045) / 0.004)); }),
+                 Body::wheel,
+                 {on_wheel(0.0, 0.0, 0.0, 0.0), on_wheel(0.3, -0.3, 0.2, 0.3), on_wheel(0.0, 0.9, 1.4, 0.0)}});
   return all;
 }
 
@@ -72,9 +78,12 @@ int expect_same(const Fields& a, const Fields& b, const char* name) {
     ++hit;
     const double steep = 1.0 + std::pow(std::hypot(b.dzdx[i], b.dzdy[i]), 2);
     if (!(std::fabs(a.z[i] - b.z[i]) <= kSame * steep)) {
-      if (++wrong < 4) ADD_FAILURE() << name << ": point " << i << ", " << a.z[i] << " and " << b.z[i] << " slopes " << b.dzdx[i] << ' ' << b.dzdy[i];
+      if (++wrong < 4)
+        ADD_FAILURE() << name << ": point " << i << ", " << a.z[i] << " and " << b.z[i] << " slopes " << b.dzdx[i]
+                      << ' ' << b.dzdy[i];
     }
-    // slopes of facets jump where a point is on an edge: both sides are right only for the same triangle, which is promised
+    // slopes of facets jump where a point is on an edge: both sides are right only for the same triangle, which is
+    // promised
     EXPECT_NEAR(a.dzdx[i], b.dzdx[i], 1e-8 * steep) << name << ' ' << i;
     EXPECT_NEAR(a.dzdy[i], b.dzdy[i], 1e-8 * steep) << name << ' ' << i;
   }
@@ -88,8 +97,10 @@ TEST(MeshKernels, GridsEqualLinesOneByOne) {
       const auto surface = make_mesh_surface(shape.mesh, shape.body, {.refinement = refinement});
       const auto oracle = make_mesh_oracle(shape.mesh, shape.body, {.refinement = refinement});
       for (const Pose& X : shape.planes)
-        for (const Grid2& g : {Grid2{-0.0297, -0.0293, 0.00047, 0.00061, 127, 96}, Grid2{-0.011, -0.007, 0.2e-3, 0.2e-3, 71, 67},
-                               Grid2{-0.03, -0.03, 0.5e-3, 1e-3, 121, 61}, Grid2{-0.03, 0.0, 0.37e-3, 1.0, 160, 1}, Grid2{0.0, -0.03, 1.0, 0.31e-3, 1, 190}}) {
+        for (const Grid2& g :
+             {Grid2{-0.0297, -0.0293, 0.00047, 0.00061, 127, 96}, Grid2{-0.011, -0.007, 0.2e-3, 0.2e-3, 71, 67},
+              Grid2{-0.03, -0.03, 0.5e-3, 1e-3, 121, 61}, Grid2{-0.03, 0.0, 0.37e-3, 1.0, 160, 1},
+              Grid2{0.0, -0.03, 1.0, 0.31e-3, 1, 190}}) {
           const int hit = expect_same(evaluate(*surface, X, g), evaluate(*oracle, X, g), shape.name);
           if (&X == shape.planes.data() && g.nx == 127) {
             EXPECT_GT(hit, 1000) << shape.name;
@@ -194,7 +205,8 @@ TEST(MeshKernels, OfBothProcessorsEvaluatePatchesAlike) {
           auto& r = results[which];
           kernel.points(patches.data(), lines.side, x.data(), y.data(), 7, r[0].data(), r[1].data(), r[2].data());
           // lanes of different triangles give the same to the last bit
-          for (std::size_t k = 1; k < 4; ++k) std::copy_n(patches.data(), kPatchEntries, patches.data() + k * kPatchEntries);
+          for (std::size_t k = 1; k < 4; ++k)
+            std::copy_n(patches.data(), kPatchEntries, patches.data() + k * kPatchEntries);
           auto& m = results[2];
           kernel.mixed(patches.data(), lines.side, x.data(), y.data(), m[0].data(), m[1].data(), m[2].data());
           for (std::size_t k = 0; k < 4; ++k)
@@ -262,8 +274,10 @@ TEST(MeshKernels, OfBothProcessorsFindBoundsAlike) {
     for (const Pose& X : shape.planes) {
       const PlaneView view(mesh, X, shape.body == Body::wheel ? Facing::down : Facing::up);
       for (int trial = 0; trial < 200; ++trial) {
-        const BoundsQuery q{0.06 * (unit(random) - 0.5), 0.06 * (unit(random) - 0.5), 0.01 * unit(random), 0.01 * unit(random)};
-        const BoundsFound a = generic_kernels().find_bounds(bvh.arrays(), view.lines(), q), b = avx2_kernels()->find_bounds(bvh.arrays(), view.lines(), q);
+        const BoundsQuery q{0.06 * (unit(random) - 0.5), 0.06 * (unit(random) - 0.5), 0.01 * unit(random),
+                            0.01 * unit(random)};
+        const BoundsFound a = generic_kernels().find_bounds(bvh.arrays(), view.lines(), q),
+                          b = avx2_kernels()->find_bounds(bvh.arrays(), view.lines(), q);
         ASSERT_EQ(a.low > a.high, b.low > b.high) << shape.name;
         if (a.low > a.high) continue;
         EXPECT_NEAR(a.low, b.low, 1e-10) << shape.name;

@@ -17,8 +17,10 @@ namespace treadmark::mesh::testing {
 inline constexpr double kPi = std::numbers::pi;
 inline constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
-/// Triangles over an nu x nv net of points; the last column joins the first one if closed. Diagonals alternate if mixed.
-inline TriangleMesh net(int nu, int nv, const std::function<Vec3(int, int)>& point, bool closed = false, bool mixed = false) {
+/// Triangles over an nu x nv net of points; the last column joins the first one if closed. Diagonals alternate if
+/// mixed.
+inline TriangleMesh net(int nu, int nv, const std::function<Vec3(int, int)>& point, bool closed = false,
+                        bool mixed = false) {
   TriangleMesh mesh;
   mesh.name = "net";
   for (int j = 0; j < nv; ++j)
@@ -55,7 +57,8 @@ inline std::function<Vec2(double)> arc_section(double radius, double angle) {
 }
 
 /// A wheel: radius r(y), y from y0 to y1, theta over +- half, or all round if half = pi.
-inline TriangleMesh wheel_net(double y0, double y1, int ny, double half, int n_theta, const std::function<double(double)>& radius) {
+inline TriangleMesh wheel_net(double y0, double y1, int ny, double half, int n_theta,
+                              const std::function<double(double)>& radius) {
   const bool closed = half >= kPi;
   return net(
       n_theta, ny,
@@ -74,7 +77,8 @@ inline std::function<double(double)> barrel(double R, double m) {
 }
 
 /// A smooth curved sheet z(x, y) whose vertices are scattered round a net, so that valences and shapes vary.
-inline TriangleMesh scattered_sheet(double half, int n, const std::function<double(double, double)>& z, double jitter, unsigned seed) {
+inline TriangleMesh scattered_sheet(double half, int n, const std::function<double(double, double)>& z, double jitter,
+                                    unsigned seed) {
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(-0.5, 0.5);
   const double h = 2.0 * half / (n - 1);
@@ -109,8 +113,8 @@ inline Pose pose(const Vec3& origin, double roll = 0.0, double yaw = 0.0, double
   return {origin, rotation({roll, yaw, pitch})};
 }
 
-/// Outermost crossing of a line with all triangles, one after the other, by solving for it in 3D: another formula than those
-/// of the library. NaN if there is none or the outermost one is seen from inside.
+/// Outermost crossing of a line with all triangles, one after the other, by solving for it in 3D: another formula than
+/// those of the library. NaN if there is none or the outermost one is seen from inside.
 inline double brute_height(const TriangleMesh& mesh, const Pose& X, double x, double y, Facing facing) {
   const double side = facing == Facing::down ? 1.0 : -1.0;
   const Vec3 o = X.apply({x, y, 0.0}), d = X.rotation.col(2);

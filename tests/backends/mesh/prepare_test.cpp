@@ -43,7 +43,8 @@ TriangleMesh exploded(const TriangleMesh& mesh, double noise) {
   std::uniform_real_distribution<double> unit(-noise, noise);
   for (const auto& c : mesh.triangles) {
     const auto n = static_cast<std::uint32_t>(soup.vertices.size());
-    for (const std::uint32_t v : c) soup.vertices.push_back(mesh.vertices[v] + Vec3(unit(random), unit(random), unit(random)));
+    for (const std::uint32_t v : c)
+      soup.vertices.push_back(mesh.vertices[v] + Vec3(unit(random), unit(random), unit(random)));
     soup.triangles.push_back({n, n + 1, n + 2});
   }
   return soup;
@@ -108,7 +109,8 @@ TEST(PrepareMesh, TurnsTrianglesToOneSideAndOutwards) {
     EXPECT_EQ(other.flipped, 0u);
     EXPECT_NE(one.turned_inside_out, other.turned_inside_out);
     EXPECT_NEAR(height_at(*make_mesh_surface(turned, body), X, {0.0003, 0.0002}), expected, 1e-15);
-    for (std::size_t t = 0; t < turned.triangles.size(); t += 5) std::swap(turned.triangles[t][1], turned.triangles[t][2]);
+    for (std::size_t t = 0; t < turned.triangles.size(); t += 5)
+      std::swap(turned.triangles[t][1], turned.triangles[t][2]);
     EXPECT_EQ(repair_of(turned, body).flipped, (turned.triangles.size() + 4) / 5);
     EXPECT_NEAR(height_at(*make_mesh_surface(turned, body), X, {0.0003, 0.0002}), expected, 1e-15);
   }

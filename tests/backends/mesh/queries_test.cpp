@@ -17,16 +17,20 @@ TEST(MeshBounds, HoldEveryHeight) {
   constexpr int kPoints = 12;
   constexpr double kRounding = 1e-10;
   const auto flange = [](double y) { return 0.46 - y / 20.0 + 0.028 / (1.0 + std::exp((y + 0.045) / 0.004)); };
-  const TriangleMesh meshes[] = {wheel_net(-0.06, 0.05, 40, kPi, 500, flange), rail_net(-0.05, 0.05, 30, 41, arc_section(0.03, 1.7)),
-                                 scattered_sheet(0.05, 31, [](double x, double y) { return 2e-3 * std::sin(200 * x + 90 * y); }, 0.6, 3)};
+  const TriangleMesh meshes[] = {
+      wheel_net(-0.06, 0.05, 40, kPi, 500, flange), rail_net(-0.05, 0.05, 30, 41, arc_section(0.03, 1.7)),
+      scattered_sheet(
+          0.05, 31, [](double x, double y) { return 2e-3 * std::sin(200 * x + 90 * y); }, 0.6, 3)};
   for (const TriangleMesh& mesh : meshes)
     for (const Refinement refinement : {Refinement::facets, Refinement::smooth}) {
       const bool wheel = &mesh == meshes;
       const auto surface = make_mesh_surface(mesh, wheel ? Body::wheel : Body::rail, {.refinement = refinement});
       int small = 0, loose = 0, hit = 0;
       for (int trial = 0; trial < 400; ++trial) {
-        Pose X = pose({0.0, 0.0, wheel ? 0.46 : 0.0}, 1.2 * (unit(random) - 0.5), 0.4 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5));
-        const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)), height = std::pow(10.0, -4.0 + 2.5 * unit(random));
+        Pose X = pose({0.0, 0.0, wheel ? 0.46 : 0.0}, 1.2 * (unit(random) - 0.5), 0.4 * (unit(random) - 0.5),
+                      0.2 * (unit(random) - 0.5));
+        const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)),
+                     height = std::pow(10.0, -4.0 + 2.5 * unit(random));
         const double x = 0.08 * (unit(random) - 0.5), y = 0.11 * (unit(random) - 0.5);
         const HeightBounds bounds = surface->height_bounds(X, {x, x + width, y, y + height});
         const Fields f = evaluate(*surface, X, {x, y, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints});
@@ -93,10 +97,12 @@ TEST(MeshLocate, MatchesTheFormulaOfABarrel) {
 }
 
 TEST(MeshLocate, CurvaturesMatchSecondDifferences) {
-  const auto surface = make_mesh_surface(rail_net(0.0, 0.1, 51, 51, [](double s) {
-    const double y = 0.06 * s - 0.03;
-    return Vec2(y, 4.0 * y * y + 60.0 * y * y * y);
-  }), Body::rail);
+  const auto surface = make_mesh_surface(rail_net(0.0, 0.1, 51, 51,
+                                                  [](double s) {
+                                                    const double y = 0.06 * s - 0.03;
+                                                    return Vec2(y, 4.0 * y * y + 60.0 * y * y * y);
+                                                  }),
+                                         Body::rail);
   constexpr double kStep = 2e-6;  // heights of 1e-17 m noise make 1e-5 of it
   const Pose X = pose({0.05, 0.0, 0.0});
   int compared = 0, wrong = 0;
@@ -111,7 +117,8 @@ TEST(MeshLocate, CurvaturesMatchSecondDifferences) {
     T.rotation.col(0) = (T.rotation.col(0) - T.rotation.col(0).dot(p.normal_S) * p.normal_S).normalized();
     T.rotation.col(1) = T.rotation.col(2).cross(T.rotation.col(0));
     const Fields h = evaluate(*surface, T, {-kStep, -kStep, kStep, kStep, 3, 3});
-    const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep), hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
+    const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep),
+                 hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
     const double hxy = (h.z[8] - h.z[6] - h.z[2] + h.z[0]) / (4 * kStep * kStep);
     const double mean = 0.5 * (hxx + hyy), spread = std::hypot(0.5 * (hxx - hyy), hxy);
     ++compared;

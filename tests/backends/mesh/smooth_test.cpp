@@ -60,8 +60,8 @@ TEST(SmoothMesh, ConvergesOnABarrelWheel) {
   const Grid2 g{-0.0103, -0.0107, 0.00052, 0.00053, 40, 40};
   std::vector<Errors> facets, smooth;
   for (const double h : {4e-3, 2e-3, 1e-3}) {
-    const TriangleMesh mesh =
-        wheel_net(-0.02, 0.02, static_cast<int>(std::lround(0.04 / h)) + 1, 0.06, static_cast<int>(std::lround(0.12 * R / h)) + 1, barrel(R, m));
+    const TriangleMesh mesh = wheel_net(-0.02, 0.02, static_cast<int>(std::lround(0.04 / h)) + 1, 0.06,
+                                        static_cast<int>(std::lround(0.12 * R / h)) + 1, barrel(R, m));
     const auto exact = [&](double x, double y) { return torus(x, y, R, m); };
     const Pose X = pose({0.001, 0.002, R});
     facets.push_back(errors(*make_mesh_surface(mesh, Body::wheel, kFacets), X, g, exact));
@@ -86,7 +86,9 @@ TEST(SmoothMesh, ConvergesOnABarrelWheel) {
 
 TEST(SmoothMesh, ConvergesOnARailOfIrregularTriangles) {
   // crown with a different curvature along the rail, scattered vertices of any valence
-  const auto z = [](double x, double y) { return 1.7 * x * x + 9.0 * y * y + 150.0 * y * y * y + 20.0 * x * y + 2e-4 * std::sin(60.0 * x); };
+  const auto z = [](double x, double y) {
+    return 1.7 * x * x + 9.0 * y * y + 150.0 * y * y * y + 20.0 * x * y + 2e-4 * std::sin(60.0 * x);
+  };
   const auto exact = [&](double x, double y) -> Exact {
     const double zx = 3.4 * x + 20.0 * y + 0.012 * std::cos(60.0 * x), zy = 18.0 * y + 450.0 * y * y + 20.0 * x;
     const double xx = 3.4 - 0.72 * std::sin(60.0 * x), yy = 18.0 + 900.0 * y, xy = 20.0;
@@ -111,8 +113,11 @@ TEST(SmoothMesh, ConvergesOnARailOfIrregularTriangles) {
 
 TEST(SmoothMesh, CubicSurfacesAreReproduced) {
   // the fits are exact then, whatever the triangles look like, up to the rims
-  const auto z = [](double x, double y) { return 2.0 * x * x - 3.0 * x * y + 4.0 * y * y + 30.0 * x * x * y - 50.0 * y * y * y; };
-  // heights over the tangent frame of a vertex are not cubics of its own, unless the tangent planes are parallel: small slopes
+  const auto z = [](double x, double y) {
+    return 2.0 * x * x - 3.0 * x * y + 4.0 * y * y + 30.0 * x * x * y - 50.0 * y * y * y;
+  };
+  // heights over the tangent frame of a vertex are not cubics of its own, unless the tangent planes are parallel: small
+  // slopes
   const auto surface = make_mesh_surface(scattered_sheet(0.001, 15, z, 0.4, 5), Body::rail, kSmooth);
   const Grid2 g{-0.00099, -0.00099, 0.000045, 0.000045, 45, 45};
   const Fields f = evaluate(*surface, pose({0.0, 0.0, 0.0}), g);
@@ -153,7 +158,8 @@ TEST(SmoothMesh, CreasesStaySharp) {
     EXPECT_NEAR(height_at(*surface, pose({0.03, 0.0, 0.0}), {0.00013, y}), expected, 1e-12) << y;
   }
   // smoothed over, the edge is rounded
-  const auto rounded = make_mesh_surface(rail_net(0.0, 0.06, 31, 61, section), Body::rail, {.refinement = Refinement::smooth, .crease_angle = 3.0});
+  const auto rounded = make_mesh_surface(rail_net(0.0, 0.06, 31, 61, section), Body::rail,
+                                         {.refinement = Refinement::smooth, .crease_angle = 3.0});
   EXPECT_GT(std::fabs(height_at(*rounded, pose({0.03, 0.0, 0.0}), {0.00013, 0.0004}) - 0.3 * 0.0004 * 0.0004), 1e-6);
 }
 
@@ -163,7 +169,8 @@ TEST(SmoothMesh, LongThinTrianglesKeepTheirSection) {
   const auto surface = make_mesh_surface(rail_net(0.0, 0.5, 2, 81, section), Body::rail, kSmooth);
   for (double y = -0.0237; y < 0.0237; y += 0.00031)
     for (const double x : {0.01, 0.17, 0.49})
-      ASSERT_NEAR(height_at(*surface, pose({x, 0.0, 0.0}), {0.0, y}), 0.05 - std::sqrt(0.0025 - y * y), 3e-9) << x << ' ' << y;
+      ASSERT_NEAR(height_at(*surface, pose({x, 0.0, 0.0}), {0.0, y}), 0.05 - std::sqrt(0.0025 - y * y), 3e-9)
+          << x << ' ' << y;
 }
 
 TEST(SmoothMesh, VerticesAreMet) {
@@ -178,7 +185,8 @@ TEST(SmoothMesh, HasNoGapsWhereItCannotBeSmooth) {
   // noise as large as the triangles: the facets count there, and nothing is missed
   std::mt19937 random(2);
   std::uniform_real_distribution<double> noise(-1e-3, 1e-3);
-  TriangleMesh mesh = scattered_sheet(0.02, 41, [](double, double) { return 0.0; }, 0.5, 4);
+  TriangleMesh mesh = scattered_sheet(
+      0.02, 41, [](double, double) { return 0.0; }, 0.5, 4);
   double low = 0.0, high = 0.0;
   for (Vec3& v : mesh.vertices) v.z() = noise(random), low = std::min(low, v.z()), high = std::max(high, v.z());
   const auto surface = make_mesh_surface(mesh, Body::rail, kSmooth);
@@ -194,7 +202,8 @@ TEST(BlendWeights, AreAPartitionThatVanishesWithItsGradient) {
   std::mt19937 random(1);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   for (int trial = 0; trial < 1000; ++trial) {
-    const std::array<Vec3, 3> corners{Vec3(unit(random), unit(random), 0), Vec3(unit(random), unit(random), 0.2), Vec3(unit(random), unit(random), 0)};
+    const std::array<Vec3, 3> corners{Vec3(unit(random), unit(random), 0), Vec3(unit(random), unit(random), 0.2),
+                                      Vec3(unit(random), unit(random), 0)};
     const auto feet = edge_feet(corners);
     double a = unit(random), b = unit(random);
     if (a + b > 1.0) a = 1.0 - a, b = 1.0 - b;
@@ -205,7 +214,8 @@ TEST(BlendWeights, AreAPartitionThatVanishesWithItsGradient) {
     // derivatives against differences
     constexpr double kStep = 1e-6;
     if (a > 0.05 && b > 0.05 && a + b < 0.95) {
-      const auto moved = blend_weights<Jet2>({Jet2(a + kStep, 1.0, 0.0), Jet2(b, 0.0, 1.0), Jet2(1.0 - a - b - kStep, -1.0, -1.0)}, feet);
+      const auto moved = blend_weights<Jet2>(
+          {Jet2(a + kStep, 1.0, 0.0), Jet2(b, 0.0, 1.0), Jet2(1.0 - a - b - kStep, -1.0, -1.0)}, feet);
       for (std::size_t k = 0; k < 3; ++k) {
         EXPECT_NEAR((moved[k].v - w[k].v) / kStep, w[k].x, 1e-3);
         EXPECT_NEAR((moved[k].x - w[k].x) / kStep, w[k].xx, 1e-2 * (1.0 + std::fabs(w[k].xx)));

@@ -18,7 +18,8 @@ constexpr double kR = 0.46;
 OffsetMap polygon(int n, double amplitude, int extra = 0) {
   OffsetMap map{"polygon", {0.1, -0.05, 2.0 * kPi / n, 0.005, n + extra, 21}, {}};
   for (int j = 0; j < map.grid.ny; ++j)
-    for (int i = 0; i < map.grid.nx; ++i) map.offset.push_back(static_cast<float>(amplitude * std::cos(7.0 * map.grid.x(i))));
+    for (int i = 0; i < map.grid.nx; ++i)
+      map.offset.push_back(static_cast<float>(amplitude * std::cos(7.0 * map.grid.x(i))));
   return map;
 }
 
@@ -31,7 +32,8 @@ TEST(OffsetMap, AWholeTurnIsPeriodic) {
     const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
     for (int k = 0; k < 100; ++k) {
       const double theta = -3.2 + 0.0647 * k;
-      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * theta), 2e-10) << theta;
+      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * theta), 2e-10)
+          << theta;
     }
     const double seam = 0.1 - 0.5 * 2.0 * kPi / 701;
     EXPECT_NEAR(height_at(*surface, level(seam, 0.0, kR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * seam), 2e-10);
@@ -46,8 +48,10 @@ TEST(OffsetMap, APatchLiesWhereItsAnglesSayOnAnyBranch) {
     const auto sample = offset::offsets_from_map(map, Body::wheel, 1e-9);
     EXPECT_EQ(sample.active, 23u * 21u - 1u);
     const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bilinear, "offset");
-    for (const double theta : {3.05, 3.14, -3.1, 3.2}) EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.0}), -1e-4, 1e-10);
-    for (const double theta : {2.9, -2.9, 0.0}) EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.0}), 0.0, 1e-12);
+    for (const double theta : {3.05, 3.14, -3.1, 3.2})
+      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.0}), -1e-4, 1e-10);
+    for (const double theta : {2.9, -2.9, 0.0})
+      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.0}), 0.0, 1e-12);
   }
 }
 

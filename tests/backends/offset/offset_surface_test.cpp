@@ -50,7 +50,8 @@ TEST(OffsetSurface, ErrorsAtOneMillimetreAreOfTheSizeOfTheTheory) {
 
 TEST(OffsetSurface, TheSeamIsNoPlaceLikeAnyOther) {
   // a flat across theta = pi, and one across theta = 0 where the voxels begin
-  for (const Interpolation interpolation : {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
+  for (const Interpolation interpolation :
+       {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
     const double elsewhere = error_of(1e-3, interpolation, 1.0);
     for (const double theta : {kPi, -kPi + 0.003, 0.0, 0.01}) {
       const double here = error_of(1e-3, interpolation, theta);
@@ -86,11 +87,13 @@ TEST(OffsetSurface, OffsetsUpToTheRimDoNotRing) {
   const auto chain = analytic::straight_chain(0.03);
   const auto base = analytic::make_revolved_surface(chain, kR);
   const auto target = analytic::make_revolved_surface(chain, kR, {rounded_flat(0.06, 0.8e-3, 0.0)});
-  const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 0.7e-3, 1e-9, region(0.0, 0.05, kR)});
+  const auto sample =
+      offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 0.7e-3, 1e-9, region(0.0, 0.05, kR)});
   EXPECT_EQ(sample.continued, 0u);
   const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
   const Grid2 g{-0.02, -0.03, 0.0007, 0.0005, 60, 121};
-  EXPECT_LT(greatest_difference(heights(*target, level(0.0, 0.0, kR), g), heights(*surface, level(0.0, 0.0, kR), g)), 5e-9);
+  EXPECT_LT(greatest_difference(heights(*target, level(0.0, 0.0, kR), g), heights(*surface, level(0.0, 0.0, kR), g)),
+            5e-9);
 }
 
 TEST(OffsetSurface, ContinuesOffsetsWhereTheTargetIsMissing) {
@@ -107,7 +110,8 @@ TEST(OffsetSurface, ARailWithADent) {
   // dents of two cylinders: a rail of one radius seen from one of another
   const auto base = analytic::make_prismatic_surface(analytic::cylinder_chain(0.3, 0.1));
   const auto target = analytic::make_prismatic_surface(analytic::cylinder_chain(0.25, 0.119));
-  const auto sample = offset::sample_offsets(*target, *base, Body::rail, 0.0, {2e-3, 1e-3, 1e-9, {-0.05, 0.05, -1.0, 1.0}});
+  const auto sample =
+      offset::sample_offsets(*target, *base, Body::rail, 0.0, {2e-3, 1e-3, 1e-9, {-0.05, 0.05, -1.0, 1.0}});
   const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
   EXPECT_EQ(surface->facing(), Facing::up);
   const Grid2 g{-0.0201, -0.0201, 0.0011, 0.0011, 37, 37};
@@ -119,9 +123,12 @@ TEST(OffsetSurface, ARailWithADent) {
 
 TEST(OffsetSurface, BoundsOfTheFieldHoldAndSlopesFit) {
   const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
-  const auto target = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
-  const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 1e-3, 1e-9, region(kPi, 0.05, kR)});
-  for (const Interpolation interpolation : {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
+  const auto target =
+      analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
+  const auto sample =
+      offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 1e-3, 1e-9, region(kPi, 0.05, kR)});
+  for (const Interpolation interpolation :
+       {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
     const auto surface = offset::make_offset_surface(base, sample.offsets, interpolation, "offset");
     const Pose X = level(kPi, 0.0, kR);
     for (const double size : {1e-5, 1e-3, 0.01, 0.1})
@@ -134,7 +141,8 @@ TEST(OffsetSurface, BoundsOfTheFieldHoldAndSlopesFit) {
           EXPECT_LE(z, b.z_max + 1e-12);
           EXPECT_GE(z, b.z_min - 1e-12);
         }
-        // slopes of the profile up to 0.1; those of the flat, up to 0.042 and 0.05, count over the four voxels of the spline
+        // slopes of the profile up to 0.1; those of the flat, up to 0.042 and 0.05, count over the four voxels of the
+        // spline
         if (size < 2e-3) {
           EXPECT_LT(b.z_max - b.z_min, 0.5 * size + 4e-3 * (0.042 + 0.05));
         }
@@ -144,11 +152,13 @@ TEST(OffsetSurface, BoundsOfTheFieldHoldAndSlopesFit) {
 
 TEST(OffsetSurface, ThreadsChangeNothing) {
   const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
-  const auto target = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, 0.0, 0.05, 0.004)});
+  const auto target =
+      analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, 0.0, 0.05, 0.004)});
   std::array<std::vector<double>, 2> z;
   for (int run = 0; run < 2; ++run) {
     const ThreadLimit limit(run == 0 ? 1 : 4);
-    const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 1e-3, 1e-9, region(0.0, 0.05, kR)});
+    const auto sample =
+        offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 1e-3, 1e-9, region(0.0, 0.05, kR)});
     const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
     z[static_cast<std::size_t>(run)] = heights(*surface, level(0.0, 0.0, kR), {-0.03, -0.02, 0.0007, 0.0007, 90, 60});
   }

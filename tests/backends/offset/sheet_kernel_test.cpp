@@ -101,12 +101,16 @@ TEST(SheetKernel, BothKernelsAgree) {
   for (const auto& block : store) table.push_back(block.data());
   table[2] = nullptr;
   for (const int turn : {0, 21}) {
-    const offset::SheetView view{0.1, 3.0, -0.2, 5.0, 0.0, static_cast<double>(turn), turn, table.data(), 0, 3, -1, 2, nullptr, nullptr};
+    const offset::SheetView view{0.1, 3.0, -0.2, 5.0,     0.0,    static_cast<double>(turn), turn, table.data(), 0,
+                                 3,   -1,  2,    nullptr, nullptr};
     for (const int degree : {1, 2, 3}) {
       Values a(5000), b(5000);
-      for (std::size_t i = 0; i < a.u.size(); ++i) b.u[i] = a.u[i] = place(random) / 9.0, b.y[i] = a.y[i] = place(random) / 5.0;
-      offset::sheet_kernel_generic(degree)(view, a.u.size(), a.u.data(), a.y.data(), a.d.data(), a.d_u.data(), a.d_y.data());
-      offset::sheet_kernel_avx2(degree)(view, b.u.size(), b.u.data(), b.y.data(), b.d.data(), b.d_u.data(), b.d_y.data());
+      for (std::size_t i = 0; i < a.u.size(); ++i)
+        b.u[i] = a.u[i] = place(random) / 9.0, b.y[i] = a.y[i] = place(random) / 5.0;
+      offset::sheet_kernel_generic(degree)(view, a.u.size(), a.u.data(), a.y.data(), a.d.data(), a.d_u.data(),
+                                           a.d_y.data());
+      offset::sheet_kernel_avx2(degree)(view, b.u.size(), b.u.data(), b.y.data(), b.d.data(), b.d_u.data(),
+                                        b.d_y.data());
       int some = 0;
       for (std::size_t i = 0; i < a.u.size(); ++i) {
         ASSERT_NEAR(a.d[i], b.d[i], 1e-13) << degree << ' ' << turn;
@@ -123,7 +127,9 @@ TEST(SheetKernel, BlocksAreFoundInTablesAndLists) {
   for (const bool scattered : {false, true}) {
     offset::SheetGrid grid;
     std::vector<offset::BlockKey> keys;
-    for (int k = 0; k < 40; ++k) keys.push_back(scattered ? offset::BlockKey{k * 4001 - 70000, 300 - k * 977} : offset::BlockKey{k % 8 - 3, k / 8});
+    for (int k = 0; k < 40; ++k)
+      keys.push_back(scattered ? offset::BlockKey{k * 4001 - 70000, 300 - k * 977}
+                               : offset::BlockKey{k % 8 - 3, k / 8});
     for (const offset::BlockKey& key : keys) {
       offset::Block block{};
       block[5] = static_cast<float>(key.bi + 1000003), block[500] = static_cast<float>(key.bj + 1000003);
@@ -133,7 +139,8 @@ TEST(SheetKernel, BlocksAreFoundInTablesAndLists) {
     EXPECT_EQ(directory.table() == nullptr, scattered);
     for (const offset::BlockKey& key : keys) {
       EXPECT_EQ(directory.get(key.bi, key.bj), grid.block(key));
-      for (int i = -1; i <= 1; ++i) EXPECT_EQ(directory.get(key.bi + i, key.bj - 30), grid.block({key.bi + i, key.bj - 30}));
+      for (int i = -1; i <= 1; ++i)
+        EXPECT_EQ(directory.get(key.bi + i, key.bj - 30), grid.block({key.bi + i, key.bj - 30}));
     }
   }
   const offset::SheetGrid nothing;

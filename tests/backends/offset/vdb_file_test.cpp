@@ -30,8 +30,10 @@ class VdbFile : public ::testing::Test {
 
   static OffsetFile wheel() {
     const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
-    const auto target = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
-    const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, {2e-3, 2e-3, 1e-9, region(kPi, 0.05, kR)});
+    const auto target =
+        analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
+    const auto sample =
+        offset::sample_offsets(*target, *base, Body::wheel, kR, {2e-3, 2e-3, 1e-9, region(kPi, 0.05, kR)});
     return {sample.offsets, {Body::wheel, kR, StandardProfile{"S1002"}, {}}};
   }
   std::string bytes() const {
@@ -64,7 +66,8 @@ TEST_F(VdbFile, RoundTripKeepsEveryBit) {
   EXPECT_EQ(offset::active_count(*read.offsets), offset::active_count(*written.offsets));
   const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
   const Grid2 g{-0.04, -0.03, 0.0011, 0.0009, 70, 70};
-  for (const Interpolation interpolation : {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
+  for (const Interpolation interpolation :
+       {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
     const auto a = offset::make_offset_surface(base, written.offsets, interpolation, "offset");
     const auto b = offset::make_offset_surface(base, read.offsets, interpolation, "offset");
     EXPECT_EQ(greatest_difference(heights(*a, level(kPi, 0.0, kR), g), heights(*b, level(kPi, 0.0, kR), g)), 0.0);
@@ -132,7 +135,8 @@ TEST_F(VdbFile, NoSingleDamageGoesUnnoticed) {
     const std::size_t at = trial < 60 ? static_cast<std::size_t>(trial) : random() % bad.size();
     const int many = trial % 3 == 0 ? 1 : 1 + static_cast<int>(random() % 16);
     for (int k = 0; k < many && at + static_cast<std::size_t>(k) < bad.size(); ++k)
-      bad[at + static_cast<std::size_t>(k)] = static_cast<char>(bad[at + static_cast<std::size_t>(k)] ^ static_cast<char>(1 + random() % 255));
+      bad[at + static_cast<std::size_t>(k)] =
+          static_cast<char>(bad[at + static_cast<std::size_t>(k)] ^ static_cast<char>(1 + random() % 255));
     put(bad);
     ASSERT_EQ(kind(), kInputData) << "trial " << trial;
   }
@@ -145,7 +149,8 @@ std::string edited(std::string data, const std::string& from, const std::string&
   EXPECT_EQ(from.size(), to.size());
   data.replace(at, from.size(), to);
   std::uint64_t sum = 14695981039346656037ull;
-  for (std::size_t i = 0; i + 24 < data.size(); ++i) sum = (sum ^ static_cast<unsigned char>(data[i])) * 1099511628211ull;
+  for (std::size_t i = 0; i + 24 < data.size(); ++i)
+    sum = (sum ^ static_cast<unsigned char>(data[i])) * 1099511628211ull;
   for (int k = 0; k < 8; ++k) data[data.size() - 8 + static_cast<std::size_t>(k)] = static_cast<char>(sum >> (8 * k));
   return data;
 }
@@ -157,10 +162,11 @@ TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
   EXPECT_EQ(kind(), -1);
   using Pair = std::pair<std::string, std::string>;
   const std::string one_metre("\x01\0\0\0m", 5), one_mile("\x01\0\0\0i", 5);
-  for (const auto& [from, to] : {Pair{"wheel", "whale"}, Pair{"wheel", "rail\n"}, Pair{"0.46000000000000002", "-.46000000000000002"},
-                                 Pair{"0.46000000000000002", "nan0000000000000000"}, Pair{"standard", "standart"},
-                                 Pair{"treadmark offsets 1", "treadmark offsets 2"}, Pair{"treadmark_offsets", "treadmark_offzets"},
-                                 Pair{"tolerance", "tolerante"}, Pair{one_metre, one_mile}}) {
+  for (const auto& [from, to] :
+       {Pair{"wheel", "whale"}, Pair{"wheel", "rail\n"}, Pair{"0.46000000000000002", "-.46000000000000002"},
+        Pair{"0.46000000000000002", "nan0000000000000000"}, Pair{"standard", "standart"},
+        Pair{"treadmark offsets 1", "treadmark offsets 2"}, Pair{"treadmark_offsets", "treadmark_offzets"},
+        Pair{"tolerance", "tolerante"}, Pair{one_metre, one_mile}}) {
     put(edited(good, from, to));
     EXPECT_EQ(kind(), kInputData) << from << " to " << to;
   }

@@ -9,8 +9,8 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::sampling {
@@ -19,7 +19,9 @@ namespace {
 constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.46;
 
-std::shared_ptr<const Surface> cylinder_rail() { return analytic::make_prismatic_surface(analytic::cylinder_chain(0.1, 1.2)); }
+std::shared_ptr<const Surface> cylinder_rail() {
+  return analytic::make_prismatic_surface(analytic::cylinder_chain(0.1, 1.2));
+}
 std::shared_ptr<const Surface> s1002() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius); }
 
 TEST(LateralNodes, AreSpacedAlongTheArcOfACircle) {
@@ -33,7 +35,8 @@ TEST(LateralNodes, AreSpacedAlongTheArcOfACircle) {
   EXPECT_LE(0.1 * angle, kSpacing * (1.0 + 1e-9));
   EXPECT_GT(0.1 * angle, 0.95 * kSpacing);
   for (std::size_t i = 1; i < y.size(); ++i)
-    EXPECT_NEAR(std::asin(std::min(1.0, y[i] / 0.1)) - std::asin(std::max(-1.0, y[i - 1] / 0.1)), angle, 1e-3 * angle) << i;
+    EXPECT_NEAR(std::asin(std::min(1.0, y[i] / 0.1)) - std::asin(std::max(-1.0, y[i - 1] / 0.1)), angle, 1e-3 * angle)
+        << i;
 }
 
 TEST(LateralNodes, FollowAVerticalEndOfAProfile) {

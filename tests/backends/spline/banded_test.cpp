@@ -49,7 +49,8 @@ TEST(Banded, LuWithPivotingAgreesWithADenseSolver) {
     matrix.factor();
     matrix.solve(x);
     const Eigen::VectorXd expected = dense.fullPivLu().solve(rhs);
-    for (int i = 0; i < n; ++i) EXPECT_NEAR(x[static_cast<std::size_t>(i)], expected(i), kRounding * (1 + expected.norm()));
+    for (int i = 0; i < n; ++i)
+      EXPECT_NEAR(x[static_cast<std::size_t>(i)], expected(i), kRounding * (1 + expected.norm()));
   }
 }
 

@@ -99,7 +99,8 @@ TEST(ExactShapes, CubicProfileRolled) {
 
 TEST(ExactShapes, CurvaturesOfACylinderAndATorus) {
   const Profile tread = testing::graph_profile(Body::wheel, 0.065, -0.065, 14, [](double) { return 0.0; });
-  for (const auto& wheel : {make_profile_surface(tread, kRadius), make_slice_surface(same_slices(tread, 64, -3.1, 6.2 / 63), kRadius)}) {
+  for (const auto& wheel :
+       {make_profile_surface(tread, kRadius), make_slice_surface(same_slices(tread, 64, -3.1, 6.2 / 63), kRadius)}) {
     SurfacePoint at;
     const Vec2 target(0.1, 0.02);
     wheel->locate({}, {&target, 1}, {&at, 1});
@@ -111,7 +112,8 @@ TEST(ExactShapes, CurvaturesOfACylinderAndATorus) {
   }
   // A crowned wheel (hollow by -1/R_y): curvatures 1/R and 1/R_y at the lowest point.
   constexpr double kCrown = 0.3;
-  const Profile crown = testing::graph_profile(Body::wheel, 0.05, -0.05, 201, [](double y) { return std::sqrt(kCrown * kCrown - y * y) - kCrown; });
+  const Profile crown = testing::graph_profile(Body::wheel, 0.05, -0.05, 201,
+                                               [](double y) { return std::sqrt(kCrown * kCrown - y * y) - kCrown; });
   const auto torus = make_profile_surface(crown, kRadius);
   SurfacePoint at;
   const Vec2 origin(0.0, 0.0);
@@ -119,7 +121,10 @@ TEST(ExactShapes, CurvaturesOfACylinderAndATorus) {
   EXPECT_NEAR(at.curvature_1, 1.0 / kCrown, 1e-5);  // second derivative of an interpolating spline, order 2
   EXPECT_NEAR(at.curvature_2, 1.0 / kRadius, 1e-9);
   // A rail of the same crown is convex too.
-  const auto rail = make_profile_surface(testing::graph_profile(Body::rail, -0.05, 0.05, 201, [](double y) { return kCrown - std::sqrt(kCrown * kCrown - y * y); }), 0.0);
+  const auto rail =
+      make_profile_surface(testing::graph_profile(Body::rail, -0.05, 0.05, 201,
+                                                  [](double y) { return kCrown - std::sqrt(kCrown * kCrown - y * y); }),
+                           0.0);
   rail->locate({}, {&origin, 1}, {&at, 1});
   EXPECT_NEAR(at.curvature_1, 1.0 / kCrown, 1e-5);
   EXPECT_NEAR(at.curvature_2, 0.0, 1e-12);
@@ -128,8 +133,11 @@ TEST(ExactShapes, CurvaturesOfACylinderAndATorus) {
 
 TEST(ExactShapes, SliceSurfaceOfOneProfileEqualsTheProfileSurface) {
   constexpr double kResampled = 2e-8;  // the slices are sampled at 0.5 mm and splined again
-  const auto rail = make_profile_surface(testing::graph_profile(Body::rail, -0.03, 0.03, 61, [](double y) { return 2 * y * y; }), 0.0);
-  const auto slices = make_slice_surface(same_slices(testing::graph_profile(Body::rail, -0.03, 0.03, 61, [](double y) { return 2 * y * y; }), 6, 0.0, 0.1), 0.0);
+  const auto rail = make_profile_surface(
+      testing::graph_profile(Body::rail, -0.03, 0.03, 61, [](double y) { return 2 * y * y; }), 0.0);
+  const auto slices = make_slice_surface(
+      same_slices(testing::graph_profile(Body::rail, -0.03, 0.03, 61, [](double y) { return 2 * y * y; }), 6, 0.0, 0.1),
+      0.0);
   PlaneGrid plane{{Vec3(0.2, 0, 0), rotation({0.1, 0.02, 0.01})}, {-0.01, -0.02, 2e-3, 1e-3, 11, 41}};
   std::vector<double> a(plane.grid.size()), b(a);
   rail->heights(plane, {a, {}, {}});
@@ -142,7 +150,8 @@ TEST(ExactShapes, RigidMotionOfPlaneAlongTheRailChangesNothing) {
   const Pose pose{Vec3(0.0, 0.001, 0.002), rotation({0.2, 0.05, 0.02})};
   Pose moved = pose;
   moved.origin.x() += 123.0;
-  for (double y = -0.03; y < 0.03; y += 4e-3) EXPECT_NEAR(height_at(*rail, moved, {0.01, y}), height_at(*rail, pose, {0.01, y}), 1e-13);
+  for (double y = -0.03; y < 0.03; y += 4e-3)
+    EXPECT_NEAR(height_at(*rail, moved, {0.01, y}), height_at(*rail, pose, {0.01, y}), 1e-13);
 }
 
 TEST(ExactShapes, LookingAlongTheRailMissesEverything) {

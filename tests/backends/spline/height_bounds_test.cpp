@@ -21,7 +21,8 @@ int expect_conservative_bounds(const Surface& surface, const std::vector<Pose>& 
   int hits = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     Pose X = planes[static_cast<std::size_t>(trial) % planes.size()];
-    X.rotation = X.rotation * rotation({0.3 * (unit(random) - 0.5), 0.3 * (unit(random) - 0.5), 0.3 * (unit(random) - 0.5)});
+    X.rotation =
+        X.rotation * rotation({0.3 * (unit(random) - 0.5), 0.3 * (unit(random) - 0.5), 0.3 * (unit(random) - 0.5)});
     const double width = std::pow(10.0, -4.0 + 2.4 * unit(random)), height = std::pow(10.0, -4.0 + 2.4 * unit(random));
     const double x = 0.2 * (unit(random) - 0.5), y = 0.12 * (unit(random) - 0.5);
     constexpr int kPoints = 7;

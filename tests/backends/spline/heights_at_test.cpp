@@ -19,13 +19,18 @@ using treadmark::testing::Fields;
 constexpr double kRadius = 0.46;
 
 TEST(HeightsAt, ProfilesGiveTheHeightsOfGrids) {
-  EXPECT_GT(expect_heights_at_gives_heights(*make_profile_surface(testing::rail_head(), 0.0), treadmark::testing::rail_planes()), 3000);
-  EXPECT_GT(expect_heights_at_gives_heights(*make_profile_surface(testing::flanged_wheel(), kRadius), treadmark::testing::wheel_planes(kRadius)),
+  EXPECT_GT(expect_heights_at_gives_heights(*make_profile_surface(testing::rail_head(), 0.0),
+                                            treadmark::testing::rail_planes()),
+            3000);
+  EXPECT_GT(expect_heights_at_gives_heights(*make_profile_surface(testing::flanged_wheel(), kRadius),
+                                            treadmark::testing::wheel_planes(kRadius)),
             3000);
 }
 
 TEST(HeightsAt, SlicesGiveTheHeightsOfGrids) {
-  EXPECT_GT(expect_heights_at_gives_heights(*make_slice_surface(testing::bending_rail(), 0.0), treadmark::testing::rail_planes()), 3000);
+  EXPECT_GT(expect_heights_at_gives_heights(*make_slice_surface(testing::bending_rail(), 0.0),
+                                            treadmark::testing::rail_planes()),
+            3000);
   EXPECT_GT(expect_heights_at_gives_heights(*make_slice_surface(testing::dented_wheel(1e-3, 0.02), kRadius),
                                             treadmark::testing::wheel_planes(kRadius)),
             3000);
@@ -39,7 +44,8 @@ TEST(HeightsAt, PointsFarApartDoNotDisturbEachOther) {
   std::uniform_real_distribution<double> x(-0.44, 0.44), y(-0.06, 0.05);
   std::vector<Vec2> points;
   for (int i = 0; i < 300; ++i) points.push_back({x(random), y(random)});
-  for (const auto& wheel : {make_profile_surface(testing::flanged_wheel(), kRadius), make_slice_surface(testing::dented_wheel(), kRadius)}) {
+  for (const auto& wheel : {make_profile_surface(testing::flanged_wheel(), kRadius),
+                            make_slice_surface(testing::dented_wheel(), kRadius)}) {
     Fields all(points.size());
     wheel->heights_at(X, points, all.out());
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -56,7 +62,8 @@ TEST(HeightsAt, ThreadsChangeNothing) {
   std::vector<Vec2> points;
   for (int i = 0; i < 5000; ++i) points.push_back({0.02 * std::sin(0.01 * i), 0.03 * std::cos(0.0037 * i)});
   const Pose X{{0.0, 0.0, kRadius}, rotation({0.1, 0.2, 0.0})};
-  for (const auto& wheel : {make_profile_surface(testing::flanged_wheel(), kRadius), make_slice_surface(testing::dented_wheel(), kRadius)}) {
+  for (const auto& wheel : {make_profile_surface(testing::flanged_wheel(), kRadius),
+                            make_slice_surface(testing::dented_wheel(), kRadius)}) {
     Fields one(points.size()), many(points.size());
     {
       const ThreadLimit limit(1);

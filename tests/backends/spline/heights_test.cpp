@@ -136,7 +136,8 @@ TEST_P(Heights, EqualBruteForceInTiltedPlanes) {
     for (int i = 0; i < 6; ++i) {
       const double x = 0.05 * d(random), y = 0.05 * d(random);
       const double expected = brute.outermost(x, y), found = height_at(*subject().surface, pose, {x, y});
-      ASSERT_EQ(std::isnan(expected), std::isnan(found)) << "roll " << roll << " x " << x << " y " << y << ' ' << expected;
+      ASSERT_EQ(std::isnan(expected), std::isnan(found))
+          << "roll " << roll << " x " << x << " y " << y << ' ' << expected;
       if (std::isnan(expected)) continue;
       ++hits;
       EXPECT_NEAR(found, expected, kHeightTolerance) << "roll " << roll << " x " << x << " y " << y;
@@ -172,7 +173,8 @@ TEST_P(Heights, AreTheSameForPlanesTurnedByNinetyDegrees) {
   turned.rotation.col(1) = -pose.rotation.col(0);
   for (double x = -0.02; x < 0.03; x += 7e-3)
     for (double y = -0.02; y < 0.03; y += 6e-3)
-      EXPECT_NEAR(height_at(*subject().surface, turned, {y, -x}), height_at(*subject().surface, pose, {x, y}), kHeightTolerance);
+      EXPECT_NEAR(height_at(*subject().surface, turned, {y, -x}), height_at(*subject().surface, pose, {x, y}),
+                  kHeightTolerance);
 }
 
 TEST_P(Heights, SlopesEqualDifferences) {
@@ -206,7 +208,8 @@ TEST_P(Heights, LieWithinTheirBounds) {
   int hits = 0, empty = 0;
   for (int trial = 0; trial < 60; ++trial) {
     const Pose pose = plane_near(subject(), random, 1.2 * d(random));
-    const double x = 0.05 * d(random), y = 0.08 * d(random), width = 0.01 * (1 + d(random)), depth = 0.005 * (1 + d(random));
+    const double x = 0.05 * d(random), y = 0.08 * d(random), width = 0.01 * (1 + d(random)),
+                 depth = 0.005 * (1 + d(random));
     const Rectangle rectangle{x, x + width, y, y + depth};
     const HeightBounds bounds = subject().surface->height_bounds(pose, rectangle);
     empty += bounds.empty;
@@ -272,7 +275,8 @@ TEST_P(Heights, LieInTheBox) {
   const Subject& s = subject();
   const Box3 box = s.surface->bounds();
   for (int i = 0; i < 500; ++i) {
-    const Vec3 p = s.point(s.u + (s.wheel ? 6.2 : 1.0) * (d(random) - 0.5), s.v_begin + (s.v_end - s.v_begin) * d(random));
+    const Vec3 p =
+        s.point(s.u + (s.wheel ? 6.2 : 1.0) * (d(random) - 0.5), s.v_begin + (s.v_end - s.v_begin) * d(random));
     for (int k = 0; k < 3; ++k) {
       ASSERT_GE(p[k], box.min[k] - 1e-12);
       ASSERT_LE(p[k], box.max[k] + 1e-12);

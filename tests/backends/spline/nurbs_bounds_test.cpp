@@ -36,13 +36,15 @@ std::shared_ptr<const Surface> from_grid(Body body, double step) {
   for (const double u : grid.u)
     for (const double y : grid.y) {
       const double a = u / (wheel ? 0.12 : 0.05), b = (y - 5e-3) / 25e-3, dent = 1e-3 * std::exp(-a * a - b * b);
-      grid.h.push_back(wheel ? kRadius + testing::flanged_wheel_z(y) - dent : 3.0 * y * y + 400.0 * y * y * y * y + dent);
+      grid.h.push_back(wheel ? kRadius + testing::flanged_wheel_z(y) - dent
+                             : 3.0 * y * y + 400.0 * y * y * y * y + dent);
     }
   return make_nurbs_surface(grid);
 }
 
 std::vector<Subject> subjects() {
-  const ArcChain two_arcs{-0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
+  const ArcChain two_arcs{
+      -0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
   return {{"two_arc_rail", make_nurbs_surface(two_arcs, Body::rail, 0.0), 0.0, 0.02},
           {"barrel_wheel", make_nurbs_surface(analytic::barrel_chain(0.1, 0.5), Body::wheel, kRadius), kRadius, 0.02},
           {"dented_rail", from_grid(Body::rail, 1e-3), 0.0, 0.02},
@@ -62,9 +64,12 @@ TEST_P(NurbsBounds, HoldAllHeightsOfRandomRectangles) {
   int hits = 0, excess = 0;
   for (int trial = 0; trial < 3000; ++trial) {
     const double theta = wheel ? 0.1 * either(random) : 0.0, tilt = trial % 2 == 0 ? 0.1 : 0.9;
-    const Vec3 origin(s.radius * std::sin(theta), 0.02 * either(random), s.radius * std::cos(theta) + 0.01 * either(random));
-    const Pose X{origin, rotation({tilt * either(random), 0.3 * tilt * either(random), theta + 0.3 * tilt * either(random)})};
-    const double width = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random))), height = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random)));
+    const Vec3 origin(s.radius * std::sin(theta), 0.02 * either(random),
+                      s.radius * std::cos(theta) + 0.01 * either(random));
+    const Pose X{origin,
+                 rotation({tilt * either(random), 0.3 * tilt * either(random), theta + 0.3 * tilt * either(random)})};
+    const double width = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random))),
+                 height = std::pow(10.0, -4.5 + 3.0 * std::fabs(either(random)));
     const double x = 0.1 * either(random), y = 0.06 * either(random);
     const HeightBounds bounds = s.surface->height_bounds(X, {x, x + width, y, y + height});
     s.surface->heights({X, {x, y, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints}}, {z, {}, {}});
@@ -114,7 +119,8 @@ TEST_P(NurbsBounds, SmallTilesGiveTheWholeGrid) {
   }
 }
 
-INSTANTIATE_TEST_SUITE_P(Nurbs, NurbsBounds, ::testing::ValuesIn(subjects()), [](const auto& one) { return std::string(one.param.name); });
+INSTANTIATE_TEST_SUITE_P(Nurbs, NurbsBounds, ::testing::ValuesIn(subjects()),
+                         [](const auto& one) { return std::string(one.param.name); });
 
 }  // namespace
 }  // namespace treadmark::spline

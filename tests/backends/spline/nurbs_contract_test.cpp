@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// What every surface promises, for NURBS: tiles, threads, rigid motions, bounds, differences, nothing beside the surface.
+// What every surface promises, for NURBS: tiles, threads, rigid motions, bounds, differences, nothing beside the
+// surface.
 #include <gtest/gtest.h>
 
 #include <cmath>
@@ -46,17 +47,21 @@ std::shared_ptr<const Surface> dented_flanged_wheel() {
 
 const std::vector<Subject>& subjects() {
   static const std::vector<Subject> all = [] {
-    const ArcChain two_arcs{-0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
+    const ArcChain two_arcs{
+        -0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
     return std::vector<Subject>{
-        {"two_arc_rail", make_nurbs_surface(two_arcs, Body::rail, 0.0), treadmark::testing::rail_planes(), two_arcs.start_y, 0.3 * std::sin(0.1)},
-        {"barrel_wheel", make_nurbs_surface(analytic::barrel_chain(0.05, 0.8), Body::wheel, 0.3), treadmark::testing::wheel_planes(0.3),
-         -0.05 * std::sin(0.8), 0.05 * std::sin(0.8)},
+        {"two_arc_rail", make_nurbs_surface(two_arcs, Body::rail, 0.0), treadmark::testing::rail_planes(),
+         two_arcs.start_y, 0.3 * std::sin(0.1)},
+        {"barrel_wheel", make_nurbs_surface(analytic::barrel_chain(0.05, 0.8), Body::wheel, 0.3),
+         treadmark::testing::wheel_planes(0.3), -0.05 * std::sin(0.8), 0.05 * std::sin(0.8)},
         {"dented_wheel", dented_flanged_wheel(), treadmark::testing::wheel_planes(kRadius), -0.07, 0.06}};
   }();
   return all;
 }
 
-bool same(double a, double b, double tolerance) { return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= tolerance; }
+bool same(double a, double b, double tolerance) {
+  return (std::isnan(a) && std::isnan(b)) || std::abs(a - b) <= tolerance;
+}
 
 TEST(NurbsContract, TilesGiveTheWholeGridForAnyThreads) {
   const Grid2 g{-0.0197, -0.0293, 0.00031, 0.00047, 130, 125};
@@ -70,11 +75,14 @@ TEST(NurbsContract, TilesGiveTheWholeGridForAnyThreads) {
       const ThreadLimit limit(4);
       s.surface->heights({X, g}, many.out());
       for (std::size_t i = 0; i < g.size(); ++i)
-        ASSERT_TRUE(same(one.z[i], many.z[i], 0.0) && same(one.dzdx[i], many.dzdx[i], 0.0) && same(one.dzdy[i], many.dzdy[i], 0.0)) << s.name;
+        ASSERT_TRUE(same(one.z[i], many.z[i], 0.0) && same(one.dzdx[i], many.dzdx[i], 0.0) &&
+                    same(one.dzdy[i], many.dzdy[i], 0.0))
+            << s.name;
       const int half_x = g.nx / 2, half_y = g.ny / 3;
       for (int part = 0; part < 4; ++part) {
         const int bx = part % 2 ? half_x : 0, by = part / 2 ? half_y : 0;
-        const Grid2 tile{g.x(bx), g.y(by), g.dx, g.dy, part % 2 ? g.nx - half_x : half_x, part / 2 ? g.ny - half_y : half_y};
+        const Grid2 tile{
+            g.x(bx), g.y(by), g.dx, g.dy, part % 2 ? g.nx - half_x : half_x, part / 2 ? g.ny - half_y : half_y};
         const Fields f = heights(*s.surface, X, tile);
         for (int iy = 0; iy < tile.ny; ++iy)
           for (int ix = 0; ix < tile.nx; ++ix) {
@@ -120,8 +128,10 @@ TEST(NurbsContract, SlopesMatchDifferencesAndMissesAreNaNThroughout) {
       for (std::size_t i = 0; i < g.size(); ++i) {
         ASSERT_EQ(std::isnan(f.z[i]), std::isnan(f.dzdx[i]));
         ASSERT_EQ(std::isnan(f.z[i]), std::isnan(f.dzdy[i]));
-        const double dzdx = (moved[0].z[i] - moved[1].z[i]) / (2 * kStep), dzdy = (moved[2].z[i] - moved[3].z[i]) / (2 * kStep);
-        if (std::isnan(f.z[i]) || std::isnan(dzdx) || std::isnan(dzdy) || std::hypot(f.dzdx[i], f.dzdy[i]) > 3.0) continue;
+        const double dzdx = (moved[0].z[i] - moved[1].z[i]) / (2 * kStep),
+                     dzdy = (moved[2].z[i] - moved[3].z[i]) / (2 * kStep);
+        if (std::isnan(f.z[i]) || std::isnan(dzdx) || std::isnan(dzdy) || std::hypot(f.dzdx[i], f.dzdy[i]) > 3.0)
+          continue;
         ++compared;
         wrong += std::abs(dzdx - f.dzdx[i]) > 1e-5 || std::abs(dzdy - f.dzdy[i]) > 1e-5;
       }
@@ -156,8 +166,10 @@ TEST(NurbsContract, HeightBoundsHoldEveryHeightAndAreTight) {
     int hit = 0, small = 0, loose = 0;
     for (int trial = 0; trial < 400; ++trial) {
       Pose X = s.planes[static_cast<std::size_t>(trial) % s.planes.size()];
-      X.rotation = X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
-      const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)), height = std::pow(10.0, -4.0 + 2.5 * unit(random));
+      X.rotation =
+          X.rotation * rotation({0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5), 0.2 * (unit(random) - 0.5)});
+      const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)),
+                   height = std::pow(10.0, -4.0 + 2.5 * unit(random));
       const double x = 0.1 * (unit(random) - 0.5), y = 0.15 * (unit(random) - 0.5);
       const HeightBounds bounds = s.surface->height_bounds(X, {x, x + width, y, y + height});
       const Fields f = heights(*s.surface, X, {x, y, width / (kPoints - 1), height / (kPoints - 1), kPoints, kPoints});
@@ -225,13 +237,15 @@ TEST(NurbsContract, LocatedPointsHaveHeightsNormalsAndCurvatures) {
         T.rotation.col(1) = n.cross(e).normalized();
         T.rotation.col(0) = T.rotation.col(1).cross(n);
         const Fields h = heights(*s.surface, T, {-kStep, -kStep, kStep, kStep, 3, 3});
-        const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep), hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
+        const double hxx = (h.z[3] - 2 * h.z[4] + h.z[5]) / (kStep * kStep),
+                     hyy = (h.z[1] - 2 * h.z[4] + h.z[7]) / (kStep * kStep);
         const double hxy = (h.z[8] - h.z[6] - h.z[2] + h.z[0]) / (4 * kStep * kStep);
         if (std::isnan(hxx + hyy + hxy)) continue;
         const double mean = -side * 0.5 * (hxx + hyy), spread = std::hypot(0.5 * (hxx - hyy), hxy);
         const double tolerance = 1e-3 * (1.0 + std::abs(p.curvature_1) + std::abs(p.curvature_2));
         ++compared;
-        wrong += std::abs(mean + spread - p.curvature_1) > tolerance || std::abs(mean - spread - p.curvature_2) > tolerance;
+        wrong +=
+            std::abs(mean + spread - p.curvature_1) > tolerance || std::abs(mean - spread - p.curvature_2) > tolerance;
       }
     }
     EXPECT_GT(compared, 50) << s.name;

@@ -56,7 +56,8 @@ ArcChain flange_chain() {
 }
 
 /// Largest difference of heights, relative to steepness, and misses of one only, in all planes.
-void expect_same_heights(const Surface& found, const Surface& expected, const std::vector<Pose>& planes, double tolerance) {
+void expect_same_heights(const Surface& found, const Surface& expected, const std::vector<Pose>& planes,
+                         double tolerance) {
   // next to a silhouette the two may disagree about what is hit within rounding
   constexpr double kSilhouette = 1e3;
   int compared = 0, steep = 0;
@@ -67,7 +68,8 @@ void expect_same_heights(const Surface& found, const Surface& expected, const st
       const double slope = std::hypot(b.dzdx[i], b.dzdy[i]);
       ASSERT_EQ(std::isnan(a.z[i]), std::isnan(b.z[i])) << "plane " << plane << " point " << i;
       if (std::isnan(a.z[i]) || slope > kSilhouette) continue;
-      ASSERT_NEAR(a.z[i], b.z[i], tolerance * (1.0 + slope * slope)) << "plane " << plane << " point " << i << " slope " << slope;
+      ASSERT_NEAR(a.z[i], b.z[i], tolerance * (1.0 + slope * slope))
+          << "plane " << plane << " point " << i << " slope " << slope;
       const double scale = std::pow(1.0 + slope * slope, 2.0);
       ASSERT_NEAR(a.dzdx[i], b.dzdx[i], 1e-9 * scale) << "plane " << plane << " point " << i;
       ASSERT_NEAR(a.dzdy[i], b.dzdy[i], 1e-9 * scale) << "plane " << plane << " point " << i;
@@ -129,21 +131,27 @@ TEST(NurbsExact, BallAndTorusWheelInClosedForm) {
 
 TEST(NurbsExact, RailsHaveTheHeightsOfTheAnalyticBackend) {
   const auto planes = treadmark::testing::rail_planes();
-  const ArcChain two_arcs{-0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
+  const ArcChain two_arcs{
+      -0.06 * std::sin(0.5), 0.06 * (1.0 - std::cos(0.5)), -0.5, {{0.06 * 0.5, 1.0 / 0.06}, {0.3 * 0.1, 1.0 / 0.3}}};
   for (const ArcChain& chain : {two_arcs, rail_head_chain()})
-    expect_same_heights(*make_nurbs_surface(chain, Body::rail, 0.0), *analytic::make_prismatic_surface(chain), planes, 1e-12);
+    expect_same_heights(*make_nurbs_surface(chain, Body::rail, 0.0), *analytic::make_prismatic_surface(chain), planes,
+                        1e-12);
 }
 
 TEST(NurbsExact, WheelsHaveTheHeightsOfTheAnalyticBackend) {
   const auto planes = treadmark::testing::wheel_planes(kRadius);
   for (const ArcChain& chain : {analytic::barrel_chain(0.05, 0.8), flange_chain()})
-    expect_same_heights(*make_nurbs_surface(chain, Body::wheel, kRadius), *analytic::make_revolved_surface(chain, kRadius), planes, 1e-12);
+    expect_same_heights(*make_nurbs_surface(chain, Body::wheel, kRadius),
+                        *analytic::make_revolved_surface(chain, kRadius), planes, 1e-12);
 }
 
 TEST(NurbsExact, ScatteredHeightsAreThoseOfGrids) {
   using treadmark::testing::expect_heights_at_gives_heights;
-  EXPECT_GT(expect_heights_at_gives_heights(*make_nurbs_surface(rail_head_chain(), Body::rail, 0.0), treadmark::testing::rail_planes()), 3000);
-  EXPECT_GT(expect_heights_at_gives_heights(*make_nurbs_surface(flange_chain(), Body::wheel, kRadius), treadmark::testing::wheel_planes(kRadius)),
+  EXPECT_GT(expect_heights_at_gives_heights(*make_nurbs_surface(rail_head_chain(), Body::rail, 0.0),
+                                            treadmark::testing::rail_planes()),
+            3000);
+  EXPECT_GT(expect_heights_at_gives_heights(*make_nurbs_surface(flange_chain(), Body::wheel, kRadius),
+                                            treadmark::testing::wheel_planes(kRadius)),
             3000);
 }
 
@@ -157,7 +165,8 @@ TEST(NurbsExact, OnlyTheHalfTowardsThePlaneIsHit) {
   // from any side
   for (double pitch = -3.0; pitch < 3.1; pitch += 0.37) {
     const Mat3 turn = rotation_y(pitch);
-    EXPECT_NEAR(height_at(*wheel, {turn * Vec3(0, 0, kRadius), turn}, {0.02, 0.01}), std::sqrt(kRadius * kRadius - 4e-4) - kRadius, kRounding);
+    EXPECT_NEAR(height_at(*wheel, {turn * Vec3(0, 0, kRadius), turn}, {0.02, 0.01}),
+                std::sqrt(kRadius * kRadius - 4e-4) - kRadius, kRounding);
   }
 }
 
@@ -181,7 +190,8 @@ TEST(NurbsExact, InverseOfEvaluation) {
       X.rotation.col(1) = normal.cross(at.pu).normalized();
       X.rotation.col(0) = X.rotation.col(1).cross(normal);
       X.rotation = X.rotation * rotation({unit(random) - 0.5, unit(random) - 0.5, unit(random) - 0.5});
-      if (is_wheel && at.p.x() * X.rotation(0, 2) + at.p.z() * X.rotation(2, 2) < 0.0) continue;  // on the far half of the wheel
+      if (is_wheel && at.p.x() * X.rotation(0, 2) + at.p.z() * X.rotation(2, 2) < 0.0)
+        continue;  // on the far half of the wheel
       X.origin = at.p + 0.01 * X.rotation * Vec3(unit(random), unit(random), unit(random));
       const Vec3 in_plane = X.apply_inverse(at.p);
       SurfacePoint p = locate_at(*surface, X, {in_plane.x(), in_plane.y()});

@@ -22,7 +22,8 @@ using treadmark::testing::Fields;
 constexpr double kPi = std::numbers::pi;
 constexpr double kRadius = 0.46;
 
-PointGrid sample(Body body, double u0, double u1, int nu, double y0, double y1, int ny, const std::function<double(double, double)>& h) {
+PointGrid sample(Body body, double u0, double u1, int nu, double y0, double y1, int ny,
+                 const std::function<double(double, double)>& h) {
   PointGrid grid;
   grid.body = body;
   for (int i = 0; i < nu; ++i) grid.u.push_back(u0 + (u1 - u0) * i / (nu - 1));
@@ -76,7 +77,10 @@ TEST(NurbsGrid, ConvergesWithOrderFour) {
     double worst = 0.0;
     for (double x = -0.1; x < 0.1; x += 0.0173)
       for (double y = -0.025; y < 0.025; y += 0.0031) {
-        const auto below = [&](double z) { const Vec3 p = X.apply({x, y, z}); return p.z() - wavy_rail(p.x(), p.y()); };
+        const auto below = [&](double z) {
+          const Vec3 p = X.apply({x, y, z});
+          return p.z() - wavy_rail(p.x(), p.y());
+        };
         worst = std::max(worst, std::abs(height_at(*surface, X, {x, y}) - bisect(below, -0.1, 0.1)));
       }
     return worst;
@@ -124,15 +128,19 @@ TEST(NurbsGrid, AClosedWheelIsSmoothAllRound) {
 }
 
 TEST(NurbsGrid, ASectorEndsWhereItsStationsDo) {
-  const auto sector = make_nurbs_surface(sample(Body::wheel, -0.2, 0.3, 40, -0.05, 0.05, 20, [](double, double) { return kRadius; }));
-  for (const double theta : {-0.1999, 0.2999}) EXPECT_FALSE(std::isnan(height_at(*sector, {}, {kRadius * std::sin(theta), 0.0})));
-  for (const double theta : {-0.2001, 0.3001}) EXPECT_TRUE(std::isnan(height_at(*sector, {}, {kRadius * std::sin(theta), 0.0})));
+  const auto sector =
+      make_nurbs_surface(sample(Body::wheel, -0.2, 0.3, 40, -0.05, 0.05, 20, [](double, double) { return kRadius; }));
+  for (const double theta : {-0.1999, 0.2999})
+    EXPECT_FALSE(std::isnan(height_at(*sector, {}, {kRadius * std::sin(theta), 0.0})));
+  for (const double theta : {-0.2001, 0.3001})
+    EXPECT_TRUE(std::isnan(height_at(*sector, {}, {kRadius * std::sin(theta), 0.0})));
   // seen from the other side it would show its inside
   EXPECT_TRUE(std::isnan(height_at(*sector, {{0.0, 0.0, 0.0}, rotation_y(kPi)}, {0.0, 0.0})));
 }
 
 TEST(NurbsGrid, HighCurvatureWherePlainNewtonFails) {
-  // a ridge of about 0.2 mm radius on a flat rail; in a rolled plane plain Newton iteration from afar leaves the surface or circles
+  // a ridge of about 0.2 mm radius on a flat rail; in a rolled plane plain Newton iteration from afar leaves the
+  // surface or circles
   const auto ridge = [](double, double y) { return -3e-3 / (1.0 + std::pow(y / 0.8e-3, 2)); };
   PointGrid grid = sample(Body::rail, -0.02, 0.02, 5, -0.012, 0.012, 400, ridge);
   const NurbsSurface surface(fit_point_grid(grid), Body::rail);
@@ -160,12 +168,16 @@ TEST(NurbsGrid, HighCurvatureWherePlainNewtonFails) {
     const double z = height_at(surface, X, {1e-3, y});
     ASSERT_FALSE(std::isnan(z)) << y;
     // the outermost zero of the formula along the line, by a fine search
-    const auto below = [&](double t) { const Vec3 p = X.apply({1e-3, y, t}); return p.z() - ridge(0.0, p.y()); };
+    const auto below = [&](double t) {
+      const Vec3 p = X.apply({1e-3, y, t});
+      return p.z() - ridge(0.0, p.y());
+    };
     double t = -6e-3;
     while (below(t) < 0.0) t += 1e-6;
     // the spline follows the formula with h = 60 um to about h^4 z''''/384, times steepness
     const double expected = bisect(below, t - 1e-6, t);
-    const double slope = 2.0 * X.apply({1e-3, y, expected}).y() * 3e-3 / 0.64e-6 / std::pow(1.0 + std::pow(X.apply({1e-3, y, expected}).y() / 0.8e-3, 2), 2);
+    const double slope = 2.0 * X.apply({1e-3, y, expected}).y() * 3e-3 / 0.64e-6 /
+                         std::pow(1.0 + std::pow(X.apply({1e-3, y, expected}).y() / 0.8e-3, 2), 2);
     EXPECT_NEAR(z, expected, 2e-7 / (std::cos(0.36) + slope * std::sin(0.36))) << y;
     double newton_z = 0.0;
     ++points;
@@ -186,7 +198,10 @@ TEST(NurbsGrid, OverhangsShowTheirOutermostSide) {
   int compared = 0, ambiguous = 0;
   for (double x = -0.01; x < 0.01; x += 0.0037)
     for (double y = -8e-3; y < 8e-3; y += 0.31e-3) {
-      const auto below = [&](double t) { const Vec3 p = X.apply({x, y, t}); return p.z() - wave(p.x(), p.y()); };
+      const auto below = [&](double t) {
+        const Vec3 p = X.apply({x, y, t});
+        return p.z() - wave(p.x(), p.y());
+      };
       double t = -0.02;
       while (below(t) < 0.0) t += 2e-6;
       const double expected = bisect(below, t - 2e-6, t);
@@ -210,8 +225,10 @@ TEST(NurbsGrid, OverhangsShowTheirOutermostSide) {
 TEST(NurbsGrid, BadGridsAreRefused) {
   const PointGrid good = sample(Body::rail, 0.0, 1.0, 5, 0.0, 0.1, 5, [](double, double) { return 0.0; });
   EXPECT_NO_THROW(make_nurbs_surface(good));
-  EXPECT_THROW(make_nurbs_surface(sample(Body::rail, 0.0, 1.0, 3, 0.0, 0.1, 9, [](double, double) { return 0.0; })), Error);
-  EXPECT_THROW(make_nurbs_surface(sample(Body::rail, 0.0, 1.0, 9, 0.0, 0.1, 3, [](double, double) { return 0.0; })), Error);
+  EXPECT_THROW(make_nurbs_surface(sample(Body::rail, 0.0, 1.0, 3, 0.0, 0.1, 9, [](double, double) { return 0.0; })),
+               Error);
+  EXPECT_THROW(make_nurbs_surface(sample(Body::rail, 0.0, 1.0, 9, 0.0, 0.1, 3, [](double, double) { return 0.0; })),
+               Error);
   PointGrid bad = good;
   bad.h[7] = std::numeric_limits<double>::quiet_NaN();
   EXPECT_THROW(make_nurbs_surface(bad), Error);

@@ -44,10 +44,10 @@ TEST(ProfileFit, InterpolatesDataExactly) {
   }
 }
 
-// Dense minimisation of sum w (f_i - z_i)^2 + lambda integral f''^2 over values and slopes at the points (Hermite cubics),
-// a formulation that shares nothing with the solver. Sections are joined in value at corners.
-Eigen::VectorXd dense_smoothing(const std::vector<double>& s, const std::vector<double>& data, const std::vector<double>& w,
-                                const std::vector<int>& corners, double lambda) {
+// Dense minimisation of sum w (f_i - z_i)^2 + lambda integral f''^2 over values and slopes at the points (Hermite
+// cubics), a formulation that shares nothing with the solver. Sections are joined in value at corners.
+Eigen::VectorXd dense_smoothing(const std::vector<double>& s, const std::vector<double>& data,
+                                const std::vector<double>& w, const std::vector<int>& corners, double lambda) {
   const int n = static_cast<int>(s.size());
   // Unknowns: values f_0 .. f_(n-1), then the left and right slope of every interval.
   const int size = n + 2 * (n - 1);
@@ -62,7 +62,8 @@ Eigen::VectorXd dense_smoothing(const std::vector<double>& s, const std::vector<
     const double h = s[static_cast<std::size_t>(i) + 1] - s[static_cast<std::size_t>(i)];
     // integral f''^2 of the cubic with end values and slopes (beam element).
     Eigen::Matrix4d k;
-    k << 12, 6 * h, -12, 6 * h, 6 * h, 4 * h * h, -6 * h, 2 * h * h, -12, -6 * h, 12, -6 * h, 6 * h, 2 * h * h, -6 * h, 4 * h * h;
+    k << 12, 6 * h, -12, 6 * h, 6 * h, 4 * h * h, -6 * h, 2 * h * h, -12, -6 * h, 12, -6 * h, 6 * h, 2 * h * h, -6 * h,
+        4 * h * h;
     k *= lambda / (h * h * h);
     const int index[4] = {i, n + 2 * i, i + 1, n + 2 * i + 1};
     for (int r = 0; r < 4; ++r)
@@ -85,18 +86,21 @@ Eigen::VectorXd dense_smoothing(const std::vector<double>& s, const std::vector<
 }
 
 TEST(ProfileFit, CubicSmoothingMinimisesItsFunctional) {
-  const Profile p = testing::graph_profile(Body::rail, -10e-3, 12e-3, 23, [](double y) { return roof(y) + 30e-6 * std::sin(9e3 * y); });
+  const Profile p = testing::graph_profile(Body::rail, -10e-3, 12e-3, 23,
+                                           [](double y) { return roof(y) + 30e-6 * std::sin(9e3 * y); });
   const auto s = arc_length(p);
   const auto kinks = find_kinks(p, s);
   ASSERT_EQ(kinks.size(), 3u);
   // Metres make the beam matrix badly conditioned, so both sides work in millimetres.
   std::vector<double> s_mm, y_mm, z_mm, w(s.size(), 1.0);
-  for (std::size_t i = 0; i < s.size(); ++i) s_mm.push_back(1e3 * s[i]), y_mm.push_back(1e3 * p.y[i]), z_mm.push_back(1e3 * p.z[i]);
+  for (std::size_t i = 0; i < s.size(); ++i)
+    s_mm.push_back(1e3 * s[i]), y_mm.push_back(1e3 * p.y[i]), z_mm.push_back(1e3 * p.z[i]);
   w[static_cast<std::size_t>(kinks[1])] = 100.0;
   for (const double lambda : {0.01, 1.0, 50.0}) {
     const ProfileSpline fitted = fit_cubic_smoothing({s_mm, y_mm, z_mm, kinks, w}, lambda);
     const Eigen::VectorXd expected = dense_smoothing(s_mm, z_mm, w, kinks, lambda);
-    for (std::size_t i = 0; i < s.size(); ++i) EXPECT_NEAR(fitted.position(s_mm[i]).y(), expected(static_cast<int>(i)), 1e-9);
+    for (std::size_t i = 0; i < s.size(); ++i)
+      EXPECT_NEAR(fitted.position(s_mm[i]).y(), expected(static_cast<int>(i)), 1e-9);
     for (std::size_t i = 0; i + 1 < s.size(); ++i)
       EXPECT_NEAR(fitted.derivative(s_mm[i]).y(), expected(static_cast<int>(s.size() + 2 * i)), 1e-8);
   }
@@ -105,12 +109,13 @@ TEST(ProfileFit, CubicSmoothingMinimisesItsFunctional) {
   smooth.smoothing.strength = 1.0e-9;
   const ProfileSpline fitted = fit_profile(smooth);
   const Eigen::VectorXd expected = dense_smoothing(s_mm, z_mm, w, kinks, 1.0);
-  for (std::size_t i = 0; i < s.size(); ++i) EXPECT_NEAR(fitted.position(s[i]).y(), 1e-3 * expected(static_cast<int>(i)), 1e-12);
+  for (std::size_t i = 0; i < s.size(); ++i)
+    EXPECT_NEAR(fitted.position(s[i]).y(), 1e-3 * expected(static_cast<int>(i)), 1e-12);
 }
 
 // J of the B-spline method by quadrature of the result.
-double bspline_functional(const ProfileSpline& f, const Profile& p, const std::vector<double>& s, const std::vector<double>& w,
-                          double lambda) {
+double bspline_functional(const ProfileSpline& f, const Profile& p, const std::vector<double>& s,
+                          const std::vector<double>& w, double lambda) {
   double sum = 0.0;
   for (std::size_t i = 0; i < s.size(); ++i) sum += w[i] * std::pow(f.position(s[i]).y() - p.z[i], 2);
   for (std::size_t k = 0; k < f.segments().size(); ++k)
@@ -139,7 +144,8 @@ TEST(ProfileFit, BsplineSmoothingMinimisesItsFunctional) {
       const double h = f.breaks()[k + 1] - f.breaks()[k];
       const double bump[4][4] = {{0, 0, 0, 1}, {1, 3, 3, -3}, {4, 0, -6, 3}, {1, -3, 3, -1}};
       for (std::size_t i = 0; i < 4; ++i)
-        for (std::size_t m = 0; m < 4; ++m) segments[k + i].z[m] += size * bump[i][m] / std::pow(h, static_cast<double>(m));
+        for (std::size_t m = 0; m < 4; ++m)
+          segments[k + i].z[m] += size * bump[i][m] / std::pow(h, static_cast<double>(m));
       const ProfileSpline other({f.breaks().begin(), f.breaks().end()}, segments);
       EXPECT_GT(bspline_functional(other, p, s, w, lambda), least);
     }
@@ -156,12 +162,14 @@ TEST(ProfileFit, CutOffWavelengthIsDampedToHalf) {
     p.smoothing.method = method;
     p.smoothing.strength = kWavelength;
     const ProfileSpline spline = fit_profile(p);
-    // The ideal filter passes one half. A B-spline with four knots per wavelength, coefficients c exp(i w x), w h = pi / 2,
-    // has the value c (2 + cos w h) / 3 and f''' = c (2 sin(w h / 2) / h)^3, so its penalty is that much greater.
-    const double value = 2.0 / 3.0, third = std::pow(2.0 * std::sin(std::numbers::pi / 4), 3) / std::pow(std::numbers::pi / 2, 3);
+    // The ideal filter passes one half. A B-spline with four knots per wavelength, coefficients c exp(i w x), w h = pi
+    // / 2, has the value c (2 + cos w h) / 3 and f''' = c (2 sin(w h / 2) / h)^3, so its penalty is that much greater.
+    const double value = 2.0 / 3.0,
+                 third = std::pow(2.0 * std::sin(std::numbers::pi / 4), 3) / std::pow(std::numbers::pi / 2, 3);
     const double expected = method == Method::weighted_spline ? 0.5 : 1.0 / (1.0 + std::pow(third / value, 2));
     double crest = 0.0;
-    for (double s = -kWavelength; s <= kWavelength; s += 0.01 * kWavelength) crest = std::max(crest, spline.position(s).y());
+    for (double s = -kWavelength; s <= kWavelength; s += 0.01 * kWavelength)
+      crest = std::max(crest, spline.position(s).y());
     constexpr double kSampling = 0.004;  // 40 points per wavelength; a cubic is no exact sine
     EXPECT_NEAR(crest / kAmplitude, expected, kSampling);
     // Much longer waves pass, much shorter ones do not.
@@ -275,7 +283,8 @@ TEST(ProfileFit, BadInputIsRefusedWithReason) {
 }
 
 TEST(ProfileFit, FiveThousandPointsTakeMilliseconds) {
-  Profile p = testing::graph_profile(Body::rail, -0.05, 0.05, 5000, [](double y) { return 3.0 * y * y + 1e-6 * std::sin(3e4 * y); });
+  Profile p = testing::graph_profile(Body::rail, -0.05, 0.05, 5000,
+                                     [](double y) { return 3.0 * y * y + 1e-6 * std::sin(3e4 * y); });
   for (const Method method : {Method::spline, Method::weighted_spline, Method::weighted_bspline}) {
     p.smoothing.method = method;
     p.smoothing.strength = method == Method::spline ? 1e-9 : 2e-3;

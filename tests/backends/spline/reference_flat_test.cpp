@@ -21,8 +21,15 @@ struct Deepest {
 
 // S1002 between -26 and 32.158 mm (EN 13715) [mm].
 double s1002_mm(double y) {
-  const double c[] = {0.0, -3.358537058e-2, 1.565681624e-3, -2.810427944e-5, 5.844240864e-8, -1.562379023e-8,
-                      5.309217349e-15, -5.957839843e-12, 2.646656573e-13};
+  const double c[] = {0.0,
+                      -3.358537058e-2,
+                      1.565681624e-3,
+                      -2.810427944e-5,
+                      5.844240864e-8,
+                      -1.562379023e-8,
+                      5.309217349e-15,
+                      -5.957839843e-12,
+                      2.646656573e-13};
   double z = 0.0;
   for (int k = 8; k >= 0; --k) z = z * y + c[k];
   return z;
@@ -116,7 +123,8 @@ TEST(ReferenceFlat, HeightsOverItLieOnTheSurface) {
     const auto wheel = make_slice_surface(slices, kRadius);
     for (const double yaw : {0.0, 0.03}) {
       const Mat3 turn = rotation_y(0.6);
-      const PlaneGrid plane{{turn * Vec3(0, 0, kRadius), turn * rotation({-0.3, yaw, 0.0})}, {-0.06, -0.05, 2.9e-3, 2.3e-3, 40, 40}};
+      const PlaneGrid plane{{turn * Vec3(0, 0, kRadius), turn * rotation({-0.3, yaw, 0.0})},
+                            {-0.06, -0.05, 2.9e-3, 2.3e-3, 40, 40}};
       std::vector<double> z(plane.grid.size());
       wheel->heights(plane, {z, {}, {}});
       int hits = 0;

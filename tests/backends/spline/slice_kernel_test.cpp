@@ -36,12 +36,13 @@ SliceNet with_radius(SliceNet net) {
 
 // All cells, without regard to where they lie.
 template <class Geometry>
-std::vector<LineHits> lines_of(const SliceNet& net, const SliceHulls& hulls, const Pose& X, const SliceKernels& kernels, bool careful_only) {
+std::vector<LineHits> lines_of(const SliceNet& net, const SliceHulls& hulls, const Pose& X, const SliceKernels& kernels,
+                               bool careful_only) {
   const bool along_y = Geometry::lines_along_y(X.rotation);
   const Geometry geometry(kRadius);
   SectionWorkspace workspace;
-  SliceSection<Geometry> section(net, hulls, geometry, X.rotation.col(along_y ? 0 : 1), X.rotation.col(along_y ? 1 : 0), X.rotation.col(2),
-                                 X.origin, workspace, kernels);
+  SliceSection<Geometry> section(net, hulls, geometry, X.rotation.col(along_y ? 0 : 1), X.rotation.col(along_y ? 1 : 0),
+                                 X.rotation.col(2), X.origin, workspace, kernels);
   const Samples samples{-0.0413, 0.00037, 233};
   std::vector<LineHits> lines;
   for (int line = 0; line < 12; ++line) {
@@ -93,7 +94,8 @@ Compared compare(const SliceNet& net, const std::vector<Pose>& planes) {
       const LineHits &a = generic[line], &b = fast[line], &c = careful[line];
       compared.cells += net.cells(), compared.careful_cells += a.careful_cells;
       for (std::size_t i = 0; i < a.n.size(); ++i) {
-        const std::string where = "plane " + std::to_string(plane) + " line " + std::to_string(line) + " sample " + std::to_string(i);
+        const std::string where =
+            "plane " + std::to_string(plane) + " line " + std::to_string(line) + " sample " + std::to_string(i);
         EXPECT_EQ(std::isnan(a.n[i]), std::isnan(b.n[i])) << where;
         EXPECT_EQ(std::isnan(a.n[i]), std::isnan(c.n[i])) << where;
         EXPECT_EQ(std::isnan(a.n[i]), std::isnan(a.along[i])) << where;
@@ -120,13 +122,15 @@ TEST(SliceKernel, BendingRailEqualsTheCarefulPath) {
 }
 
 TEST(SliceKernel, DentedWheelEqualsTheCarefulPath) {
-  const Compared all = compare<WheelGeometry>(with_radius(fit_slices(testing::dented_wheel(1e-3, 0.02))), treadmark::testing::wheel_planes(kRadius));
+  const Compared all = compare<WheelGeometry>(with_radius(fit_slices(testing::dented_wheel(1e-3, 0.02))),
+                                              treadmark::testing::wheel_planes(kRadius));
   EXPECT_GT(all.hits, 8000);
   EXPECT_LT(all.careful_cells, all.cells);
 }
 
 TEST(SliceKernel, PlanesOverTheSeamOfAWheel) {
-  const Pose X{{kRadius * std::sin(3.14), 0.0, kRadius * std::cos(3.14)}, rotation_y(3.14) * rotation({0.03, 0.02, 0.01})};
+  const Pose X{{kRadius * std::sin(3.14), 0.0, kRadius * std::cos(3.14)},
+               rotation_y(3.14) * rotation({0.03, 0.02, 0.01})};
   EXPECT_GT(compare<WheelGeometry>(with_radius(fit_slices(testing::dented_wheel(1e-3, 3.14))), {X}).hits, 1000);
 }
 
@@ -137,12 +141,16 @@ TEST(SliceKernel, MissingPartsEqualTheCarefulPath) {
   for (int i = 0; i < 40; ++i) {
     const double x = -0.04 + 2e-3 * i;
     set.u.push_back(x);
-    set.profiles.push_back(testing::graph_profile(Body::rail, -30e-3, 30e-3, 61, [x](double y) { return 0.1 * x + y * y / 0.6; }));
+    set.profiles.push_back(
+        testing::graph_profile(Body::rail, -30e-3, 30e-3, 61, [x](double y) { return 0.1 * x + y * y / 0.6; }));
     set.features.push_back({0.0, 35e-3, x < 1e-3 ? 1e3 : std::numeric_limits<double>::quiet_NaN()});
   }
   const SliceNet net = fit_slices(set);
   EXPECT_TRUE(std::isnan(net.line(net.spans() - 1, net.lines() - 1).power[0].w));
-  EXPECT_GT(compare<RailGeometry>(net, {{Vec3::Zero(), rotation({0.02, 0.0, 0.01})}, {Vec3::Zero(), rotation({0.02, 0.3, 0.01})}}).hits, 1000);
+  EXPECT_GT(compare<RailGeometry>(
+                net, {{Vec3::Zero(), rotation({0.02, 0.0, 0.01})}, {Vec3::Zero(), rotation({0.02, 0.3, 0.01})}})
+                .hits,
+            1000);
 }
 
 }  // namespace

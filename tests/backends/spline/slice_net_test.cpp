@@ -26,7 +26,8 @@ SliceSet rail_slices(const std::vector<double>& x, const std::function<double(do
   set.name = "test rail";
   for (const double position : x) {
     set.u.push_back(position);
-    set.profiles.push_back(testing::graph_profile(Body::rail, -10e-3, 10e-3, points, [&](double y) { return z(position, y); }));
+    set.profiles.push_back(
+        testing::graph_profile(Body::rail, -10e-3, 10e-3, points, [&](double y) { return z(position, y); }));
   }
   return set;
 }
@@ -178,11 +179,13 @@ TEST(SliceNet, WheelsCloseSmoothlyOverTheSeam) {
     for (int i = 0; i < 100; ++i) {
       const double theta = -kPi + 0.01 + 2 * kPi * i / 100;
       wheel.u.push_back(theta);
-      wheel.profiles.push_back(testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return dr(theta); }));
+      wheel.profiles.push_back(
+          testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return dr(theta); }));
     }
     const SliceNet net = fit_slices(wheel);
     double worst = 0.0;
-    for (double theta = -3.5; theta < 3.5; theta += 0.011) worst = std::max(worst, std::abs(value_at(net, theta, 20.5).w - dr(theta)));
+    for (double theta = -3.5; theta < 3.5; theta += 0.011)
+      worst = std::max(worst, std::abs(value_at(net, theta, 20.5).w - dr(theta)));
     // Interpolation error 3^4 h^4 / 384; approximation damps by (2 + cos 3h) / 3.
     EXPECT_LT(worst, approximate ? 1e-4 * 1.1 * std::pow(3 * 2 * kPi / 100, 2) / 6 : 5e-10);
     // The same value, slope and curvature from both sides of the seam, in 1e-8 steps of angle.
@@ -201,11 +204,13 @@ TEST(SliceNet, AFirstSliceGivenAgainAfterATurnClosesTheWheelToo) {
   wheel.name = "wheel";
   for (int i = 0; i <= 60; ++i) {
     wheel.u.push_back(-kPi + 2 * kPi * i / 60);
-    wheel.profiles.push_back(testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return dr(2 * kPi * i / 60 - kPi); }));
+    wheel.profiles.push_back(
+        testing::graph_profile(Body::wheel, 20e-3, -20e-3, 11, [&](double) { return dr(2 * kPi * i / 60 - kPi); }));
   }
   const auto jumps = [](const SliceNet& net) {
     const NetValue before = net.at(net.find(-kPi - 1e-9), 19, 0.5), after = net.at(net.find(-kPi + 1e-9), 19, 0.5);
-    const NetSecond second_before = net.second_at(net.find(-kPi - 1e-9), 19, 0.5), second_after = net.second_at(net.find(-kPi + 1e-9), 19, 0.5);
+    const NetSecond second_before = net.second_at(net.find(-kPi - 1e-9), 19, 0.5),
+                    second_after = net.second_at(net.find(-kPi + 1e-9), 19, 0.5);
     return std::array{std::abs(before.value.w - after.value.w), std::abs(before.by_u.w - after.by_u.w),
                       std::abs(second_before.by_uu.w - second_after.by_uu.w)};
   };

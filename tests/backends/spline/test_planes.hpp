@@ -16,9 +16,12 @@ namespace treadmark::testing {
 
 /// The planes in which the conformance suite looks at every rail.
 inline std::vector<Pose> rail_planes() {
-  const auto pose = [](const Vec3& o, double roll, double yaw, double pitch) { return Pose{o, rotation({roll, yaw, pitch})}; };
-  return {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0), pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0), pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02),
-          pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1), pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0), pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
+  const auto pose = [](const Vec3& o, double roll, double yaw, double pitch) {
+    return Pose{o, rotation({roll, yaw, pitch})};
+  };
+  return {pose({0.3, 0.001, -0.0004}, 0.0, 0.0, 0.0),    pose({0.0, 0.012, 0.0}, 0.07, 0.0, 0.0),
+          pose({0.1, -0.02, 0.003}, -0.45, 0.03, -0.02), pose({0.0, 0.005, 0.001}, 0.02, -0.4, 0.1),
+          pose({0.0, -0.03, 0.008}, -1.1, 0.01, 0.0),    pose({0.0, 0.03, 0.008}, 1.5, 1.3, 0.0)};
 }
 
 /// And every wheel of a nominal radius R.
@@ -27,8 +30,9 @@ inline std::vector<Pose> wheel_planes(double R) {
     const double r = R + out;
     return Pose{{r * std::sin(theta), y, r * std::cos(theta)}, rotation({roll, yaw, pitch})};
   };
-  return {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0),     at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0), at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3),
-          at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01), at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0), at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0),
+  return {at(0.0, 0.002, 0.0, 0.0, 0.0, 0.0),       at(0.02, 0.01, 0.001, 0.04, 0.0, 0.0),
+          at(0.3, -0.005, 0.0, -0.05, 0.02, 0.3),   at(-0.01, -0.02, 0.002, -0.5, 0.01, 0.01),
+          at(0.01, -0.03, 0.005, -1.05, 0.02, 0.0), at(0.0, -0.045, 0.02, 0.9, 0.0, 0.0),
           at(0.0, -0.045, 0.02, 0.9, 1.4, 0.0)};
 }
 
@@ -47,7 +51,8 @@ inline Fields heights(const Surface& surface, const Pose& X, const Grid2& grid) 
 /// Odd steps, so that no point falls on a joint by chance.
 inline Grid2 odd_grid() { return {-0.0197, -0.0293, 0.00131, 0.00193, 31, 31}; }
 
-/// heights_at over the points of a grid, in rows, in columns and shuffled, must give heights(); returns the number of hits.
+/// heights_at over the points of a grid, in rows, in columns and shuffled, must give heights(); returns the number of
+/// hits.
 inline int expect_heights_at_gives_heights(const Surface& surface, const std::vector<Pose>& planes) {
   constexpr double kRounding = 1e-12;  // [m], per steepness: points are reached from other neighbours
   constexpr double kSlope = 1e-7;      // curvatures up to 100/m, positions to 1e-11 m, with room for steep places
@@ -74,13 +79,15 @@ inline int expect_heights_at_gives_heights(const Surface& surface, const std::ve
       surface.heights_at(planes[plane], points, {only_z, {}, {}});
       for (std::size_t k = 0; k < index.size(); ++k) {
         const double z = grid.z[index[k]];
-        const std::string where = "plane " + std::to_string(plane) + ", " + order + ", point " + std::to_string(index[k]);
+        const std::string where =
+            "plane " + std::to_string(plane) + ", " + order + ", point " + std::to_string(index[k]);
         EXPECT_EQ(std::isnan(z), std::isnan(at.z[k])) << where;
         EXPECT_EQ(std::isnan(z), std::isnan(only_z[k])) << where;
         EXPECT_EQ(std::isnan(z), std::isnan(at.dzdx[k]) && std::isnan(at.dzdy[k])) << where;
         if (std::isnan(z) || ::testing::Test::HasFailure()) continue;
         ++hits;
-        const double slope = std::hypot(grid.dzdx[index[k]], grid.dzdy[index[k]]), steep = std::pow(1.0 + slope * slope, 1.5);
+        const double slope = std::hypot(grid.dzdx[index[k]], grid.dzdy[index[k]]),
+                     steep = std::pow(1.0 + slope * slope, 1.5);
         EXPECT_NEAR(at.z[k], z, kRounding * (1.0 + slope)) << where;
         EXPECT_NEAR(only_z[k], z, kRounding * (1.0 + slope)) << where;
         EXPECT_NEAR(at.dzdx[k], grid.dzdx[index[k]], kSlope * steep) << where;

@@ -32,7 +32,8 @@ inline Profile rail_head() {
   const double crown = 0.3, corner = 13e-3, half = 24e-3, undercut = 0.15;
   const double side_angle = std::asin(half / crown), end = std::acos(-1.0) / 2 + undercut;
   std::vector<Vec2> right;
-  for (double a = 0.0; a < side_angle; a += 1e-3 / crown) right.push_back({crown * std::sin(a), crown * (1 - std::cos(a))});
+  for (double a = 0.0; a < side_angle; a += 1e-3 / crown)
+    right.push_back({crown * std::sin(a), crown * (1 - std::cos(a))});
   const Vec2 centre((crown - corner) * std::sin(side_angle), crown - (crown - corner) * std::cos(side_angle));
   for (int i = 0; i <= 40; ++i) {
     const double a = side_angle + (end - side_angle) * i / 40;
@@ -52,7 +53,9 @@ inline double flanged_wheel_z(double y) {
   const double back = 6e-3 * std::max(0.0, (-y - 60e-3) / 10e-3) * std::max(0.0, (-y - 60e-3) / 10e-3);
   return -y / 40.0 + flange - back;
 }
-inline Profile flanged_wheel(int points = 140) { return graph_profile(Body::wheel, 60e-3, -70e-3, points, flanged_wheel_z); }
+inline Profile flanged_wheel(int points = 140) {
+  return graph_profile(Body::wheel, 60e-3, -70e-3, points, flanged_wheel_z);
+}
 
 /// Slices of a wheel with a smooth dent of the given depth round theta_0, all round.
 inline SliceSet dented_wheel(double depth = 1e-3, double theta_0 = 0.6, bool approximate = false, int slices = 180) {

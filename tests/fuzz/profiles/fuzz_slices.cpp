@@ -11,14 +11,15 @@ namespace {
 
 /// Every slice is the same short straight profile: the files that a set names are fuzzed by themselves.
 treadmark::SliceSet parse(std::string_view text, treadmark::Body body) {
-  return treadmark::io::parse_slices(text, "fuzz", body, [&](const std::string& name, const treadmark::SourcePosition&) {
-    treadmark::Profile profile;
-    profile.body = body;
-    profile.y = {-0.02, 0.02};
-    profile.z = {0.0, 0.0};
-    profile.name = name;
-    return profile;
-  });
+  return treadmark::io::parse_slices(text, "fuzz", body,
+                                     [&](const std::string& name, const treadmark::SourcePosition&) {
+                                       treadmark::Profile profile;
+                                       profile.body = body;
+                                       profile.y = {-0.02, 0.02};
+                                       profile.z = {0.0, 0.0};
+                                       profile.name = name;
+                                       return profile;
+                                     });
 }
 
 }  // namespace

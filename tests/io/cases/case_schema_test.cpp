@@ -79,7 +79,8 @@ TEST(CaseKeys, DefaultsPassTheirOwnChecks) {
     SCOPED_TRACE(key.info.path);
     CaseTable table = parse_toml("value = " + key.info.default_text, "default");
     // A few defaults say "not given" by a value that must not be written.
-    const bool absent = key.info.above && key.info.type == KeyType::number && table[0].value.number() <= *key.info.above;
+    const bool absent =
+        key.info.above && key.info.type == KeyType::number && table[0].value.number() <= *key.info.above;
     if (!absent) {
       EXPECT_NO_THROW(check_value(key.info, table[0].value));
     }
@@ -90,7 +91,8 @@ TEST(CaseDocumentation, TableOfKeysIsUpToDate) {
   std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/case-file.md");
   std::stringstream text;
   text << stream.rdbuf();
-  EXPECT_NE(text.str().find(case_key_table()), std::string::npos) << "docs/case-file.md must contain:\n" << case_key_table();
+  EXPECT_NE(text.str().find(case_key_table()), std::string::npos) << "docs/case-file.md must contain:\n"
+                                                                  << case_key_table();
 }
 
 }  // namespace

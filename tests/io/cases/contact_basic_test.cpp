@@ -11,10 +11,10 @@
 namespace treadmark::io {
 namespace {
 
+using testing::ContactWriter;
 using ::testing::DoubleEq;
 using ::testing::ElementsAre;
 using ::testing::IsEmpty;
-using testing::ContactWriter;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 CaseFile parse(const std::string& text) { return parse_contact_input(text + "0\n", "folder/test.inp"); }
@@ -22,7 +22,9 @@ const BasicCase& at(const CaseFile& f, std::size_t i) { return std::get<BasicCas
 BasicCase only(const ContactWriter& w) { return at(parse(w.str()), 0); }
 ContactWriter basic() { return ContactWriter(3); }
 /// A second case that keeps all it can.
-ContactWriter keeping() { return basic().set("FRCLAW", 1).set("DISCNS", 0).set("INFLCF", 0).set("RZNORM", 0).set("GAUSEI", 1); }
+ContactWriter keeping() {
+  return basic().set("FRCLAW", 1).set("DISCNS", 0).set("INFLCF", 0).set("RZNORM", 0).set("GAUSEI", 1);
+}
 
 TEST(ContactHistory, FollowsThePDigitAndTheSequence) {
   std::string text;
@@ -30,7 +32,8 @@ TEST(ContactHistory, FollowsThePDigitAndTheSequence) {
     for (const int p : {0, 1, 2, 3, 0}) text += basic().set("TANG", 1).set("PVTIME", p).line("module", id).str();
   const CaseFile f = parse(text);
   using H = HistoryInput;
-  const std::vector<H> expected{H::start, H::normal_only, H::start, H::same_instant, H::keep_going};  // the first of a sequence starts
+  const std::vector<H> expected{H::start, H::normal_only, H::start, H::same_instant,
+                                H::keep_going};  // the first of a sequence starts
   for (std::size_t i = 0; i < 10; ++i) {
     EXPECT_EQ(at(f, i).history, expected[i % 5]) << i;
     EXPECT_EQ(f.cases[i].sequence, i < 5 ? 0 : 1) << i;
@@ -38,7 +41,8 @@ TEST(ContactHistory, FollowsThePDigitAndTheSequence) {
 }
 
 TEST(ContactHistory, SkippedCasesLeaveNone) {
-  const CaseFile f = parse(basic().set("RETURN", 3).str() + basic().set("PVTIME", 0).str() + basic().set("PVTIME", 0).str());
+  const CaseFile f =
+      parse(basic().set("RETURN", 3).str() + basic().set("PVTIME", 0).str() + basic().set("PVTIME", 0).str());
   EXPECT_EQ(at(f, 0).history, HistoryInput::start);
   EXPECT_EQ(at(f, 1).history, HistoryInput::keep_going);
 }
@@ -80,7 +84,8 @@ TEST(ContactMaterial, SheetViscoelasticityAndLayer) {
 
 TEST(ContactMaterial, IsKeptButCountsOnlyWithItsDigit) {
   const CaseFile f = parse(basic().set("MATER", 4).str() + keeping().str() + keeping().set("MATER", 4).str() +
-                           basic().set("MATER", 1).set("BOUND", 1).str() + keeping().str() + keeping().set("MATER", 1).set("BOUND", 1).str());
+                           basic().set("MATER", 1).set("BOUND", 1).str() + keeping().str() +
+                           keeping().set("MATER", 1).set("BOUND", 1).str());
   EXPECT_DOUBLE_EQ(at(f, 1).material.layer_flexibility, 0.0);
   EXPECT_DOUBLE_EQ(at(f, 2).material.layer_flexibility, 1.25e-3 / 8.2e9);
   EXPECT_DOUBLE_EQ(at(f, 4).material.creep_ratio_1, 0.0);
@@ -111,7 +116,8 @@ TEST(ContactModels, SimplifiedTheories) {
 TEST(ContactModels, ApproximatePressures) {
   EXPECT_EQ(only(basic().set("NORM", 0).set("BOUND", 5)).normal_model, NormalModelInput::kpec);
   EXPECT_EQ(only(basic().set("NORM", 0).set("BOUND", 6)).normal_model, NormalModelInput::analyn);
-  const BasicCase c = only(basic().set("BOUND", 4).line("ipotcn", "-6").line("potcon", "4 5 8.0 3.0 5.0 1.1").line("hertz", ""));
+  const BasicCase c =
+      only(basic().set("BOUND", 4).line("ipotcn", "-6").line("potcon", "4 5 8.0 3.0 5.0 1.1").line("hertz", ""));
   EXPECT_EQ(c.normal_model, NormalModelInput::semi_double_elliptic);
   const HertzInput& h = std::get<HertzInput>(c.geometry);
   EXPECT_EQ(h.given, HertzInput::Given::semi_double_elliptic);
@@ -133,16 +139,17 @@ TEST(ContactInfluence, KindsAndTheirData) {
   EXPECT_THAT(angle.position, ElementsAre(DoubleEq(-1e-3), DoubleEq(1e-3)));
   EXPECT_THAT(angle.inclination, ElementsAre(DoubleEq(0.1), DoubleEq(5 * kDegree)));
   EXPECT_TRUE(only(basic().set("INFLCF", 4)).influence.linear);
-  const CaseFile f = parse(basic().set("INFLCF", 9).line("cff", "'sub\\table.cff'").str() + keeping().str() + keeping().set("INFLCF", 2).str());
+  const CaseFile f = parse(basic().set("INFLCF", 9).line("cff", "'sub\\table.cff'").str() + keeping().str() +
+                           keeping().set("INFLCF", 2).str());
   EXPECT_EQ(at(f, 0).influence.kind, Kind::table);
   EXPECT_EQ(at(f, 0).influence.file, "folder/sub/table.cff");
-  EXPECT_EQ(at(f, 1).influence.file, "folder/sub/table.cff");   // C = 0 keeps it
+  EXPECT_EQ(at(f, 1).influence.file, "folder/sub/table.cff");  // C = 0 keeps it
   EXPECT_EQ(at(f, 2).influence.kind, Kind::constant);
 }
 
 TEST(ContactFriction, LawOfEachRow) {
   const auto rows = [](const char* law) { return basic().set("VARFRC", 3).set("FRCLAW", law[0] - '0'); };
-  const std::string first = rows("0").str();   // the writer gives both rows
+  const std::string first = rows("0").str();  // the writer gives both rows
   const CaseFile f = parse(first + keeping().set("VARFRC", 3).str() + keeping().str());
   ASSERT_EQ(at(f, 0).friction_of_row.size(), 2u);
   EXPECT_DOUBLE_EQ(at(f, 0).friction_of_row[1].kinetic, 0.3);
@@ -153,11 +160,16 @@ TEST(ContactFriction, LawOfEachRow) {
   ASSERT_EQ(falling.friction_of_row.size(), 2u);
   EXPECT_EQ(falling.friction_of_row[0].kind, FrictionLaw::Kind::exponential);
   EXPECT_DOUBLE_EQ(falling.friction_of_row[1].half_velocity_2, 0.2);
-  EXPECT_DOUBLE_EQ(falling.friction_of_row[1].memory_distance, 3e-6);   // one memory line for all sets
+  EXPECT_DOUBLE_EQ(falling.friction_of_row[1].memory_distance, 3e-6);  // one memory line for all sets
 }
 
 TEST(ContactHeat, ThermalDataAndFriction) {
-  const std::string first = basic().set("HEAT", 3).set("FRCLAW", 6).line("heat1", "20. 450. 50e-3 7.85e-6").line("heat2", "150. 500. 40e-3 7.8e-6").str();
+  const std::string first = basic()
+                                .set("HEAT", 3)
+                                .set("FRCLAW", 6)
+                                .line("heat1", "20. 450. 50e-3 7.85e-6")
+                                .line("heat2", "150. 500. 40e-3 7.8e-6")
+                                .str();
   const CaseFile f = parse(first + keeping().set("HEAT", 1).str() + keeping().set("FRCLAW", 0).str());
   for (const std::size_t i : {0u, 1u}) {
     ASSERT_TRUE(at(f, i).thermal);
@@ -192,7 +204,8 @@ TEST(ContactSolver, MethodAndFirstSlip) {
   EXPECT_EQ(of(4, "-1 1.").first_slip, S::FirstSlip::above);
   EXPECT_EQ(of(4, "0 1.").first_slip, S::FirstSlip::last);
   EXPECT_EQ(of(3, "1 1.").first_slip, S::FirstSlip::last);
-  const CaseFile f = parse(basic().set("GAUSEI", 2).line("omega", "0.5 1.0 -2 1.").str() + keeping().str() + keeping().set("GAUSEI", 0).str());
+  const CaseFile f = parse(basic().set("GAUSEI", 2).line("omega", "0.5 1.0 -2 1.").str() + keeping().str() +
+                           keeping().set("GAUSEI", 0).str());
   EXPECT_EQ(at(f, 1).solver.first_slip, S::FirstSlip::above);
   EXPECT_EQ(at(f, 1).solver.method, S::Method::sweeps);
   EXPECT_EQ(at(f, 2).solver.method, S::Method::automatic);
@@ -201,18 +214,23 @@ TEST(ContactSolver, MethodAndFirstSlip) {
 
 TEST(ContactExtraSlip, IsReadKeptAndDropped) {
   const std::string line = "1 10 2 20 3 30\n 4 40 5 50 6 60";
-  const CaseFile f = parse(basic().set("EXRHS", 9).line("slip", line).str() + keeping().set("EXRHS", 1).set("TANG", 1).str() + keeping().str() +
-                           keeping().set("EXRHS", 1).str());
+  const CaseFile f =
+      parse(basic().set("EXRHS", 9).line("slip", line).str() + keeping().set("EXRHS", 1).set("TANG", 1).str() +
+            keeping().str() + keeping().set("EXRHS", 1).str());
   EXPECT_THAT(at(f, 0).extra_slip_x, ElementsAre(1, 2, 3, 4, 5, 6));
   EXPECT_THAT(at(f, 0).extra_slip_y, ElementsAre(10, 20, 30, 40, 50, 60));
-  EXPECT_DOUBLE_EQ(at(f, 1).extra_slip_y.at(1), 20e-3);   // of a shift it is a length
+  EXPECT_DOUBLE_EQ(at(f, 1).extra_slip_y.at(1), 20e-3);  // of a shift it is a length
   EXPECT_THAT(at(f, 2).extra_slip_x, IsEmpty());
   EXPECT_THAT(at(f, 3).extra_slip_x, IsEmpty());
 }
 
 TEST(ContactPlanform, InSiUnits) {
   const auto plan = [](const char* kind, const char* lines) {
-    return only(basic().set("NORM", 0).line("ibase", "1 " + std::string(kind)).line("gap", std::string("0.001 0 0.001 0 0 0") + lines)).planform;
+    return only(basic()
+                    .set("NORM", 0)
+                    .line("ibase", "1 " + std::string(kind))
+                    .line("gap", std::string("0.001 0 0.001 0 0 0") + lines))
+        .planform;
   };
   using Kind = PlanformInput::Kind;
   EXPECT_EQ(plan("1", "").kind, Kind::free);
@@ -220,13 +238,15 @@ TEST(ContactPlanform, InSiUnits) {
               ElementsAre(DoubleEq(1e6), DoubleEq(2e6), DoubleEq(3e6), DoubleEq(4e3), DoubleEq(5e3), DoubleEq(6.0)));
   const PlanformInput two = plan("3", "\n 0 1 2 3\n 4 5 6 7");
   EXPECT_EQ(two.kind, Kind::two_rectangles);
-  EXPECT_THAT(two.coefficients, ElementsAre(0, 1e-3, DoubleEq(2e-3), DoubleEq(3e-3), DoubleEq(4e-3), DoubleEq(5e-3), DoubleEq(6e-3), DoubleEq(7e-3)));
+  EXPECT_THAT(two.coefficients, ElementsAre(0, 1e-3, DoubleEq(2e-3), DoubleEq(3e-3), DoubleEq(4e-3), DoubleEq(5e-3),
+                                            DoubleEq(6e-3), DoubleEq(7e-3)));
   const PlanformInput sub = plan("4", "\n 3\n 0 1 0 1\n 0 1 2 3\n 0 1 4 5\n 0.1 0.2\n 0.3");
   EXPECT_EQ(sub.kind, Kind::sub_patches);
   EXPECT_EQ(sub.coefficients.size(), 12u);
   EXPECT_THAT(sub.coupling, ElementsAre(1.0, 0.1, 0.2, 0.1, 1.0, 0.3, 0.2, 0.3, 1.0));
-  const CaseFile f = parse(basic().line("ibase", "1 2").line("gap", "0.001 0 0.001 0 0 0\n 1 2 3 4 5 6").str() + keeping().str() + basic().str());
-  EXPECT_EQ(at(f, 1).planform.kind, Kind::quadratic);   // kept with the gap
+  const CaseFile f = parse(basic().line("ibase", "1 2").line("gap", "0.001 0 0.001 0 0 0\n 1 2 3 4 5 6").str() +
+                           keeping().str() + basic().str());
+  EXPECT_EQ(at(f, 1).planform.kind, Kind::quadratic);  // kept with the gap
   EXPECT_EQ(at(f, 2).planform.kind, Kind::free);
 }
 
@@ -238,7 +258,7 @@ TEST(ContactSubsurface, BlocksOfEveryKind) {
   EXPECT_TRUE(s.blocks[0].at_elements);
   EXPECT_THAT(s.blocks[0].columns, IsEmpty());
   EXPECT_THAT(s.blocks[0].z, ElementsAre(0.0, DoubleEq(0.5e-3)));
-  EXPECT_THAT(s.blocks[1].columns, ElementsAre(0, 1));   // counted from 1 in the file
+  EXPECT_THAT(s.blocks[1].columns, ElementsAre(0, 1));  // counted from 1 in the file
   EXPECT_THAT(s.blocks[1].z, ElementsAre(DoubleEq(0.1e-3)));
   EXPECT_THAT(s.blocks[2].columns, ElementsAre(0, 1));
   EXPECT_THAT(s.blocks[2].rows, ElementsAre(0));
@@ -253,7 +273,8 @@ TEST(ContactSubsurface, BlocksOfEveryKind) {
 
 TEST(ContactSubsurface, PointsAreKept) {
   const CaseFile f = parse(basic().set("STRESS", 3).str() + keeping().str() + keeping().set("STRESS", 1).str() +
-                           keeping().set("STRESS", 2).line("stress", "2 0").str() + keeping().set("STRESS", 2).line("stress", "0 0").str());
+                           keeping().set("STRESS", 2).line("stress", "2 0").str() +
+                           keeping().set("STRESS", 2).line("stress", "0 0").str());
   EXPECT_THAT(at(f, 1).subsurface.blocks, IsEmpty());
   EXPECT_EQ(at(f, 2).subsurface.blocks.size(), 7u);
   EXPECT_FALSE(at(f, 2).subsurface.full_tensor);
@@ -264,7 +285,8 @@ TEST(ContactSubsurface, PointsAreKept) {
 
 TEST(ContactOutput, TableOfElements) {
   for (const int module : {1, 3})
-    for (const int digit : {0, 1, 2}) EXPECT_EQ(parse(ContactWriter(module).set("MATFIL", digit).str()).cases[0].element_table, digit);
+    for (const int digit : {0, 1, 2})
+      EXPECT_EQ(parse(ContactWriter(module).set("MATFIL", digit).str()).cases[0].element_table, digit);
 }
 
 TEST(ContactWheelRail, ApproximationsAndFrictionThatVaries) {
@@ -274,9 +296,11 @@ TEST(ContactWheelRail, ApproximationsAndFrictionThatVaries) {
   EXPECT_EQ(kpec.tangential_model, TangentialModelInput::fastsim_one_flexibility);
   EXPECT_DOUBLE_EQ(kpec.fastsim_flexibility, 1e-14);
   EXPECT_EQ(kpec.influence.kind, InfluenceInput::Kind::bilinear);
-  EXPECT_EQ(rail(parse(ContactWriter(1).set("BOUND", 6).set("MATER", 5).str()), 0).tangential_model, TangentialModelInput::fastrip);
+  EXPECT_EQ(rail(parse(ContactWriter(1).set("BOUND", 6).set("MATER", 5).str()), 0).tangential_model,
+            TangentialModelInput::fastrip);
 
-  const CaseFile f = parse(ContactWriter(1).set("VARFRC", 1).set("FRCLAW", 4).str() + ContactWriter(1).set("VARFRC", 1).set("FRCLAW", 1).str() +
+  const CaseFile f = parse(ContactWriter(1).set("VARFRC", 1).set("FRCLAW", 4).str() +
+                           ContactWriter(1).set("VARFRC", 1).set("FRCLAW", 1).str() +
                            ContactWriter(1).set("FRCLAW", 1).str() + ContactWriter(1).set("VARFRC", 2).str());
   using Kind = FrictionVariation::Kind;
   for (const std::size_t i : {0u, 1u}) {

@@ -17,9 +17,13 @@ namespace {
 
 namespace fs = std::filesystem;
 constexpr double kDegree = std::numbers::pi / 180.0;
-const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); }
+const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
+  return std::get<WheelRailCase>(f.cases.at(i).content);
+}
 const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
-fs::path example(const fs::path& shared, const std::string& name) { return shared / "data" / "contact_examples" / name; }
+fs::path example(const fs::path& shared, const std::string& name) {
+  return shared / "data" / "contact_examples" / name;
+}
 
 std::string content(const fs::path& file) {
   std::ifstream stream(file);

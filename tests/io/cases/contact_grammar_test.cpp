@@ -16,7 +16,9 @@ using testing::ContactWriter;
 constexpr double kDegree = std::numbers::pi / 180.0;
 
 CaseFile parse(const std::string& text) { return parse_contact_input(text, "folder/test.inp"); }
-const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); }
+const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
+  return std::get<WheelRailCase>(f.cases.at(i).content);
+}
 const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
 
 TEST(ContactInputModule1, ConvertsEveryValueToSi) {
@@ -126,7 +128,8 @@ TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
                                .line("track", "-1.0 750.0 1.5 0.02 0.001")
                                .line("wheelset", "1360. -70. 460. 0.5")
                                .line("solver", "10 11 12 13 1d-6 50")
-                               .str() + "0\n");
+                               .str() +
+                           "0\n");
   const WheelRailCase& c = rail_case(f, 0);
   EXPECT_DOUBLE_EQ(c.discretisation.turning.value(), 11e-3);
   EXPECT_DOUBLE_EQ(c.discretisation.near_miss, 0.5e-3);
@@ -145,31 +148,35 @@ TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
 
 TEST(ContactInputModule1, ErrorHandlingOfAProfileIsNoted) {
   const auto notes = [](const std::string& options) {
-    return parse(ContactWriter(1).line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n " + options).str() + "0\n").notes;
+    return parse(ContactWriter(1).line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n " + options).str() +
+                 "0\n")
+        .notes;
   };
   EXPECT_THAT(notes("0 0.25"), ::testing::IsEmpty());
-  EXPECT_THAT(notes("2 0.25"), ::testing::ElementsAre(::testing::AllOf(::testing::StartsWith("ERRHND = 2 at "),
-                                                                       ::testing::HasSubstr("errors in a profile always stop the run"))));
+  EXPECT_THAT(notes("2 0.25"), ::testing::ElementsAre(
+                                   ::testing::AllOf(::testing::StartsWith("ERRHND = 2 at "),
+                                                    ::testing::HasSubstr("errors in a profile always stop the run"))));
 }
 
 TEST(ContactInputModule1, ReadsProfileOptions) {
   const CaseFile f = parse(ContactWriter(1)
                                .line("rail", "'a.prr' 1 1000. 5.0 1 1\n 1 20d 30d 0.1 3.0")
                                .line("wheel", "'b.prw' -1 1.0 4.0 0 2\n 0 160d 25d 5d 3.0\n 1 0.25")
-                               .str() + "0\n");
+                               .str() +
+                           "0\n");
   const ProfileOptions& rail = std::get<GeometryFile>(rail_case(f, 0).rail.geometry).options;
   EXPECT_EQ(rail.mirror_y, 1);
   EXPECT_EQ(rail.mirror_z, 1);
   EXPECT_DOUBLE_EQ(rail.scale, 1000.0);
   EXPECT_EQ(rail.smoothing.method, SmoothingOptions::Method::weighted_spline);
-  EXPECT_DOUBLE_EQ(rail.smoothing.strength, 5e-3);              // wavelength
-  EXPECT_DOUBLE_EQ(rail.zigzag_threshold, 45 * kDegree);        // raised to 45 degrees
+  EXPECT_DOUBLE_EQ(rail.smoothing.strength, 5e-3);        // wavelength
+  EXPECT_DOUBLE_EQ(rail.zigzag_threshold, 45 * kDegree);  // raised to 45 degrees
   EXPECT_DOUBLE_EQ(rail.smoothing.kink_high, 30 * kDegree);
   EXPECT_DOUBLE_EQ(rail.smoothing.kink_low, 0.1);
   EXPECT_DOUBLE_EQ(rail.smoothing.kink_width, 3e-3);
   const ProfileOptions& wheel = std::get<GeometryFile>(rail_case(f, 0).wheel.geometry).options;
   EXPECT_EQ(wheel.mirror_y, 0);
-  EXPECT_DOUBLE_EQ(wheel.smoothing.strength, 4e-9);             // lambda
+  EXPECT_DOUBLE_EQ(wheel.smoothing.strength, 4e-9);  // lambda
   EXPECT_DOUBLE_EQ(wheel.zigzag_threshold, 160 * kDegree);
   EXPECT_EQ(wheel.error_handling, 1);
   EXPECT_DOUBLE_EQ(wheel.max_omit, 0.25);
@@ -183,7 +190,7 @@ TEST(ContactInputModule1, SecondIntegerOfTheModelLineHoldsTheWeight) {
   };
   EXPECT_TRUE(rail_case(with("10"), 0).discretisation.linear_weight);
   EXPECT_FALSE(rail_case(with("20"), 0).discretisation.linear_weight);
-  EXPECT_FALSE(rail_case(with("1"), 0).discretisation.linear_weight);   // M2 = 1 without earlier damping
+  EXPECT_FALSE(rail_case(with("1"), 0).discretisation.linear_weight);  // M2 = 1 without earlier damping
   EXPECT_THROW(with("30"), Error);
   EXPECT_THROW(with("-1"), Error);
 }
@@ -204,7 +211,9 @@ TEST(ContactInputModule1, ElasticLayerHasAFlexibility) {
   // With M = 0 the kept layer does not count.
   ContactWriter later(1);
   later.set("INFLCF", 0);
-  EXPECT_DOUBLE_EQ(rail_case(parse(ContactWriter(1).set("MATER", 4).str() + later.str() + "0\n"), 1).material.layer_flexibility, 0.0);
+  EXPECT_DOUBLE_EQ(
+      rail_case(parse(ContactWriter(1).set("MATER", 4).str() + later.str() + "0\n"), 1).material.layer_flexibility,
+      0.0);
 }
 
 TEST(ContactInputModule3, ConvertsEveryValueToSi) {
@@ -214,7 +223,7 @@ TEST(ContactInputModule3, ConvertsEveryValueToSi) {
   EXPECT_DOUBLE_EQ(c.normal_force, 9000.0);
   EXPECT_DOUBLE_EQ(c.xi, -0.001);
   EXPECT_DOUBLE_EQ(c.eta, 0.002);
-  EXPECT_DOUBLE_EQ(c.phi, 0.3);   // rad/mm to rad/m
+  EXPECT_DOUBLE_EQ(c.phi, 0.3);  // rad/mm to rad/m
   EXPECT_DOUBLE_EQ(c.spin_x, 1e-3);
   EXPECT_DOUBLE_EQ(c.spin_y, 2e-3);
   EXPECT_DOUBLE_EQ(c.dq, 0.4e-3);
@@ -240,7 +249,8 @@ TEST(ContactInputModule3, ShiftIsALength) {
 
 TEST(ContactInputModule3, ForcesReplaceCreepages) {
   const auto line = ".005 -0.8 0.1 0.0";
-  const BasicCase one = basic_case(parse(ContactWriter(3).set("NORM", 0).set("FORCE", 1).line("kinematics", line).str() + "0\n"), 0);
+  const BasicCase one =
+      basic_case(parse(ContactWriter(3).set("NORM", 0).set("FORCE", 1).line("kinematics", line).str() + "0\n"), 0);
   EXPECT_DOUBLE_EQ(one.approach, 5e-6);
   EXPECT_DOUBLE_EQ(one.fx_relative.value(), -0.8);
   EXPECT_FALSE(one.fy_relative);
@@ -256,7 +266,8 @@ struct Potential {
 class ContactInputPotential : public ::testing::TestWithParam<Potential> {};
 TEST_P(ContactInputPotential, GivesFirstCentreAndSteps) {
   const Potential& p = GetParam();
-  const BasicCase c = basic_case(parse(ContactWriter(3).line("ipotcn", p.kind).line("potcon", p.line).str() + "0\n"), 0);
+  const BasicCase c =
+      basic_case(parse(ContactWriter(3).line("ipotcn", p.kind).line("potcon", p.line).str() + "0\n"), 0);
   constexpr double kRoundoff = 1e-15;
   EXPECT_NEAR(c.x0, p.x0, kRoundoff);
   EXPECT_NEAR(c.y0, p.y0, kRoundoff);
@@ -272,7 +283,8 @@ INSTANTIATE_TEST_SUITE_P(Kinds, ContactInputPotential,
 TEST(ContactInputModule3, HertzianGeometry) {
   const auto read = [](const std::string& kind, const std::string& line) {
     return std::get<HertzInput>(
-        basic_case(parse(ContactWriter(3).line("ipotcn", kind).line("potcon", line).line("hertz", "").str() + "0\n"), 0).geometry);
+        basic_case(parse(ContactWriter(3).line("ipotcn", kind).line("potcon", line).line("hertz", "").str() + "0\n"), 0)
+            .geometry);
   };
   using Given = HertzInput::Given;
   HertzInput h = read("-1", "4 5 0.001 0.002 1.2");
@@ -298,7 +310,8 @@ TEST(ContactInputModule3, HertzianGeometry) {
 
 TEST(ContactInputModule3, UndeformedDistances) {
   const auto read = [](const std::string& base, const std::string& lines) {
-    return std::get<GapInput>(basic_case(parse(ContactWriter(3).line("ibase", base + " 1").line("gap", lines).str() + "0\n"), 0).geometry);
+    return std::get<GapInput>(
+        basic_case(parse(ContactWriter(3).line("ibase", base + " 1").line("gap", lines).str() + "0\n"), 0).geometry);
   };
   using ::testing::DoubleEq;
   using ::testing::ElementsAre;
@@ -306,19 +319,21 @@ TEST(ContactInputModule3, UndeformedDistances) {
               ElementsAre(1.0, 2.0, 3.0, 0.1, 0.2, DoubleEq(0.5e-3)));
   const GapInput circular = read("2", "3 1.0 460. -10. 20.\n 0.1 0.2\n 0.3");
   EXPECT_EQ(circular.kind, GapInput::Kind::circular);
-  EXPECT_THAT(circular.coefficients,
-              ElementsAre(DoubleEq(1e-3), DoubleEq(0.46), DoubleEq(-10e-3), DoubleEq(20e-3), DoubleEq(1e-4), DoubleEq(2e-4), DoubleEq(3e-4)));
+  EXPECT_THAT(circular.coefficients, ElementsAre(DoubleEq(1e-3), DoubleEq(0.46), DoubleEq(-10e-3), DoubleEq(20e-3),
+                                                 DoubleEq(1e-4), DoubleEq(2e-4), DoubleEq(3e-4)));
   const GapInput wavy = read("3", "0.1 2.0 0.3 0.4 5.0 0.6 700. 800.");
   EXPECT_EQ(wavy.kind, GapInput::Kind::sinusoidal);
-  EXPECT_THAT(wavy.coefficients, ElementsAre(DoubleEq(1e-4), DoubleEq(2000.), DoubleEq(3e-4), DoubleEq(4e-4), DoubleEq(5000.), DoubleEq(6e-4),
-                                             DoubleEq(0.7), DoubleEq(0.8)));
+  EXPECT_THAT(wavy.coefficients, ElementsAre(DoubleEq(1e-4), DoubleEq(2000.), DoubleEq(3e-4), DoubleEq(4e-4),
+                                             DoubleEq(5000.), DoubleEq(6e-4), DoubleEq(0.7), DoubleEq(0.8)));
   const GapInput each = read("9", "1 2 3\n4 5\n6 trailing");
   EXPECT_EQ(each.kind, GapInput::Kind::per_element);
-  EXPECT_THAT(each.coefficients, ElementsAre(DoubleEq(1e-3), DoubleEq(2e-3), DoubleEq(3e-3), DoubleEq(4e-3), DoubleEq(5e-3), DoubleEq(6e-3)));
+  EXPECT_THAT(each.coefficients, ElementsAre(DoubleEq(1e-3), DoubleEq(2e-3), DoubleEq(3e-3), DoubleEq(4e-3),
+                                             DoubleEq(5e-3), DoubleEq(6e-3)));
 }
 
 TEST(ContactInputModule3, FastsimAndFrictionLaws) {
-  const CaseFile f = parse(ContactWriter(3).set("MATER", 3).set("FRCLAW", 2).str() + ContactWriter(3).set("FRCLAW", 3).str() + "0\n");
+  const CaseFile f =
+      parse(ContactWriter(3).set("MATER", 3).set("FRCLAW", 2).str() + ContactWriter(3).set("FRCLAW", 3).str() + "0\n");
   const BasicCase& c = basic_case(f, 0);
   EXPECT_EQ(c.tangential_model, TangentialModelInput::fastsim);
   EXPECT_DOUBLE_EQ(c.fastsim_k0, 0.9);
@@ -362,12 +377,15 @@ TEST(ContactInputSequence, ResultElementsKeepTheirOwnValues) {
 TEST(ContactInputSequence, DebugLineAndSolverLinesAreRead) {
   for (const int solver : {0, 2, 3, 4, 5})
     EXPECT_NO_THROW(parse(ContactWriter(1).set("XFLOW", 1).set("GAUSEI", solver).str() + "0\n")) << solver;
-  const CaseFile f = parse(ContactWriter(1).set("GAUSEI", 3).set("IESTIM", 1).set("MATFIL", 2).set("PVTIME", 0).str() + "0\n");
+  const CaseFile f =
+      parse(ContactWriter(1).set("GAUSEI", 3).set("IESTIM", 1).set("MATFIL", 2).set("PVTIME", 0).str() + "0\n");
   EXPECT_EQ(f.notes.size(), 3u);
 }
 
 TEST(ContactInputSequence, LeadingZerosOfControlWordsMayBeMissing) {
-  EXPECT_EQ(parse(ContactWriter(1).line("word1", "203100").line("word2", "22033").line("word3", "1").str() + "0\n").cases.size(), 1u);
+  EXPECT_EQ(parse(ContactWriter(1).line("word1", "203100").line("word2", "22033").line("word3", "1").str() + "0\n")
+                .cases.size(),
+            1u);
 }
 
 TEST(ContactInputSequence, FileWithoutClosingLineIsNoted) {

@@ -45,7 +45,8 @@ std::vector<Named> digits_that_are(DigitSupport support) {
   return list;
 }
 std::string name_of(const ::testing::TestParamInfo<Named>& info) {
-  return "Module" + std::to_string(info.param.module) + std::string(info.param.digit.keyword) + std::to_string(std::max(0, info.param.digit.value));
+  return "Module" + std::to_string(info.param.module) + std::string(info.param.digit.keyword) +
+         std::to_string(std::max(0, info.param.digit.value));
 }
 
 class UnsupportedDigit : public ::testing::TestWithParam<Named> {};
@@ -53,8 +54,8 @@ class UnsupportedDigit : public ::testing::TestWithParam<Named> {};
 TEST_P(UnsupportedDigit, IsRefusedByNameValueMeaningAndPosition) {
   const auto& [module, d] = GetParam();
   const std::string text = first_case_with(module, d).str() + "0\n";
-  const std::string expected = std::string(1, d.letter) + " (" + std::string(d.keyword) + ") = " + std::to_string(d.value) + ", " +
-                               std::string(d.meaning) + ", is not supported";
+  const std::string expected = std::string(1, d.letter) + " (" + std::string(d.keyword) +
+                               ") = " + std::to_string(d.value) + ", " + std::string(d.meaning) + ", is not supported";
   const std::string message = error_of(text);
   ASSERT_NE(message.find(expected), std::string::npos) << message;
 
@@ -69,7 +70,8 @@ TEST_P(UnsupportedDigit, IsRefusedByNameValueMeaningAndPosition) {
 
 TEST_P(UnsupportedDigit, IsReadToItsEndWhenTheCaseIsSkipped) {
   const auto& [module, d] = GetParam();
-  if ((module == 1 && d.keyword == "INFLCF" && d.value == 9) || (d.keyword == "MATER" && d.value >= 6)) return;  // no grammar known
+  if ((module == 1 && d.keyword == "INFLCF" && d.value == 9) || (d.keyword == "MATER" && d.value >= 6))
+    return;  // no grammar known
   // What follows must be found in its place, so the refused case has been read completely.
   const std::string text = first_case_with(module, d).set("RETURN", 3).str() + ContactWriter(module).str() + "0\n";
   const CaseFile f = parse(text);
@@ -83,17 +85,24 @@ class SupportedDigit : public ::testing::TestWithParam<Named> {};
 
 TEST_P(SupportedDigit, IsAcceptedInASecondCase) {
   const auto& [module, d] = GetParam();
-  EXPECT_EQ(parse(ContactWriter(module).str() + first_case_with(module, d).set("RETURN", d.keyword == "RETURN" ? d.value : 1).str(true) +
+  EXPECT_EQ(parse(ContactWriter(module).str() +
+                  first_case_with(module, d).set("RETURN", d.keyword == "RETURN" ? d.value : 1).str(true) +
                   (d.keyword == "RETURN" && d.value % 2 == 0 ? ContactWriter(module).str(false) : "") + "0\n")
                 .cases.size(),
-            d.keyword == "RETURN" ? (d.value == 0 ? 3u : d.value == 1 ? 2u : d.value == 2 ? 2u : 1u) : 2u);
+            d.keyword == "RETURN" ? (d.value == 0   ? 3u
+                                     : d.value == 1 ? 2u
+                                     : d.value == 2 ? 2u
+                                                    : 1u)
+                                  : 2u);
 }
 
 INSTANTIATE_TEST_SUITE_P(Yes, SupportedDigit, ::testing::ValuesIn(digits_that_are(DigitSupport::yes)), name_of);
-INSTANTIATE_TEST_SUITE_P(NoEffect, SupportedDigit, ::testing::ValuesIn(digits_that_are(DigitSupport::no_effect)), name_of);
+INSTANTIATE_TEST_SUITE_P(NoEffect, SupportedDigit, ::testing::ValuesIn(digits_that_are(DigitSupport::no_effect)),
+                         name_of);
 
 TEST(ContactRefusal, DigitsThatDoNotExist) {
-  EXPECT_NE(error_of(ContactWriter(1).set("TANG", 4).str()).find("T (TANG) = 4 does not exist in module 1"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("TANG", 4).str()).find("T (TANG) = 4 does not exist in module 1"),
+            std::string::npos);
   EXPECT_NE(error_of(ContactWriter(3).line("word1", "1203100").str()).find("at most 6"), std::string::npos);
   EXPECT_NE(error_of(ContactWriter(1).line("module", "2").str()).find("MODULE = 2 does not exist"), std::string::npos);
   EXPECT_NE(error_of(ContactWriter(1).line("word2", "-22033").str()).find("must not be negative"), std::string::npos);
@@ -101,21 +110,30 @@ TEST(ContactRefusal, DigitsThatDoNotExist) {
 
 TEST(ContactRefusal, DampingOfOnePatch) {
   const std::string text = ContactWriter(3).line("word2", "022020 2").line("damping", "1. 2. 3. 4.").str();
-  EXPECT_NE(error_of(text).find("test.inp:3:10: M2 (second integer of the line VLDCMZE) = 2, damping, is not supported in module 3"), std::string::npos);
+  EXPECT_NE(error_of(text).find(
+                "test.inp:3:10: M2 (second integer of the line VLDCMZE) = 2, damping, is not supported in module 3"),
+            std::string::npos);
 }
 
 TEST(ContactRefusal, PotentialContactThatIsTooLarge) {
-  EXPECT_NE(error_of(ContactWriter(3).line("potcon", "10000 10000 0 0 1 1").str()).find("potential contact too large"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).line("potcon", "99999999 99999999 0 0 1 1").str()).find("potential contact too large"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).line("potcon", "10000 10000 0 0 1 1").str()).find("potential contact too large"),
+            std::string::npos);
+  EXPECT_NE(
+      error_of(ContactWriter(3).line("potcon", "99999999 99999999 0 0 1 1").str()).find("potential contact too large"),
+      std::string::npos);
 }
 
 TEST(ContactRefusal, KeptMethodsOfSkippedCases) {
   const std::string oblique = ContactWriter(1).set("DISCNS", 8).set("RETURN", 3).str();
-  EXPECT_NE(error_of(oblique + ContactWriter(1).set("DISCNS", 1).str()).find("D (DISCNS) = 1 keeps D = 8"), std::string::npos);
+  EXPECT_NE(error_of(oblique + ContactWriter(1).set("DISCNS", 1).str()).find("D (DISCNS) = 1 keeps D = 8"),
+            std::string::npos);
   const std::string thermal = ContactWriter(1).set("FRCLAW", 6).set("RETURN", 3).str();
-  EXPECT_NE(error_of(thermal + ContactWriter(1).set("FRCLAW", 1).str()).find("test.inp:19:4: friction that depends on the temperature"), std::string::npos);
+  EXPECT_NE(error_of(thermal + ContactWriter(1).set("FRCLAW", 1).str())
+                .find("test.inp:19:4: friction that depends on the temperature"),
+            std::string::npos);
   const std::string corrected = ContactWriter(1).set("INFLCF", 4).set("RETURN", 3).str();
-  EXPECT_NE(error_of(corrected + ContactWriter(1).set("INFLCF", 1).str()).find("angle-corrected influence coefficients need the curved reference"),
+  EXPECT_NE(error_of(corrected + ContactWriter(1).set("INFLCF", 1).str())
+                .find("angle-corrected influence coefficients need the curved reference"),
             std::string::npos);
 }
 
@@ -126,9 +144,12 @@ TEST(ContactRefusal, AllRefusalsOfACaseAreTold) {
 }
 
 TEST(ContactFirstCase, HasNothingToKeep) {
-  EXPECT_NE(error_of(ContactWriter(1).set("FRCLAW", 1).str()).find("L (FRCLAW) = 1 in the first case"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(1).set("DISCNS", 0).str()).find("D (DISCNS) = 0 in the first case"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).set("DISCNS", 1).str()).find("D (DISCNS) = 1 in the first case"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("FRCLAW", 1).str()).find("L (FRCLAW) = 1 in the first case"),
+            std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(1).set("DISCNS", 0).str()).find("D (DISCNS) = 0 in the first case"),
+            std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).set("DISCNS", 1).str()).find("D (DISCNS) = 1 in the first case"),
+            std::string::npos);
   EXPECT_NE(error_of(ContactWriter(1).set("INFLCF", 1).str()).find("keeps the material"), std::string::npos);
   EXPECT_NE(error_of(ContactWriter(1).set("ZTRACK", 2).str()).find("keeps the rail"), std::string::npos);
   EXPECT_NE(error_of(ContactWriter(1).set("EWHEEL", 2).str()).find("keeps the wheel"), std::string::npos);
@@ -139,12 +160,17 @@ TEST(ContactRules, NeedCertainLines) {
   ContactWriter switched(1);
   switched.set("NORM", 0).set("EWHEEL", 0);
   EXPECT_NE(error_of(ContactWriter(1).str() + switched.str()).find("needs E (EWHEEL) > 0"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).set("TANG", 0).str() + ContactWriter(3).set("INFLCF", 0).str()).find("rolling line CHI"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 3).str()).find("K0_MF"), std::string::npos);
-  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 4).str()).find("GG3"), std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).set("TANG", 0).str() + ContactWriter(3).set("INFLCF", 0).str())
+                .find("rolling line CHI"),
+            std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 3).str()).find("K0_MF"),
+            std::string::npos);
+  EXPECT_NE(error_of(ContactWriter(3).str() + ContactWriter(3).set("INFLCF", 0).set("MATER", 4).str()).find("GG3"),
+            std::string::npos);
   EXPECT_NE(error_of(ContactWriter(1).line("rail", "'a.slcs' 0 1. 0.").str()).find("GAUGHT <= 0"), std::string::npos);
   const std::string each = ContactWriter(3).line("ibase", "9 1").line("gap", "1 2 3 4 5 6").str();
-  EXPECT_NE(error_of(each + ContactWriter(3).set("RZNORM", 0).line("potcon", "4 4 0 0 1 1").str()).find("number of elements has changed"),
+  EXPECT_NE(error_of(each + ContactWriter(3).set("RZNORM", 0).line("potcon", "4 4 0 0 1 1").str())
+                .find("number of elements has changed"),
             std::string::npos);
 }
 
@@ -161,23 +187,34 @@ TEST_P(WrongValue, IsNamed) {
 }
 INSTANTIATE_TEST_SUITE_P(
     Lines, WrongValue,
-    ::testing::Values(WrongLine{1, "solver", "999 abc 30 1 1e-5", "expected MAXIN (an integer) of the line MAXGS, found 'abc'"},
-                      WrongLine{1, "solver", "999 -1 30 1 1e-5", "MAXIN"}, WrongLine{1, "solver", "999 1 30 1 0.0", "EPS must be positive"},
-                      WrongLine{1, "friction", "0.3 0.2", "must equal FSTAT"}, WrongLine{1, "friction", "0.0 0.0", "at least 0.0001"},
-                      WrongLine{1, "material", "0.28 0.6 82000. 82000.", "POISS2 = 0.6"}, WrongLine{1, "material", "0.28 0.28 0. 82000.", "GG1 must be positive"},
-                      WrongLine{1, "grid", "0. 0.4 1. 90d 8. 4.", "DX must be positive"}, WrongLine{1, "grid", "0.4 0.4 1. 90d 3. 4.", "D_SEP must not be less"},
-                      WrongLine{1, "track", "14. 0 -1435. 0.", "GAUGWD must be positive"}, WrongLine{1, "rail", "rail.prr 0 1. 0.", "the file name (text in single quotes)"},
-                      WrongLine{1, "rail", "'a.prr' 2 1. 0.", "MIRRORY"}, WrongLine{1, "rail", "'a.prr' 0 0. 0.", "SCALE"},
-                      WrongLine{1, "rail", "'a.prr' 0 1. -1.", "SMOOTH"}, WrongLine{1, "rail", "'a.prr' 0 1. 0. 3", "MIRRORZ"},
-                      WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 3", "PRFOPT"}, WrongLine{1, "rail", "'' 0 1. 0.", "no file name"},
-                      WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 1\n 5 1 1 1 1", "ISMOOTH"}, WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 1\n 0 1 1 2 1", "KINKLOW"},
-                      WrongLine{1, "wheelset", "1360. -70. 0.", "NOMRAD must be positive"}, WrongLine{1, "position", "0. 0. 1d5x 0. 0. 0.", "expected FZ (a number)"},
-                      WrongLine{1, "position", "0. 0. 1e5 0. 0. PITCH,", "expected PITCH (an angle)"},
-                      WrongLine{3, "kinematics", "1. x", "expected CKSI"}, WrongLine{3, "rolling", "0. 0. 1000.", "DQ must be positive"},
-                      WrongLine{3, "rolling", "0. 0.4 0.", "VELOC must be positive"}, WrongLine{3, "ipotcn", "0", "IPOTCN = 0 does not exist"},
-                      WrongLine{3, "ipotcn", "5", "IPOTCN = 5 does not exist"}, WrongLine{3, "potcon", "0 2 0 0 1 1", "MX and MY must be positive"},
-                      WrongLine{3, "potcon", "3 2 0 0 0. 1", "DX must be positive"}, WrongLine{3, "ibase", "4 1", "IBASE = 4 does not exist"},
-                      WrongLine{3, "ibase", "1 5", "IPLAN = 5 does not exist"}, WrongLine{3, "gap", "1 2 3 4 5 six", "expected B6"}));
+    ::testing::Values(
+        WrongLine{1, "solver", "999 abc 30 1 1e-5", "expected MAXIN (an integer) of the line MAXGS, found 'abc'"},
+        WrongLine{1, "solver", "999 -1 30 1 1e-5", "MAXIN"},
+        WrongLine{1, "solver", "999 1 30 1 0.0", "EPS must be positive"},
+        WrongLine{1, "friction", "0.3 0.2", "must equal FSTAT"}, WrongLine{1, "friction", "0.0 0.0", "at least 0.0001"},
+        WrongLine{1, "material", "0.28 0.6 82000. 82000.", "POISS2 = 0.6"},
+        WrongLine{1, "material", "0.28 0.28 0. 82000.", "GG1 must be positive"},
+        WrongLine{1, "grid", "0. 0.4 1. 90d 8. 4.", "DX must be positive"},
+        WrongLine{1, "grid", "0.4 0.4 1. 90d 3. 4.", "D_SEP must not be less"},
+        WrongLine{1, "track", "14. 0 -1435. 0.", "GAUGWD must be positive"},
+        WrongLine{1, "rail", "rail.prr 0 1. 0.", "the file name (text in single quotes)"},
+        WrongLine{1, "rail", "'a.prr' 2 1. 0.", "MIRRORY"}, WrongLine{1, "rail", "'a.prr' 0 0. 0.", "SCALE"},
+        WrongLine{1, "rail", "'a.prr' 0 1. -1.", "SMOOTH"}, WrongLine{1, "rail", "'a.prr' 0 1. 0. 3", "MIRRORZ"},
+        WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 3", "PRFOPT"}, WrongLine{1, "rail", "'' 0 1. 0.", "no file name"},
+        WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 1\n 5 1 1 1 1", "ISMOOTH"},
+        WrongLine{1, "rail", "'a.prr' 0 1. 0. 0 1\n 0 1 1 2 1", "KINKLOW"},
+        WrongLine{1, "wheelset", "1360. -70. 0.", "NOMRAD must be positive"},
+        WrongLine{1, "position", "0. 0. 1d5x 0. 0. 0.", "expected FZ (a number)"},
+        WrongLine{1, "position", "0. 0. 1e5 0. 0. PITCH,", "expected PITCH (an angle)"},
+        WrongLine{3, "kinematics", "1. x", "expected CKSI"},
+        WrongLine{3, "rolling", "0. 0. 1000.", "DQ must be positive"},
+        WrongLine{3, "rolling", "0. 0.4 0.", "VELOC must be positive"},
+        WrongLine{3, "ipotcn", "0", "IPOTCN = 0 does not exist"},
+        WrongLine{3, "ipotcn", "5", "IPOTCN = 5 does not exist"},
+        WrongLine{3, "potcon", "0 2 0 0 1 1", "MX and MY must be positive"},
+        WrongLine{3, "potcon", "3 2 0 0 0. 1", "DX must be positive"},
+        WrongLine{3, "ibase", "4 1", "IBASE = 4 does not exist"},
+        WrongLine{3, "ibase", "1 5", "IPLAN = 5 does not exist"}, WrongLine{3, "gap", "1 2 3 4 5 six", "expected B6"}));
 
 /// A file that breaks off anywhere but between cases is an error that says so.
 class Truncated : public ::testing::TestWithParam<int> {};
@@ -188,7 +225,8 @@ TEST_P(Truncated, IsToldWhereItEnds) {
   std::vector<std::size_t> ends;
   for (std::size_t i = text.find('\n'); i + 1 < text.size(); i = text.find('\n', i + 1)) ends.push_back(i);
   ASSERT_GT(ends.size(), 8u);
-  for (const std::size_t end : ends) EXPECT_NE(error_of(text.substr(0, end)).find("the file ends"), std::string::npos) << text.substr(0, end);
+  for (const std::size_t end : ends)
+    EXPECT_NE(error_of(text.substr(0, end)).find("the file ends"), std::string::npos) << text.substr(0, end);
   EXPECT_NE(error_of("").find("contains no case"), std::string::npos);
   EXPECT_NE(error_of("% only a comment\n").find("contains no case"), std::string::npos);
 }
@@ -198,7 +236,8 @@ TEST(ContactDocumentation, TableOfDigitsIsUpToDate) {
   std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/contact-input.md");
   std::stringstream text;
   text << stream.rdbuf();
-  EXPECT_NE(text.str().find(contact_digit_table()), std::string::npos) << "docs/contact-input.md must contain:\n" << contact_digit_table();
+  EXPECT_NE(text.str().find(contact_digit_table()), std::string::npos) << "docs/contact-input.md must contain:\n"
+                                                                       << contact_digit_table();
 }
 
 }  // namespace

@@ -37,7 +37,8 @@ TEST(ContactText, OptionalValuesStayOnTheirLine) {
 TEST(ContactText, RealsKnowFortranExponents) {
   ContactText text(" 1e-5 1d-5 .5 -.5 5. +3 0.8200E+05 1D3", "a.inp");
   text.begin_record("reals");
-  for (const double expected : {1e-5, 1e-5, 0.5, -0.5, 5.0, 3.0, 82000.0, 1000.0}) EXPECT_DOUBLE_EQ(text.real("R"), expected);
+  for (const double expected : {1e-5, 1e-5, 0.5, -0.5, 5.0, 3.0, 82000.0, 1000.0})
+    EXPECT_DOUBLE_EQ(text.real("R"), expected);
 }
 
 TEST(ContactText, AnglesHaveSuffixes) {
@@ -87,11 +88,15 @@ TEST_P(ContactTextError, NamesValueAndPosition) {
 INSTANTIATE_TEST_SUITE_P(
     Words, ContactTextError,
     ::testing::Values(WrongWord{"x 1", "a.inp:1:1: expected MX (an integer) of the line MX, found 'x'"},
-                      WrongWord{"\n 1.5 1", "a.inp:2:2: expected MX (an integer)"}, WrongWord{"1 nan", "a.inp:1:3: expected DX (a number)"},
-                      WrongWord{"1 inf", "expected DX"}, WrongWord{"1 0x10", "expected DX"}, WrongWord{"1 1e999", "expected DX"},
-                      WrongWord{"1 1,5", "expected DX"}, WrongWord{"1 '2'", "expected DX"}, WrongWord{"99999999999999999999 1", "expected MX"},
-                      WrongWord{"1 2 name", "expected NAME (text in single quotes)"}, WrongWord{"1 2 'open", "expected NAME"},
-                      WrongWord{"", "the file ends where the line MX is expected"}, WrongWord{"1 % 2", "the file ends in the line MX: expected DX"}));
+                      WrongWord{"\n 1.5 1", "a.inp:2:2: expected MX (an integer)"},
+                      WrongWord{"1 nan", "a.inp:1:3: expected DX (a number)"}, WrongWord{"1 inf", "expected DX"},
+                      WrongWord{"1 0x10", "expected DX"}, WrongWord{"1 1e999", "expected DX"},
+                      WrongWord{"1 1,5", "expected DX"}, WrongWord{"1 '2'", "expected DX"},
+                      WrongWord{"99999999999999999999 1", "expected MX"},
+                      WrongWord{"1 2 name", "expected NAME (text in single quotes)"},
+                      WrongWord{"1 2 'open", "expected NAME"},
+                      WrongWord{"", "the file ends where the line MX is expected"},
+                      WrongWord{"1 % 2", "the file ends in the line MX: expected DX"}));
 
 }  // namespace
 }  // namespace treadmark::io

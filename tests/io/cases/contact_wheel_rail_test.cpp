@@ -11,14 +11,21 @@
 namespace treadmark::io {
 namespace {
 
+using testing::ContactWriter;
 using ::testing::ElementsAre;
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
-using testing::ContactWriter;
 
 ContactWriter rail() { return ContactWriter(1); }
 ContactWriter keeping() {
-  return rail().set("FRCLAW", 1).set("DISCNS", 0).set("INFLCF", 0).set("ZTRACK", 0).set("EWHEEL", 2).set("GAUSEI", 1).set("PVTIME", 0);
+  return rail()
+      .set("FRCLAW", 1)
+      .set("DISCNS", 0)
+      .set("INFLCF", 0)
+      .set("ZTRACK", 0)
+      .set("EWHEEL", 2)
+      .set("GAUSEI", 1)
+      .set("PVTIME", 0);
 }
 
 CaseFile parse(const std::string& text) { return parse_contact_input(text + "0\n", "test.inp"); }
@@ -43,41 +50,48 @@ TEST(ContactRoller, HasItsRadiusAndPitchRate) {
     EXPECT_DOUBLE_EQ(c.roller->nominal_radius, 0.5);
     EXPECT_DOUBLE_EQ(c.roller->pitch_rate, 20.0);
     EXPECT_DOUBLE_EQ(c.track.cant, 0.0);
-    EXPECT_DOUBLE_EQ(c.wheelset.s, 1e-3);   // X_WS
+    EXPECT_DOUBLE_EQ(c.wheelset.s, 1e-3);  // X_WS
     EXPECT_DOUBLE_EQ(c.wheelset.vs, 0.0);
     EXPECT_DOUBLE_EQ(c.wheelset.vy, 1e-3);
     EXPECT_DOUBLE_EQ(c.wheelset.vpitch, -40.0);
   }
   EXPECT_FALSE(only(rail()).roller);
-  EXPECT_DOUBLE_EQ(only(rail().set("CONFIG", 5).line("track", "-1.0 750. 0.1 -500. 0.001")).roller->nominal_radius, -0.5);
-  EXPECT_THAT(error_of(rail().set("CONFIG", 5).line("track", "14. 0 1435. 0.").str()), HasSubstr("test.inp:9:15: NOMRAD of a roller must not be 0"));
+  EXPECT_DOUBLE_EQ(only(rail().set("CONFIG", 5).line("track", "-1.0 750. 0.1 -500. 0.001")).roller->nominal_radius,
+                   -0.5);
+  EXPECT_THAT(error_of(rail().set("CONFIG", 5).line("track", "14. 0 1435. 0.").str()),
+              HasSubstr("test.inp:9:15: NOMRAD of a roller must not be 0"));
 }
 
 TEST(ContactRoller, IsKeptAndNeedsItsNumbers) {
   const CaseFile f = parse(rail().set("CONFIG", 5).str() + keeping().set("CONFIG", 5).set("EWHEEL", 1).str());
   EXPECT_DOUBLE_EQ(at(f, 1).roller->nominal_radius, 0.5);
   EXPECT_DOUBLE_EQ(at(f, 1).roller->pitch_rate, 2000.0);
-  EXPECT_THAT(error_of(rail().str() + keeping().set("CONFIG", 5).str()), HasSubstr("needs NOMRAD of the roller, but no case has given it"));
+  EXPECT_THAT(error_of(rail().str() + keeping().set("CONFIG", 5).str()),
+              HasSubstr("needs NOMRAD of the roller, but no case has given it"));
   EXPECT_THAT(error_of(rail().str() + keeping().set("CONFIG", 5).set("ZTRACK", 3).set("EWHEEL", 1).str()),
               HasSubstr("needs the roller's pitch rate of the velocity line"));
 }
 
 TEST(ContactForces, LongitudinalForceReplacesThePitchRate) {
-  const CaseFile f = parse(rail().set("FORCE", 1).str() + keeping().set("FORCE", 1).line("velocity", "2000. 0. 0. 0. 0. 5000.").str() +
-                           keeping().set("FORCE", 1).set("EWHEEL", 1).str() + keeping().str());
+  const CaseFile f =
+      parse(rail().set("FORCE", 1).str() + keeping().set("FORCE", 1).line("velocity", "2000. 0. 0. 0. 0. 5000.").str() +
+            keeping().set("FORCE", 1).set("EWHEEL", 1).str() + keeping().str());
   EXPECT_EQ(at(f, 0).longitudinal_force, std::optional(-4.0));
   EXPECT_DOUBLE_EQ(at(f, 0).wheelset.vpitch, 0.0);
   EXPECT_EQ(at(f, 1).longitudinal_force, std::optional(5000.0));
   EXPECT_EQ(at(f, 2).longitudinal_force, std::optional(5000.0));
   EXPECT_FALSE(at(f, 3).longitudinal_force);
   EXPECT_DOUBLE_EQ(at(f, 3).wheelset.vpitch, -4.0);
-  EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 1).set("EWHEEL", 1).str()), HasSubstr("test.inp:17:8: F (FORCE) = 1 needs FX"));
-  EXPECT_THAT(error_of(rail().set("FORCE", 1).str() + keeping().set("EWHEEL", 0).str()), HasSubstr("F (FORCE) = 0 needs VPITCH"));
+  EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 1).set("EWHEEL", 1).str()),
+              HasSubstr("test.inp:17:8: F (FORCE) = 1 needs FX"));
+  EXPECT_THAT(error_of(rail().set("FORCE", 1).str() + keeping().set("EWHEEL", 0).str()),
+              HasSubstr("F (FORCE) = 0 needs VPITCH"));
 }
 
 TEST(ContactForces, RailOnSpringsInSiUnits) {
-  const CaseFile f = parse(rail().set("FORCE", 3).line("massless", "100. -2000. 50. 3000. 0.5").str() + keeping().set("FORCE", 3).str() +
-                           keeping().set("FORCE", 3).set("ZTRACK", 2).str() + keeping().set("ZTRACK", 2).str());
+  const CaseFile f = parse(rail().set("FORCE", 3).line("massless", "100. -2000. 50. 3000. 0.5").str() +
+                           keeping().set("FORCE", 3).str() + keeping().set("FORCE", 3).set("ZTRACK", 2).str() +
+                           keeping().set("ZTRACK", 2).str());
   for (const std::size_t i : {0u, 1u}) {
     const RailSpringsInput s = at(f, i).rail_springs.value();
     EXPECT_DOUBLE_EQ(s.stiffness_y, 1e5);
@@ -89,13 +103,16 @@ TEST(ContactForces, RailOnSpringsInSiUnits) {
   EXPECT_DOUBLE_EQ(at(f, 2).rail_springs.value().stiffness_z, 1e6);
   EXPECT_DOUBLE_EQ(at(f, 2).rail_springs.value().first_step_y, 1e-3);
   EXPECT_FALSE(at(f, 3).rail_springs);
-  EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 3).str()), HasSubstr("F (FORCE) = 3 needs the line KYRAIL"));
-  EXPECT_THAT(error_of(rail().set("FORCE", 3).line("massless", "1. 2. 3. 4. 0.").str()), HasSubstr("DYSTEP0 must be positive"));
+  EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 3).str()),
+              HasSubstr("F (FORCE) = 3 needs the line KYRAIL"));
+  EXPECT_THAT(error_of(rail().set("FORCE", 3).line("massless", "1. 2. 3. 4. 0.").str()),
+              HasSubstr("DYSTEP0 must be positive"));
 }
 
 TEST(ContactForces, DampingIsReadKeptAndDropped) {
-  const CaseFile f = parse(rail().line("word2", "0022033 2").line("damping", "1e-4 2e-4 3e6 4e6").str() + keeping().line("word2", "0100002 1").str() +
-                           keeping().str() + keeping().line("word2", "0100002 1").str());
+  const CaseFile f =
+      parse(rail().line("word2", "0022033 2").line("damping", "1e-4 2e-4 3e6 4e6").str() +
+            keeping().line("word2", "0100002 1").str() + keeping().str() + keeping().line("word2", "0100002 1").str());
   for (const std::size_t i : {0u, 1u}) {
     const DampingInput d = at(f, i).damping.value();
     EXPECT_DOUBLE_EQ(d.normal, 1e-4);
@@ -105,7 +122,8 @@ TEST(ContactForces, DampingIsReadKeptAndDropped) {
   }
   EXPECT_FALSE(at(f, 2).damping);
   EXPECT_FALSE(at(f, 3).damping);
-  EXPECT_THAT(error_of(rail().line("word2", "0022033 2").line("damping", "-1. 2. 3. 4.").str()), HasSubstr("CDAMPN must not be negative"));
+  EXPECT_THAT(error_of(rail().line("word2", "0022033 2").line("damping", "-1. 2. 3. 4.").str()),
+              HasSubstr("CDAMPN must not be negative"));
 }
 
 TEST(ContactSequenceOfAWheel, FollowsThePDigit) {
@@ -117,17 +135,23 @@ TEST(ContactSequenceOfAWheel, FollowsThePDigit) {
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(at(f, i).history, expected[i]) << i;
   EXPECT_EQ(at(f, 0).regime, RegimeInput::transient);
   EXPECT_EQ(at(f, 2).regime, RegimeInput::shift);
-  EXPECT_DOUBLE_EQ(at(f, 2).wheelset.vs, 2.0);   // 2000 mm in the step
+  EXPECT_DOUBLE_EQ(at(f, 2).wheelset.vs, 2.0);  // 2000 mm in the step
 }
 
 TEST(ContactSequenceOfAWheel, KeepsElementsAndSide) {
   const std::string first = rail().set("TANG", 2).str();
   EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()),
               HasSubstr("test.inp:18:5: a case that continues the previous one needs elements of the same size"));
-  EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).set("DISCNS", 4).str()), HasSubstr("the same kind of reference surface"));
-  EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).set("CONFIG", 0).str()), HasSubstr("must be on the same side"));
-  EXPECT_EQ(error_of(first + rail().set("TANG", 2).set("PVTIME", 2).set("CONFIG", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()), "no error");
-  EXPECT_EQ(error_of(first + rail().set("TANG", 3).set("PVTIME", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()), "no error");
+  EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).set("DISCNS", 4).str()),
+              HasSubstr("the same kind of reference surface"));
+  EXPECT_THAT(error_of(first + rail().set("TANG", 2).set("PVTIME", 0).set("CONFIG", 0).str()),
+              HasSubstr("must be on the same side"));
+  EXPECT_EQ(
+      error_of(first +
+               rail().set("TANG", 2).set("PVTIME", 2).set("CONFIG", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()),
+      "no error");
+  EXPECT_EQ(error_of(first + rail().set("TANG", 3).set("PVTIME", 0).line("grid", "0.3 0.5 1. 90d 8. 4.").str()),
+            "no error");
 }
 
 TEST(ContactSequenceOfAWheel, StepsThatDoNotFitAreNotedOnce) {
@@ -139,12 +163,14 @@ TEST(ContactSequenceOfAWheel, StepsThatDoNotFitAreNotedOnce) {
       if (note.find("through the contact") != std::string::npos) found.push_back(note);
     return found;
   };
-  EXPECT_THAT(notes("0. 0. 125000. 0. 0. 0."), IsEmpty());    // nothing moves
-  EXPECT_THAT(notes("0.4 0. 125000. 0. 0. 0."), IsEmpty());   // dx = 0.4 mm, DQREL = 1
-  EXPECT_THAT(notes("0.6 0. 125000. 0. 0. 0."), ElementsAre(HasSubstr("test.inp:16:1: wheel or rail move 0.6 mm through the contact since the previous "
-                                                                      "case, but a rolling step is 0.4 mm")));
-  EXPECT_THAT(notes("0. 0. 125000. 0. 0. -0.01"), ElementsAre(HasSubstr("move 4.6 mm through the contact since the previous case, more than two elements "
-                                                                        "(0.8 mm)")));
+  EXPECT_THAT(notes("0. 0. 125000. 0. 0. 0."), IsEmpty());   // nothing moves
+  EXPECT_THAT(notes("0.4 0. 125000. 0. 0. 0."), IsEmpty());  // dx = 0.4 mm, DQREL = 1
+  EXPECT_THAT(notes("0.6 0. 125000. 0. 0. 0."),
+              ElementsAre(HasSubstr("test.inp:16:1: wheel or rail move 0.6 mm through the contact since the previous "
+                                    "case, but a rolling step is 0.4 mm")));
+  EXPECT_THAT(notes("0. 0. 125000. 0. 0. -0.01"),
+              ElementsAre(HasSubstr("move 4.6 mm through the contact since the previous case, more than two elements "
+                                    "(0.8 mm)")));
 }
 
 TEST(ContactMethods, ReferenceSurfaces) {
@@ -168,7 +194,8 @@ TEST(ContactMethods, BodiesHeatAndFriction) {
   EXPECT_DOUBLE_EQ(only(rail().set("BOUND", 1)).material.sheet_flexibility, 1e-14);
   EXPECT_DOUBLE_EQ(only(rail().set("MATER", 1)).material.creep_ratio_1, 1.0);
   EXPECT_DOUBLE_EQ(only(rail().line("material", "0.31 0.28 23000. 82000.")).material.shear_modulus_1, 23e9);
-  const WheelRailCase yielding = only(rail().set("MATER", 4).set("HEAT", 3).line("layer", "8200. 1.25 30. 5.").line("betapl", "0.8"));
+  const WheelRailCase yielding =
+      only(rail().set("MATER", 4).set("HEAT", 3).line("layer", "8200. 1.25 30. 5.").line("betapl", "0.8"));
   EXPECT_DOUBLE_EQ(yielding.material.layer_yield, 30e6);
   EXPECT_DOUBLE_EQ(yielding.material.layer_hardening, 5e9);
   EXPECT_DOUBLE_EQ(yielding.thermal.value().plastic_fraction, 0.8);
@@ -180,8 +207,8 @@ TEST(ContactMethods, BodiesHeatAndFriction) {
 }
 
 TEST(ContactOutputOfAWheel, PointsAndTables) {
-  const CaseFile f = parse(rail().set("STRESS", 3).set("MATFIL", 2).str() + keeping().set("STRESS", 1).str() + keeping().str() +
-                           keeping().set("STRESS", 2).line("stress", "2 0").str());
+  const CaseFile f = parse(rail().set("STRESS", 3).set("MATFIL", 2).str() + keeping().set("STRESS", 1).str() +
+                           keeping().str() + keeping().set("STRESS", 2).line("stress", "2 0").str());
   EXPECT_EQ(at(f, 0).subsurface.blocks.size(), 7u);
   EXPECT_EQ(f.cases[0].element_table, 2);
   EXPECT_EQ(at(f, 1).subsurface.blocks.size(), 7u);
@@ -195,7 +222,9 @@ struct Contradictory {
   std::string expected;
 };
 class Contradiction1 : public ::testing::TestWithParam<Contradictory> {};
-TEST_P(Contradiction1, IsRefusedAtItsDigit) { EXPECT_THAT(error_of(GetParam().input.str()), HasSubstr(GetParam().expected)); }
+TEST_P(Contradiction1, IsRefusedAtItsDigit) {
+  EXPECT_THAT(error_of(GetParam().input.str()), HasSubstr(GetParam().expected));
+}
 TEST_P(Contradiction1, IsNoneInASkippedCase) {
   ContactWriter skipped = GetParam().input;
   EXPECT_EQ(error_of(skipped.set("RETURN", 3).str() + rail().str()), "no error");
@@ -206,30 +235,46 @@ ContactWriter viscoelastic() { return rail().set("MATER", 1); }
 INSTANTIATE_TEST_SUITE_P(
     Cases, Contradiction1,
     ::testing::Values(
-        Contradictory{rail().set("FORCE", 1).set("TANG", 0), "test.inp:2:8: a prescribed longitudinal force needs friction"},
-        Contradictory{rail().set("FORCE", 3).line("massless", "0. 0. 1. 0."), "test.inp:2:8: a rail on springs needs a positive lateral stiffness"},
+        Contradictory{rail().set("FORCE", 1).set("TANG", 0),
+                      "test.inp:2:8: a prescribed longitudinal force needs friction"},
+        Contradictory{rail().set("FORCE", 3).line("massless", "0. 0. 1. 0."),
+                      "test.inp:2:8: a rail on springs needs a positive lateral stiffness"},
         Contradictory{rail().set("FORCE", 3).line("massless", "1. 0. -1. 0."), "must not be negative"},
-        Contradictory{rail().set("FORCE", 3).set("NORM", 0).line("massless", "1. 0. 0. 0."), "needs a positive vertical stiffness"},
-        Contradictory{rail().set("CONFIG", 4).set("VARFRC", 2), "test.inp:3:4: friction cannot vary along the track of a wheel on a roller"},
-        Contradictory{rail().set("INFLCF", 4), "test.inp:3:6: angle-corrected influence coefficients need the curved reference"},
-        Contradictory{rail().set("BOUND", 5).set("DISCNS", 4), "test.inp:2:5: conformal contact needs the full normal problem"},
-        Contradictory{rail().set("MATER", 3).set("DISCNS", 3), "test.inp:3:5: the simplified theory takes one creepage for a patch"},
+        Contradictory{rail().set("FORCE", 3).set("NORM", 0).line("massless", "1. 0. 0. 0."),
+                      "needs a positive vertical stiffness"},
+        Contradictory{rail().set("CONFIG", 4).set("VARFRC", 2),
+                      "test.inp:3:4: friction cannot vary along the track of a wheel on a roller"},
+        Contradictory{rail().set("INFLCF", 4),
+                      "test.inp:3:6: angle-corrected influence coefficients need the curved reference"},
+        Contradictory{rail().set("BOUND", 5).set("DISCNS", 4),
+                      "test.inp:2:5: conformal contact needs the full normal problem"},
+        Contradictory{rail().set("MATER", 3).set("DISCNS", 3),
+                      "test.inp:3:5: the simplified theory takes one creepage for a patch"},
         Contradictory{rail().set("MATER", 5).set("DISCNS", 4), "the simplified theory takes one creepage for a patch"},
-        Contradictory{rail().set("MATER", 2).set("TANG", 2), "test.inp:3:7: the simplified theory (FASTSIM, FaStrip) is for steady rolling"},
+        Contradictory{rail().set("MATER", 2).set("TANG", 2),
+                      "test.inp:3:7: the simplified theory (FASTSIM, FaStrip) is for steady rolling"},
         Contradictory{viscoelastic().set("TANG", 2), "test.inp:2:6: viscoelastic bodies need steady rolling"},
-        Contradictory{viscoelastic().line("velocity", "-2000. 0. 0. 0. 0. 4."), "viscoelastic bodies must roll forward"},
-        Contradictory{viscoelastic().line("material", "0.31 0.28 23000. 82000."), "test.inp:7:3: viscoelastic bodies must not be dissimilar"},
-        Contradictory{viscoelastic().set("INFLCF", 3), "viscoelastic bodies need the half-space with constant elements"},
+        Contradictory{viscoelastic().line("velocity", "-2000. 0. 0. 0. 0. 4."),
+                      "viscoelastic bodies must roll forward"},
+        Contradictory{viscoelastic().line("material", "0.31 0.28 23000. 82000."),
+                      "test.inp:7:3: viscoelastic bodies must not be dissimilar"},
+        Contradictory{viscoelastic().set("INFLCF", 3),
+                      "viscoelastic bodies need the half-space with constant elements"},
         Contradictory{rail().set("MATER", 4).line("layer", "8200. 1.25 30. 5.").line("grid", "0.4 0.5 0.5 90d 8. 4."),
-                      "test.inp:8:14: a layer that yields needs a rolling step of one element: the step is 0.2 mm, elements are 0.4 mm"},
+                      "test.inp:8:14: a layer that yields needs a rolling step of one element: the step is 0.2 mm, "
+                      "elements are 0.4 mm"},
         Contradictory{rail().set("HEAT", 3).set("TANG", 2), "test.inp:4:4: surface temperatures need steady rolling"},
-        Contradictory{rail().set("FRCLAW", 6), "test.inp:3:4: friction that depends on the temperature needs the thermal data"}));
+        Contradictory{rail().set("FRCLAW", 6),
+                      "test.inp:3:4: friction that depends on the temperature needs the thermal data"}));
 
 TEST(ContactContradiction1, WhatGoesTogetherIsAccepted) {
   for (const ContactWriter& good :
-       {viscoelastic(), viscoelastic().set("TANG", 0), rail().set("FORCE", 1).set("TANG", 1), rail().set("FORCE", 3).line("massless", "1. 0. 0. 0."),
-        rail().set("DISCNS", 4).set("INFLCF", 4).set("VARFRC", 1), rail().set("BOUND", 5).set("TANG", 2), rail().set("DISCNS", 3).set("TANG", 1),
-        rail().set("MATER", 4).line("layer", "8200. 1.25 30. 5.").set("TANG", 2), rail().set("FRCLAW", 6).set("HEAT", 3).set("VARFRC", 1)})
+       {viscoelastic(), viscoelastic().set("TANG", 0), rail().set("FORCE", 1).set("TANG", 1),
+        rail().set("FORCE", 3).line("massless", "1. 0. 0. 0."),
+        rail().set("DISCNS", 4).set("INFLCF", 4).set("VARFRC", 1), rail().set("BOUND", 5).set("TANG", 2),
+        rail().set("DISCNS", 3).set("TANG", 1),
+        rail().set("MATER", 4).line("layer", "8200. 1.25 30. 5.").set("TANG", 2),
+        rail().set("FRCLAW", 6).set("HEAT", 3).set("VARFRC", 1)})
     EXPECT_EQ(error_of(good.str()), "no error") << good.str();
 }
 

@@ -9,14 +9,17 @@
 
 namespace treadmark::io::testing {
 
-/// Writes cases of CONTACT input files from their control digits: every line that the grammar asks for, with fixed values.
+/// Writes cases of CONTACT input files from their control digits: every line that the grammar asks for, with fixed
+/// values.
 class ContactWriter {
  public:
   explicit ContactWriter(int module) : module_(module) {
-    digits_ = module == 1 ? Digits{{"CONFIG", 1}, {"PVTIME", 2}, {"BOUND", 0}, {"TANG", 3}, {"NORM", 1}, {"FORCE", 0}, {"STRESS", 0},
-                                   {"VARFRC", 0}, {"FRCLAW", 0}, {"DISCNS", 2}, {"INFLCF", 2}, {"MATER", 0}, {"ZTRACK", 3}, {"EWHEEL", 3}}
-                          : Digits{{"PVTIME", 2}, {"BOUND", 0}, {"TANG", 3}, {"NORM", 1}, {"FORCE", 0}, {"STRESS", 0}, {"VARFRC", 0},
-                                   {"FRCLAW", 0}, {"DISCNS", 2}, {"INFLCF", 2}, {"MATER", 0}, {"RZNORM", 2}, {"EXRHS", 0}};
+    digits_ = module == 1 ? Digits{{"CONFIG", 1}, {"PVTIME", 2}, {"BOUND", 0},  {"TANG", 3},   {"NORM", 1},
+                                   {"FORCE", 0},  {"STRESS", 0}, {"VARFRC", 0}, {"FRCLAW", 0}, {"DISCNS", 2},
+                                   {"INFLCF", 2}, {"MATER", 0},  {"ZTRACK", 3}, {"EWHEEL", 3}}
+                          : Digits{{"PVTIME", 2}, {"BOUND", 0},  {"TANG", 3},   {"NORM", 1},   {"FORCE", 0},
+                                   {"STRESS", 0}, {"VARFRC", 0}, {"FRCLAW", 0}, {"DISCNS", 2}, {"INFLCF", 2},
+                                   {"MATER", 0},  {"RZNORM", 2}, {"EXRHS", 0}};
     for (const char* name : {"XFLOW", "HEAT", "GAUSEI", "IESTIM", "MATFIL", "OUTPUT", "FLOW"}) digits_[name] = 0;
     digits_["RETURN"] = 1;
   }
@@ -113,7 +116,8 @@ class ContactWriter {
       add("wheelset", "1360. -70. 460.");
       add("wheel", "'sub\\wheel.prw' 0 1.0 0.0");
     }
-    if (e >= 1) add("position", digit("NORM") == 1 ? "1.0 2.0 125000. 0.001 0.002 -25d" : "1.0 2.0 0.3 0.001 0.002 -25d");
+    if (e >= 1)
+      add("position", digit("NORM") == 1 ? "1.0 2.0 125000. 0.001 0.002 -25d" : "1.0 2.0 0.3 0.001 0.002 -25d");
     if (e >= 2) add("velocity", "2000. 1. 2. 0.1 0.2 -4.0");
     if (e >= 4) {
       add("flexible", "0.1 0.2 0.3 1d 2d 3d");
@@ -139,8 +143,9 @@ class ContactWriter {
   template <class Add>
   void subsurface(Add add) const {
     if (lines_.contains("block")) return add("block", "");
-    for (const char* block : {"1\n 2 0.0 0.5", "2\n 1 1 2\n 1 1 2\n 1 0.1 0.1", "3\n 2 1\n 1 2\n 1\n 1 0.1 0.1", "5\n 2\n 0.0 1.0",
-                              "6\n 1 1 2\n 1 1 2\n 1\n 0.5", "7\n 1 1\n 1\n 1\n 2\n 0.0 1.0", "9\n 2 1 2\n 0.0 1.0\n 0.0\n 0.0\n 1.0", "0"})
+    for (const char* block :
+         {"1\n 2 0.0 0.5", "2\n 1 1 2\n 1 1 2\n 1 0.1 0.1", "3\n 2 1\n 1 2\n 1\n 1 0.1 0.1", "5\n 2\n 0.0 1.0",
+          "6\n 1 1 2\n 1 1 2\n 1\n 0.5", "7\n 1 1\n 1\n 1\n 2\n 0.0 1.0", "9\n 2 1 2\n 0.0 1.0\n 0.0\n 0.0\n 1.0", "0"})
       add("block", block);
   }
 

@@ -26,8 +26,10 @@ std::array<double, 9> coefficients(int ix, int iy) {
   return {1.0 / r, 0.1 * x / r, 0.2 * y, 0.3 * x / r, 2.0 / r, x * y, 0.5 * y, 0.7 * x * y, 3.0 / r};
 }
 
-std::string influence_file(const std::string& first = "1 1", const std::string& header = " header of a row\n % another one\n") {
-  std::string text = "% numerical influence coefficients\n" + first + "   NMATRIX, IACONVX\n 0 312 LQUASID, XYZORDR\n\n 1 0\n" +
+std::string influence_file(const std::string& first = "1 1",
+                           const std::string& header = " header of a row\n % another one\n") {
+  std::string text = "% numerical influence coefficients\n" + first +
+                     "   NMATRIX, IACONVX\n 0 312 LQUASID, XYZORDR\n\n 1 0\n" +
                      fmt::format(" {} {} {} {}\n", kMx, kMy, kDx, kDy);
   for (int iy = -kMy + 1; iy < kMy; ++iy) {
     text += header;
@@ -61,13 +63,15 @@ TEST(InfluenceFile, FillsAllOffsetsInMetres) {
       for (int ix = 0; ix < table.nx; ++ix) {
         const auto expected = coefficients(ix - (table.nx - 1) / 2, iy - (table.ny - 1) / 2);
         for (std::size_t k = 0; k < 9; ++k)
-          EXPECT_DOUBLE_EQ(table.values[static_cast<std::size_t>(iy * table.nx + ix)][k], expected[k] * 1e-3) << ix << ' ' << iy << ' ' << k;
+          EXPECT_DOUBLE_EQ(table.values[static_cast<std::size_t>(iy * table.nx + ix)][k], expected[k] * 1e-3)
+              << ix << ' ' << iy << ' ' << k;
       }
   }
 }
 
 TEST(InfluenceFile, RefusesWhatItDoesNotKnow) {
-  EXPECT_THAT(error_of(influence_file("2 1")), ::testing::StartsWith("a.cff:2:1: NMATRIX = 2 of a file of influence coefficients is not supported"));
+  EXPECT_THAT(error_of(influence_file("2 1")),
+              ::testing::StartsWith("a.cff:2:1: NMATRIX = 2 of a file of influence coefficients is not supported"));
   EXPECT_THAT(error_of(influence_file("1 2")), ::testing::StartsWith("a.cff:2:3: IACONVX = 2"));
   EXPECT_THAT(error_of("1 1\n 1 312\n"), ::testing::HasSubstr("LQUASID = 1"));
   EXPECT_THAT(error_of("1 1\n 0 123\n"), ::testing::HasSubstr("XYZORDR = 123"));
@@ -84,11 +88,16 @@ TEST(InfluenceFile, TellsWhereItIsBroken) {
   EXPECT_THAT(error_of(head + "1 1 nan 1\n"), ::testing::HasSubstr("not finite"));
   EXPECT_THAT(error_of(head + "900000 900000 1 1\n"), ::testing::HasSubstr("do not fit into a file of"));
   EXPECT_THAT(error_of(head + "1 1 1 1\n h\n h\n 0" + row), ::testing::StrEq("no error"));
-  EXPECT_THAT(error_of(head + "1 1 1 1\n h\n h\n 1" + row), ::testing::HasSubstr("the file ends where row ix = 0 of iy = 0"));
-  EXPECT_THAT(error_of(head + "1 1 1 1\n" + std::string(9, '\n') + " 0" + row), ::testing::HasSubstr("row ix = 0 of iy = 0 is expected here"));
-  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 2" + row), ::testing::HasSubstr("a.cff:8:2: ix = 2 stands where row ix = 1 of iy = 0 is expected"));
-  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8 x\n"), ::testing::HasSubstr("a number is expected, this is 'x'"));
-  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8\n"), ::testing::HasSubstr("a coefficient is missing"));
+  EXPECT_THAT(error_of(head + "1 1 1 1\n h\n h\n 1" + row),
+              ::testing::HasSubstr("the file ends where row ix = 0 of iy = 0"));
+  EXPECT_THAT(error_of(head + "1 1 1 1\n" + std::string(9, '\n') + " 0" + row),
+              ::testing::HasSubstr("row ix = 0 of iy = 0 is expected here"));
+  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 2" + row),
+              ::testing::HasSubstr("a.cff:8:2: ix = 2 stands where row ix = 1 of iy = 0 is expected"));
+  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8 x\n"),
+              ::testing::HasSubstr("a number is expected, this is 'x'"));
+  EXPECT_THAT(error_of(head + "2 1 1 1\n h\n h\n 0" + row + " 1 0 1 2 3 4 5 6 7 8\n"),
+              ::testing::HasSubstr("a coefficient is missing"));
   const std::string text = influence_file();
   for (std::size_t end = text.find('\n'); end < text.rfind('\n', text.size() - 2); end = text.find('\n', end + 1))
     EXPECT_NE(error_of(text.substr(0, end)), "no error") << end;

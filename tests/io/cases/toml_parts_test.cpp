@@ -79,8 +79,9 @@ TEST(TomlParts, EveryKeyFindsItsPlace) {
 }
 
 TEST(TomlParts, OverridesReachIntoParts) {
-  const SurfaceSource rail = parse(kParts, {"rail.parts.0.crossing_slope=0.02", "rail.parts.1.file=/data/wing.slcs", "rail.parts.2.backend=nurbs",
-                                            "rail.parts.2.arcs.1.length_mm=15"}).rail;
+  const SurfaceSource rail = parse(kParts, {"rail.parts.0.crossing_slope=0.02", "rail.parts.1.file=/data/wing.slcs",
+                                            "rail.parts.2.backend=nurbs", "rail.parts.2.arcs.1.length_mm=15"})
+                                 .rail;
   EXPECT_DOUBLE_EQ(rail.parts[0].crossing.slope, 0.02);
   EXPECT_EQ(std::get<GeometryFile>(rail.parts[1].geometry).file, "/data/wing.slcs");
   EXPECT_EQ(rail.parts[2].backend, "nurbs");
@@ -90,7 +91,8 @@ TEST(TomlParts, OverridesReachIntoParts) {
 }
 
 TEST(TomlParts, OneRailCanMoveItsSectionToo) {
-  const SurfaceSource rail = parse(kWheel + "[rail.shape]\nstandard = \"60E1\"\ncrossing = \"wing\"\ncrossing_y_mm = 3\n").rail;
+  const SurfaceSource rail =
+      parse(kWheel + "[rail.shape]\nstandard = \"60E1\"\ncrossing = \"wing\"\ncrossing_y_mm = 3\n").rail;
   EXPECT_EQ(rail.crossing.part, CrossingInput::Part::wing);
   EXPECT_DOUBLE_EQ(rail.crossing.y, 3e-3);
   EXPECT_DOUBLE_EQ(rail.crossing.slope, 0.1);
@@ -99,22 +101,29 @@ TEST(TomlParts, OneRailCanMoveItsSectionToo) {
 TEST(TomlParts, RefusesContradictions) {
   expect_refused(kParts + "[rail.shape]\nstandard = \"60E1\"\n", "rail.shape and rail.parts exclude each other");
   expect_refused(kParts + "[rail.shape]\ncrossing = \"nose\"\n", "rail.shape.crossing does not belong to rail.parts");
-  expect_refused(kParts + "[[rail.squats]]\nlength_mm = 20\nwidth_mm = 20\ndepth_mm = 0.1\n", "defects cannot be added to rail.parts");
+  expect_refused(kParts + "[[rail.squats]]\nlength_mm = 20\nwidth_mm = 20\ndepth_mm = 0.1\n",
+                 "defects cannot be added to rail.parts");
   expect_refused(kWheel + "[[rail.parts]]\ny_mm = 3\n", "rail.parts[0].shape is missing");
   expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\nfile = \"a.prr\"\n", "exclude each other");
-  expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\nmirror_y = true\n", "mirror_y belongs to a part given by a file");
-  expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\nstart_y_mm = 1\n", "start_y_mm belongs to a part given by arcs");
-  expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\ncrossing_length_mm = 40\ncrossing = \"nose\"\n", "crossing_length_mm must be more than");
+  expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\nmirror_y = true\n",
+                 "mirror_y belongs to a part given by a file");
+  expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\nstart_y_mm = 1\n",
+                 "start_y_mm belongs to a part given by arcs");
+  expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\ncrossing_length_mm = 40\ncrossing = \"nose\"\n",
+                 "crossing_length_mm must be more than");
   expect_refused(kWheel + "[[rail.parts]]\nstandard = \"60E1\"\nbackend = \"My Mesh\"\n", "does not look like");
   expect_refused(kWheel + "[rail.shape]\nstandard = \"60E1\"\ncrossing_slope = 2\n", "must be at most 1");
 }
 
 TEST(TomlParts, SeamsOfWheelsAreSmoothUnlessAskedFor) {
-  const std::string text = "rail.shape.standard = \"60E1\"\nwheelset.vertical_force_N = 1e5\nwheel.shape.file = \"w.slcw\"\n";
+  const std::string text =
+      "rail.shape.standard = \"60E1\"\nwheelset.vertical_force_N = 1e5\nwheel.shape.file = \"w.slcw\"\n";
   EXPECT_FALSE(std::get<GeometryFile>(parse(text).wheel.geometry).open_seam);
   EXPECT_TRUE(std::get<GeometryFile>(parse(text + "wheel.shape.open_seam = true\n").wheel.geometry).open_seam);
-  expect_refused("rail.shape.standard = \"60E1\"\nwheelset.vertical_force_N = 1e5\nwheel.shape.standard = \"S1002\"\nwheel.shape.open_seam = true\n",
-                 "belongs to a shape given by a file");
+  expect_refused(
+      "rail.shape.standard = \"60E1\"\nwheelset.vertical_force_N = 1e5\nwheel.shape.standard = "
+      "\"S1002\"\nwheel.shape.open_seam = true\n",
+      "belongs to a shape given by a file");
 }
 
 }  // namespace

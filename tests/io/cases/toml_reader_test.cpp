@@ -15,15 +15,19 @@ namespace treadmark::io {
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
-const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); }
+const WheelRailCase& rail_case(const CaseFile& f, std::size_t i) {
+  return std::get<WheelRailCase>(f.cases.at(i).content);
+}
 const BasicCase& basic_case(const CaseFile& f, std::size_t i) { return std::get<BasicCase>(f.cases.at(i).content); }
 CaseFile parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_case_text(text, "folder/study.toml", overrides);
 }
 
-const std::string kRail = "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
-const std::string kPatch = "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\nhertz.given = \"semi_axes\"\nhertz.semi_axis_x_mm = 4.0\n"
-                           "hertz.semi_axis_y_mm = 2.0\n";
+const std::string kRail =
+    "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
+const std::string kPatch =
+    "[patch]\nnormal_force_N = 1e3\nmx = 10\nmy = 8\nhertz.given = \"semi_axes\"\nhertz.semi_axis_x_mm = 4.0\n"
+    "hertz.semi_axis_y_mm = 2.0\n";
 
 TEST(TomlCase, SmallestWheelRailCase) {
   const CaseFile f = parse(kRail);
@@ -74,7 +78,8 @@ TEST(TomlCase, EveryNumberKeyHasItsPlace) {
     SCOPED_TRACE(key.info.path);
     Case fresh;
     if (key.info.scope == KeyScope::patch) fresh.content = BasicCase{};
-    const double low = key.info.at_least.value_or(key.info.above.value_or(-0.7)), high = key.info.at_most.value_or(low + 1.3);
+    const double low = key.info.at_least.value_or(key.info.above.value_or(-0.7)),
+                 high = key.info.at_most.value_or(low + 1.3);
     CaseValue value;
     value.data = low + 0.37 * (high - low);
     EXPECT_NO_THROW(check_value(key.info, value));
@@ -87,7 +92,8 @@ TEST(TomlCase, EveryNumberKeyHasItsPlace) {
       if (other.get && (other.info.scope == KeyScope::any || other.info.scope == key.info.scope ||
                         (key.info.scope == KeyScope::any && other.info.scope == KeyScope::wheel_rail)))
         moved += other.get(changed) != other.get(fresh) ? 1 : 0;
-    const std::set<std::string> of_both{"material.shear_modulus_GPa", "material.poisson_ratio", "material.creep_ratio", "material.relaxation_time_s"};
+    const std::set<std::string> of_both{"material.shear_modulus_GPa", "material.poisson_ratio", "material.creep_ratio",
+                                        "material.relaxation_time_s"};
     const bool both_bodies = of_both.contains(key.info.path);
     EXPECT_LE(moved, both_bodies ? 3 : 2);
     EXPECT_GE(moved, 1);
@@ -260,7 +266,8 @@ wheelset.y_mm = [3, 4, 5]
 [[cases]]
 wheelset.z_mm = 0.1
 wheel.shape.file = "other.prw"
-)" , {});
+)",
+                           {});
   ASSERT_EQ(f.cases.size(), 6u);
   EXPECT_DOUBLE_EQ(rail_case(f, 0).wheelset.y, 1e-3);
   EXPECT_DOUBLE_EQ(rail_case(f, 1).wheelset.y, 2e-3);
@@ -324,7 +331,8 @@ dx_mm = 1
 dy_mm = 1
 gap.kind = "quadratic"
 gap.coefficients_si = [1, 0, 2.5, 0, 0, 0]
-)"), 0);
+)"),
+                                 0);
   EXPECT_FALSE(c.normal_force_prescribed);
   EXPECT_DOUBLE_EQ(c.approach, 1e-5);
   EXPECT_DOUBLE_EQ(c.xi, 5e-6);
@@ -333,9 +341,11 @@ gap.coefficients_si = [1, 0, 2.5, 0, 0, 0]
 }
 
 TEST(TomlOverride, ValuesWordsAndListElements) {
-  const std::string text = kRail + "[[wheel.flats]]\nlength_mm = 100\ndepth_mm = 1\n[[cases]]\nwheelset.y_mm = [1, 2]\n";
-  const CaseFile f = parse(text, {"wheelset.y_mm=3", "wheel.backend = spline", "rail.shape.standard=60E1", "track.cant=1:20",
-                                  "wheel.flats.0.depth_mm=0.5", "case.side=\"left\"", "discretisation.reference_search_mesh=true"});
+  const std::string text =
+      kRail + "[[wheel.flats]]\nlength_mm = 100\ndepth_mm = 1\n[[cases]]\nwheelset.y_mm = [1, 2]\n";
+  const CaseFile f =
+      parse(text, {"wheelset.y_mm=3", "wheel.backend = spline", "rail.shape.standard=60E1", "track.cant=1:20",
+                   "wheel.flats.0.depth_mm=0.5", "case.side=\"left\"", "discretisation.reference_search_mesh=true"});
   ASSERT_EQ(f.cases.size(), 2u);
   for (std::size_t i = 0; i < 2; ++i) {
     const WheelRailCase& c = rail_case(f, i);

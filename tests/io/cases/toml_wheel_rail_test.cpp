@@ -13,7 +13,8 @@ namespace {
 using ::testing::HasSubstr;
 using ::testing::IsEmpty;
 
-const std::string kRail = "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
+const std::string kRail =
+    "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n";
 
 CaseFile parse(const std::string& text, const std::vector<std::string>& overrides = {}) {
   return parse_case_text(text, "folder/study.toml", overrides);
@@ -67,11 +68,17 @@ max_rate_tangential_N_per_s = 4e6
 }
 
 TEST(TomlBalance, CasesSwitchPartsOff) {
-  const CaseFile f = parse(kRail + "wheelset.longitudinal_force_N = 3\nroller.nominal_radius_mm = 500\ntrack.springs.force_y_N = 1\ndamping.normal_s = 1\ndamping.max_rate_normal_N_per_s = 9\n"
-                                   "heat.rail_bulk_temperature_C = 5\n[[cases]]\n[[cases]]\nwheelset.vpitch_rad_s = -4\nroller.active = false\n"
-                                   "track.springs.active = false\ndamping.active = false\nheat.compute = false\n[[cases]]\ndamping.tangential_s = 2\ndamping.max_rate_tangential_N_per_s = 9\n");
-  EXPECT_TRUE(at(f, 0).longitudinal_force && at(f, 0).roller && at(f, 0).rail_springs && at(f, 0).damping && at(f, 0).thermal);
-  EXPECT_FALSE(at(f, 1).longitudinal_force || at(f, 1).roller || at(f, 1).rail_springs || at(f, 1).damping || at(f, 1).thermal);
+  const CaseFile f = parse(
+      kRail +
+      "wheelset.longitudinal_force_N = 3\nroller.nominal_radius_mm = 500\ntrack.springs.force_y_N = "
+      "1\ndamping.normal_s = 1\ndamping.max_rate_normal_N_per_s = 9\n"
+      "heat.rail_bulk_temperature_C = 5\n[[cases]]\n[[cases]]\nwheelset.vpitch_rad_s = -4\nroller.active = false\n"
+      "track.springs.active = false\ndamping.active = false\nheat.compute = false\n[[cases]]\ndamping.tangential_s = "
+      "2\ndamping.max_rate_tangential_N_per_s = 9\n");
+  EXPECT_TRUE(at(f, 0).longitudinal_force && at(f, 0).roller && at(f, 0).rail_springs && at(f, 0).damping &&
+              at(f, 0).thermal);
+  EXPECT_FALSE(at(f, 1).longitudinal_force || at(f, 1).roller || at(f, 1).rail_springs || at(f, 1).damping ||
+               at(f, 1).thermal);
   EXPECT_DOUBLE_EQ(at(f, 1).wheelset.vpitch, -4.0);
   EXPECT_DOUBLE_EQ(at(f, 2).damping.value().normal, 1.0);
   EXPECT_DOUBLE_EQ(at(f, 2).damping.value().tangential, 2.0);
@@ -133,7 +140,8 @@ case.history = "start"
 )";
 
 TEST(TomlSteps, MoveOnByTheVelocities) {
-  const CaseFile f = parse(kRolling + "[[cases]]\ncase.steps = 400\n[[cases]]\ncase.steps = 2\nwheelset.velocity_m_s = 1.0\n");
+  const CaseFile f =
+      parse(kRolling + "[[cases]]\ncase.steps = 400\n[[cases]]\ncase.steps = 2\nwheelset.velocity_m_s = 1.0\n");
   ASSERT_EQ(f.cases.size(), 403u);
   EXPECT_DOUBLE_EQ(at(f, 0).wheelset.s, 0.0);
   EXPECT_EQ(at(f, 0).history, HistoryInput::start);
@@ -154,7 +162,9 @@ TEST(TomlSteps, MoveOnByTheVelocities) {
 }
 
 TEST(TomlSteps, PositionsAndListsOfTheTableWin) {
-  const CaseFile f = parse(kRolling + "[[cases]]\ncase.steps = 2\nwheelset.pitch_deg = [14.3, 14.28]\nwheelset.vertical_force_N = [9e4, 8e4]\nwheelset.y_mm = 3\n");
+  const CaseFile f = parse(kRolling +
+                           "[[cases]]\ncase.steps = 2\nwheelset.pitch_deg = [14.3, 14.28]\nwheelset.vertical_force_N = "
+                           "[9e4, 8e4]\nwheelset.y_mm = 3\n");
   for (const std::size_t i : {1u, 2u}) {
     EXPECT_NEAR(at(f, i).wheelset.pitch, (i == 1 ? 14.3 : 14.28) * std::numbers::pi / 180.0, 1e-15);
     EXPECT_DOUBLE_EQ(at(f, i).vertical_force, i == 1 ? 9e4 : 8e4);
@@ -173,8 +183,10 @@ TEST(TomlSteps, TimeStepSetsTheRollingStep) {
 }
 
 TEST(TomlSteps, ShiftsAreDisplacements) {
-  const CaseFile f = parse(kRail + "case = { regime = \"shift\", steps = 3 }\nwheelset.velocity_m_s = 0.0002\nwheelset.vpitch_rad_s = -0.0004\n"
-                                   "wheelset.s_mm = 5\n");
+  const CaseFile f = parse(
+      kRail +
+      "case = { regime = \"shift\", steps = 3 }\nwheelset.velocity_m_s = 0.0002\nwheelset.vpitch_rad_s = -0.0004\n"
+      "wheelset.s_mm = 5\n");
   ASSERT_EQ(f.cases.size(), 3u);
   EXPECT_EQ(at(f, 0).history, HistoryInput::start);
   for (const std::size_t i : {0u, 1u, 2u}) {
@@ -185,10 +197,12 @@ TEST(TomlSteps, ShiftsAreDisplacements) {
 }
 
 TEST(TomlSteps, OnARollerOnlyTheWheelTurns) {
-  const CaseFile f = parse(kRail + "case = { regime = \"transient\", steps = 2 }\nwheelset.longitudinal_force_N = 0\nwheelset.s_mm = 1\nwheelset.nominal_radius_mm = 500\n"
-                                   "roller = { nominal_radius_mm = 1000, pitch_rate_rad_s = 2 }\ndiscretisation.dx_mm = 1\n");
+  const CaseFile f = parse(kRail +
+                           "case = { regime = \"transient\", steps = 2 }\nwheelset.longitudinal_force_N = "
+                           "0\nwheelset.s_mm = 1\nwheelset.nominal_radius_mm = 500\n"
+                           "roller = { nominal_radius_mm = 1000, pitch_rate_rad_s = 2 }\ndiscretisation.dx_mm = 1\n");
   EXPECT_DOUBLE_EQ(at(f, 1).wheelset.s, 1e-3);
-  EXPECT_NEAR(at(f, 1).wheelset.pitch, -4.0 * 1e-3 / 2.0, 1e-15);   // as if it rolled freely
+  EXPECT_NEAR(at(f, 1).wheelset.pitch, -4.0 * 1e-3 / 2.0, 1e-15);  // as if it rolled freely
 }
 
 TEST(TomlBalance, ARollerHasNoCant) {
@@ -212,30 +226,37 @@ TEST(TomlSteps, OverridesComeBeforeTheSteps) {
 }
 
 TEST(TomlSteps, RepeatPatches) {
-  const CaseFile f = parse("[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\ndx_mm = 1\ndy_mm = 1\ngap.coefficients_si = [1, 0, 1, 0, 0, 0]\n[case]\nregime = \"shift\"\nsteps = 3\n");
+  const CaseFile f = parse(
+      "[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\ndx_mm = 1\ndy_mm = 1\ngap.coefficients_si = [1, 0, 1, 0, 0, "
+      "0]\n[case]\nregime = \"shift\"\nsteps = 3\n");
   ASSERT_EQ(f.cases.size(), 3u);
   EXPECT_EQ(std::get<BasicCase>(f.cases[2].content).history, HistoryInput::keep_going);
 }
 
 TEST(TomlSteps, ErrorsTellTheReason) {
-  EXPECT_THAT(error_of(kRail + "case.steps = 2\ncase.regime = \"transient\"\n"), HasSubstr("case.steps needs a velocity"));
-  EXPECT_THAT(error_of(kRolling + "[[cases]]\ncase.steps = 3\nwheelset.y_mm = [1, 2]\n"), HasSubstr("case.steps is 3, but a list of the same table has 2 values"));
+  EXPECT_THAT(error_of(kRail + "case.steps = 2\ncase.regime = \"transient\"\n"),
+              HasSubstr("case.steps needs a velocity"));
+  EXPECT_THAT(error_of(kRolling + "[[cases]]\ncase.steps = 3\nwheelset.y_mm = [1, 2]\n"),
+              HasSubstr("case.steps is 3, but a list of the same table has 2 values"));
   EXPECT_THAT(error_of(kRolling + "[[cases]]\ncase.steps = -1\n"), HasSubstr("must be at least 0"));
   EXPECT_THAT(error_of(kRolling + "[[cases]]\ncase.steps = 100000\n"), HasSubstr("more than 100000 cases"));
 }
 
 TEST(TomlSteps, StepsOverMoreThanTwoElementsAreRefused) {
   const std::string text = kRolling + "[[cases]]\nwheelset.s_mm = ";
-  EXPECT_THAT(error_of(text + "0.9\n"), HasSubstr("case 2: wheel or rail move 0.9 mm through the contact since the previous case, more than two elements (0.8 mm)"));
+  EXPECT_THAT(error_of(text + "0.9\n"), HasSubstr("case 2: wheel or rail move 0.9 mm through the contact since the "
+                                                  "previous case, more than two elements (0.8 mm)"));
   EXPECT_THAT(error_of(text + "[0.4, 0.8, 2.0]\n"), HasSubstr("case 4: wheel or rail move 1.2 mm"));
   EXPECT_THAT(error_of(text + "0.9\ncase.history = \"start\"\n"), HasSubstr("no error"));
   EXPECT_THAT(error_of(text + "0.9\ncase.sequence = 2\n"), HasSubstr("no error"));
   const CaseFile noted = parse(text + "[0.6, 1.2]\n");
-  EXPECT_THAT(noted.notes, ::testing::ElementsAre(HasSubstr("case 2: wheel or rail move 0.6 mm through the contact since the previous case, but a rolling step is 0.4 mm")));
+  EXPECT_THAT(noted.notes, ::testing::ElementsAre(HasSubstr("case 2: wheel or rail move 0.6 mm through the contact "
+                                                            "since the previous case, but a rolling step is 0.4 mm")));
 }
 
 TEST(TomlSteps, ElementsOfACaseThatContinuesStayAsTheyAre) {
-  EXPECT_THAT(error_of(kRolling + "[[cases]]\n[[cases]]\ndiscretisation.ds_mm = 0.3\n"), HasSubstr("case 3: a case that continues the previous one needs elements of the same size"));
+  EXPECT_THAT(error_of(kRolling + "[[cases]]\n[[cases]]\ndiscretisation.ds_mm = 0.3\n"),
+              HasSubstr("case 3: a case that continues the previous one needs elements of the same size"));
 }
 
 }  // namespace

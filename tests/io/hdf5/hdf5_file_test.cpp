@@ -103,7 +103,8 @@ TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
   EXPECT_EQ(kind_of_error([&] { file.root().open_group("two"); }), ErrorKind::input_data);
   EXPECT_EQ(kind_of_error([&] { file.root().text("number"); }), ErrorKind::input_data);
   EXPECT_EQ(kind_of_error([&] { file.root().text("none"); }), ErrorKind::input_data);
-  EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer other(folder_.path() / "none" / "a.h5", "a"); }), ErrorKind::configuration);
+  EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer other(folder_.path() / "none" / "a.h5", "a"); }),
+            ErrorKind::configuration);
 }
 
 }  // namespace

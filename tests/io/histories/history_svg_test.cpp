@@ -49,8 +49,10 @@ TEST(ThinCurve, EveryColumnKeepsFirstLowestHighestAndLast) {
     EXPECT_EQ(kept.front(), all.front());
     EXPECT_EQ(kept.back(), all.back());
     const auto by_y = [](const auto& a, const auto& b) { return a[1] < b[1]; };
-    EXPECT_EQ((*std::max_element(kept.begin(), kept.end(), by_y))[1], (*std::max_element(all.begin(), all.end(), by_y))[1]);
-    EXPECT_EQ((*std::min_element(kept.begin(), kept.end(), by_y))[1], (*std::min_element(all.begin(), all.end(), by_y))[1]);
+    EXPECT_EQ((*std::max_element(kept.begin(), kept.end(), by_y))[1],
+              (*std::max_element(all.begin(), all.end(), by_y))[1]);
+    EXPECT_EQ((*std::min_element(kept.begin(), kept.end(), by_y))[1],
+              (*std::min_element(all.begin(), all.end(), by_y))[1]);
   }
 }
 
@@ -175,7 +177,8 @@ TEST_F(HistorySvg, TheTableHoldsThePlottedNumbers) {
   EXPECT_EQ(lines[0], "run,panel,t_s,ws1_right.Q_N,ws1_right.Ty_N");
   ASSERT_EQ(lines.size(), 1u + 2u * 1001u);
   const io::SimulationResult& result = results_[0];
-  EXPECT_EQ(lines[1], fmt::format("V < 20,\"slow & \"\"low\"\"\",{},{},{}", result.values[4000], result.values[4002], result.values[4003]));
+  EXPECT_EQ(lines[1], fmt::format("V < 20,\"slow & \"\"low\"\"\",{},{},{}", result.values[4000], result.values[4002],
+                                  result.values[4003]));
 }
 
 TEST_F(HistorySvg, RefusesWhatCannotBeDrawn) {

@@ -63,7 +63,8 @@ TEST(ContourLines, SaddlesHolesAndWrongSizes) {
   const Grid2 cell{0, 0, 1, 1, 2, 2};
   EXPECT_EQ(io::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.4).size(), 2u);
   EXPECT_EQ(io::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.6).size(), 2u);
-  EXPECT_TRUE(io::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5).empty());
+  EXPECT_TRUE(
+      io::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5).empty());
   EXPECT_TRUE(io::contour_lines(cell, std::vector<double>{1, 1, 1, 1}, 1.0).empty());
   EXPECT_THROW(io::contour_lines(cell, std::vector<double>{1, 0, 0}, 0.5), Error);
 }
@@ -109,7 +110,8 @@ TEST_F(PatchesSvg, TheRollingDirectionIsUpwards) {
   EXPECT_EQ(turned.x_low, plain.y_low);
   for (int ix = 0; ix < plain.nx; ++ix)
     for (int iy = 0; iy < plain.ny; ++iy) {
-      const auto from = static_cast<std::size_t>(ix + plain.nx * iy), to = static_cast<std::size_t>(iy + turned.nx * ix);
+      const auto from = static_cast<std::size_t>(ix + plain.nx * iy),
+                 to = static_cast<std::size_t>(iy + turned.nx * ix);
       EXPECT_EQ(turned.pressure[to], plain.pressure[from]);
       EXPECT_EQ(turned.adhesion[to], plain.adhesion[from]);
     }

@@ -39,8 +39,10 @@ io::SimulationResult sample_simulation(double speed, std::size_t rows) {
     largest = std::max(largest, q);
     result.values.insert(result.values.end(), {t, speed * t, q, -0.08 * q * (1.0 - std::exp(-(t + 0.01) * 30.0))});
   }
-  result.events = {{0.045, 0.045 * speed, "ws1_right", "contact lost"}, {kImpact, kImpact * speed, "ws1_right", "contact regained"}};
-  result.summary = {{"q_max_N", largest, "N", "largest vertical force"}, {"q_min_N", 0.0, "N", "smallest vertical force"}};
+  result.events = {{0.045, 0.045 * speed, "ws1_right", "contact lost"},
+                   {kImpact, kImpact * speed, "ws1_right", "contact regained"}};
+  result.summary = {{"q_max_N", largest, "N", "largest vertical force"},
+                    {"q_min_N", 0.0, "N", "smallest vertical force"}};
   result.statics = {{"ws1_right.Q_N", kStatic, "N", "static load"}};
   result.modes = {{1.2, 0.15, "bounce of the body"}, {45.0, 0.08, "wheelset, \"vertical\""}};
   result.snapshots = sample_run();

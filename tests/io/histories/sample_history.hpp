@@ -9,8 +9,8 @@
 
 namespace treadmark::testing {
 
-/// A decaying oscillation of Q and T_y after an impact at t = 0.05 s, with contact lost before it, in `rows` instants of 0.2 s; all
-/// parts of a result are filled.
+/// A decaying oscillation of Q and T_y after an impact at t = 0.05 s, with contact lost before it, in `rows` instants
+/// of 0.2 s; all parts of a result are filled.
 io::SimulationResult sample_simulation(double speed, std::size_t rows = 2001);
 
 /// Lines of a file.

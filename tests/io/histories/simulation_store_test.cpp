@@ -206,8 +206,8 @@ TEST_F(SimulationStore, OtherFilesAreRefused) {
 TEST_F(SimulationStore, SnapshotsComeBackWithTimesFlagsAndSurfaces) {
   result_.snapshots.sampled = testing::sample_surfaces();
   result_.snapshots.cases[0].wheel_surface = "wheel_1";
-  result_.snapshots.cases[0].bodies = io::CaseResult::Bodies{{Vec3(0.1, 0.2, 0.3), rotation_y(1.0)},
-                                                              {Vec3(0.4, 0.5, 0.6), rotation_x(0.1)}};
+  result_.snapshots.cases[0].bodies =
+      io::CaseResult::Bodies{{Vec3(0.1, 0.2, 0.3), rotation_y(1.0)}, {Vec3(0.4, 0.5, 0.6), rotation_x(0.1)}};
   result_.snapshot_scenes.resize(result_.snapshots.cases.size());
   result_.snapshot_scenes[0].nominal = true;
   result_.snapshot_scenes[2].drawn = true;

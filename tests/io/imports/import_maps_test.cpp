@@ -89,7 +89,8 @@ TEST_F(ImportMapsFile, HasTheLayoutOfTheManual) {
   const io::Hdf5Reader file(path_);
   EXPECT_EQ(file.root().text("format"), "treadmark import maps 1");
   EXPECT_EQ(file.root().text("body"), "wheel");
-  for (const auto& [name, unit] : {std::pair{"density", "1/m^2"}, {"removed", "1/m^2"}, {"fitted", "m"}, {"residual", "m"}, {"noise", "m"}}) {
+  for (const auto& [name, unit] :
+       {std::pair{"density", "1/m^2"}, {"removed", "1/m^2"}, {"fitted", "m"}, {"residual", "m"}, {"noise", "m"}}) {
     SCOPED_TRACE(name);
     const io::Hdf5GroupReader group = file.root().open_group(name);
     EXPECT_EQ(group.text_of("value", "unit"), unit);
@@ -115,7 +116,8 @@ TEST_F(ImportMapsFile, MapsThatAReportLacksAreEmpty) {
   const io::ImportMaps maps = io::read_import_maps(path_);
   EXPECT_EQ(maps.body, Body::rail);
   EXPECT_FALSE(maps.fitted.value.empty());
-  for (const io::BandMap* map : {&maps.density, &maps.removed, &maps.residual, &maps.noise}) EXPECT_TRUE(map->value.empty());
+  for (const io::BandMap* map : {&maps.density, &maps.removed, &maps.residual, &maps.noise})
+    EXPECT_TRUE(map->value.empty());
 }
 
 TEST_F(ImportMapsFile, RefusesMapsThatDoNotFitTheirSizes) {

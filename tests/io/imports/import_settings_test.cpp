@@ -29,12 +29,14 @@ std::vector<Case> cases() {
       {"scan", "body", "\"wheel\"", [](const S& s) { return s.scan.body == "wheel"; }},
       {"scan", "unit", "\"um\"", [](const S& s) { return s.scan.unit == "um"; }},
       {"scan", "pass_steps", "false", [](const S& s) { return !s.scan.pass_steps; }},
-      {"placement", "nominal", "\"my \\\"worn\\\" wheel.prw\"", [](const S& s) { return s.placement.nominal == "my \"worn\" wheel.prw"; }},
+      {"placement", "nominal", "\"my \\\"worn\\\" wheel.prw\"",
+       [](const S& s) { return s.placement.nominal == "my \"worn\" wheel.prw"; }},
       {"placement", "nominal_radius_mm", "457.5", [](const S& s) { return s.placement.nominal_radius_mm == 457.5; }},
       {"placement", "up", "[0.25, -1, 2.0]", [=](const S& s) { return s.placement.up == direction; }},
       {"placement", "forward", "[0.25, -1, 2.0]", [=](const S& s) { return s.placement.forward == direction; }},
       {"placement", "zero", "\"scan\"", [](const S& s) { return s.placement.zero == "scan"; }},
-      {"placement", "zero_direction", "[0.25, -1, 2.0]", [=](const S& s) { return s.placement.zero_direction == direction; }},
+      {"placement", "zero_direction", "[0.25, -1, 2.0]",
+       [=](const S& s) { return s.placement.zero_direction == direction; }},
       {"placement", "zero_deg", "-12.25", [](const S& s) { return s.placement.zero_deg == -12.25; }},
       {"placement", "zero_mm", "-1000.1", [](const S& s) { return s.placement.zero_mm == -1000.1; }},
       {"clean", "strays", "false", [](const S& s) { return !s.clean.strays; }},
@@ -65,7 +67,8 @@ std::vector<Case> cases() {
 
 std::filesystem::path written(const std::string& text) {
   const auto* test = testing::UnitTest::GetInstance()->current_test_info();
-  const std::filesystem::path file = std::filesystem::path(testing::TempDir()) / (std::string("import_settings_") + test->name() + ".toml");
+  const std::filesystem::path file =
+      std::filesystem::path(testing::TempDir()) / (std::string("import_settings_") + test->name() + ".toml");
   std::ofstream(file, std::ios::binary) << text;
   return file;
 }
@@ -76,7 +79,8 @@ ImportSettings from_text(const std::string& text) {
   return settings;
 }
 
-void expect_error(const std::string& text, int line, int column, const std::string& message, const std::string& advice = {}) {
+void expect_error(const std::string& text, int line, int column, const std::string& message,
+                  const std::string& advice = {}) {
   SCOPED_TRACE(text);
   const auto file = written(text);
   ImportSettings settings;
@@ -142,7 +146,8 @@ TEST(ImportSettings, DefaultsSurviveARoundTrip) {
 TEST(ImportSettings, EveryKeyByFile) {
   for (const Case& c : cases()) {
     const ImportSettings settings = from_text("[" + c.table + "]\n" + c.name + " = " + c.value + "\n");
-    for (const Case& other : cases()) EXPECT_EQ(other.has(settings), other.key() == c.key()) << c.key() << " sets " << other.key();
+    for (const Case& other : cases())
+      EXPECT_EQ(other.has(settings), other.key() == c.key()) << c.key() << " sets " << other.key();
   }
 }
 
@@ -150,7 +155,8 @@ TEST(ImportSettings, EveryKeyByAssignment) {
   for (const Case& c : cases()) {
     ImportSettings settings;
     set_import_setting(settings, c.key() + '=' + c.value);
-    for (const Case& other : cases()) EXPECT_EQ(other.has(settings), other.key() == c.key()) << c.key() << " sets " << other.key();
+    for (const Case& other : cases())
+      EXPECT_EQ(other.has(settings), other.key() == c.key()) << c.key() << " sets " << other.key();
   }
   // texts without quotes too
   ImportSettings settings;
@@ -174,7 +180,8 @@ TEST(ImportSettings, ChangedValuesSurviveARoundTrip) {
 }
 
 TEST(ImportSettings, TextsOfAnyKindSurviveARoundTrip) {
-  for (const std::string text : {"C:\\wheels\\new.prw", "it's \"it\"", "Räder/größe.prw", "tab\there", "# no comment"}) {
+  for (const std::string text :
+       {"C:\\wheels\\new.prw", "it's \"it\"", "Räder/größe.prw", "tab\there", "# no comment"}) {
     ImportSettings settings;
     settings.placement.nominal = text;
     EXPECT_EQ(from_text(import_settings_toml(settings)).placement.nominal, text);
@@ -217,7 +224,8 @@ TEST(ImportSettings, WrongTypesAndRangesAreRefusedAtTheirPlace) {
   expect_error("[placement]\nup = 1.0\n", 2, 6, "three numbers");
   expect_error("[placement]\nup = [0, 0.0, 0]\n", 2, 6, "zero");
   expect_error("[placement]\nup = [1.0, \"x\", 2.0]\n", 2, 6, "number");
-  for (const char* value : {"0.6", "abc", "", "[1]", "nan", "1 2"}) expect_refused(std::string("fit.held_out=") + value, "fit.held_out");
+  for (const char* value : {"0.6", "abc", "", "[1]", "nan", "1 2"})
+    expect_refused(std::string("fit.held_out=") + value, "fit.held_out");
   expect_refused("scan.body=sleeper", "sleeper", "auto, wheel, rail");
   expect_refused("scan.body=", "text");
   expect_refused("fit.follow=yes", "fit.follow");
@@ -225,21 +233,27 @@ TEST(ImportSettings, WrongTypesAndRangesAreRefusedAtTheirPlace) {
 }
 
 TEST(ImportSettings, LimitsThemselvesAreAllowed) {
-  for (const char* assignment : {"fit.held_out=0", "fit.held_out=0.5", "clean.farthest_mm=0.01", "clean.farthest_mm=50", "fit.significance=20", "placement.zero_deg=-360", "placement.up=[]"}) {
+  for (const char* assignment : {"fit.held_out=0", "fit.held_out=0.5", "clean.farthest_mm=0.01", "clean.farthest_mm=50",
+                                 "fit.significance=20", "placement.zero_deg=-360", "placement.up=[]"}) {
     ImportSettings settings;
     EXPECT_NO_THROW(set_import_setting(settings, assignment)) << assignment;
   }
 }
 
 TEST(ImportSettings, BrokenAssignmentsAreRefused) {
-  for (const char* assignment : {"", "=", "fit", "fit=1", "held_out=0.1", "x=a.b"}) expect_refused(assignment, "no setting", "table.key=value");
+  for (const char* assignment : {"", "=", "fit", "fit=1", "held_out=0.1", "x=a.b"})
+    expect_refused(assignment, "no setting", "table.key=value");
   expect_refused(".=", "no setting");
   // one value a time
   expect_refused("fit.held_out=0.1\nother = 3", "fit.held_out");
 }
 
 TEST(ImportSettings, BrokenFilesAreRefusedAtTheirPlace) {
-  for (const auto& [text, line] : std::vector<std::pair<std::string, int>>{{"[fit]\nheld_out = \n", 2}, {"[fit\nfollow = true\n", 1}, {"[fit]\nfollow = true\nfollow = false\n", 3}, {"[fit]\n\nfollow true\n", 3}}) {
+  for (const auto& [text, line] :
+       std::vector<std::pair<std::string, int>>{{"[fit]\nheld_out = \n", 2},
+                                                {"[fit\nfollow = true\n", 1},
+                                                {"[fit]\nfollow = true\nfollow = false\n", 3},
+                                                {"[fit]\n\nfollow true\n", 3}}) {
     SCOPED_TRACE(text);
     ImportSettings settings;
     const auto file = written(text);
@@ -254,7 +268,8 @@ TEST(ImportSettings, BrokenFilesAreRefusedAtTheirPlace) {
     }
   }
   ImportSettings settings;
-  EXPECT_THROW(read_import_settings(std::filesystem::path(testing::TempDir()) / "no_such_settings.toml", settings), Error);
+  EXPECT_THROW(read_import_settings(std::filesystem::path(testing::TempDir()) / "no_such_settings.toml", settings),
+               Error);
 }
 
 }  // namespace

@@ -53,9 +53,12 @@ TEST(ReadMesh, PlyRefusals) {
   expect_error(parse_ply, replaced(ascii_ply(), "property float x", "property float w"), "lack one of x, y, z");
   expect_error(parse_ply, replaced(ascii_ply(), "vertex_indices", "strips"), "lack the list vertex_indices");
   expect_error(parse_ply, replaced(ascii_ply(), "element face 5", "element faces 5"), "names the element face 0 times");
-  expect_error(parse_ply, replaced(ascii_ply(), "element vertex 5", "element vertex 900000000"), "more than the file holds");
-  expect_error(parse_ply, replaced(binary_ply(false), "element face 5", "element face 900000000"), "more than the file holds");
-  expect_error(parse_ply, replaced(ascii_ply(), "7 4 0 1 2 3", "7 4 0 1 2 5"), "names the vertex 5, there are 5", 28, 11);
+  expect_error(parse_ply, replaced(ascii_ply(), "element vertex 5", "element vertex 900000000"),
+               "more than the file holds");
+  expect_error(parse_ply, replaced(binary_ply(false), "element face 5", "element face 900000000"),
+               "more than the file holds");
+  expect_error(parse_ply, replaced(ascii_ply(), "7 4 0 1 2 3", "7 4 0 1 2 5"), "names the vertex 5, there are 5", 28,
+               11);
   expect_error(parse_ply, replaced(ascii_ply(), "7 4 0 1 2 3", "7 4 0 1 2 -1"), "names the vertex -1", 28, 11);
   expect_error(parse_ply, replaced(ascii_ply(), "7 3 0 4 1", "7 2 0 4"), "a face of 2 corners", 29, 9);
   expect_error(parse_ply, replaced(ascii_ply(), "-7.250000", "nan"), "not finite", 27, 5);
@@ -65,8 +68,9 @@ TEST(ReadMesh, PlyRefusals) {
   expect_error(parse_ply, text.substr(0, text.size() - 4), "ends before all elements are read", 32);
   const Error truncated = error_of(parse_ply, binary.substr(0, binary.size() - 9));
   EXPECT_NE(std::string(truncated.what()).find("at byte"), std::string::npos) << truncated.what();
-  std::string nan = "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
-                    "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
+  std::string nan =
+      "ply\nformat binary_little_endian 1.0\nelement vertex 3\nproperty float x\nproperty float y\nproperty float z\n"
+      "element face 1\nproperty list uchar int vertex_indices\nend_header\n";
   for (int k = 0; k < 9; ++k) put(nan, k == 4 ? std::numeric_limits<float>::quiet_NaN() : 1.0f, false);
   put(nan, std::uint8_t{3}, false);
   for (int k = 0; k < 3; ++k) put(nan, k, false);

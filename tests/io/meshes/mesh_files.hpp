@@ -26,7 +26,8 @@ inline void expect_pyramid(const TriangleMesh& mesh, double tolerance = 1e-15) {
   ASSERT_EQ(mesh.vertices.size(), 5u);
   for (std::size_t i = 0; i < 5; ++i)
     for (int k = 0; k < 3; ++k) EXPECT_NEAR(mesh.vertices[i][k], 1e-3 * kPoints[i][k], tolerance);
-  const std::vector<std::array<std::uint32_t, 3>> expected = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1}, {1, 4, 2}, {2, 4, 3}, {3, 4, 0}};
+  const std::vector<std::array<std::uint32_t, 3>> expected = {{0, 1, 2}, {0, 2, 3}, {0, 4, 1},
+                                                              {1, 4, 2}, {2, 4, 3}, {3, 4, 0}};
   EXPECT_EQ(mesh.triangles, expected);
 }
 
@@ -41,9 +42,12 @@ void put(std::string& out, T value, bool big) {
 /// Properties of many types in odd order, an element to skip before and one after the faces.
 inline std::string ply_header(const std::string& format) {
   return "ply\nformat " + format +
-         " 1.0\ncomment a pyramid\nobj_info none\nelement camera 1\nproperty list uchar short views\nproperty double f\n"
-         "element vertex 5\nproperty uchar red\nproperty double z\nproperty float x\nproperty int16 flags\nproperty double y\n"
-         "element face 5\nproperty uchar material\nproperty list uchar int vertex_indices\nproperty list ushort float uv\n"
+         " 1.0\ncomment a pyramid\nobj_info none\nelement camera 1\nproperty list uchar short views\nproperty double "
+         "f\n"
+         "element vertex 5\nproperty uchar red\nproperty double z\nproperty float x\nproperty int16 flags\nproperty "
+         "double y\n"
+         "element face 5\nproperty uchar material\nproperty list uchar int vertex_indices\nproperty list ushort float "
+         "uv\n"
          "element edge 1\nproperty int a\nproperty uint b\nend_header\n";
 }
 
@@ -86,13 +90,16 @@ inline std::string binary_ply(bool big) {
 
 inline std::string obj() {
   std::string text = "# pyramid\nmtllib none.mtl\no pyramid\n";
-  for (const auto& p : kPoints) text += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + " 1.0\n";
-  return text + "vt 0 0\nvn 0 0 1\nusemtl a\ns off\nf 1/1/1 2//1 3/1 4\nf 1 5 2\nf -4 -1 -3\nf 3 5 4 # the third\nf 4 5 1\n";
+  for (const auto& p : kPoints)
+    text += "v " + std::to_string(p[0]) + " " + std::to_string(p[1]) + " " + std::to_string(p[2]) + " 1.0\n";
+  return text +
+         "vt 0 0\nvn 0 0 1\nusemtl a\ns off\nf 1/1/1 2//1 3/1 4\nf 1 5 2\nf -4 -1 -3\nf 3 5 4 # the third\nf 4 5 1\n";
 }
 
 inline std::string off(const std::string& keyword = "OFF", const std::string& more = "") {
   std::string text = keyword + "\n# pyramid\n\n5 5 8\n";
-  for (const auto& p : kPoints) text += std::to_string(p[0]) + " " + std::to_string(p[1]) + "\t" + std::to_string(p[2]) + more + "\n";
+  for (const auto& p : kPoints)
+    text += std::to_string(p[0]) + " " + std::to_string(p[1]) + "\t" + std::to_string(p[2]) + more + "\n";
   for (const auto& f : kFaces) {
     text += std::to_string(f.size());
     for (const int v : f) text.append(" ").append(std::to_string(v));
@@ -116,8 +123,10 @@ inline std::string binary_off() {
 }
 
 inline std::string ascii_stl() {
-  return "solid sample\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 10 0 0.5\n   vertex 10 2e1 0\n  endloop\n endfacet\n"
-         " FACET NORMAL 0 0 1\n  OUTER LOOP\n   VERTEX 10 20 0\n   VERTEX 0 20 0\n   VERTEX 0 0 0\n  ENDLOOP\n ENDFACET\nendsolid sample\n";
+  return "solid sample\n facet normal 0 0 1\n  outer loop\n   vertex 0 0 0\n   vertex 10 0 0.5\n   vertex 10 2e1 0\n  "
+         "endloop\n endfacet\n"
+         " FACET NORMAL 0 0 1\n  OUTER LOOP\n   VERTEX 10 20 0\n   VERTEX 0 20 0\n   VERTEX 0 0 0\n  ENDLOOP\n "
+         "ENDFACET\nendsolid sample\n";
 }
 
 inline std::string binary_stl(const std::string& title) {
@@ -158,7 +167,8 @@ inline Error error_of(Parser parser, const std::string& text) {
   return Error(ErrorKind::numerical, "no Error was thrown");
 }
 
-inline void expect_error(Parser parser, const std::string& text, const std::string& part, int line = 0, int column = 0) {
+inline void expect_error(Parser parser, const std::string& text, const std::string& part, int line = 0,
+                         int column = 0) {
   const Error error = error_of(parser, text);
   EXPECT_NE(std::string(error.what()).find(part), std::string::npos) << error.what();
   EXPECT_EQ(error.where().line, line) << error.what();

@@ -13,18 +13,31 @@ constexpr int kTrials = 3000;  // for each format
 
 /// A copy with up to six flipped, inserted, deleted or repeated pieces, or cut short.
 std::string mutated(const std::string& valid, std::mt19937& random) {
-  static const std::vector<std::string> kPieces = {"\n", " ", "-", "1e308", "nan", "#", "99999999999", "\xff\xff\xff\xff", "element", "3"};
+  static const std::vector<std::string> kPieces = {
+      "\n", " ", "-", "1e308", "nan", "#", "99999999999", "\xff\xff\xff\xff", "element", "3"};
   std::string text = valid;
   const unsigned changes = 1 + random() % 6;
   for (unsigned k = 0; k < changes && !text.empty(); ++k) {
     const std::size_t at = random() % text.size();
     switch (random() % 6) {
-      case 0: text[at] = static_cast<char>(random() % 256); break;
-      case 1: text[at] = static_cast<char>(text[at] ^ (1u << (random() % 8))); break;
-      case 2: text.insert(at, kPieces[random() % kPieces.size()]); break;
-      case 3: text.erase(at, 1 + random() % 20); break;
-      case 4: text.insert(at, text.substr(random() % text.size(), random() % 60)); break;
-      default: if (random() % 3 == 0) text.resize(at); break;
+      case 0:
+        text[at] = static_cast<char>(random() % 256);
+        break;
+      case 1:
+        text[at] = static_cast<char>(text[at] ^ (1u << (random() % 8)));
+        break;
+      case 2:
+        text.insert(at, kPieces[random() % kPieces.size()]);
+        break;
+      case 3:
+        text.erase(at, 1 + random() % 20);
+        break;
+      case 4:
+        text.insert(at, text.substr(random() % text.size(), random() % 60));
+        break;
+      default:
+        if (random() % 3 == 0) text.resize(at);
+        break;
     }
   }
   return text;

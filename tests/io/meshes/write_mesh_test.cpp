@@ -21,7 +21,8 @@ TEST(WriteMesh, ReadsBackWhatItWrote) {
     const TriangleMesh back = read_mesh(folder.path() / name);
     ASSERT_EQ(back.vertices.size(), mesh.vertices.size());
     // metres to millimetres and back: one rounding each
-    for (std::size_t i = 0; i < mesh.vertices.size(); ++i) EXPECT_LE((back.vertices[i] - mesh.vertices[i]).norm(), 4e-14) << name;
+    for (std::size_t i = 0; i < mesh.vertices.size(); ++i)
+      EXPECT_LE((back.vertices[i] - mesh.vertices[i]).norm(), 4e-14) << name;
     EXPECT_EQ(back.triangles, mesh.triangles);
     EXPECT_EQ(back.name, (folder.path() / name).string());
   }
@@ -31,7 +32,8 @@ TEST(WriteMesh, ReadsBackWhatItWrote) {
   for (std::size_t t = 0; t < mesh.triangles.size(); ++t)
     for (std::size_t k = 0; k < 3; ++k)  // floats: 4e-3 mm at 1e5 mm
       EXPECT_LE((soup.vertices[soup.triangles[t][k]] - mesh.vertices[mesh.triangles[t][k]]).norm(), 1e-5);
-  for (const auto& entry : std::filesystem::directory_iterator(folder.path())) EXPECT_NE(entry.path().extension(), ".part");
+  for (const auto& entry : std::filesystem::directory_iterator(folder.path()))
+    EXPECT_NE(entry.path().extension(), ".part");
 }
 
 TEST(WriteMesh, SaysWhatItCannotDo) {
@@ -77,7 +79,8 @@ TEST(ReadMeshFile, ScalesAndPlacesItsErrors) {
   };
   EXPECT_EQ(place(folder.path() / "missing.ply", 1.0), "case.toml:3:7");
   EXPECT_EQ(place(folder.path() / "m.prr", 1.0), "case.toml:3:7");
-  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) EXPECT_EQ(place(metres, scale), "case.toml:3:7");
+  for (const double scale : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()})
+    EXPECT_EQ(place(metres, scale), "case.toml:3:7");
   EXPECT_EQ(place(folder.write("bad.obj", "v 1 2 x\n"), 1.0), (folder.path() / "bad.obj").string() + ":1:7");
 }
 

@@ -148,8 +148,9 @@ TEST(TwoColumns, RefusesBadOptions) {
 }
 
 TEST(MiniProf, ReadsHeaderAndColumns) {
-  const Profile p = miniprof("ProgramName=MiniProf\nColumnDef=A,Y,K,X\nXoffset=1.5\nYOffset = -0.5\nComment=50% = worn\n\n"
-                             "0.1 1 strange -10\n0.1 0 ? 0\n0.1 1 * 10\n");
+  const Profile p = miniprof(
+      "ProgramName=MiniProf\nColumnDef=A,Y,K,X\nXoffset=1.5\nYOffset = -0.5\nComment=50% = worn\n\n"
+      "0.1 1 strange -10\n0.1 0 ? 0\n0.1 1 * 10\n");
   ASSERT_EQ(p.y.size(), 3u);
   EXPECT_NEAR(p.y.front(), -0.0085, kRound);
   EXPECT_NEAR(p.z.front(), 0.0005, kRound);

@@ -28,7 +28,8 @@ TEST(LineScanner, AcceptsEveryUsualSpellingOfNumbers) {
 }
 
 TEST(LineScanner, RefusesWhatIsNoNumber) {
-  for (const char* word : {"abc", "1.2.3", "1e", "1d", "1dx", "--1", "+-1", "+", "-", ".", "0x10", "1,5", "1e5e", "\x80\xff"})
+  for (const char* word :
+       {"abc", "1.2.3", "1e", "1d", "1dx", "--1", "+-1", "+", "-", ".", "0x10", "1,5", "1e5e", "\x80\xff"})
     TREADMARK_EXPECT_ERROR(number(word), "a number is expected", 1, 1);
   TREADMARK_EXPECT_ERROR(number("1,5"), "write decimal points", 1, 1);
 }
@@ -48,7 +49,10 @@ TEST(LineScanner, RefusesWhatIsNoWholeNumber) {
 }
 
 TEST(LineScanner, CountsLinesWithEveryKindOfLineEnd) {
-  LineScanner scanner("\xEF\xBB\xBF" "a\nb\r\nc\rd", "sample");
+  LineScanner scanner(
+      "\xEF\xBB\xBF"
+      "a\nb\r\nc\rd",
+      "sample");
   std::string words;
   while (scanner.next_line()) words += std::string(scanner.next_word()->text) + std::to_string(scanner.number());
   EXPECT_EQ(words, "a1b2c3d4");

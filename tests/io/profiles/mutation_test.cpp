@@ -18,18 +18,31 @@ constexpr int kTrials = 1500;  // for each format
 
 /// A copy with up to eight flipped, inserted, deleted or repeated pieces, or cut short.
 std::string mutated(const std::string& valid, std::mt19937& random) {
-  static const std::vector<std::string> kPieces = {"\n", " ", "-", "1e308", "nan", "'", "=", "%", "99999999999", ".begin", ","};
+  static const std::vector<std::string> kPieces = {"\n", " ", "-",           "1e308",  "nan", "'",
+                                                   "=",  "%", "99999999999", ".begin", ","};
   std::string text = valid;
   const unsigned changes = 1 + random() % 8;
   for (unsigned k = 0; k < changes && !text.empty(); ++k) {
     const std::size_t at = random() % text.size();
     switch (random() % 6) {
-      case 0: text[at] = static_cast<char>(random() % 256); break;
-      case 1: text[at] = static_cast<char>(text[at] ^ (1u << (random() % 7))); break;
-      case 2: text.insert(at, kPieces[random() % kPieces.size()]); break;
-      case 3: text.erase(at, 1 + random() % 20); break;
-      case 4: text.insert(at, text.substr(random() % text.size(), random() % 60)); break;
-      default: if (random() % 3 == 0) text.resize(at); break;
+      case 0:
+        text[at] = static_cast<char>(random() % 256);
+        break;
+      case 1:
+        text[at] = static_cast<char>(text[at] ^ (1u << (random() % 7)));
+        break;
+      case 2:
+        text.insert(at, kPieces[random() % kPieces.size()]);
+        break;
+      case 3:
+        text.erase(at, 1 + random() % 20);
+        break;
+      case 4:
+        text.insert(at, text.substr(random() % text.size(), random() % 60));
+        break;
+      default:
+        if (random() % 3 == 0) text.resize(at);
+        break;
     }
   }
   return text;
@@ -86,7 +99,8 @@ TEST(MutatedFiles, MiniProf) {
 }
 
 TEST(MutatedFiles, TwoColumns) {
-  survive(columns(rail_points()), [](const std::string& t) { expect_sound(testing::parse(t, Body::rail), Body::rail); });
+  survive(columns(rail_points()),
+          [](const std::string& t) { expect_sound(testing::parse(t, Body::rail), Body::rail); });
 }
 
 TEST(MutatedFiles, Slices) {

@@ -27,7 +27,8 @@ Profile straight(Body body) {
 }
 
 SliceSet parse(const std::string& text, Body body = Body::rail) {
-  return parse_slices(text, "set.slcs", body, [&](const std::string&, const SourcePosition&) { return straight(body); });
+  return parse_slices(text, "set.slcs", body,
+                      [&](const std::string&, const SourcePosition&) { return straight(body); });
 }
 
 /// Four slices at the given positions.
@@ -134,7 +135,8 @@ TEST(ReadSlices, ChecksKinksAndAccelerations) {
   EXPECT_EQ(parse(text("0 1", kFour, "4 2 1", "1\n2\n1\n" + features)).features.size(), 4u);
   EXPECT_EQ(parse(text("0 1", kFour, "4 2 1", "2\n1\n1\n" + features)).kinks, (std::vector<int>{1, 2}));
   EXPECT_TRUE(parse(text("0 1", kFour, "4 0 1", "2\n" + features)).kinks.empty());
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 1 0", "3\n" + features)), "a kink must be a feature from 1 to", 9, 1);
+  TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 1 0", "3\n" + features)), "a kink must be a feature from 1 to", 9,
+                         1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "4 0 1", "0\n" + features)), "a acceleration must be", 9, 1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", kFour, "0 1 0", "1\n")), "from 1 to NFEAT-2 = -2", 9, 1);
 }
@@ -174,7 +176,8 @@ TEST(ReadSlices, RefusesBadNames) {
 }
 
 TEST(ReadSlices, RefusesSlicesOutOfOrder) {
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "10", "5", "30"})), "slice 3 at 5 must lie more than 0.001 beyond", 7, 1);
+  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "10", "5", "30"})), "slice 3 at 5 must lie more than 0.001 beyond", 7,
+                         1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "0.001", "5", "30"})), "slice 2", 6, 1);
   EXPECT_NO_THROW(parse(text("0 1", {"0", "0.0011", "5", "30"})));
   TREADMARK_EXPECT_ERROR(parse(text("1e30 1", kFour)), "cannot be told from the one before", 6, 1);
@@ -185,8 +188,10 @@ TEST(ReadSlices, RefusesImplausibleAngles) {
   EXPECT_NO_THROW(parse(text("0 1", {"-3.1416", "0", "1", "3.1416"}), Body::wheel));
   EXPECT_NO_THROW(parse(text("0 1", {"-3.2", "0", "1", "3.3"}), Body::wheel));
   EXPECT_NO_THROW(parse(text("0 1", {"0.1", "0.2", "0.3", "0.4"}), Body::wheel));
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "1", "2", "3.5"}), Body::wheel), "must lie in -pi to pi or contain", 8, 1);
-  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-3.5", "1", "2", "3"}), Body::wheel), "must lie in -pi to pi or contain", 5, 1);
+  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"0", "1", "2", "3.5"}), Body::wheel), "must lie in -pi to pi or contain", 8,
+                         1);
+  TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-3.5", "1", "2", "3"}), Body::wheel), "must lie in -pi to pi or contain",
+                         5, 1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-4.8", "1", "2", "4"}), Body::wheel), "outside -1.5 pi to 1.5 pi", 5, 1);
   TREADMARK_EXPECT_ERROR(parse(text("0 1", {"-90", "0", "10", "90"}), Body::wheel), "placed in radians", 5, 1);
 }
@@ -206,8 +211,9 @@ TEST(ReadSlices, RefusesBadFeatures) {
 TEST(ReadSlices, ReadsFilesRelativeToItsFolder) {
   const TemporaryFolder folder;
   folder.write("sub/one.txt", columns(testing::rail_points()));
-  const auto file = folder.write("set.SLCS", "0 1\n4\n0 0 0\n1\n0 'sub/one.txt'\n1 'sub\\one.txt'\n2 './sub/one.txt'\n3 '" +
-                                                 (folder.path() / "sub/one.txt").string() + "'\n");
+  const auto file =
+      folder.write("set.SLCS", "0 1\n4\n0 0 0\n1\n0 'sub/one.txt'\n1 'sub\\one.txt'\n2 './sub/one.txt'\n3 '" +
+                                   (folder.path() / "sub/one.txt").string() + "'\n");
   ProfileOptions options;
   options.scale = 0.5;
   options.smoothing.method = SmoothingOptions::Method::weighted_spline;
@@ -222,7 +228,8 @@ TEST(ReadSlices, ReadsFilesRelativeToItsFolder) {
 TEST(ReadSlices, MissingSliceNamesTheLineAndTheFile) {
   const TemporaryFolder folder;
   folder.write("one.txt", columns(testing::rail_points()));
-  const auto file = folder.write("set.slcs", "0 1\n4\n0 0 0\n1\n0 'one.txt'\n1 'one.txt'\n2   'two.txt'\n3 'one.txt'\n");
+  const auto file =
+      folder.write("set.slcs", "0 1\n4\n0 0 0\n1\n0 'one.txt'\n1 'one.txt'\n2   'two.txt'\n3 'one.txt'\n");
   const Error error = testing::error_of([&] { (void)read_slices(file, Body::rail, {}); });
   EXPECT_EQ(error.where().to_string(), file.string() + ":7:5");
   EXPECT_NE(error.message().find((folder.path() / "two.txt").string() + "' does not exist"), std::string::npos);

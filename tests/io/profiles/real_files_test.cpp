@@ -12,8 +12,8 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kRound = 1e-12;    // m: decimal numbers of the file, converted
-constexpr double kDigit = 0.5e-9;   // m: half a unit of the sixth decimal of a mm
+constexpr double kRound = 1e-12;   // m: decimal numbers of the file, converted
+constexpr double kDigit = 0.5e-9;  // m: half a unit of the sixth decimal of a mm
 
 ProfileOptions never_mirrored(double scale = 1.0) {
   ProfileOptions options;
@@ -166,7 +166,8 @@ TEST(RealSlices, InterruptedCrossingInMetresHasMissingFeatures) {
   EXPECT_NEAR(set.features[0][9], 0.108581, kRound);
   EXPECT_NEAR(set.features[19][10], 0.250729, 1e-6);
   EXPECT_THROW(
-      read_slices(*shared / "data/contact_testbank/profiles/uk_interrupt_v2.slcs", Body::rail, never_mirrored()), Error);
+      read_slices(*shared / "data/contact_testbank/profiles/uk_interrupt_v2.slcs", Body::rail, never_mirrored()),
+      Error);
 }
 
 TEST(RealSlices, RoundedFlatIsPutIntoWheelOrder) {

@@ -69,14 +69,13 @@ Error error_of(Call call) {
 }
 
 /// Checks the place and a part of the message of an error.
-#define TREADMARK_EXPECT_ERROR(call, part, line_, column_)                              \
-  do {                                                                                  \
-    const treadmark::Error caught = treadmark::testing::error_of([&] { (void)(call); }); \
+#define TREADMARK_EXPECT_ERROR(call, part, line_, column_)                                \
+  do {                                                                                    \
+    const treadmark::Error caught = treadmark::testing::error_of([&] { (void)(call); });  \
     EXPECT_NE(std::string(caught.what()).find(part), std::string::npos) << caught.what(); \
-    EXPECT_EQ(caught.where().line, line_) << caught.what();                             \
-    EXPECT_EQ(caught.where().column, column_) << caught.what();                         \
-    EXPECT_EQ(caught.kind(), treadmark::ErrorKind::input_data) << caught.what();        \
+    EXPECT_EQ(caught.where().line, line_) << caught.what();                               \
+    EXPECT_EQ(caught.where().column, column_) << caught.what();                           \
+    EXPECT_EQ(caught.kind(), treadmark::ErrorKind::input_data) << caught.what();          \
   } while (false)
-
 
 }  // namespace treadmark::testing

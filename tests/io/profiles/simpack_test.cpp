@@ -21,9 +21,7 @@ Profile rail(const std::string& keys, const ProfileOptions& options = {},
   return testing::parse(simpack(Body::rail, points, keys), Body::rail, options, ProfileFormat::simpack);
 }
 
-Profile rail_text(const std::string& text) {
-  return testing::parse(text, Body::rail, {}, ProfileFormat::simpack);
-}
+Profile rail_text(const std::string& text) { return testing::parse(text, Body::rail, {}, ProfileFormat::simpack); }
 
 std::vector<Point> mapped(std::vector<Point> points, double y_factor, double z_factor) {
   for (Point& p : points) p = {y_factor * p.y, z_factor * p.z};
@@ -82,8 +80,9 @@ TEST(Simpack, TheScaleMultiplies) {
 }
 
 TEST(Simpack, ShiftsComeBeforeBoundsAndMirrors) {
-  const Profile p = rail("shift.y = 10\nshift.z = -1\nbound.y.min = -10\nbound.y.max = 20\n"
-                         "bound.z.min=-1\nbound.z.max=0.5\nmirror.y = 1\n");
+  const Profile p = rail(
+      "shift.y = 10\nshift.z = -1\nbound.y.min = -10\nbound.y.max = 20\n"
+      "bound.z.min=-1\nbound.z.max=0.5\nmirror.y = 1\n");
   // y + 10 in [-10, 20] keeps -20..10, mirrored -20..10 again.
   EXPECT_NEAR(p.y.front(), -0.020, kRound);
   EXPECT_NEAR(p.y.back(), 0.010, kRound);
@@ -141,12 +140,10 @@ TEST(Simpack, NearDistanceIsTheFilesOwn) {
 }
 
 TEST(Simpack, RefusesTheOtherBody) {
-  TREADMARK_EXPECT_ERROR(
-      testing::parse(simpack(Body::rail, rail_points()), Body::wheel, {}, ProfileFormat::simpack),
-      "this is a rail profile, a wheel profile is expected", 3, 10);
-  TREADMARK_EXPECT_ERROR(
-      testing::parse(simpack(Body::wheel, wheel_points()), Body::rail, {}, ProfileFormat::simpack),
-      "this is a wheel profile", 3, 10);
+  TREADMARK_EXPECT_ERROR(testing::parse(simpack(Body::rail, rail_points()), Body::wheel, {}, ProfileFormat::simpack),
+                         "this is a rail profile, a wheel profile is expected", 3, 10);
+  TREADMARK_EXPECT_ERROR(testing::parse(simpack(Body::wheel, wheel_points()), Body::rail, {}, ProfileFormat::simpack),
+                         "this is a wheel profile", 3, 10);
 }
 
 TEST(Simpack, RefusesRotation) {
@@ -183,7 +180,8 @@ TEST(Simpack, RefusesDisorderedSections) {
   TREADMARK_EXPECT_ERROR(rail_text("spline.begin\nheader.end\n"), "ends a section that is not open", 2, 1);
   TREADMARK_EXPECT_ERROR(rail_text("spline.begin\npoint.begin\n0 0\nspline.end\n"), "not open", 4, 1);
   TREADMARK_EXPECT_ERROR(rail_text("spline.begin\npoint.begin\n0 0\nother.begin\n"), "before 'point.end'", 4, 1);
-  TREADMARK_EXPECT_ERROR(rail_text("spline.begin\npoint.begin\npoint.end\npoint.begin\n"), "a second 'point.begin'", 4, 1);
+  TREADMARK_EXPECT_ERROR(rail_text("spline.begin\npoint.begin\npoint.end\npoint.begin\n"), "a second 'point.begin'", 4,
+                         1);
 }
 
 TEST(Simpack, RefusesBadPoints) {

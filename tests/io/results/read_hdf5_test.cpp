@@ -59,9 +59,10 @@ io::RunResult full_run() {
   p.local = io::PatchResult::LocalForces{1.0, 2.0, 3.0};
   p.max_temperature_1 = 101.0;
   p.max_temperature_2 = 102.0;
-  for (auto* field : {&p.fields.plastic_x, &p.fields.plastic_s, &p.fields.yield_stress, &p.fields.temperature_1, &p.fields.temperature_2,
-                      &p.fields.extra_slip_x, &p.fields.extra_slip_s})
-    for (std::size_t i = 0; i < p.fields.grid.size(); ++i) field->push_back(static_cast<double>(i) / 7.0 + p.fields.plastic_x.size());
+  for (auto* field : {&p.fields.plastic_x, &p.fields.plastic_s, &p.fields.yield_stress, &p.fields.temperature_1,
+                      &p.fields.temperature_2, &p.fields.extra_slip_x, &p.fields.extra_slip_s})
+    for (std::size_t i = 0; i < p.fields.grid.size(); ++i)
+      field->push_back(static_cast<double>(i) / 7.0 + p.fields.plastic_x.size());
   for (int iy = 0; iy < p.fields.grid.ny; ++iy) p.fields.row_angle.push_back(0.01 * iy);
   p.subsurface = {testing::sample_block(3, 2, 4), testing::sample_block(1, 1, 1)};
   run.cases[3].number = 12345;  // behind case 9999, which has another number of digits
@@ -144,7 +145,8 @@ TEST_F(ReadHdf5, AnEmptyRunComesBack) {
 TEST_F(ReadHdf5, FilesFromBeforeSurfacesAreRead) {
   const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   remove(file, "surfaces");
-  for (const char* name : {"X_TW_origin", "X_TW_rotation", "X_TR_origin", "X_TR_rotation", "wheel_surface", "rail_surface"})
+  for (const char* name :
+       {"X_TW_origin", "X_TW_rotation", "X_TR_origin", "X_TR_rotation", "wheel_surface", "rail_surface"})
     remove_attribute(file, "case_0001", name);
   for (const char* name : {"elements_in_contact", "elements_in_adhesion", "elements_in_slip"})
     remove_attribute(file, "case_0001/patch_2", name);
@@ -171,25 +173,41 @@ TEST_F(ReadHdf5, DamagedFilesAreRefused) {
   expect_refused([](hid_t file) { remove(file, "surfaces"); }, "no surface wheel_1");
   expect_refused([](hid_t file) { replace_dataset(file, "surfaces/rail_1/y", {4, 1}); }, "shape");
   expect_refused([](hid_t file) { replace_dataset(file, "surfaces/rail_1/x", {4}); }, "table");
-  expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_2/slip_x", {24, 20}); },
-                 "slip_x: it has the shape [24, 20], not [20, 24]");
+  expect_refused(
+      [](hid_t file) {
+        replace_dataset(file, "case_0001/patch_2/slip_x", {24, 20});
+      },
+      "slip_x: it has the shape [24, 20], not [20, 24]");
   expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_1/row_angle", {24}); }, "row_angle");
-  expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_1/subsurface/block1/stress", {4, 2, 3, 8}); }, "stress");
+  expect_refused(
+      [](hid_t file) {
+        replace_dataset(file, "case_0001/patch_1/subsurface/block1/stress", {4, 2, 3, 8});
+      },
+      "stress");
   expect_refused([](hid_t file) { replace_dataset(file, "case_0001/patch_1/subsurface/block1/x", {4, 2}); }, "box");
   expect_refused([](hid_t file) { remove(file, "case_0001/patch_1/subsurface/block1/tresca"); }, "tresca");
   expect_refused([](hid_t file) { remove_attribute(file, "case_0001/patch_2", "fn"); }, "fn");
   expect_refused([](hid_t file) { remove_attribute(file, "case_0001", "status"); }, "status");
   expect_refused([](hid_t file) { set_text(file, "case_0001", "status", "fine"); }, "\"fine\"");
   expect_refused([](hid_t file) { set_text(file, "case_0001/patch_1", "id", "-3"); }, "\"-3\"");
-  expect_refused([](hid_t file) { set_attribute<int>(file, "case_0002", "number", H5T_NATIVE_INT, {7}); }, "case 7 in case_0002");
-  expect_refused([](hid_t file) { set_attribute<int>(file, "case_0001/patch_2", "nx", H5T_NATIVE_INT, {-24}); }, "-24 by 20");
-  expect_refused([](hid_t file) { set_attribute<int>(file, "case_0001/patch_2", "nx", H5T_NATIVE_INT, {2000000000}); }, "2000000000 by 20");
+  expect_refused([](hid_t file) { set_attribute<int>(file, "case_0002", "number", H5T_NATIVE_INT, {7}); },
+                 "case 7 in case_0002");
+  expect_refused([](hid_t file) { set_attribute<int>(file, "case_0001/patch_2", "nx", H5T_NATIVE_INT, {-24}); },
+                 "-24 by 20");
+  expect_refused([](hid_t file) { set_attribute<int>(file, "case_0001/patch_2", "nx", H5T_NATIVE_INT, {2000000000}); },
+                 "2000000000 by 20");
   const double nan = std::numeric_limits<double>::quiet_NaN();
-  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "nx", H5T_NATIVE_DOUBLE, {nan}); }, "nx");
-  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "dx", H5T_NATIVE_DOUBLE, {nan}); }, "no size");
-  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "x0", H5T_NATIVE_DOUBLE, {nan}); }, "no size");
-  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001", "X_TW_origin", H5T_NATIVE_DOUBLE, {1.0, 2.0}); },
-                 "X_TW_origin");
+  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "nx", H5T_NATIVE_DOUBLE, {nan}); },
+                 "nx");
+  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "dx", H5T_NATIVE_DOUBLE, {nan}); },
+                 "no size");
+  expect_refused([&](hid_t file) { set_attribute<double>(file, "case_0001/patch_2", "x0", H5T_NATIVE_DOUBLE, {nan}); },
+                 "no size");
+  expect_refused(
+      [&](hid_t file) {
+        set_attribute<double>(file, "case_0001", "X_TW_origin", H5T_NATIVE_DOUBLE, {1.0, 2.0});
+      },
+      "X_TW_origin");
 }
 
 TEST_F(ReadHdf5, FilesCutOffAreRefused) {

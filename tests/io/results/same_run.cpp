@@ -45,9 +45,10 @@ void expect_same(const io::PatchFields& read, const io::PatchFields& written) {
   using F = io::PatchFields;
   EXPECT_EQ(read.grid, written.grid);
   expect_same(read.X_TC, written.X_TC, "X_TC");
-  for (const auto field : {&F::gap, &F::pressure, &F::traction_x, &F::traction_s, &F::displacement_n, &F::displacement_x,
-                           &F::displacement_s, &F::slip_x, &F::slip_s, &F::friction, &F::plastic_x, &F::plastic_s, &F::yield_stress, &F::temperature_1,
-                           &F::temperature_2, &F::extra_slip_x, &F::extra_slip_s, &F::row_angle})
+  for (const auto field :
+       {&F::gap, &F::pressure, &F::traction_x, &F::traction_s, &F::displacement_n, &F::displacement_x,
+        &F::displacement_s, &F::slip_x, &F::slip_s, &F::friction, &F::plastic_x, &F::plastic_s, &F::yield_stress,
+        &F::temperature_1, &F::temperature_2, &F::extra_slip_x, &F::extra_slip_s, &F::row_angle})
     expect_same(read.*field, written.*field, "a field");
   EXPECT_EQ(read.state, written.state);
 }
@@ -72,11 +73,42 @@ void expect_same(const io::SubsurfaceBlock& read, const io::SubsurfaceBlock& wri
 void expect_same(const io::PatchResult& read, const io::PatchResult& written) {
   using P = io::PatchResult;
   for (const auto member : {&P::has_reference, &P::has_rolling, &P::shift}) EXPECT_EQ(read.*member, written.*member);
-  for (const auto number :
-       {&P::x_tr, &P::y_tr, &P::z_tr, &P::angle, &P::x_rail, &P::y_rail, &P::z_rail, &P::s_rail, &P::x_wheel, &P::y_wheel, &P::z_wheel,
-        &P::x_wheelset, &P::y_wheelset, &P::z_wheelset, &P::angle_rail, &P::angle_wheelset, &P::angle_wheel, &P::reference_x,
-        &P::reference_s, &P::chi, &P::dq, &P::velocity, &P::xi, &P::eta, &P::phi, &P::fn, &P::fx, &P::fs, &P::mn, &P::fx_relative, &P::fs_relative,
-        &P::shear_modulus, &P::elastic_energy, &P::frictional_power, &P::approach, &P::pmax})
+  for (const auto number : {&P::x_tr,
+                            &P::y_tr,
+                            &P::z_tr,
+                            &P::angle,
+                            &P::x_rail,
+                            &P::y_rail,
+                            &P::z_rail,
+                            &P::s_rail,
+                            &P::x_wheel,
+                            &P::y_wheel,
+                            &P::z_wheel,
+                            &P::x_wheelset,
+                            &P::y_wheelset,
+                            &P::z_wheelset,
+                            &P::angle_rail,
+                            &P::angle_wheelset,
+                            &P::angle_wheel,
+                            &P::reference_x,
+                            &P::reference_s,
+                            &P::chi,
+                            &P::dq,
+                            &P::velocity,
+                            &P::xi,
+                            &P::eta,
+                            &P::phi,
+                            &P::fn,
+                            &P::fx,
+                            &P::fs,
+                            &P::mn,
+                            &P::fx_relative,
+                            &P::fs_relative,
+                            &P::shear_modulus,
+                            &P::elastic_energy,
+                            &P::frictional_power,
+                            &P::approach,
+                            &P::pmax})
     EXPECT_TRUE(same(read.*number, written.*number)) << read.*number << " " << written.*number;
   for (const auto count : {&P::npot, &P::ncon, &P::nadh, &P::nslip}) EXPECT_EQ(read.*count, written.*count);
   EXPECT_EQ(read.id, written.id);
@@ -102,7 +134,8 @@ void expect_same_surface(const io::SampledSurface& read, const io::SampledSurfac
   EXPECT_EQ(read.nv, written.nv);
   EXPECT_EQ(read.closed, written.closed);
   using S = io::SampledSurface;
-  for (const auto list : {&S::u, &S::x, &S::y, &S::z, &S::deviation}) expect_same(read.*list, written.*list, written.name.c_str());
+  for (const auto list : {&S::u, &S::x, &S::y, &S::z, &S::deviation})
+    expect_same(read.*list, written.*list, written.name.c_str());
 }
 
 void expect_same_case(const io::CaseResult& read, const io::CaseResult& written, bool seconds) {
@@ -115,7 +148,8 @@ void expect_same_case(const io::CaseResult& read, const io::CaseResult& written,
   if (seconds) {
     EXPECT_EQ(read.seconds, written.seconds);
   }
-  for (const auto number : {&C::s, &C::y, &C::z, &C::roll, &C::yaw, &C::pitch, &C::vs, &C::vy, &C::vz, &C::vroll, &C::vyaw, &C::vpitch})
+  for (const auto number :
+       {&C::s, &C::y, &C::z, &C::roll, &C::yaw, &C::pitch, &C::vs, &C::vy, &C::vz, &C::vroll, &C::vyaw, &C::vpitch})
     EXPECT_TRUE(same(read.*number, written.*number)) << read.*number << " " << written.*number;
   for (const auto vector : {&C::force_tr, &C::force_ws, &C::moment_rail, &C::moment_wheel})
     expect_same(read.*vector, written.*vector, "a total");
@@ -159,10 +193,26 @@ void expect_same_run(const io::RunResult& read, const io::RunResult& written) {
 
 std::vector<io::SampledSurface> sample_surfaces() {
   const double none = std::numeric_limits<double>::quiet_NaN();
-  io::SampledSurface wheel{"wheel", "wheel_1", 3, 2, true, {-2.0, 0.1, 2.1}, {-0.41, -0.42, 0.04, none, 0.39, 0.4},
-                           {-0.03, 0.01, -0.03, none, -0.03, 0.01}, {-0.19, -0.2, 0.45, none, -0.22, -0.23}, {0.0, 1e-5, -3e-4, none, 1.0 / 3e7, 0.0}};
-  io::SampledSurface rail{"rail", "rail_1", 2, 2, false, {-0.15, 0.15}, {-0.15, -0.15, 0.15, 0.15},
-                          {-0.03, 0.03, -0.03, 0.03}, {2e-3, 3e-3, 2e-3, 3e-3}, {}};
+  io::SampledSurface wheel{"wheel",
+                           "wheel_1",
+                           3,
+                           2,
+                           true,
+                           {-2.0, 0.1, 2.1},
+                           {-0.41, -0.42, 0.04, none, 0.39, 0.4},
+                           {-0.03, 0.01, -0.03, none, -0.03, 0.01},
+                           {-0.19, -0.2, 0.45, none, -0.22, -0.23},
+                           {0.0, 1e-5, -3e-4, none, 1.0 / 3e7, 0.0}};
+  io::SampledSurface rail{"rail",
+                          "rail_1",
+                          2,
+                          2,
+                          false,
+                          {-0.15, 0.15},
+                          {-0.15, -0.15, 0.15, 0.15},
+                          {-0.03, 0.03, -0.03, 0.03},
+                          {2e-3, 3e-3, 2e-3, 3e-3},
+                          {}};
   return {wheel, rail};
 }
 

@@ -6,7 +6,8 @@
 
 namespace treadmark::testing {
 
-/// Expects everything that files of results hold to be equal to the last bit, NaN to NaN. Wall-clock times of cases only if asked for.
+/// Expects everything that files of results hold to be equal to the last bit, NaN to NaN. Wall-clock times of cases
+/// only if asked for.
 void expect_same_run(const io::RunResult& read, const io::RunResult& written);
 void expect_same_case(const io::CaseResult& read, const io::CaseResult& written, bool seconds = true);
 void expect_same_surface(const io::SampledSurface& read, const io::SampledSurface& written);

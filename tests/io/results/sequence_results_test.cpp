@@ -24,7 +24,10 @@ using nlohmann::json;
 io::RunResult rich_run() {
   io::RunResult run = testing::sample_run();
   io::CaseResult& c = run.cases[0];
-  const io::Loads loads{{{1, 2, 3}, {0.1, 0.2, 0.3}}, {{4, 5, 6}, {0.4, 0.5, 0.6}}, {{7, 8, 9}, {0.7, 0.8, 0.9}}, {{10, 11, 12}, {1, 1.1, 1.2}}};
+  const io::Loads loads{{{1, 2, 3}, {0.1, 0.2, 0.3}},
+                        {{4, 5, 6}, {0.4, 0.5, 0.6}},
+                        {{7, 8, 9}, {0.7, 0.8, 0.9}},
+                        {{10, 11, 12}, {1, 1.1, 1.2}}};
   c.loads = loads;
   c.rail_deflection = Vec2(-1.5e-3, 2e-4);
   c.roller = {-0.5, 12.0};
@@ -72,7 +75,8 @@ TEST(SequenceResults, AttributesHoldThem) {
       if (one.name == name) return one.value;
     return "absent";
   };
-  const auto c = io::attributes_of(run.cases[0]), p = io::attributes_of(run.cases[0].patches[0]), other = io::attributes_of(run.cases[0].patches[1]);
+  const auto c = io::attributes_of(run.cases[0]), p = io::attributes_of(run.cases[0].patches[0]),
+             other = io::attributes_of(run.cases[0].patches[1]);
   EXPECT_EQ(std::get<Vec3>(value(c, "load_moment_rail")), Vec3(0.4, 0.5, 0.6));
   EXPECT_EQ(std::get<double>(value(c, "rail_deflection_y")), -1.5e-3);
   EXPECT_EQ(std::get<double>(value(c, "roller_pitch_rate")), 12.0);
@@ -94,7 +98,8 @@ TEST(RowEdges, OfAPlaneAreEquallySpaced) {
   fields.grid = {0.0, 1e-3, 1e-3, 0.5e-3, 3, 4};
   const auto edges = io::row_edges(fields, 0.0);
   ASSERT_EQ(edges.size(), 5u);
-  for (std::size_t i = 0; i < 5; ++i) EXPECT_NEAR((edges[i] - Vec2(0.75e-3 + 0.5e-3 * static_cast<double>(i), 0.0)).norm(), 0.0, 1e-15);
+  for (std::size_t i = 0; i < 5; ++i)
+    EXPECT_NEAR((edges[i] - Vec2(0.75e-3 + 0.5e-3 * static_cast<double>(i), 0.0)).norm(), 0.0, 1e-15);
 }
 
 /// Rows of a circle of radius R that touches the plane at the reference: their edges lie on that circle.

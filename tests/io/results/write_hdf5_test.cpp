@@ -147,8 +147,8 @@ TEST(WriteHdf5File, KeepsLayersTemperaturesAndBlocksBelowTheSurface) {
   io::PatchResult& patch = run.cases[0].patches[0];
   patch.subsurface = {testing::sample_block(3, 2, 4), testing::sample_block(1, 1, 1)};
   const std::size_t n = patch.fields.grid.size();
-  for (auto* field : {&patch.fields.plastic_x, &patch.fields.plastic_s, &patch.fields.yield_stress, &patch.fields.temperature_1,
-                      &patch.fields.temperature_2})
+  for (auto* field : {&patch.fields.plastic_x, &patch.fields.plastic_s, &patch.fields.yield_stress,
+                      &patch.fields.temperature_1, &patch.fields.temperature_2})
     for (std::size_t i = 0; i < n; ++i) field->push_back(static_cast<double>(i) / 7.0);
   io::write_hdf5(path, run);
   const hid_t file = H5Fopen(path.c_str(), H5F_ACC_RDONLY, H5P_DEFAULT);
@@ -161,7 +161,8 @@ TEST(WriteHdf5File, KeepsLayersTemperaturesAndBlocksBelowTheSurface) {
   const std::string block = "/case_0001/patch_1/subsurface/block1/";
   const Dataset stress = read_dataset(file, (block + "stress").c_str());
   EXPECT_EQ(stress.shape, (std::vector<hsize_t>{4, 2, 3, 9}));
-  const Dataset tresca = read_dataset(file, (block + "tresca").c_str()), n_place = read_dataset(file, (block + "n").c_str());
+  const Dataset tresca = read_dataset(file, (block + "tresca").c_str()),
+                n_place = read_dataset(file, (block + "n").c_str());
   EXPECT_EQ(tresca.shape, (std::vector<hsize_t>{4, 2, 3}));
   const Dataset principal = read_dataset(file, (block + "principal").c_str());
   for (std::size_t i = 0; i < 24; ++i) {

@@ -136,7 +136,8 @@ TEST(WriteVtk, PointsBelowTheSurfaceLieInTrackAxes) {
   const testing::XmlElement collection = testing::read_xml(testing::read_text(written.back()));
   EXPECT_EQ(collection.find("DataSet", "file", "flat_case0001_patch2_block1.vts").at(0)->attributes.at("part"), "2");
 
-  const testing::XmlElement root = testing::read_xml(testing::read_text(folder.path() / "flat_case0001_patch2_block1.vts"));
+  const testing::XmlElement root =
+      testing::read_xml(testing::read_text(folder.path() / "flat_case0001_patch2_block1.vts"));
   EXPECT_EQ(root.find("Piece").at(0)->attributes.at("Extent"), "0 2 0 1 0 3");
   const auto points = values<double>(*root.find("DataArray", "Name", "points_m").at(0));
   const auto stress = values<float>(*root.find("DataArray", "Name", "stress_Pa").at(0));
@@ -145,8 +146,10 @@ TEST(WriteVtk, PointsBelowTheSurfaceLieInTrackAxes) {
   ASSERT_EQ(stress.size(), 9u * 24u);
   const std::size_t i = 17;
   const io::SubsurfaceValue& v = patch.subsurface[0].values[i];
-  EXPECT_NEAR(points[3 * i + 1], patch.y_tr + std::cos(patch.angle) * v.point.y() - std::sin(patch.angle) * v.point.z(), kRounding);
-  EXPECT_NEAR(points[3 * i + 2], patch.z_tr + std::sin(patch.angle) * v.point.y() + std::cos(patch.angle) * v.point.z(), kRounding);
+  EXPECT_NEAR(points[3 * i + 1], patch.y_tr + std::cos(patch.angle) * v.point.y() - std::sin(patch.angle) * v.point.z(),
+              kRounding);
+  EXPECT_NEAR(points[3 * i + 2], patch.z_tr + std::sin(patch.angle) * v.point.y() + std::cos(patch.angle) * v.point.z(),
+              kRounding);
   // Turned about x: the component along x and the sum of the normal stresses stay, yz follows by hand.
   const double scale = v.stress.norm(), c = std::cos(patch.angle), s = std::sin(patch.angle);
   const double yz = c * s * (v.stress(1, 1) - v.stress(2, 2)) + (c * c - s * s) * v.stress(1, 2);

@@ -33,7 +33,8 @@ std::set<std::string> write_examples(const treadmark::testing::TemporaryFolder& 
 
 TEST(SimulationDocs, ExamplesAreRead) {
   const treadmark::testing::TemporaryFolder folder;
-  EXPECT_THAT(write_examples(folder), ::testing::ElementsAre("simulation.toml", "study.toml", "track.toml", "vehicle.toml"));
+  EXPECT_THAT(write_examples(folder),
+              ::testing::ElementsAre("simulation.toml", "study.toml", "track.toml", "vehicle.toml"));
   const SimulationFile simulation = read_simulation_file(folder.path() / "simulation.toml");
   EXPECT_EQ(simulation.vehicle.bodies.size(), 3u);
   EXPECT_EQ(simulation.vehicle.springs.size(), 4u);
@@ -48,13 +49,16 @@ TEST(SimulationDocs, ExamplesAreRead) {
 TEST(SimulationDocs, EveryKeyIsThere) {
   const std::string text = documentation();
   const auto all = [&](std::span<const std::string_view> keys) {
-    for (const std::string_view key : keys) EXPECT_NE(text.find('`' + std::string(key) + '`'), std::string::npos) << key;
+    for (const std::string_view key : keys)
+      EXPECT_NE(text.find('`' + std::string(key) + '`'), std::string::npos) << key;
   };
   for (const std::span<const std::string_view> keys :
-       {std::span<const std::string_view>(kVehicleKeys), std::span<const std::string_view>(kTrackKeys), std::span<const std::string_view>(kBodyKeys),
-        std::span<const std::string_view>(kSpringKeys), std::span<const std::string_view>(kBumpStopKeys), std::span<const std::string_view>(kWheelsetKeys),
-        std::span<const std::string_view>(kFieldKeys), std::span<const std::string_view>(kWheelKeys), std::span<const std::string_view>(kVaryKeys),
-        std::span<const std::string_view>(kVaryValueKeys), std::span<const std::string_view>(kFigureKeys), std::span<const std::string_view>(kMarkKeys)})
+       {std::span<const std::string_view>(kVehicleKeys), std::span<const std::string_view>(kTrackKeys),
+        std::span<const std::string_view>(kBodyKeys), std::span<const std::string_view>(kSpringKeys),
+        std::span<const std::string_view>(kBumpStopKeys), std::span<const std::string_view>(kWheelsetKeys),
+        std::span<const std::string_view>(kFieldKeys), std::span<const std::string_view>(kWheelKeys),
+        std::span<const std::string_view>(kVaryKeys), std::span<const std::string_view>(kVaryValueKeys),
+        std::span<const std::string_view>(kFigureKeys), std::span<const std::string_view>(kMarkKeys)})
     all(keys);
   for (const std::string_view key : kSimulationKeys) {
     const bool table = key == "fields" || key == "wheels" || key == "other_wheel";

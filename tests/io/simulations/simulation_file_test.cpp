@@ -27,10 +27,13 @@ class SimulationText : public ::testing::Test {
   SimulationFile parse(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     return parse_simulation_text(text, folder_.path() / "s.toml", overrides);
   }
-  std::string error(const std::string& part, const std::string& other, const std::vector<std::string>& overrides = {}) const {
+  std::string error(const std::string& part, const std::string& other,
+                    const std::vector<std::string>& overrides = {}) const {
     return samples::error_of([&] { parse(with(kSimulation, part, other), overrides); });
   }
-  std::string override_error(const std::string& assignment) const { return error("[simulation]", "[simulation]", {assignment}); }
+  std::string override_error(const std::string& assignment) const {
+    return error("[simulation]", "[simulation]", {assignment});
+  }
 
   treadmark::testing::TemporaryFolder folder_;
 };
@@ -78,9 +81,10 @@ TEST_F(SimulationText, ContactIsThatOfACaseFile) {
 }
 
 TEST_F(SimulationText, EverySettingIsRead) {
-  const std::string settings = "duration_s = 0.5\ngravity_m_s2 = 10\ntolerance_um = 0.02\nmax_step_us = 30\nmin_step_us = 0.1\n"
-                               "max_step_elements = 1.5\nspectral_radius = 0.5\ncheckpoint_s = 60\noutput_every_mm = 2\n"
-                               "fields = { pitch_deg = [-10, 20], position_m = [0.5, 1] }\n";
+  const std::string settings =
+      "duration_s = 0.5\ngravity_m_s2 = 10\ntolerance_um = 0.02\nmax_step_us = 30\nmin_step_us = 0.1\n"
+      "max_step_elements = 1.5\nspectral_radius = 0.5\ncheckpoint_s = 60\noutput_every_mm = 2\n"
+      "fields = { pitch_deg = [-10, 20], position_m = [0.5, 1] }\n";
   const SimulationFile file = parse(with(kSimulation, "distance_m = 3\n", settings));
   const SimulationSettings& s = file.settings;
   EXPECT_EQ(s.duration, 0.5);
@@ -94,7 +98,8 @@ TEST_F(SimulationText, EverySettingIsRead) {
   EXPECT_EQ(s.checkpoint, 60.0);
   EXPECT_DOUBLE_EQ(s.output_every, 2e-3);
   EXPECT_DOUBLE_EQ(s.longest_step(0.5e-3), 30e-6);
-  EXPECT_THAT(file.fields.pitch, ::testing::ElementsAre(::testing::DoubleEq(-10 * kDegree), ::testing::DoubleEq(20 * kDegree)));
+  EXPECT_THAT(file.fields.pitch,
+              ::testing::ElementsAre(::testing::DoubleEq(-10 * kDegree), ::testing::DoubleEq(20 * kDegree)));
   EXPECT_THAT(file.fields.position, ::testing::ElementsAre(0.5, 1.0));
 }
 
@@ -119,9 +124,14 @@ TEST_F(SimulationText, TrackMayBeRigid) {
 }
 
 TEST_F(SimulationText, OverridesOfEveryKind) {
-  const std::vector<std::string> overrides{"simulation.wheels.0.contact=table", "simulation.speed_m_s=10", "simulation.duration_s=2",
-                                           "vehicle.bodies.mass.mass_kg=30000", "track_model.springs.pad.stiffness_N_per_m=[0, 1e6, 2e6]",
-                                           "track_model.scale_mass=1.5", "wheel.flats.0.depth_mm=1.2", "rail.shape.standard=60E1",
+  const std::vector<std::string> overrides{"simulation.wheels.0.contact=table",
+                                           "simulation.speed_m_s=10",
+                                           "simulation.duration_s=2",
+                                           "vehicle.bodies.mass.mass_kg=30000",
+                                           "track_model.springs.pad.stiffness_N_per_m=[0, 1e6, 2e6]",
+                                           "track_model.scale_mass=1.5",
+                                           "wheel.flats.0.depth_mm=1.2",
+                                           "rail.shape.standard=60E1",
                                            "title=other"};
   const SimulationFile file = parse(kSimulation, overrides);
   EXPECT_EQ(file.title, "other");
@@ -137,11 +147,14 @@ TEST_F(SimulationText, OverridesOfEveryKind) {
 }
 
 TEST_F(SimulationText, OtherWheelIsReadLikeAWheel) {
-  const std::string measured = with(kSimulation, "[wheel]\nshape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]",
-                                    "[wheel]\nshape.file = \"flat.slcw\"");
-  EXPECT_THAT(samples::error_of([&] { parse(measured); }),
-              ::testing::HasSubstr("s.toml:3:1: [wheel] is measured all around, but the right wheel of wheelset 1 is round"));
-  const SimulationFile file = parse(measured + "[simulation.other_wheel]\nshape.file = \"round.prw\"\nshape.mirror_y = true\n");
+  const std::string measured =
+      with(kSimulation, "[wheel]\nshape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]",
+           "[wheel]\nshape.file = \"flat.slcw\"");
+  EXPECT_THAT(
+      samples::error_of([&] { parse(measured); }),
+      ::testing::HasSubstr("s.toml:3:1: [wheel] is measured all around, but the right wheel of wheelset 1 is round"));
+  const SimulationFile file =
+      parse(measured + "[simulation.other_wheel]\nshape.file = \"round.prw\"\nshape.mirror_y = true\n");
   ASSERT_TRUE(file.other_wheel);
   const auto& geometry = std::get<GeometryFile>(file.other_wheel->geometry);
   EXPECT_EQ(geometry.file, folder_.path() / "round.prw");
@@ -149,106 +162,146 @@ TEST_F(SimulationText, OtherWheelIsReadLikeAWheel) {
   EXPECT_EQ(std::get<GeometryFile>(file.contact.wheel.geometry).file, folder_.path() / "flat.slcw");
   EXPECT_THAT(samples::error_of([&] { parse(measured + "[simulation.other_wheel]\nshape.standard = \"S1003\"\n"); }),
               ::testing::HasSubstr("s.toml:30:18: wheel.shape.standard = \"S1003\" is not one of"));
-  EXPECT_THAT(samples::error_of([&] {
-                parse(measured + "[simulation.other_wheel]\nshape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]\n");
-              }),
-              ::testing::HasSubstr("it has no defects"));
+  EXPECT_THAT(
+      samples::error_of([&] {
+        parse(measured +
+              "[simulation.other_wheel]\nshape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]\n");
+      }),
+      ::testing::HasSubstr("it has no defects"));
 }
 
 TEST_F(SimulationText, ErrorsOfSettings) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 0"), HasSubstr("s.toml:6:13: simulation.speed_m_s = 0: a simulation needs a speed"));
-  EXPECT_THAT(error("speed_m_s = 20\n", ""), HasSubstr("s.toml:3:1: simulation.speed_m_s is missing (a simulation needs a speed)"));
+  EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 0"),
+              HasSubstr("s.toml:6:13: simulation.speed_m_s = 0: a simulation needs a speed"));
+  EXPECT_THAT(error("speed_m_s = 20\n", ""),
+              HasSubstr("s.toml:3:1: simulation.speed_m_s is missing (a simulation needs a speed)"));
   EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = -1"), HasSubstr("must be at least 0"));
   EXPECT_THAT(error("speed_m_s = 20", "speed_m_s = 1e6"), HasSubstr("must be at most 1000"));
-  EXPECT_THAT(error("speed_m_s = 20\ndistance_m = 3", "speed_m_s = 1e-300\ndistance_m = 1e300"), HasSubstr("s.toml:3:1: the simulation has no end"));
-  EXPECT_THAT(error("speed_m_s", "speed"), HasSubstr("s.toml:6:1: unknown key 'simulation.speed' (did you mean 'simulation.speed_m_s'?)"));
+  EXPECT_THAT(error("speed_m_s = 20\ndistance_m = 3", "speed_m_s = 1e-300\ndistance_m = 1e300"),
+              HasSubstr("s.toml:3:1: the simulation has no end"));
+  EXPECT_THAT(error("speed_m_s", "speed"),
+              HasSubstr("s.toml:6:1: unknown key 'simulation.speed' (did you mean 'simulation.speed_m_s'?)"));
   EXPECT_THAT(error("distance_m = 3\n", ""), HasSubstr("simulation.distance_m is missing"));
-  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nduration_s = 1"), HasSubstr("distance_m and simulation.duration_s exclude each other"));
+  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nduration_s = 1"),
+              HasSubstr("distance_m and simulation.duration_s exclude each other"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nspectral_radius = 1.1"), HasSubstr("must be at most 1"));
   EXPECT_THAT(error("distance_m = 3", "distance_m = 3\ntolerance_um = 0"), HasSubstr("must be greater than 0"));
-  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nfields.pitch_deg = [3, 2]"), HasSubstr("simulation.fields.pitch_deg must increase"));
-  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nfields.pich_deg = [3]"), HasSubstr("did you mean 'simulation.fields.pitch_deg'?"));
-  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nmax_step_elements = 2.5"),
-              HasSubstr("s.toml:8:21: simulation.max_step_elements = 2.5: steps of transient rolling must not exceed dt = 2 dx / V"));
-  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nmin_step_us = 60"), HasSubstr("simulation.min_step_us = 60 exceeds the longest step of 25 us"));
-  EXPECT_THAT(samples::error_of([&] { parse("rail.shape.standard = \"60E1\"\n"); }), HasSubstr("s.toml:1:1: [simulation] is missing"));
+  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nfields.pitch_deg = [3, 2]"),
+              HasSubstr("simulation.fields.pitch_deg must increase"));
+  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nfields.pich_deg = [3]"),
+              HasSubstr("did you mean 'simulation.fields.pitch_deg'?"));
+  EXPECT_THAT(
+      error("distance_m = 3", "distance_m = 3\nmax_step_elements = 2.5"),
+      HasSubstr(
+          "s.toml:8:21: simulation.max_step_elements = 2.5: steps of transient rolling must not exceed dt = 2 dx / V"));
+  EXPECT_THAT(error("distance_m = 3", "distance_m = 3\nmin_step_us = 60"),
+              HasSubstr("simulation.min_step_us = 60 exceeds the longest step of 25 us"));
+  EXPECT_THAT(samples::error_of([&] { parse("rail.shape.standard = \"60E1\"\n"); }),
+              HasSubstr("s.toml:1:1: [simulation] is missing"));
   EXPECT_THAT(samples::error_of([&] { parse("simulation = 3\n"); }), HasSubstr("s.toml:1:14: [simulation] is missing"));
   EXPECT_THAT(error("title = \"A flat\"", "title = 3"), HasSubstr("s.toml:1:9: title must be text"));
 }
 
 TEST_F(SimulationText, SteadyRollingMayTakeLongSteps) {
-  const SimulationFile file = parse(with(with(kSimulation, "\"transient\"", "\"steady\""), "distance_m = 3", "distance_m = 3\nmax_step_elements = 5"));
+  const SimulationFile file = parse(with(with(kSimulation, "\"transient\"", "\"steady\""), "distance_m = 3",
+                                         "distance_m = 3\nmax_step_elements = 5"));
   EXPECT_EQ(file.settings.max_step_elements, 5.0);
 }
 
 TEST_F(SimulationText, ErrorsOfFilesAndWheels) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(error("vehicle.toml", "vehicles.toml"), HasSubstr("s.toml:4:11: simulation.vehicle: there is no file " + (folder_.path() / "vehicles.toml").string()));
+  EXPECT_THAT(error("vehicle.toml", "vehicles.toml"), HasSubstr("s.toml:4:11: simulation.vehicle: there is no file " +
+                                                                (folder_.path() / "vehicles.toml").string()));
   EXPECT_THAT(error("vehicle = \"vehicle.toml\"\n", ""), HasSubstr("simulation.vehicle is missing"));
   EXPECT_THAT(error("\"track.toml\"", "\"vehicle.toml\""), HasSubstr("vehicle.toml:1:2: unknown key 'vehicle'"));
-  EXPECT_THAT(error("wheelset = 1", "wheelset = 2"), HasSubstr("s.toml:10:12: simulation.wheels.wheelset = 2, but the vehicle has 1 wheelset (wheelsets count from 1"));
+  EXPECT_THAT(
+      error("wheelset = 1", "wheelset = 2"),
+      HasSubstr(
+          "s.toml:10:12: simulation.wheels.wheelset = 2, but the vehicle has 1 wheelset (wheelsets count from 1"));
   EXPECT_THAT(error("wheelset = 1", "wheelset = 0"), HasSubstr("must be at least 1"));
   EXPECT_THAT(error("side = \"left\"", "side = \"middle\""), HasSubstr("is not one of \"left\", \"right\""));
   EXPECT_THAT(error("contact = \"full\"", "contact = \"fll\""), HasSubstr("is not one of \"full\", \"table\""));
   EXPECT_THAT(error("contact = \"full\"\n", ""), HasSubstr("s.toml:9:1: simulation.wheels.contact is missing"));
   const std::string again = "[[simulation.wheels]]\nwheelset = 1\ncontact = \"full\"\n";
-  EXPECT_THAT(error("[case]", again + "side = \"left\"\n[case]"), HasSubstr("s.toml:15:1: the left wheel of wheelset 1 is given twice"));
-  EXPECT_THAT(error("[case]", again + "side = \"right\"\npitch_deg = 31\n[case]"), HasSubstr("s.toml:19:13: wheelset 1 has two different pitch angles"));
+  EXPECT_THAT(error("[case]", again + "side = \"left\"\n[case]"),
+              HasSubstr("s.toml:15:1: the left wheel of wheelset 1 is given twice"));
+  EXPECT_THAT(error("[case]", again + "side = \"right\"\npitch_deg = 31\n[case]"),
+              HasSubstr("s.toml:19:13: wheelset 1 has two different pitch angles"));
 }
 
 TEST_F(SimulationText, WhatASimulationFindsIsRefusedByName) {
   using ::testing::HasSubstr;
   const auto refused = [&](const std::string& line) { return error("[track]", line + "\n[track]"); };
-  for (const std::string key : {"vertical_force_N", "longitudinal_force_N", "s_mm", "y_mm", "z_mm", "roll_deg", "yaw_rad", "pitch_deg", "velocity_m_s",
-                                "vy_m_s", "vz_m_s", "vroll_rad_s", "vyaw_rad_s", "vpitch_rad_s"})
-    EXPECT_THAT(refused("[wheelset]\n" + key + " = 1"), HasSubstr("s.toml:26:1: wheelset." + key + " has no place in a simulation file: a simulation finds it"));
+  for (const std::string key :
+       {"vertical_force_N", "longitudinal_force_N", "s_mm", "y_mm", "z_mm", "roll_deg", "yaw_rad", "pitch_deg",
+        "velocity_m_s", "vy_m_s", "vz_m_s", "vroll_rad_s", "vyaw_rad_s", "vpitch_rad_s"})
+    EXPECT_THAT(
+        refused("[wheelset]\n" + key + " = 1"),
+        HasSubstr("s.toml:26:1: wheelset." + key + " has no place in a simulation file: a simulation finds it"));
   EXPECT_THAT(refused("[wheelset]\ndeviation_x_mm = 1"), HasSubstr("wheelsets of a simulation are rigid"));
-  EXPECT_THAT(refused("[[cases]]\nwheelset.y_mm = 3"), HasSubstr("s.toml:25:3: cases has no place in a simulation file"));
+  EXPECT_THAT(refused("[[cases]]\nwheelset.y_mm = 3"),
+              HasSubstr("s.toml:25:3: cases has no place in a simulation file"));
   EXPECT_THAT(refused("[patch]"), HasSubstr("patch has no place"));
   EXPECT_THAT(refused("[roller]"), HasSubstr("vehicles run on a track"));
   EXPECT_THAT(error("[track]", "[track]\nsprings.stiffness_z_N_per_mm = 3"), HasSubstr("track.springs has no place"));
   EXPECT_THAT(error("[track]", "[track]\nirregularity_z_mm = 3"), HasSubstr("track.irregularity_z_mm has no place"));
   EXPECT_THAT(error("[track]", "[track]\ncurvature_per_m = 1e-3"), HasSubstr("a simulation runs on straight track"));
-  EXPECT_THAT(error("[case]", "[case]\nside = \"left\""), HasSubstr("case.side has no place in a simulation file: a simulation has both sides"));
+  EXPECT_THAT(error("[case]", "[case]\nside = \"left\""),
+              HasSubstr("case.side has no place in a simulation file: a simulation has both sides"));
   EXPECT_THAT(error("[case]", "[case]\nhistory = \"start\""), HasSubstr("case.history has no place"));
   EXPECT_THAT(error("[case]", "[case]\nsteps = 3"), HasSubstr("case.steps has no place"));
-  EXPECT_THAT(error("\"transient\"", "\"none\""), HasSubstr("s.toml:16:10: case.regime of a simulation must be \"steady\" or \"transient\""));
-  EXPECT_THAT(override_error("wheelset.velocity_m_s=3"), HasSubstr("override 'wheelset.velocity_m_s=3': wheelset.velocity_m_s has no place"));
-  EXPECT_THAT(override_error("case.regime=shift"), HasSubstr("override 'case.regime=shift': case.regime of a simulation must be"));
+  EXPECT_THAT(error("\"transient\"", "\"none\""),
+              HasSubstr("s.toml:16:10: case.regime of a simulation must be \"steady\" or \"transient\""));
+  EXPECT_THAT(override_error("wheelset.velocity_m_s=3"),
+              HasSubstr("override 'wheelset.velocity_m_s=3': wheelset.velocity_m_s has no place"));
+  EXPECT_THAT(override_error("case.regime=shift"),
+              HasSubstr("override 'case.regime=shift': case.regime of a simulation must be"));
 }
 
 TEST_F(SimulationText, ContactErrorsKeepTheirPlace) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(error("dx_mm = 0.5", "dx_mm = 0"), HasSubstr("s.toml:29:9: discretisation.dx_mm = 0 must be greater than 0"));
-  EXPECT_THAT(error("cant = \"1:40\"", "cnt = \"1:40\""), HasSubstr("s.toml:26:1: unknown key 'track.cnt' (did you mean 'track.cant'?)"));
+  EXPECT_THAT(error("dx_mm = 0.5", "dx_mm = 0"),
+              HasSubstr("s.toml:29:9: discretisation.dx_mm = 0 must be greater than 0"));
+  EXPECT_THAT(error("cant = \"1:40\"", "cnt = \"1:40\""),
+              HasSubstr("s.toml:26:1: unknown key 'track.cnt' (did you mean 'track.cant'?)"));
   EXPECT_THAT(error("[rail]\nshape.standard = \"60E1\"\n", ""), HasSubstr("rail.shape is missing"));
-  EXPECT_THAT(error("title = \"A flat\"", "wheelset = 3"), HasSubstr("s.toml:1:12: wheelset must be a table, found an integer"));
+  EXPECT_THAT(error("title = \"A flat\"", "wheelset = 3"),
+              HasSubstr("s.toml:1:12: wheelset must be a table, found an integer"));
 }
 
 TEST_F(SimulationText, NominalRadiusIsTheVehicles) {
-  EXPECT_DOUBLE_EQ(parse(kSimulation + "[wheelset]\nnominal_radius_mm = 460\nflange_back_distance_mm = 1365\n").contact.wheelset.flange_back_distance, 1.365);
+  EXPECT_DOUBLE_EQ(parse(kSimulation + "[wheelset]\nnominal_radius_mm = 460\nflange_back_distance_mm = 1365\n")
+                       .contact.wheelset.flange_back_distance,
+                   1.365);
   EXPECT_THAT(samples::error_of([&] { parse(kSimulation + "[wheelset]\nnominal_radius_mm = 490\n"); }),
-              ::testing::HasSubstr("s.toml:31:21: wheelset.nominal_radius_mm = 490 differs from 460 mm of 'axle' in the vehicle file"));
-  EXPECT_DOUBLE_EQ(parse(kSimulation, {"vehicle.wheelsets.0.nominal_radius_mm=490"}).contact.wheelset.nominal_radius, 0.49);
+              ::testing::HasSubstr(
+                  "s.toml:31:21: wheelset.nominal_radius_mm = 490 differs from 460 mm of 'axle' in the vehicle file"));
+  EXPECT_DOUBLE_EQ(parse(kSimulation, {"vehicle.wheelsets.0.nominal_radius_mm=490"}).contact.wheelset.nominal_radius,
+                   0.49);
 }
 
 TEST_F(SimulationText, ErrorsOfOverrides) {
   using ::testing::HasSubstr;
   EXPECT_THAT(override_error("simulation.wheels.1.contact=table"), HasSubstr("the list has 1 entries, number 1"));
-  EXPECT_THAT(override_error("simulation.sped_m_s=3"), HasSubstr("override 'simulation.sped_m_s=3': unknown key 'simulation.sped_m_s' (did you mean"));
-  EXPECT_THAT(override_error("vehicle.bodies.mas.mass_kg=3"), HasSubstr("the name 'mas' is not known (did you mean 'mass'?)"));
-  EXPECT_THAT(override_error("track_model.scale_stiffness=-1"), HasSubstr("track.scale_stiffness = -1 must be greater than 0"));
+  EXPECT_THAT(override_error("simulation.sped_m_s=3"),
+              HasSubstr("override 'simulation.sped_m_s=3': unknown key 'simulation.sped_m_s' (did you mean"));
+  EXPECT_THAT(override_error("vehicle.bodies.mas.mass_kg=3"),
+              HasSubstr("the name 'mas' is not known (did you mean 'mass'?)"));
+  EXPECT_THAT(override_error("track_model.scale_stiffness=-1"),
+              HasSubstr("track.scale_stiffness = -1 must be greater than 0"));
   EXPECT_THAT(override_error("wheel.flats.0.dept_mm=1"), HasSubstr("did you mean 'depth_mm'?"));
-  EXPECT_THAT(error("track = \"track.toml\"\n", "", {"track_model.scale_mass=2"}), HasSubstr("there is no track to change"));
+  EXPECT_THAT(error("track = \"track.toml\"\n", "", {"track_model.scale_mass=2"}),
+              HasSubstr("there is no track to change"));
 }
 
 TEST_F(SimulationText, ShippedVehiclesRunOnShippedTracks) {
   const std::string examples = std::string(TREADMARK_SOURCE_DIR) + "/examples/";
   for (const char* vehicle : {"manchester", "single-wheelset", "wheel-on-mass"})
     for (const char* track : {"zhai-equivalent", "gm-tt0088"}) {
-      const SimulationFile file = parse(kSimulation, {"simulation.vehicle=" + examples + "vehicles/" + vehicle + ".toml",
-                                                      "simulation.track=" + examples + "tracks/" + track + ".toml"});
+      const SimulationFile file =
+          parse(kSimulation, {"simulation.vehicle=" + examples + "vehicles/" + vehicle + ".toml",
+                              "simulation.track=" + examples + "tracks/" + track + ".toml"});
       EXPECT_EQ(file.wheels.size(), 2 * file.vehicle.wheelsets.size());
       EXPECT_EQ(file.vehicle_file.path.stem(), vehicle);
       EXPECT_TRUE(file.track);

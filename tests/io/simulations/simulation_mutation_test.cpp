@@ -17,12 +17,16 @@ std::string damaged(const std::string& text, Random& random) {
   const std::size_t start = text.find('\n', below(text.size() - 2)), end = text.find('\n', start + 1);
   if (start == std::string::npos || end == std::string::npos) return text.substr(0, below(text.size()));
   const std::string line = text.substr(start, end - start), key = line.substr(0, line.find('=') + 1);
-  constexpr const char* kValues[] = {"0", "-1", "1e308", "nan", "\"\"", "\"x\"", "[]", "[[]]", "[[1, 2], 3]", "{}", "[{}]", "true", "[1, 2, 3]"};
+  constexpr const char* kValues[] = {"0",    "-1",          "1e308", "nan",  "\"\"", "\"x\"",    "[]",
+                                     "[[]]", "[[1, 2], 3]", "{}",    "[{}]", "true", "[1, 2, 3]"};
   std::string result = text;
   switch (below(4)) {
-    case 0: return result.erase(start, end - start);
-    case 1: return result.insert(start, line);
-    default: return result.replace(start, end - start, key.size() > 1 ? key + kValues[below(std::size(kValues))] : line + "x");
+    case 0:
+      return result.erase(start, end - start);
+    case 1:
+      return result.insert(start, line);
+    default:
+      return result.replace(start, end - start, key.size() > 1 ? key + kValues[below(std::size(kValues))] : line + "x");
   }
 }
 
@@ -65,15 +69,18 @@ TEST(SimulationMutation, OverridesOnlyThrowError) {
   const treadmark::testing::TemporaryFolder folder;
   folder.write("vehicle.toml", samples::kVehicle);
   folder.write("track.toml", samples::kTrack);
-  for (const std::string& path : {std::string("simulation"), std::string("simulation."), std::string("vehicle."), std::string("vehicle.bodies"),
-                                  std::string("vehicle.vehicle"), std::string("track_model.springs.pad"), std::string("title.a"),
-                                  "simulation" + std::string(100000, '.'), "vehicle" + [] {
-                                    std::string deep;
-                                    for (int i = 0; i < 50000; ++i) deep += ".a";
-                                    return deep;
-                                  }()})
+  for (const std::string& path :
+       {std::string("simulation"), std::string("simulation."), std::string("vehicle."), std::string("vehicle.bodies"),
+        std::string("vehicle.vehicle"), std::string("track_model.springs.pad"), std::string("title.a"),
+        "simulation" + std::string(100000, '.'), "vehicle" + [] {
+          std::string deep;
+          for (int i = 0; i < 50000; ++i) deep += ".a";
+          return deep;
+        }()})
     for (const char* value : {"3", "[]", "{}", "word", "[{}]"})
-      EXPECT_THROW(parse_simulation_text(samples::kSimulation, folder.path() / "s.toml", std::vector<std::string>{path + '=' + value}), Error)
+      EXPECT_THROW(parse_simulation_text(samples::kSimulation, folder.path() / "s.toml",
+                                         std::vector<std::string>{path + '=' + value}),
+                   Error)
           << path.substr(0, 50) << '=' << value;
 }
 

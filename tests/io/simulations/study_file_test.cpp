@@ -57,12 +57,15 @@ class Study : public ::testing::Test {
     folder_.write("vehicle.toml", samples::kVehicle);
     folder_.write("track.toml", samples::kTrack);
     folder_.write("base.toml", kSimulation);
-    folder_.write("case.toml", "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n");
+    folder_.write(
+        "case.toml",
+        "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n");
   }
   StudyFile read(const std::string& text, const std::vector<std::string>& overrides = {}) const {
     return read_study_file(folder_.write("study.toml", text), overrides);
   }
-  std::string error(const std::string& part, const std::string& other, const std::vector<std::string>& overrides = {}) const {
+  std::string error(const std::string& part, const std::string& other,
+                    const std::vector<std::string>& overrides = {}) const {
     return samples::error_of([&] { read(with(kStudy, part, other), overrides); });
   }
   treadmark::testing::TemporaryFolder folder_;
@@ -87,7 +90,8 @@ TEST_F(Study, RunsAreTheProductLastFastest) {
     EXPECT_THAT(study.runs[i].values, ::testing::ElementsAre(i / 6, i / 3 % 2, i % 3));
   }
   EXPECT_THAT(study.runs[11].overrides,
-              ::testing::ElementsAre("simulation.speed_m_s=10.5", "solver.tangential_model=fastsim", "case.regime=\"steady\"", "wheel.flats.0.depth_mm=10"));
+              ::testing::ElementsAre("simulation.speed_m_s=10.5", "solver.tangential_model=fastsim",
+                                     "case.regime=\"steady\"", "wheel.flats.0.depth_mm=10"));
 }
 
 TEST_F(Study, LogarithmicValuesHaveOneRatio) {
@@ -126,7 +130,8 @@ TEST_F(Study, FiguresArePlainData) {
 }
 
 TEST_F(Study, BaseMayStandInTheSameFile) {
-  const StudyFile study = read(kSimulation + "[[study.vary]]\nkey = \"track_model.scale_stiffness\"\nvalues = [0.5, 1, 2]\n");
+  const StudyFile study =
+      read(kSimulation + "[[study.vary]]\nkey = \"track_model.scale_stiffness\"\nvalues = [0.5, 1, 2]\n");
   EXPECT_EQ(study.title, "A flat");
   EXPECT_EQ(study.base, study.path);
   ASSERT_EQ(study.runs.size(), 3u);
@@ -135,8 +140,9 @@ TEST_F(Study, BaseMayStandInTheSameFile) {
 }
 
 TEST_F(Study, BaseMayBeACaseFile) {
-  const StudyFile study = read("[study]\nbase = \"case.toml\"\n[[study.vary]]\nkey = \"rail.shape.standard\"\nvalues = [\"60E1\"]\n"
-                               "[[study.vary]]\nkey = \"wheelset.y_mm\"\nvalues = [0, 1.5]\n");
+  const StudyFile study = read(
+      "[study]\nbase = \"case.toml\"\n[[study.vary]]\nkey = \"rail.shape.standard\"\nvalues = [\"60E1\"]\n"
+      "[[study.vary]]\nkey = \"wheelset.y_mm\"\nvalues = [0, 1.5]\n");
   EXPECT_FALSE(study.base_is_simulation);
   ASSERT_EQ(study.runs.size(), 2u);
   const auto file = std::get<CaseFile>(read_study_run(study, study.runs[1]));
@@ -144,8 +150,9 @@ TEST_F(Study, BaseMayBeACaseFile) {
 }
 
 TEST_F(Study, ListsAndTextsBecomeToml) {
-  const StudyFile study = read("[study]\nbase = \"base.toml\"\n[[study.vary]]\nkey = \"vehicle.springs.primary.stiffness_N_per_m\"\n"
-                               "values = [[1e6, 2e6, 3e6], [2e6, 4e6, 6e6]]\n[[study.vary]]\nkey = \"title\"\nvalues = ['a \"b\" \\c']\n");
+  const StudyFile study = read(
+      "[study]\nbase = \"base.toml\"\n[[study.vary]]\nkey = \"vehicle.springs.primary.stiffness_N_per_m\"\n"
+      "values = [[1e6, 2e6, 3e6], [2e6, 4e6, 6e6]]\n[[study.vary]]\nkey = \"title\"\nvalues = ['a \"b\" \\c']\n");
   const auto file = std::get<SimulationFile>(read_study_run(study, study.runs.at(1)));
   EXPECT_EQ(file.vehicle.springs[0].stiffness[2], 6e6);
   EXPECT_EQ(file.title, "a \"b\" \\c");
@@ -162,7 +169,8 @@ TEST_F(Study, OverridesChangeStudyOrAllRuns) {
 TEST_F(Study, EveryRunIsCheckedBeforehand) {
   using ::testing::HasSubstr;
   EXPECT_THAT(error("simulation.speed_m_s\"\nvalues", "simulation.sped_m_s\"\nvalues"),
-              HasSubstr("study.toml:7:11: run 1 (speed [m/s] = 5, theory = full, wheel.flats.0.depth_mm = 0.1): unknown key 'simulation.sped_m_s'"));
+              HasSubstr("study.toml:7:11: run 1 (speed [m/s] = 5, theory = full, wheel.flats.0.depth_mm = 0.1): "
+                        "unknown key 'simulation.sped_m_s'"));
   EXPECT_THAT(error("values = [5, 10.5]", "values = [5, 0]"), HasSubstr("study.toml:7:14: run 7"));
   EXPECT_THAT(error("=fastsim", "=fastsims"), HasSubstr("study.toml:14:3: run 4"));
   EXPECT_THAT(error("to = 10", "to = 1000"), HasSubstr("run 3"));
@@ -170,23 +178,29 @@ TEST_F(Study, EveryRunIsCheckedBeforehand) {
 
 TEST_F(Study, ErrorsOfVariations) {
   using ::testing::HasSubstr;
-  EXPECT_THAT(error("values = [5, 10.5]", "values = []"), HasSubstr("study.toml:7:10: study.vary.values must be a list with at least one value"));
+  EXPECT_THAT(error("values = [5, 10.5]", "values = []"),
+              HasSubstr("study.toml:7:10: study.vary.values must be a list with at least one value"));
   EXPECT_THAT(error("values = [5, 10.5]\n", ""), HasSubstr("study.toml:5:1: study.vary.values is missing"));
   EXPECT_THAT(error("key = \"simulation.speed_m_s\"\n", ""), HasSubstr("study.toml:6:11: study.vary.key is missing"));
   EXPECT_THAT(error("key = \"wheel.flats.0.depth_mm\"\n", ""), HasSubstr("study.vary.key is missing"));
   EXPECT_THAT(error("key = \"simulation.speed_m_s\"", "key = \"a=3\""), HasSubstr("must be a key only"));
-  EXPECT_THAT(error("key = \"simulation.speed_m_s\"", "key = \"wheel.flats.0.depth_mm\""), HasSubstr("wheel.flats.0.depth_mm is varied twice"));
+  EXPECT_THAT(error("key = \"simulation.speed_m_s\"", "key = \"wheel.flats.0.depth_mm\""),
+              HasSubstr("wheel.flats.0.depth_mm is varied twice"));
   EXPECT_THAT(error("from = 0.1\n", "from = 0\n"), HasSubstr("study.vary.from = 0 must be greater than 0"));
   EXPECT_THAT(error("from = 0.1\n", ""), HasSubstr("study.vary.to needs study.vary.from"));
   EXPECT_THAT(error("count = 3\n", ""), HasSubstr("study.vary.count is missing"));
   EXPECT_THAT(error("count = 3", "count = 1"), HasSubstr("must be at least 2"));
   EXPECT_THAT(error("count = 3", "count = 9999"), HasSubstr("a study of 39996 runs is too large"));
-  EXPECT_THAT(error("from = 0.1", "from = 0.1\nvalues = [1]"), HasSubstr("study.vary.values and study.vary.from exclude each other"));
+  EXPECT_THAT(error("from = 0.1", "from = 0.1\nvalues = [1]"),
+              HasSubstr("study.vary.values and study.vary.from exclude each other"));
   EXPECT_THAT(error("label = \"full\", ", ""), HasSubstr("study.vary.values.label is missing"));
-  EXPECT_THAT(error("set = [\"contact.reference_surface=plane\"]", "set = []"), HasSubstr("study.toml:13:27: study.vary.values.set is empty"));
-  EXPECT_THAT(error("contact.reference_surface=plane", "contact.reference_surface"), HasSubstr("study.toml:13:28: 'contact.reference_surface': '=' is missing"));
+  EXPECT_THAT(error("set = [\"contact.reference_surface=plane\"]", "set = []"),
+              HasSubstr("study.toml:13:27: study.vary.values.set is empty"));
+  EXPECT_THAT(error("contact.reference_surface=plane", "contact.reference_surface"),
+              HasSubstr("study.toml:13:28: 'contact.reference_surface': '=' is missing"));
   EXPECT_THAT(error("spacing", "spacin"), HasSubstr("did you mean 'study.vary.spacing'?"));
-  EXPECT_THAT(error("[study]", "[study]", {"simulation.speed_m_s=3"}), HasSubstr("the study varies simulation.speed_m_s itself"));
+  EXPECT_THAT(error("[study]", "[study]", {"simulation.speed_m_s=3"}),
+              HasSubstr("the study varies simulation.speed_m_s itself"));
 }
 
 TEST_F(Study, ErrorsOfBaseAndFigures) {
@@ -194,17 +208,24 @@ TEST_F(Study, ErrorsOfBaseAndFigures) {
   EXPECT_THAT(error("base.toml", "basis.toml"), HasSubstr("study.toml:3:8: study.base: there is no file"));
   EXPECT_THAT(error("base = \"base.toml\"\n", ""), HasSubstr("study.base is missing"));
   EXPECT_THAT(error("base.toml", "study.toml"), HasSubstr("study.base is a study itself"));
-  EXPECT_THAT(error("[study]", "rail.shape.standard = \"60E1\"\n[study]"), HasSubstr("study.toml:1:1: rail stands beside study.base"));
+  EXPECT_THAT(error("[study]", "rail.shape.standard = \"60E1\"\n[study]"),
+              HasSubstr("study.toml:1:1: rail stands beside study.base"));
   EXPECT_THAT(samples::error_of([&] { read(kSimulation); }), HasSubstr("study.toml:1:1: [study] is missing"));
-  EXPECT_THAT(error("force.svg", "force.png"), HasSubstr("study.toml:25:8: study.figures.file = 'force.png' must end with .svg"));
+  EXPECT_THAT(error("force.svg", "force.png"),
+              HasSubstr("study.toml:25:8: study.figures.file = 'force.png' must end with .svg"));
   EXPECT_THAT(error("\"summary\"", "\"sumary\""), HasSubstr("is not one of \"history\", \"summary\", \"patches\""));
   EXPECT_THAT(error("x = \"simulation.speed_m_s\"\n", ""), HasSubstr("study.figures.x is missing"));
   EXPECT_THAT(error("y = [\"max_force_N\"]", "y = []"), HasSubstr("study.figures.y is empty"));
-  EXPECT_THAT(error("x_range = [0, 40]", "x_range = [40, 0]"), HasSubstr("study.figures.x_range must be two increasing numbers"));
-  EXPECT_THAT(error("series = \"theory\"", "series = \"teory\""), HasSubstr("the variation 'teory' is not known (did you mean 'theory'?)"));
-  EXPECT_THAT(error("labels = [\"exact\", \"simplified\"]", "labels = [\"exact\"]"), HasSubstr("study.figures.labels has 1 texts for 2 values of theory"));
+  EXPECT_THAT(error("x_range = [0, 40]", "x_range = [40, 0]"),
+              HasSubstr("study.figures.x_range must be two increasing numbers"));
+  EXPECT_THAT(error("series = \"theory\"", "series = \"teory\""),
+              HasSubstr("the variation 'teory' is not known (did you mean 'theory'?)"));
+  EXPECT_THAT(error("labels = [\"exact\", \"simplified\"]", "labels = [\"exact\"]"),
+              HasSubstr("study.figures.labels has 1 texts for 2 values of theory"));
   EXPECT_THAT(error("{ x = 7, y", "{ x = 7, z"), HasSubstr("unknown key 'study.figures.mark.z'"));
-  EXPECT_THAT(error("[[study.figures]]", "[[study.figures]]\nfile = \"force.svg\"\nkind = \"patches\"\n[[study.figures]]"), HasSubstr("two figures would be written to force.svg"));
+  EXPECT_THAT(
+      error("[[study.figures]]", "[[study.figures]]\nfile = \"force.svg\"\nkind = \"patches\"\n[[study.figures]]"),
+      HasSubstr("two figures would be written to force.svg"));
 }
 
 }  // namespace

@@ -51,7 +51,8 @@ TEST(VehicleFile, ReadsPartsInSIUnits) {
   ASSERT_EQ(vehicle.bump_stops.size(), 1u);
   EXPECT_EQ(vehicle.bump_stops[0].name, "stop");
   EXPECT_EQ(vehicle.bump_stops[0].direction, Freedom::y);
-  EXPECT_THAT(vehicle.bump_stops[0].displacement, ::testing::ElementsAre(::testing::DoubleEq(0.025), ::testing::DoubleEq(0.030)));
+  EXPECT_THAT(vehicle.bump_stops[0].displacement,
+              ::testing::ElementsAre(::testing::DoubleEq(0.025), ::testing::DoubleEq(0.030)));
   EXPECT_THAT(vehicle.bump_stops[0].force, ::testing::ElementsAre(0.0, 600.0));
   ASSERT_EQ(vehicle.wheelsets.size(), 1u);
   EXPECT_EQ(vehicle.wheelsets[0].body, "axle");
@@ -59,9 +60,10 @@ TEST(VehicleFile, ReadsPartsInSIUnits) {
 }
 
 TEST(VehicleFile, RotationalValuesAreTheLastThree) {
-  const std::string text = samples::with(kVehicle, "damping_N_s_per_m = [0, 0, 4e3]",
-                                         "damping_N_s_per_m = [0, 0, 4e3]\nrotational_stiffness_N_m_per_rad = [1, 2, 3]\n"
-                                         "rotational_damping_N_m_s_per_rad = [4, 5, 6]\nrotational_damper_stiffness_N_m_per_rad = [7, 8, 9]");
+  const std::string text = samples::with(
+      kVehicle, "damping_N_s_per_m = [0, 0, 4e3]",
+      "damping_N_s_per_m = [0, 0, 4e3]\nrotational_stiffness_N_m_per_rad = [1, 2, 3]\n"
+      "rotational_damping_N_m_s_per_rad = [4, 5, 6]\nrotational_damper_stiffness_N_m_per_rad = [7, 8, 9]");
   const SpringSpec spring = parse_vehicle_text(text, "v.toml").springs.at(0);
   EXPECT_EQ(spring.stiffness, (SixValues{30e6, 4e6, 1.2e6, 1, 2, 3}));
   EXPECT_EQ(spring.damping, (SixValues{0, 0, 4e3, 4, 5, 6}));
@@ -80,10 +82,12 @@ TEST(TrackFile, ReadsRailsAndPlaces) {
 }
 
 TEST(VehicleFile, OverridesByName) {
-  const std::vector<CaseOverride> changes{
-      parse_override("bodies.mass.mass_kg=30000"), parse_override("springs.primary.stiffness_N_per_m=[1e6, 2e6, 3e6]"),
-      parse_override("springs.primary.damping_N_s_per_m.2=5e3"), parse_override("wheelsets.0.nominal_radius_mm=500"),
-      parse_override("bump_stops.stop.rotational=1"), parse_override("name=other")};
+  const std::vector<CaseOverride> changes{parse_override("bodies.mass.mass_kg=30000"),
+                                          parse_override("springs.primary.stiffness_N_per_m=[1e6, 2e6, 3e6]"),
+                                          parse_override("springs.primary.damping_N_s_per_m.2=5e3"),
+                                          parse_override("wheelsets.0.nominal_radius_mm=500"),
+                                          parse_override("bump_stops.stop.rotational=1"),
+                                          parse_override("name=other")};
   const std::vector<CaseOverride> good = {changes[0], changes[1], changes[2], changes[3], changes[5]};
   const VehicleModel vehicle = parse_vehicle_text(kVehicle, "v.toml", good);
   EXPECT_EQ(vehicle.name, "other");
@@ -119,9 +123,12 @@ TEST(ShippedVehicle, ManchesterHasItsMassesAndIsSymmetric) {
   EXPECT_EQ(vehicle.bump_stops.size(), 2u);
   // Leading wheelset first; wheelbase 2.56 m, bogies 19 m apart.
   for (std::size_t i = 1; i < 4; ++i)
-    EXPECT_GT(body_of(vehicle.bodies, vehicle.wheelsets[i - 1].body).position.x(), body_of(vehicle.bodies, vehicle.wheelsets[i].body).position.x());
-  EXPECT_NEAR(body_of(vehicle.bodies, "wheelset1").position.x() - body_of(vehicle.bodies, "wheelset2").position.x(), 2.56, 1e-12);
-  EXPECT_NEAR(body_of(vehicle.bodies, "bogie1").position.x() - body_of(vehicle.bodies, "bogie2").position.x(), 19.0, 1e-12);
+    EXPECT_GT(body_of(vehicle.bodies, vehicle.wheelsets[i - 1].body).position.x(),
+              body_of(vehicle.bodies, vehicle.wheelsets[i].body).position.x());
+  EXPECT_NEAR(body_of(vehicle.bodies, "wheelset1").position.x() - body_of(vehicle.bodies, "wheelset2").position.x(),
+              2.56, 1e-12);
+  EXPECT_NEAR(body_of(vehicle.bodies, "bogie1").position.x() - body_of(vehicle.bodies, "bogie2").position.x(), 19.0,
+              1e-12);
   // Weights balance about the middle, and every spring has its mirror images.
   Vec3 moment = Vec3::Zero();
   for (const BodySpec& body : vehicle.bodies) moment += body.mass * body.position;
@@ -148,7 +155,8 @@ TEST(ShippedVehicle, SmallOnesCarryTheSameWheelLoad) {
   }
 }
 
-/// The derivation that the file states, again from Zhai's data by another way: the characteristic length of the beam on its bed.
+/// The derivation that the file states, again from Zhai's data by another way: the characteristic length of the beam on
+/// its bed.
 TEST(ShippedTrack, ZhaiIsWhatItsDataSay) {
   const TrackModel track = read_track_file(kExamples + "tracks/zhai-equivalent.toml");
   const double bending = 2.059e11 * 3.217e-5, bed = 65e6 / 0.545;

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <vector>
 
-#include "treadmark/scans/cgal/plane_triangulation.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/scans/cgal/plane_triangulation.hpp"
 
 namespace treadmark::scans {
 

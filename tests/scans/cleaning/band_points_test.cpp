@@ -38,10 +38,13 @@ Vec3 point_of(Body body, const Section& section, const Known& k) {
 }
 
 /// Random places in [u_min, u_max], 3 mm or more from the ends of the section.
-std::vector<Known> random_places(const Section& section, std::size_t count, double u_min, double u_max, std::uint64_t seed) {
+std::vector<Known> random_places(const Section& section, std::size_t count, double u_min, double u_max,
+                                 std::uint64_t seed) {
   Random random(seed);
   std::vector<Known> out(count);
-  for (Known& k : out) k = {u_min + (u_max - u_min) * random.uniform(), 3e-3 + (section.length() - 6e-3) * random.uniform(), 1e-3 * (random.uniform() - 0.5)};
+  for (Known& k : out)
+    k = {u_min + (u_max - u_min) * random.uniform(), 3e-3 + (section.length() - 6e-3) * random.uniform(),
+         1e-3 * (random.uniform() - 0.5)};
   return out;
 }
 
@@ -126,8 +129,10 @@ TEST(BandPoints, WhatIsOffTheBandIsCounted) {
   for (int k = 0; k < 5; ++k) places.push_back({0.6 + 0.02 * k, 30e-3, 0.0});  // lone points beyond the end
   auto cloud = cloud_of(Body::rail, section, places, Pose{});
   const double top = section.length() / 2;
-  for (int k = 0; k < 7; ++k) cloud.push_back(point_of(Body::rail, section, {0.1 + 0.01 * k, top, k % 2 == 0 ? 9e-3 : -9e-3}));
-  for (int k = 0; k < 11; ++k) cloud.emplace_back(0.2, section.y_max() + 5e-3 + 1e-3 * k, -section.at(section.length()).position.y());
+  for (int k = 0; k < 7; ++k)
+    cloud.push_back(point_of(Body::rail, section, {0.1 + 0.01 * k, top, k % 2 == 0 ? 9e-3 : -9e-3}));
+  for (int k = 0; k < 11; ++k)
+    cloud.emplace_back(0.2, section.y_max() + 5e-3 + 1e-3 * k, -section.at(section.length()).position.y());
   const Projection p = project(cloud, {}, Pose{}, section, {});
   EXPECT_EQ(p.far_off, 7u);
   EXPECT_EQ(p.beyond_section, 11u);
@@ -141,7 +146,8 @@ TEST(BandPoints, AnArcOfAWheelIsOpenAlsoAcrossTheSeam) {
   const Section section = section_of(Body::wheel);
   for (const double from : {0.5, 2.5, -3.1}) {
     const auto places = random_places(section, 30000, from, from + 2.0, 4);
-    const Projection p = project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
+    const Projection p =
+        project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
     EXPECT_FALSE(p.band.closed);
     const double begin = p.band.a_min - kRadius * from;
     EXPECT_NEAR(begin - kTurn * std::round(begin / kTurn), 0.0, 2.1e-3) << from;
@@ -158,8 +164,10 @@ TEST(BandPoints, LinesThatAreFarApartCloseAWheel) {
   const int lines = static_cast<int>(std::lround(kTurn / 30e-3));
   std::vector<Known> places;
   for (int line = 0; line < lines; ++line)
-    for (int k = 0; k < 100; ++k) places.push_back({2.0 * kPi * (line + 0.37) / lines - kPi, 3e-3 + (section.length() - 6e-3) * k / 99.0, 0.0});
-  const auto closed = project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
+    for (int k = 0; k < 100; ++k)
+      places.push_back({2.0 * kPi * (line + 0.37) / lines - kPi, 3e-3 + (section.length() - 6e-3) * k / 99.0, 0.0});
+  const auto closed =
+      project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
   EXPECT_TRUE(closed.band.closed);
   EXPECT_EQ(closed.points.size(), places.size());
   expect_places(closed, Body::wheel, places);
@@ -181,7 +189,8 @@ TEST(BandPoints, FewPointsAreRefused) {
     EXPECT_EQ(error.kind(), ErrorKind::input_data);
     EXPECT_NE(error.message().find("999"), std::string::npos);
   }
-  EXPECT_NO_THROW(project(cloud_of(Body::rail, section, random_places(section, 1000, 0.0, 0.5, 1), Pose{}), {}, Pose{}, section, {}));
+  EXPECT_NO_THROW(project(cloud_of(Body::rail, section, random_places(section, 1000, 0.0, 0.5, 1), Pose{}), {}, Pose{},
+                          section, {}));
 }
 
 TEST(BandPoints, TheSameForAnyNumberOfThreads) {

@@ -26,7 +26,9 @@ inline Section straight_section(double width, double v = 0.0) {
 /// A rail's band, or a wheel's all round.
 inline Band straight_band(double length, double width, bool closed) {
   const double radius = length / (2.0 * std::numbers::pi);
-  if (closed) return {Body::wheel, radius, straight_section(width, radius), -std::numbers::pi * radius, std::numbers::pi * radius, true};
+  if (closed)
+    return {Body::wheel, radius, straight_section(width, radius), -std::numbers::pi * radius, std::numbers::pi * radius,
+            true};
   return {Body::rail, 1.0, straight_section(width), 0.0, length, false};
 }
 
@@ -59,14 +61,17 @@ inline BandPoints sorted(const Band& band, std::size_t rows, std::size_t columns
 
 /// per_cell points at random places of every cell, at distance(a, s) and noise.
 template <class Distance>
-std::vector<Sample> scattered(const Band& band, std::size_t rows, std::size_t columns, int per_cell, double noise, std::uint64_t seed, const Distance& distance) {
+std::vector<Sample> scattered(const Band& band, std::size_t rows, std::size_t columns, int per_cell, double noise,
+                              std::uint64_t seed, const Distance& distance) {
   Random random(seed);
   std::vector<Sample> out;
-  const double da = band.length() / static_cast<double>(rows), ds = band.section.length() / static_cast<double>(columns);
+  const double da = band.length() / static_cast<double>(rows),
+               ds = band.section.length() / static_cast<double>(columns);
   for (std::size_t r = 0; r < rows; ++r)
     for (std::size_t c = 0; c < columns; ++c)
       for (int k = 0; k < per_cell; ++k) {
-        const double a = da * (static_cast<double>(r) + random.uniform()), s = ds * (static_cast<double>(c) + random.uniform());
+        const double a = da * (static_cast<double>(r) + random.uniform()),
+                     s = ds * (static_cast<double>(c) + random.uniform());
         const double d = distance(a, s);
         out.push_back({a, s, d + noise * gaussian(random)});
       }

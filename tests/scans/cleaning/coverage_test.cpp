@@ -25,7 +25,9 @@ double apart(const Band& band, double a, double b) {
 BandPoints with_holes(const Band& band, const std::vector<Circle>& holes) {
   auto samples = tests::scattered(band, kRows, kColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
   std::erase_if(samples, [&](const Sample& p) {
-    return std::any_of(holes.begin(), holes.end(), [&](const Circle& h) { return std::hypot(apart(band, p.a, h.a), p.s - h.s) < 0.5 * h.diameter; });
+    return std::any_of(holes.begin(), holes.end(), [&](const Circle& h) {
+      return std::hypot(apart(band, p.a, h.a), p.s - h.s) < 0.5 * h.diameter;
+    });
   });
   return tests::sorted(band, kRows, kColumns, samples);
 }
@@ -85,7 +87,8 @@ TEST(Coverage, OutliersCoverNothing) {
   const Band band = tests::straight_band(kLength, kWidth, false);
   BandPoints points = with_holes(band, {});
   for (std::size_t i = 0; i < points.size(); ++i) {
-    if (std::hypot(points.a[i] - 0.2, points.s[i] - 30e-3) < 8e-3) points.state[i] = i % 2 == 0 ? PointState::outlier : PointState::off_band;
+    if (std::hypot(points.a[i] - 0.2, points.s[i] - 30e-3) < 8e-3)
+      points.state[i] = i % 2 == 0 ? PointState::outlier : PointState::off_band;
     if (std::hypot(points.a[i] - 0.4, points.s[i] - 30e-3) < 8e-3) points.state[i] = PointState::held_out;
   }
   const Coverage c = find_coverage(points, band, {});
@@ -106,11 +109,13 @@ TEST(Coverage, DistancesAgreeWithBruteForce) {
       const double part = 0.4 + 0.045 * static_cast<double>(seed);
       for (std::size_t r = 0; r < kSmallRows; ++r)
         for (std::size_t c = 0; c < kSmallColumns; ++c)
-          if (random.uniform() < part && std::hypot(static_cast<double>(r % 40) - 2.0, static_cast<double>(c) - 20.0) > 7.0) {
+          if (random.uniform() < part &&
+              std::hypot(static_cast<double>(r % 40) - 2.0, static_cast<double>(c) - 20.0) > 7.0) {
             samples.push_back({da * (static_cast<double>(r) + 0.5), ds * (static_cast<double>(c) + 0.5), 0.0});
             present[r * kSmallColumns + c] = 1;
           }
-      const Coverage cover = find_coverage(tests::sorted(band, kSmallRows, kSmallColumns, samples), band, {.least_filled = 0.0});
+      const Coverage cover =
+          find_coverage(tests::sorted(band, kSmallRows, kSmallColumns, samples), band, {.least_filled = 0.0});
       // as for points that are about as far apart along as across
       if (cover.gap_a > 2.0 * cover.gap_s || cover.gap_s > 2.0 * cover.gap_a) continue;
       std::vector<double> distance(present.size(), 1e9);
@@ -136,7 +141,8 @@ TEST(Coverage, DistancesAgreeWithBruteForce) {
             if (region[p] <= region[q]) continue;
             auto rows = std::max(p / kSmallColumns, q / kSmallColumns) - std::min(p / kSmallColumns, q / kSmallColumns);
             if (closed) rows = std::min(rows, kSmallRows - rows);
-            const auto columns = std::max(p % kSmallColumns, q % kSmallColumns) - std::min(p % kSmallColumns, q % kSmallColumns);
+            const auto columns =
+                std::max(p % kSmallColumns, q % kSmallColumns) - std::min(p % kSmallColumns, q % kSmallColumns);
             if (rows > 1 || columns > 1) continue;
             region[p] = region[q];
             changed = true;
@@ -191,7 +197,8 @@ TEST(Coverage, GapsBetweenScanLinesAreNoHoles) {
     EXPECT_NEAR(lines.limit, 2.0 * lines.gap_a, 1e-12);
     EXPECT_TRUE(lines.holes.empty());
     // six lines are missing over 50 mm
-    std::erase_if(samples, [](const Sample& p) { return std::fabs(p.a - 0.25) < 3 * kApart && p.s > 7e-3 && p.s < 57e-3; });
+    std::erase_if(samples,
+                  [](const Sample& p) { return std::fabs(p.a - 0.25) < 3 * kApart && p.s > 7e-3 && p.s < 57e-3; });
     const Coverage hole = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
     EXPECT_NEAR(hole.gap_a, kApart, 1.1e-3);
     ASSERT_EQ(hole.holes.size(), 1u);

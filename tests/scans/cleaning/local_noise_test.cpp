@@ -24,8 +24,11 @@ TEST(LocalNoise, LevelOfKnownNoise) {
   for (const bool closed : {false, true}) {
     const Band band = tests::straight_band(kLength, kWidth, closed);
     // a surface that bends: one period in the band, 1 mm
-    const auto wave = [](double a, double s) { return 1e-3 * std::sin(2.0 * std::numbers::pi * a / kLength) + 0.2 * s * s; };
-    BandPoints points = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 3, kNoise, 1, wave));
+    const auto wave = [](double a, double s) {
+      return 1e-3 * std::sin(2.0 * std::numbers::pi * a / kLength) + 0.2 * s * s;
+    };
+    BandPoints points =
+        tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 3, kNoise, 1, wave));
     const LocalNoise noise = find_noise(points, band, {});
     EXPECT_NEAR(noise.typical, kNoise, 0.03 * kNoise);
     ASSERT_EQ(noise.sigma.size(), noise.tile_rows * noise.tile_columns);
@@ -47,7 +50,8 @@ TEST(LocalNoise, TilesFollowNoiseThatChanges) {
   for (std::size_t row = 0; row < kRows; row += 16) {
     const double a = points.cell_a * (static_cast<double>(row) + 8.0), here = level(a);
     if (std::fabs(a - 0.5 * kLength) < 20e-3) continue;
-    for (std::size_t column = 0; column < kColumns; column += 16) EXPECT_NEAR(noise.at(row, column), here, 0.2 * here) << a;
+    for (std::size_t column = 0; column < kColumns; column += 16)
+      EXPECT_NEAR(noise.at(row, column), here, 0.2 * here) << a;
   }
 }
 
@@ -82,7 +86,8 @@ TEST(LocalNoise, AKinkAndAStepKeepTheirPoints) {
   const auto kink = [](double, double s) { return 0.044 * std::max(0.0, s - 0.5 * kWidth); };
   const auto step = [](double a, double) { return a > 0.5 * kLength ? 0.5e-3 : 0.0; };
   for (const double noise : {0.0, 3e-6}) {
-    BandPoints kinked = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 4, noise, 4, kink));
+    BandPoints kinked =
+        tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 4, noise, 4, kink));
     find_noise(kinked, band, {});
     std::size_t near = 0, lost = 0;
     for (std::size_t i = 0; i < kinked.size(); ++i)
@@ -91,7 +96,8 @@ TEST(LocalNoise, AKinkAndAStepKeepTheirPoints) {
         lost += kinked.state[i] == PointState::outlier ? 1 : 0;
       }
     EXPECT_LT(static_cast<double>(lost), 0.002 * static_cast<double>(near)) << noise;
-    BandPoints stepped = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 4, noise, 5, step));
+    BandPoints stepped =
+        tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 4, noise, 5, step));
     find_noise(stepped, band, {});
     near = lost = 0;
     for (std::size_t i = 0; i < stepped.size(); ++i)
@@ -108,7 +114,9 @@ TEST(LocalNoise, LonePointsInGapsAreIsolated) {
   auto samples = tests::scattered(band, kRows, kColumns, 3, kNoise, 6, flat);
   const double round_a = 0.1, wide_a = 0.3, middle = 0.5 * kWidth;
   // a round gap of 20 mm and one of 130 mm all across
-  std::erase_if(samples, [&](const Sample& p) { return std::hypot(p.a - round_a, p.s - middle) < 10e-3 || std::fabs(p.a - wide_a) < 65e-3; });
+  std::erase_if(samples, [&](const Sample& p) {
+    return std::hypot(p.a - round_a, p.s - middle) < 10e-3 || std::fabs(p.a - wide_a) < 65e-3;
+  });
   const std::size_t before = samples.size();
   samples.push_back({round_a, middle, 3e-3});
   samples.push_back({wide_a, middle, 0.0});

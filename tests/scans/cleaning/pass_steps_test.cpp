@@ -31,7 +31,8 @@ struct Scan {
   std::vector<Vec3> points, exact;
   std::vector<std::uint16_t> passes;
 
-  void add(const Section& section, std::uint16_t pass, double from, double to, const Vec3& shift_S, const Vec3& turn_S, int count, std::uint64_t seed) {
+  void add(const Section& section, std::uint16_t pass, double from, double to, const Vec3& shift_S, const Vec3& turn_S,
+           int count, std::uint64_t seed) {
     Random random(seed);
     const double angle = turn_S.norm();
     const Mat3 turn = angle > 0.0 ? Mat3(Eigen::AngleAxisd(angle, turn_S / angle)) : Mat3::Identity();
@@ -46,7 +47,9 @@ struct Scan {
       passes.push_back(pass);
     }
   }
-  Projection projection(const Section& section) const { return project(points, {}, X_CS, section, {Body::wheel, kRadius}); }
+  Projection projection(const Section& section) const {
+    return project(points, {}, X_CS, section, {Body::wheel, kRadius});
+  }
 };
 
 /// Greatest and rms difference of mean distances between passes in cells of 8 mm that two have seen.
@@ -57,7 +60,8 @@ struct Difference {
 Difference difference(const Projection& p, std::span<const std::uint16_t> passes) {
   std::map<std::pair<long, long>, std::map<std::uint16_t, std::pair<double, int>>> cells;
   for (std::size_t i = 0; i < p.points.size(); ++i) {
-    auto& [sum, count] = cells[{std::lround(p.points.a[i] / 8e-3), std::lround(p.points.s[i] / 8e-3)}][passes[p.points.index[i]]];
+    auto& [sum, count] =
+        cells[{std::lround(p.points.a[i] / 8e-3), std::lround(p.points.s[i] / 8e-3)}][passes[p.points.index[i]]];
     sum += p.points.d[i];
     ++count;
   }
@@ -113,7 +117,8 @@ TEST(PassSteps, RigidErrorsAreRemovedWherePassesOverlap) {
   EXPECT_LT(again.after, 1.05 * steps.after);
   EXPECT_LT(again.before, 1.05 * steps.after);
   // a pass moves as one: distances within it stay
-  for (std::size_t i = 1; i < 50; ++i) EXPECT_NEAR((scan.points[i] - scan.points[0]).norm(), (scan.exact[i] - scan.exact[0]).norm(), 1e-12);
+  for (std::size_t i = 1; i < 50; ++i)
+    EXPECT_NEAR((scan.points[i] - scan.points[0]).norm(), (scan.exact[i] - scan.exact[0]).norm(), 1e-12);
 }
 
 TEST(PassSteps, DamageInOneOfThemDoesNotPull) {
@@ -123,7 +128,8 @@ TEST(PassSteps, DamageInOneOfThemDoesNotPull) {
   for (std::size_t i = 0; i < scan.points.size(); ++i) {
     const Vec3 p = scan.X_CS.apply_inverse(scan.points[i]);
     const double u = std::atan2(p.x(), p.z());
-    if (scan.passes[i] == 4 && u > -0.2 && u < -0.17) scan.points[i] = scan.X_CS.apply(p - 1e-3 * Vec3(std::sin(u), 0.0, std::cos(u)));
+    if (scan.passes[i] == 4 && u > -0.2 && u < -0.17)
+      scan.points[i] = scan.X_CS.apply(p - 1e-3 * Vec3(std::sin(u), 0.0, std::cos(u)));
   }
   const Projection before = scan.projection(section);
   apply(find_pass_steps(before.points, before.band, scan.passes), scan.passes, scan.X_CS, scan.points);
@@ -152,7 +158,8 @@ TEST(PassSteps, APassWithoutOverlapStays) {
   EXPECT_LT(steps.passes[3].shift_S.norm(), 1e-15);
   EXPECT_LT(steps.passes[3].turn_S.norm(), 1e-15);
   apply(steps, scan.passes, scan.X_CS, scan.points);
-  for (std::size_t i = scan.points.size() - 30000; i < scan.points.size(); ++i) ASSERT_LT((scan.points[i] - before[i]).norm(), 1e-14);
+  for (std::size_t i = scan.points.size() - 30000; i < scan.points.size(); ++i)
+    ASSERT_LT((scan.points[i] - before[i]).norm(), 1e-14);
 }
 
 TEST(PassSteps, NothingToDoForOnePass) {

@@ -19,11 +19,14 @@ TEST(Thin, OnePointACube) {
   constexpr double kSize = 5e-3;
   Random random(1);
   std::vector<Vec3> points;
-  for (int k = 0; k < 20000; ++k) points.push_back(origin + 0.1 * Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5));
+  for (int k = 0; k < 20000; ++k)
+    points.push_back(origin + 0.1 * Vec3(random.uniform() - 0.5, random.uniform() - 0.5, random.uniform() - 0.5));
   std::map<std::tuple<long, long, long>, std::pair<Vec3, int>> cubes;  // by z, y, x
   for (const Vec3& p : points) {
     const Vec3 at = (p - origin) / kSize;
-    auto [entry, fresh] = cubes.try_emplace({std::lround(std::floor(at.z())), std::lround(std::floor(at.y())), std::lround(std::floor(at.x()))}, Vec3::Zero(), 0);
+    auto [entry, fresh] = cubes.try_emplace(
+        {std::lround(std::floor(at.z())), std::lround(std::floor(at.y())), std::lround(std::floor(at.x()))},
+        Vec3::Zero(), 0);
     entry->second.first += p - origin;
     ++entry->second.second;
   }

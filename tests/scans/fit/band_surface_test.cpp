@@ -29,8 +29,10 @@ SplineField waves(const Band& band, double bump_a, double bump_height = 0.4e-3) 
   const double length = band.length(), width = band.section.length();
   SplineField field(length, width, band.closed);
   const auto coarse_along = static_cast<std::size_t>(4 * std::lround(length / 0.2));
-  SplineLevel coarse = tests::level_of(length, width, coarse_along, 2, band.closed), fine = tests::level_of(length, width, 8 * coarse_along, 16, band.closed);
-  tests::sample_into(coarse, [&](double a, double s) { return 0.2e-3 * std::cos(4.0 * kPi * a / length) * (1.0 - s / width); });
+  SplineLevel coarse = tests::level_of(length, width, coarse_along, 2, band.closed),
+              fine = tests::level_of(length, width, 8 * coarse_along, 16, band.closed);
+  tests::sample_into(coarse,
+                     [&](double a, double s) { return 0.2e-3 * std::cos(4.0 * kPi * a / length) * (1.0 - s / width); });
   tests::sample_into(fine, [&](double a, double s) {
     const double off = band.closed ? a - bump_a - length * std::round((a - bump_a) / length) : a - bump_a;
     const double square = (off * off + (s - 0.5 * width) * (s - 0.5 * width)) / (12e-3 * 12e-3);
@@ -88,7 +90,8 @@ TEST(BandSurface, PlacesAreOnTheMovedSection) {
       EXPECT_NEAR((p - at.position).norm(), std::fabs(field.value(a, s)), 1e-15);
       const Vec3 q = fitted.point(a, s);
       const double u = (band.a_min + a) / band.radius - fitted.u_zero;
-      EXPECT_LT((q - (wheel ? Vec3(p.y() * std::sin(u), p.x(), p.y() * std::cos(u)) : Vec3(u, p.x(), -p.y()))).norm(), 1e-14);
+      EXPECT_LT((q - (wheel ? Vec3(p.y() * std::sin(u), p.x(), p.y() * std::cos(u)) : Vec3(u, p.x(), -p.y()))).norm(),
+                1e-14);
     }
   }
 }
@@ -140,16 +143,21 @@ TEST(BandSurface, ToleranceThinsStations) {
   const SplineField field = waves(band, bump, small);
   const FittedBand fitted{band, field, 2e-3, band.section.length() - 2e-3, 0.0};
   const double knot = field.levels()[1].knot_a;
-  const SliceSet close = to_slices(fitted, 0.5e-3, 1e-9, "close"), loose = to_slices(fitted, 0.5e-3, 2.0 * small, "loose");
+  const SliceSet close = to_slices(fitted, 0.5e-3, 1e-9, "close"),
+                 loose = to_slices(fitted, 0.5e-3, 2.0 * small, "loose");
   EXPECT_GT(close.u.size(), loose.u.size() + 5);
   const auto around = [&](const SliceSet& slices, double reach) {
-    return std::count_if(slices.u.begin(), slices.u.end(), [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) < reach; });
+    return std::count_if(slices.u.begin(), slices.u.end(),
+                         [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) < reach; });
   };
   // every knot where the bump is
   EXPECT_GE(around(close, 4.0 * knot), 7);
   EXPECT_LT(around(loose, 4.0 * knot), 5);
   // as few away from it
-  const auto far = [&](const SliceSet& slices) { return std::count_if(slices.u.begin(), slices.u.end(), [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) > 0.1; }); };
+  const auto far = [&](const SliceSet& slices) {
+    return std::count_if(slices.u.begin(), slices.u.end(),
+                         [&](double u) { return std::fabs(kRadius * u - band.a_min - bump) > 0.1; });
+  };
   EXPECT_NEAR(static_cast<double>(far(close)), static_cast<double>(far(loose)), 3.0);
   EXPECT_LT(worst(fitted, loose, 0.0, band.length()), 3e-6 + 2.0 * small);
 }
@@ -163,7 +171,8 @@ TEST(BandSurface, SectionAsAProfile) {
     EXPECT_EQ(p.name, "name");
     EXPECT_EQ(p.body, band.body);
     ASSERT_EQ(p.y.size(), p.z.size());
-    const double first = band.section.at(5e-3).position.x(), last = band.section.at(band.section.length() - 7e-3).position.x();
+    const double first = band.section.at(5e-3).position.x(),
+                 last = band.section.at(band.section.length() - 7e-3).position.x();
     EXPECT_NEAR(wheel ? p.y.back() : p.y.front(), first, 1e-12);
     EXPECT_NEAR(wheel ? p.y.front() : p.y.back(), last, 1e-12);
     for (std::size_t k = 0; k < p.y.size(); ++k) {
@@ -185,7 +194,8 @@ TEST(BandSurface, NodesOfTrianglesAreEven) {
     // the circle through the corners of a triangle with sides of spacing has this radius; rows may lie closer
     const double reach = kSpacing / std::sqrt(3.0);
     Random random(1);
-    for (int k = 0; k < 2000; ++k) EXPECT_LT(nearest(nodes, {0.3 * random.uniform(), 3e-3 + 42e-3 * random.uniform()}, band), reach);
+    for (int k = 0; k < 2000; ++k)
+      EXPECT_LT(nearest(nodes, {0.3 * random.uniform(), 3e-3 + 42e-3 * random.uniform()}, band), reach);
     for (std::size_t k = 0; k < nodes.size(); ++k) {
       EXPECT_GE(nodes[k].x(), 0.0);
       EXPECT_LE(nodes[k].x(), 0.3 + 1e-12);
@@ -199,18 +209,23 @@ TEST(BandSurface, NodesOfTrianglesAreEven) {
     }
     // corners of an open band belong to it
     if (!closed) {
-      for (const Vec2& corner : {Vec2(0.0, 3e-3), Vec2(0.3, 3e-3), Vec2(0.0, 45e-3), Vec2(0.3, 45e-3)}) EXPECT_LT(nearest(nodes, corner, band), 1e-12);
+      for (const Vec2& corner : {Vec2(0.0, 3e-3), Vec2(0.3, 3e-3), Vec2(0.0, 45e-3), Vec2(0.3, 45e-3)})
+        EXPECT_LT(nearest(nodes, corner, band), 1e-12);
     }
 
     // open cells: exactly their nodes are missing
     const BandPoints points = tests::sorted(band, 100, 25, {});
     std::vector<std::uint8_t> open(2500, 0);
-    const auto hole = [](std::size_t row, std::size_t column) { return (row >= 30 && row < 45 && column >= 8 && column < 16) || (row >= 97 && column < 12); };
+    const auto hole = [](std::size_t row, std::size_t column) {
+      return (row >= 30 && row < 45 && column >= 8 && column < 16) || (row >= 97 && column < 12);
+    };
     for (std::size_t r = 0; r < 100; ++r)
       for (std::size_t c = 0; c < 25; ++c) open[r * 25 + c] = hole(r, c) ? 1 : 0;
     std::vector<Vec2> wanted;
     for (const Vec2& n : nodes)
-      if (!hole(std::min<std::size_t>(99, static_cast<std::size_t>(n.x() / points.cell_a)), std::min<std::size_t>(24, static_cast<std::size_t>(n.y() / points.cell_s)))) wanted.push_back(n);
+      if (!hole(std::min<std::size_t>(99, static_cast<std::size_t>(n.x() / points.cell_a)),
+                std::min<std::size_t>(24, static_cast<std::size_t>(n.y() / points.cell_s))))
+        wanted.push_back(n);
     EXPECT_LT(wanted.size(), nodes.size());
     EXPECT_EQ(triangle_nodes(fitted, points, open, kSpacing), wanted);
   }
@@ -220,20 +235,24 @@ TEST(BandSurface, SagittaHasTheCurvatureOfTheSurface) {
   // a crown of radius 0.3 round a wheel of radius 0.46
   constexpr double kCrown = 0.3;
   std::vector<Vec2> arc;
-  for (int k = -60; k <= 60; ++k) arc.emplace_back(kCrown * std::sin(k * 2e-3), kRadius - kCrown * (1.0 - std::cos(k * 2e-3)));
+  for (int k = -60; k <= 60; ++k)
+    arc.emplace_back(kCrown * std::sin(k * 2e-3), kRadius - kCrown * (1.0 - std::cos(k * 2e-3)));
   const Band wheel{Body::wheel, kRadius, Section(arc), -kPi * kRadius, kPi * kRadius, true};
   const Band rail{Body::rail, 1.0, Section(arc), 0.0, 1.0, false};
   for (const Band& band : {wheel, rail}) {
     const SplineField none(band.length(), band.section.length(), band.closed), field = waves(band, 0.4);
-    const FittedBand bare{band, none, 2e-3, band.section.length() - 2e-3, 0.0}, fitted{band, field, 2e-3, band.section.length() - 2e-3, 0.0};
+    const FittedBand bare{band, none, 2e-3, band.section.length() - 2e-3, 0.0},
+        fitted{band, field, 2e-3, band.section.length() - 2e-3, 0.0};
     constexpr double kStep = 1e-3;
     for (const double a : {0.1, 0.4, 0.77})
       for (const double s : {10e-3, 33.3e-3, 60e-3}) {
         const std::vector<Vec2> nodes{{a - kStep, s}, {a, s}, {a + kStep, s}, {a, s - kStep}, {a, s + kStep}};
         const std::vector<double> h = sagitta(bare, nodes), with = sagitta(fitted, nodes);
-        EXPECT_NEAR((h[0] - 2.0 * h[1] + h[2]) / (kStep * kStep), band.body == Body::wheel ? -1.0 / kRadius : 0.0, 1e-6);
+        EXPECT_NEAR((h[0] - 2.0 * h[1] + h[2]) / (kStep * kStep), band.body == Body::wheel ? -1.0 / kRadius : 0.0,
+                    1e-6);
         EXPECT_NEAR((h[3] - 2.0 * h[1] + h[4]) / (kStep * kStep), -1.0 / kCrown, 2e-3);
-        for (std::size_t k = 0; k < nodes.size(); ++k) EXPECT_NEAR(with[k] - h[k], field.value(nodes[k].x(), nodes[k].y()), 1e-12);
+        for (std::size_t k = 0; k < nodes.size(); ++k)
+          EXPECT_NEAR(with[k] - h[k], field.value(nodes[k].x(), nodes[k].y()), 1e-12);
       }
   }
 }

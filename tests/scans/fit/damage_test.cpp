@@ -51,7 +51,9 @@ TEST(Damage, KnownFlatsAreMeasured) {
   for (const bool closed : {false, true}) {
     const Band band = tests::straight_band(kLength, kWidth, closed);
     // in the order of their volumes; the second is material that stands out, the third lies across a closed band's seam
-    const std::vector<Flat> flats{{1.2, 40e-3, 60e-3, 25e-3, 1e-3}, {0.6, 35e-3, 50e-3, 20e-3, -0.8e-3}, {closed ? 4e-3 : 0.2, 45e-3, 40e-3, 20e-3, 0.6e-3}};
+    const std::vector<Flat> flats{{1.2, 40e-3, 60e-3, 25e-3, 1e-3},
+                                  {0.6, 35e-3, 50e-3, 20e-3, -0.8e-3},
+                                  {closed ? 4e-3 : 0.2, 45e-3, 40e-3, 20e-3, 0.6e-3}};
     const auto found = find_damage(band, field_of(band, flats), 0.0, kWidth, kThreshold);
     ASSERT_EQ(found.size(), flats.size());
     for (std::size_t k = 0; k < flats.size(); ++k) {

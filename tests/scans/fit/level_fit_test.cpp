@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/scans/fit/level_fit.hpp"
 
-#include <Eigen/Cholesky>
 #include <gtest/gtest.h>
+#include <Eigen/Cholesky>
 
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/tests/scans/fit/level_samples.hpp"
@@ -21,7 +21,9 @@ struct Problem {
   std::vector<float> residual, weight;
 
   Problem(bool closed, std::uint64_t seed) : band(tests::straight_band(kLength, kWidth, closed)) {
-    points = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 3, 100e-6, seed, [](double a, double s) { return 0.3e-3 * std::sin(20.0 * a + 50.0 * s); }));
+    points = tests::sorted(band, kRows, kColumns,
+                           tests::scattered(band, kRows, kColumns, 3, 100e-6, seed,
+                                            [](double a, double s) { return 0.3e-3 * std::sin(20.0 * a + 50.0 * s); }));
     residual = points.d;
     Random random(seed + 1);
     for (std::size_t i = 0; i < points.size(); ++i) {
@@ -31,7 +33,9 @@ struct Problem {
   }
 };
 
-double basis(const Problem& p, const SplineLevel& level, std::size_t f, std::size_t i) { return tests::function_value(level, f, p.points.a[i], p.points.s[i]); }
+double basis(const Problem& p, const SplineLevel& level, std::size_t f, std::size_t i) {
+  return tests::function_value(level, f, p.points.a[i], p.points.s[i]);
+}
 
 TEST(LevelFit, SumsAgreeWithBruteForce) {
   for (const bool closed : {false, true})
@@ -41,7 +45,8 @@ TEST(LevelFit, SumsAgreeWithBruteForce) {
       p.residual[500] = -5e-3f;
       const SplineLevel level = tests::level_of(kLength, kWidth, along, 4, closed);
       const FunctionSums sums = sum_functions(p.points, p.residual, p.weight, level);
-      std::vector<double> wbr(level.size(), 0.0), wbb(level.size(), 0.0), count(level.size(), 0.0), scale(level.size(), 0.0);
+      std::vector<double> wbr(level.size(), 0.0), wbb(level.size(), 0.0), count(level.size(), 0.0),
+          scale(level.size(), 0.0);
       for (std::size_t i = 0; i < p.points.size(); ++i) {
         if (p.weight[i] == 0.0f) continue;
         const double w = p.weight[i], most = 4.0 / std::sqrt(w), r = std::clamp<double>(p.residual[i], -most, most);
@@ -63,7 +68,8 @@ TEST(LevelFit, SumsAgreeWithBruteForce) {
 }
 
 /// Coefficients of the active functions by dense algebra in double precision.
-Eigen::VectorXd dense(const Problem& p, const SplineLevel& level, const std::vector<std::size_t>& functions, std::span<const float> ridge) {
+Eigen::VectorXd dense(const Problem& p, const SplineLevel& level, const std::vector<std::size_t>& functions,
+                      std::span<const float> ridge) {
   const auto n = static_cast<Eigen::Index>(functions.size());
   Eigen::MatrixXd matrix = Eigen::MatrixXd::Zero(n, n);
   Eigen::VectorXd rhs = Eigen::VectorXd::Zero(n), b(n);
@@ -73,7 +79,9 @@ Eigen::VectorXd dense(const Problem& p, const SplineLevel& level, const std::vec
     rhs += static_cast<double>(p.weight[i]) * p.residual[i] * b;
   }
   const double trace = matrix.trace();
-  for (Eigen::Index k = 0; k < n; ++k) matrix(k, k) += ridge.empty() ? 1e-5 * trace / static_cast<double>(n) : ridge[functions[static_cast<std::size_t>(k)]];
+  for (Eigen::Index k = 0; k < n; ++k)
+    matrix(k, k) +=
+        ridge.empty() ? 1e-5 * trace / static_cast<double>(n) : ridge[functions[static_cast<std::size_t>(k)]];
   return matrix.ldlt().solve(rhs);
 }
 
@@ -96,7 +104,8 @@ void expect_dense(bool closed, std::size_t along, std::size_t across, bool some,
   EXPECT_LT(solution.reduction, 1e-6);
   SplineField field(kLength, kWidth, closed), exact(kLength, kWidth, closed);
   SplineLevel dense_level = level;
-  for (std::size_t k = 0; k < functions.size(); ++k) dense_level.coefficient[functions[k]] = static_cast<float>(wanted[static_cast<Eigen::Index>(k)]);
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    dense_level.coefficient[functions[k]] = static_cast<float>(wanted[static_cast<Eigen::Index>(k)]);
   field.add(level);
   exact.add(dense_level);
   for (std::size_t f = 0; f < level.size(); ++f)
@@ -104,7 +113,9 @@ void expect_dense(bool closed, std::size_t along, std::size_t across, bool some,
       EXPECT_EQ(level.coefficient[f], 0.0f);
     }
   const double size = wanted.cwiseAbs().maxCoeff();
-  for (std::size_t k = 0; k < functions.size(); ++k) EXPECT_NEAR(level.coefficient[functions[k]], wanted[static_cast<Eigen::Index>(k)], (with_ridge ? 2e-5 : 2e-3) * size);
+  for (std::size_t k = 0; k < functions.size(); ++k)
+    EXPECT_NEAR(level.coefficient[functions[k]], wanted[static_cast<Eigen::Index>(k)],
+                (with_ridge ? 2e-5 : 2e-3) * size);
   for (std::size_t i = 0; i < p.points.size(); ++i) {
     ASSERT_NEAR(field.value(p.points.a[i], p.points.s[i]), exact.value(p.points.a[i], p.points.s[i]), 1e-8);
     // points without weight are followed too
@@ -117,7 +128,7 @@ TEST(LevelFit, AgreesWithDenseLeastSquares) {
     for (const bool some : {false, true})
       for (const bool ridge : {false, true}) {
         SCOPED_TRACE(testing::Message() << "closed " << closed << " some " << some << " ridge " << ridge);
-        expect_dense(closed, 4, 2, some, ridge);   // round a closed band every function meets every other on both sides
+        expect_dense(closed, 4, 2, some, ridge);  // round a closed band every function meets every other on both sides
         expect_dense(closed, 16, 4, some, ridge);
       }
 }

@@ -26,9 +26,10 @@ double wear(double s) {
 
 TEST(SectionLevels, DeviationIsRecoveredDespiteNoiseAndDamage) {
   const Band band = rail_band();
-  const BandPoints points = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 6, kNoise, 1, [](double a, double s) {
-    return wear(s) - (a > 0.3 && a < 0.5 ? 0.8e-3 : 0.0);  // a fifth is damaged
-  }));
+  const BandPoints points = tests::sorted(band, kRows, kColumns,
+                                          tests::scattered(band, kRows, kColumns, 6, kNoise, 1, [](double a, double s) {
+                                            return wear(s) - (a > 0.3 && a < 0.5 ? 0.8e-3 : 0.0);  // a fifth is damaged
+                                          }));
   double moved = 0.0;
   const Section section = refine_section(points, band, kFinest, &moved);
   double most = 0.0, sum = 0.0, count = 0.0;
@@ -51,7 +52,9 @@ TEST(SectionLevels, DeviationIsRecoveredDespiteNoiseAndDamage) {
 TEST(SectionLevels, WhatAgreesWithTheNominalSectionStaysExactlySo) {
   const Band band = rail_band();
   for (std::uint64_t seed = 1; seed <= 3; ++seed) {
-    const BandPoints points = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 2, kNoise, seed, [](double a, double) { return a < 0.2 ? -1e-3 : 0.0; }));
+    const BandPoints points = tests::sorted(band, kRows, kColumns,
+                                            tests::scattered(band, kRows, kColumns, 2, kNoise, seed,
+                                                             [](double a, double) { return a < 0.2 ? -1e-3 : 0.0; }));
     double moved = 1.0;
     const Section section = refine_section(points, band, kFinest, &moved);
     EXPECT_EQ(moved, 0.0);
@@ -66,7 +69,9 @@ TEST(SectionLevels, WhatAgreesWithTheNominalSectionStaysExactlySo) {
 TEST(SectionLevels, WhereNothingDeviatesItStaysNominal) {
   const Band band = rail_band();
   const auto local = [](double s) { return 40e-6 * std::exp(-0.5 * std::pow((s - 58e-3) / 2e-3, 2)); };
-  const BandPoints points = tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 4, 5e-6, 2, [&](double, double s) { return local(s); }));
+  const BandPoints points =
+      tests::sorted(band, kRows, kColumns,
+                    tests::scattered(band, kRows, kColumns, 4, 5e-6, 2, [&](double, double s) { return local(s); }));
   const Section section = refine_section(points, band, kFinest);
   for (double s = 3e-3; s < band.section.length() - 3e-3; s += 0.5e-3) {
     const auto foot = section.foot(band.section.at(s).position, 1e-3);

@@ -32,7 +32,10 @@ TEST(Significance, NoiseIsSeldomPicked) {
   for (int seed = 1; seed <= kSeeds; ++seed) {
     const bool closed = seed % 2 == 0;
     const Band band = tests::straight_band(kLength, kWidth, closed);
-    const BandPoints points = tests::sorted(band, kAlong, kAcross, tests::scattered(band, kAlong, kAcross, 4, kNoise, static_cast<std::uint64_t>(seed), [](double, double) { return 0.0; }));
+    const BandPoints points =
+        tests::sorted(band, kAlong, kAcross,
+                      tests::scattered(band, kAlong, kAcross, 4, kNoise, static_cast<std::uint64_t>(seed),
+                                       [](double, double) { return 0.0; }));
     SplineLevel level = tests::level_of(kLength, kWidth, kAlong, kAcross, closed);
     const std::vector<float> weight(points.size(), static_cast<float>(1.0 / (kNoise * kNoise)));
     std::vector<float> ridge;
@@ -48,8 +51,11 @@ TEST(Significance, ABumpIsPickedAtItsPlace) {
     const Band band = tests::straight_band(kLength, kWidth, closed);
     const double a0 = closed ? 1e-3 : 0.2, s0 = 40e-3;
     const auto off = [&](double a) { return closed ? a - a0 - kLength * std::round((a - a0) / kLength) : a - a0; };
-    const auto bump = [&](double a, double s) { return 80e-6 * std::exp(-(off(a) * off(a) + (s - s0) * (s - s0)) / (2.0 * 16e-6)); };
-    const BandPoints points = tests::sorted(band, kAlong, kAcross, tests::scattered(band, kAlong, kAcross, 4, kNoise, 3, bump));
+    const auto bump = [&](double a, double s) {
+      return 80e-6 * std::exp(-(off(a) * off(a) + (s - s0) * (s - s0)) / (2.0 * 16e-6));
+    };
+    const BandPoints points =
+        tests::sorted(band, kAlong, kAcross, tests::scattered(band, kAlong, kAcross, 4, kNoise, 3, bump));
     SplineLevel level = tests::level_of(kLength, kWidth, kAlong, kAcross, closed);
     const std::vector<float> weight(points.size(), static_cast<float>(1.0 / (kNoise * kNoise)));
     std::vector<float> ridge;
@@ -61,7 +67,8 @@ TEST(Significance, ABumpIsPickedAtItsPlace) {
     double nearest = 1.0;
     for (std::size_t f = 0; f < level.size(); ++f) {
       // the middle of a function lies one knot before its number
-      const double a = off(level.knot_a * (static_cast<double>(f / level.functions_s()) - 1.0)), s = level.knot_s * (static_cast<double>(f % level.functions_s()) - 1.0) - s0;
+      const double a = off(level.knot_a * (static_cast<double>(f / level.functions_s()) - 1.0)),
+                   s = level.knot_s * (static_cast<double>(f % level.functions_s()) - 1.0) - s0;
       if (level.active[f] == 0) continue;
       EXPECT_LT(std::hypot(a, s), 56e-3);  // a window and a neighbour reach 8 functions both ways
       nearest = std::min(nearest, std::hypot(a, s));
@@ -69,7 +76,8 @@ TEST(Significance, ABumpIsPickedAtItsPlace) {
     EXPECT_LT(nearest, 4e-3);
     // coefficients around the bump may be large, elsewhere they are held back
     const auto at = [&](double a, double s) {
-      return static_cast<std::size_t>(std::lround(a / level.knot_a) + 1) * level.functions_s() + static_cast<std::size_t>(std::lround(s / level.knot_s) + 1);
+      return static_cast<std::size_t>(std::lround(a / level.knot_a) + 1) * level.functions_s() +
+             static_cast<std::size_t>(std::lround(s / level.knot_s) + 1);
     };
     EXPECT_LT(10.0 * ridge[at(a0, s0)], ridge[at(0.4, 20e-3)]);
   }
@@ -85,7 +93,8 @@ TEST(Significance, AWeakRidgeIsPickedTogether) {
       std::set<std::size_t> ridge_line;
       for (std::size_t k = 0; k < 15; ++k) {
         // across the seam of the closed band
-        const std::size_t r = along ? (level.functions_a() + (closed ? k - 7 : 40 + k)) % level.functions_a() : 50, c = along ? 9 : 2 + k;
+        const std::size_t r = along ? (level.functions_a() + (closed ? k - 7 : 40 + k)) % level.functions_a() : 50,
+                          c = along ? 9 : 2 + k;
         ridge_line.insert(r * columns + c);
       }
       for (const std::size_t f : ridge_line) values[f] = z;
@@ -99,7 +108,8 @@ TEST(Significance, AWeakRidgeIsPickedTogether) {
         const bool beside = std::any_of(ridge_line.begin(), ridge_line.end(), [&](std::size_t g) {
           const auto apart = [](std::size_t x, std::size_t y) { return x > y ? x - y : y - x; };
           const std::size_t rows = apart(f / columns, g / columns);
-          return std::min(rows, closed ? level.functions_a() - rows : rows) <= 1 && apart(f % columns, g % columns) <= 1;
+          return std::min(rows, closed ? level.functions_a() - rows : rows) <= 1 &&
+                 apart(f % columns, g % columns) <= 1;
         });
         EXPECT_TRUE(beside);
       }

@@ -42,7 +42,8 @@ TEST(SplineField, ValueIsTheSumOfAllFunctions) {
       const double a = kLength * random.uniform(), s = kWidth * random.uniform();
       double sum = 0.0;
       for (const SplineLevel& level : field.levels())
-        for (std::size_t f = 0; f < level.size(); ++f) sum += level.coefficient[f] * tests::function_value(level, f, a, s);
+        for (std::size_t f = 0; f < level.size(); ++f)
+          sum += level.coefficient[f] * tests::function_value(level, f, a, s);
       ASSERT_NEAR(field.value(a, s), sum, 1e-15);
     }
   }
@@ -71,8 +72,10 @@ TEST(SplineField, ContinuousToTheSecondDerivativeAcrossTheSeam) {
     // exact for cubics
     const auto side = [&](double step) {
       std::array<double, 4> f;
-      for (std::size_t k = 0; k < 4; ++k) f[k] = field.value(kLength + step * static_cast<double>(k) - (step < 0.0 && k == 0 ? 1e-12 : 0.0), s);
-      return Side{f[0], (-11.0 * f[0] + 18.0 * f[1] - 9.0 * f[2] + 2.0 * f[3]) / (6.0 * step), (2.0 * f[0] - 5.0 * f[1] + 4.0 * f[2] - f[3]) / (step * step)};
+      for (std::size_t k = 0; k < 4; ++k)
+        f[k] = field.value(kLength + step * static_cast<double>(k) - (step < 0.0 && k == 0 ? 1e-12 : 0.0), s);
+      return Side{f[0], (-11.0 * f[0] + 18.0 * f[1] - 9.0 * f[2] + 2.0 * f[3]) / (6.0 * step),
+                  (2.0 * f[0] - 5.0 * f[1] + 4.0 * f[2] - f[3]) / (step * step)};
     };
     const Side before = side(-h), after = side(h);
     EXPECT_NEAR(before.f, after.f, 1e-12);
@@ -84,7 +87,8 @@ TEST(SplineField, ContinuousToTheSecondDerivativeAcrossTheSeam) {
 
 TEST(SplineField, FinestKnotsWhereCoefficientsMatter) {
   SplineField field(kLength, kWidth, true);
-  SplineLevel coarse = tests::level_of(kLength, kWidth, 8, 2, true), fine = tests::level_of(kLength, kWidth, 64, 2, true);
+  SplineLevel coarse = tests::level_of(kLength, kWidth, 8, 2, true),
+              fine = tests::level_of(kLength, kWidth, 64, 2, true);
   const std::size_t at = 20;  // the function over intervals 17 to 20
   fine.coefficient[at * fine.functions_s() + 1] = 5e-6f;
   coarse.coefficient[0] = 1e-3f;  // over intervals 5 to 8, that is 5, 6, 7, 0: function f begins at interval f - 3

@@ -27,7 +27,8 @@ std::optional<Error> error_of(const Call& call) {
   return std::nullopt;
 }
 
-/// A smooth section in closed form: a flange about 28 mm high at negative y, as steep as 60 degrees, and a gently sloping tread.
+/// A smooth section in closed form: a flange about 28 mm high at negative y, as steep as 60 degrees, and a gently
+/// sloping tread.
 inline double flanged(double y) { return 14e-3 * (1.0 - std::tanh((y + 35e-3) / 8e-3)) - 0.025 * y; }
 inline double flanged_slope(double y) { return -14.0 / 8.0 / std::pow(std::cosh((y + 35e-3) / 8e-3), 2) - 0.025; }
 
@@ -49,19 +50,23 @@ inline Vec3 in_cube(Random& random, double half) {
 }
 
 /// Normals off by noise [rad].
-inline void add_element(SurfaceElements& elements, const Pose& X, const Vec3& p, const Vec3& n, double noise, Random& random) {
+inline void add_element(SurfaceElements& elements, const Pose& X, const Vec3& p, const Vec3& n, double noise,
+                        Random& random) {
   elements.position.push_back(X.apply(p));
-  elements.normal.push_back((X.rotation * (n + noise * gaussian_vector(random))).normalized() * (random.uniform() < 0.5 ? 1.0 : -1.0));
+  elements.normal.push_back((X.rotation * (n + noise * gaussian_vector(random))).normalized() *
+                            (random.uniform() < 0.5 ? 1.0 : -1.0));
   elements.weight.push_back(1.0f);
 }
 
-/// Elements with the exact normals of the flanged section turned about y (revolution) or swept along x, but for noise [rad];
-/// foreign: part of them that are of anything else nearby.
-inline SurfaceElements flanged_elements(Body body, double extent, double foreign, double noise, const Pose& X, std::uint64_t seed, int count = 3000) {
+/// Elements with the exact normals of the flanged section turned about y (revolution) or swept along x, but for noise
+/// [rad]; foreign: part of them that are of anything else nearby.
+inline SurfaceElements flanged_elements(Body body, double extent, double foreign, double noise, const Pose& X,
+                                        std::uint64_t seed, int count = 3000) {
   constexpr double kRadius = 0.45;
   Random random(seed);
   SurfaceElements out;
-  const double chord = body == Body::wheel ? (extent < kPi ? 2.0 * kRadius * std::sin(0.5 * extent) : 2.0 * kRadius) : extent;
+  const double chord =
+      body == Body::wheel ? (extent < kPi ? 2.0 * kRadius * std::sin(0.5 * extent) : 2.0 * kRadius) : extent;
   out.radius = 0.5 * std::hypot(chord, 0.12);
   const Vec3 middle = body == Body::wheel && extent < kPi ? Vec3(0.0, 0.0, kRadius) : Vec3::Zero();
   out.centre = X.apply(middle);
@@ -91,7 +96,8 @@ struct AxisError {
 };
 inline AxisError axis_error(const Axis& found, const Vec3& point, const Vec3& direction) {
   const Vec3 apart = point - found.point;
-  return {std::asin(std::min(1.0, found.direction.cross(direction).norm())), (apart - found.direction * found.direction.dot(apart)).norm()};
+  return {std::asin(std::min(1.0, found.direction.cross(direction).norm())),
+          (apart - found.direction * found.direction.dot(apart)).norm()};
 }
 
 }  // namespace treadmark::scans::tests

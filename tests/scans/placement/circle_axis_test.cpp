@@ -23,7 +23,8 @@ std::vector<Vec3> sparse_wheel(const Pose& X, double noise, double outliers, std
     for (int k = 0; k < 250; ++k) {
       const double y = -65e-3 + 0.5e-3 * k, r = 0.45 + tests::flanged(y) + noise * tests::gaussian(random);
       const bool out = random.uniform() < outliers;
-      points.push_back(X.apply(Vec3(r * std::sin(u), y, r * std::cos(u)) + (out ? tests::in_cube(random, 0.2) : Vec3(Vec3::Zero()))));
+      points.push_back(X.apply(Vec3(r * std::sin(u), y, r * std::cos(u)) +
+                               (out ? tests::in_cube(random, 0.2) : Vec3(Vec3::Zero()))));
     }
   }
   return points;

@@ -21,7 +21,8 @@ std::vector<Vec3> cylinder(int count, double noise, double outliers, std::uint64
   std::vector<Vec3> points;
   for (int k = 0; k < count; ++k) {
     const double u = kPi * random.uniform(), y = 0.3 * random.uniform(), r = 0.4 + noise * tests::gaussian(random);
-    points.push_back(X.apply(random.uniform() < outliers ? tests::in_cube(random, 0.4) : Vec3(r * std::cos(u), y, r * std::sin(u))));
+    points.push_back(
+        X.apply(random.uniform() < outliers ? tests::in_cube(random, 0.4) : Vec3(r * std::cos(u), y, r * std::sin(u))));
   }
   return points;
 }
@@ -35,7 +36,8 @@ Angles normals_off(const SurfaceElements& elements, const Pose& X = {}) {
   double square = 0.0;
   for (std::size_t k = 0; k < elements.position.size(); ++k) {
     const Vec3 p = X.apply_inverse(elements.position[k]);
-    const double angle = std::asin(std::min(1.0, (X.rotation.transpose() * elements.normal[k]).cross(Vec3(p.x(), 0.0, p.z()).normalized()).norm()));
+    const double angle = std::asin(std::min(
+        1.0, (X.rotation.transpose() * elements.normal[k]).cross(Vec3(p.x(), 0.0, p.z()).normalized()).norm()));
     if (angle > 0.087) continue;
     square += angle * angle;
     out.good += 1.0;

@@ -12,7 +12,8 @@ namespace treadmark::scans {
 namespace {
 
 TEST(EvenSample, DensePartsAndLonePointsDoNotCount) {
-  // a plane of 1 m x 0.2 m; the part beyond x = 0.9 is scanned 20 times more densely; as many outliers as sparse points in a metre around
+  // a plane of 1 m x 0.2 m; the part beyond x = 0.9 is scanned 20 times more densely; as many outliers as sparse points
+  // in a metre around
   Random random(3);
   std::vector<Vec3> points;
   for (int k = 0; k < 100'000; ++k) points.emplace_back(random.uniform(), 0.2 * random.uniform(), 0.0);

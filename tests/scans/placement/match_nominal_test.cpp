@@ -51,7 +51,8 @@ TEST(MatchNominal, FindsShiftAndWayOfAWheel) {
   for (const bool turned : {false, true})
     for (const Vec2& shift : {Vec2(0.0, -0.46), Vec2(23e-3, -0.31), Vec2(-41e-3, -0.6)}) {
       const SectionMatch expected = truth(turned, 0.0, shift);
-      const SectionMatch found = match_nominal(measured_as(expected, between(nominal, -62e-3, 55e-3)), Section(nominal), Body::wheel, false);
+      const SectionMatch found =
+          match_nominal(measured_as(expected, between(nominal, -62e-3, 55e-3)), Section(nominal), Body::wheel, false);
       expect_match(found, expected, 2e-6, 0.0);
       EXPECT_LT(found.residual, 3e-6);
       EXPECT_GT(found.agreeing, 0.9);
@@ -83,7 +84,8 @@ TEST(MatchNominal, KeepsTheWayOfSymmetricSectionsOrAsTold) {
   const auto wheel = tests::nominal_points("S1002", Body::wheel);
   const Section other = measured_as(truth(true, 0.0, {0.0, -0.46}), between(wheel, -62e-3, 55e-3));
   EXPECT_TRUE(match_nominal(other, Section(wheel), Body::wheel, false).turned);
-  const auto refused = tests::error_of([&] { EXPECT_FALSE(match_nominal(other, Section(wheel), Body::wheel, true).turned); });
+  const auto refused =
+      tests::error_of([&] { EXPECT_FALSE(match_nominal(other, Section(wheel), Body::wheel, true).turned); });
   EXPECT_TRUE(!refused || refused->kind() == ErrorKind::input_data);
 }
 
@@ -104,17 +106,19 @@ TEST(MatchNominal, OnlyWhatIsNotWornCounts) {
 TEST(MatchNominal, OfAPartOnly) {
   const auto nominal = tests::nominal_points("S1002", Body::wheel);
   const SectionMatch expected = truth(false, 0.0, {-7e-3, -0.45});
-  const SectionMatch found = match_nominal(measured_as(expected, between(nominal, -55e-3, 15e-3)), Section(nominal), Body::wheel, false);
+  const SectionMatch found =
+      match_nominal(measured_as(expected, between(nominal, -55e-3, 15e-3)), Section(nominal), Body::wheel, false);
   expect_match(found, expected, 3e-6, 0.0);
   EXPECT_NEAR(found.overlap, 1.0, 0.02);
 }
 
 TEST(MatchNominal, RefusesOtherProfiles) {
-  const Section wheel(tests::nominal_points("S1002", Body::wheel)), rail(between(tests::nominal_points("60E1", Body::rail), -33e-3, 33e-3));
+  const Section wheel(tests::nominal_points("S1002", Body::wheel)),
+      rail(between(tests::nominal_points("60E1", Body::rail), -33e-3, 33e-3));
   std::vector<Vec2> round, deep;
   for (int k = -80; k <= 80; ++k) {
-    round.emplace_back(60e-3 * std::sin(k / 60.0), 0.4 + 60e-3 * std::cos(k / 60.0));      // a pipe
-    deep.emplace_back(1e-3 * k, 0.4 + 25e-3 * std::sin(2.0 * tests::kPi * k / 40.0));       // corrugated sheet
+    round.emplace_back(60e-3 * std::sin(k / 60.0), 0.4 + 60e-3 * std::cos(k / 60.0));  // a pipe
+    deep.emplace_back(1e-3 * k, 0.4 + 25e-3 * std::sin(2.0 * tests::kPi * k / 40.0));  // corrugated sheet
   }
   for (const Section& other : {Section(round), Section(deep)})
     for (const auto& [nominal, body] : {std::pair{&wheel, Body::wheel}, std::pair{&rail, Body::rail}}) {

@@ -18,11 +18,13 @@ using tests::kPi;
 
 tests::SimpleCloud wheel_cloud(std::uint64_t seed) {
   const auto wheel = create_surface({Body::wheel, 0.46, StandardProfile{"S1002"}, {}});
-  return tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69.5e-3, 60e-3, 200, 130, 30e-6, 0.005, tests::some_frame(seed), seed);
+  return tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69.5e-3, 60e-3, 200, 130, 30e-6, 0.005,
+                             tests::some_frame(seed), seed);
 }
 tests::SimpleCloud rail_cloud(std::uint64_t seed) {
   const auto rail = create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}});
-  return tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35.5e-3, 35.5e-3, 600, 60, 20e-6, 0.005, tests::some_frame(seed), seed);
+  return tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35.5e-3, 35.5e-3, 600, 60, 20e-6, 0.005,
+                             tests::some_frame(seed), seed);
 }
 Placement placed(const tests::SimpleCloud& cloud, const PlaceSettings& settings) {
   return place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, settings.body), settings);
@@ -87,7 +89,7 @@ TEST(PlaceByFeatures, RailHasItsOriginOnTopAndInTheMiddle) {
     const Mat3 turn = found.X_CS.rotation.transpose() * cloud.X_CS.rotation;
     EXPECT_LT((turn - Mat3::Identity()).norm(), 1e-4) << seed;
     const Vec3 apart = cloud.X_CS.apply_inverse(found.X_CS.origin);
-    EXPECT_NEAR(apart.y(), 0.0, 0.3e-3);   // the head of 60E1 is symmetric
+    EXPECT_NEAR(apart.y(), 0.0, 0.3e-3);  // the head of 60E1 is symmetric
     EXPECT_NEAR(apart.z(), 0.0, 30e-6);
     double top = -1.0;
     for (double s = 0.0; s < found.section.length(); s += 0.5e-3) top = std::max(top, found.section.at(s).position.y());

@@ -20,10 +20,14 @@ using tests::kPi;
 constexpr double kRadius = 0.46;
 
 std::shared_ptr<const Surface> flat_wheel() {
-  return create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {.flats = {{.length = 0.16, .depth = 1.4e-3, .theta_center = 0.7}}}});
+  return create_surface({Body::wheel,
+                         kRadius,
+                         StandardProfile{"S1002"},
+                         {.flats = {{.length = 0.16, .depth = 1.4e-3, .theta_center = 0.7}}}});
 }
 std::shared_ptr<const Surface> squat_rail() {
-  return create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {.squats = {{.length = 40e-3, .width = 30e-3, .depth = 0.5e-3}}}});
+  return create_surface(
+      {Body::rail, 0.0, StandardProfile{"60E1"}, {.squats = {{.length = 40e-3, .width = 30e-3, .depth = 0.5e-3}}}});
 }
 PlaceSettings with_nominal(Body body) {
   PlaceSettings out;
@@ -46,7 +50,8 @@ TEST(Place, WheelWithAFlatInAnyFrame) {
   const auto wheel = flat_wheel();
   const PlaceSettings settings = with_nominal(Body::wheel);
   for (std::uint64_t seed = 1; seed < 3; ++seed) {
-    const auto cloud = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 400, 120, 30e-6, 0.01, tests::some_frame(seed), seed);
+    const auto cloud = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 400, 120, 30e-6, 0.01,
+                                           tests::some_frame(seed), seed);
     const RoughPlace rough = find_roughly(cloud.points_C, {}, Body::wheel);
     EXPECT_EQ(unit_by_size(Body::wheel, rough.size), LengthUnit::metre);
     const Placement placed = place(cloud.points_C, {}, rough, settings);
@@ -69,7 +74,8 @@ TEST(Place, RailWithASquatInAnyFrame) {
   const auto rail = squat_rail();
   PlaceSettings settings = with_nominal(Body::rail);
   for (std::uint64_t seed = 1; seed < 3; ++seed) {
-    const auto cloud = tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35e-3, 35e-3, 500, 90, 20e-6, 0.01, tests::some_frame(seed), seed);
+    const auto cloud = tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35e-3, 35e-3, 500, 90, 20e-6, 0.01,
+                                           tests::some_frame(seed), seed);
     const RoughPlace rough = find_roughly(cloud.points_C, {}, Body::rail);
     EXPECT_EQ(unit_by_size(Body::rail, rough.size), LengthUnit::metre);
     settings.forward = cloud.X_CS.rotation.col(0);
@@ -87,7 +93,8 @@ TEST(Place, RailWithASquatInAnyFrame) {
 
 TEST(Place, IsTheSameForAnyNumberOfThreadsAndRun) {
   const auto wheel = flat_wheel();
-  const auto cloud = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 200, 100, 30e-6, 0.01, tests::some_frame(3), 3);
+  const auto cloud = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 200, 100, 30e-6, 0.01,
+                                         tests::some_frame(3), 3);
   const PlaceSettings settings = with_nominal(Body::wheel);
   const auto with = [&](int threads) {
     const ThreadLimit limit(threads);
@@ -103,22 +110,26 @@ TEST(Place, IsTheSameForAnyNumberOfThreadsAndRun) {
 
 TEST(Place, LeavesOutWhatIsNotKept) {
   const auto wheel = flat_wheel();
-  auto cloud = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 200, 100, 30e-6, 0.0, tests::some_frame(4), 4);
+  auto cloud =
+      tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 200, 100, 30e-6, 0.0, tests::some_frame(4), 4);
   std::vector<std::uint8_t> keep(cloud.points_C.size(), 1);
   Random random(6);
   for (int k = 0; k < 20'000; ++k) {
     cloud.points_C.push_back(tests::in_cube(random, 1.0));
     keep.push_back(0);
   }
-  const Placement placed = place(cloud.points_C, keep, find_roughly(cloud.points_C, keep, Body::wheel), with_nominal(Body::wheel));
+  const Placement placed =
+      place(cloud.points_C, keep, find_roughly(cloud.points_C, keep, Body::wheel), with_nominal(Body::wheel));
   EXPECT_LT(axle_error(placed.X_CS, cloud.X_CS).position, 10e-6);
 }
 
 TEST(Place, WheelScannedInLinesFarApart) {
   // profiles 30 mm apart round the wheel, which leave few planes: found by circles where the normals fail
   const auto wheel = flat_wheel();
-  const auto sparse = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 96, 260, 30e-6, 0.0, tests::some_frame(7), 8);
-  const Placement placed = place(sparse.points_C, {}, find_roughly(sparse.points_C, {}, Body::wheel), with_nominal(Body::wheel));
+  const auto sparse =
+      tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 96, 260, 30e-6, 0.0, tests::some_frame(7), 8);
+  const Placement placed =
+      place(sparse.points_C, {}, find_roughly(sparse.points_C, {}, Body::wheel), with_nominal(Body::wheel));
   const AxleError error = axle_error(placed.X_CS, sparse.X_CS);
   EXPECT_LT(error.angle, 20e-6);
   EXPECT_LT(error.position, 6e-6);
@@ -129,11 +140,13 @@ TEST(Place, ShortArcsAreRefusedOrKnownToBeUncertain) {
   const auto wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}});
   const PlaceSettings settings = with_nominal(Body::wheel);
   const auto cloud_of = [&](double arc) {
-    return tests::simple_cloud(*wheel, Body::wheel, 2.0 - 0.5 * arc, 2.0 + 0.5 * arc, -69e-3, 60e-3, 200, 80, 30e-6, 0.0, tests::some_frame(5), 5);
+    return tests::simple_cloud(*wheel, Body::wheel, 2.0 - 0.5 * arc, 2.0 + 0.5 * arc, -69e-3, 60e-3, 200, 80, 30e-6,
+                               0.0, tests::some_frame(5), 5);
   };
   for (const double arc : {0.015, 0.03, 0.06, 0.12, 0.25}) {
     const auto cloud = cloud_of(arc);
-    const auto error = tests::error_of([&] { place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, Body::wheel), settings); });
+    const auto error =
+        tests::error_of([&] { place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, Body::wheel), settings); });
     ASSERT_TRUE(error) << arc;
     EXPECT_EQ(error->kind(), ErrorKind::input_data);
     EXPECT_FALSE(error->advice().empty());
@@ -146,7 +159,9 @@ TEST(Place, ShortArcsAreRefusedOrKnownToBeUncertain) {
     const Placement placed = place(cloud.points_C, {}, find_roughly(cloud.points_C, {}, Body::wheel), settings);
     const AxleError error = axle_error(placed.X_CS, cloud.X_CS);
     // on the shortest arc the errors of the section itself add to the scatter of the points that is reported
-    if (arc > 0.6) { EXPECT_LT(error.position, 4.0 * placed.position_error) << arc; }
+    if (arc > 0.6) {
+      EXPECT_LT(error.position, 4.0 * placed.position_error) << arc;
+    }
     EXPECT_LT(error.position, 0.5e-3) << arc;
     EXPECT_LT(error.angle, 5.0 * placed.direction_error) << arc;
   }
@@ -155,12 +170,18 @@ TEST(Place, ShortArcsAreRefusedOrKnownToBeUncertain) {
 TEST(Place, RefusesTheOtherBody) {
   const auto wheel = flat_wheel();
   const auto rail = squat_rail();
-  const auto wheel_cloud = tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 200, 100, 30e-6, 0.0, tests::some_frame(5), 5);
-  const auto rail_cloud = tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35e-3, 35e-3, 200, 90, 20e-6, 0.0, tests::some_frame(5), 5);
-  const auto as_rail = tests::error_of([&] { place(wheel_cloud.points_C, {}, find_roughly(wheel_cloud.points_C, {}, Body::rail), with_nominal(Body::rail)); });
+  const auto wheel_cloud =
+      tests::simple_cloud(*wheel, Body::wheel, -kPi, kPi, -69e-3, 60e-3, 200, 100, 30e-6, 0.0, tests::some_frame(5), 5);
+  const auto rail_cloud =
+      tests::simple_cloud(*rail, Body::rail, -0.3, 0.3, -35e-3, 35e-3, 200, 90, 20e-6, 0.0, tests::some_frame(5), 5);
+  const auto as_rail = tests::error_of([&] {
+    place(wheel_cloud.points_C, {}, find_roughly(wheel_cloud.points_C, {}, Body::rail), with_nominal(Body::rail));
+  });
   ASSERT_TRUE(as_rail);
   EXPECT_EQ(as_rail->kind(), ErrorKind::input_data);
-  const auto as_wheel = tests::error_of([&] { place(rail_cloud.points_C, {}, find_roughly(rail_cloud.points_C, {}, Body::wheel), with_nominal(Body::wheel)); });
+  const auto as_wheel = tests::error_of([&] {
+    place(rail_cloud.points_C, {}, find_roughly(rail_cloud.points_C, {}, Body::wheel), with_nominal(Body::wheel));
+  });
   ASSERT_TRUE(as_wheel);
   EXPECT_EQ(as_wheel->kind(), ErrorKind::input_data);
 }

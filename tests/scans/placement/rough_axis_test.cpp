@@ -65,7 +65,8 @@ TEST(RoughAxis, DirectionOfARailInAnyFrame) {
 }
 
 /// Elements of whatever: (position, normal) of two random numbers.
-SurfaceElements object(const std::function<std::pair<Vec3, Vec3>(Random&)>& element, double radius, double noise = 3e-3) {
+SurfaceElements object(const std::function<std::pair<Vec3, Vec3>(Random&)>& element, double radius,
+                       double noise = 3e-3) {
   Random random(1);
   SurfaceElements out;
   out.radius = radius;
@@ -106,12 +107,18 @@ SurfaceElements box() {
       0.87);
 }
 SurfaceElements anything() {
-  return object([](Random& random) { return std::pair{tests::in_cube(random, 0.5), Vec3(tests::gaussian_vector(random).normalized())}; }, 0.8);
+  return object(
+      [](Random& random) {
+        return std::pair{tests::in_cube(random, 0.5), Vec3(tests::gaussian_vector(random).normalized())};
+      },
+      0.8);
 }
 
 TEST(RoughAxis, RefusesWhatIsNoWheel) {
-  for (const auto& [name, elements] : {std::pair{"plane", plane()}, std::pair{"exact plane", plane(0.0)}, std::pair{"sphere", ellipsoid({0.4, 0.4, 0.4})},
-                                       std::pair{"exact sphere", ellipsoid({0.4, 0.4, 0.4}, 0.0)}, std::pair{"anything", anything()}}) {
+  for (const auto& [name, elements] :
+       {std::pair{"plane", plane()}, std::pair{"exact plane", plane(0.0)},
+        std::pair{"sphere", ellipsoid({0.4, 0.4, 0.4})}, std::pair{"exact sphere", ellipsoid({0.4, 0.4, 0.4}, 0.0)},
+        std::pair{"anything", anything()}}) {
     const auto error = tests::error_of([&] { rough_revolution(elements); });
     ASSERT_TRUE(error) << name;
     EXPECT_EQ(error->kind(), ErrorKind::input_data) << name;
@@ -121,8 +128,9 @@ TEST(RoughAxis, RefusesWhatIsNoWheel) {
 }
 
 TEST(RoughAxis, RefusesWhatIsNoRail) {
-  for (const auto& [name, elements] : {std::pair{"plane", plane()}, std::pair{"sphere", ellipsoid({0.4, 0.4, 0.4})}, std::pair{"ellipsoid", ellipsoid({0.5, 0.4, 0.3})},
-                                       std::pair{"anything", anything()}}) {
+  for (const auto& [name, elements] :
+       {std::pair{"plane", plane()}, std::pair{"sphere", ellipsoid({0.4, 0.4, 0.4})},
+        std::pair{"ellipsoid", ellipsoid({0.5, 0.4, 0.3})}, std::pair{"anything", anything()}}) {
     const auto error = tests::error_of([&] { rough_sweep(elements); });
     ASSERT_TRUE(error) << name;
     EXPECT_EQ(error->kind(), ErrorKind::input_data) << name;

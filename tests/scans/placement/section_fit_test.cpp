@@ -73,8 +73,8 @@ TEST(Outline, EndsAtStepsAndGaps) {
   std::vector<Vec2> points;
   for (int k = 0; k < 20'000; ++k) {
     const double y = 100e-3 * k / 20'000;
-    if (y > 50e-3 && y < 60e-3) continue;                               // a gap of 10 mm
-    points.emplace_back(y, y > 30e-3 && y <= 50e-3 ? 12e-3 : 0.0);     // a step up of 12 mm at 30 mm
+    if (y > 50e-3 && y < 60e-3) continue;                           // a gap of 10 mm
+    points.emplace_back(y, y > 30e-3 && y <= 50e-3 ? 12e-3 : 0.0);  // a step up of 12 mm at 30 mm
   }
   const Section section = outline(points);
   EXPECT_NEAR(section.y_min(), 30e-3, 1e-3);

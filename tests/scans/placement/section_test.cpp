@@ -102,7 +102,8 @@ TEST(Section, OfACircleHasItsLengthNormalsAndCurvature) {
   for (const double sign : {1.0, -1.0}) {  // a head, then a fillet
     const double radius = 13e-3, half = kPi / 3.0;
     std::vector<Vec2> points;
-    for (int k = -60; k <= 60; ++k) points.emplace_back(radius * std::sin(half * k / 60), sign * radius * std::cos(half * k / 60));
+    for (int k = -60; k <= 60; ++k)
+      points.emplace_back(radius * std::sin(half * k / 60), sign * radius * std::cos(half * k / 60));
     const Section section(points);
     EXPECT_NEAR(section.length(), 2.0 * half * radius, 1e-7);
     // the spline is straight at its very ends, whatever the circle does

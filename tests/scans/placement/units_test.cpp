@@ -15,8 +15,9 @@ namespace {
 using ::testing::HasSubstr;
 
 TEST(Units, OfWheelsAndRailsByTheirSize) {
-  for (const auto& [body, metres] : {std::pair{Body::wheel, 0.16}, std::pair{Body::wheel, 0.46}, std::pair{Body::wheel, 0.74}, std::pair{Body::rail, 0.035},
-                                     std::pair{Body::rail, 0.072}, std::pair{Body::rail, 0.15}})
+  for (const auto& [body, metres] :
+       {std::pair{Body::wheel, 0.16}, std::pair{Body::wheel, 0.46}, std::pair{Body::wheel, 0.74},
+        std::pair{Body::rail, 0.035}, std::pair{Body::rail, 0.072}, std::pair{Body::rail, 0.15}})
     for (const LengthUnit unit : kLengthUnits) {
       const double size = metres / metres_per(unit);
       EXPECT_EQ(unit_by_size(body, size), unit) << metres << ' ' << symbol(unit);
@@ -32,9 +33,13 @@ TEST(Units, ThatDoNotFitAreListed) {
     const auto error = tests::error_of([&] { unit_by_size(body, size); });
     ASSERT_TRUE(error);
     EXPECT_EQ(error->kind(), ErrorKind::input_data);
-    EXPECT_THAT(error->message(), HasSubstr(wheel ? "the radius found in the scan, 4.6e+08, is that of no wheel in any unit"
-                                                  : "the width of the section found in the scan, 7.2e+07, is that of no rail in any unit"));
-    EXPECT_THAT(error->message(), HasSubstr(wheel ? ": 4.6e+05 m in mm, 4.6e+08 m in m, 460 m in um, 1.168e+07 m in in" : ": 7.2e+04 m in mm, 7.2e+07 m in m, 72 m in um, 1.829e+06 m in in"));
+    EXPECT_THAT(
+        error->message(),
+        HasSubstr(wheel ? "the radius found in the scan, 4.6e+08, is that of no wheel in any unit"
+                        : "the width of the section found in the scan, 7.2e+07, is that of no rail in any unit"));
+    EXPECT_THAT(error->message(),
+                HasSubstr(wheel ? ": 4.6e+05 m in mm, 4.6e+08 m in m, 460 m in um, 1.168e+07 m in in"
+                                : ": 7.2e+04 m in mm, 7.2e+07 m in m, 72 m in um, 1.829e+06 m in in"));
     EXPECT_THAT(error->advice(), HasSubstr("--unit"));
   }
 }
@@ -46,16 +51,27 @@ TEST(Units, ThatWereGivenWronglyAreNamedWithTheRightOne) {
     LengthUnit given;
     const char *message, *advice;
   };
-  for (const Case& c : {Case{Body::wheel, 460.0, LengthUnit::metre, "in m the radius would be 460 m, far too large", "with --unit mm it fits"},
-                        Case{Body::wheel, 460.0, LengthUnit::micrometre, "in um the radius would be 0.00046 m, far too small", "with --unit mm it fits"},
-                        Case{Body::wheel, 0.46, LengthUnit::millimetre, "in mm the radius would be 0.00046 m, far too small", "with --unit m it fits"},
-                        Case{Body::wheel, 18.1, LengthUnit::millimetre, "in mm the radius would be 0.0181 m, far too small", "with --unit in it fits"},
-                        Case{Body::wheel, 460e3, LengthUnit::millimetre, "in mm the radius would be 460 m, far too large", "with --unit um it fits"},
-                        Case{Body::wheel, 460e6, LengthUnit::millimetre, "in mm the radius would be 4.6e+05 m, far too large", "is it the right object?"},
-                        Case{Body::rail, 72.0, LengthUnit::inch, "in in the width of the section would be 1.829 m, far too large", "with --unit mm it fits"},
-                        Case{Body::rail, 2.83, LengthUnit::millimetre, "in mm the width of the section would be 0.00283 m, far too small", "with --unit in it fits"},
-                        Case{Body::rail, 0.072, LengthUnit::millimetre, "in mm the width of the section would be 7.2e-05 m, far too small", "with --unit m it fits"},
-                        Case{Body::rail, 72e6, LengthUnit::micrometre, "in um the width of the section would be 72 m, far too large", "is it the right object?"}}) {
+  for (const Case& c :
+       {Case{Body::wheel, 460.0, LengthUnit::metre, "in m the radius would be 460 m, far too large",
+             "with --unit mm it fits"},
+        Case{Body::wheel, 460.0, LengthUnit::micrometre, "in um the radius would be 0.00046 m, far too small",
+             "with --unit mm it fits"},
+        Case{Body::wheel, 0.46, LengthUnit::millimetre, "in mm the radius would be 0.00046 m, far too small",
+             "with --unit m it fits"},
+        Case{Body::wheel, 18.1, LengthUnit::millimetre, "in mm the radius would be 0.0181 m, far too small",
+             "with --unit in it fits"},
+        Case{Body::wheel, 460e3, LengthUnit::millimetre, "in mm the radius would be 460 m, far too large",
+             "with --unit um it fits"},
+        Case{Body::wheel, 460e6, LengthUnit::millimetre, "in mm the radius would be 4.6e+05 m, far too large",
+             "is it the right object?"},
+        Case{Body::rail, 72.0, LengthUnit::inch, "in in the width of the section would be 1.829 m, far too large",
+             "with --unit mm it fits"},
+        Case{Body::rail, 2.83, LengthUnit::millimetre,
+             "in mm the width of the section would be 0.00283 m, far too small", "with --unit in it fits"},
+        Case{Body::rail, 0.072, LengthUnit::millimetre,
+             "in mm the width of the section would be 7.2e-05 m, far too small", "with --unit m it fits"},
+        Case{Body::rail, 72e6, LengthUnit::micrometre, "in um the width of the section would be 72 m, far too large",
+             "is it the right object?"}}) {
     const auto error = tests::error_of([&] { check_unit(c.body, c.size, c.given); });
     ASSERT_TRUE(error) << c.message;
     EXPECT_EQ(error->kind(), ErrorKind::input_data);

@@ -18,13 +18,15 @@ namespace {
 using Cell = std::array<int, 3>;  // z first: the order of the keys
 using Naive = std::map<Cell, std::vector<std::uint32_t>>;
 
-Naive sorted_naively(const std::vector<Vec3>& points, const Vec3& origin, double size, const std::vector<std::uint8_t>& keep) {
+Naive sorted_naively(const std::vector<Vec3>& points, const Vec3& origin, double size,
+                     const std::vector<std::uint8_t>& keep) {
   Naive out;
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (!keep.empty() && keep[i] == 0) continue;
     const Vec3 p = (points[i] - origin) / size;
     if (!(p.cwiseAbs().maxCoeff() < 1048570.0)) continue;
-    out[{static_cast<int>(std::floor(p.z())), static_cast<int>(std::floor(p.y())), static_cast<int>(std::floor(p.x()))}].push_back(static_cast<std::uint32_t>(i));
+    out[{static_cast<int>(std::floor(p.z())), static_cast<int>(std::floor(p.y())), static_cast<int>(std::floor(p.x()))}]
+        .push_back(static_cast<std::uint32_t>(i));
   }
   return out;
 }
@@ -41,7 +43,8 @@ void expect_same(const Voxels& voxels, const Naive& naive) {
   for (const auto& [cell, v] : number) {
     std::multiset<std::size_t> expected, visited;
     for (const auto& [other, w] : number)
-      if (std::abs(other[0] - cell[0]) <= 1 && std::abs(other[1] - cell[1]) <= 1 && std::abs(other[2] - cell[2]) <= 1) expected.insert(w);
+      if (std::abs(other[0] - cell[0]) <= 1 && std::abs(other[1] - cell[1]) <= 1 && std::abs(other[2] - cell[2]) <= 1)
+        expected.insert(w);
     voxels.neighbours(v, [&](std::size_t w) { visited.insert(w); });
     ASSERT_EQ(visited, expected) << "cube " << v;
   }
@@ -72,7 +75,8 @@ TEST(Voxels, FarCubesAreNeighboursOfNobodyBeyondTheBorder) {
     for (const double y : {-kLast, -0.5, 0.5, kLast})
       for (const double z : {-kLast, 0.5, 1.5, kLast}) points.emplace_back(x, y, z);
   const std::size_t inside = points.size();
-  for (const Vec3& p : {Vec3(2e6, 0, 0), Vec3(0, -2e6, 0), Vec3(0, 0, 1e30), Vec3(nan, 0, 0), Vec3(0, 0, -INFINITY)}) points.push_back(p);
+  for (const Vec3& p : {Vec3(2e6, 0, 0), Vec3(0, -2e6, 0), Vec3(0, 0, 1e30), Vec3(nan, 0, 0), Vec3(0, 0, -INFINITY)})
+    points.push_back(p);
   const Voxels voxels(points, Vec3::Zero(), 1.0);
   EXPECT_EQ(voxels.count(), inside);
   expect_same(voxels, sorted_naively(points, Vec3::Zero(), 1.0, {}));

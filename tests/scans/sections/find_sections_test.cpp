@@ -32,7 +32,8 @@ std::vector<Natural> gauge(const Gauge& how, std::uint64_t seed) {
   std::vector<Natural> out;
   for (const double u : how.u)
     for (int k = 0; k < how.points; ++k) {
-      const double s = (how.upright_flank ? 0.12 : 0.1) * k / (how.points - 1) + how.jitter_y * (random.uniform() - 0.5);
+      const double s =
+          (how.upright_flank ? 0.12 : 0.1) * k / (how.points - 1) + how.jitter_y * (random.uniform() - 0.5);
       const double wave = 1e-3 * std::sin(3.0 * u), level = how.body == Body::wheel ? kRadius : 0.0;
       const double y = s < 0.1 ? 0.05 - s : -0.05, v = level + wave + (s < 0.1 ? 0.0 : s - 0.1);
       const double along = how.jitter_u * (random.uniform() - 0.5);
@@ -50,7 +51,8 @@ std::vector<Vec3> cloud(Body body, const std::vector<Natural>& points, const Pos
 void shuffle(std::vector<Vec3>& points, std::uint64_t seed) {
   Random random(seed);
   for (std::size_t i = points.size(); i > 1; --i)
-    std::swap(points[i - 1], points[std::min(i - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(i)))]);
+    std::swap(points[i - 1],
+              points[std::min(i - 1, static_cast<std::size_t>(random.uniform() * static_cast<double>(i)))]);
 }
 
 std::vector<double> stations(double first, double last, int count) {
@@ -66,7 +68,9 @@ TEST(FindSections, GivesBackASlicedWheelFromShuffledPoints) {
   for (const double u : stations(0.2, 2.0 * kPi - 0.2, 70)) how.u.push_back(u);
   how.u.push_back(kPi);
   std::sort(how.u.begin(), how.u.end());
-  how.u.erase(std::remove_if(how.u.begin(), how.u.end(), [](double u) { return u != kPi && std::fabs(u - kPi) < 0.03; }), how.u.end());
+  how.u.erase(
+      std::remove_if(how.u.begin(), how.u.end(), [](double u) { return u != kPi && std::fabs(u - kPi) < 0.03; }),
+      how.u.end());
   how.jitter_u = 1e-6;
   const Pose X_CS = some_frame(3);
   std::vector<Vec3> points = cloud(Body::wheel, gauge(how, 5), X_CS);

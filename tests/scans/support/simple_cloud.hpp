@@ -8,8 +8,8 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/natural_view.hpp"
-#include "treadmark/core/surface.hpp"
 #include "treadmark/core/random.hpp"
+#include "treadmark/core/surface.hpp"
 
 namespace treadmark::scans::tests {
 

@@ -38,7 +38,9 @@ VirtualScan with_threads(int threads, const Surface& surface, const ScannerSetti
 }
 
 TEST(ScannerContract, TheSamePointsForAnyNumberOfThreads) {
-  const auto z = [](double x, double y) { return std::fabs(y) > 0.03 ? std::numeric_limits<double>::quiet_NaN() : 10.0 * y * y + 1e-3 * std::sin(60.0 * x); };
+  const auto z = [](double x, double y) {
+    return std::fabs(y) > 0.03 ? std::numeric_limits<double>::quiet_NaN() : 10.0 * y * y + 1e-3 * std::sin(60.0 * x);
+  };
   const FormulaRail wavy(z, {{-0.1, -0.03, -1e-3}, {0.1, 0.03, 0.011}});
   const std::shared_ptr<const Surface> rail = round_rail(), wheel = ball_wheel();
   const auto expect_same = [](const Surface& surface, ScannerSettings settings) {
@@ -67,7 +69,8 @@ TEST(ScannerContract, NoiseMovesNoPointAlongTheSurface) {
   settings.noise = 1e-6;
   const VirtualScan b = scan_surface(*round_rail(), settings);
   ASSERT_EQ(a.cloud.points.size(), b.cloud.points.size());
-  for (std::size_t i = 0; i < a.cloud.points.size(); ++i) ASSERT_LT((a.cloud.points[i] - b.cloud.points[i]).norm(), 1e-5);
+  for (std::size_t i = 0; i < a.cloud.points.size(); ++i)
+    ASSERT_LT((a.cloud.points[i] - b.cloud.points[i]).norm(), 1e-5);
 }
 
 TEST(ScannerContract, RefusesWhatMakesNoSense) {
@@ -96,15 +99,30 @@ TEST(ScannerContract, RefusesWhatMakesNoSense) {
   rail_with([](ScannerSettings& s) { s.noise_lateral = 20.0; }, "lateral noise");
   rail_with([](ScannerSettings& s) { s.outliers = 1.5; }, "outliers");
   rail_with([](ScannerSettings& s) { s.holes = 1.0; }, "holes");
-  rail_with([](ScannerSettings& s) { s.holes = 0.1; s.hole_size = 0.0; }, "holes need a size");
-  rail_with([](ScannerSettings& s) { s.holes = 0.5; s.hole_size = 1e-6; }, "too small to cover");
+  rail_with(
+      [](ScannerSettings& s) {
+        s.holes = 0.1;
+        s.hole_size = 0.0;
+      },
+      "holes need a size");
+  rail_with(
+      [](ScannerSettings& s) {
+        s.holes = 0.5;
+        s.hole_size = 1e-6;
+      },
+      "too small to cover");
   rail_with([](ScannerSettings& s) { s.drop_outs = -0.1; }, "drop-outs");
   rail_with([](ScannerSettings& s) { s.most_incidence = 2.0; }, "incidence");
   rail_with([](ScannerSettings& s) { s.passes = 0; }, "passes");
   rail_with([](ScannerSettings& s) { s.registration = -1.0; }, "registration");
   rail_with([](ScannerSettings& s) { s.X_CS.rotation *= 1.001; }, "rigid");
   rail_with([](ScannerSettings& s) { s.u_max = -1.0; }, "smaller to a greater");
-  rail_with([](ScannerSettings& s) { s.y_min = 0.2; s.y_max = 0.3; }, "no surface");
+  rail_with(
+      [](ScannerSettings& s) {
+        s.y_min = 0.2;
+        s.y_max = 0.3;
+      },
+      "no surface");
   rail_with([](ScannerSettings& s) { s.u_max = std::numeric_limits<double>::infinity(); }, "range along the track");
   ScannerSettings on_plane = rail_settings(1'000);
   refused(*plane, on_plane, "range of y");

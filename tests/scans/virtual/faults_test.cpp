@@ -17,7 +17,9 @@ namespace {
 
 using namespace scans::testing;
 
-std::size_t seen(const ScannerTruth& t) { return t.on_surface + t.outliers + t.lost_holes + t.lost_drop_outs + t.lost_occlusion; }
+std::size_t seen(const ScannerTruth& t) {
+  return t.on_surface + t.outliers + t.lost_holes + t.lost_drop_outs + t.lost_occlusion;
+}
 double part(std::size_t a, std::size_t b) { return static_cast<double>(a) / static_cast<double>(b); }
 
 struct Moments {

@@ -38,7 +38,9 @@ TEST(ScannerPasses, OfARailLieBesideEachOther) {
     ASSERT_NEAR(off_rail(p), 0.0, kExact);
     const std::size_t k = scan.cloud.passes[i];
     ASSERT_LT(k, 3u);
-    if (i > 0) { ASSERT_GE(k, scan.cloud.passes[i - 1]); }
+    if (i > 0) {
+      ASSERT_GE(k, scan.cloud.passes[i - 1]);
+    }
     const double angle = std::atan2(p.y(), kHeadRadius - p.z());
     low[k] = std::min(low[k], angle);
     high[k] = std::max(high[k], angle);
@@ -74,7 +76,7 @@ TEST(ScannerPasses, OfAWheelGoRoundIt) {
       if (at < width) ++covered[static_cast<std::size_t>(i)];
     }
   }
-  EXPECT_EQ(std::count(covered.begin(), covered.end(), 1) , 240);  // half of each pass alone
+  EXPECT_EQ(std::count(covered.begin(), covered.end(), 1), 240);  // half of each pass alone
   EXPECT_EQ(std::count(covered.begin(), covered.end(), 2), 120);
   std::vector<double> count(360, 0.0);
   for (const Vec3& p : scan.cloud.points) {
@@ -90,7 +92,8 @@ TEST(ScannerPasses, DoNotRepeatPointsWhereTheyOverlap) {
   settings.passes = 2;
   const VirtualScan scan = scan_surface(*round_rail(), settings);
   std::vector<double> lines[2];
-  for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) lines[scan.cloud.passes[i]].push_back(scan.cloud.points[i].x());
+  for (std::size_t i = 0; i < scan.cloud.points.size(); ++i)
+    lines[scan.cloud.passes[i]].push_back(scan.cloud.points[i].x());
   for (const double x : lines[0]) ASSERT_FALSE(std::binary_search(lines[1].begin(), lines[1].end(), x));
 }
 

@@ -16,14 +16,16 @@ namespace {
 
 using namespace scans::testing;
 
-constexpr double kExact = 1e-9;    // [m] what is asked of points without noise
-constexpr double kCount = 5e-3;    // of the number of points: ends of lines are random
-constexpr double kEven = 0.025;    // of the points of a bin: a line more or less among 90, a point more or less at its ends
+constexpr double kExact = 1e-9;  // [m] what is asked of points without noise
+constexpr double kCount = 5e-3;  // of the number of points: ends of lines are random
+constexpr double kEven =
+    0.025;  // of the points of a bin: a line more or less among 90, a point more or less at its ends
 
 /// Largest relative deviation of the counts of n bins from even.
 double unevenness(const std::vector<double>& at, double low, double high, int n) {
   std::vector<int> count(static_cast<std::size_t>(n), 0);
-  for (const double x : at) ++count[static_cast<std::size_t>(std::clamp(static_cast<int>((x - low) / (high - low) * n), 0, n - 1))];
+  for (const double x : at)
+    ++count[static_cast<std::size_t>(std::clamp(static_cast<int>((x - low) / (high - low) * n), 0, n - 1))];
   double worst = 0.0;
   for (const int c : count) worst = std::max(worst, std::fabs(c * n / static_cast<double>(at.size()) - 1.0));
   return worst;
@@ -120,7 +122,8 @@ TEST(VirtualScanner, SteepFlanksHaveAsManyPointsAsTheirAreaTakes) {
 TEST(VirtualScanner, JumpsAndGapsHaveNoPoints) {
   // a step without a flank at y = 5 mm, nothing for 0 < y < 3 mm, nothing for x > 40 mm + y
   const auto z = [](double x, double y) {
-    if (x < -0.05 || std::fabs(y) > 0.02 || (y > 0.0 && y < 3e-3) || x > 0.04 + y) return std::numeric_limits<double>::quiet_NaN();
+    if (x < -0.05 || std::fabs(y) > 0.02 || (y > 0.0 && y < 3e-3) || x > 0.04 + y)
+      return std::numeric_limits<double>::quiet_NaN();
     return y < 5e-3 ? 0.0 : 8e-3;
   };
   const FormulaRail rail(z, {{-0.05, -0.02, 0.0}, {0.07, 0.02, 8e-3}});

@@ -41,7 +41,9 @@ inline ScannerSettings wheel_settings(std::size_t points) {
   return s;
 }
 /// A zone of a sphere (Archimedes).
-inline double wheel_area() { return 2.0 * 3.14159265358979323846 * kBallRadius * 2.0 * kBallRadius * std::sin(kBallAngle); }
+inline double wheel_area() {
+  return 2.0 * 3.14159265358979323846 * kBallRadius * 2.0 * kBallRadius * std::sin(kBallAngle);
+}
 
 /// A rail given by a formula z(x, y), NaN where there is none. It knows heights over planes that are only shifted.
 class FormulaRail : public Surface {
@@ -59,7 +61,8 @@ class FormulaRail : public Surface {
     const Grid2& g = plane_grid.grid;
     for (int iy = 0; iy < g.ny; ++iy)
       for (int ix = 0; ix < g.nx; ++ix) {
-        const double x = plane_grid.X_SP.origin.x() + g.x0 + ix * g.dx, y = plane_grid.X_SP.origin.y() + g.y0 + iy * g.dy;
+        const double x = plane_grid.X_SP.origin.x() + g.x0 + ix * g.dx,
+                     y = plane_grid.X_SP.origin.y() + g.y0 + iy * g.dy;
         const auto i = static_cast<std::size_t>(ix + g.nx * iy);
         const double z = z_(x, y), h = 1e-7;
         if (!out.z.empty()) out.z[i] = z;

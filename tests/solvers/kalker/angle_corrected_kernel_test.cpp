@@ -32,14 +32,25 @@ TEST(AngleCorrection, TurnsVectorsAsByHand) {
   const double right_angle = 0.5 * std::numbers::pi;
   // A load along the surface that has turned by a right angle presses; one across it then pulls along -y.
   const InfluenceBlock loads = corrected_for_angle(a, right_angle, AngleCorrection::rotated_loads);
-  expect_equal(loads, {.xx = a.xx, .xy = a.xn, .xn = -a.xy, .yx = a.yx, .yy = a.yn, .yn = -a.yy, .nx = a.nx, .ny = a.nn, .nn = -a.ny});
+  expect_equal(
+      loads,
+      {.xx = a.xx, .xy = a.xn, .xn = -a.xy, .yx = a.yx, .yy = a.yn, .yn = -a.yy, .nx = a.nx, .ny = a.nn, .nn = -a.ny});
   // Seen in directions that have turned by a right angle, normal displacement is tangential and the other way round.
   const InfluenceBlock seen = corrected_for_angle(a, right_angle, AngleCorrection::rotated_displacements);
-  expect_equal(seen, {.xx = a.xx, .xy = a.xy, .xn = a.xn, .yx = -a.nx, .yy = -a.ny, .yn = -a.nn, .nx = a.yx, .ny = a.yy, .nn = a.yn});
+  expect_equal(
+      seen,
+      {.xx = a.xx, .xy = a.xy, .xn = a.xn, .yx = -a.nx, .yy = -a.ny, .yn = -a.nn, .nx = a.yx, .ny = a.yy, .nn = a.yn});
   // Opposite surfaces: tractions act the other way in y and n.
   const InfluenceBlock opposite = corrected_for_angle(a, 2.0 * right_angle, AngleCorrection::rotated_loads);
-  expect_equal(opposite,
-               {.xx = a.xx, .xy = -a.xy, .xn = -a.xn, .yx = a.yx, .yy = -a.yy, .yn = -a.yn, .nx = a.nx, .ny = -a.ny, .nn = -a.nn});
+  expect_equal(opposite, {.xx = a.xx,
+                          .xy = -a.xy,
+                          .xn = -a.xn,
+                          .yx = a.yx,
+                          .yy = -a.yy,
+                          .yn = -a.yn,
+                          .nx = a.nx,
+                          .ny = -a.ny,
+                          .nn = -a.nn});
 }
 
 TEST(AngleCorrection, SecondVariantKeepsRollingDisplacementByPressure) {
@@ -52,12 +63,19 @@ TEST(AngleCorrection, SecondVariantKeepsRollingDisplacementByPressure) {
 
 TEST(AngleCorrection, HalfAndHalfHasThePublishedForm) {
   const InfluenceBlock a = half_space(2 * kDx, -kDy);
-  const double alpha = 0.4, c = std::cos(alpha), s = std::sin(alpha), ch = std::cos(alpha / 2), sh = std::sin(alpha / 2);
+  const double alpha = 0.4, c = std::cos(alpha), s = std::sin(alpha), ch = std::cos(alpha / 2),
+               sh = std::sin(alpha / 2);
   const double mean = (a.yy + a.nn) / 2, difference = (a.yy - a.nn) / 2;
   expect_equal(corrected_for_angle(a, alpha, AngleCorrection::half_and_half),
-               {.xx = a.xx, .xy = a.xy * ch + a.xn * sh, .xn = a.xn * ch - a.xy * sh,
-                .yx = a.xy * ch + a.xn * sh, .yy = difference + mean * c + a.yn * s, .yn = a.yn * c - mean * s,
-                .nx = a.xy * sh - a.xn * ch, .ny = mean * s - a.yn * c, .nn = -difference + mean * c + a.yn * s});
+               {.xx = a.xx,
+                .xy = a.xy * ch + a.xn * sh,
+                .xn = a.xn * ch - a.xy * sh,
+                .yx = a.xy * ch + a.xn * sh,
+                .yy = difference + mean * c + a.yn * s,
+                .yn = a.yn * c - mean * s,
+                .nx = a.xy * sh - a.xn * ch,
+                .ny = mean * s - a.yn * c,
+                .nn = -difference + mean * c + a.yn * s});
 }
 
 InfluenceSettings settings_of(std::vector<double> position, std::vector<double> inclination, int variant) {
@@ -82,7 +100,8 @@ std::shared_ptr<const InfluenceKernel> make(const InfluenceSettings& settings) {
 
 TEST(AngleCorrectedKernel, AngleFollowsTheStraightLineThroughTheInclinations) {
   // Points on both sides of alpha = 0.1 + 20 y that leave its least-squares fit where it is.
-  const std::vector<double> position{-0.01, 0.0, 0.01, 0.02}, inclination{-0.1 + 0.01, 0.1 - 0.01, 0.3 - 0.01, 0.5 + 0.01};
+  const std::vector<double> position{-0.01, 0.0, 0.01, 0.02},
+      inclination{-0.1 + 0.01, 0.1 - 0.01, 0.3 - 0.01, 0.5 + 0.01};
   const CombinedMaterial combined = combine(dissimilar());
   const ConstantElements plain(kDx, kDy, combined.poisson, combined.difference);
   for (int variant = 1; variant <= 4; ++variant) {
@@ -90,7 +109,8 @@ TEST(AngleCorrectedKernel, AngleFollowsTheStraightLineThroughTheInclinations) {
     for (const int iy : {0, 3, -4}) {
       const double Y = iy * kDy, y_load = 0.003, y_observed = y_load + Y;
       const double alpha = (0.1 + 20.0 * y_load) - (0.1 + 20.0 * y_observed);
-      expect_equal(kernel->at(kDx, Y), corrected_for_angle(plain.at(kDx, Y), alpha, static_cast<AngleCorrection>(variant)), 1e-16);
+      expect_equal(kernel->at(kDx, Y),
+                   corrected_for_angle(plain.at(kDx, Y), alpha, static_cast<AngleCorrection>(variant)), 1e-16);
     }
   }
 }
@@ -107,12 +127,20 @@ TEST(AngleCorrectedKernel, FourthVariantIsReciprocalAndSymmetric) {
   EXPECT_TRUE(kernel->symmetric() && kernel->coupled());
   for (const auto& [X, Y] : {std::pair{kDx, 4 * kDy}, {-3 * kDx, 7 * kDy}, {0.0, -2 * kDy}}) {
     const InfluenceBlock there = kernel->at(X, Y), back = kernel->at(-X, -Y);
-    expect_equal(there, {.xx = back.xx, .xy = back.yx, .xn = back.nx, .yx = back.xy, .yy = back.yy, .yn = back.ny,
-                         .nx = back.xn, .ny = back.yn, .nn = back.nn});
+    expect_equal(there, {.xx = back.xx,
+                         .xy = back.yx,
+                         .xn = back.nx,
+                         .yx = back.xy,
+                         .yy = back.yy,
+                         .yn = back.ny,
+                         .nx = back.xn,
+                         .ny = back.yn,
+                         .nn = back.nn});
     expect_equal(kernel->at(-X, Y), mirrored(there, true, false));
     expect_equal(kernel->at(X, -Y), mirrored(there, false, true));
   }
-  for (int variant = 1; variant <= 3; ++variant) EXPECT_FALSE(make(settings_of({0.0, 0.01}, {0.0, 0.5}, variant))->symmetric());
+  for (int variant = 1; variant <= 3; ++variant)
+    EXPECT_FALSE(make(settings_of({0.0, 0.01}, {0.0, 0.5}, variant))->symmetric());
 }
 
 TEST(AngleCorrectedKernel, RefusesWhatHasNoMeaning) {

@@ -24,12 +24,14 @@ TEST(BilinearElements, MatchQuadratureOfThePointSolutions) {
       add(expected, weight * tent, point_solution(X - x, Y - y, kPoisson, kDifference));
     });
     const InfluenceBlock found = kernel.at(X, Y);
-    for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(found.*c, expected.*c, 1e-11) << name << ' ' << X << ' ' << Y;
+    for (const auto& [name, c] : kAllCoefficients)
+      EXPECT_NEAR(found.*c, expected.*c, 1e-11) << name << ' ' << X << ' ' << Y;
   }
 }
 
 TEST(BilinearElements, AreTheMeanOfConstantElements) {
-  // A tent is a rectangle smeared over the size of a rectangle: holds near the load, too, where the point solutions are singular.
+  // A tent is a rectangle smeared over the size of a rectangle: holds near the load, too, where the point solutions are
+  // singular.
   const double dx = 0.8, dy = 0.5;
   const BilinearElements bilinear(dx, dy, kPoisson, kDifference);
   const ConstantElements constant(dx, dy, kPoisson, kDifference);
@@ -39,7 +41,8 @@ TEST(BilinearElements, AreTheMeanOfConstantElements) {
       add(expected, weight / (dx * dy), constant.at(X - x, Y - y));
     });
     const InfluenceBlock found = bilinear.at(X, Y);
-    for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(found.*c, expected.*c, 1e-6) << name << ' ' << X << ' ' << Y;
+    for (const auto& [name, c] : kAllCoefficients)
+      EXPECT_NEAR(found.*c, expected.*c, 1e-6) << name << ' ' << X << ' ' << Y;
   }
 }
 
@@ -52,7 +55,8 @@ TEST(BilinearElements, AreTheWeightedSumOfFinerOnes) {
         InfluenceBlock sum;
         for (int ix = -1; ix <= 1; ++ix)
           for (int iy = -1; iy <= 1; ++iy)
-            add(sum, (1.0 - 0.5 * std::abs(ix)) * (1.0 - 0.5 * std::abs(iy)), fine.at(X - ix * dx / 2, Y - iy * dy / 2));
+            add(sum, (1.0 - 0.5 * std::abs(ix)) * (1.0 - 0.5 * std::abs(iy)),
+                fine.at(X - ix * dx / 2, Y - iy * dy / 2));
         const InfluenceBlock found = whole.at(X, Y);
         for (const auto& [name, c] : kAllCoefficients)
           EXPECT_NEAR(found.*c, sum.*c, 2e-13 * found.nn) << name << ' ' << X << ' ' << Y << ' ' << dx;

@@ -24,12 +24,14 @@ TEST(ConstantElements, MatchQuadratureOfThePointSolutions) {
       add(expected, weight, point_solution(X - x, Y - y, kPoisson, kDifference));
     });
     const InfluenceBlock found = kernel.at(X, Y);
-    for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(found.*c, expected.*c, 1e-11) << name << ' ' << X << ' ' << Y;
+    for (const auto& [name, c] : kAllCoefficients)
+      EXPECT_NEAR(found.*c, expected.*c, 1e-11) << name << ' ' << X << ' ' << Y;
   }
 }
 
 TEST(ConstantElements, AreTheSumOfTheirParts) {
-  // Inside, on borders and corners, where quadrature has no accuracy. The parts meet the point in other places than the whole.
+  // Inside, on borders and corners, where quadrature has no accuracy. The parts meet the point in other places than the
+  // whole.
   const double dx = 1.0, dy = 1.6;
   const ConstantElements whole(dx, dy, kPoisson, kDifference), part(dx / 5, dy / 4, kPoisson, kDifference);
   for (const double X : {0.0, 0.1, 0.2, 0.3, 0.5, 0.61, 1.0, 1.5, -0.25, -0.5})
@@ -38,7 +40,8 @@ TEST(ConstantElements, AreTheSumOfTheirParts) {
       for (int ix = 0; ix < 5; ++ix)
         for (int iy = 0; iy < 4; ++iy) add(sum, 1.0, part.at(X - (ix - 2) * dx / 5, Y - (iy - 1.5) * dy / 4));
       const InfluenceBlock found = whole.at(X, Y);
-      for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(found.*c, sum.*c, 1e-14) << name << ' ' << X << ' ' << Y;
+      for (const auto& [name, c] : kAllCoefficients)
+        EXPECT_NEAR(found.*c, sum.*c, 1e-14) << name << ' ' << X << ' ' << Y;
     }
 }
 
@@ -58,8 +61,10 @@ TEST(ConstantElements, CouplingKeepsItsDigitsFarAway) {
         const double R = distance * 0.5 * std::hypot(dx, dy), X = R * std::cos(direction), Y = R * std::sin(direction);
         const std::complex<double> expected = coupling_series(X, Y, dx, dy);
         const double tolerance = 1e-13 * std::abs(expected);
-        EXPECT_NEAR(coupling_integral(X, Y, dx, dy), expected.real(), tolerance) << dx << ' ' << dy << ' ' << X << ' ' << Y;
-        EXPECT_NEAR(coupling_integral(Y, X, dy, dx), -expected.imag(), tolerance) << dx << ' ' << dy << ' ' << X << ' ' << Y;
+        EXPECT_NEAR(coupling_integral(X, Y, dx, dy), expected.real(), tolerance)
+            << dx << ' ' << dy << ' ' << X << ' ' << Y;
+        EXPECT_NEAR(coupling_integral(Y, X, dy, dx), -expected.imag(), tolerance)
+            << dx << ' ' << dy << ' ' << X << ' ' << Y;
       }
 }
 
@@ -101,11 +106,13 @@ TEST(ConstantElements, WorkOfTwoElementsOnEachOtherIsReciprocal) {
 TEST(ConstantElements, AreContinuousAcrossBorders) {
   const ConstantElements kernel(1.0, 1.0, kPoisson, kDifference);
   const double tiny = 1e-10;
-  for (const auto& [X, Y] : {std::pair{0.5, 0.2}, {0.5, 0.5}, {-0.5, 0.5}, {0.2, -0.5}, {1.0, 0.5}, {0.5, 1.0}, {1.0, 1.0}}) {
+  for (const auto& [X, Y] :
+       {std::pair{0.5, 0.2}, {0.5, 0.5}, {-0.5, 0.5}, {0.2, -0.5}, {1.0, 0.5}, {0.5, 1.0}, {1.0, 1.0}}) {
     const InfluenceBlock centre = kernel.at(X, Y);
     for (const auto& [ex, ey] : {std::pair{tiny, 0.0}, {-tiny, 0.0}, {0.0, tiny}, {0.0, -tiny}, {tiny, -tiny}}) {
       const InfluenceBlock beside = kernel.at(X + ex, Y + ey);
-      for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(beside.*c, centre.*c, 1e-8) << name << ' ' << X << ' ' << Y;
+      for (const auto& [name, c] : kAllCoefficients)
+        EXPECT_NEAR(beside.*c, centre.*c, 1e-8) << name << ' ' << X << ' ' << Y;
     }
   }
 }

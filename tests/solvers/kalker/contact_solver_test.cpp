@@ -58,7 +58,8 @@ TEST(ContactTotals, SumTheFieldsByHand) {
   EXPECT_NEAR(s.frictional_power, -1.8, kRounding) << "a shift gives work, not power";
   problem.tangential_model = TangentialModel::fastsim;
   accumulate_totals(problem, s);
-  EXPECT_NEAR(s.elastic_energy, 0.5 * (0.01 + 0.01 + 0.04 + 0.04 + 0.09 + 0.06), kRounding) << "simplified theory has that of its elastic layer";
+  EXPECT_NEAR(s.elastic_energy, 0.5 * (0.01 + 0.01 + 0.04 + 0.04 + 0.09 + 0.06), kRounding)
+      << "simplified theory has that of its elastic layer";
   problem.normal_model = NormalModel::parabolic;
   accumulate_totals(problem, s);
   EXPECT_EQ(s.elastic_energy, 0.0) << "an assumed pressure has no displacements";

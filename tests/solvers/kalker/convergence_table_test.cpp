@@ -53,8 +53,8 @@ Line compute(const std::string& contact, int n) {
   result.field = std::sqrt(difference / size);
   // The theory of line contact has no approach; that of a long strip replaces it.
   const CombinedMaterial material = combine(owned.problem.material);
-  const double strip = 2.0 * shape.force / (2.0 * shape.semi_axis_y) * (1.0 - material.poisson) / (M_PI * material.shear_modulus) *
-                       (std::log(4.0 * shape.semi_axis_y / shape.semi_axis_x) + 0.5);
+  const double strip = 2.0 * shape.force / (2.0 * shape.semi_axis_y) * (1.0 - material.poisson) /
+                       (M_PI * material.shear_modulus) * (std::log(4.0 * shape.semi_axis_y / shape.semi_axis_x) + 0.5);
   const double approach = line ? strip : shape.approach;
   result.approach = solution.approach / approach - 1.0;
   owned.problem.force_prescribed = false;
@@ -71,8 +71,8 @@ std::vector<Line> documented() {
     Line line;
     char bar = 0;
     std::istringstream words(text);
-    if (words >> bar >> line.contact >> bar >> line.n >> bar >> line.pressure >> bar >> line.approach >> bar >> line.force >>
-        bar >> line.area >> bar >> line.field)
+    if (words >> bar >> line.contact >> bar >> line.n >> bar >> line.pressure >> bar >> line.approach >> bar >>
+        line.force >> bar >> line.area >> bar >> line.field)
       lines.push_back(line);
   }
   return lines;

@@ -71,7 +71,9 @@ TEST(Fastrip, FollowsLinearTheoryForSmallCreepage) {
     ContactSolver solver;
     // On a finite grid the slip area is a fraction of an element; the theory's adhesion reaches to the trailing edge.
     constexpr double kLinear = 0.02;
-    const auto force = [&](const Creepage& creepage) { return solver.solve(rolling(shape, 400, 100, creepage).problem); };
+    const auto force = [&](const Creepage& creepage) {
+      return solver.solve(rolling(shape, 400, 100, creepage).problem);
+    };
     EXPECT_NEAR(force({1e-6, 0.0, 0.0}).force_x / (-g * c * c * k.c11 * 1e-6), 1.0, kLinear);
     EXPECT_NEAR(force({0.0, 1e-6, 0.0}).force_y / (-g * c * c * k.c22 * 1e-6), 1.0, kLinear);
     EXPECT_NEAR(force({0.0, 0.0, 1e-4}).force_y / (-g * c * c * c * k.c23 * 1e-4), 1.0, kLinear);
@@ -80,7 +82,8 @@ TEST(Fastrip, FollowsLinearTheoryForSmallCreepage) {
 
 /// Rate of displacement difference du/dx of two half-spaces without lateral contraction under a strip's traction, the
 /// principal value of -2/(pi G) int p(s)/(x - s) ds (Johnson 1985): x lies between two nodes, which makes it symmetric.
-Vec2 displacement_rate(const StripTheory& theory, const StripTheory::Solution& strip, int node, int n, double shear_modulus) {
+Vec2 displacement_rate(const StripTheory& theory, const StripTheory::Solution& strip, int node, int n,
+                       double shear_modulus) {
   const double step = 2.0 * strip.half_length / n, x = -strip.half_length + node * step;
   Vec2 sum = Vec2::Zero();
   for (int k = 0; k < n; ++k) {
@@ -91,8 +94,8 @@ Vec2 displacement_rate(const StripTheory& theory, const StripTheory::Solution& s
 }
 
 TEST(Fastrip, DoesNotSlipInTheAdhesionAreaOfAWideContact) {
-  // Without lateral contraction the theory is exact for strips that do not feel each other: the deformation takes up all
-  // of the rigid slip, spin included, wherever it says adhesion.
+  // Without lateral contraction the theory is exact for strips that do not feel each other: the deformation takes up
+  // all of the rigid slip, spin included, wherever it says adhesion.
   ContactProblem problem;
   problem.material.poisson_1 = problem.material.poisson_2 = 0.0;
   const double a = 1e-3, b = 50e-3;

@@ -17,8 +17,8 @@
 namespace treadmark::kalker {
 namespace {
 
-/// One line of the table in solvers/kalker/fastsim/README.md. Creepages are scaled: 1 is what the linear theory needs for
-/// the friction bound. Results: size of the tangential force over the friction bound.
+/// One line of the table in solvers/kalker/fastsim/README.md. Creepages are scaled: 1 is what the linear theory needs
+/// for the friction bound. Results: size of the tangential force over the friction bound.
 struct Line {
   double ratio = 0.0, xi = 0.0, eta = 0.0, phi = 0.0;
   std::array<double, 5> forces{};  ///< full, fastsim, fastsim with parabolic bound, one flexibility, fastrip
@@ -69,8 +69,9 @@ std::vector<Line> documented() {
 
 std::string markdown(const Line& line) {
   char text[160];
-  std::snprintf(text, sizeof text, "| %.1f | %.1f | %.1f | %.1f | %.3f | %.3f | %.3f | %.3f | %.3f |", line.ratio, line.xi,
-                line.eta, line.phi, line.forces[0], line.forces[1], line.forces[2], line.forces[3], line.forces[4]);
+  std::snprintf(text, sizeof text, "| %.1f | %.1f | %.1f | %.1f | %.3f | %.3f | %.3f | %.3f | %.3f |", line.ratio,
+                line.xi, line.eta, line.phi, line.forces[0], line.forces[1], line.forces[2], line.forces[3],
+                line.forces[4]);
   return text;
 }
 

@@ -104,7 +104,8 @@ TEST(Fastsim, FollowsLinearTheoryForSmallCreepage) {
 }
 
 TEST(Fastsim, OneFlexibilityIntegratesTheRigidSlip) {
-  // Without slip the springs' traction grows from the leading edge: p_x = -xi (a_j - x)/L, p_y = -phi (a_j^2 - x^2)/(2 L).
+  // Without slip the springs' traction grows from the leading edge: p_x = -xi (a_j - x)/L, p_y = -phi (a_j^2 - x^2)/(2
+  // L).
   Case c = rolling(200);
   c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
   const double l = c.problem.fastsim.flexibility = 2.5e-14, a = 6e-3, b = 4e-3;

@@ -31,8 +31,8 @@ Complex sum_by_definition(const RealFft2d& fft, const AlignedVector<double>& fie
   Complex sum;
   for (int iy = 0; iy < fft.active_rows(); ++iy)
     for (int ix = 0; ix < fft.nx(); ++ix) {
-      const double phase = -2.0 * std::numbers::pi *
-                           (static_cast<double>(kx * ix) / fft.nx() + static_cast<double>(ky * iy) / fft.ny());
+      const double phase =
+          -2.0 * std::numbers::pi * (static_cast<double>(kx * ix) / fft.nx() + static_cast<double>(ky * iy) / fft.ny());
       sum += field[static_cast<std::size_t>(ix + fft.nx() * iy)] * std::polar(1.0, phase);
     }
   return sum;
@@ -53,9 +53,9 @@ TEST_P(Fft2dShapes, MatchesTheDefinitionAndInverts) {
   fft.forward(work, spectrum);
   for (int ky = 0; ky < ny; ++ky)
     for (int kx = 0; kx <= nx / 2; ++kx)
-      ASSERT_LT(std::abs(spectrum[static_cast<std::size_t>(kx + (nx / 2 + 1) * ky)] -
-                         sum_by_definition(fft, field, kx, ky)),
-                kRounding)
+      ASSERT_LT(
+          std::abs(spectrum[static_cast<std::size_t>(kx + (nx / 2 + 1) * ky)] - sum_by_definition(fft, field, kx, ky)),
+          kRounding)
           << kx << ' ' << ky;
   fft.inverse(spectrum, work);
   for (std::size_t i = 0; i < field.size(); ++i) ASSERT_NEAR(work[i] / (nx * ny), field[i], kRounding);

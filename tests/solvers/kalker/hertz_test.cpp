@@ -81,7 +81,8 @@ TEST(Hertz, NearlyCircularContactsAreSmooth) {
   // The quotient that defines one of the integrals is 0/0 for a circle.
   const double circle = hertz_from_curvatures(1.0, 1.0, kForce, kSteel).approach;
   for (const double difference : {1e-3, 1e-5, 1e-7, 1e-9})
-    EXPECT_NEAR(hertz_from_curvatures(1.0 + difference, 1.0, kForce, kSteel).approach / circle, 1.0, 2.0 * difference + 1e-14);
+    EXPECT_NEAR(hertz_from_curvatures(1.0 + difference, 1.0, kForce, kSteel).approach / circle, 1.0,
+                2.0 * difference + 1e-14);
 }
 
 TEST(Hertz, LineContactOfTheCarterProblem) {

@@ -86,7 +86,8 @@ TEST(History, UnloadingLeavesTractionsOfBothSigns) {
   const double p0 = 1.5 * ball.problem.normal_force / (std::numbers::pi * a * a);
   const double c1 = a * std::cbrt(0.4), c2 = a * std::cbrt(0.7);
   const auto cattaneo = [&](double r, double c) {
-    const double outer = r < a ? std::sqrt(1.0 - r * r / (a * a)) : 0.0, inner = r < c ? c / a * std::sqrt(1.0 - r * r / (c * c)) : 0.0;
+    const double outer = r < a ? std::sqrt(1.0 - r * r / (a * a)) : 0.0,
+                 inner = r < c ? c / a * std::sqrt(1.0 - r * r / (c * c)) : 0.0;
     return 0.3 * p0 * (outer - inner);
   };
   double worst = 0.0;
@@ -183,7 +184,7 @@ TEST(History, SavedAndRestoredGivesTheSameBits) {
   for (int k = 0; k < 100; ++k) whole.push_back(step(straight, k));
   for (int k = 0; k < 47; ++k) step(first, k);
   const auto saved = first.save();
-  for (int k = 60; k < 70; ++k) step(first, k);   // whatever happens in between
+  for (int k = 60; k < 70; ++k) step(first, k);  // whatever happens in between
   second.restore(saved);
   first.restore(saved);
   for (int k = 47; k < 100; ++k)
@@ -254,11 +255,11 @@ TEST(History, MovesWithAGridOfWholeElements) {
 }
 
 struct Cycle {
-  double input = 0.0, friction = 0.0, energy_change = 0.0;   // [J]
+  double input = 0.0, friction = 0.0, energy_change = 0.0;  // [J]
 };
 
-/// The third of three cycles of shifts; along a line or along a figure of eight. Work is that of the mean of the tractions before and
-/// after a step: the elastic part of it is then exactly the change of the elastic energy (Betti).
+/// The third of three cycles of shifts; along a line or along a figure of eight. Work is that of the mean of the
+/// tractions before and after a step: the elastic part of it is then exactly the change of the elastic energy (Betti).
 Cycle third_cycle(bool line) {
   Ball ball(16, 1e-10);
   ball.problem.regime = Regime::shift;
@@ -269,14 +270,16 @@ Cycle third_cycle(bool line) {
   std::vector<double> px(ball.gap.size()), py(ball.gap.size());
   for (int k = 0; k < 3 * steps; ++k) {
     const double t0 = 2.0 * std::numbers::pi * k / steps, t1 = 2.0 * std::numbers::pi * (k + 1) / steps;
-    const double wx = 5e-6 * (std::sin(t1) - std::sin(t0)), wy = 2e-6 * (std::sin((line ? 1 : 2) * t1) - std::sin((line ? 1 : 2) * t0));
+    const double wx = 5e-6 * (std::sin(t1) - std::sin(t0)),
+                 wy = 2e-6 * (std::sin((line ? 1 : 2) * t1) - std::sin((line ? 1 : 2) * t0));
     ball.problem.creepage = {wx, wy, 0.0};
     ball.problem.history = k == 0 ? HistoryUse::start : HistoryUse::keep_going;
     const ContactSolution s = ball.solve(solver);
     EXPECT_EQ(s.status, Status::ok);
     const double area = ball.problem.grid.cell_area();
     double power = 0.0;
-    for (std::size_t i = 0; i < px.size(); ++i) power += (s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i]) * area;
+    for (std::size_t i = 0; i < px.size(); ++i)
+      power += (s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i]) * area;
     EXPECT_NEAR(s.frictional_power, power, 1e-12 + 1e-9 * std::fabs(power));
     EXPECT_LE(s.frictional_power, 1e-12);  // rounding, where hardly anything slips
     for (std::size_t i = 0; i < px.size() && k >= 2 * steps; ++i) {
@@ -324,7 +327,8 @@ TEST(Sensitivities, AreThoseOfSmallDifferences) {
       parameter = before - step;
       const ContactSolution less = ball.solve(solver);
       parameter = before;
-      return std::array<double, 3>{(more.force_n - less.force_n) / (2.0 * step), (more.force_x - less.force_x) / (2.0 * step),
+      return std::array<double, 3>{(more.force_n - less.force_n) / (2.0 * step),
+                                   (more.force_x - less.force_x) / (2.0 * step),
                                    (more.force_y - less.force_y) / (2.0 * step)};
     };
     Creepage& c = ball.problem.creepage;
@@ -333,7 +337,7 @@ TEST(Sensitivities, AreThoseOfSmallDifferences) {
     for (std::size_t k = 0; k < 3; ++k) {
       const double size = k == 2 ? 0.2 * length : 5e-4 * length;
       const auto d = derivative(*parameters[k], 1e-4 * size);
-      const double unit = k == 2 ? 2.7e-3 : 1.0;   // a spin acts by its lever
+      const double unit = k == 2 ? 2.7e-3 : 1.0;  // a spin acts by its lever
       EXPECT_NEAR(at.sensitivities->by_creepage[k][0], d[1], 0.01 * scale * unit) << k;
       EXPECT_NEAR(at.sensitivities->by_creepage[k][1], d[2], 0.01 * scale * unit) << k;
     }

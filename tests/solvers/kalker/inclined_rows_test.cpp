@@ -15,9 +15,10 @@
 namespace treadmark::kalker::testing {
 namespace {
 
-using Fields = std::array<std::vector<double>, 3>;   ///< x, y, n
+using Fields = std::array<std::vector<double>, 3>;  ///< x, y, n
 
-/// A ball of dissimilar material in a groove; partly slipping where it rolls. The grid is not symmetric about the contact.
+/// A ball of dissimilar material in a groove; partly slipping where it rolls. The grid is not symmetric about the
+/// contact.
 OwnedProblem groove(Regime regime, int n = 16) {
   const double d = 14e-3 / n;
   const Grid2 grid{-0.5 * (n - 1) * d, -0.5 * (n + 1) * d, d, d, n, n + 3};
@@ -81,7 +82,8 @@ std::array<ContactSolution, 2> two_steps(ContactProblem problem) {
 double inclination(const InfluenceSettings& s, double y) {
   std::size_t i = 0;
   while (i + 2 < s.position.size() && y > s.position[i + 1]) ++i;
-  return s.inclination[i] + (y - s.position[i]) * (s.inclination[i + 1] - s.inclination[i]) / (s.position[i + 1] - s.position[i]);
+  return s.inclination[i] +
+         (y - s.position[i]) * (s.inclination[i + 1] - s.inclination[i]) / (s.position[i + 1] - s.position[i]);
 }
 
 /// Displacements of all elements by all tractions, term by term.
@@ -94,12 +96,14 @@ Fields dense_displacement(const ContactProblem& p, const ContactSolution& by, do
   for (std::size_t j = 0; j < g.size(); ++j) {
     if (by.pressure[j] == 0.0) continue;
     const int jx = static_cast<int>(j) % g.nx, jy = static_cast<int>(j) / g.nx;
-    const double px = by.traction_x.empty() ? 0.0 : by.traction_x[j], py = by.traction_y.empty() ? 0.0 : by.traction_y[j];
+    const double px = by.traction_x.empty() ? 0.0 : by.traction_x[j],
+                 py = by.traction_y.empty() ? 0.0 : by.traction_y[j];
     for (std::size_t i = 0; i < g.size(); ++i) {
       const int ix = static_cast<int>(i) % g.nx, iy = static_cast<int>(i) / g.nx;
       const double X = g.x(ix) - g.x(jx) + shift_x, Y = g.y(iy) - g.y(jy);
       const double alpha = inclination(p.influence, g.y(jy)) - inclination(p.influence, g.y(iy));
-      const InfluenceBlock b = corrected_for_angle(half_space.at(X, Y), alpha, static_cast<AngleCorrection>(p.influence.variant));
+      const InfluenceBlock b =
+          corrected_for_angle(half_space.at(X, Y), alpha, static_cast<AngleCorrection>(p.influence.variant));
       const double layer = Y == 0.0 && std::abs(X) < 0.1 * g.dx ? p.material.layer_flexibility : 0.0;
       const double pn = by.pressure[j];
       u[0][i] += (b.xx * px + b.xy * py + b.xn * pn) / m.shear_modulus + layer * px;
@@ -211,7 +215,8 @@ TEST(InclinedRows, MirrorImagesStayMirrorImages) {
     Grid2& grid = c.problem.grid;
     grid.y0 = -0.5 * (grid.ny - 1) * grid.dy;
     for (int iy = 0; iy < grid.ny; ++iy)
-      for (int ix = 0; ix < grid.nx; ++ix) c.gap[grid.index(ix, iy)] = 1.2 * grid.x(ix) * grid.x(ix) + 2.4 * grid.y(iy) * grid.y(iy);
+      for (int ix = 0; ix < grid.nx; ++ix)
+        c.gap[grid.index(ix, iy)] = 1.2 * grid.x(ix) * grid.x(ix) + 2.4 * grid.y(iy) * grid.y(iy);
     const ContactSolution a = ContactSolver().solve(c.problem);
     OwnedProblem m = c;
     InfluenceSettings& in = m.problem.influence;

@@ -62,7 +62,7 @@ TEST(InfluenceKinds, NoInclinationIsNoCorrection) {
   const ContactSolution plane = c.solve();
   c.problem.influence.kind = InfluenceSettings::Kind::angle_corrected;
   c.problem.influence.position = {-0.01, 0.01};
-  c.problem.influence.inclination = {0.3, 0.3};   // inclined, but plane
+  c.problem.influence.inclination = {0.3, 0.3};  // inclined, but plane
   const ContactSolution same = c.solve();
   ASSERT_EQ(same.status, Status::ok) << same.tangential.message;
   EXPECT_LT(rms_difference(same.pressure, plane.pressure), 1e-5);

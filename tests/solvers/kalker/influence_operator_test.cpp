@@ -77,16 +77,17 @@ TEST_P(InfluenceOperators, EqualTheDirectSum) {
   const auto half_spaces = std::make_shared<ConstantElements>(kDx, kDy, 0.28, 0.1);
   const auto p = random_tractions(static_cast<std::size_t>(c.nx * c.ny));
   for (const std::shared_ptr<const InfluenceKernel>& kernel :
-       {std::shared_ptr<const InfluenceKernel>(half_spaces), std::shared_ptr<const InfluenceKernel>(std::make_shared<LopsidedKernel>())}) {
+       {std::shared_ptr<const InfluenceKernel>(half_spaces),
+        std::shared_ptr<const InfluenceKernel>(std::make_shared<LopsidedKernel>())}) {
     InfluenceOperator op(c.nx, c.ny, kDx, kDy, kShearModulus, kernel, c.shift_x, c.shift_y);
     expect_near(by_operator(op, p), direct_sum(c, *kernel, p));
   }
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, InfluenceOperators,
-                         ::testing::Values(Case{1, 1, 0.0, 0.0}, Case{7, 1, 0.0, 0.0}, Case{1, 5, 0.1e-3, 0.0}, Case{13, 8, 0.0, 0.0},
-                                           Case{13, 8, kDx, 0.0}, Case{8, 13, 0.13e-3, -0.4e-3}, Case{9, 9, 0.0, 0.2e-3},
-                                           Case{17, 1, -0.5e-3, 0.4e-3}));
+                         ::testing::Values(Case{1, 1, 0.0, 0.0}, Case{7, 1, 0.0, 0.0}, Case{1, 5, 0.1e-3, 0.0},
+                                           Case{13, 8, 0.0, 0.0}, Case{13, 8, kDx, 0.0}, Case{8, 13, 0.13e-3, -0.4e-3},
+                                           Case{9, 9, 0.0, 0.2e-3}, Case{17, 1, -0.5e-3, 0.4e-3}));
 
 TEST(InfluenceOperator, SymmetryChangesNoCoefficient) {
   const auto kernel = std::make_shared<ConstantElements>(kDx, kDy, 0.28, 0.1);

@@ -13,14 +13,19 @@
 namespace treadmark::kalker {
 namespace {
 
-/// Point solutions of Boussinesq (normal) and Cerruti (tangential), times G, for the pair of equal bodies (both deflect).
+/// Point solutions of Boussinesq (normal) and Cerruti (tangential), times G, for the pair of equal bodies (both
+/// deflect).
 double point_load(Component component, double x, double y, double poisson) {
   const double r = std::hypot(x, y);
   switch (component) {
-    case Component::nn: return (1.0 - poisson) / (std::numbers::pi * r);
-    case Component::xx: return ((1.0 - poisson) / r + poisson * x * x / (r * r * r)) / std::numbers::pi;
-    case Component::yy: return ((1.0 - poisson) / r + poisson * y * y / (r * r * r)) / std::numbers::pi;
-    case Component::xy: return poisson * x * y / (r * r * r) / std::numbers::pi;
+    case Component::nn:
+      return (1.0 - poisson) / (std::numbers::pi * r);
+    case Component::xx:
+      return ((1.0 - poisson) / r + poisson * x * x / (r * r * r)) / std::numbers::pi;
+    case Component::yy:
+      return ((1.0 - poisson) / r + poisson * y * y / (r * r * r)) / std::numbers::pi;
+    case Component::xy:
+      return poisson * x * y / (r * r * r) / std::numbers::pi;
   }
   return 0.0;
 }
@@ -40,9 +45,12 @@ double gauss(const std::function<double(double)>& f, double a, double b, int pan
 
 double by_quadrature(Component component, double X, double Y, double dx, double dy, double poisson) {
   const int panels = 60;
-  return gauss([&](double xs) {
-    return gauss([&](double ys) { return point_load(component, X - xs, Y - ys, poisson); }, -dy / 2, dy / 2, panels);
-  }, -dx / 2, dx / 2, panels);
+  return gauss(
+      [&](double xs) {
+        return gauss([&](double ys) { return point_load(component, X - xs, Y - ys, poisson); }, -dy / 2, dy / 2,
+                     panels);
+      },
+      -dx / 2, dx / 2, panels);
 }
 
 /// Over the loaded element itself: polar coordinates about its centre remove the 1/r singularity.
@@ -101,7 +109,8 @@ TEST(Influence, HasTheSymmetriesOfARectangle) {
     EXPECT_DOUBLE_EQ(c(component, 0.7, 0.4), c(component, 0.7, -0.4));
   }
   EXPECT_DOUBLE_EQ(c(Component::xy, 0.7, 0.4), -c(Component::xy, -0.7, 0.4));
-  EXPECT_DOUBLE_EQ(influence(Component::xx, 0.7, 0.4, 0.3, 0.5, 0.3), influence(Component::yy, 0.4, 0.7, 0.5, 0.3, 0.3));
+  EXPECT_DOUBLE_EQ(influence(Component::xx, 0.7, 0.4, 0.3, 0.5, 0.3),
+                   influence(Component::yy, 0.4, 0.7, 0.5, 0.3, 0.3));
 }
 
 TEST(Influence, IsContinuousWhereTheObservationCrossesAnElementEdge) {

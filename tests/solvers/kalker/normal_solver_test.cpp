@@ -30,7 +30,8 @@ ContactSolution solve(const ContactProblem& problem) {
 }
 
 double rms(const std::vector<double>& field) {
-  return std::sqrt(std::inner_product(field.begin(), field.end(), field.begin(), 0.0) / static_cast<double>(field.size()));
+  return std::sqrt(std::inner_product(field.begin(), field.end(), field.begin(), 0.0) /
+                   static_cast<double>(field.size()));
 }
 
 double rms_difference(std::vector<double> a, const std::vector<double>& b) {
@@ -45,8 +46,9 @@ std::vector<double> direct_displacement(const Grid2& grid, const std::vector<dou
     if (p[static_cast<std::size_t>(j)] == 0.0) continue;
     for (int i = 0; i < static_cast<int>(p.size()); ++i)
       u[static_cast<std::size_t>(i)] +=
-          influence(Component::nn, (i % grid.nx - j % grid.nx) * grid.dx, (i / grid.nx - j / grid.nx) * grid.dy, grid.dx,
-                    grid.dy, kSteel.poisson) / kSteel.shear_modulus * p[static_cast<std::size_t>(j)];
+          influence(Component::nn, (i % grid.nx - j % grid.nx) * grid.dx, (i / grid.nx - j / grid.nx) * grid.dy,
+                    grid.dx, grid.dy, kSteel.poisson) /
+          kSteel.shear_modulus * p[static_cast<std::size_t>(j)];
   }
   return u;
 }
@@ -57,8 +59,9 @@ std::vector<double> projected_gauss_seidel(const ContactProblem& problem, double
   const int n = static_cast<int>(grid.size());
   std::vector<double> p(grid.size());
   const auto c = [&](int i, int j) {
-    return influence(Component::nn, (i % grid.nx - j % grid.nx) * grid.dx, (i / grid.nx - j / grid.nx) * grid.dy, grid.dx,
-                     grid.dy, kSteel.poisson) / kSteel.shear_modulus;
+    return influence(Component::nn, (i % grid.nx - j % grid.nx) * grid.dx, (i / grid.nx - j / grid.nx) * grid.dy,
+                     grid.dx, grid.dy, kSteel.poisson) /
+           kSteel.shear_modulus;
   };
   std::vector<double> matrix;
   for (int i = 0; i < n; ++i)
@@ -68,7 +71,8 @@ std::vector<double> projected_gauss_seidel(const ContactProblem& problem, double
       const auto row = static_cast<std::size_t>(i);
       if (std::isnan(problem.gap[row])) continue;
       double e = problem.gap[row] - approach;
-      for (int j = 0; j < n; ++j) e += matrix[row * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)] * p[static_cast<std::size_t>(j)];
+      for (int j = 0; j < n; ++j)
+        e += matrix[row * static_cast<std::size_t>(n) + static_cast<std::size_t>(j)] * p[static_cast<std::size_t>(j)];
       p[row] = std::max(0.0, p[row] - e / matrix[row * static_cast<std::size_t>(n + 1)]);
     }
   return p;
@@ -174,7 +178,8 @@ TEST(NormalSolver, FindsASecondRegionOutsideTheFirstBox) {
   EXPECT_GT(right, 1e3);
   EXPECT_LT(right, 9e3);
   const auto u = direct_displacement(owned.problem.grid, solution.pressure);
-  for (std::size_t i = 0; i < u.size(); ++i) ASSERT_GE(owned.gap[i] - solution.approach + u[i], -1e-4 * solution.approach);
+  for (std::size_t i = 0; i < u.size(); ++i)
+    ASSERT_GE(owned.gap[i] - solution.approach + u[i], -1e-4 * solution.approach);
 }
 
 TEST(NormalSolver, ForceAndApproachAreTwoSidesOfOneProblem) {
@@ -356,7 +361,10 @@ TEST(NormalSolver, RefusesInconsistentInput) {
   refused([](ContactProblem& p) { p.material.shear_modulus_1 = -1.0; });
   refused([](ContactProblem& p) { p.material.poisson_2 = 0.7; });
   refused([](ContactProblem& p) { p.normal_force = -1.0; });
-  refused([](ContactProblem& p) { p.force_prescribed = false; p.approach = std::nan(""); });
+  refused([](ContactProblem& p) {
+    p.force_prescribed = false;
+    p.approach = std::nan("");
+  });
   refused([](ContactProblem& p) { p.settings.eps = 0.0; });
 }
 

@@ -13,11 +13,18 @@
 namespace treadmark::kalker {
 
 inline constexpr std::array<std::pair<const char*, double InfluenceBlock::*>, 9> kAllCoefficients{
-    {{"xx", &InfluenceBlock::xx}, {"xy", &InfluenceBlock::xy}, {"xn", &InfluenceBlock::xn},
-     {"yx", &InfluenceBlock::yx}, {"yy", &InfluenceBlock::yy}, {"yn", &InfluenceBlock::yn},
-     {"nx", &InfluenceBlock::nx}, {"ny", &InfluenceBlock::ny}, {"nn", &InfluenceBlock::nn}}};
+    {{"xx", &InfluenceBlock::xx},
+     {"xy", &InfluenceBlock::xy},
+     {"xn", &InfluenceBlock::xn},
+     {"yx", &InfluenceBlock::yx},
+     {"yy", &InfluenceBlock::yy},
+     {"yn", &InfluenceBlock::yn},
+     {"nx", &InfluenceBlock::nx},
+     {"ny", &InfluenceBlock::ny},
+     {"nn", &InfluenceBlock::nn}}};
 
-/// Displacement differences times G by unit forces on two half-spaces (Boussinesq, Cerruti; Johnson 1985 sec. 3.2, 3.6).
+/// Displacement differences times G by unit forces on two half-spaces (Boussinesq, Cerruti; Johnson 1985
+/// sec. 3.2, 3.6).
 inline InfluenceBlock point_solution(double x, double y, double poisson, double difference) {
   const double r = std::hypot(x, y), factor = std::numbers::inv_pi / r;
   InfluenceBlock u;
@@ -40,7 +47,8 @@ inline void add(InfluenceBlock& sum, double factor, const InfluenceBlock& block)
 /// f(x, y, weight of the node) summed over the rectangle by a five-point Gauss rule on panels x panels squares.
 template <class Function>
 void for_gauss_nodes(double x1, double x2, double y1, double y2, int panels, const Function& f) {
-  constexpr std::array<double, 5> node{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831, 0.9061798459386640};
+  constexpr std::array<double, 5> node{-0.9061798459386640, -0.5384693101056831, 0.0, 0.5384693101056831,
+                                       0.9061798459386640};
   constexpr std::array<double, 5> weight{0.2369268850561891, 0.4786286704993665, 0.5688888888888889, 0.4786286704993665,
                                          0.2369268850561891};
   const double hx = (x2 - x1) / panels, hy = (y2 - y1) / panels;
@@ -48,7 +56,8 @@ void for_gauss_nodes(double x1, double x2, double y1, double y2, int panels, con
     for (int iy = 0; iy < panels; ++iy)
       for (std::size_t kx = 0; kx < 5; ++kx)
         for (std::size_t ky = 0; ky < 5; ++ky)
-          f(x1 + hx * (ix + 0.5 + 0.5 * node[kx]), y1 + hy * (iy + 0.5 + 0.5 * node[ky]), 0.25 * hx * hy * weight[kx] * weight[ky]);
+          f(x1 + hx * (ix + 0.5 + 0.5 * node[kx]), y1 + hy * (iy + 0.5 + 0.5 * node[ky]),
+            0.25 * hx * hy * weight[kx] * weight[ky]);
 }
 
 }  // namespace treadmark::kalker

@@ -128,9 +128,9 @@ TEST(ReferenceCases, FastsimWithSpin) {
     int n;
     NormalModel model;
   };
-  for (const Case& c : {Case{1, 44, NormalModel::parabolic}, Case{2, 44, NormalModel::elliptic},
-                        Case{4, 220, NormalModel::parabolic}, Case{5, 220, NormalModel::elliptic},
-                        Case{7, 220, NormalModel::parabolic}}) {
+  for (const Case& c :
+       {Case{1, 44, NormalModel::parabolic}, Case{2, 44, NormalModel::elliptic}, Case{4, 220, NormalModel::parabolic},
+        Case{5, 220, NormalModel::elliptic}, Case{7, 220, NormalModel::parabolic}}) {
     SCOPED_TRACE("case " + std::to_string(c.index + 1));
     const auto& patch = patches.at(c.index);
     OwnedProblem owned = hertzian(shape, hertz_grid(shape, c.n, c.n, 1.1));

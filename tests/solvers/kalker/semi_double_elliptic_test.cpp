@@ -33,7 +33,8 @@ TEST(SemiDoubleElliptic, WithEqualHalvesItIsHertz) {
   EXPECT_EQ(shape.approach, hertz.approach);
   for (const double x : {0.0, 1e-3, -4.5e-3})
     for (const double y : {0.0, 2e-3, -2.9e-3})
-      EXPECT_NEAR(semi_double_elliptic_pressure(shape, x, y), hertz_pressure(hertz, x, y), 1e-6 * hertz_max_pressure(hertz));
+      EXPECT_NEAR(semi_double_elliptic_pressure(shape, x, y), hertz_pressure(hertz, x, y),
+                  1e-6 * hertz_max_pressure(hertz));
 }
 
 TEST(SemiDoubleElliptic, CarriesTheForceOnAPatchThatFillsItsGrid) {

@@ -31,8 +31,8 @@ constexpr Reference kReferences[] = {
     {"full theory", 44, NormalModel::full, TangentialModel::full, -14940.0, -48.21, -540.4, 356},
     {"parabolic", 44, NormalModel::parabolic, TangentialModel::fastsim, -15050.0, -39.00, -509.3, 738},
     {"elliptic", 44, NormalModel::elliptic, TangentialModel::fastsim, -14800.0, -48.29, -694.4, 618},
-    // Here tractions at the leading edge are bounded by friction, those of the reference are not; and the force is that of
-    // the pressures at element centres.
+    // Here tractions at the leading edge are bounded by friction, those of the reference are not; and the force is that
+    // of the pressures at element centres.
     {"FaStrip", 44, NormalModel::elliptic, TangentialModel::fastrip, -15830.0, -48.16, -614.0, 626, 6e-3, 2},
     {"parabolic, fine", 220, NormalModel::parabolic, TangentialModel::fastsim, -15640.0, -37.98, -560.8, 18424},
     {"elliptic, fine", 220, NormalModel::elliptic, TangentialModel::fastsim, -14650.0, -45.30, -737.3, 16572},
@@ -145,7 +145,8 @@ TEST(SimplifiedTheories, HaveTheirTractionsBoundedByFriction) {
       const OwnedProblem owned = rolling(model, creepage);
       const ContactSolution solution = solver.solve(owned.problem);
       for (std::size_t i = 0; i < solution.pressure.size(); ++i) {
-        const double bound = 0.3 * solution.pressure[i], size = std::hypot(solution.traction_x[i], solution.traction_y[i]);
+        const double bound = 0.3 * solution.pressure[i],
+                     size = std::hypot(solution.traction_x[i], solution.traction_y[i]);
         ASSERT_LE(size, bound * (1.0 + 1e-12));
         if (solution.state[i] == ElementState::slip) {
           ASSERT_NEAR(size, bound, 1e-9 * bound);

@@ -78,7 +78,8 @@ TEST(SubPatches, ElasticEnergyOfTheReferenceProgramIsThatOfFullInfluence) {
   EXPECT_GT(quirky.elastic_energy, parts.elastic_energy);
   // In contact the influence of parts on themselves and 0.3 times that of the other make up approach less gap.
   double work = 0.0;
-  for (std::size_t i = 0; i < parts.pressure.size(); ++i) work += parts.pressure[i] * (bumps.problem.approach - bumps.gap[i]);
+  for (std::size_t i = 0; i < parts.pressure.size(); ++i)
+    work += parts.pressure[i] * (bumps.problem.approach - bumps.gap[i]);
   work *= 0.5 * bumps.problem.grid.cell_area();
   EXPECT_NEAR(parts.elastic_energy, work, 1e-5 * work);
 }
@@ -110,7 +111,8 @@ TEST(SubPatches, TakeApproximatePressures) {
   for (const NormalModel model : {NormalModel::kpec, NormalModel::analyn}) {
     TwoBumps full(0.5), fast(0.5);
     fast.problem.normal_model = model;
-    const ContactSolution a = ContactSolver().solve_normal(full.problem), b = ContactSolver().solve_normal(fast.problem);
+    const ContactSolution a = ContactSolver().solve_normal(full.problem),
+                          b = ContactSolver().solve_normal(fast.problem);
     ASSERT_EQ(b.status, Status::ok) << b.normal.message;
     // ellipses: both approximations are close to the full solution
     EXPECT_NEAR(b.force_n, a.force_n, 0.02 * a.force_n);

@@ -35,7 +35,9 @@ std::shared_ptr<const InfluenceKernel> make(const NumericalInfluence& table, dou
   return make_influence_kernel(Material{}, settings, dx, dy, 30.0, 0.0);
 }
 
-std::array<double, 9> in_order_of_the_table(const InfluenceBlock& b) { return {b.nn, b.nx, b.ny, b.xn, b.xx, b.xy, b.yn, b.yx, b.yy}; }
+std::array<double, 9> in_order_of_the_table(const InfluenceBlock& b) {
+  return {b.nn, b.nx, b.ny, b.xn, b.xx, b.xy, b.yn, b.yx, b.yy};
+}
 
 TEST(TabulatedKernel, ReproducesItsEntries) {
   const NumericalInfluence table = numbered_table();
@@ -52,7 +54,8 @@ TEST(TabulatedKernel, ReproducesItsEntries) {
 
 TEST(TabulatedKernel, IsBilinearBetweenItsEntries) {
   const NumericalInfluence table = numbered_table();
-  const auto found = in_order_of_the_table(make(table)->at(-1.7 * kDx, 0.4 * kDy));  // 0.3 after column 0, 0.4 after row 1
+  const auto found =
+      in_order_of_the_table(make(table)->at(-1.7 * kDx, 0.4 * kDy));  // 0.3 after column 0, 0.4 after row 1
   for (std::size_t i = 0; i < 9; ++i) {
     const double expected = 0.6 * (0.7 * table.values[5][i] + 0.3 * table.values[6][i]) +
                             0.4 * (0.7 * table.values[10][i] + 0.3 * table.values[11][i]);
@@ -63,7 +66,8 @@ TEST(TabulatedKernel, IsBilinearBetweenItsEntries) {
 TEST(TabulatedKernel, IsTheHalfSpaceOutside) {
   const auto kernel = make(numbered_table());
   const ConstantElements half_space(kDx, kDy, 0.28, 0.0);
-  for (const auto& [X, Y] : {std::pair{2.01 * kDx, 0.0}, {-3 * kDx, kDy}, {0.0, 1.01 * kDy}, {kDx, -2 * kDy}, {1e9 * kDx, 0.0}})
+  for (const auto& [X, Y] :
+       {std::pair{2.01 * kDx, 0.0}, {-3 * kDx, kDy}, {0.0, 1.01 * kDy}, {kDx, -2 * kDy}, {1e9 * kDx, 0.0}})
     for (const auto& [name, c] : kAllCoefficients) EXPECT_EQ(kernel->at(X, Y).*c, half_space.at(X, Y).*c) << name;
 }
 
@@ -72,7 +76,8 @@ TEST(TabulatedKernel, SeesSymmetryAndCoupling) {
   NumericalInfluence table = numbered_table();
   for (int iy = 0; iy < kNy; ++iy)
     for (int ix = 0; ix < kNx; ++ix)
-      table.values[static_cast<std::size_t>(iy * kNx + ix)] = in_order_of_the_table(half_space.at((ix - 2) * kDx, (iy - 1) * kDy));
+      table.values[static_cast<std::size_t>(iy * kNx + ix)] =
+          in_order_of_the_table(half_space.at((ix - 2) * kDx, (iy - 1) * kDy));
   EXPECT_TRUE(make(table)->symmetric());
   EXPECT_FALSE(make(table)->coupled());
   table.values[0][4] *= 1.001;  // xx

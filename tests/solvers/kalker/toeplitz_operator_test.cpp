@@ -28,7 +28,8 @@ std::vector<double> direct_sum(int nx, int ny, const std::vector<double>& p) {
   std::vector<double> u(p.size());
   for (int i = 0; i < nx * ny; ++i)
     for (int j = 0; j < nx * ny; ++j)
-      u[static_cast<std::size_t>(i)] += lopsided_kernel(i % nx - j % nx, i / nx - j / nx) * p[static_cast<std::size_t>(j)];
+      u[static_cast<std::size_t>(i)] +=
+          lopsided_kernel(i % nx - j % nx, i / nx - j / nx) * p[static_cast<std::size_t>(j)];
   return u;
 }
 
@@ -55,7 +56,8 @@ TEST(ToeplitzTransform, KernelsAndFieldsMayBeSummedBetweenTransforms) {
   const int nx = 12, ny = 9;
   const ToeplitzTransform transform(nx, ny);
   const auto one = transform.kernel_spectrum(lopsided_kernel);
-  const auto two = transform.kernel_spectrum([](int dix, int diy) { return influence(Component::xy, dix, diy, 1, 1, 0.3); });
+  const auto two =
+      transform.kernel_spectrum([](int dix, int diy) { return influence(Component::xy, dix, diy, 1, 1, 0.3); });
   const auto p = random_field(transform.size(), 1), q = random_field(transform.size(), 2);
   Spectrum sp(transform.spectrum_size()), sq(transform.spectrum_size());
   transform.forward(p, sp);

@@ -26,14 +26,17 @@ constexpr std::array kCorrections{AngleCorrection::rotated_loads, AngleCorrectio
 struct Box {
   int nx, ny;
   double shift_x = 0.0, shift_y = 0.0;
-  double difference = 0.12;   ///< K
+  double difference = 0.12;  ///< K
 };
 
 /// One coefficient after the other, in turned axes; the angles as they are, without order.
-Fields direct_sum(const Box& c, const InfluenceKernel& kernel, const std::vector<double>& angle, AngleCorrection correction, const Fields& p) {
+Fields direct_sum(const Box& c, const InfluenceKernel& kernel, const std::vector<double>& angle,
+                  AngleCorrection correction, const Fields& p) {
   return testing::direct_sum(p, kShearModulus, [&](int i, int j) {
-    const InfluenceBlock plane = kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
-    return corrected_for_angle(plane, angle[static_cast<std::size_t>(j / c.nx)] - angle[static_cast<std::size_t>(i / c.nx)], correction);
+    const InfluenceBlock plane =
+        kernel.at((i % c.nx - j % c.nx) * kDx + c.shift_x, (i / c.nx - j / c.nx) * kDy + c.shift_y);
+    return corrected_for_angle(
+        plane, angle[static_cast<std::size_t>(j / c.nx)] - angle[static_cast<std::size_t>(i / c.nx)], correction);
   });
 }
 
@@ -70,8 +73,9 @@ TEST_P(TurnedProducts, EqualTheDirectSum) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Boxes, TurnedProducts,
-                         ::testing::Values(Box{1, 1}, Box{7, 1}, Box{1, 6}, Box{13, 8}, Box{13, 8, 0.0, 0.0, 0.0}, Box{9, 11, kDx, 0.0},
-                                           Box{8, 13, 0.13e-3, -0.4e-3}, Box{8, 13, 0.13e-3, 0.0, 0.0}));
+                         ::testing::Values(Box{1, 1}, Box{7, 1}, Box{1, 6}, Box{13, 8}, Box{13, 8, 0.0, 0.0, 0.0},
+                                           Box{9, 11, kDx, 0.0}, Box{8, 13, 0.13e-3, -0.4e-3},
+                                           Box{8, 13, 0.13e-3, 0.0, 0.0}));
 
 TEST(TurnedProduct, OnAStraightLineCoefficientsDependOnTheOffsetOnly) {
   const int nx = 11, ny = 9;
@@ -82,7 +86,8 @@ TEST(TurnedProduct, OnAStraightLineCoefficientsDependOnTheOffsetOnly) {
   for (int i = 0; i < ny; ++i) angle.push_back(-0.2 + curvature * i * kDy);
   for (const AngleCorrection correction : kCorrections) {
     InfluenceOperator turned(nx, ny, kDx, kDy, kShearModulus, plane);
-    InfluenceOperator linear(nx, ny, kDx, kDy, kShearModulus, std::make_shared<AngleCorrectedKernel>(plane, curvature, correction));
+    InfluenceOperator linear(nx, ny, kDx, kDy, kShearModulus,
+                             std::make_shared<AngleCorrectedKernel>(plane, curvature, correction));
     const RowInclination rows(angle, correction);
     expect_near(by_operator(turned, p, &rows), by_operator(linear, p, nullptr));
   }
@@ -129,10 +134,11 @@ InfluenceSettings settings_of(std::vector<double> position, std::vector<double> 
 
 TEST(InclinationTable, IsLinearBetweenItsPositionsAndBeyond) {
   const InclinationTable table(settings_of({-2e-3, 0.0, 1e-3}, {0.1, 0.3, 0.7}));
-  for (const auto& [y, expected] : {std::pair{-3e-3, 0.0}, {-2e-3, 0.1}, {-1e-3, 0.2}, {0.0, 0.3}, {0.25e-3, 0.4}, {1e-3, 0.7}, {2e-3, 1.1}})
+  for (const auto& [y, expected] :
+       {std::pair{-3e-3, 0.0}, {-2e-3, 0.1}, {-1e-3, 0.2}, {0.0, 0.3}, {0.25e-3, 0.4}, {1e-3, 0.7}, {2e-3, 1.1}})
     EXPECT_NEAR(table.at(y), expected, 1e-15) << y;
   const Grid2 grid{0.0, -2e-3, 1e-3, 0.5e-3, 4, 5};
-  const RowInclination rows = table.rows(grid, 3, 4);   // y = -0.5 ... 1 mm, beyond the grid's last row
+  const RowInclination rows = table.rows(grid, 3, 4);  // y = -0.5 ... 1 mm, beyond the grid's last row
   ASSERT_EQ(rows.size(), 4u);
   EXPECT_NEAR(rows.difference(3, 0), 0.7 - 0.25, 1e-15);
   EXPECT_NEAR(rows.values(RowFactor::half_sine)[1], std::sin(0.15), 1e-15);

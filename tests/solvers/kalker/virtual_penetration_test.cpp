@@ -71,9 +71,7 @@ TEST(VirtualPenetration, IsHertzOnAnEllipse) {
 }
 
 /// A wheel on a rail head that has one radius on this side of y = 0 and another on that, smooth at the joint.
-double two_radii(double x, double y) {
-  return x * x / (2.0 * 0.46) + y * y / (2.0 * (y < 0.0 ? 0.3 : 0.08));
-}
+double two_radii(double x, double y) { return x * x / (2.0 * 0.46) + y * y / (2.0 * (y < 0.0 ? 0.3 : 0.08)); }
 
 TEST(VirtualPenetration, FollowsTheFullSolutionOnTwoRadii) {
   const Grid2 grid{-9.9e-3, -11.9e-3, 0.2e-3, 0.2e-3, 100, 120};
@@ -103,7 +101,8 @@ TEST(VirtualPenetration, MovesWithTheGap) {
     EXPECT_EQ(other.elements_contact, one.elements_contact);
     for (int iy = 0; iy + 2 < grid.ny; ++iy)
       for (int ix = 0; ix + 3 < grid.nx; ++ix)
-        ASSERT_NEAR(other.pressure[grid.index(ix + 3, iy + 2)], one.pressure[grid.index(ix, iy)], 1e-8 * one.max_pressure);
+        ASSERT_NEAR(other.pressure[grid.index(ix + 3, iy + 2)], one.pressure[grid.index(ix, iy)],
+                    1e-8 * one.max_pressure);
   }
 }
 
@@ -143,9 +142,7 @@ TEST(VirtualPenetration, KpecMakesTheDisplacementTheDepth) {
 TEST(VirtualPenetration, SeparateAreasOfARowAreSeparateContacts) {
   // Two equal indenters one behind the other: each has its own area, and the area between is free.
   const Grid2 grid{-19.8e-3, -5.9e-3, 0.2e-3, 0.2e-3, 199, 60};
-  const auto pair = [](double x, double y) {
-    return (std::pow(std::abs(x) - 12e-3, 2) + y * y) / (2.0 * 0.3);
-  };
+  const auto pair = [](double x, double y) { return (std::pow(std::abs(x) - 12e-3, 2) + y * y) / (2.0 * 0.3); };
   const ContactSolution solution = solve(at_approach(grid, gap_of(grid, pair), 40e-6, NormalModel::kpec));
   ASSERT_EQ(solution.status, Status::ok);
   const ContactSolution full = solve(at_approach(grid, gap_of(grid, pair), 40e-6, NormalModel::full));
@@ -180,7 +177,8 @@ TEST(VirtualPenetration, WorksAtTheBorderOfTheGrid) {
         solve(at_approach(grid, gap_of(grid, [](double x, double y) { return x * x + y * y; }), 40e-6, model));
     EXPECT_EQ(corner.status, Status::ok);
     EXPECT_GT(corner.force_n, 0.0);
-    const ContactSolution flat = solve(at_approach(grid, gap_of(grid, [](double, double) { return 0.0; }), 40e-6, model));
+    const ContactSolution flat =
+        solve(at_approach(grid, gap_of(grid, [](double, double) { return 0.0; }), 40e-6, model));
     EXPECT_EQ(flat.status, Status::ok);
     EXPECT_TRUE(std::isfinite(flat.force_n));
     EXPECT_GT(flat.force_n, 0.0);

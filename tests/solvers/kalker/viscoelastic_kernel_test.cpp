@@ -44,7 +44,8 @@ InfluenceBlock brute_force(const InfluenceKernel& elastic, double X, double Y, d
 }
 
 void expect_near(const InfluenceBlock& found, const InfluenceBlock& expected, double relative, double X, double L) {
-  for (const auto& [name, c] : kAllCoefficients) EXPECT_NEAR(found.*c, expected.*c, relative * expected.nn) << name << ' ' << X << ' ' << L;
+  for (const auto& [name, c] : kAllCoefficients)
+    EXPECT_NEAR(found.*c, expected.*c, relative * expected.nn) << name << ' ' << X << ' ' << L;
 }
 
 TEST(ViscoelasticKernel, MatchesBruteForce) {
@@ -63,8 +64,8 @@ TEST(ViscoelasticKernel, MatchesBruteForce) {
 }
 
 TEST(ViscoelasticKernel, SatisfiesTheRelaxationOverOneStep) {
-  // Memory fades: I(X) = integral over the next stretch + exp(-stretch / L) I(X + stretch); whatever the relaxation distance.
-  // Stretches are short and away from borders, so that one panel of five nodes integrates them.
+  // Memory fades: I(X) = integral over the next stretch + exp(-stretch / L) I(X + stretch); whatever the relaxation
+  // distance. Stretches are short and away from borders, so that one panel of five nodes integrates them.
   const ConstantElements elastic(kDx, kDy, 0.4, 0.0);
   for (const double L : {1e-4 * kDx, 0.01 * kDx, kDx, 100.0 * kDx, 1e4 * kDx, 1e6 * kDx}) {
     const auto kernel = make(rubber(L));
@@ -74,8 +75,11 @@ TEST(ViscoelasticKernel, SatisfiesTheRelaxationOverOneStep) {
       return block;
     };
     const double stretch = std::min(0.1 * kDx, 0.1 * L);
-    for (const auto& [X, Y] :
-         {std::pair{0.0, 0.0}, {-20.3 * kDx, 0.0}, {-1.9 * kDx, 0.5 * kDy}, {2.0 * kDx, -3.0 * kDy}, {300.0 * kDx, kDy}}) {
+    for (const auto& [X, Y] : {std::pair{0.0, 0.0},
+                               {-20.3 * kDx, 0.0},
+                               {-1.9 * kDx, 0.5 * kDy},
+                               {2.0 * kDx, -3.0 * kDy},
+                               {300.0 * kDx, kDy}}) {
       InfluenceBlock expected;
       for_gauss_nodes(0.0, stretch, 0.0, 1.0, 1, [&](double t, double, double weight) {
         add(expected, kCreepRatio * weight * std::exp(-t / L) / L, elastic.at(X + t, Y));
@@ -89,8 +93,8 @@ TEST(ViscoelasticKernel, SatisfiesTheRelaxationOverOneStep) {
 TEST(ViscoelasticKernel, IsRubberyWhenSlowAndGlassyWhenFast) {
   const ConstantElements elastic(kDx, kDy, 0.4, 0.0);
   for (const auto& [X, Y] : {std::pair{0.0, 0.0}, {2.0 * kDx, -kDy}, {-5.0 * kDx, 0.0}}) {
-    const InfluenceBlock c = elastic.at(X, Y), at_rest = make(rubber(0.0))->at(X, Y), slow = make(rubber(1e-7 * kDx))->at(X, Y),
-                         fast = make(rubber(1e9 * kDx))->at(X, Y);
+    const InfluenceBlock c = elastic.at(X, Y), at_rest = make(rubber(0.0))->at(X, Y),
+                         slow = make(rubber(1e-7 * kDx))->at(X, Y), fast = make(rubber(1e9 * kDx))->at(X, Y);
     for (const auto& [name, k] : kAllCoefficients) {
       EXPECT_DOUBLE_EQ(at_rest.*k, (1.0 + kCreepRatio) * (c.*k)) << name;
       EXPECT_NEAR(slow.*k, (1.0 + kCreepRatio) * (c.*k), 1e-6 * c.nn) << name;
@@ -106,7 +110,8 @@ TEST(ViscoelasticKernel, SurfaceStaysDeformedBehindTheLoad) {
   EXPECT_NEAR(forward->at(-2.0 * kDx, kDy).xy, -backward->at(2.0 * kDx, kDy).xy, 1e-12 * kDx);
   EXPECT_FALSE(forward->symmetric());
   ASSERT_TRUE(forward->symmetric_in_y());
-  expect_near(forward->at(-2.0 * kDx, -kDy), mirrored(forward->at(-2.0 * kDx, kDy), false, true), 1e-14, -2.0 * kDx, 3.0 * kDx);
+  expect_near(forward->at(-2.0 * kDx, -kDy), mirrored(forward->at(-2.0 * kDx, kDy), false, true), 1e-14, -2.0 * kDx,
+              3.0 * kDx);
 }
 
 TEST(ViscoelasticKernel, DifferentBodiesContributeByCompliance) {

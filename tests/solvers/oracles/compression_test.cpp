@@ -18,8 +18,8 @@ using testing::SpenceCompression;
 
 TEST(Compression, EigenvalueProblemGivesTheNumbersOfSpence) {
   const SpenceCompression coarse = spence_compression(0.5, 0.5, 60), fine = spence_compression(0.5, 0.5, 120);
-  EXPECT_NEAR(fine.friction, 0.2986, 1.5e-4);   // Spence 1975, as quoted by Kalker 1990, section 5.2
-  EXPECT_NEAR(fine.friction, 0.2987, 5e-5);     // as the document says
+  EXPECT_NEAR(fine.friction, 0.2986, 1.5e-4);  // Spence 1975, as quoted by Kalker 1990, section 5.2
+  EXPECT_NEAR(fine.friction, 0.2987, 5e-5);    // as the document says
   EXPECT_NEAR(fine.force_ratio, 1.0317, 5e-5);
   EXPECT_NEAR(coarse.friction, fine.friction, 2e-5);
   EXPECT_NEAR(coarse.force_ratio, fine.force_ratio, 6e-5);
@@ -37,16 +37,17 @@ ContactSolution compress(int across, double friction) {
   problem.grid = {-0.5 * (m - 1) * d, -0.5 * (m - 1) * d, d, d, m, m};
   std::vector<double> gap;
   for (int iy = 0; iy < m; ++iy)
-    for (int ix = 0; ix < m; ++ix) gap.push_back((std::pow(problem.grid.x(ix), 2) + std::pow(problem.grid.y(iy), 2)) / (2.0 * radius));
+    for (int ix = 0; ix < m; ++ix)
+      gap.push_back((std::pow(problem.grid.x(ix), 2) + std::pow(problem.grid.y(iy), 2)) / (2.0 * radius));
   problem.gap = gap;
-  problem.material = {0.5, 5e8, 0.0, 0.0};   // G = 1, nu = 0, K = 1/2
+  problem.material = {0.5, 5e8, 0.0, 0.0};  // G = 1, nu = 0, K = 1/2
   problem.friction.kinetic = friction;
   problem.force_prescribed = false;
   problem.regime = Regime::shift;
   problem.settings.eps = 1e-6;
   ContactSolver solver;
   ContactSolution s;
-  for (int k = 2; k <= across; ++k) {   // not before the first centre of an element is reached
+  for (int k = 2; k <= across; ++k) {  // not before the first centre of an element is reached
     problem.history = k == 2 ? HistoryUse::start : HistoryUse::keep_going;
     problem.approach = std::pow(0.5 * k * d, 2) / radius;
     s = solver.solve(problem);
@@ -65,8 +66,7 @@ TEST(Compression, StepsTendToSpence) {
       const ContactSolution s = compress(n, exact.friction);
       const double share = std::sqrt(static_cast<double>(s.elements_adhesion) / s.elements_contact);
       const double force_error = s.force_n / hertz / exact.force_ratio - 1.0;
-      treadmark::testing::expect_documented(k == 0.5 ? "c/a=0.5" : "c/a=0.8", n,
-          {share - k, force_error});
+      treadmark::testing::expect_documented(k == 0.5 ? "c/a=0.5" : "c/a=0.8", n, {share - k, force_error});
       EXPECT_LT(std::abs(share - k), 1.5 / n) << "the border to within three quarters of an element";
       EXPECT_GT(before / force_error, 3.0) << "second order";
       before = force_error;

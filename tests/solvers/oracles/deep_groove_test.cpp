@@ -13,10 +13,10 @@ namespace {
 
 /// Results of the reference program (conformal contact, inclinations row by row, displacements turned), four digits.
 struct Printed {
-  double groove = 0.0;      ///< radius [m]
-  double approach = 0.0;    ///< [m]
-  double overspeed = 0.0;   ///< wheel's circumferential over travelling speed - 1, from the condition F_x = 0
-  double force_n = 0.0, max_pressure = 0.0, power = 0.0;   ///< sum of pressures times area [N], [Pa], [W]
+  double groove = 0.0;     ///< radius [m]
+  double approach = 0.0;   ///< [m]
+  double overspeed = 0.0;  ///< wheel's circumferential over travelling speed - 1, from the condition F_x = 0
+  double force_n = 0.0, max_pressure = 0.0, power = 0.0;  ///< sum of pressures times area [N], [Pa], [W]
   int contact = 0, adhesion = 0;
 };
 
@@ -24,11 +24,12 @@ constexpr Printed kPrinted[] = {{10.25e-3, 0.02237e-3, 2.366e-4, 9956.0, 520.6e6
                                 {10.10e-3, 0.01928e-3, 4.667e-4, 9967.0, 397.6e6, -0.3223, 1573, 842},
                                 {10.05e-3, 0.01718e-3, 6.975e-4, 10050.0, 336.1e6, -0.7063, 1891, 659},
                                 {10.02e-3, 0.01493e-3, 10.744e-4, 10340.0, 283.6e6, -1.578, 2337, 328}};
-constexpr double kVerticalForce = 10e3;   ///< [N], by which the approach was found
+constexpr double kVerticalForce = 10e3;  ///< [N], by which the approach was found
 
 constexpr double kWheelProfile = 10e-3, kRolling = 420e-3, kVelocity = 0.42;
 
-/// The wheel pressed down by the approach, on the cylinder half-way between both surfaces: y along its arc, body 1 the groove, n into it.
+/// The wheel pressed down by the approach, on the cylinder half-way between both surfaces: y along its arc, body 1 the
+/// groove, n into it.
 struct DeepGroove {
   explicit DeepGroove(const Printed& p) : radius(0.5 * (p.groove + kWheelProfile)) {
     const double dx = 0.095833e-3, dy = 0.25e-3;
@@ -59,14 +60,14 @@ struct DeepGroove {
     const double a = angle(iy), y = radius * std::sin(a);
     if (iy % 3 == 0) {
       problem.influence.position.push_back(grid.y(iy));
-      problem.influence.inclination.push_back(-a);   // the groove rises against n
+      problem.influence.inclination.push_back(-a);  // the groove rises against n
     }
     const double groove = p.groove - std::sqrt(p.groove * p.groove - y * y);
     const double profile = kWheelProfile - std::sqrt(kWheelProfile * kWheelProfile - y * y);
     for (int ix = 0; ix < grid.nx; ++ix) {
       const double x = grid.x(ix), circle = kRolling - profile;
       const double wheel = kRolling - std::sqrt(circle * circle - x * x);
-      gap.push_back((wheel - groove) * std::cos(a) + p.approach * (1.0 - std::cos(a)));   // the wheel sinks vertically
+      gap.push_back((wheel - groove) * std::cos(a) + p.approach * (1.0 - std::cos(a)));  // the wheel sinks vertically
       // A wheel's circle is the smaller, the higher it lies; its rotation has a component about the normal there.
       slip_x.push_back(-0.5 * (profile + groove) / kRolling);
       slip_y.push_back(std::sin(a) * x / kRolling);
@@ -82,7 +83,7 @@ struct DeepGroove {
     return sum * problem.grid.cell_area();
   }
 
-  double radius;   ///< of the cylinder [m]
+  double radius;  ///< of the cylinder [m]
   ContactProblem problem;
   std::vector<double> gap, slip_x, slip_y;
 };

@@ -15,8 +15,8 @@ namespace {
 
 constexpr double kPi = std::numbers::pi;
 
-/// An aluminium roller on a steel one, radii 50 mm: n elements across the contact. Half-width by Hertz 0.1 mm, `narrowing` times less
-/// by the theory at hand, so that the edge is a border between elements.
+/// An aluminium roller on a steel one, radii 50 mm: n elements across the contact. Half-width by Hertz 0.1 mm,
+/// `narrowing` times less by the theory at hand, so that the edge is a border between elements.
 struct Rollers {
   static constexpr double radius = 0.025, a = 0.1e-3, length = 1.0;
 
@@ -46,11 +46,13 @@ struct Rollers {
 };
 
 /// All sticks: p + i q solves a singular integral equation with the solution (a + x)^(1/2 + ie) (a - x)^(1/2 - ie)
-/// (Bufler 1959), e = ln((1 + beta)/(1 - beta))/(2 pi). Without tangential force the creepage is 2 e a/R, and the contact is
-/// narrower than that of Hertz by (1 + 4 e^2)^(1/2).
+/// (Bufler 1959), e = ln((1 + beta)/(1 - beta))/(2 pi). Without tangential force the creepage is 2 e a/R, and the
+/// contact is narrower than that of Hertz by (1 + 4 e^2)^(1/2).
 struct Bufler {
   explicit Bufler(double beta)
-      : e(std::atanh(beta) / kPi), narrowing(std::sqrt(1.0 + 4.0 * e * e)), creepage(2.0 * e * Rollers::a / narrowing / Rollers::radius) {}
+      : e(std::atanh(beta) / kPi),
+        narrowing(std::sqrt(1.0 + 4.0 * e * e)),
+        creepage(2.0 * e * Rollers::a / narrowing / Rollers::radius) {}
   double e, narrowing, creepage;
 };
 
@@ -76,10 +78,11 @@ TEST(DissimilarRolling, WithoutSlipItIsBuflersSolution) {
 }
 
 TEST(DissimilarRolling, WithVanishingFrictionSlipTurnsWherePressureHasHalfTheForceWithin) {
-  // The bodies stretch by -2 beta (1 - nu)/G p under Hertz' pressure; all slips, forwards where |x| < x0, backwards outside:
-  // half of the force each.
+  // The bodies stretch by -2 beta (1 - nu)/G p under Hertz' pressure; all slips, forwards where |x| < x0, backwards
+  // outside: half of the force each.
   double theta = 0.4;
-  for (int i = 0; i < 50; ++i) theta -= (2.0 * theta + std::sin(2.0 * theta) - 0.5 * kPi) / (2.0 + 2.0 * std::cos(2.0 * theta));
+  for (int i = 0; i < 50; ++i)
+    theta -= (2.0 * theta + std::sin(2.0 * theta) - 0.5 * kPi) / (2.0 + 2.0 * std::cos(2.0 * theta));
   for (const int n : {50, 100, 200, 400}) {
     Rollers rollers(n);
     const double creepage = rollers.beta() * Rollers::a / Rollers::radius * std::cos(theta);
@@ -111,9 +114,11 @@ TEST(DissimilarRolling, MicroSlipIsThatOfTheReferenceProgram) {
     ContactSolver solver;
     const ContactSolution s = solver.solve(problem);
     ASSERT_EQ(s.status, Status::ok) << s.tangential.message;
-    EXPECT_NEAR(s.creepage.xi, p.creepage, 0.55e-7) << s.creepage.xi / p.creepage - 1.0 << " mu " << p.friction << ' ' << p.force;
+    EXPECT_NEAR(s.creepage.xi, p.creepage, 0.55e-7)
+        << s.creepage.xi / p.creepage - 1.0 << " mu " << p.friction << ' ' << p.force;
     if (p.friction > 1.0)
-      treadmark::testing::expect_documented("Bufler,inside", 200, {s.creepage.xi / Bufler(rollers.beta()).creepage - 1.0});
+      treadmark::testing::expect_documented("Bufler,inside", 200,
+                                            {s.creepage.xi / Bufler(rollers.beta()).creepage - 1.0});
   }
 }
 

@@ -27,7 +27,8 @@ testing::OwnedProblem balls(int n, double poisson, double eps) {
   return owned;
 }
 
-/// Shifted by 0.8 of the friction bound and back to `force` of it: sum over Cattaneo's solutions (Mindlin & Deresiewicz 1953).
+/// Shifted by 0.8 of the friction bound and back to `force` of it: sum over Cattaneo's solutions (Mindlin & Deresiewicz
+/// 1953).
 std::vector<double> unloading_errors(int n) {
   const double most = 0.8, force = 0.2;
   testing::OwnedProblem owned = balls(n, 0.0, 1e-8);
@@ -70,7 +71,7 @@ TEST(HistoryConvergence, UnloadingTendsToMindlinAndDeresiewicz) {
 
 struct Rolling {
   testing::OwnedProblem owned;
-  double steady = 0.0, bound = 0.0;   ///< forces [N]
+  double steady = 0.0, bound = 0.0;  ///< forces [N]
 
   explicit Rolling(int n) : owned(balls(n, 0.28, 1e-8)) {
     ContactProblem& problem = owned.problem;

@@ -34,13 +34,14 @@ constexpr std::array<Printed, 9> kTable{{{0.1, "a/b=0.1", 3.31, 2.52, 0.473},
                                          {1.0, "a/b=1,nu=0.5", 5.20, 3.98, 1.63, 0.5}}};
 constexpr std::array<int, 3> kSizes{20, 40, 80};
 
-/// Slopes of the forces of steady rolling on n elements across the contact in each direction, so small a creepage and so much
-/// friction that nothing slips.
+/// Slopes of the forces of steady rolling on n elements across the contact in each direction, so small a creepage and
+/// so much friction that nothing slips.
 Coefficients slopes(double ratio, double poisson, int n) {
   const Material material{82e9, 82e9, poisson, poisson};
   const double size = 5e-3;
-  const HertzShape shape = hertz_from_semi_axes(size * std::sqrt(ratio), size / std::sqrt(ratio), {true, 1e5}, combine(material));
-  const double margin = 1.0 + 2.0 / n;   // one element on each side
+  const HertzShape shape =
+      hertz_from_semi_axes(size * std::sqrt(ratio), size / std::sqrt(ratio), {true, 1e5}, combine(material));
+  const double margin = 1.0 + 2.0 / n;  // one element on each side
   testing::OwnedProblem owned = testing::hertzian(shape, hertz_grid(shape, n + 2, n + 2, margin));
   ContactProblem& problem = owned.problem;
   problem.material = material;
@@ -57,7 +58,8 @@ Coefficients slopes(double ratio, double poisson, int n) {
     return s;
   };
   const ContactSolution x = roll({creepage, 0.0, 0.0}), y = roll({0.0, creepage, 0.0}), z = roll({0.0, 0.0, spin});
-  // c of the area of whole elements in contact: the coefficients depend on the form, and hardly on the jagged edge, then
+  // c of the area of whole elements in contact: the coefficients depend on the form, and hardly on the jagged edge,
+  // then
   const double c2 = x.elements_contact * problem.grid.cell_area() / std::numbers::pi, g = material.shear_modulus_1;
   const double c3 = std::pow(c2, 1.5);
   return {-x.force_x / (g * c2 * creepage), -y.force_y / (g * c2 * creepage), -z.force_y / (g * c3 * spin),
@@ -68,13 +70,14 @@ TEST(LinearCoefficients, SlopesTendToKalkersTable) {
   for (const Printed& printed : kTable) {
     std::array<Coefficients, 3> found{};
     const auto difference = [&](const Coefficients& c) {
-      return std::vector<double>{c[0] / printed.c11 - 1.0, c[1] / printed.c22 - 1.0, c[2] / printed.c23 - 1.0, c[3] / printed.c23 - 1.0};
+      return std::vector<double>{c[0] / printed.c11 - 1.0, c[1] / printed.c22 - 1.0, c[2] / printed.c23 - 1.0,
+                                 c[3] / printed.c23 - 1.0};
     };
     for (std::size_t k = 0; k < kSizes.size(); ++k) {
       found[k] = slopes(printed.ratio, printed.poisson, kSizes[k]);
       treadmark::testing::expect_documented(printed.name, kSizes[k], difference(found[k]));
     }
-    Coefficients limit{};   // first order
+    Coefficients limit{};  // first order
     for (std::size_t i = 0; i < limit.size(); ++i) limit[i] = 2.0 * found[2][i] - found[1][i];
     treadmark::testing::expect_documented(std::string(printed.name) + ",limit", 0, difference(limit));
     // The table's own accuracy; the two values of C23 are equal by reciprocity, whatever the table says.

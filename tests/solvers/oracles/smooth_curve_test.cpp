@@ -14,9 +14,9 @@ namespace treadmark::kalker {
 namespace {
 
 struct Curve {
-  double largest_bend = 0.0;   ///< second difference of the force between creepages, relative to the friction bound
-  double one_element = 0.0;    ///< greatest friction bound of an element, relative to that of all
-  double last = 0.0;           ///< greatest force, the same
+  double largest_bend = 0.0;  ///< second difference of the force between creepages, relative to the friction bound
+  double one_element = 0.0;   ///< greatest friction bound of an element, relative to that of all
+  double last = 0.0;          ///< greatest force, the same
   bool rises = true;
 };
 

@@ -10,9 +10,9 @@
 namespace treadmark::kalker::testing {
 namespace {
 
-// As the load grows, all states are similar, so that the increments are those of a flat die of radius a = 1 (Spence 1968):
-// u_r = 0 for r < c, q = mu p for c < r < 1, u_z constant. With the Hankel transforms of the tractions written as
-// p^ = int_0^1 g cos(s t) dt, q^ = int_0^1 h sin(s t) dt, Abel's inversion of the displacements turns this into
+// As the load grows, all states are similar, so that the increments are those of a flat die of radius a = 1 (Spence
+// 1968): u_r = 0 for r < c, q = mu p for c < r < 1, u_z constant. With the Hankel transforms of the tractions written
+// as p^ = int_0^1 g cos(s t) dt, q^ = int_0^1 h sin(s t) dt, Abel's inversion of the displacements turns this into
 //   g - (beta/pi) PV int_-1^1 h/(t - x) dt = 1 for x < 1,   h + (beta/pi) PV int_-1^1 g/(t - x) dt = 0 for x < c,
 // g even and h odd; for x > c both follow from the pressure:
 //   g = (2/pi) int_x^1 r p/sqrt(r^2 - x^2) dr,   h = mu (2/pi) x int_x^1 p/sqrt(r^2 - x^2) dr.
@@ -51,21 +51,24 @@ class Die {
 
   SpenceCompression compression(double friction) {
     solve(friction);
-    // Ring by ring: u_z outside of the die is (2/pi) int g/sqrt(r^2 - t^2) dt; a surface point comes into contact when all the
-    // increments before have left it at the height of the sphere.
+    // Ring by ring: u_z outside of the die is (2/pi) int g/sqrt(r^2 - t^2) dt; a surface point comes into contact when
+    // all the increments before have left it at the height of the sphere.
     double stiffness = 0.0, outside = 0.0;
     for (int i = 0; i < 2 * n_; ++i) {
       const double t = middle(i), w = edges_[static_cast<std::size_t>(i) + 1] - edges_[static_cast<std::size_t>(i)];
-      const double reach = t < 1e-2 ? 1.0 / 3.0 + 0.1 * t * t : 0.5 * (std::asin(t) - t * std::sqrt(1.0 - t * t)) / (t * t * t);
+      const double reach =
+          t < 1e-2 ? 1.0 / 3.0 + 0.1 * t * t : 0.5 * (std::asin(t) - t * std::sqrt(1.0 - t * t)) / (t * t * t);
       stiffness += w * g_(i);
       outside += w * g_(i) * reach * 2.0 / std::numbers::pi;
     }
-    const double approach = 0.5 / (1.0 - 2.0 * outside);   // times a^2/R; Hertz: 1
+    const double approach = 0.5 / (1.0 - 2.0 * outside);  // times a^2/R; Hertz: 1
     return {friction, stiffness / std::sqrt(approach), 1.0 / std::sqrt(approach)};
   }
 
  private:
-  double middle(int i) const { return 0.5 * (edges_[static_cast<std::size_t>(i)] + edges_[static_cast<std::size_t>(i) + 1]); }
+  double middle(int i) const {
+    return 0.5 * (edges_[static_cast<std::size_t>(i)] + edges_[static_cast<std::size_t>(i) + 1]);
+  }
 
   void fill(int i, int j, double factor) {
     const double x = middle(i), l = edges_[static_cast<std::size_t>(j)], r = edges_[static_cast<std::size_t>(j) + 1];

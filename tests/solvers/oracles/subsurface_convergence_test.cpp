@@ -25,7 +25,8 @@ TEST(SubsurfaceConvergence, BelowASmallElementItIsBoussinesqsPointForce) {
   for (const int depths : {2, 4, 8, 16, 32}) {
     const double size = 1e-3, z = depths * size, unit = size * size / (2.0 * std::numbers::pi * z * z);
     const Mat3 stress = at(testing::one_element(size, 1.0, 0.0, 0.0), kSteel, {0.0, 0.0, z}).stress;
-    const std::array<double, 2> error{stress(2, 2) / (-3.0 * unit) - 1.0, stress(0, 0) / (0.5 * (1.0 - 2.0 * kPoisson) * unit) - 1.0};
+    const std::array<double, 2> error{stress(2, 2) / (-3.0 * unit) - 1.0,
+                                      stress(0, 0) / (0.5 * (1.0 - 2.0 * kPoisson) * unit) - 1.0};
     treadmark::testing::expect_documented("Boussinesq", depths, {error[0], error[1]});
     for (std::size_t i = 0; i < 2 && depths > 4; ++i) EXPECT_NEAR(before[i] / error[i], 4.0, 0.15) << depths;
     before = error;

@@ -117,7 +117,8 @@ Case random_case(std::mt19937& generator, Regime regime) {
   c.problem.rolling.chi = unit(generator) < 0.5 ? 0.0 : std::numbers::pi;
   c.problem.settings.eps = 1e-11;
   if (unit(generator) < 0.4) c.problem.material.layer_flexibility = unit(generator) * c.problem.grid.dx / 82e9;
-  for (std::size_t i = 0; i < c.problem.grid.size(); ++i) c.solution.pressure.push_back(1e9 * (0.2 + 0.8 * unit(generator)));
+  for (std::size_t i = 0; i < c.problem.grid.size(); ++i)
+    c.solution.pressure.push_back(1e9 * (0.2 + 0.8 * unit(generator)));
   // From mostly adhesion to mostly slip.
   const double scale = std::pow(10.0, -4.0 + 2.0 * unit(generator)) * (regime == Regime::shift ? 1e-3 : 1.0);
   const double angle = 2.0 * std::numbers::pi * unit(generator);
@@ -136,8 +137,10 @@ void expect_agreement(Regime regime, unsigned seed) {
     const std::vector<double> p = dense.solve(20000);
     const std::size_t n = dense.bound.size();
     const double scale = largest(dense.bound);
-    EXPECT_LE(distance(c.solution.traction_x, {p.begin(), p.begin() + static_cast<std::ptrdiff_t>(n)}), kAgreement * scale);
-    EXPECT_LE(distance(c.solution.traction_y, {p.begin() + static_cast<std::ptrdiff_t>(n), p.end()}), kAgreement * scale);
+    EXPECT_LE(distance(c.solution.traction_x, {p.begin(), p.begin() + static_cast<std::ptrdiff_t>(n)}),
+              kAgreement * scale);
+    EXPECT_LE(distance(c.solution.traction_y, {p.begin() + static_cast<std::ptrdiff_t>(n), p.end()}),
+              kAgreement * scale);
     adhesion += totals(c).adhesion;
     slip += totals(c).slip;
   }

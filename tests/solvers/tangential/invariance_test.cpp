@@ -13,8 +13,7 @@ Case lopsided(Regime regime) {
   Case c = wheel_case(20);
   const Grid2& g = c.problem.grid;
   for (int iy = 0; iy < g.ny; ++iy)
-    for (int ix = 0; ix < g.nx; ++ix)
-      c.solution.pressure[g.index(ix, iy)] *= 1.0 + 30.0 * g.x(ix) - 60.0 * g.y(iy);
+    for (int ix = 0; ix < g.nx; ++ix) c.solution.pressure[g.index(ix, iy)] *= 1.0 + 30.0 * g.x(ix) - 60.0 * g.y(iy);
   c.problem.regime = regime;
   c.problem.settings.eps = kEps;
   c.problem.creepage = {-6e-4, 3e-4, 0.25, 1e-4, -2e-4};
@@ -111,12 +110,13 @@ TEST(Conditions, HoldInEveryElement) {
         ++slip;
         EXPECT_NEAR(p, bound, 1e-6 * bound_scale);
         // Antiparallel.
-        EXPECT_NEAR(s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i], -p * v, 1e-6 * bound_scale * slip_scale);
+        EXPECT_NEAR(s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i], -p * v,
+                    1e-6 * bound_scale * slip_scale);
       }
     }
     EXPECT_GT(adhesion, 10);
     EXPECT_GT(slip, 10);
-    EXPECT_LT(totals(c).power, 0.0);   // friction dissipates
+    EXPECT_LT(totals(c).power, 0.0);  // friction dissipates
     EXPECT_GT(totals(c).energy, 0.0);
   }
 }

@@ -53,8 +53,8 @@ TEST(Carter, TheLineContactOfTheReference) {
 }
 
 TEST(Carter, ConvergesToTheExactTractions) {
-  // Creepage xi = -(mu a/R)(1 - sqrt(1 - F/(mu N))); adhesion over d = a sqrt(1 - F/(mu N)) on either side of its centre,
-  // at the leading edge.
+  // Creepage xi = -(mu a/R)(1 - sqrt(1 - F/(mu N))); adhesion over d = a sqrt(1 - F/(mu N)) on either side of its
+  // centre, at the leading edge.
   const double a = 1e-3, force = 0.64, d = a * std::sqrt(1.0 - force);
   std::array<double, 3> error{}, force_error{}, length_error{};
   const std::array<int, 3> sizes{50, 100, 200};
@@ -80,15 +80,15 @@ TEST(Carter, ConvergesToTheExactTractions) {
     treadmark::testing::expect_documented("Carter", sizes[k], {error[k], force_error[k]});
   EXPECT_LT(error[2], 5e-3);
   EXPECT_LT(force_error[2], 4e-3);
-  EXPECT_GT(std::log2(error[0] / error[2]) / 2.0, 0.8);              // first order
+  EXPECT_GT(std::log2(error[0] / error[2]) / 2.0, 0.8);  // first order
   EXPECT_GT(std::log2(force_error[0] / force_error[2]) / 2.0, 0.8);
   for (const double elements : length_error) EXPECT_LE(elements, 1.5);
 }
 
 /// Kalker's linear theory: F_x = -C11 G c^2 xi, F_y = -C22 G c^2 eta - C23 G c^3 phi, c = sqrt(a b).
 struct LinearCase {
-  double ratio;                    ///< a/b
-  double c11, c22, c23;            ///< for nu = 0.25 (Kalker 1990, table E3)
+  double ratio;          ///< a/b
+  double c11, c22, c23;  ///< for nu = 0.25 (Kalker 1990, table E3)
 };
 
 class LinearTheory : public ::testing::TestWithParam<LinearCase> {};

@@ -56,10 +56,10 @@ inline Case wheel_case(int n) {
 }
 
 struct Totals {
-  double x = 0.0, y = 0.0, n = 0.0;      ///< forces [N]
-  double power = 0.0;                    ///< [W]; shift: work [J]
-  double energy = 0.0;                   ///< of tangential tractions [J]
-  double moment = 0.0;                   ///< about the normal [N m]
+  double x = 0.0, y = 0.0, n = 0.0;  ///< forces [N]
+  double power = 0.0;                ///< [W]; shift: work [J]
+  double energy = 0.0;               ///< of tangential tractions [J]
+  double moment = 0.0;               ///< about the normal [N m]
   int contact = 0, adhesion = 0, slip = 0;
 };
 

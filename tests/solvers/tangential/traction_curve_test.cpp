@@ -11,8 +11,8 @@ namespace treadmark::kalker::testing {
 namespace {
 
 /// Half a unit of the four digits that the reference prints, and our own accuracy.
-constexpr double kForceTolerance = 6e-5;   ///< relative to the friction limit
-constexpr double kPowerTolerance = 6e-4;   ///< relative
+constexpr double kForceTolerance = 6e-5;  ///< relative to the friction limit
+constexpr double kPowerTolerance = 6e-4;  ///< relative
 
 struct ReferencePoint {
   double xi = 0.0, force = 0.0, power = 0.0;

@@ -16,7 +16,9 @@ namespace {
 const CreepContact kContact{6e-3, 4e-3, 0.3 * 8e4};
 const CombinedMaterial kSteel = combine({});
 
-wheelrail::ContactKinematics creepage(double xi, double eta, double phi, double chi = 0.0) { return {xi, eta, phi, 20.0, chi}; }
+wheelrail::ContactKinematics creepage(double xi, double eta, double phi, double chi = 0.0) {
+  return {xi, eta, phi, 20.0, chi};
+}
 
 TEST(CreepLaw, VanishingCreepageIsLinearTheory) {
   const kalker::KalkerCoefficients c = kalker::kalker_coefficients(kContact.a, kContact.b, kSteel.poisson);
@@ -40,10 +42,12 @@ TEST(CreepLaw, PowerIsThatOfTheForcesAndNeverNegative) {
   std::normal_distribution<double> normal;
   for (int i = 0; i < 20000; ++i) {
     const double scale = std::pow(10.0, -4.0 + i % 4), spin = std::pow(10.0, -2.0 + i % 5);
-    const auto k = creepage(scale * normal(random), scale * normal(random), spin * normal(random), i % 2 ? std::numbers::pi : 0.0);
+    const auto k =
+        creepage(scale * normal(random), scale * normal(random), spin * normal(random), i % 2 ? std::numbers::pi : 0.0);
     const CreepForce f = creep_force(kContact, kSteel, k);
     const double power = -k.velocity * (f.force.x() * k.xi + f.force.y() * k.eta + f.moment * k.phi);
-    const double size = k.velocity * (std::abs(f.force.x() * k.xi) + std::abs(f.force.y() * k.eta) + std::abs(f.moment * k.phi));
+    const double size =
+        k.velocity * (std::abs(f.force.x() * k.xi) + std::abs(f.force.y() * k.eta) + std::abs(f.moment * k.phi));
     ASSERT_GE(f.power, 0.0);
     ASSERT_NEAR(f.power, power, 1e-12 * size);
     ASSERT_LE(f.force.norm(), kContact.friction_bound * (1.0 + 1e-12));
@@ -63,7 +67,9 @@ TEST(CreepLaw, DampingIsTheDerivativeByVelocity) {
   for (const double size : {1e-5, 3e-4, 1e-3, 4e-3}) {
     const double xi = 0.8 * size, eta = -size;
     const CreepForce f = creep_force(kContact, kSteel, creepage(xi, eta, 0.0));
-    const auto at = [&](double dx, double ds) { return creep_force(kContact, kSteel, creepage(xi + dx, eta + ds, 0.0)).force; };
+    const auto at = [&](double dx, double ds) {
+      return creep_force(kContact, kSteel, creepage(xi + dx, eta + ds, 0.0)).force;
+    };
     const double scale = creep_force(kContact, kSteel, creepage(0.0, 0.0, 0.0)).damping.x();
     EXPECT_NEAR(f.damping.x(), -(at(h, 0.0) - at(-h, 0.0)).x() / (2.0 * h * 20.0), 1e-6 * scale);
     EXPECT_NEAR(f.damping.y(), -(at(0.0, h) - at(0.0, -h)).y() / (2.0 * h * 20.0), 1e-6 * scale);

@@ -15,10 +15,12 @@ namespace {
 constexpr double kHertz = 9e10;
 
 TEST(Equilibrium, HertzSpringsAndTrackBearTheWeight) {
-  const VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), rails_on_springs(200.0, 6e7, 5e4), 20.0, kHertz);
+  const VehicleOnTrack v =
+      on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), rails_on_springs(200.0, 6e7, 5e4), 20.0, kHertz);
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
-  const double load = 0.5 * (1813.0 + 9000.0) * kGravity, approach = std::pow(load / kHertz, 2.0 / 3.0), sunk = load / 6e7;
+  const double load = 0.5 * (1813.0 + 9000.0) * kGravity, approach = std::pow(load / kHertz, 2.0 / 3.0),
+               sunk = load / 6e7;
   for (const ContactReaction& r : e.reactions) EXPECT_NEAR(r.normal_force, load, 1e-5 * load);
   EXPECT_NEAR(v.motion(0, e.state).rail.z, sunk, 1e-9);
   EXPECT_NEAR(v.motion(0, e.state).wheelset.z, sunk + approach, 1e-9);
@@ -43,13 +45,15 @@ TEST(Equilibrium, AVehicleWithoutWeightOnItsWheelsIsRefused) {
 
 /// Frequencies of two masses: m1 on k1 on m2 on k2 on the ground.
 std::pair<double, double> two_masses(double m1, double k1, double m2, double k2) {
-  const double a = k1 / m1, b = (k1 + k2) / m2, c = k1 * k1 / (m1 * m2), mean = 0.5 * (a + b), spread = std::sqrt(0.25 * (a - b) * (a - b) + c);
+  const double a = k1 / m1, b = (k1 + k2) / m2, c = k1 * k1 / (m1 * m2), mean = 0.5 * (a + b),
+               spread = std::sqrt(0.25 * (a - b) * (a - b) + c);
   return {std::sqrt(mean - spread) / (2 * std::numbers::pi), std::sqrt(mean + spread) / (2 * std::numbers::pi)};
 }
 
 TEST(Eigenmodes, P1AndP2OfAWheelOnATrack) {
   // A soft spring holds the sprung mass away from the wheel: half a wheelset on a contact on a rail on the ground.
-  const VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 1e3, 0.0), rails_on_springs(245.0, 62e6, 0.0), 20.0, kHertz);
+  const VehicleOnTrack v =
+      on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 1e3, 0.0), rails_on_springs(245.0, 62e6, 0.0), 20.0, kHertz);
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
   const double load = e.reactions[0].normal_force, contact = 1.5 * std::pow(kHertz, 2.0 / 3.0) * std::cbrt(load);

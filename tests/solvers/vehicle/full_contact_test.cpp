@@ -46,8 +46,8 @@ double power(const ContactReaction& r, const PairMotion& m) {
   const auto& v = m.wheelset_velocity;
   const Vec3 pitch_axis = (rotation_x(m.wheelset.roll) * rotation_z(m.wheelset.yaw)).col(1);
   const Vec3 spin = v.roll * Vec3::UnitX() + v.yaw * rotation_x(m.wheelset.roll).col(2) + v.pitch * pitch_axis;
-  return r.on_wheelset.force.dot(Vec3(v.x, v.y, v.z)) + r.on_wheelset.moment.dot(spin) + r.on_rail.force.y() * m.rail.vy +
-         r.on_rail.force.z() * m.rail.vz + r.on_rail.moment.x() * m.rail.vroll;
+  return r.on_wheelset.force.dot(Vec3(v.x, v.y, v.z)) + r.on_wheelset.moment.dot(spin) +
+         r.on_rail.force.y() * m.rail.vy + r.on_rail.force.z() * m.rail.vz + r.on_rail.moment.x() * m.rail.vroll;
 }
 
 TEST(FullContact, IsTheSolutionOfAPair) {
@@ -69,7 +69,8 @@ TEST(FullContact, IsTheSolutionOfAPair) {
   const Mat3& R = s.placement.X_TWs.rotation;
   Vec3 expected = -(R * s.load.wheelset.moment + arm.cross(s.load.track.force));
   // At the depth of the approach, where the wheel's creep is measured.
-  for (const auto& patch : s.patches) expected -= (patch.frame.X_TC.rotation.col(2) * patch.approach).cross(patch.frame.X_TC.rotation * patch.force_C);
+  for (const auto& patch : s.patches)
+    expected -= (patch.frame.X_TC.rotation.col(2) * patch.approach).cross(patch.frame.X_TC.rotation * patch.force_C);
   EXPECT_LT((r.on_wheelset.moment - expected).norm(), 1e-6 * s.load.track.force.norm());
 }
 
@@ -92,7 +93,8 @@ TEST(FullContact, SidesAreMirrorImages) {
   EXPECT_NEAR(r.contact_y, -l.contact_y, 1e-12);
 }
 
-/// The work on both bodies is that of creepage and spin on forces and moment; what elements dissipate tends to it with their size.
+/// The work on both bodies is that of creepage and spin on forces and moment; what elements dissipate tends to it with
+/// their size.
 TEST(FullContact, SteadyRollingDissipatesWhatItTakes) {
   PairMotion m = rolling(20.0, 2.8e-4);
   m.wheelset.yaw = 2e-3;
@@ -116,7 +118,9 @@ TEST(FullContact, SteadyRollingDissipatesWhatItTakes) {
 }
 
 TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
-  const auto make = [] { return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient)); };
+  const auto make = [] {
+    return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient));
+  };
   FullContact disturbed = make(), plain = make();
   PairMotion m = rolling(20.0, 2.8e-4, 0.12);
   const double dx = 1e-3;
@@ -141,7 +145,9 @@ TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
 }
 
 TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
-  const auto make = [] { return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient)); };
+  const auto make = [] {
+    return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient));
+  };
   FullContact element = make();
   PairMotion m = rolling(20.0, 2.8e-4, 0.12);
   ContactReaction last;
@@ -165,8 +171,8 @@ TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
   EXPECT_EQ(other.evaluate(m).on_rail.force, next.on_rail.force);
 }
 
-/// A wheel pressed onto the rail so that it rolls without leaving it, slowly: its centre follows the flat. Chord flats of a rigid wheel
-/// drop it by (x + L/2)^2/(2 R) on the way in (Newton and Clark 1979).
+/// A wheel pressed onto the rail so that it rolls without leaving it, slowly: its centre follows the flat. Chord flats
+/// of a rigid wheel drop it by (x + L/2)^2/(2 R) on the way in (Newton and Clark 1979).
 TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
   // Light load, so that the bodies are nearly rigid.
   SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
@@ -185,8 +191,8 @@ TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
   v.pitch_at_start = {0.05};
   for (const auto side : {wheelrail::Side::left, wheelrail::Side::right}) {
     const wheelrail::Problem p = prototype(side, kalker::Regime::frictionless, 0.5e-3);
-    v.wheels.push_back({0, side, side == wheelrail::Side::left ? "left" : "right", std::make_shared<FullContact>(geometry, p),
-                        rail_marker_at_rest(geometry, p)});
+    v.wheels.push_back({0, side, side == wheelrail::Side::left ? "left" : "right",
+                        std::make_shared<FullContact>(geometry, p), rail_marker_at_rest(geometry, p)});
   }
   v.connect();
   const Equilibrium e = find_equilibrium(v);

@@ -9,8 +9,9 @@
 
 namespace treadmark::vehicle {
 
-/// Oracle: a wheel's centre on a rail by F = k d^1.5 along the vertical, d from their heights, contact below the centre at y = side.
-/// Linear creep c about the point of contact if asked for. Counts instants, to see that histories are saved and restored.
+/// Oracle: a wheel's centre on a rail by F = k d^1.5 along the vertical, d from their heights, contact below the centre
+/// at y = side. Linear creep c about the point of contact if asked for. Counts instants, to see that histories are
+/// saved and restored.
 class HertzSpring : public ContactElement {
  public:
   explicit HertzSpring(double k, double side_y, double radius = 0.46, double creep = 0.0)
@@ -48,7 +49,7 @@ class HertzSpring : public ContactElement {
   void save(ByteWriter& out) const override { out.put(instants), out.put(last_x); }
   void restore(ByteReader& in) override { in.get(instants), in.get(last_x); }
 
-  double (*irregularity)(double x) = nullptr;   ///< height of the rail, down [m]
+  double (*irregularity)(double x) = nullptr;  ///< height of the rail, down [m]
   int instants = 0;
   double last_x = 0.0;
 

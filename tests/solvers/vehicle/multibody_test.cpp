@@ -17,7 +17,8 @@ int coordinate(const Multibody& s, const std::string& name) {
 }
 
 TEST(Multibody, WheelsetsCarryWhatIsAboveThem) {
-  const Multibody s = assemble(wheel_on_mass(1800.0, 9000.0, 2e6, 1e4), rails_on_springs(200.0, 6e7, 5e4), 20.0, kGravity);
+  const Multibody s =
+      assemble(wheel_on_mass(1800.0, 9000.0, 2e6, 1e4), rails_on_springs(200.0, 6e7, 5e4), 20.0, kGravity);
   ASSERT_EQ(s.wheelset_load.size(), 1u);
   EXPECT_NEAR(s.wheelset_load[0], (1800.0 + 9000.0) * kGravity, 1e-6);
   EXPECT_EQ(s.size(), 4);
@@ -30,9 +31,11 @@ TEST(Multibody, WheelsetsCarryWhatIsAboveThem) {
 TEST(Multibody, SpringsActAtTheirPoints) {
   VehicleModel v = wheel_on_mass(1800.0, 9000.0, 2e6, 0.0);
   v.bodies[0].free = {false, true, true, true, false, true};
-  v.springs = {spring("mass", "wheelset", {0.4, -1.0, -0.46}, {0, 3e5, 1e6, 0, 0, 0}), spring("mass", "wheelset", {0.4, 1.0, -0.46}, {2e5, 3e5, 1e6, 7e3, 0, 0})};
+  v.springs = {spring("mass", "wheelset", {0.4, -1.0, -0.46}, {0, 3e5, 1e6, 0, 0, 0}),
+               spring("mass", "wheelset", {0.4, 1.0, -0.46}, {2e5, 3e5, 1e6, 7e3, 0, 0})};
   const Multibody s = assemble(v, {}, 20.0, kGravity);
-  const int y = coordinate(s, "mass.y"), z = coordinate(s, "mass.z"), roll = coordinate(s, "mass.roll"), yaw = coordinate(s, "mass.yaw");
+  const int y = coordinate(s, "mass.y"), z = coordinate(s, "mass.z"), roll = coordinate(s, "mass.roll"),
+            yaw = coordinate(s, "mass.yaw");
   EXPECT_DOUBLE_EQ(s.stiffness(z, z), 2e6);
   EXPECT_DOUBLE_EQ(s.stiffness(y, y), 6e5);
   // Roll: vertical springs at 1 m, lateral ones 0.54 m below the centre of mass, one about the axis.
@@ -48,12 +51,14 @@ TEST(Multibody, RigidMotionsStrainNothing) {
   constexpr std::array<bool, kFreedoms> all{true, true, true, true, true, true};
   v.bodies = {body("a", 10, {1, 2, 3}, {0.3, -0.2, -1.4}, all), body("b", 20, {1, 2, 3}, {-1.0, 0.5, -0.6}, all),
               body("wheelset", 30, {1, 1, 1}, {0, 0, -0.46}, kVertical)};
-  v.springs = {spring("a", "b", {0.1, 0.7, -0.9}, {1e5, 2e5, 3e5, 4e3, 5e3, 6e3}, {10, 20, 30, 1, 2, 3}, {1e4, 2e4, 3e4, 1e2, 2e2, 3e2}),
+  v.springs = {spring("a", "b", {0.1, 0.7, -0.9}, {1e5, 2e5, 3e5, 4e3, 5e3, 6e3}, {10, 20, 30, 1, 2, 3},
+                      {1e4, 2e4, 3e4, 1e2, 2e2, 3e2}),
                spring("b", "wheelset", {0, 0, -0.5}, {1e5, 1e5, 1e5, 1e5, 1e5, 1e5})};
   v.wheelsets = {{"wheelset", 0.46}};
   const Multibody s = assemble(v, {}, 20.0, kGravity);
   Random random(7);
-  const Vec3 shift(random.uniform(), random.uniform(), random.uniform()), turn(random.uniform(), random.uniform(), random.uniform());
+  const Vec3 shift(random.uniform(), random.uniform(), random.uniform()),
+      turn(random.uniform(), random.uniform(), random.uniform());
   Vector q = Vector::Zero(s.size());
   for (int i = 0; i < s.size(); ++i) {
     const Coordinate& c = s.coordinates[static_cast<std::size_t>(i)];
@@ -73,7 +78,8 @@ TEST(Multibody, RigidMotionsStrainNothing) {
 
 TEST(Multibody, ADamperBehindASpring) {
   VehicleModel v = wheel_on_mass(1800.0, 9000.0, 2e6, 0.0);
-  v.springs[0] = spring("mass", "wheelset", {0, 0, -0.46}, {0, 0, 2e6, 0, 0, 0}, {0, 0, 3e4, 0, 0, 0}, {0, 0, 5e6, 0, 0, 0});
+  v.springs[0] =
+      spring("mass", "wheelset", {0, 0, -0.46}, {0, 0, 2e6, 0, 0, 0}, {0, 0, 3e4, 0, 0, 0}, {0, 0, 5e6, 0, 0, 0});
   const Multibody s = assemble(v, {}, 20.0, kGravity);
   const int inner = coordinate(s, "mass-wheelset.damper_z"), z = coordinate(s, "mass.z");
   EXPECT_EQ(s.mass[inner], 0.0);
@@ -90,7 +96,8 @@ TEST(Multibody, ATurningWheelsetIsAGyroscope) {
   v.springs[0].stiffness = {1e6, 1e6, 2e6, 1e5, 0, 1e5};
   const Multibody s = assemble(v, {}, 23.0, kGravity);
   const int roll = coordinate(s, "wheelset.roll"), yaw = coordinate(s, "wheelset.yaw");
-  // Forward rolling: momentum 110 * 50 along -y. Rolling (y towards z) turns it; the torque that needs is about +z, reversed on the body.
+  // Forward rolling: momentum 110 * 50 along -y. Rolling (y towards z) turns it; the torque that needs is about +z,
+  // reversed on the body.
   EXPECT_NEAR(s.damping(yaw, roll), -110.0 * 50.0, 1e-9);
   EXPECT_NEAR(s.damping(roll, yaw), 110.0 * 50.0, 1e-9);
   EXPECT_DOUBLE_EQ(s.dissipation(yaw, roll), 0.0);
@@ -105,7 +112,7 @@ TEST(Multibody, RailsMoveTheirProfileOrigin) {
   q[coordinate(s, "right_rail@1.roll")] = 1e-3;
   q[coordinate(s, "right_rail@1.z")] = 2e-3;
   const PairVector u = pair_map(s, 0, wheelrail::Side::right, {0.0, 0.76, 0.0}) * q;
-  EXPECT_NEAR(u[6], 1e-3 * 0.1, 1e-15);            // 0.1 m above the centre of mass, which rolls to the right at the top
+  EXPECT_NEAR(u[6], 1e-3 * 0.1, 1e-15);  // 0.1 m above the centre of mass, which rolls to the right at the top
   EXPECT_NEAR(u[7], 2e-3 + 1e-3 * 0.01, 1e-15);
   EXPECT_NEAR(u[8], 1e-3, 1e-15);
 }
@@ -118,7 +125,8 @@ TEST(Multibody, CharacteristicsAreOddAndHaveAPotential) {
   EXPECT_NEAR(characteristic(c, 0.04).force, 2920.0, 1e-9);
   for (const double u : {0.026, 0.031, 0.037, -0.033}) {
     const double h = 1e-7;
-    EXPECT_NEAR((characteristic(c, u + h).energy - characteristic(c, u - h).energy) / (2 * h), characteristic(c, u).force, 1e-3);
+    EXPECT_NEAR((characteristic(c, u + h).energy - characteristic(c, u - h).energy) / (2 * h),
+                characteristic(c, u).force, 1e-3);
   }
 }
 

@@ -3,8 +3,8 @@
 #include <cmath>
 #include <numbers>
 
-#include <boost/numeric/odeint.hpp>
 #include <gtest/gtest.h>
+#include <boost/numeric/odeint.hpp>
 
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
@@ -42,7 +42,8 @@ using Flat = std::array<double, 8>;
 Flat by_odeint(Flat state, double duration) {
   const auto rhs = [](const Flat& x, Flat& d, double) {
     const double suspension = 2e6 * (x[0] - x[1]) + 1e4 * (x[4] - x[5]);
-    d = {x[4], x[5], x[6], x[7], -suspension / 9000.0, suspension / 1813.0 + (1813.0 + 9000.0) * kGravity / 1813.0, 0.0, 0.0};
+    d = {x[4], x[5], x[6], x[7], -suspension / 9000.0, suspension / 1813.0 + (1813.0 + 9000.0) * kGravity / 1813.0,
+         0.0,  0.0};
     for (std::size_t rail : {2u, 3u}) {
       const double f = kHertz * std::pow(std::max(0.0, x[1] - x[rail]), 1.5);
       d[5] -= f / 1813.0;
@@ -50,7 +51,8 @@ Flat by_odeint(Flat state, double duration) {
     }
   };
   namespace ode = boost::numeric::odeint;
-  ode::integrate_adaptive(ode::make_controlled<ode::runge_kutta_dopri5<Flat>>(1e-14, 1e-12), rhs, state, 0.0, duration, 1e-6);
+  ode::integrate_adaptive(ode::make_controlled<ode::runge_kutta_dopri5<Flat>>(1e-14, 1e-12), rhs, state, 0.0, duration,
+                          1e-6);
   return state;
 }
 
@@ -73,7 +75,8 @@ TEST(Simulation, SecondOrderAgainstAnotherIntegrator) {
       Simulation s(v, start, settings);
       run(s);
       double worst = 0.0;
-      for (int i = 0; i < 4; ++i) worst = std::max(worst, std::abs(s.state().q[i] - truth[static_cast<std::size_t>(i)]));
+      for (int i = 0; i < 4; ++i)
+        worst = std::max(worst, std::abs(s.state().q[i] - truth[static_cast<std::size_t>(i)]));
       errors.push_back(worst);
     }
     for (std::size_t i = 1; i < errors.size(); ++i) {
@@ -167,7 +170,7 @@ TEST(Simulation, EnergyIsBalanced) {
 
 TEST(Simulation, EveryAcceptedInstantOnceThoughStepsAreRepeated) {
   const VehicleOnTrack v = test_vehicle();
-  SystemState start = lifted(v, -0.08);   // wheels leave the rails
+  SystemState start = lifted(v, -0.08);  // wheels leave the rails
   SimulationSettings settings = fixed_steps(0.05, 2e-3);
   settings.position_tolerance = 1e-8;
   settings.min_step = 1e-10;
@@ -225,7 +228,9 @@ TEST(Simulation, BadSettingsAndStuckStepsAreErrors) {
   SystemState pushed = start;
   pushed.v[1] = 0.3;
   Simulation s(v, pushed, settings);
-  const auto advance = [&] { while (!s.finished()) s.advance(); };
+  const auto advance = [&] {
+    while (!s.finished()) s.advance();
+  };
   EXPECT_THROW(advance(), Error);
 }
 

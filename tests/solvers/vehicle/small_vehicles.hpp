@@ -16,7 +16,8 @@ inline constexpr double kGravity = 9.81;
 inline BodySpec body(std::string name, double mass, Vec3 inertia, Vec3 position, std::array<bool, kFreedoms> free) {
   return {std::move(name), mass, inertia, position, free, {}};
 }
-inline SpringSpec spring(std::string a, std::string b, Vec3 position, SixValues stiffness, SixValues damping = {}, SixValues series = {}) {
+inline SpringSpec spring(std::string a, std::string b, Vec3 position, SixValues stiffness, SixValues damping = {},
+                         SixValues series = {}) {
   return {a + "-" + b, a, b, position, stiffness, damping, series, {}};
 }
 
@@ -25,7 +26,8 @@ inline constexpr std::array<bool, kFreedoms> kVertical{false, false, true, false
 /// A wheelset that only moves up and down, below a sprung mass.
 inline VehicleModel wheel_on_mass(double wheelset_mass, double sprung_mass, double stiffness, double damping) {
   VehicleModel v;
-  v.bodies = {body("mass", sprung_mass, {1, 1, 1}, {0, 0, -1.0}, kVertical), body("wheelset", wheelset_mass, {1, 1, 1}, {0, 0, -0.46}, kVertical)};
+  v.bodies = {body("mass", sprung_mass, {1, 1, 1}, {0, 0, -1.0}, kVertical),
+              body("wheelset", wheelset_mass, {1, 1, 1}, {0, 0, -0.46}, kVertical)};
   v.springs = {spring("mass", "wheelset", {0, 0, -0.46}, {0, 0, stiffness, 0, 0, 0}, {0, 0, damping, 0, 0, 0})};
   v.wheelsets = {{"wheelset", 0.46}};
   return v;
@@ -43,8 +45,8 @@ inline TrackModel rails_on_springs(double mass, double stiffness, double damping
   return t;
 }
 
-inline VehicleOnTrack on_hertz_springs(const VehicleModel& model, const std::optional<TrackModel>& track, double speed, double k,
-                                       double creep = 0.0) {
+inline VehicleOnTrack on_hertz_springs(const VehicleModel& model, const std::optional<TrackModel>& track, double speed,
+                                       double k, double creep = 0.0) {
   VehicleOnTrack v;
   v.system = assemble(model, track, speed, kGravity);
   v.speed = speed;

@@ -42,7 +42,8 @@ std::shared_ptr<const ContactTable> standard_table() {
 }
 
 std::shared_ptr<const ContactTable> tread_table(double cant) {
-  return build_contact_table(standard_geometry(), standard_problem(cant), kLoad, {.lateral_range = 6.5e-3, .step = 0.5e-3});
+  return build_contact_table(standard_geometry(), standard_problem(cant), kLoad,
+                             {.lateral_range = 6.5e-3, .step = 0.5e-3});
 }
 
 /// A standing wheel pressed into the rail so much over the touching height.
@@ -73,7 +74,8 @@ PairMotion general_motion(double y = 2.3e-3) {
 }
 
 PairMotion mirror_image(PairMotion m) {
-  for (wheelrail::SixMotion* q : {&m.wheelset, &m.wheelset_velocity}) q->y = -q->y, q->roll = -q->roll, q->yaw = -q->yaw;
+  for (wheelrail::SixMotion* q : {&m.wheelset, &m.wheelset_velocity})
+    q->y = -q->y, q->roll = -q->roll, q->yaw = -q->yaw;
   m.rail.y = -m.rail.y, m.rail.roll = -m.rail.roll, m.rail.vy = -m.rail.vy, m.rail.vroll = -m.rail.vroll;
   return m;
 }
@@ -88,7 +90,8 @@ double contact_angle(const ContactReaction& r) { return roll_yaw_pitch(r.tangent
 TEST(TableContact, ABallIsHertzian) {
   constexpr double kCrown = 20.0;  // across the track; flat as far as the ball is concerned
   const wheelrail::Geometry ball{analytic::make_prismatic_surface(analytic::cylinder_chain(kCrown, 2.5e-3)),
-                                 analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 0.08), kRadius), true, true};
+                                 analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 0.08), kRadius), true,
+                                 true};
   wheelrail::Problem p;
   p.track.gauge_based = false;
   p.track.rail_y0 = 0.75;
@@ -101,8 +104,8 @@ TEST(TableContact, ABallIsHertzian) {
       m.wheelset.y = y;
       m.wheelset.z = centres - std::sqrt((centres - approach) * (centres - approach) - y * y);
       const ContactReaction r = element.evaluate(m);
-      const kalker::HertzShape hertz =
-          kalker::hertz_from_curvatures(0.5 / kRadius, 0.5 / kRadius + 0.5 / kCrown, {false, approach}, combine(p.material));
+      const kalker::HertzShape hertz = kalker::hertz_from_curvatures(0.5 / kRadius, 0.5 / kRadius + 0.5 / kCrown,
+                                                                     {false, approach}, combine(p.material));
       ASSERT_EQ(r.status, Status::ok);
       EXPECT_NEAR(r.normal_force, hertz.force, 5e-3 * hertz.force);
       EXPECT_NEAR(-r.least_gap, approach, 3e-3 * approach);
@@ -180,7 +183,9 @@ TEST(TableContact, ClosedLoopsGainNoWork) {
   constexpr int kSteps = 200000;
   double gained = 0.0, moved = 0.0;
   // Across tread and flange root, at loads of all levels.
-  const auto place = [&](double t) { return pressed(*table, 1e-3 + 5.6e-3 * std::cos(t), 8e-5 + 6e-5 * std::sin(2.0 * t + 0.4)); };
+  const auto place = [&](double t) {
+    return pressed(*table, 1e-3 + 5.6e-3 * std::cos(t), 8e-5 + 6e-5 * std::sin(2.0 * t + 0.4));
+  };
   for (int i = 0; i < kSteps; ++i) {
     const double t = 2.0 * pi * i / kSteps, dt = 2.0 * pi / kSteps;
     const PairMotion from = place(t), to = place(t + dt);
@@ -208,7 +213,8 @@ TEST(TableContact, ForcesAreTheGradientOfTheEnergyInEveryCoordinate) {
     const auto energy = [&](int i, double step) {
       PairMotion moved = m;
       wheelrail::SixMotion& w = moved.wheelset;
-      double* coordinates[] = {&w.x, &w.y, &w.z, &w.roll, &w.pitch, &w.yaw, &moved.rail.y, &moved.rail.z, &moved.rail.roll};
+      double* coordinates[] = {&w.x,   &w.y,          &w.z,          &w.roll,         &w.pitch,
+                               &w.yaw, &moved.rail.y, &moved.rail.z, &moved.rail.roll};
       *coordinates[i] += step;
       return element.evaluate(moved).elastic_energy;
     };
@@ -228,7 +234,8 @@ TEST(TableContact, ActionIsReaction) {
   EXPECT_EQ(r.on_wheelset.force, -r.on_rail.force);
   const Vec3 marker = standard_table()->nominal().X_TR.origin + Vec3(0.0, m.rail.y, m.rail.z);
   const Vec3 centre(0.0, m.wheelset.y, m.wheelset.z - kRadius);
-  const Vec3 sum = r.on_rail.moment + marker.cross(r.on_rail.force) + r.on_wheelset.moment + centre.cross(r.on_wheelset.force);
+  const Vec3 sum =
+      r.on_rail.moment + marker.cross(r.on_rail.force) + r.on_wheelset.moment + centre.cross(r.on_wheelset.force);
   EXPECT_NEAR(sum.norm(), 0.0, 1e-9 * r.on_rail.moment.norm());
 }
 
@@ -241,11 +248,13 @@ TEST(TableContact, FrictionTakesWhatTheForcesDoAndTheSpringDoesNotStore) {
   rates << v.x, v.y, v.z, v.roll, v.pitch, v.yaw, m.rail.vy, m.rail.vz, m.rail.vroll;
   PairMotion later = m;
   const double dt = 1e-7;
-  later.wheelset.y += v.y * dt, later.wheelset.z += v.z * dt, later.wheelset.roll += v.roll * dt, later.wheelset.yaw += v.yaw * dt;
+  later.wheelset.y += v.y * dt, later.wheelset.z += v.z * dt, later.wheelset.roll += v.roll * dt,
+      later.wheelset.yaw += v.yaw * dt;
   later.rail.y += m.rail.vy * dt, later.rail.z += m.rail.vz * dt, later.rail.roll += m.rail.vroll * dt;
   const double stored = (element.evaluate(later).elastic_energy - r.elastic_energy) / dt;
   const double power = generalised_force(r, m).dot(rates);
-  // Creepages are those of the wheel at the depth of its penetration, where it runs a little faster than at the point of the force.
+  // Creepages are those of the wheel at the depth of its penetration, where it runs a little faster than at the point
+  // of the force.
   const double deeper = -r.longitudinal_creep_force * v.pitch * r.least_gap * r.tangents[0].X_TC.rotation(2, 2);
   EXPECT_GT(r.frictional_power, 0.0);
   EXPECT_NEAR(power + stored + r.frictional_power, deeper, 1e-3 * r.frictional_power);
@@ -267,7 +276,8 @@ TEST(TableContact, LeftIsTheExactMirrorImage) {
   EXPECT_EQ(roll_yaw_pitch(l.tangents[0].X_TC.rotation).roll, -contact_angle(r));
   // Tangents too belong to the mirrored point: both give the same stiffness in the mirrored coordinates.
   const Vec3 marker = standard_table()->nominal().X_TR.origin;
-  const PairTangent tr = pair_tangent(r, m, marker, kRadius), tl = pair_tangent(l, mirror_image(m), flipped(marker), kRadius);
+  const PairTangent tr = pair_tangent(r, m, marker, kRadius),
+                    tl = pair_tangent(l, mirror_image(m), flipped(marker), kRadius);
   EXPECT_NEAR(tl.stiffness(1, 2), -tr.stiffness(1, 2), 1e-9 * tr.stiffness(2, 2));
 }
 
@@ -281,7 +291,8 @@ TEST(TableContact, RadiusDifferenceIsOdd) {
   EXPECT_EQ(difference(0.0), 0.0);
   for (const double y : {1e-3, 3e-3, 5.5e-3}) {
     EXPECT_EQ(difference(y), -difference(-y));
-    // The wheel that comes closer to its flange rolls on the larger circle: on the right that of a wheelset moved to the right.
+    // The wheel that comes closer to its flange rolls on the larger circle: on the right that of a wheelset moved to
+    // the right.
     EXPECT_GT(difference(y), 0.0);
   }
 }
@@ -294,7 +305,8 @@ TEST(TableContact, BodiesThatMoveTogetherStayAsTheyAre) {
   const double roll = 2e-3;
   const auto turned = [&](const Vec3& p) { return Vec3(rotation_x(roll) * p - p); };
   PairMotion together = m;
-  const Vec3 wheelset = turned({0.0, m.wheelset.y, m.wheelset.z - kRadius}), rail = turned(standard_table()->nominal().X_TR.origin);
+  const Vec3 wheelset = turned({0.0, m.wheelset.y, m.wheelset.z - kRadius}),
+             rail = turned(standard_table()->nominal().X_TR.origin);
   together.wheelset.y += wheelset.y(), together.wheelset.z += wheelset.z(), together.wheelset.roll = roll;
   together.rail.y = rail.y(), together.rail.z = rail.z(), together.rail.roll = roll;
   const ContactReaction after = element.evaluate(together);
@@ -344,7 +356,8 @@ TEST(TableContact, StiffnessIsTheDerivativeOfTheForce) {
 TEST(TableContact, TheTableDoesNotDependOnThreads) {
   const auto build = [](int threads) {
     const ThreadLimit limit(threads);
-    return build_contact_table(standard_geometry(), standard_problem(0.025), kLoad, {.lateral_range = 3e-3, .step = 1e-3});
+    return build_contact_table(standard_geometry(), standard_problem(0.025), kLoad,
+                               {.lateral_range = 3e-3, .step = 1e-3});
   };
   const auto one = build(1), two = build(2);
   for (double y = -3e-3; y <= 3e-3; y += 0.17e-3) {
@@ -389,7 +402,8 @@ TEST(TableContact, SavedStatesAreTheirOwn) {
 TEST(TableContact, WrongInputIsRefused) {
   EXPECT_THROW(TableContact(nullptr, Side::left), Error);
   const wheelrail::Problem good = standard_problem(0.025);
-  const auto refused = [&](const wheelrail::Problem& p, double load, const ContactTableOptions& options, bool round = true) {
+  const auto refused = [&](const wheelrail::Problem& p, double load, const ContactTableOptions& options,
+                           bool round = true) {
     wheelrail::Geometry g = standard_geometry();
     g.round_wheel = round;
     EXPECT_THROW(build_contact_table(g, p, load, options), Error);

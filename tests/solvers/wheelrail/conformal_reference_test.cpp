@@ -20,7 +20,8 @@ using testing::solve_patch;
 constexpr double kClose = 1.5e-3;
 /// Power follows the square of the contact's width, which that interpolation makes narrower.
 constexpr double kPower = 1e-2;
-/// The fit over the interpenetration of a groove depends on which elements at its steep edges belong to it; total slip does not.
+/// The fit over the interpenetration of a groove depends on which elements at its steep edges belong to it; total slip
+/// does not.
 constexpr double kFit = 1.5e-2;
 
 nlohmann::json case_of(const std::filesystem::path& shared, const std::string& name, int number) {
@@ -37,13 +38,15 @@ void expect_close(double ours, double printed, double tolerance, const char* wha
   EXPECT_NEAR(ours, printed, tolerance * std::abs(printed)) << what;
 }
 
-/// Deep-groove rolling after Li (2002) at the position and the pitch rate that were found for 10 kN and no longitudinal force.
-PatchOnReference expect_groove(const std::filesystem::path& shared, int number, const kalker::InfluenceSettings& influence) {
+/// Deep-groove rolling after Li (2002) at the position and the pitch rate that were found for 10 kN and no longitudinal
+/// force.
+PatchOnReference expect_groove(const std::filesystem::path& shared, int number,
+                               const kalker::InfluenceSettings& influence) {
   const char* grooves[] = {"groove_r1025.prr", "groove_r1010.prr", "groove_r1005.prr", "groove_r1002.prr"};
   const auto profiles = shared / "data" / "contact_testbank" / "profiles";
   const double radius = 0.42;
-  const Geometry geometry{read(profiles / grooves[(number - 1) % 4], Body::rail, 0.0), read(profiles / "circ_r10.prw", Body::wheel, radius),
-                          true, true};
+  const Geometry geometry{read(profiles / grooves[(number - 1) % 4], Body::rail, 0.0),
+                          read(profiles / "circ_r10.prw", Body::wheel, radius), true, true};
   const auto expected = case_of(shared, "tb_groove_li", number);
   const auto& patch = expected.at("patches").at(0);
 
@@ -98,7 +101,8 @@ TEST(ConformalReference, GrooveWithAngleCorrectedCoefficients) {
 /// Manchester benchmark with friction by inclination (case 5) or along the track (case 7).
 void expect_flange_root(const std::filesystem::path& shared, int number, const Problem& friction) {
   const auto data = shared / "data" / "contact_examples";
-  const Geometry geometry{read(data / "MBench_UIC60_v3.prr", Body::rail, 0.0), read(data / "MBench_S1002_v3.prw", Body::wheel, 0.46), true, true};
+  const Geometry geometry{read(data / "MBench_UIC60_v3.prr", Body::rail, 0.0),
+                          read(data / "MBench_S1002_v3.prw", Body::wheel, 0.46), true, true};
   const auto expected = case_of(shared, "mbench_a22_varfric", number);
   Problem p = friction;
   p.wheelset = {1.360, -0.070, 0.46, std::nullopt};

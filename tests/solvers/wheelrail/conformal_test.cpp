@@ -17,7 +17,8 @@ using testing::solve_patch;
 TEST(Conformal, FlatCurveGivesTheResultsOfThePlane) {
   const double radius = 0.3;
   const Geometry geometry{analytic::make_prismatic_surface(analytic::cylinder_chain(radius, 0.2)),
-                          analytic::make_revolved_surface(analytic::barrel_chain(radius, 0.2), testing::kWheelRadius), true, true};
+                          analytic::make_revolved_surface(analytic::barrel_chain(radius, 0.2), testing::kWheelRadius),
+                          true, true};
   Problem p = groove_problem(40e-6);
   p.discretisation.ds = 0.15e-3;
   p.state.velocity.y = 4e-4;
@@ -51,12 +52,14 @@ TEST(Conformal, ForceIsTheSameSeenFromATurnedPlane) {
   EXPECT_NEAR(turned.undeformed.approach, straight.undeformed.approach, 1e-4 * straight.undeformed.approach);
   EXPECT_NEAR(turned.contact.max_pressure, straight.contact.max_pressure, 1e-3 * straight.contact.max_pressure);
   EXPECT_NEAR(turned.contact.elastic_energy, straight.contact.elastic_energy, 1e-3 * straight.contact.elastic_energy);
-  EXPECT_NEAR(turned.contact.frictional_power, straight.contact.frictional_power, 2e-3 * std::abs(straight.contact.frictional_power));
+  EXPECT_NEAR(turned.contact.frictional_power, straight.contact.frictional_power,
+              2e-3 * std::abs(straight.contact.frictional_power));
   EXPECT_LT((turned.force_T - straight.force_T).norm(), 1e-3 * straight.force_T.norm());
   // The plane does know.
   Problem plane = p;
   plane.reference_surface = ReferenceSurface::plane_surface_slip;
-  EXPECT_GT((solve_patch(geometry, plane, turn).force_T - solve_patch(geometry, plane).force_T).norm(), 0.02 * straight.force_T.norm());
+  EXPECT_GT((solve_patch(geometry, plane, turn).force_T - solve_patch(geometry, plane).force_T).norm(),
+            0.02 * straight.force_T.norm());
 }
 
 // Pressures of a nearly conforming contact point in many directions: their plain sum exceeds what they carry.

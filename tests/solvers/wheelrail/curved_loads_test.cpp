@@ -87,7 +87,8 @@ TEST(CurvedLoads, PlaneGivesTheSumsOfTheContactProblem) {
   }
   kalker::accumulate_totals(problem, contact);
   const Wrench w = resultant_on(detection::plane_reference(problem.grid), problem.grid, contact);
-  const Vec3 force(contact.force_x, contact.force_y, contact.force_n), moment(contact.moment_x, contact.moment_y, contact.moment_n);
+  const Vec3 force(contact.force_x, contact.force_y, contact.force_n),
+      moment(contact.moment_x, contact.moment_y, contact.moment_n);
   EXPECT_NEAR((w.force - force).norm(), 0.0, 1e-13 * force.norm());
   EXPECT_NEAR((w.moment - moment).norm(), 0.0, 1e-13 * moment.norm());
   // About a reference that lies elsewhere in the grid: Steiner.

@@ -52,7 +52,8 @@ TEST(Kinematics, BackwardRollingTurnsTheDirection) {
   EXPECT_NEAR(k.velocity, 3.0, 1e-12);
 }
 
-// Yaw to the right (positive) moves the wheel's rolling direction to +y: the wheel slides to -y against it, rail minus wheel > 0.
+// Yaw to the right (positive) moves the wheel's rolling direction to +y: the wheel slides to -y against it, rail minus
+// wheel > 0.
 TEST(Kinematics, YawGivesLateralCreepageAndContactAngleGivesSpin) {
   Problem p;
   p.state.velocity.x = 20.0;
@@ -62,8 +63,7 @@ TEST(Kinematics, YawGivesLateralCreepageAndContactAngleGivesSpin) {
   placed.X_TWs.rotation = rotation_z(yaw);
   const ContactKinematics flat = contact_kinematics(p, placed, {{0.0, 0.75, 0.0}, Mat3::Identity()}, 0.0);
   EXPECT_NEAR(flat.eta, yaw, 1e-5);
-  const ContactKinematics conical =
-      contact_kinematics(p, straight(0.46), {{0.0, 0.75, 0.0}, rotation_x(angle)}, 0.0);
+  const ContactKinematics conical = contact_kinematics(p, straight(0.46), {{0.0, 0.75, 0.0}, rotation_x(angle)}, 0.0);
   EXPECT_NEAR(conical.phi, -std::sin(angle) / 0.46, 1e-12) << "n.omega of the wheel is sin(angle) V/r";
 }
 

@@ -32,7 +32,10 @@ std::shared_ptr<const Surface> wheel_of(const Scene& scene) {
 
 class LeastGap : public ::testing::TestWithParam<Scene> {
  protected:
-  LeastGap() : geometry_{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), wheel_of(GetParam()), true, !GetParam().flat}, pair_(geometry_) {
+  LeastGap()
+      : geometry_{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), wheel_of(GetParam()), true,
+                  !GetParam().flat},
+        pair_(geometry_) {
     problem_ = standard_problem();
     problem_.vertical_force.reset();
     problem_.state.position = {.y = GetParam().y, .yaw = GetParam().yaw, .pitch = GetParam().pitch};
@@ -52,7 +55,8 @@ class LeastGap : public ::testing::TestWithParam<Scene> {
   Problem problem_;
 };
 
-/// Least of rail height less wheel height over points, seen along z of the track: all over the rail, then ever closer about the best.
+/// Least of rail height less wheel height over points, seen along z of the track: all over the rail, then ever closer
+/// about the best.
 double brute_force(const Geometry& geometry, const Placement& placed) {
   Vec2 middle(0.0, placed.X_TR.origin.y());
   double half_x = 0.05, half_y = 0.045, least = std::numeric_limits<double>::infinity();
@@ -61,7 +65,8 @@ double brute_force(const Geometry& geometry, const Placement& placed) {
     std::vector<Vec2> points;
     for (int i = 0; i < kPoints; ++i)
       for (int j = 0; j < kPoints; ++j)
-        points.emplace_back(middle.x() + half_x * (2.0 * i / (kPoints - 1) - 1.0), middle.y() + half_y * (2.0 * j / (kPoints - 1) - 1.0));
+        points.emplace_back(middle.x() + half_x * (2.0 * i / (kPoints - 1) - 1.0),
+                            middle.y() + half_y * (2.0 * j / (kPoints - 1) - 1.0));
     std::vector<double> rail(points.size()), wheel(points.size());
     geometry.rail->heights_at(placed.X_TS.inverse(), points, {rail, {}, {}});
     geometry.wheel->heights_at(placed.X_TA.inverse(), points, {wheel, {}, {}});
@@ -88,7 +93,8 @@ TEST_P(LeastGap, FallsByWhatTheWheelComesDown) {
   const double z_0 = touching();
   for (double below = -5e-3; below < 1.5e-4; below += below < -1e-4 ? 6.1e-4 : 3.7e-6)
     EXPECT_NEAR(at(z_0 + below).least_gap, -below, 5e-9) << below;
-  for (double below = -1e-8; below <= 1e-8; below += 1e-9) EXPECT_NEAR(at(z_0 + below).least_gap, -below, 3e-9) << below;
+  for (double below = -1e-8; below <= 1e-8; below += 1e-9)
+    EXPECT_NEAR(at(z_0 + below).least_gap, -below, 3e-9) << below;
 }
 
 TEST_P(LeastGap, VanishesWhereTheContactForceDoes) {
@@ -127,8 +133,10 @@ TEST_P(LeastGap, IsThatOfTheMirrorImage) {
 }
 
 INSTANTIATE_TEST_SUITE_P(Scenes, LeastGap,
-                         ::testing::Values(Scene{"tread", false, "analytic", 1.5e-3, 3e-3, 0.0}, Scene{"flange", false, "analytic", 7.5e-3, 0.02, 0.0},
-                                           Scene{"spline", false, "spline", -2e-3, 0.0, 0.0}, Scene{"flat", true, "analytic", 0.5e-3, 2e-3, 0.03},
+                         ::testing::Values(Scene{"tread", false, "analytic", 1.5e-3, 3e-3, 0.0},
+                                           Scene{"flange", false, "analytic", 7.5e-3, 0.02, 0.0},
+                                           Scene{"spline", false, "spline", -2e-3, 0.0, 0.0},
+                                           Scene{"flat", true, "analytic", 0.5e-3, 2e-3, 0.03},
                                            Scene{"flat_spline", true, "spline", 1e-3, 0.0, 0.055}),
                          [](const auto& scene) { return scene.param.name; });
 

@@ -58,7 +58,8 @@ TEST(MaterialVelocity, ACurveTurnsRailAndRollerAlike) {
   const Placement placed = somewhere();
   const Vec3 top = placed.X_TR.origin;
   const Vec3 travel(rail.state.velocity.x, 0.0, 0.0);
-  const Vec3 of_rail = material_velocity(rail, placed).rail.at(top), of_roller = material_velocity(roller, placed).rail.at(top);
+  const Vec3 of_rail = material_velocity(rail, placed).rail.at(top),
+             of_roller = material_velocity(roller, placed).rail.at(top);
   EXPECT_NEAR(of_roller.x() + travel.x(), of_rail.x(), 1e-12);
 }
 

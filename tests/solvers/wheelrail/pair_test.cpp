@@ -41,11 +41,13 @@ TEST(Pair, VerticalForceOnABallAgreesWithHertz) {
   ASSERT_EQ(s.status, Status::ok) << s.message;
   ASSERT_EQ(s.patches.size(), 1u);
   EXPECT_NEAR(s.load.track.force.z(), force, 1e-4 * force);
-  // Hertz (Johnson 1985, ch. 4): sphere of radius 0.46 m on a cylinder of 20 m; curvatures differ by 2.3 %: mean radius.
+  // Hertz (Johnson 1985, ch. 4): sphere of radius 0.46 m on a cylinder of 20 m; curvatures differ by 2.3 %: mean
+  // radius.
   const double e_star = p.material.shear_modulus_1 / (1.0 - p.material.poisson_1);
   const double mean_radius = 1.0 / std::sqrt((1.0 / kRadius) * (1.0 / kRadius + 1.0 / 20.0));
   const double a = std::cbrt(3.0 * force * mean_radius / (4.0 * e_star));
-  EXPECT_NEAR(s.patches[0].contact.max_pressure, 1.5 * force / (M_PI * a * a), 5e-3 * s.patches[0].contact.max_pressure);
+  EXPECT_NEAR(s.patches[0].contact.max_pressure, 1.5 * force / (M_PI * a * a),
+              5e-3 * s.patches[0].contact.max_pressure);
   EXPECT_NEAR(s.patches[0].approach, a * a / mean_radius, 5e-3 * s.patches[0].approach);
   EXPECT_NEAR(s.z, s.patches[0].approach, 1e-7);
   EXPECT_NEAR(s.patches[0].reference_rail.y(), 0.0, 1e-6);
@@ -59,7 +61,8 @@ TEST(Pair, PrescribedPositionGivesTheForceOfThePrescribedForce) {
   p.vertical_force.reset();
   p.state.position.z = sought.z;
   const PairSolution given = pair.solve(p);
-  EXPECT_NEAR(given.load.track.force.z(), sought.load.track.force.z(), p.solver.eps * 3e4);  // one starts cold, the other warm
+  EXPECT_NEAR(given.load.track.force.z(), sought.load.track.force.z(),
+              p.solver.eps * 3e4);  // one starts cold, the other warm
 }
 
 TEST(Pair, NoContactIsAStatus) {
@@ -101,7 +104,8 @@ TEST(Pair, LeftIsTheMirrorImageOfRight) {
   const Grid2 g = r.patches[0].grid;
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix)
-      ASSERT_EQ(l.patches[0].contact.pressure[g.index(ix, iy)], r.patches[0].contact.pressure[g.index(ix, g.ny - 1 - iy)]);
+      ASSERT_EQ(l.patches[0].contact.pressure[g.index(ix, iy)],
+                r.patches[0].contact.pressure[g.index(ix, g.ny - 1 - iy)]);
 }
 
 TEST(Pair, MovingTrackAndWheelsetSidewaysChangesNothing) {
@@ -120,7 +124,8 @@ TEST(Pair, MovingTrackAndWheelsetSidewaysChangesNothing) {
   EXPECT_NEAR(b.load.track.force.x(), a.load.track.force.x(), 2e-4 * std::abs(a.load.track.force.z()));
   EXPECT_NEAR(b.z, a.z, kRounding * 1e-3);
   EXPECT_NEAR(b.patches[0].frame.X_TC.origin.y() - a.patches[0].frame.X_TC.origin.y(), 0.5, 1e-8);
-  EXPECT_NEAR(b.patches[0].contact.max_pressure, a.patches[0].contact.max_pressure, 1e-4 * a.patches[0].contact.max_pressure);
+  EXPECT_NEAR(b.patches[0].contact.max_pressure, a.patches[0].contact.max_pressure,
+              1e-4 * a.patches[0].contact.max_pressure);
 }
 
 TEST(Pair, SolvingInAnyOrderGivesTheSameBits) {

@@ -32,18 +32,23 @@ inline PatchOnReference place_patch(const Geometry& geometry, const Problem& p, 
   patch.placement = place(geometry, p);
   patch.bodies = {geometry.rail.get(), geometry.wheel.get(), patch.placement.X_TS, patch.placement.X_TA};
   const auto found = detection::search_contact(patch.bodies, search_settings(geometry, p, patch.placement));
-  if (found.patches.size() != 1) throw std::runtime_error("one patch was expected, not " + std::to_string(found.patches.size()));
+  if (found.patches.size() != 1)
+    throw std::runtime_error("one patch was expected, not " + std::to_string(found.patches.size()));
   patch.frame = detection::contact_frame(patch.bodies, found.patches[0]);
   const Discretisation& d = p.discretisation;
-  patch.grid = detection::potential_contact_grid(patch.bodies, found.patches[0], patch.frame, {d.dx, d.ds, d.max_elements});
+  patch.grid =
+      detection::potential_contact_grid(patch.bodies, found.patches[0], patch.frame, {d.dx, d.ds, d.max_elements});
   patch.frame.angle += tilt;
   patch.frame.X_TC.rotation = rotation_x(patch.frame.angle);
-  patch.reference = p.reference_surface == ReferenceSurface::curved ? detection::curved_reference(patch.bodies, patch.frame, patch.grid)
-                                                                   : detection::plane_reference(patch.grid);
+  patch.reference = p.reference_surface == ReferenceSurface::curved
+                        ? detection::curved_reference(patch.bodies, patch.frame, patch.grid)
+                        : detection::plane_reference(patch.grid);
   patch.surfaces = detection::facing_surfaces(patch.bodies, patch.frame.X_TC, patch.grid, patch.reference);
   patch.undeformed = detection::undeformed_distance(patch.surfaces);
-  const ContactKinematics at_reference = contact_kinematics(p, patch.placement, patch.frame.X_TC, patch.undeformed.approach);
-  patch.slip = surface_slip(p, patch.placement, patch.frame.X_TC, patch.grid, patch.reference, patch.surfaces, at_reference);
+  const ContactKinematics at_reference =
+      contact_kinematics(p, patch.placement, patch.frame.X_TC, patch.undeformed.approach);
+  patch.slip =
+      surface_slip(p, patch.placement, patch.frame.X_TC, patch.grid, patch.reference, patch.surfaces, at_reference);
   return patch;
 }
 

@@ -13,7 +13,8 @@ namespace treadmark::wheelrail {
 namespace {
 
 Geometry standard_geometry() {
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46), true, true};
+  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
+          analytic::make_standard_surface({"S1002"}, Body::wheel, 0.46), true, true};
 }
 
 TEST(Placement, UncantedRailHasItsTopAtZeroAndItsGaugePointAtHalfGauge) {

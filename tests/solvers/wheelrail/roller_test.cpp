@@ -38,7 +38,8 @@ Problem ball_problem(double radius, double speed = 10.0) {
   return p;
 }
 
-/// Approach and greatest pressure of an elliptic contact after Hertz (Johnson 1985, ch. 4), curvatures a, b of the gap 1/2 (a x^2 + b y^2).
+/// Approach and greatest pressure of an elliptic contact after Hertz (Johnson 1985, ch. 4), curvatures a, b of the gap
+/// 1/2 (a x^2 + b y^2).
 struct Hertz {
   double approach, pressure;
   Hertz(double a, double b, double force, double e_star) {
@@ -124,7 +125,8 @@ TEST(RollerContact, AVeryLargeRollerOrRingIsARail) {
     const PairSolution s = Pair(s1002_on(radius)).solve(p);
     ASSERT_EQ(s.status, Status::ok) << s.message;
     ASSERT_EQ(s.patches.size(), rail.patches.size());
-    EXPECT_LE((s.load.track.force - rail.load.track.force).norm(), 1e-3 * rail.load.track.force.head<2>().norm() + 6.0) << radius;
+    EXPECT_LE((s.load.track.force - rail.load.track.force).norm(), 1e-3 * rail.load.track.force.head<2>().norm() + 6.0)
+        << radius;
   }
 }
 

@@ -31,7 +31,7 @@ Places places(const PairSolution& s, double step) {
 
 // A flat of 50 mm rolls over the rail in 400 steps of one element of 1 mm under constant load.
 TEST(RollingFlat, HistoryIsKeptThroughTheFlatAndSteadyRollingReturnsAfterIt) {
-  constexpr double kStep = 1e-3, kSpeed = 2.0, kCentre = 0.15;   // [m], [m/s], [m] from the start to the flat's centre
+  constexpr double kStep = 1e-3, kSpeed = 2.0, kCentre = 0.15;  // [m], [m/s], [m] from the start to the flat's centre
   constexpr int kSteps = 400;
   const std::vector<WheelFlat> flat = {{.length = 0.05, .depth = 0.05 * 0.05 / (8.0 * kStandardRadius)}};
   Pair pair({analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
@@ -52,12 +52,14 @@ TEST(RollingFlat, HistoryIsKeptThroughTheFlatAndSteadyRollingReturnsAfterIt) {
     s = pair.solve(p);
     ASSERT_EQ(s.status, Status::ok) << "step " << i << ": " << s.message;
     ASSERT_GE(s.patches.size(), 1u);
-    // The wheel tips over the flat, so that patches come and go; but where there was contact a step ago, it is gone on from.
+    // The wheel tips over the flat, so that patches come and go; but where there was contact a step ago, it is gone on
+    // from.
     const Places now = places(s, kStep);
     for (const PatchSolution& patch : s.patches)
       if (patch.came_from.empty() && i > 0) {
         ++begun;
-        for (const auto& place : places_of(patch, kStep)) EXPECT_FALSE(before.contains(place)) << "step " << i << " begins anew";
+        for (const auto& place : places_of(patch, kStep))
+          EXPECT_FALSE(before.contains(place)) << "step " << i << " begins anew";
       }
     before = now;
     EXPECT_NEAR(s.load.track.force.z(), *p.vertical_force, 5e-5 * *p.vertical_force);

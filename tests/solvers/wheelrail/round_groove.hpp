@@ -11,7 +11,10 @@ namespace treadmark::wheelrail::testing {
 
 /// Chain of a circle whose lowest point is the origin.
 inline ArcChain round_chain(double radius, double half_angle) {
-  return {-radius * std::sin(half_angle), -radius * (1.0 - std::cos(half_angle)), half_angle, {{2.0 * radius * half_angle, -1.0 / radius}}};
+  return {-radius * std::sin(half_angle),
+          -radius * (1.0 - std::cos(half_angle)),
+          half_angle,
+          {{2.0 * radius * half_angle, -1.0 / radius}}};
 }
 
 constexpr double kWheelRadius = 0.42, kTreadRadius = 10e-3;

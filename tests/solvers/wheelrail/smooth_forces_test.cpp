@@ -37,7 +37,7 @@ struct Instant {
   double y = 0.0;
   Vec3 force = Vec3::Zero();
   double z = 0.0;
-  std::vector<std::size_t> parts;   ///< of every patch
+  std::vector<std::size_t> parts;  ///< of every patch
 };
 
 class Sweep {
@@ -47,7 +47,8 @@ class Sweep {
   Instant at(double y) {
     problem_.state.position.y = y;
     const PairSolution s = pair_.solve(problem_);
-    if (s.status != Status::ok && s.status != Status::no_contact) ADD_FAILURE() << "y = " << 1e3 * y << " mm: " << s.message;
+    if (s.status != Status::ok && s.status != Status::no_contact)
+      ADD_FAILURE() << "y = " << 1e3 * y << " mm: " << s.message;
     Instant now{y, s.load.track.force, s.z, {}};
     for (const PatchSolution& patch : s.patches) now.parts.push_back(patch.region.parts.size());
     return now;
@@ -90,10 +91,10 @@ class SmoothForces : public testing::TestWithParam<bool> {
   Problem problem() const { return GetParam() ? from_tread_to_gauge_corner() : at_one_height(); }
 };
 
-// Elements lie at whole steps from the contact reference: where that moves at once, all forces change by an error of the discretisation.
-// Their direction only depends on creepages and angles.
+// Elements lie at whole steps from the contact reference: where that moves at once, all forces change by an error of
+// the discretisation. Their direction only depends on creepages and angles.
 constexpr double kSameSize = 2e-3, kSameDirection = 4e-4;
-constexpr double kSmall = 200.0;   // forces are compared with no less [N]
+constexpr double kSmall = 200.0;  // forces are compared with no less [N]
 
 TEST_P(SmoothForces, NoJumpWherePatchesOpenJoinAndClose) {
   Sweep sweep(problem());
@@ -105,7 +106,8 @@ TEST_P(SmoothForces, NoJumpWherePatchesOpenJoinAndClose) {
     ++changes;
     const auto [before, after] = sweep.sides(line[i], line[i + 1]);
     const Vec3 jump = after.force - before.force, direction = before.force.normalized();
-    const double along = std::abs(jump.dot(direction)), across = jump.cross(direction).norm(), size = before.force.norm() + kSmall;
+    const double along = std::abs(jump.dot(direction)), across = jump.cross(direction).norm(),
+                 size = before.force.norm() + kSmall;
     worst_along = std::max(worst_along, along / size);
     worst_across = std::max(worst_across, across / size);
     EXPECT_LT(along, kSameSize * size) << "y = " << 1e3 * before.y << " mm";
@@ -129,7 +131,8 @@ TEST_P(SmoothForces, RoughnessGoesDownWithTheStep) {
   EXPECT_LT(fine, 0.5 * coarse);
 }
 
-INSTANTIATE_TEST_SUITE_P(Prescribed, SmoothForces, testing::Bool(), [](const auto& p) { return p.param ? "force" : "height"; });
+INSTANTIATE_TEST_SUITE_P(Prescribed, SmoothForces, testing::Bool(),
+                         [](const auto& p) { return p.param ? "force" : "height"; });
 
 }  // namespace
 }  // namespace treadmark::wheelrail

@@ -40,10 +40,12 @@ class SolutionBytes {
     put(c.status);
     add(c.normal);
     add(c.tangential);
-    put(c.pressure, c.traction_x, c.traction_y, c.displacement_n, c.displacement_x, c.displacement_y, c.slip_x, c.slip_y, c.friction, c.plastic_x,
-        c.plastic_y, c.yield_stress, c.temperature_1, c.temperature_2, std::span<const kalker::ElementState>(c.state));
-    put(c.approach, c.creepage.xi, c.creepage.eta, c.creepage.phi, c.rolling_step, c.force_n, c.force_x, c.force_y, c.moment_x, c.moment_y,
-        c.moment_n, c.max_pressure, c.elastic_energy, c.frictional_power, c.elements_contact, c.elements_adhesion, c.elements_slip);
+    put(c.pressure, c.traction_x, c.traction_y, c.displacement_n, c.displacement_x, c.displacement_y, c.slip_x,
+        c.slip_y, c.friction, c.plastic_x, c.plastic_y, c.yield_stress, c.temperature_1, c.temperature_2,
+        std::span<const kalker::ElementState>(c.state));
+    put(c.approach, c.creepage.xi, c.creepage.eta, c.creepage.phi, c.rolling_step, c.force_n, c.force_x, c.force_y,
+        c.moment_x, c.moment_y, c.moment_n, c.max_pressure, c.elastic_energy, c.frictional_power, c.elements_contact,
+        c.elements_adhesion, c.elements_slip);
   }
   void add(const PatchSolution& p) {
     add(p.frame.X_TC);
@@ -51,13 +53,15 @@ class SolutionBytes {
     put(p.distance, p.row_angle, p.extra_slip_x, p.extra_slip_y);
     put(p.approach, p.kinematics.xi, p.kinematics.eta, p.kinematics.phi, p.kinematics.chi, p.kinematics.velocity);
     add(p.contact);
-    for (const Vec3* v : {&p.force_C, &p.moment_C, &p.reference_rail, &p.reference_wheel, &p.reference_wheelset}) add(*v);
+    for (const Vec3* v : {&p.force_C, &p.moment_C, &p.reference_rail, &p.reference_wheel, &p.reference_wheelset})
+      add(*v);
     add(p.load);
     put(p.id, p.reference_s, p.reference_C.x(), p.reference_C.y(), p.angle_rail, p.angle_wheelset, p.angle_wheel);
     put(std::span<const std::uint64_t>(p.came_from));
   }
   void add(const PairSolution& s) {
-    put(s.status, s.message, s.z, s.least_gap, s.pitch_rate, s.rail_deflection_y, s.rail_deflection_z, s.patches.size());
+    put(s.status, s.message, s.z, s.least_gap, s.pitch_rate, s.rail_deflection_y, s.rail_deflection_z,
+        s.patches.size());
     for (const PatchSolution& p : s.patches) add(p);
     for (const auto& [z, force] : s.force_iterations) put(z, force);
     add(s.load);

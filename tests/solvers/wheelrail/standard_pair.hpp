@@ -12,8 +12,8 @@ inline constexpr double kStandardRadius = 0.46;  ///< [m]
 
 /// S1002 on 60E1.
 inline Geometry standard_geometry() {
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, kStandardRadius),
-          true, true};
+  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
+          analytic::make_standard_surface({"S1002"}, Body::wheel, kStandardRadius), true, true};
 }
 
 /// A right wheel a little aside and yawed, 60 kN, coarse elements.
@@ -37,7 +37,8 @@ inline kalker::ContactSolution steady_on_the_same_elements(const Problem& p, con
   c.force_prescribed = false;
   c.approach = patch.approach;
   c.regime = kalker::Regime::steady;
-  c.creepage = {patch.kinematics.xi, patch.kinematics.eta, patch.kinematics.phi, patch.reference_C.x(), patch.reference_C.y()};
+  c.creepage = {patch.kinematics.xi, patch.kinematics.eta, patch.kinematics.phi, patch.reference_C.x(),
+                patch.reference_C.y()};
   c.rolling = {patch.kinematics.chi, patch.kinematics.velocity, patch.grid.dx};
   c.settings = p.solver;
   return kalker::ContactSolver().solve(c);

@@ -25,8 +25,8 @@ struct Sequence {
 Geometry wheel_with_a_flat() {
   constexpr double kLength = 0.05;
   const std::vector<WheelFlat> flat = {{.length = kLength, .depth = kLength * kLength / (8.0 * kStandardRadius)}};
-  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0), analytic::make_standard_surface({"S1002"}, Body::wheel, kStandardRadius, flat),
-          true, false};
+  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
+          analytic::make_standard_surface({"S1002"}, Body::wheel, kStandardRadius, flat), true, false};
 }
 
 void roll(Problem& p) {

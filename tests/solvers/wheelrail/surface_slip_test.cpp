@@ -26,12 +26,14 @@ Vec2 total_slip(const testing::PatchOnReference& patch, int ix, int iy, double o
           k.eta + k.phi * (patch.grid.x(ix) + offset) + patch.slip.extra_y[i]};
 }
 
-/// Depth below the contact reference at which the normal of a row cuts the wheel's round tread, sunk by the penetration.
+/// Depth below the contact reference at which the normal of a row cuts the wheel's round tread, sunk by the
+/// penetration.
 double tread_depth(const detection::ReferenceRow& row, double penetration) {
   const Vec2 centre(0.0, penetration - testing::kTreadRadius), from = Vec2(row.y, row.n) - centre;
   const Vec2 normal(-std::sin(row.angle), std::cos(row.angle));
   const double along = from.dot(normal);
-  const double way = -along + std::sqrt(along * along - from.squaredNorm() + testing::kTreadRadius * testing::kTreadRadius);
+  const double way =
+      -along + std::sqrt(along * along - from.squaredNorm() + testing::kTreadRadius * testing::kTreadRadius);
   return row.n + way * normal.y();
 }
 
@@ -101,7 +103,8 @@ TEST(SurfaceSlip, OfAStraightTreadIsCreepageAndSpin) {
   const StraightTread tread;
   const Problem& p = tread.problem;
   const auto patch = place_patch(tread.geometry, p);
-  const ContactKinematics at_point = contact_kinematics(p, patch.placement, patch.frame.X_TC, patch.undeformed.approach);
+  const ContactKinematics at_point =
+      contact_kinematics(p, patch.placement, patch.frame.X_TC, patch.undeformed.approach);
   const ContactKinematics& k = patch.slip.kinematics;
   EXPECT_EQ(k.velocity, 10.0);
   const double scale = at_point.velocity / k.velocity, offset = patch.grid.dx / 6.0;
@@ -148,7 +151,9 @@ TEST(SurfaceSlip, RefusesSurfacesOfAnotherGrid) {
   const auto patch = place_patch(tread.geometry, tread.problem);
   Grid2 other = patch.grid;
   ++other.nx;
-  EXPECT_THROW(surface_slip(tread.problem, patch.placement, patch.frame.X_TC, other, patch.reference, patch.surfaces, {}), Error);
+  EXPECT_THROW(
+      surface_slip(tread.problem, patch.placement, patch.frame.X_TC, other, patch.reference, patch.surfaces, {}),
+      Error);
 }
 
 }  // namespace

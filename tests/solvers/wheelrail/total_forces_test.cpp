@@ -40,7 +40,8 @@ TEST(TotalForces, BrakingPullsTheRailForward) {
   const PairSolution braking = pair.solve(p);
   p.longitudinal_force = -5e3;
   const PairSolution driving = pair.solve(p);
-  EXPECT_GT(braking.pitch_rate, driving.pitch_rate) << "forward rolling has a negative rate: a braked wheel turns slower";
+  EXPECT_GT(braking.pitch_rate, driving.pitch_rate)
+      << "forward rolling has a negative rate: a braked wheel turns slower";
   EXPECT_LT(braking.patches.at(0).kinematics.xi, 0.0);
   EXPECT_GT(driving.patches.at(0).kinematics.xi, 0.0);
 }
@@ -73,7 +74,8 @@ TEST(TotalForces, RailOnSpringsUnderAPrescribedLoad) {
     for (const double stiffness_z : {0.0, 2e7}) {
       Problem p = standard_problem();
       p.side = side;
-      p.rail_springs = RailSprings{.stiffness_y = 2e7, .stiffness_z = stiffness_z, .force_y = 1500.0, .force_z = -800.0};
+      p.rail_springs =
+          RailSprings{.stiffness_y = 2e7, .stiffness_z = stiffness_z, .force_y = 1500.0, .force_z = -800.0};
       const PairSolution s = pair.solve(p);
       expect_spring_balance(s, *p.rail_springs, 5e-5 * kLoad);
       EXPECT_NEAR(s.load.track.force.z(), kLoad, 2.0 * p.solver.eps * kLoad);

@@ -1,8 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Material carries its tractions through the contact. With an interface layer far softer than the bodies, u = L p, and without
-// creepage the tractions of an element are, one step of one element later, those of its neighbour behind, whatever becomes of the
-// patches meanwhile; what comes in at the leading edge has none.
+// Material carries its tractions through the contact. With an interface layer far softer than the bodies, u = L p, and
+// without creepage the tractions of an element are, one step of one element later, those of its neighbour behind,
+// whatever becomes of the patches meanwhile; what comes in at the leading edge has none.
 #include <gtest/gtest.h>
 
 #include <algorithm>
@@ -44,7 +44,8 @@ std::map<Place, Element> elements(const PairSolution& s) {
 /// Rigid slip of elements in contact: creepage, and what parts of a patch have beyond it.
 double rigid_slip(const PatchSolution& patch) {
   if (patch.extra_slip_x.empty()) return patch.kinematics.xi;
-  const auto most = std::max_element(patch.contact.pressure.begin(), patch.contact.pressure.end()) - patch.contact.pressure.begin();
+  const auto most =
+      std::max_element(patch.contact.pressure.begin(), patch.contact.pressure.end()) - patch.contact.pressure.begin();
   return patch.kinematics.xi + patch.extra_slip_x[static_cast<std::size_t>(most)];
 }
 
@@ -83,14 +84,15 @@ TEST(Transport, TractionsStayWithTheMaterialWhilePatchesMergeAndSplit) {
   for (const auto& [place, e] : before) full = std::max(full, std::abs(e.px));
   EXPECT_NEAR(full, kShift / kLayer, 0.01 * kShift / kLayer);
 
-  const Grouping plan[] = {Grouping::apart,        Grouping::together, Grouping::together,     Grouping::apart,    Grouping::apart,
-                           Grouping::parts_of_one, Grouping::apart,    Grouping::parts_of_one, Grouping::together, Grouping::apart};
+  const Grouping plan[] = {Grouping::apart,    Grouping::together,     Grouping::together, Grouping::apart,
+                           Grouping::apart,    Grouping::parts_of_one, Grouping::apart,    Grouping::parts_of_one,
+                           Grouping::together, Grouping::apart};
   rolling.history = HistoryUse::keep_going;
   std::uint64_t largest_id = 2;
   for (const Grouping g : plan) {
     rolling.state.position.x += kStep;
     group(rolling, g);
-    rolling.state.velocity.pitch = pure_rolling(rolling);   // one reference for both contacts has another radius
+    rolling.state.velocity.pitch = pure_rolling(rolling);  // one reference for both contacts has another radius
     s = pair.solve(rolling);
     ASSERT_EQ(s.status, Status::ok) << s.message;
     EXPECT_LT(std::abs(rigid_slip(s.patches.at(0))), 1e-9);

@@ -16,8 +16,11 @@ inline Geometry two_crowns() {
   constexpr double kCrown = 0.1, kHollow = 0.05, kAngle = 0.1;
   const double width = 2.0 * std::sin(kAngle) * (2.0 * kCrown + kHollow);
   ArcChain rail{-0.5 * width, kCrown * (1.0 - std::cos(kAngle)), -kAngle, {}};
-  rail.segments = {{2.0 * kAngle * kCrown, 1.0 / kCrown}, {2.0 * kAngle * kHollow, -1.0 / kHollow}, {2.0 * kAngle * kCrown, 1.0 / kCrown}};
-  return {analytic::make_prismatic_surface(rail), analytic::make_revolved_surface(analytic::straight_chain(0.04), kRadius), true, true};
+  rail.segments = {{2.0 * kAngle * kCrown, 1.0 / kCrown},
+                   {2.0 * kAngle * kHollow, -1.0 / kHollow},
+                   {2.0 * kAngle * kCrown, 1.0 / kCrown}};
+  return {analytic::make_prismatic_surface(rail),
+          analytic::make_revolved_surface(analytic::straight_chain(0.04), kRadius), true, true};
 }
 
 inline Problem crowns_problem() {
