@@ -11,13 +11,11 @@
 namespace treadmark::app {
 namespace {
 
-std::string lower_extension(const std::filesystem::path& file) {
-  return io::profiles::lower(file.extension().string());
-}
+std::string extension_of(const std::filesystem::path& file) { return io::profiles::lower(file.extension().string()); }
 
 Body body_of(const std::filesystem::path& input, const std::optional<Body>& asked) {
   if (asked) return *asked;
-  const std::string extension = lower_extension(input);
+  const std::string extension = extension_of(input);
   for (const char* wheel : {".slcw", ".prw", ".whl"})
     if (extension == wheel) return Body::wheel;
   for (const char* rail : {".slcs", ".prr", ".ban"})
@@ -29,7 +27,7 @@ Body body_of(const std::filesystem::path& input, const std::optional<Body>& aske
 }  // namespace
 
 NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said) {
-  const std::string extension = lower_extension(file);
+  const std::string extension = extension_of(file);
   io::SurfaceSource source;
   double radius = said.nominal_radius;
   const bool is_case = extension == ".toml" || extension == ".inp";

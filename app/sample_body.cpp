@@ -10,6 +10,7 @@
 #include <span>
 
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -17,7 +18,6 @@
 namespace treadmark::app {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr int kAcross = 120;                                    // points of a station
 constexpr double kMostPoints = 60000.0, kManyPoints = 30000.0;  // at most; as many as cost little
 constexpr double kWindow = 60e-3;                               // about a contact [m]

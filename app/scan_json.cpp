@@ -8,13 +8,14 @@
 
 #include "treadmark/app/scan_surface.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::app {
 namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMm = 1e3, kMm2 = 1e6, kDeg = 180.0 / std::numbers::pi;
+constexpr double kDeg = 180.0 / std::numbers::pi;
 
 /// Twelve digits, so that changes of unit leave no tail of nines; what is not finite is null.
 Json number(double value) {
@@ -27,9 +28,10 @@ Json vector(const Vec3& v, double factor) { return {factor * v.x(), factor * v.y
 /// In full precision: as three rows of (x axis, y axis, z axis, origin) and one by one.
 Json pose(const Pose& X) {
   Json rows = Json::array();
-  for (int i = 0; i < 3; ++i) rows.push_back({X.rotation(i, 0), X.rotation(i, 1), X.rotation(i, 2), kMm * X.origin[i]});
+  for (int i = 0; i < 3; ++i)
+    rows.push_back({X.rotation(i, 0), X.rotation(i, 1), X.rotation(i, 2), kMilli * X.origin[i]});
   return {{"rows_mm", rows},
-          {"origin_mm", vector(X.origin, kMm)},
+          {"origin_mm", vector(X.origin, kMilli)},
           {"x_axis", vector(X.rotation.col(0), 1.0)},
           {"y_axis", vector(X.rotation.col(1), 1.0)},
           {"z_axis", vector(X.rotation.col(2), 1.0)}};
@@ -43,21 +45,21 @@ Json range(double low, double high, double factor) {
 
 Json settings_json(const scans::ScannerSettings& s, bool wheel) {
   Json out;
-  out[wheel ? "range_deg" : "range_mm"] = range(s.u_min, s.u_max, wheel ? kDeg : kMm);
-  out["range_y_mm"] = range(s.y_min, s.y_max, kMm);
+  out[wheel ? "range_deg" : "range_mm"] = range(s.u_min, s.u_max, wheel ? kDeg : kMilli);
+  out["range_y_mm"] = range(s.y_min, s.y_max, kMilli);
   if (s.spacing > 0.0)
-    out["spacing_mm"] = number(kMm * s.spacing);
+    out["spacing_mm"] = number(kMilli * s.spacing);
   else
     out["points"] = s.points;
-  out["noise_mm"] = number(kMm * s.noise);
-  out["noise_lateral_mm"] = number(kMm * s.noise_lateral);
+  out["noise_mm"] = number(kMilli * s.noise);
+  out["noise_lateral_mm"] = number(kMilli * s.noise_lateral);
   out["outliers"] = number(s.outliers);
   out["holes"] = number(s.holes);
-  out["hole_size_mm"] = number(kMm * s.hole_size);
+  out["hole_size_mm"] = number(kMilli * s.hole_size);
   out["drop_outs"] = number(s.drop_outs);
   out["most_incidence_deg"] = number(kDeg * s.most_incidence);
   out["passes"] = s.passes;
-  out["registration_mm"] = number(kMm * s.registration);
+  out["registration_mm"] = number(kMilli * s.registration);
   out["frame"] = s.random_frame ? "random" : "identity";
   return out;
 }
@@ -67,11 +69,11 @@ Json passes_json(const scans::ScannerTruth& truth, bool wheel) {
   for (std::size_t i = 0; i < truth.passes.size(); ++i) {
     const scans::ScannerPass& pass = truth.passes[i];
     Json one;
-    one[wheel ? "range_deg" : "range_mm"] = range(pass.u_min, pass.u_max, wheel ? kDeg : kMm);
-    one["range_y_mm"] = range(pass.y_min, pass.y_max, kMm);
+    one[wheel ? "range_deg" : "range_mm"] = range(pass.u_min, pass.u_max, wheel ? kDeg : kMilli);
+    one["range_y_mm"] = range(pass.y_min, pass.y_max, kMilli);
     one["lines"] = pass.lines;
     one["points"] = pass.points;
-    one["middle_mm"] = vector(pass.middle_C, kMm);
+    one["middle_mm"] = vector(pass.middle_C, kMilli);
     one["error"] = pose(truth.X_pass[i]);
     list.push_back(one);
   }
@@ -86,7 +88,7 @@ std::string truth_json(const Scanned& scanned) {
   Json out;
   out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
   out["surface"] = {{"file", scanned.surface.string()}, {"body", wheel ? "wheel" : "rail"}};
-  if (wheel) out["surface"]["nominal_radius_mm"] = number(kMm * scanned.settings.nominal_radius);
+  if (wheel) out["surface"]["nominal_radius_mm"] = number(kMilli * scanned.settings.nominal_radius);
   out["cloud"] = {{"file", scanned.cloud.string()},
                   {"unit", symbol(scanned.unit)},
                   {"metres_per_unit", metres_per(scanned.unit)},
@@ -99,8 +101,8 @@ std::string truth_json(const Scanned& scanned) {
                    {"lost_holes", truth.lost_holes},
                    {"lost_drop_outs", truth.lost_drop_outs},
                    {"lost_occlusion", truth.lost_occlusion}};
-  out["spacing_mm"] = number(kMm * truth.spacing);
-  out["area_mm2"] = number(kMm2 * truth.area);
+  out["spacing_mm"] = number(kMilli * truth.spacing);
+  out["area_mm2"] = number(kMicro * truth.area);
   out["passes"] = passes_json(truth, wheel);
   return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }

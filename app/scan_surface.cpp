@@ -9,14 +9,13 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::app {
 namespace {
-
-constexpr double kMm = 1e3, kMm2 = 1e6;
 
 void require_cloud_file(const std::filesystem::path& cloud) {
   constexpr std::array<std::string_view, 6> kWritten{".ply", ".xyz", ".asc", ".txt", ".csv", ".las"};
@@ -57,13 +56,13 @@ std::string summary(const Scanned& scanned) {
   std::string text = fmt::format("{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n",
                                  scanned.cloud.string(), scanned.scan.cloud.points.size(),
                                  scanned.settings.body == Body::wheel ? "wheel" : "rail", symbol(scanned.unit),
-                                 kMm * truth.spacing, kMm2 * truth.area, truth.passes.size(),
+                                 kMilli * truth.spacing, kMicro * truth.area, truth.passes.size(),
                                  truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
   text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep\n",
                       truth.on_surface, truth.outliers, truth.lost_holes, truth.lost_drop_outs, truth.lost_occlusion);
   const Mat3& R = truth.X_CS.rotation;
   text += fmt::format("surface in the cloud: origin {} mm, x axis {}, y axis {}, z axis {}\n",
-                      vector_text(truth.X_CS.origin, kMm, 6), vector_text(R.col(0), 1.0, 9),
+                      vector_text(truth.X_CS.origin, kMilli, 6), vector_text(R.col(0), 1.0, 9),
                       vector_text(R.col(1), 1.0, 9), vector_text(R.col(2), 1.0, 9));
   return text;
 }

@@ -6,10 +6,32 @@ if(NOT EXISTS "${PROJECT_BINARY_DIR}/include/treadmark")
 endif()
 
 add_library(treadmark_warnings INTERFACE)
-target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow -Wnon-virtual-dtor
+target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor
   $<$<BOOL:${TREADMARK_WARNINGS_AS_ERRORS}>:-Werror>)
 
 set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")
+
+# What parsing costs is shared: sources are compiled several at a time, after headers that are parsed once. So names of a folder's
+# anonymous namespaces must differ. -DTREADMARK_SHARED_PARSING=OFF compiles every file by itself.
+# treadmark_share_parsing(<target> <sources at a time>)
+function(treadmark_share_parsing target sources)
+  if(NOT TREADMARK_SHARED_PARSING)
+    return()
+  endif()
+  set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${sources})
+  target_precompile_headers(${target} REUSE_FROM treadmark_precompiled)
+  # The macros with which the precompiled headers were parsed.
+  target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
+  target_include_directories(${target} SYSTEM PRIVATE $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+endfunction()
+
+if(TREADMARK_SHARED_PARSING)
+  file(WRITE "${PROJECT_BINARY_DIR}/precompiled.cpp" "// holds the precompiled headers\n")
+  add_library(treadmark_precompiled OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
+  target_compile_features(treadmark_precompiled PUBLIC cxx_std_20)
+  target_link_libraries(treadmark_precompiled PRIVATE Eigen3::Eigen fmt::fmt treadmark_warnings)
+  target_precompile_headers(treadmark_precompiled PRIVATE "${CMAKE_CURRENT_LIST_DIR}/precompiled.hpp")
+endif()
 
 # Kernels named *_avx2.cpp: see core/cpu.hpp.
 function(treadmark_avx2_flags)
@@ -18,15 +40,16 @@ function(treadmark_avx2_flags)
   endif()
   foreach(source IN LISTS ARGN)
     if(source MATCHES "_avx2\\.cpp$")
-      set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma")
+      set_source_files_properties("${source}" PROPERTIES COMPILE_OPTIONS "-mavx2;-mfma" SKIP_PRECOMPILE_HEADERS ON)
     endif()
   endforeach()
 endfunction()
 
-# treadmark_library(<folder> [PUBLIC targets...] [PRIVATE targets...])
-# A static library treadmark::<folder with _> from the .cpp files directly in the current folder.
+# treadmark_library(<folder> [LIGHT] [PUBLIC targets...] [PRIVATE targets...])
+# A static library treadmark::<folder with _> from the .cpp files directly in the current folder. LIGHT: no loop over points or
+# elements in it is worth the compiler's time.
 function(treadmark_library folder)
-  cmake_parse_arguments(ARG "" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "PUBLIC;PRIVATE" ${ARGN})
   string(REPLACE "/" "_" name "${folder}")
   file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
@@ -39,6 +62,10 @@ function(treadmark_library folder)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_link_libraries(treadmark_${name} PUBLIC ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:treadmark_warnings>)
+  if(ARG_LIGHT)
+    target_compile_options(treadmark_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
+  treadmark_share_parsing(treadmark_${name} 8)
   set_property(GLOBAL APPEND PROPERTY TREADMARK_LIBRARIES treadmark_${name})
   install(FILES ${headers} DESTINATION include/treadmark/${folder})
 endfunction()

@@ -8,13 +8,13 @@
 #include <numbers>
 #include <string>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark {
 
 namespace {
 
-constexpr double kPi = std::numbers::pi;
 constexpr double kSteepest = 1.0;  ///< slope beyond which a shape folds over itself in tilted views
 
 /// Requirements on one shape, named by its place in the lists.

@@ -6,12 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/closest_gap.hpp"
 
 namespace treadmark::detection {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kFineRows = 240;
 
 /// The silhouette of the wheel along x of T, at one point of its profile.

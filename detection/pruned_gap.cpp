@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::detection {
@@ -14,8 +15,6 @@ namespace {
 // A tile costs about as much as the bounds that might spare it.
 constexpr int kLogX = 3, kLogY = 4;
 constexpr int kLogEverything = 6;  // one task each
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 constexpr int kTogether = 16;  // tiles
 

@@ -7,15 +7,14 @@
 #include <limits>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/wheel_locus.hpp"
 
 namespace treadmark::detection {
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-
 /// Integral over x of c - a x^2, or of its square, where it is positive.
-double row_weight(PenetrationWeight weight, double c, double a) {
+double parabola_weight(PenetrationWeight weight, double c, double a) {
   const double t = std::sqrt(c / a);
   if (weight == PenetrationWeight::linear) return 2.0 * c * t - 2.0 / 3.0 * a * t * t * t;
   return 2.0 * c * c * t - 4.0 / 3.0 * a * c * t * t * t + 2.0 / 5.0 * a * a * t * t * t * t * t;
@@ -100,7 +99,7 @@ ContactPatch ReferenceLocus::patch(int first, int last, int deepest, double whee
   double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;
   for (int i = first; i <= last; ++i) {
     const auto k = static_cast<std::size_t>(i);
-    const double c = -gap(i, wheel_dz), w = row_weight(weight, c, kappa), half = std::sqrt(c / kappa);
+    const double c = -gap(i, wheel_dz), w = parabola_weight(weight, c, kappa), half = std::sqrt(c / kappa);
     sum += w;
     sum_x += w * x_[k];
     sum_y += w * rows_.y(i);

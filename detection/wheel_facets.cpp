@@ -6,13 +6,12 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/facet_search.hpp"
 #include "treadmark/detection/wheel_section.hpp"
 
 namespace treadmark::detection {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 double offset_of(const WheelFacets& facets, int k) {
   return facets.half_range * (2.0 * k / (facets.sections - 1) - 1.0);

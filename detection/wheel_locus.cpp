@@ -8,13 +8,13 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/natural_spline.hpp"
 #include "treadmark/detection/wheel_section.hpp"
 
 namespace treadmark::detection {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr double kKinkHigh = 18.0 * std::numbers::pi / 180.0, kKinkLow = 0.1 * kKinkHigh, kKinkWidth = 2e-3;
 
 /// The profile's data and the points of their circles, in T; by increasing y.

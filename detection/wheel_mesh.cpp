@@ -8,13 +8,12 @@
 #include <limits>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/facet_search.hpp"
 #include "treadmark/detection/wheel_section.hpp"
 
 namespace treadmark::detection {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Corners in the contact frame, row by row (along the wheel), lateral index fastest.
 struct Mesh {

@@ -34,3 +34,4 @@ add_custom_command(OUTPUT "${assets}"
   COMMAND "${CMAKE_COMMAND}" "-DSTYLES=${styles}" "-DSCRIPT=${script}" "-DOUT=${assets}" -P "${CMAKE_CURRENT_SOURCE_DIR}/write_assets.cmake"
   DEPENDS ${styles} ${script} "${CMAKE_CURRENT_SOURCE_DIR}/write_assets.cmake" VERBATIM)
 target_sources(treadmark_app_report PRIVATE "${assets}")
+set_source_files_properties("${assets}" TARGET_DIRECTORY treadmark_app_report PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON SKIP_PRECOMPILE_HEADERS ON)

@@ -5,14 +5,14 @@
 #include <array>
 #include <cmath>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::app::report {
 namespace {
 
 using Values = std::vector<double>;
 using Fields = io::PatchFields;
 
-constexpr double kMega = 1e-6;  // Pa -> MPa
-constexpr double kMicro = 1e6;  // m -> um
 constexpr double kPercent = 1e2;
 
 template <Values Fields::*Member>

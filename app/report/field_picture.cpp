@@ -11,6 +11,7 @@
 
 #include "treadmark/app/report/frame_packer.hpp"
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/colour_map.hpp"
 #include "treadmark/io/results/outline.hpp"
@@ -25,7 +26,6 @@ constexpr double kPanel = 210.0, kGapX = 48.0, kGapY = 56.0, kLeft = 60.0, kTop 
                  kLegend = 150.0;  // [px]
 constexpr int kMostColumns = 6, kSteps = 24;
 constexpr std::size_t kMostFrames = 24;
-constexpr double kMilli = 1e3;
 constexpr std::array<const char*, 4> kStateColours{"none", "#2b6ca3", "#e8a33d", "#8c2d5a"};
 constexpr std::array<const char*, 4> kStateNames{"", "adhesion", "slip", "plastic shear"};
 

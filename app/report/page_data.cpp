@@ -10,15 +10,13 @@
 #include "treadmark/app/report/field_catalogue.hpp"
 #include "treadmark/app/report/frame_packer.hpp"
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/twelve_digits.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMilli = 1e3;  // m -> mm
-constexpr double kMega = 1e-6;  // Pa -> MPa
 
 /// 12 digits, as in the result files; not finite = null.
 Json number(double value) {

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/chart_draw.hpp"
 #include "treadmark/io/results/svg_text.hpp"
 
@@ -16,7 +17,6 @@ namespace {
 
 constexpr double kLeft = 70.0, kTop = 44.0, kWidth = 640.0, kBottom = 50.0;  // [px]
 constexpr double kMargin = 0.004;                                            // around what is shown [m]
-constexpr double kMilli = 1e3;
 
 using Line = std::vector<std::array<double, 2>>;
 

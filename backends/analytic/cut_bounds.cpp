@@ -7,12 +7,12 @@
 #include <limits>
 
 #include "treadmark/backends/analytic/turned_chain.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::analytic {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 constexpr double kRounding = 1e-12;  // [m]
 
 struct Window {

@@ -7,13 +7,12 @@
 #include <numbers>
 
 #include "treadmark/backends/analytic/fast_trig.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/pose.hpp"
 
 namespace treadmark::analytic {
 
-namespace {
-constexpr double kPi = std::numbers::pi;
-}
+namespace {}
 
 FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
   check_defects({.flats = flats}, Body::wheel, R);

@@ -5,13 +5,11 @@
 #include <limits>
 
 #include "treadmark/backends/analytic/make.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::analytic {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// z = 0 in the surface frame; u = x, v = y.
 class PlaneSurface final : public Surface {

@@ -10,13 +10,12 @@
 #include <numbers>
 
 #include "treadmark/backends/analytic/turned_chain.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::analytic {
 
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// The plane frame seen in the y-z plane of the rail. A point (x, y) of the plane lies at w = w0 + wx x + wy y and
 /// a = a0 + ax x + ay y along the projected normal, whose length is m; the height is t = (h(w) - a)/m.

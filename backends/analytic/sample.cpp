@@ -9,13 +9,12 @@
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/backends/analytic/flat_depth.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::analytic {
 
 namespace {
-
-constexpr double kPi = std::numbers::pi;
 
 void require_step(double step) {
   if (!(step > 0.0) || !std::isfinite(step))

@@ -6,12 +6,13 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::analytic {
 
 namespace {
 
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-12;  // [m]
+constexpr double kHullRounding = 1e-12;  // [m]
 
 /// middle +- half.
 struct Spread {
@@ -76,8 +77,8 @@ std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats,
   const auto e_x = X.rotation.col(0), e_y = X.rotation.col(1);
   const Vec3 middle = X.origin + e_x * (rect.x_min + half_x) + e_y * (rect.y_min + half_y);
   const Spread sigma{sigma_of(middle),
-                     std::fabs(sigma_of(e_x)) * half_x + std::fabs(sigma_of(e_y)) * half_y + kRounding};
-  const Spread v{v_of(middle), std::fabs(v_of(e_x)) * half_x + std::fabs(v_of(e_y)) * half_y + kRounding};
+                     std::fabs(sigma_of(e_x)) * half_x + std::fabs(sigma_of(e_y)) * half_y + kHullRounding};
+  const Spread v{v_of(middle), std::fabs(v_of(e_x)) * half_x + std::fabs(v_of(e_y)) * half_y + kHullRounding};
   const double far = std::max(std::fabs(sigma.low()), std::fabs(sigma.high()));
   const double near =
       sigma.low() < 0.0 && sigma.high() > 0.0 ? 0.0 : std::min(std::fabs(sigma.low()), std::fabs(sigma.high()));
@@ -94,8 +95,8 @@ std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats,
   Bin z = all_;
   for (int i = 0; i < 2; ++i) {
     const double a = sin * tau_least, b = sin * tau_most;
-    y_low = (v.low() + std::min(a, b)) / cos - kRounding;
-    y_high = (v.high() + std::max(a, b)) / cos + kRounding;
+    y_low = (v.low() + std::min(a, b)) / cos - kHullRounding;
+    y_high = (v.high() + std::max(a, b)) / cos + kHullRounding;
     z = range(y_low, y_high);
     if (z.low > z.high) return kNone;
     const double r = R + z.low - flats.max_depth();
@@ -109,12 +110,13 @@ std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats,
     const double r_low = R + z.low - flats.max_depth(), r_high = R + z.high;
     const double from = std::asin(sigma.low() / (sigma.low() > 0.0 ? r_high : r_low));
     const double to = std::asin(sigma.high() / (sigma.high() > 0.0 ? r_low : r_high));
-    flats.depths(std::atan2(n_x, n_z) + 0.5 * (from + to), 0.5 * (to - from) + kRounding, y_low, y_high, d_low, d_high);
+    flats.depths(std::atan2(n_x, n_z) + 0.5 * (from + to), 0.5 * (to - from) + kHullRounding, y_low, y_high, d_low,
+                 d_high);
   }
 
   // A point between the two curves is moved along tau onto one of them, and so across by at most `aside`.
   const double gap = (s_high - s_low + (d_high - d_low) * 2.0 * (R + z.high)) / (2.0 * tau_least);
-  const double aside = std::fabs(sin) * gap + kRounding;
+  const double aside = std::fabs(sin) * gap + kHullRounding;
   const double coarse = 1e-6 + 0.02 * (half_x + half_y);
   const TauCurve top{cos, sin, 1.0, R - d_low, s_low, stretch, bend, look_early};
   const TauCurve bottom{cos, sin, -1.0, R - d_high, s_high, stretch, bend, look_early};
@@ -123,7 +125,7 @@ std::optional<HeightBounds> WheelHull::heights(double R, const FlatDepth& flats,
   const double least = -chords_.greatest(bottom, y_low, y_high, v.low() - behind, v.high() + before, coarse);
   if (!(greatest >= least)) return kNone;
   const double origin = X.rotation.col(2).dot(X.origin);
-  return HeightBounds{least - origin - kRounding, greatest - origin + kRounding, false};
+  return HeightBounds{least - origin - kHullRounding, greatest - origin + kHullRounding, false};
 }
 
 }  // namespace treadmark::analytic

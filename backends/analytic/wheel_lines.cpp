@@ -6,11 +6,9 @@
 #include <cmath>
 #include <limits>
 
-namespace treadmark::analytic {
+#include "treadmark/core/constants.hpp"
 
-namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-}  // namespace
+namespace treadmark::analytic {
 
 struct WheelLines::Four {
   explicit Four(const WheelBody& body, const Vec3& n, bool exact) {

@@ -7,14 +7,10 @@
 #include <limits>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::analytic {
-
-namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-}  // namespace
 
 ChordSlopes::ChordSlopes(const GraphCurve& curve) {
   constexpr int kCells = 256;

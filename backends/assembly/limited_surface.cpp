@@ -8,12 +8,11 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::assembly {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 class LimitedSurface final : public Surface {
  public:

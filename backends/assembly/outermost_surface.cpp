@@ -8,12 +8,11 @@
 #include <string>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::assembly {
 namespace {
-
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 
 /// Fields of one part, of which only what is wanted has entries.
 struct PartFields {

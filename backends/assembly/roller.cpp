@@ -13,6 +13,7 @@
 #include "treadmark/backends/analytic/defects.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/displacement/displaced_surface.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::assembly {
@@ -21,8 +22,6 @@ namespace {
 using displacement::OffsetField;
 using displacement::OffsetJet;
 using displacement::OffsetRange;
-
-constexpr double kPi = std::numbers::pi;
 
 /// Turned by half a turn and run through backwards, a chain keeps its angles; its curvatures change sign.
 ArcChain turned(const ArcChain& chain) {

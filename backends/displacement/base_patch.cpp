@@ -14,7 +14,7 @@ constexpr double kError = 4e-13, kSafety = 8.0;
 constexpr double kSlopeError = 1e-8;
 
 constexpr int kMost = 64;  ///< columns at once
-double greater(double a, double b) { return a > b ? a : b; }
+double greater_height(double a, double b) { return a > b ? a : b; }
 }  // namespace
 
 bool BasePatch::look(int begin, int end, int first, int last) {
@@ -33,7 +33,8 @@ bool BasePatch::look(int begin, int end, int first, int last) {
     kernel_.fifth(static_cast<std::size_t>(to - from + 1), six, one);
     double* most = along(iy);
     for (int ix = begin; ix < end; ++ix)
-      most[ix - begin] = greater(one[std::clamp(ix - 3, from, to) - from], one[std::clamp(ix - 2, from, to) - from]);
+      most[ix - begin] =
+          greater_height(one[std::clamp(ix - 3, from, to) - from], one[std::clamp(ix - 2, from, to) - from]);
   }
   const int left = std::max(begin - 2, -1), right = std::min(end + 1, g_.nx);
   for (int iy = std::max(first - 3, -1); iy <= std::min(last - 2, g_.ny - 5); ++iy) {

@@ -6,10 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::displacement {
 
 namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 constexpr int kColumns = 32;  ///< of a block
 /// [m] What is left of the way aside: heights then miss half its square times the curvature, normals its curvature.
 constexpr double kLinear = 2e-10;

@@ -6,11 +6,11 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::displacement {
 
-namespace {
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-}
+namespace {}
 
 DisplacedLine::Sample DisplacedLine::at(double t) const {
   const Mat3& R = view_.X_SP.rotation;

@@ -5,12 +5,11 @@
 #include <limits>
 
 #include "treadmark/backends/mesh/bvh.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::mesh {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Visits the leaves that a line may meet. enter(outermost): whether a node that reaches out to there is wanted.
 template <class Enter, class Leaf>

@@ -14,7 +14,7 @@ namespace treadmark::mesh {
 
 namespace {
 
-constexpr std::size_t kWorthThreads = 1000;
+constexpr std::size_t kLinesWorthThreads = 1000;
 
 /// Normal, principal curvatures and parameters of a point of known derivatives.
 void describe(const PlaneView& view, Facing facing, const Evaluated& e, SurfacePoint& point) {
@@ -109,7 +109,7 @@ void MeshSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P
     heights.finish();
   };
   const std::size_t chunks = (points_P.size() + kChunk - 1) / kChunk;
-  if (points_P.size() < kWorthThreads)
+  if (points_P.size() < kLinesWorthThreads)
     for (std::size_t chunk = 0; chunk < chunks; ++chunk) work(chunk);
   else
     parallel_for(chunks, work);

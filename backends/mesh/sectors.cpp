@@ -11,7 +11,7 @@ namespace treadmark::mesh {
 
 namespace {
 
-std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t i) {
+std::uint32_t root_corner(std::vector<std::uint32_t>& parent, std::uint32_t i) {
   while (parent[i] != i) i = parent[i] = parent[parent[i]];
   return i;
 }
@@ -45,14 +45,14 @@ Sectors find_sectors(const PreparedMesh& mesh, double crease_angle) {
       for (const std::uint32_t corner : {(k + 1) % 3, (k + 2) % 3})
         for (std::uint32_t other = 0; other < 3; ++other)
           if (mesh.triangles[o][other] == mesh.triangles[t][corner])
-            parent[root_of(parent, 3 * o + other)] = root_of(parent, 3 * t + corner);
+            parent[root_corner(parent, 3 * o + other)] = root_corner(parent, 3 * t + corner);
     }
 
   Sectors sectors;
   sectors.of_corner.resize(n);
   std::vector<std::uint32_t> number(3 * n, kNone), count;
   for (std::uint32_t i = 0; i < 3 * n; ++i) {
-    const std::uint32_t root = root_of(parent, i);
+    const std::uint32_t root = root_corner(parent, i);
     if (number[root] == kNone) {
       number[root] = static_cast<std::uint32_t>(sectors.vertex.size());
       sectors.vertex.push_back(mesh.triangles[i / 3][i % 3]);

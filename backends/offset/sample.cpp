@@ -10,6 +10,7 @@
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -17,8 +18,6 @@ namespace treadmark::offset {
 
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
-constexpr double kPi = std::numbers::pi;
 /// Voxels beyond the ends of the base that continue the offsets, so that a spline does not ring at the rim.
 constexpr int kBeyond = 16;
 

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -14,14 +15,12 @@
 namespace treadmark::sampling {
 namespace {
 
-constexpr double kPi = std::numbers::pi;
-constexpr std::size_t kReferenceStations = 33;  // in which the lateral nodes are laid out
+constexpr std::size_t kRadiusStations = 33;  // in which the lateral nodes are laid out
 
 std::vector<double> spread(const std::vector<double>& all) {
-  if (all.size() <= kReferenceStations) return all;
+  if (all.size() <= kRadiusStations) return all;
   std::vector<double> some;
-  for (std::size_t i = 0; i < kReferenceStations; ++i)
-    some.push_back(all[i * (all.size() - 1) / (kReferenceStations - 1)]);
+  for (std::size_t i = 0; i < kRadiusStations; ++i) some.push_back(all[i * (all.size() - 1) / (kRadiusStations - 1)]);
   return some;
 }
 

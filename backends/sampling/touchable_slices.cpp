@@ -20,8 +20,8 @@
 namespace treadmark::sampling {
 namespace {
 
-constexpr double kPerStep = 4.0;        // places looked at per spacing
-constexpr double kEndAccuracy = 1e-10;  // [m]
+constexpr double kPerSpacing = 4.0;              // places looked at per spacing
+constexpr double kTouchableEndAccuracy = 1e-10;  // [m]
 
 [[noreturn]] void refuse(double x, const char* what) {
   throw Error(ErrorKind::input_data, fmt::format("the section of the rail at x = {:.6g} mm {}", 1e3 * x, what));
@@ -42,7 +42,7 @@ class Section {
 
   /// Last touchable place on the way from inside, which is one, to outside, which is not.
   double end(double inside, double outside) const {
-    while (std::fabs(outside - inside) > kEndAccuracy) {
+    while (std::fabs(outside - inside) > kTouchableEndAccuracy) {
       const double middle = 0.5 * (inside + outside);
       (touchable({middle}).front() ? inside : outside) = middle;
     }
@@ -55,7 +55,7 @@ class Section {
 };
 
 Profile section_at(const Surface& rail, double x, double low, double high, double spacing) {
-  const int n = std::max(32, static_cast<int>(std::ceil((high - low) / spacing * kPerStep)));
+  const int n = std::max(32, static_cast<int>(std::ceil((high - low) / spacing * kPerSpacing)));
   std::vector<double> raster(static_cast<std::size_t>(n) + 1);
   for (int i = 0; i <= n; ++i) raster[static_cast<std::size_t>(i)] = low + (high - low) * i / n;
   const Section section(rail, x);

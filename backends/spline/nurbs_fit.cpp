@@ -76,28 +76,29 @@ class SplineSlopes {
   std::vector<double> rhs_;
 };
 
-void require(bool good, const char* message, const char* advice = "") {
+void require_points(bool good, const char* message, const char* advice = "") {
   if (!good) throw Error(ErrorKind::input_data, message, {}, advice);
 }
 
 void check(const sampling::PointGrid& grid) {
-  require(grid.u.size() >= 4 && grid.y.size() >= 4, "a surface through points needs at least 4 x 4 of them");
-  require(grid.h.size() == grid.u.size() * grid.y.size(), "a point grid has another number of heights than of points");
+  require_points(grid.u.size() >= 4 && grid.y.size() >= 4, "a surface through points needs at least 4 x 4 of them");
+  require_points(grid.h.size() == grid.u.size() * grid.y.size(),
+                 "a point grid has another number of heights than of points");
   for (const auto* values : {&grid.u, &grid.y}) {
-    for (const double x : *values) require(std::isfinite(x), "a coordinate of a point grid is not finite");
+    for (const double x : *values) require_points(std::isfinite(x), "a coordinate of a point grid is not finite");
     for (std::size_t i = 0; i + 1 < values->size(); ++i)
-      require((*values)[i] < (*values)[i + 1], "the stations and nodes of a point grid must increase");
+      require_points((*values)[i] < (*values)[i + 1], "the stations and nodes of a point grid must increase");
   }
-  require(!grid.closed || grid.body == Body::wheel, "only a wheel can be closed");
-  require(grid.body == Body::rail || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 + 1e-12),
-          "the stations of a wheel cover more than one turn");
-  require(!grid.closed || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 - 1e-9),
-          "the last station of a closed wheel repeats the first");
+  require_points(!grid.closed || grid.body == Body::wheel, "only a wheel can be closed");
+  require_points(grid.body == Body::rail || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 + 1e-12),
+                 "the stations of a wheel cover more than one turn");
+  require_points(!grid.closed || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 - 1e-9),
+                 "the last station of a closed wheel repeats the first");
   for (const double h : grid.h) {
-    require(!std::isnan(h), "a full-parametric spline surface cannot have gaps",
-            "use another backend, or cut the gaps off");
-    require(std::isfinite(h), "a coordinate of a point grid is not finite");
-    require(grid.body == Body::rail || h > 0.0, "a wheel's radius must be positive at all points");
+    require_points(!std::isnan(h), "a full-parametric spline surface cannot have gaps",
+                   "use another backend, or cut the gaps off");
+    require_points(std::isfinite(h), "a coordinate of a point grid is not finite");
+    require_points(grid.body == Body::rail || h > 0.0, "a wheel's radius must be positive at all points");
   }
 }
 

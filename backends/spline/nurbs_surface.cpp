@@ -7,12 +7,12 @@
 
 #include "treadmark/backends/spline/nurbs_view.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::spline {
 namespace {
 
-constexpr double kNaN = std::numeric_limits<double>::quiet_NaN();
 // Points of a tile share a view; fixed, so that results do not depend on the number of threads.
 constexpr int kTileX = 64, kTileY = 32;
 

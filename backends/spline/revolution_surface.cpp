@@ -19,7 +19,7 @@
 namespace treadmark::spline {
 namespace {
 
-constexpr std::size_t kLinesPerTask = 16;
+constexpr std::size_t kRevolutionLinesPerTask = 16;
 
 // The wheel cut at one value of the across coordinate.
 class RevolutionSection {
@@ -177,11 +177,11 @@ void RevolutionSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut
   const WheelView view(g.across, g.along, g.normal, g.origin);
   const auto dz_along = g.along_is_y ? out.dzdy : out.dzdx, dz_across = g.along_is_y ? out.dzdx : out.dzdy;
   const bool slopes = !dz_along.empty() || !dz_across.empty();
-  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kLinesPerTask - 1) / kLinesPerTask;
+  const std::size_t tasks = (static_cast<std::size_t>(g.lines) + kRevolutionLinesPerTask - 1) / kRevolutionLinesPerTask;
   parallel_for(tasks, [&](std::size_t task) {
     ColumnHits hits(g.samples.count, Facing::down);
-    const int first = static_cast<int>(task * kLinesPerTask);
-    const int last = std::min(g.lines, first + static_cast<int>(kLinesPerTask)) - 1;
+    const int first = static_cast<int>(task * kRevolutionLinesPerTask);
+    const int last = std::min(g.lines, first + static_cast<int>(kRevolutionLinesPerTask)) - 1;
     std::vector<int> cells;
     cells_over(profile_, hulls_,
                {g.across, g.along, g.normal, g.origin, widened(g.across_at(first), g.across_at(last)),

@@ -35,25 +35,25 @@ std::string_view plain(KeyType type) {
   return "a value";
 }
 
-[[noreturn]] void fail(std::string message, const SourcePosition& where) {
+[[noreturn]] void refuse_value(std::string message, const SourcePosition& where) {
   throw Error(ErrorKind::configuration, std::move(message), where);
 }
 
 void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
-  if (!std::isfinite(value)) fail(fmt::format("{} must be finite", key.path), where);
+  if (!std::isfinite(value)) refuse_value(fmt::format("{} must be finite", key.path), where);
   if (key.above && !(value > *key.above))
-    fail(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
+    refuse_value(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
   if (key.at_least && value < *key.at_least)
-    fail(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
+    refuse_value(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
   if (key.at_most && value > *key.at_most)
-    fail(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
+    refuse_value(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
 }
 
 }  // namespace
 
 void check_value(const KeyInfo& key, const CaseValue& value) {
   const auto wrong = [&] {
-    fail(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where);
+    refuse_value(fmt::format("{} must be {}, found {}", key.path, plain(key.type), value.kind()), value.where);
   };
   const bool integer = std::holds_alternative<std::int64_t>(value.data);
   const bool number = integer || std::holds_alternative<double>(value.data);
@@ -73,27 +73,28 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
     case KeyType::path:
     case KeyType::text:
       if (!text) wrong();
-      if (value.text().empty()) fail(fmt::format("{} must not be empty", key.path), value.where);
-      if (value.text().size() > kLongestText) fail(fmt::format("{} is too long", key.path), value.where);
+      if (value.text().empty()) refuse_value(fmt::format("{} must not be empty", key.path), value.where);
+      if (value.text().size() > kLongestText) refuse_value(fmt::format("{} is too long", key.path), value.where);
       if (key.matches != nullptr && !key.matches(value.text()))
-        fail(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown),
-                         key.pattern),
-             value.where);
+        refuse_value(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown),
+                                 key.pattern),
+                     value.where);
       return;
     case KeyType::choice:
       if (!text) wrong();
       if (std::find(key.choices.begin(), key.choices.end(), value.text()) == key.choices.end()) {
         std::string choices;
         for (const std::string& one : key.choices) choices += fmt::format("{}\"{}\"", choices.empty() ? "" : ", ", one);
-        fail(fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices),
-             value.where);
+        refuse_value(
+            fmt::format("{} = \"{}\" is not one of {}", key.path, value.text().substr(0, kLongestShown), choices),
+            value.where);
       }
       return;
     case KeyType::number_list:
       if (!value.is_list()) wrong();
       for (const CaseValue& one : value.list()) {
         if (!std::holds_alternative<std::int64_t>(one.data) && !std::holds_alternative<double>(one.data))
-          fail(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where);
+          refuse_value(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where);
         check_range(key, one.number(), one.where);
       }
       return;
@@ -101,7 +102,7 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
       if (!value.is_list()) wrong();
       for (const CaseValue& one : value.list()) {
         if (!one.is_table())
-          fail(fmt::format("{} must be a list of tables, found {} in it", key.path, one.kind()), one.where);
+          refuse_value(fmt::format("{} must be a list of tables, found {} in it", key.path, one.kind()), one.where);
         check_elements(key, one.table(), one.where, true);
       }
       return;

@@ -4,14 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
-
-constexpr double kMillimetre = 1e-3;
-constexpr double kPerMillimetre = 1e3;
 
 long elements(const BasicCase& b) { return static_cast<long>(b.mx) * b.my; }
 
@@ -36,7 +34,7 @@ void read_kinematics(ContactReader& r) {
     b.fy_relative = text.real("FY");
   else
     b.eta = text.real("CETA") * (shift ? kMillimetre : 1.0);
-  b.phi = text.real("CPHI") * (shift ? 1.0 : kPerMillimetre);
+  b.phi = text.real("CPHI") * (shift ? 1.0 : kMilli);
   if (force >= 1) b.xi = 0.0;
   if (force >= 2) b.eta = 0.0;
   b.spin_x = b.spin_y = 0.0;

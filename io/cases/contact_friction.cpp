@@ -4,13 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-constexpr double kMillimetre = 1e-3;
 constexpr double kSmallestFriction = 1e-4;
 
 double coefficient(ContactText& text, std::string_view name) {

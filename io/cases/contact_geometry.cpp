@@ -4,15 +4,13 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/io/cases/validate_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
-
-constexpr double kMillimetre = 1e-3;
-constexpr double kPerMillimetre = 1e3;
-constexpr long kMostElements = 4000000;
 
 double positive(ContactText& text, std::string_view name, double factor) {
   const double value = text.real(name) * factor;
@@ -26,12 +24,12 @@ HertzInput read_hertz(ContactText& text, long kind) {
   switch (kind) {
     case -1:
       h.given = Given::curvatures;
-      h.a1 = positive(text, "A1", kPerMillimetre);
-      h.b1 = positive(text, "B1", kPerMillimetre);
+      h.a1 = positive(text, "A1", kMilli);
+      h.b1 = positive(text, "B1", kMilli);
       break;
     case -2:
       h.given = Given::curvature_and_ratio;
-      h.a1 = positive(text, "A1", kPerMillimetre);
+      h.a1 = positive(text, "A1", kMilli);
       h.aob = positive(text, "AOB", 1.0);
       break;
     case -3:
@@ -41,7 +39,7 @@ HertzInput read_hertz(ContactText& text, long kind) {
       break;
     case -4:
       h.given = Given::line_curvature;
-      h.a1 = positive(text, "A1", kPerMillimetre);
+      h.a1 = positive(text, "A1", kMilli);
       h.bb = positive(text, "BB", kMillimetre);
       break;
     case -5:
@@ -80,7 +78,7 @@ GapInput read_gap_formula(ContactReader& r, long base) {
     case 1:
       gap.kind = GapInput::Kind::quadratic;
       c = read_list(text, kRecord, "B", 6, 1.0);
-      for (int i = 0; i < 3; ++i) c[static_cast<std::size_t>(i)] *= kPerMillimetre;
+      for (int i = 0; i < 3; ++i) c[static_cast<std::size_t>(i)] *= kMilli;
       c[5] *= kMillimetre;
       break;
     case 2: {
@@ -99,7 +97,7 @@ GapInput read_gap_formula(ContactReader& r, long base) {
     case 3: {
       gap.kind = GapInput::Kind::sinusoidal;
       c = read_list(text, kRecord, "B", 8, kMillimetre);
-      for (const std::size_t wave_number : {1u, 4u}) c[wave_number] *= kPerMillimetre * kPerMillimetre;
+      for (const std::size_t wave_number : {1u, 4u}) c[wave_number] *= kMilli * kMilli;
       if (c[6] == 0.0 || c[7] == 0.0) text.fail("B7 and B8 are lengths that must not be 0");
       break;
     }
@@ -153,8 +151,7 @@ PlanformInput read_planform(ContactText& text, long kind) {
   if (kind == 2) {
     plan.kind = PlanformInput::Kind::quadratic;
     plan.coefficients = read_list(text, "the quadratic planform", "B", 6, 1.0);
-    for (std::size_t i = 0; i < 5; ++i)
-      plan.coefficients[i] *= i < 3 ? kPerMillimetre * kPerMillimetre : kPerMillimetre;
+    for (std::size_t i = 0; i < 5; ++i) plan.coefficients[i] *= i < 3 ? kMilli * kMilli : kMilli;
   } else if (kind == 3) {
     constexpr std::string_view kRecord = "the two rectangles of the planform";
     plan.kind = PlanformInput::Kind::two_rectangles;

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-constexpr double kMillimetre = 1e-3;
 constexpr double kMegapascal = 1e6;
 constexpr double kFlexibility = kMillimetre / kMegapascal;  // mm^3/N
 constexpr double kHardening = kMegapascal / kMillimetre;    // N/mm^3
@@ -150,14 +150,14 @@ void ContactReader::read_damping() {
 
 void ContactReader::read_heat() {
   if ((*run)["HEAT"] != 3) return;
-  constexpr double kPerMillimetre = 1e3, kPerCubicMillimetre = 1e9;
+  constexpr double kMilli = 1e3, kPerCubicMillimetre = 1e9;
   Thermal heat;
   heat.reference_quirks = true;  // such files are compared with the reference program's numbers
   for (ThermalProperties* body : {&heat.body_1, &heat.body_2}) {
     text.begin_record(body == &heat.body_1 ? "the thermal line of body 1" : "the thermal line of body 2");
     body->bulk_temperature = text.real("BKTEMP");
     body->heat_capacity = positive(text, "HEATCP");
-    body->conductivity = positive(text, "LAMBDA") * kPerMillimetre;
+    body->conductivity = positive(text, "LAMBDA") * kMilli;
     body->density = positive(text, "DENS") * kPerCubicMillimetre;
   }
   if ((*model)["MATER"] == 4) {

@@ -5,15 +5,10 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
-
-namespace {
-
-constexpr double kMillimetre = 1e-3;
-
-}  // namespace
 
 SurfaceSource read_profile(ContactReader& r, std::string_view body) {
   ContactText& text = r.text;

@@ -5,13 +5,13 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-constexpr double kMillimetre = 1e-3;
 constexpr long kMostPlanes = 100000;
 constexpr long kMostColumns = 4000000;
 

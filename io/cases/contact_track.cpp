@@ -5,14 +5,12 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
-
-constexpr double kMillimetre = 1e-3;
-constexpr double kPerMillimetre = 1e3;
 
 void read_placement(ContactReader& r) {
   ContactText& text = r.text;
@@ -38,7 +36,7 @@ void read_placement(ContactReader& r) {
   } else {
     t.cant = text.angle("CANT");
   }
-  t.curvature = text.optional_real().value_or(0.0) * kPerMillimetre;
+  t.curvature = text.optional_real().value_or(0.0) * kMilli;
   r.kept.wheel_rail.rail = read_profile(r, "rail");
   r.kept.has_rail = true;
   const auto& file = std::get<GeometryFile>(r.kept.wheel_rail.rail.geometry).file;
@@ -54,9 +52,9 @@ void read_springs(ContactReader& r) {
   ContactText& text = r.text;
   text.begin_record("the massless rail line KYRAIL");
   RailSpringsInput springs;
-  springs.stiffness_y = text.real("KYRAIL") * kPerMillimetre;
+  springs.stiffness_y = text.real("KYRAIL") * kMilli;
   springs.force_y = text.real("FYRAIL");
-  springs.stiffness_z = text.real("KZRAIL") * kPerMillimetre;
+  springs.stiffness_z = text.real("KZRAIL") * kMilli;
   springs.force_z = text.real("FZRAIL");
   if (const auto step = text.optional_real()) {
     springs.first_step_y = *step * kMillimetre;

@@ -4,13 +4,12 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
-
-constexpr double kMillimetre = 1e-3;
 
 void read_discretisation(ContactReader& r) {
   ContactText& text = r.text;

@@ -6,13 +6,12 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 
 namespace treadmark::io {
 
 namespace {
-
-constexpr double kMillimetre = 1e-3;
 
 /// Three lengths and three angles, or their rates.
 void read_six(ContactText& text, const std::array<std::string_view, 6>& names, const std::array<double*, 6>& values) {

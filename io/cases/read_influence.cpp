@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/read_text.hpp"
 
@@ -17,7 +18,6 @@ namespace {
 using profiles::LineScanner;
 using profiles::Word;
 
-constexpr double kMillimetre = 1e-3;
 constexpr std::size_t kEntries = 9;
 constexpr std::size_t kWords = kEntries + 2;          // with ix and x
 constexpr std::size_t kShortestRow = 2 * kWords - 1;  // one digit each, blanks between

@@ -15,8 +15,6 @@ namespace treadmark::io {
 
 namespace {
 
-constexpr long kMostElements = 4000000;
-
 class Checker {
  public:
   explicit Checker(const Case& c) : where_(c.where), number_(c.number) {}

@@ -8,6 +8,8 @@
 
 namespace treadmark::io {
 
+inline constexpr long kMostElements = 4000000;  ///< of a potential contact
+
 /// Checks that a case is complete, consistent and within what the program supports; throws Error (configuration) at the
 /// position of the case otherwise.
 void validate_case(const Case& c);

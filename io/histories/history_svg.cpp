@@ -22,25 +22,25 @@ constexpr double kBetween = 18.0;                  // panels in a stack
 constexpr double kSmall = 400.0, kSmallHeight = 260.0, kSmallGapX = 26.0, kSmallGapY = 64.0;
 constexpr double kLegend = 24.0;  // from the panels
 
-[[noreturn]] void refuse(const std::string& message) {
+[[noreturn]] void refuse_chart(const std::string& message) {
   throw Error(ErrorKind::configuration, "chart of histories: " + message);
 }
 
 void check(std::span<const HistoryRun> runs, const HistoryChart& chart) {
-  if (chart.y.empty()) refuse("no axis y");
+  if (chart.y.empty()) refuse_chart("no axis y");
   for (const HistoryRun& run : runs) {
-    if (run.result == nullptr) refuse(fmt::format("run \"{}\" has no result", run.label));
+    if (run.result == nullptr) refuse_chart(fmt::format("run \"{}\" has no result", run.label));
     check_simulation(*run.result);
   }
   std::vector<HistoryAxis> axes = chart.y;
   axes.push_back(chart.x);
   for (const HistoryAxis& axis : axes)
     if (!std::isfinite(axis.factor) || !(axis.factor > 0.0))
-      refuse(fmt::format("the factor of {} is {}", axis.column, axis.factor));
+      refuse_chart(fmt::format("the factor of {} is {}", axis.column, axis.factor));
   const Range& range = chart.x_range;
   for (const auto& end : {range.low, range.high})
-    if (end && !std::isfinite(*end)) refuse("an end of the range of x is not finite");
-  if (range.low && range.high && !(*range.low < *range.high)) refuse("the range of x ends before it begins");
+    if (end && !std::isfinite(*end)) refuse_chart("an end of the range of x is not finite");
+  if (range.low && range.high && !(*range.low < *range.high)) refuse_chart("the range of x ends before it begins");
 }
 
 std::string label_of(const HistoryAxis& axis) { return axis.label.empty() ? axis.column : axis.label; }
@@ -165,7 +165,7 @@ std::string history_svg(std::span<const HistoryRun> runs, const HistoryChart& sp
 
 std::string history_multiples_svg(std::span<const HistoryRun> runs, const HistoryChart& spec) {
   check(runs, spec);
-  if (spec.y.size() != 1) refuse(fmt::format("small panels show one axis y, not {}", spec.y.size()));
+  if (spec.y.size() != 1) refuse_chart(fmt::format("small panels show one axis y, not {}", spec.y.size()));
   std::vector<Chart> charts;
   for (const std::string& name : panel_names(runs)) charts.push_back(make_small(runs, spec, name));
   if (charts.empty()) charts.emplace_back();

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/histories/contour_lines.hpp"
 #include "treadmark/io/histories/patches_view.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
@@ -22,12 +23,11 @@ namespace {
 
 // Sizes in pixels.
 constexpr double kLongest = 230.0;  // side of a panel
-constexpr double kLeft = 62.0, kTop = 76.0, kBottom = 48.0, kLegend = 190.0;
+constexpr double kPatchesLeft = 62.0, kPatchesTop = 76.0, kPatchesBottom = 48.0, kPatchesLegend = 190.0;
 constexpr double kGapX = 20.0, kGapY = 72.0;
 constexpr double kTitleWidth = 116.0;  // of the words above a panel, at least
 constexpr double kTitleFont = 13.0, kTitleGap = 10.0;
 constexpr double kShape = 1.7;  // wished width over height of the picture
-constexpr double kMilli = 1e3;
 constexpr int kMostContours = 8;
 constexpr double kTickShare = 0.75;  // steps of an axis this long part the greatest depth into at most kMostContours
 
@@ -45,8 +45,10 @@ struct Sheet {
   double height() const { return panel.window.height() * panel.scale_y; }
   double step_x() const { return std::max(width() + kGapX, title_width); }
   double step_y() const { return height() + kGapY; }
-  double picture_width() const { return kLeft + (columns - 1) * step_x() + std::max(width(), title_width) + kLegend; }
-  double picture_height() const { return kTop + (rows - 1) * step_y() + height() + kBottom; }
+  double picture_width() const {
+    return kPatchesLeft + (columns - 1) * step_x() + std::max(width(), title_width) + kPatchesLegend;
+  }
+  double picture_height() const { return kPatchesTop + (rows - 1) * step_y() + height() + kPatchesBottom; }
 };
 
 std::string title_of(const PatchesPanel& panel) {
@@ -115,7 +117,7 @@ std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const
   const int column = index % sheet.columns, row = index / sheet.columns;
   const auto at = static_cast<std::size_t>(index);
   std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n",
-                                kLeft + column * sheet.step_x(), kTop + row * sheet.step_y());
+                                kPatchesLeft + column * sheet.step_x(), kPatchesTop + row * sheet.step_y());
   out += svg_text(0.5 * width, -20.0, title_of(panel), "middle", " class=\"title\"");
   out += "<g clip-path=\"url(#panel)\">\n";
   for (const PatchPicture& one : view.contact[at]) out += draw_patch(one, view.top_pressure, sheet.panel);
@@ -136,9 +138,9 @@ std::string draw_panel(const PatchesPanel& panel, const PatchesView& view, const
 }
 
 std::string draw_legend(const PatchesView& view, const Sheet& sheet, double step_mm, bool round) {
-  const double height = std::min(sheet.picture_height() - kTop - kBottom - 84.0, 220.0);
+  const double height = std::min(sheet.picture_height() - kPatchesTop - kPatchesBottom - 84.0, 220.0);
   std::string out = fmt::format("<g class=\"legend\" transform=\"translate({:.1f} {:.1f})\">\n",
-                                sheet.picture_width() - kLegend + 24.0, kTop);
+                                sheet.picture_width() - kPatchesLegend + 24.0, kPatchesTop);
   out += svg_text(0.0, -7.0, "pressure [MPa]", "start") + draw_pressure_bar(view.top_pressure, height);
   double y = height + 22.0;
   const auto line = [&](const char* name, const std::string& words) {
@@ -171,7 +173,8 @@ std::string patches_svg(std::span<const PatchesPanel> panels, const std::string&
   std::string out = svg_head(sheet.picture_width(), sheet.picture_height(), 10, std::string(kPanelStyle) + kStyle);
   out += fmt::format("<clipPath id=\"panel\"><rect width=\"{:.1f}\" height=\"{:.1f}\"/></clipPath>\n", sheet.width(),
                      sheet.height());
-  out += svg_text(0.5 * (kLeft + sheet.picture_width() - kLegend), 26.0, title, "middle", " class=\"head\"");
+  out +=
+      svg_text(0.5 * (kPatchesLeft + sheet.picture_width() - kPatchesLegend), 26.0, title, "middle", " class=\"head\"");
   bool round = false;
   for (int i = 0; i < count; ++i) {
     const auto at = static_cast<std::size_t>(i);

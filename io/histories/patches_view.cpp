@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <optional>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/field_table.hpp"
 
@@ -14,7 +15,6 @@ namespace treadmark::io {
 namespace {
 
 constexpr double kMargin = 0.08;  // of the window, around the contact
-constexpr double kMilli = 1e3;
 
 /// The picture with rows and columns exchanged.
 PatchPicture turned(const PatchPicture& picture, double x_origin_mm) {

@@ -18,13 +18,13 @@ namespace treadmark::io {
 namespace {
 
 // Sizes in pixels.
-constexpr double kLeft = 78.0, kTop = 46.0, kBottom = 56.0, kWidth = 560.0, kHeight = 380.0, kLegend = 24.0,
-                 kRight = 24.0;
+constexpr double kStudyLeft = 78.0, kStudyTop = 46.0, kStudyBottom = 56.0, kStudyWidth = 560.0, kStudyHeight = 380.0,
+                 kStudyLegend = 24.0, kStudyRight = 24.0;
 constexpr double kRemarkLine = 15.0;
-constexpr double kMargin = 0.04;  // of x, beyond the values
-constexpr int kBlack = 4;         // style of levels and references
+constexpr double kStudyMargin = 0.04;  // of x, beyond the values
+constexpr int kBlack = 4;              // style of levels and references
 
-[[noreturn]] void refuse(const std::string& message) {
+[[noreturn]] void refuse_study(const std::string& message) {
   throw Error(ErrorKind::configuration, "chart of a study: " + message);
 }
 
@@ -33,7 +33,7 @@ double number(const std::string& text, const std::string& key, int run) {
   const char* end = text.data() + text.size();
   const auto [rest, error] = std::from_chars(text.data(), end, value);
   if (error != std::errc() || rest != end || !std::isfinite(value))
-    refuse(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
+    refuse_study(fmt::format("\"{}\", {} of run {}, is no number", text, key, run));
   return value;
 }
 
@@ -63,12 +63,12 @@ std::string line_name(const SimulationRun& run, const StudyTable& table, const s
 
 SummaryLines make_lines(const StudyResult& study, const SummaryChart& spec) {
   const StudyTable table = study_table(study);
-  if (!(spec.x_factor > 0.0) || !(spec.y_factor > 0.0)) refuse("a factor is not positive");
+  if (!(spec.x_factor > 0.0) || !(spec.y_factor > 0.0)) refuse_study("a factor is not positive");
   if (std::find(table.keys.begin(), table.keys.end(), spec.key) == table.keys.end())
-    refuse("no run has the swept key " + spec.key);
+    refuse_study("no run has the swept key " + spec.key);
   const auto same = [&](const NamedValue& one) { return one.name == spec.quantity; };
   if (std::none_of(table.quantities.begin(), table.quantities.end(), same))
-    refuse("no run has the quantity " + spec.quantity);
+    refuse_study("no run has the quantity " + spec.quantity);
   SummaryLines out;
   for (const SimulationRun* run : table.runs) {
     const std::string* at = swept_value(*run, spec.key);
@@ -97,7 +97,7 @@ std::optional<std::array<double, 2>> shown_x(const Chart& chart) {
       high = std::max(high, point.x);
     }
   if (chart.x_scale == AxisScale::log || !(low < high) || !std::isfinite(high - low)) return {};
-  const double room = kMargin * (high - low), begin = low - room;
+  const double room = kStudyMargin * (high - low), begin = low - room;
   return std::array{low >= 0.0 ? std::max(0.0, begin) : begin, high + room};
 }
 
@@ -148,15 +148,16 @@ std::string summary_svg(const StudyResult& study, const SummaryChart& spec) {
   std::vector<ChartSeries> legend = chart.series;
   if (legend.size() == 1) legend.clear();
   const double below = kRemarkLine * static_cast<double>(all.missing.size());
-  const double height =
-      std::max(kTop + kHeight + kBottom + below, kTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
-  const double beside = legend.empty() ? 0.0 : kLegend + legend_width(legend);
-  std::string out = svg_head(kLeft + kWidth + (legend.empty() ? kRight : beside), height, kChartFont, kChartStyle);
-  out += draw_chart(chart, {kLeft, kTop, kWidth, kHeight});
-  if (!legend.empty()) out += draw_chart_legend(legend, kLeft + kWidth + kLegend, kTop + 12.0);
-  double y = kTop + kHeight + kBottom - 4.0;
+  const double height = std::max(kStudyTop + kStudyHeight + kStudyBottom + below,
+                                 kStudyTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
+  const double beside = legend.empty() ? 0.0 : kStudyLegend + legend_width(legend);
+  std::string out =
+      svg_head(kStudyLeft + kStudyWidth + (legend.empty() ? kStudyRight : beside), height, kChartFont, kChartStyle);
+  out += draw_chart(chart, {kStudyLeft, kStudyTop, kStudyWidth, kStudyHeight});
+  if (!legend.empty()) out += draw_chart_legend(legend, kStudyLeft + kStudyWidth + kStudyLegend, kStudyTop + 12.0);
+  double y = kStudyTop + kStudyHeight + kStudyBottom - 4.0;
   for (const SimulationRun* run : all.missing) {
-    out += svg_text(kLeft, y, not_drawn(*run), "start", " class=\"remark\"");
+    out += svg_text(kStudyLeft, y, not_drawn(*run), "start", " class=\"remark\"");
     y += kRemarkLine;
   }
   return out + "</svg>\n";

@@ -4,6 +4,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/results/twelve_digits.hpp"
@@ -13,7 +14,6 @@ namespace {
 
 using Json = nlohmann::ordered_json;
 
-constexpr double kMilli = 1e3, kMicro = 1e6;  // m -> mm, um; rad -> mrad
 constexpr double kMilli2 = 1e6, kMilli3 = 1e9;
 constexpr double kDegrees = 180.0 / std::numbers::pi;
 

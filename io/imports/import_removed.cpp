@@ -14,7 +14,7 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kBarLine = 21.0, kBarLeft = 300.0, kBarWidth = 470.0;  // [px]
+constexpr double kBarLine = 21.0, kBarLeft = 300.0, kRemovedBarWidth = 470.0;  // [px]
 constexpr std::size_t kMostBars = 16;
 
 /// A bar a reason on a logarithmic axis from 1, with count and part of all points to its right.
@@ -26,31 +26,33 @@ std::string draw_bars(const ImportReport& report, double y, double& bottom) {
   const double height = kBarLine * static_cast<double>(std::max<std::size_t>(count, 1)) + 6.0;
   std::string out;
   for (int k = 0; k <= static_cast<int>(decades); ++k) {
-    const double x = kBarLeft + kBarWidth * k / decades;
+    const double x = kBarLeft + kRemovedBarWidth * k / decades;
     out += fmt::format("<path class=\"grid\" d=\"M{:.1f} {:.1f}v{:.1f}\"/>\n", x, y, height);
     out += svg_text(x, y + height + 16.0,
                     k < 8 ? grouped(static_cast<std::size_t>(std::llround(std::pow(10.0, k)))) : fmt::format("1e{}", k),
                     "middle", " class=\"number\"");
   }
-  out += svg_text(kBarLeft + 0.5 * kBarWidth, y + height + 33.0, "points removed (logarithmic)");
+  out += svg_text(kBarLeft + 0.5 * kRemovedBarWidth, y + height + 33.0, "points removed (logarithmic)");
   for (std::size_t i = 0; i < count; ++i) {
     const ImportReport::Removed& removed = report.removed[i];
     const double middle = y + 3.0 + (static_cast<double>(i) + 0.5) * kBarLine;
     const double width =
-        removed.count == 0 ? 0.0 : std::max(2.0, kBarWidth * std::log10(static_cast<double>(removed.count)) / decades);
+        removed.count == 0 ? 0.0
+                           : std::max(2.0, kRemovedBarWidth * std::log10(static_cast<double>(removed.count)) / decades);
     out += fmt::format("<g class=\"reason\"><title>{}</title>\n", xml_text(removed.reason + ": " + removed.why));
     out += svg_text(kBarLeft - 10.0, middle + 4.0, shortened(removed.reason, 40), "end");
     out += fmt::format("<rect class=\"bar\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"14\" fill=\"{}\"/>\n",
                        kBarLeft, middle - 7.0, width, kRemovedColour);
-    out += svg_text(kBarLeft + kBarWidth + 12.0, middle + 4.0,
+    out += svg_text(kBarLeft + kRemovedBarWidth + 12.0, middle + 4.0,
                     removed.count == 0
                         ? "none"
                         : fmt::format("{}  ({})", grouped(removed.count), percent(removed.count, report.points_read)),
                     "start");
     out += "</g>\n";
   }
-  if (count == 0) out += svg_text(kBarLeft + 0.5 * kBarWidth, y + 0.5 * height + 4.0, "nothing was looked for");
-  out += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v{:.1f}h{:.1f}\"/>\n", kBarLeft, y, height, kBarWidth);
+  if (count == 0) out += svg_text(kBarLeft + 0.5 * kRemovedBarWidth, y + 0.5 * height + 4.0, "nothing was looked for");
+  out +=
+      fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v{:.1f}h{:.1f}\"/>\n", kBarLeft, y, height, kRemovedBarWidth);
   bottom = y + height + 44.0;
   if (report.removed.size() > count)
     out += svg_text(kBarLeft - 10.0, y + height + 16.0,

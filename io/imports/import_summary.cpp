@@ -12,8 +12,8 @@
 namespace treadmark::io {
 namespace {
 
-constexpr std::size_t kLabel = 24, kLine = 110;  // characters
-constexpr std::size_t kMostDamage = 5, kMostHoles = 3, kMostInputs = 5;
+constexpr std::size_t kLabel = 24, kSummaryLine = 110;  // characters
+constexpr std::size_t kMostDamageLines = 5, kMostHoleLines = 3, kMostInputs = 5;
 
 /// Letters, not bytes.
 std::size_t letters(const std::string& text) {
@@ -43,7 +43,7 @@ class Page {
       const std::size_t end = std::min(rest.find(' '), rest.size());
       const std::string word = rest.substr(0, end);
       rest.erase(0, std::min(end + 1, rest.size()));
-      if (!first && letters(line) + 1 + letters(word) > kLine) {
+      if (!first && letters(line) + 1 + letters(word) > kSummaryLine) {
         text_ += line + "\n";
         line.assign(indent, ' ');
         first = true;
@@ -127,7 +127,7 @@ void add_holes(Page& page, const ImportReport& report) {
                                       filled, report.holes.size() - filled, length_text(report.hole_limit),
                                       percent(report.area > 0.0 ? report.hole_area / report.area : std::nan("")),
                                       decimals(1e4 * report.area, 1)));
-  for (std::size_t i = 0; i < std::min(report.holes.size(), kMostHoles); ++i) {
+  for (std::size_t i = 0; i < std::min(report.holes.size(), kMostHoleLines); ++i) {
     const ImportReport::Hole& hole = report.holes[i];
     page.row("",
              fmt::format("at {}, y {} mm: {} across, {} mm2, {}", place_text(report, hole.u), decimals(1e3 * hole.y, 1),
@@ -175,15 +175,15 @@ void add_damage(Page& page, const ImportReport& report) {
   if (report.damage.empty()) return;
   page.line(fmt::format("  {:>3}{:>14}{:>12}{:>12}{:>12}{:>14}{:>16}", "",
                         report.body == Body::wheel ? "at angle" : "at x", "y", "length", "width", "depth", "volume"));
-  for (std::size_t i = 0; i < std::min(report.damage.size(), kMostDamage); ++i) {
+  for (std::size_t i = 0; i < std::min(report.damage.size(), kMostDamageLines); ++i) {
     const ImportReport::Damage& part = report.damage[i];
     page.line(fmt::format("  {:>3}{:>14}{:>12}{:>12}{:>12}{:>14}{:>16}", i + 1, place_text(report, part.u),
                           decimals(1e3 * part.y, 1) + " mm", decimals(1e3 * part.length, 1) + " mm",
                           decimals(1e3 * part.width, 1) + " mm", length_text(part.depth),
                           decimals(1e9 * part.volume, 1) + " mm3"));
   }
-  if (report.damage.size() > kMostDamage)
-    page.line(fmt::format("  and {} smaller ones", report.damage.size() - kMostDamage));
+  if (report.damage.size() > kMostDamageLines)
+    page.line(fmt::format("  and {} smaller ones", report.damage.size() - kMostDamageLines));
 }
 
 void add_outputs(Page& page, const ImportReport& report) {

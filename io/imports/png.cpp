@@ -14,7 +14,7 @@ namespace {
 
 using Bytes = std::vector<std::byte>;
 
-constexpr std::size_t kLargest = 1u << 16;  // pixels along a side
+constexpr std::size_t kLargestPng = 1u << 16;  // pixels along a side
 
 void add_number(Bytes& out, std::size_t value) {
   for (int shift = 24; shift >= 0; shift -= 8) out.push_back(static_cast<std::byte>(value >> shift & 0xFFu));
@@ -43,7 +43,7 @@ Bytes deflated(const Bytes& raw) {
 }  // namespace
 
 std::vector<std::byte> to_png(const PaletteImage& image) {
-  const bool whole = image.width > 0 && image.height > 0 && image.width <= kLargest && image.height <= kLargest &&
+  const bool whole = image.width > 0 && image.height > 0 && image.width <= kLargestPng && image.height <= kLargestPng &&
                      image.index.size() == image.width * image.height && !image.palette.empty() &&
                      image.palette.size() <= 256 &&
                      *std::max_element(image.index.begin(), image.index.end()) < image.palette.size();

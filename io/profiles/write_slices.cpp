@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
@@ -15,8 +16,7 @@
 namespace treadmark::io {
 namespace {
 
-constexpr double kMilli = 1e3;  // m -> mm, rad -> mrad
-constexpr std::size_t kFewestSlices = 4;
+constexpr std::size_t kFewestWritten = 4;
 constexpr double kLeastStep = 1e-6;
 
 void check(const std::filesystem::path& file, const SliceSet& slices) {
@@ -27,7 +27,7 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
         ErrorKind::configuration,
         fmt::format("slices of a {} are written to a file *{}", slices.body == Body::rail ? "rail" : "wheel", expected),
         {file.string()});
-  if (slices.u.size() < kFewestSlices)
+  if (slices.u.size() < kFewestWritten)
     throw Error(ErrorKind::configuration, "a slices file needs at least four slices", {file.string()},
                 "use a finer resolution or a longer range");
   if (!slices.features.empty())

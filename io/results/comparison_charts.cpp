@@ -46,10 +46,6 @@ class Styles {
   std::map<std::string, int> styles_;
 };
 
-bool has_resolution(const ComparisonCandidate& candidate) {
-  return std::isfinite(candidate.resolution) && candidate.resolution > 0.0;
-}
-
 /// A series a backend of value over resolution, from fine to coarse.
 template <class Value>
 std::vector<ChartSeries> over_resolution(const Comparison& comparison, const Styles& styles, const char* unit,
@@ -66,7 +62,7 @@ std::vector<ChartSeries> over_resolution(const Comparison& comparison, const Sty
       fresh.style = styles.of(candidate.name);
       series = out.insert(out.end(), std::move(fresh));
     }
-    if (has_resolution(candidate)) {
+    if (candidate.has_resolution()) {
       ChartPoint point;
       point.x = candidate.resolution * 1e3;
       point.y = error;

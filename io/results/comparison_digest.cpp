@@ -7,20 +7,20 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
+
 namespace treadmark::io {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-
 double worse(const ComparisonCandidate& candidate, double SurfaceDifference::*value) {
-  double out = kUnknown;
+  double out = kNaN;
   for (const RepresentedBody* body : {&candidate.wheel, &candidate.rail})
     if (body->difference.points > 0) out = std::fmax(out, body->difference.*value);  // fmax passes NaN over
   return out;
 }
 
 double largest(const ComparisonCandidate& candidate, double ComparisonRow::*value) {
-  double out = kUnknown;
+  double out = kNaN;
   for (const ComparisonRow& row : candidate.rows)
     if (row.comparable && std::isfinite(row.*value)) out = std::fmax(out, std::abs(row.*value));
   return out;
@@ -34,7 +34,7 @@ double mean(const ComparisonCandidate& candidate, double ComparisonRow::*value) 
     sum += row.*value;
     ++count;
   }
-  return count > 0 ? sum / count : kUnknown;
+  return count > 0 ? sum / count : kNaN;
 }
 
 }  // namespace

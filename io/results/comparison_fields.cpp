@@ -4,18 +4,15 @@
 
 #include <limits>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/comparison_digest.hpp"
 
 namespace treadmark::io {
 namespace {
 
-constexpr double kUnknown = std::numeric_limits<double>::quiet_NaN();
-constexpr double kMilli = 1e3;  // m -> mm, rad -> mrad
-constexpr double kMicro = 1e6;  // m -> um, m^2 -> mm^2
-constexpr double kMega = 1e-6;  // Pa -> MPa
 constexpr double kPercent = 1e2;
 
-double resolution_mm(double resolution) { return resolution == 0.0 ? kUnknown : resolution * kMilli; }
+double resolution_mm(double resolution) { return resolution == 0.0 ? kNaN : resolution * kMilli; }
 
 std::int64_t count(std::size_t value) { return static_cast<std::int64_t>(value); }
 
@@ -29,7 +26,7 @@ std::vector<NamedField> candidate_fields(const ComparisonCandidate& candidate) {
 
 std::vector<NamedField> body_fields(const RepresentedBody& body) {
   const SurfaceDifference& difference = body.difference;
-  const auto measured = [&](double value) { return difference.points > 0 ? value : kUnknown; };
+  const auto measured = [&](double value) { return difference.points > 0 ? value : kNaN; };
   return {{"backend", body.backend},
           {"resolution_mm", resolution_mm(body.resolution)},
           {"build_s", body.build_seconds},
@@ -47,7 +44,7 @@ std::vector<NamedField> body_fields(const RepresentedBody& body) {
 
 std::vector<NamedField> row_fields(const ComparisonCandidate& candidate, const ComparisonRow& row) {
   const CandidateDigest all = digest(candidate);
-  const auto of_patch = [&](double value) { return row.patches > 0 ? value : kUnknown; };
+  const auto of_patch = [&](double value) { return row.patches > 0 ? value : kNaN; };
   const auto error = [&](double value) { return row.comparable ? FieldValue(value) : FieldValue(); };
   return {{"backend", candidate.name},
           {"wheel_backend", candidate.wheel.backend},

@@ -10,10 +10,6 @@
 namespace treadmark::io {
 namespace {
 
-bool has_resolution(const ComparisonCandidate& candidate) {
-  return std::isfinite(candidate.resolution) && candidate.resolution > 0.0;
-}
-
 /// The column of a backend, or one of several.
 struct Column {
   const std::string* name = nullptr;  ///< null: of the truth
@@ -30,7 +26,7 @@ ComparisonGrid comparison_grid(const Comparison& comparison, std::size_t most_co
 
   std::vector<double> resolutions;
   for (std::size_t i = 1; i < candidates.size(); ++i)
-    if (has_resolution(candidates[i])) resolutions.push_back(candidates[i].resolution);
+    if (candidates[i].has_resolution()) resolutions.push_back(candidates[i].resolution);
   std::sort(resolutions.begin(), resolutions.end(), std::greater<>());
   resolutions.erase(std::unique(resolutions.begin(), resolutions.end()), resolutions.end());
 
@@ -38,7 +34,7 @@ ComparisonGrid comparison_grid(const Comparison& comparison, std::size_t most_co
   grid.places.push_back({});
   for (std::size_t i = 1; i < candidates.size(); ++i) {
     const ComparisonCandidate& candidate = candidates[i];
-    const bool sampled = has_resolution(candidate);
+    const bool sampled = candidate.has_resolution();
     const auto row =
         sampled ? std::find(resolutions.begin(), resolutions.end(), candidate.resolution) : resolutions.begin();
     const auto row_number = static_cast<std::size_t>(row - resolutions.begin());

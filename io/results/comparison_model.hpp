@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <string>
 #include <vector>
@@ -50,6 +51,8 @@ struct ComparisonCandidate {
   std::vector<ComparisonRow> rows;       ///< one per case, in order
   std::vector<CaseResult> results;       ///< with fields, for pictures
   std::vector<SampledSurface> surfaces;  ///< of the truth only, where asked for
+
+  bool has_resolution() const { return std::isfinite(resolution) && resolution > 0.0; }
 };
 
 struct Comparison {

@@ -26,13 +26,13 @@ constexpr std::size_t kMostCases = 3, kMostColumns = 8;
 // Sizes in pixels.
 constexpr double kPanel = 170.0;  // width of a panel
 constexpr double kGap = 18.0;     // between panels beside each other
-constexpr double kLeft = 62.0, kTop = 16.0, kRight = 116.0;
+constexpr double kPanelLeft = 62.0, kPanelTop = 16.0, kPanelRight = 116.0;
 constexpr double kCaption = 26.0;                  // of a case
 constexpr double kBetween = 14.0;                  // two cases
 constexpr double kTitle = 14.0;                    // a line above a panel
 constexpr double kBelow = 54.0;                    // numbers and words below a panel, and what keeps it from the next
 constexpr double kLowest = 0.45, kHighest = 1.25;  // height over width of a panel
-constexpr double kMargin = 0.06;                   // of the window, around the contact
+constexpr double kPanelMargin = 0.06;              // of the window, around the contact
 constexpr double kEqualScale = 4.0;                // windows longer than this get their own scale in each direction
 constexpr int kFont = 11;
 constexpr double kTitleFont = 13.0;  // a little more than that of the style: it is bold
@@ -115,7 +115,8 @@ double panel_height(const Window& window) {
 
 /// The window with a margin, made as wide or high as the panel; its own scale in each direction when it is very long.
 PanelScale panel_scale(const Window& window, double panel_height) {
-  const double width = window.width() * (1.0 + 2.0 * kMargin), height = window.height() * (1.0 + 2.0 * kMargin);
+  const double width = window.width() * (1.0 + 2.0 * kPanelMargin),
+               height = window.height() * (1.0 + 2.0 * kPanelMargin);
   double scale_x = kPanel / width, scale_y = panel_height / height;
   if (std::max(scale_x, scale_y) <= kEqualScale * std::min(scale_x, scale_y))
     scale_x = scale_y = std::min(scale_x, scale_y);
@@ -213,16 +214,16 @@ std::string draw_block(const Block& block, const Layout& layout, double panel_he
 
 std::string pressures_svg(const Comparison& comparison) {
   const Layout layout(comparison);
-  double y = kTop;
+  double y = kPanelTop;
   std::string blocks;
   for (const int number : telling_cases(comparison, kMostCases)) {
     const Block block = make_block(comparison, number);
     const double height = panel_height(block.window);
-    blocks += fmt::format("<g class=\"block\" transform=\"translate({:.1f} {:.1f})\">\n", kLeft, y) +
+    blocks += fmt::format("<g class=\"block\" transform=\"translate({:.1f} {:.1f})\">\n", kPanelLeft, y) +
               draw_block(block, layout, height) + "</g>\n";
     y += layout.height(height) + kBetween;
   }
-  return svg_head(kLeft + layout.width() + kRight, y + kTop, kFont,
+  return svg_head(kPanelLeft + layout.width() + kPanelRight, y + kPanelTop, kFont,
                   std::string(kPanelStyle) + ".below{font-size:12px}.case{font-size:14px;font-weight:bold}") +
          blocks + "</svg>\n";
 }

@@ -7,13 +7,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/colour_map.hpp"
 
 namespace treadmark::io {
 namespace {
 
 constexpr int kMaxCells = 96;  // along a side
-constexpr double kMilli = 1e3;
 
 bool in_contact(const PatchFields& fields, std::size_t i) {
   if (!fields.state.empty()) return fields.state[i] != 0;

@@ -19,11 +19,12 @@ namespace treadmark::io {
 namespace {
 
 // Sizes in pixels.
-constexpr double kPanel = 170.0;  // longest side of a panel
-constexpr double kGapX = 44.0, kGapY = 64.0, kLeft = 58.0, kTop = 44.0, kBottom = 44.0, kLegend = 156.0;
-constexpr double kMargin = 0.06;     // of the window, around the contact
-constexpr double kEqualScale = 4.0;  // windows longer than this get their own scale in each direction
-constexpr double kShape = 1.7;       // wished width over height of the picture
+constexpr double kPicturePanel = 170.0;  // longest side of a panel
+constexpr double kGapX = 44.0, kGapY = 64.0, kPictureLeft = 58.0, kPictureTop = 44.0, kPictureBottom = 44.0,
+                 kLegend = 156.0;
+constexpr double kPictureMargin = 0.06;     // of the window, around the contact
+constexpr double kPictureEqualScale = 4.0;  // windows longer than this get their own scale in each direction
+constexpr double kShape = 1.7;              // wished width over height of the picture
 
 struct CasePicture {
   const CaseResult* result = nullptr;
@@ -50,7 +51,7 @@ CasePicture make_case_picture(const CaseResult& result) {
 }
 
 /// The windows of all cases have one size; one place too if that does not make them much larger.
-struct Layout {
+struct PictureLayout {
   double width = 10.0, height = 10.0;     ///< of a window [mm]
   double scale_x = 17.0, scale_y = 17.0;  ///< [px/mm]
   bool common = false;
@@ -59,8 +60,8 @@ struct Layout {
 
   double panel_width() const { return width * scale_x; }
   double panel_height() const { return height * scale_y; }
-  double picture_width() const { return kLeft + columns * panel_width() + (columns - 1) * kGapX + kLegend; }
-  double picture_height() const { return kTop + rows * panel_height() + (rows - 1) * kGapY + kBottom; }
+  double picture_width() const { return kPictureLeft + columns * panel_width() + (columns - 1) * kGapX + kLegend; }
+  double picture_height() const { return kPictureTop + rows * panel_height() + (rows - 1) * kGapY + kPictureBottom; }
 
   Window window(const CasePicture& picture) const {
     const Window& target = common || !picture.contact ? all : picture.extent;
@@ -69,8 +70,8 @@ struct Layout {
   }
 };
 
-Layout make_layout(const std::vector<CasePicture>& cases) {
-  Layout layout;
+PictureLayout make_layout(const std::vector<CasePicture>& cases) {
+  PictureLayout layout;
   bool any = false;
   double width = 0.0, height = 0.0;
   for (const CasePicture& picture : cases) {
@@ -89,18 +90,18 @@ Layout make_layout(const std::vector<CasePicture>& cases) {
       width = layout.all.width();
       height = layout.all.height();
     }
-    layout.width = width * (1.0 + 2.0 * kMargin);
-    layout.height = height * (1.0 + 2.0 * kMargin);
-    layout.scale_x = layout.scale_y = kPanel / std::max(layout.width, layout.height);
-    if (std::max(layout.width, layout.height) > kEqualScale * std::min(layout.width, layout.height)) {
-      layout.scale_x = kPanel / layout.width;
-      layout.scale_y = kPanel / layout.height;
+    layout.width = width * (1.0 + 2.0 * kPictureMargin);
+    layout.height = height * (1.0 + 2.0 * kPictureMargin);
+    layout.scale_x = layout.scale_y = kPicturePanel / std::max(layout.width, layout.height);
+    if (std::max(layout.width, layout.height) > kPictureEqualScale * std::min(layout.width, layout.height)) {
+      layout.scale_x = kPicturePanel / layout.width;
+      layout.scale_y = kPicturePanel / layout.height;
     }
   }
   const int count = std::max(1, static_cast<int>(cases.size()));
   double best = 0.0;
   for (int columns = 1; columns <= count; ++columns) {
-    Layout trial = layout;
+    PictureLayout trial = layout;
     trial.columns = columns;
     trial.rows = (count + columns - 1) / columns;
     const double empty = 1.0 - static_cast<double>(count) / (trial.columns * trial.rows);
@@ -133,14 +134,14 @@ std::string title_of(const CaseResult& result, bool by_place) {
                   : fmt::format("pitch {:.2f}°", result.pitch * 180.0 / std::numbers::pi);
 }
 
-std::string draw_panel(const CasePicture& picture, const Layout& layout, bool by_place, double top_pressure, int index,
-                       int case_count) {
+std::string draw_panel(const CasePicture& picture, const PictureLayout& layout, bool by_place, double top_pressure,
+                       int index, int case_count) {
   const CaseResult& result = *picture.result;
   const PanelScale panel{layout.window(picture), layout.scale_x, layout.scale_y};
   const double width = layout.panel_width(), height = layout.panel_height();
   const int column = index % layout.columns, row = index / layout.columns;
   std::string out = fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n",
-                                kLeft + column * (width + kGapX), kTop + row * (height + kGapY));
+                                kPictureLeft + column * (width + kGapX), kPictureTop + row * (height + kGapY));
 
   out += svg_text(0.5 * width, -20.0, title_of(result, by_place), "middle", " class=\"title\"");
   if (picture.contact) {
@@ -159,10 +160,10 @@ std::string draw_panel(const CasePicture& picture, const Layout& layout, bool by
   return out + "</g>\n";
 }
 
-std::string draw_legend(const Layout& layout, double top_pressure) {
-  const double height = std::min(layout.picture_height() - kTop - kBottom - 56.0, 240.0);
+std::string draw_legend(const PictureLayout& layout, double top_pressure) {
+  const double height = std::min(layout.picture_height() - kPictureTop - kPictureBottom - 56.0, 240.0);
   std::string out =
-      fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", layout.picture_width() - kLegend + 32.0, kTop);
+      fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", layout.picture_width() - kLegend + 32.0, kPictureTop);
   out += svg_text(0.0, -7.0, "pressure [MPa]", "start");
   out += draw_pressure_bar(top_pressure, height);
   out += fmt::format("<path class=\"contact\" d=\"M0 {:.1f}h14\"/>\n", height + 20.0);
@@ -184,7 +185,7 @@ std::string pressure_svg(const RunResult& run) {
     for (const PatchPicture& patch : cases.back().patches)
       top_pressure = std::max(top_pressure, *std::max_element(patch.pressure.begin(), patch.pressure.end()));
   }
-  const Layout layout = make_layout(cases);
+  const PictureLayout layout = make_layout(cases);
 
   std::string out = svg_head(layout.picture_width(), layout.picture_height(), 10, kPanelStyle);
   const bool by_place = differ_in_place(run.cases);

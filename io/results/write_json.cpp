@@ -5,6 +5,7 @@
 #include <cmath>
 #include <nlohmann/json.hpp>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/twelve_digits.hpp"
 
@@ -12,10 +13,6 @@ namespace treadmark::io {
 namespace {
 
 using Json = nlohmann::ordered_json;
-
-constexpr double kMilli = 1e3;  // m -> mm, N m -> N mm
-constexpr double kMega = 1e-6;  // Pa -> MPa
-constexpr double kMicro = 1e6;  // m -> um
 
 /// Rounded to 12 digits, so that changes of unit leave no tail of nines; not finite = null.
 Json number(double value) {

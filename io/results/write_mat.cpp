@@ -8,6 +8,7 @@
 #include <initializer_list>
 #include <string_view>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
@@ -15,9 +16,6 @@
 
 namespace treadmark::io {
 namespace {
-
-constexpr double kMilli = 1e3;  // m -> mm
-constexpr double kMega = 1e-6;  // Pa -> N/mm^2
 
 /// A column: its name and value.
 struct Entry {

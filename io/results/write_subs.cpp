@@ -5,15 +5,13 @@
 #include <array>
 #include <string_view>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/text_columns.hpp"
 
 namespace treadmark::io {
 namespace {
-
-constexpr double kMilli = 1e3;  // m -> mm
-constexpr double kMega = 1e-6;  // Pa -> N/mm^2
 
 constexpr std::array<std::string_view, 3> kSizeNames{"NX", "NY", "NZ"};
 constexpr std::array<std::string_view, 14> kNames{"X",     "Y",     "Z",     "UX",    "UY",    "UZ",    "SIGHYD",

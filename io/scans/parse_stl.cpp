@@ -44,7 +44,7 @@ class Corners {
   VertexSet known_;
 };
 
-Scan parse_binary(ByteBlocks& bytes, const ScanReadOptions& options) {
+Scan parse_binary_stl(ByteBlocks& bytes, const ScanReadOptions& options) {
   const std::string_view title(bytes.need(kHeader), kHeader);
   const std::optional<LengthUnit> unit = unit_in_words(title.substr(0, title.find('\0')));
   bytes.consume(kHeader);
@@ -65,7 +65,7 @@ Scan parse_binary(ByteBlocks& bytes, const ScanReadOptions& options) {
   return builder.finish("STL, binary", unit);
 }
 
-Scan parse_text(ByteBlocks& bytes, const ScanReadOptions& options) {
+Scan parse_text_stl(ByteBlocks& bytes, const ScanReadOptions& options) {
   LineBlocks lines(bytes);
   constexpr std::size_t kVertexLine = 12;  // "vertex 0 0 0"
   CloudBuilder builder(bytes, options, kVertexLine,
@@ -103,7 +103,7 @@ Scan parse_text(ByteBlocks& bytes, const ScanReadOptions& options) {
 Scan parse_stl(ByteBlocks& bytes, const ScanReadOptions& options) {
   ScanReadOptions limited = options;
   limited.most_points = std::min(options.most_points, VertexSet::kMost);
-  return is_binary(bytes) ? parse_binary(bytes, limited) : parse_text(bytes, limited);
+  return is_binary(bytes) ? parse_binary_stl(bytes, limited) : parse_text_stl(bytes, limited);
 }
 
 }  // namespace treadmark::io::scans

@@ -24,19 +24,19 @@ constexpr Name kSymbols[] = {{"m", LengthUnit::metre},
                              {"\xB5m", LengthUnit::micrometre},      // in Latin 1
                              {"in", LengthUnit::inch}};
 
-constexpr Name kNames[] = {{"metre", LengthUnit::metre},
-                           {"meter", LengthUnit::metre},
-                           {"millimetre", LengthUnit::millimetre},
-                           {"millimeter", LengthUnit::millimetre},
-                           {"micrometre", LengthUnit::micrometre},
-                           {"micrometer", LengthUnit::micrometre},
-                           {"micron", LengthUnit::micrometre},
-                           {"inch", LengthUnit::inch},
-                           {"inche", LengthUnit::inch}};
+constexpr Name kUnitNames[] = {{"metre", LengthUnit::metre},
+                               {"meter", LengthUnit::metre},
+                               {"millimetre", LengthUnit::millimetre},
+                               {"millimeter", LengthUnit::millimetre},
+                               {"micrometre", LengthUnit::micrometre},
+                               {"micrometer", LengthUnit::micrometre},
+                               {"micron", LengthUnit::micrometre},
+                               {"inch", LengthUnit::inch},
+                               {"inche", LengthUnit::inch}};
 
 std::optional<LengthUnit> unit_of_name(std::string_view lower_word) {
   if (lower_word.ends_with('s')) lower_word.remove_suffix(1);
-  for (const Name& n : kNames)
+  for (const Name& n : kUnitNames)
     if (n.text == lower_word) return n.unit;
   return std::nullopt;
 }

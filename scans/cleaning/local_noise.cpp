@@ -7,6 +7,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -17,7 +18,6 @@ constexpr double kWantedPoints = 60.0;
 constexpr int kWidestWindow = 6;
 constexpr std::size_t kMostPoints = 220;  // of the surroundings; evenly chosen from more
 constexpr int kAbsolute = 3, kBiweight = 4;
-constexpr double kTukey = 4.685, kMad = 1.4826;
 constexpr std::size_t kUnknowns = 6, kFewestSamples = 2 * kUnknowns;
 constexpr int kMostWindow = 48;
 constexpr double kMostLeverage = 0.9;

@@ -8,6 +8,7 @@
 
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
@@ -17,7 +18,6 @@ namespace {
 
 constexpr double kCell = 4e-3;  // cells in which passes are compared [m]
 constexpr std::size_t kFewestInCell = 5;
-constexpr double kTukey = 4.685, kMad = 1.4826;
 using Vec6 = Eigen::Matrix<double, 6, 1>;
 
 /// The median distance of one pass in one cell.

@@ -9,6 +9,7 @@
 
 #include <Eigen/Cholesky>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/fit/spline_field.hpp"
@@ -19,7 +20,6 @@ namespace {
 constexpr double kStrip = 0.25e-3;   // [m]
 constexpr double kBlock = 16e-3;     // along the band, in which points are evened out [m]
 constexpr double kCoarsest = 32e-3;  // knots [m]
-constexpr double kTukey = 4.685, kMad = 1.4826;
 
 struct Strip {
   double s = 0.0, d = 0.0;  ///< mean place and distance

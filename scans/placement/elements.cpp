@@ -19,8 +19,8 @@ constexpr std::size_t kFewestPoints = 100;
 constexpr double kWantedPerVoxel = 30.0;
 constexpr std::size_t kMostVoxels = 250'000;
 constexpr std::size_t kFewestInSurroundings = 8;
-constexpr double kFlat = 0.03;   // least to middle eigenvalue
-constexpr double kBroad = 0.05;  // middle to greatest eigenvalue: no line
+constexpr double kFlatElement = 0.03;  // least to middle eigenvalue
+constexpr double kBroad = 0.05;        // middle to greatest eigenvalue: no line
 constexpr double kEnoughFlat = 0.85;
 constexpr double kLeastFlat = 0.25;
 constexpr double kClearGain = 0.08;
@@ -85,9 +85,9 @@ SurfaceElements elements_of(std::span<const Vec3> points, const Voxels& voxels, 
     const Vec3 mean = around.sum / around.count;
     Eigen::SelfAdjointEigenSolver<Mat3> eigen(around.square / around.count - mean * mean.transpose());
     const Vec3 values = eigen.eigenvalues().cwiseMax(0.0);
-    if (!(values[1] > kBroad * values[2]) || !(values[0] < kFlat * values[1])) return;
+    if (!(values[1] > kBroad * values[2]) || !(values[0] < kFlatElement * values[1])) return;
     normal[v] = eigen.eigenvectors().col(0);
-    weight[v] = static_cast<float>(1.0 - values[0] / (kFlat * values[1]));
+    weight[v] = static_cast<float>(1.0 - values[0] / (kFlatElement * values[1]));
   });
   double all = 0.0, flat = 0.0;
   for (std::size_t v = 0; v < voxels.count(); ++v) {

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -16,8 +17,6 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kTukey = 4.685;
-constexpr double kMad = 1.4826;
 constexpr double kLeastOverlap = 0.5;
 constexpr double kCoarseStep = 2e-3;  // of the lateral positions that are tried [m]
 constexpr double kAlike = 4e-3;       // sections that differ more at their better half are of other things [m]

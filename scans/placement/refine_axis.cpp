@@ -10,6 +10,7 @@
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
@@ -17,8 +18,6 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kTukey = 4.685;
-constexpr double kMad = 1.4826;
 constexpr std::size_t kBlock = 8192;
 constexpr int kMostRounds = 25;
 

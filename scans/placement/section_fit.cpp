@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Cholesky>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -20,8 +21,6 @@ namespace {
 constexpr std::size_t kFewestInStrip = 5;
 constexpr double kLayer = 6e-3;       // what one strip of one surface spans at most, in v [m]
 constexpr double kLeastShare = 0.15;  // of the fullest layer of its strip: a layer is no outlier then
-constexpr double kTukey = 4.685;
-constexpr double kMad = 1.4826;
 
 struct Strip {
   double y = 0.0, v = 0.0;

@@ -14,12 +14,12 @@ namespace treadmark::scans::scanner {
 namespace {
 
 constexpr double kAdvance = 0.75;  // of the width of a pass, to the next one
-constexpr double kTurn = 2.0 * std::numbers::pi;
+constexpr double kFullTurn = 2.0 * std::numbers::pi;
 
 bool holds(const Pass& pass, const Patch& patch, bool wheel) {
   if (patch.y < pass.y_min || patch.y > pass.y_max) return false;
   if (!wheel) return true;
-  const double along = std::fmod(patch.u - pass.u_min + 2.0 * kTurn, kTurn);
+  const double along = std::fmod(patch.u - pass.u_min + 2.0 * kFullTurn, kFullTurn);
   return along <= pass.u_max - pass.u_min;
 }
 

@@ -10,11 +10,11 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/json_tree.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
-constexpr double kMilli = 1e3;       // s -> ms
 constexpr double kMegabytes = 1e-6;  // bytes -> MB
 
 /// A row of the file and what names it.

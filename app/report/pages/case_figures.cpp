@@ -10,12 +10,11 @@
 
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
-constexpr double kMilli = 1e3;  // m -> mm
-constexpr double kMega = 1e-6;  // Pa -> MPa
 constexpr double kKilo = 1e-3;  // N -> kN
 constexpr double kSquareMilli = 1e6;
 constexpr double kDegrees = 180.0 / std::numbers::pi;

@@ -8,13 +8,13 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
 using Candidate = ComparedCandidate;
 using Value = double (*)(const Candidate&);
-constexpr double kMilli = 1e3;  // s -> ms
 constexpr std::size_t kFew = 8;
 
 double pmax_error(const Candidate& c) { return c.pmax_error_percent; }

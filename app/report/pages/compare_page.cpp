@@ -107,7 +107,7 @@ Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
   return cards;
 }
 
-Facts facts_of(const JsonTree& comparison) {
+Facts comparison_facts(const JsonTree& comparison) {
   const JsonTree made = comparison.at("treadmark"), input = comparison.at("input");
   Origin origin{made.text("version"),
                 made.text("git"),
@@ -200,7 +200,7 @@ Page compare_page(const std::filesystem::path& folder) {
   add_banners(comparison, all, overview);
   append(overview.blocks, files.note());
   overview.blocks.emplace_back(cards_of(comparison, all));
-  overview.blocks.emplace_back(facts_of(comparison));
+  overview.blocks.emplace_back(comparison_facts(comparison));
   page.sections.push_back(std::move(overview));
   for (Section section : {accuracy_section(all), std::move(contact)})
     if (!section.blocks.empty()) page.sections.push_back(std::move(section));

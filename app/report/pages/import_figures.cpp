@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/imports/import_map.hpp"
 
 namespace treadmark::app::report {
@@ -16,7 +17,6 @@ namespace {
 
 constexpr std::size_t kMostAlong = 1000, kMostAcross = 160;  // cells of a map in a page
 constexpr std::size_t kMostHoles = 300, kMostDamage = 30;
-constexpr double kMilli = 1e3;  // m -> mm
 
 using Points = std::vector<std::array<double, 2>>;
 

@@ -18,7 +18,7 @@ namespace {
 
 constexpr double kMicro = 1e3;  // mm -> µm
 
-std::string with_unit(double value, const char* unit, int digits = 3) {
+std::string in_unit(double value, const char* unit, int digits = 3) {
   return std::isfinite(value) ? fmt::format("{} {}", shown({value, digits}), unit) : "–";
 }
 
@@ -41,7 +41,7 @@ void add_banners(const JsonTree& report, Section& overview) {
   if (open > 0)
     overview.blocks.emplace_back(
         Banner{Banner::Kind::warning, counted(open, "hole") + (open == 1 ? " stays open." : " stay open."),
-               fmt::format("There is no surface there; the widest is {} across.", with_unit(widest, "mm"))});
+               fmt::format("There is no surface there; the widest is {} across.", in_unit(widest, "mm"))});
   if (report.flag("from_map"))
     overview.blocks.emplace_back(Banner{Banner::Kind::note, "From a map of deviations.",
                                         "It was not placed: it lies over the nominal profile as it is."});
@@ -59,21 +59,20 @@ Cards cards_of(const JsonTree& report) {
        fmt::format("of {}", report.count("points_read"))},
       {"Removed", read > 0.0 ? fmt::format("{} %", shown({100.0 * removed / read, 3})) : "–",
        fmt::format("{} points", removed_count(report))},
-      {"Residual", with_unit(kMicro * report.number("residual_rms_mm"), "µm"),
-       fmt::format("rms; largest {}", with_unit(kMicro * report.number("residual_max_mm"), "µm"))},
-      {"Noise", with_unit(kMicro * report.number("noise_mm"), "µm"), "standard deviation of the points"},
-      {"Error of the surface", with_unit(kMicro * fit.number("held_out_error_mm"), "µm"),
-       "by points that were held out"},
+      {"Residual", in_unit(kMicro * report.number("residual_rms_mm"), "µm"),
+       fmt::format("rms; largest {}", in_unit(kMicro * report.number("residual_max_mm"), "µm"))},
+      {"Noise", in_unit(kMicro * report.number("noise_mm"), "µm"), "standard deviation of the points"},
+      {"Error of the surface", in_unit(kMicro * fit.number("held_out_error_mm"), "µm"), "by points that were held out"},
       {"Holes", fmt::format("{}", holes.size()),
-       fmt::format("{} in all", with_unit(coverage.number("hole_area_mm2"), "mm²"))},
+       fmt::format("{} in all", in_unit(coverage.number("hole_area_mm2"), "mm²"))},
       {"Damage", fmt::format("{}", damage.size()),
        damage.empty() ? ""
-                      : fmt::format("the largest {} {}", with_unit(std::fabs(damage.front().number("depth_mm")), "mm"),
+                      : fmt::format("the largest {} {}", in_unit(std::fabs(damage.front().number("depth_mm")), "mm"),
                                     damage.front().number("depth_mm") < 0.0 ? "high" : "deep")}};
   return cards;
 }
 
-Facts facts_of(const JsonTree& report) {
+Facts import_facts(const JsonTree& report) {
   const JsonTree range = report.at("range"), coverage = report.at("coverage");
   const auto span = [&](const char* key, const char* unit) {
     const auto ends = range.at(key).numbers();
@@ -87,9 +86,9 @@ Facts facts_of(const JsonTree& report) {
                    {"Unit of the files", fmt::format("{} (from {})", report.text("unit"), report.text("unit_from"))},
                    {wheel ? "Angles" : "Along the track", wheel ? span("u_deg", "°") : span("u_mm", "mm")},
                    {"Across", span("y_mm", "mm")},
-                   {"Distance of points", with_unit(coverage.number("spacing_mm"), "mm")},
-                   {"Holes are filled up to", with_unit(coverage.number("hole_limit_mm"), "mm")},
-                   {"Damage begins at", with_unit(kMicro * report.number("damage_threshold_mm"), "µm")}};
+                   {"Distance of points", in_unit(coverage.number("spacing_mm"), "mm")},
+                   {"Holes are filled up to", in_unit(coverage.number("hole_limit_mm"), "mm")},
+                   {"Damage begins at", in_unit(kMicro * report.number("damage_threshold_mm"), "µm")}};
   return facts;
 }
 
@@ -106,28 +105,28 @@ std::vector<Block> placement_of(const JsonTree& report) {
   Facts facts;
   facts.entries = {
       {"Nominal profile", frame->text("nominal_profile") + (frame->flag("turned") ? ", turned" : "")},
-      {"Nominal radius", with_unit(frame->number("nominal_radius_mm"), "mm", 6)},
+      {"Nominal radius", in_unit(frame->number("nominal_radius_mm"), "mm", 6)},
       {"Origin in the scan", vector_text(frame->at("origin_mm"), 7) + " mm"},
       {"x axis in the scan", vector_text(frame->at("x_axis"), 6)},
       {"y axis in the scan", vector_text(frame->at("y_axis"), 6)},
       {"z axis in the scan", vector_text(frame->at("z_axis"), 6)},
       {"Zero along the band", frame->text("zero")},
       {"Standard error of the axis",
-       fmt::format("{}, {}", with_unit(kMicro * frame->number("axis_position_error_mm"), "µm"),
-                   with_unit(frame->number("axis_direction_error_mrad"), "mrad"))},
-      {"Scatter about the section", with_unit(kMicro * frame->number("scatter_mm"), "µm")},
-      {"Undamaged points", with_unit(frame->number("undamaged_percent"), "%")},
+       fmt::format("{}, {}", in_unit(kMicro * frame->number("axis_position_error_mm"), "µm"),
+                   in_unit(frame->number("axis_direction_error_mrad"), "mrad"))},
+      {"Scatter about the section", in_unit(kMicro * frame->number("scatter_mm"), "µm")},
+      {"Undamaged points", in_unit(frame->number("undamaged_percent"), "%")},
       {"Section from the nominal profile",
-       fmt::format("{} where both agree, {} of it", with_unit(kMicro * frame->number("match_residual_mm"), "µm"),
-                   with_unit(frame->number("match_agreeing_percent"), "%"))}};
+       fmt::format("{} where both agree, {} of it", in_unit(kMicro * frame->number("match_residual_mm"), "µm"),
+                   in_unit(frame->number("match_agreeing_percent"), "%"))}};
   if (report.text("body") != "wheel")
     std::erase_if(facts.entries, [](const auto& entry) { return entry.first == "Nominal radius"; });
   std::vector<Block> out{std::move(facts)};
   if (Table passes = pass_table(*frame); passes.rows.size() > 1) {
     out.emplace_back(
         Paragraph{fmt::format("Passes lay {} apart where they overlap (rms), and {} after they were moved.",
-                              with_unit(kMicro * frame->number("pass_distance_before_mm"), "µm"),
-                              with_unit(kMicro * frame->number("pass_distance_after_mm"), "µm"))});
+                              in_unit(kMicro * frame->number("pass_distance_before_mm"), "µm"),
+                              in_unit(kMicro * frame->number("pass_distance_after_mm"), "µm"))});
     out.emplace_back(std::move(passes));
   }
   return out;
@@ -169,7 +168,7 @@ Section fit_section(const JsonTree& report, const io::ImportMaps& maps, Optional
                            kept->count("count"), kept->count("fewest_points"), kept->count("most_points"))});
   section.blocks.emplace_back(Paragraph{fmt::format(
       "{} points were fitted, {} held out; these lie {} (rms) from the surface.", fit.count("fitted_points"),
-      fit.count("held_out_points"), with_unit(kMicro * fit.number("held_out_rms_mm"), "µm"))});
+      fit.count("held_out_points"), in_unit(kMicro * fit.number("held_out_rms_mm"), "µm"))});
   append(section.blocks, map_figure(maps.residual, maps.body,
                                     {"residual-map", "Mean residual", "measured less fitted", "µm", 1e6, true}));
   append(section.blocks, map_figure(maps.noise, maps.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
@@ -199,7 +198,7 @@ Page import_page(const std::filesystem::path& folder) {
   add_banners(report, overview);
   const std::size_t place_of_note = overview.blocks.size();
   overview.blocks.emplace_back(cards_of(report));
-  overview.blocks.emplace_back(facts_of(report));
+  overview.blocks.emplace_back(import_facts(report));
   overview.blocks.emplace_back(input_table(report));
   Section surface = surface_section(report, maps, files), points = points_section(report, maps, files),
           fit = fit_section(report, maps, files);

@@ -7,13 +7,12 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 
 namespace treadmark::kalker {
 
 namespace {
-
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
 
 /// Share of the interpenetration up to which elements are put into contact at first. One half is right for spheres, a
 /// little more is found faster than a little less.

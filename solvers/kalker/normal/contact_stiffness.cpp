@@ -11,7 +11,7 @@ namespace {
 
 constexpr int kMostIterations = 200;
 
-double dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
+double stiffness_dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
   return std::inner_product(a.begin(), a.end(), b.begin(), 0.0);
 }
 
@@ -25,14 +25,14 @@ AlignedVector<double> pressure_of_unit_approach(const NormalOperator& op, const 
   for (int k = 0; k < kMostIterations; ++k) {
     op.precondition(r, z);
     for (std::size_t i = 0; i < n; ++i) z[i] *= inside[i];
-    const double now = dot(r, z);
+    const double now = stiffness_dot(r, z);
     if (k == 0) first = now;
     if (!(now > eps * eps * first)) break;
     const double beta = k > 0 ? now / old : 0.0;
     for (std::size_t i = 0; i < n; ++i) v[i] = z[i] + beta * v[i];
     op.displacement(v, image);
     for (std::size_t i = 0; i < n; ++i) image[i] *= inside[i];
-    const double step = now / dot(v, image);
+    const double step = now / stiffness_dot(v, image);
     for (std::size_t i = 0; i < n; ++i) {
       q[i] += step * v[i];
       r[i] -= step * image[i];

@@ -14,7 +14,7 @@
 namespace treadmark::kalker {
 namespace {
 
-void check(const ContactProblem& problem) {
+void check_sub_patches(const ContactProblem& problem) {
   const SubPatches& s = problem.sub_patches;
   const auto n = static_cast<std::size_t>(s.count);
   using Model = NormalModel;
@@ -57,7 +57,7 @@ void SubPatchSolver::reset() {
 }
 
 void SubPatchSolver::solve(const ContactProblem& problem, ContactSolution& solution) {
-  check(problem);
+  check_sub_patches(problem);
   if (problem.settings.reference_quirks && problem.normal_model != NormalModel::full) {
     ContactProblem whole = problem;
     whole.sub_patches = {};

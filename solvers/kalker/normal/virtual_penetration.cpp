@@ -16,7 +16,7 @@ namespace treadmark::kalker {
 
 namespace {
 
-void check(const ContactProblem& problem) {
+void check_penetration_problem(const ContactProblem& problem) {
   const auto refuse = [&](const std::string& message, const std::string& advice) {
     const char* name = problem.normal_model == NormalModel::kpec ? "KPEC: " : "ANALYN: ";
     throw Error(ErrorKind::configuration, name + message, {}, advice);
@@ -39,7 +39,7 @@ void check(const ContactProblem& problem) {
 
 void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators,
                                ContactSolution& solution) {
-  check(problem);
+  check_penetration_problem(problem);
   const Grid2& grid = problem.grid;
   const Interpenetration overlap(grid, problem.gap, problem.approach);
   solution.approach = problem.approach;

@@ -12,7 +12,7 @@ namespace {
 /// Smallest eigenvalue of a block that is inverted, relative to the largest.
 constexpr double kEigenvalueFloor = 1e-3;
 
-std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
+std::size_t ring_size(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
 
 /// Index distance on a ring, with the sign of the shorter way.
 int wrapped(int d, int period) { return 2 * d > period ? d - period : d; }
@@ -38,7 +38,7 @@ std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const R
   const int last = std::min(fft.active_rows() - 1, ny / 2);
   AlignedVector<double> field(fft.real_size());
   Spectrum spectrum(fft.spectrum_size());
-  std::vector<ComplianceBlock> half(product(nx, last + 1)), symbol(fft.spectrum_size());
+  std::vector<ComplianceBlock> half(ring_size(nx, last + 1)), symbol(fft.spectrum_size());
   // One half-plane: the other one has the complex conjugate transform. Rows on the line between them count half.
   const double scale = 1.0 / (static_cast<double>(nx) * ny);
   for (int iy = 0; iy <= last; ++iy)
@@ -46,7 +46,7 @@ std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const R
       ComplianceBlock b = kernel(wrapped(ix, nx), iy);
       if (2 * ix == nx || 2 * iy == ny) b.xy = 0.0;
       const double weight = iy == 0 || 2 * iy == ny ? scale : 2.0 * scale;
-      half[product(iy, nx) + static_cast<std::size_t>(ix)] = {weight * b.xx, weight * b.xy, weight * b.yy};
+      half[ring_size(iy, nx) + static_cast<std::size_t>(ix)] = {weight * b.xx, weight * b.xy, weight * b.yy};
     }
   for (double ComplianceBlock::*member : {&ComplianceBlock::xx, &ComplianceBlock::xy, &ComplianceBlock::yy}) {
     std::fill(field.begin(), field.end(), 0.0);
@@ -72,8 +72,8 @@ InverseCompliance::InverseCompliance(int nx, int ny, const ComplianceKernel& ker
 
 void InverseCompliance::load(std::span<const double> field, Spectrum& spectrum) {
   for (int iy = 0; iy < ny_; ++iy) {
-    double* row = ring_.data() + product(iy, fft_.nx());
-    const double* source = field.data() + product(iy, nx_);
+    double* row = ring_.data() + ring_size(iy, fft_.nx());
+    const double* source = field.data() + ring_size(iy, nx_);
     std::copy(source, source + nx_, row);
     std::fill(row + nx_, row + fft_.nx(), 0.0);
   }
@@ -83,8 +83,8 @@ void InverseCompliance::load(std::span<const double> field, Spectrum& spectrum) 
 void InverseCompliance::unload(Spectrum& spectrum, std::span<double> field) {
   fft_.inverse(spectrum, ring_);
   for (int iy = 0; iy < ny_; ++iy) {
-    const double* row = ring_.data() + product(iy, fft_.nx());
-    std::copy(row, row + nx_, field.data() + product(iy, nx_));
+    const double* row = ring_.data() + ring_size(iy, fft_.nx());
+    std::copy(row, row + nx_, field.data() + ring_size(iy, nx_));
   }
 }
 

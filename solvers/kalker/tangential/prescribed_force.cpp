@@ -13,7 +13,7 @@ namespace {
 using Pair = std::array<double, 2>;
 
 constexpr double kLargestGrowth = 4.0;  ///< of the creepage in one step of one unknown
-constexpr double kShortestStep = 1.0 / 64.0;
+constexpr double kShortestForceStep = 1.0 / 64.0;
 
 double deviation(const ForceSearchSettings& s, const ForceSample& f) {
   double worst = 0.0;
@@ -108,7 +108,7 @@ ForceSearchResult find_two(const ForceSearchSettings& s, const std::function<For
       there = evaluate(y);
       ++result.iterations;
       if (finish(y, there)) return result;
-      if (std::hypot(there.force[0] - s.target[0], there.force[1] - s.target[1]) < size || length <= kShortestStep)
+      if (std::hypot(there.force[0] - s.target[0], there.force[1] - s.target[1]) < size || length <= kShortestForceStep)
         break;
     }
     if (s.exact_derivatives) {

@@ -20,36 +20,37 @@ namespace {
 
 constexpr double kAlignment = 1e-6;  ///< of two grids, in elements
 
-[[noreturn]] void refuse(const std::string& message, const std::string& advice) {
+[[noreturn]] void refuse_problem(const std::string& message, const std::string& advice) {
   throw Error(ErrorKind::configuration, message, {}, advice);
 }
 
 void check(const ContactProblem& problem, const ContactSolution& solution) {
   const Grid2& grid = problem.grid;
   if (grid.nx < 1 || grid.ny < 1 || !(grid.dx > 0.0) || !(grid.dy > 0.0))
-    refuse("the contact grid has no elements", "give positive numbers and steps");
+    refuse_problem("the contact grid has no elements", "give positive numbers and steps");
   if (solution.pressure.size() != grid.size())
-    refuse("the tangential problem needs a pressure for each of " + std::to_string(grid.size()) + " elements, not " +
-               std::to_string(solution.pressure.size()),
-           "solve the normal problem first");
+    refuse_problem("the tangential problem needs a pressure for each of " + std::to_string(grid.size()) +
+                       " elements, not " + std::to_string(solution.pressure.size()),
+                   "solve the normal problem first");
   if (!solution.state.empty() && solution.state.size() != grid.size())
-    refuse("element states do not fit the contact grid", "solve the normal problem first");
+    refuse_problem("element states do not fit the contact grid", "solve the normal problem first");
   const CombinedMaterial combined = combine(problem.material);
-  if (!(combined.shear_modulus > 0.0)) refuse("the shear modulus must be positive", "check the material");
+  if (!(combined.shear_modulus > 0.0)) refuse_problem("the shear modulus must be positive", "check the material");
   const Creepage& c = problem.creepage;
   for (const double value :
        {c.xi, c.eta, c.phi, c.spin_x, c.spin_y, problem.fx_relative.value_or(0.0), problem.fy_relative.value_or(0.0)})
-    if (!std::isfinite(value)) refuse("a creepage, spin centre or tangential force is not finite", "check the input");
+    if (!std::isfinite(value))
+      refuse_problem("a creepage, spin centre or tangential force is not finite", "check the input");
   if (problem.extra_slip_x.size() != problem.extra_slip_y.size() ||
       (!problem.extra_slip_x.empty() && problem.extra_slip_x.size() != grid.size()))
-    refuse("the given slip does not have two values for each of " + std::to_string(grid.size()) + " elements",
-           "give one pair each, or none");
+    refuse_problem("the given slip does not have two values for each of " + std::to_string(grid.size()) + " elements",
+                   "give one pair each, or none");
   if (!problem.friction_of_row.empty() && problem.friction_of_row.size() != static_cast<std::size_t>(grid.ny))
-    refuse("there are " + std::to_string(problem.friction_of_row.size()) + " friction laws for " +
-               std::to_string(grid.ny) + " rows",
-           "give one for each row, or one for all");
+    refuse_problem("there are " + std::to_string(problem.friction_of_row.size()) + " friction laws for " +
+                       std::to_string(grid.ny) + " rows",
+                   "give one for each row, or one for all");
   if (!(problem.friction.static_friction() >= 0.0))
-    refuse("the coefficient of friction is negative", "check the friction law");
+    refuse_problem("the coefficient of friction is negative", "check the friction law");
 }
 
 /// Index offset of `to` in `from`, if their elements line up.
@@ -225,7 +226,7 @@ void TangentialSolver::solve(const ContactProblem& problem, ContactSolution& sol
       if (solution.pressure[i] > 0.0) solution.state[i] = ElementState::adhesion;
   }
   for (const double p : solution.pressure)
-    if (!std::isfinite(p)) refuse("a pressure is not finite", "solve the normal problem first");
+    if (!std::isfinite(p)) refuse_problem("a pressure is not finite", "solve the normal problem first");
   solution.creepage = problem.creepage;
   const RollingStep step = rolling_step(problem);
   solution.rolling_step = step.rolling ? step.distance : 0.0;
@@ -276,7 +277,7 @@ Sensitivities TangentialSolver::sensitivities(const ContactProblem& problem, con
                                               const ContactHistory& previous,
                                               std::span<const double> pressure_by_approach) {
   if (solution.traction_x.size() != problem.grid.size() || pressure_by_approach.size() != problem.grid.size())
-    refuse("sensitivities need the solution of the same problem", "solve it first");
+    refuse_problem("sensitivities need the solution of the same problem", "solve it first");
   const RollingStep step = rolling_step(problem);
   const Patch patch = make_patch(problem.grid, step.transport, solution.state);
   const std::size_t n = patch.cell.size();
