@@ -13,24 +13,38 @@ set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")
 
 # What parsing costs is shared: sources are compiled several at a time, after headers that are parsed once. So names of a folder's
 # anonymous namespaces must differ. -DTREADMARK_SHARED_PARSING=OFF compiles every file by itself.
-# treadmark_share_parsing(<target> <sources at a time>)
-function(treadmark_share_parsing target sources)
+# treadmark_share_parsing(<target> <sources at a time> <how>): how is one of
+#   full   optimised as the build type says
+#   light  no loop over points or elements is worth the compiler's time
+function(treadmark_share_parsing target sources how)
+  if(how STREQUAL "light")
+    target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
+  endif()
   if(NOT TREADMARK_SHARED_PARSING)
     return()
   endif()
   set_target_properties(${target} PROPERTIES UNITY_BUILD ON UNITY_BUILD_BATCH_SIZE ${sources})
-  target_precompile_headers(${target} REUSE_FROM treadmark_precompiled)
-  # The macros with which the precompiled headers were parsed.
+  target_precompile_headers(${target} REUSE_FROM treadmark_precompiled_${how})
+  # The macros and options with which the headers were parsed: a compiler takes them for no other.
   target_compile_definitions(${target} PRIVATE $<TARGET_PROPERTY:fmt::fmt,INTERFACE_COMPILE_DEFINITIONS>)
   target_include_directories(${target} SYSTEM PRIVATE $<TARGET_PROPERTY:Eigen3::Eigen,INTERFACE_INCLUDE_DIRECTORIES>)
+  get_target_property(type ${target} TYPE)
+  if(type STREQUAL "EXECUTABLE")
+    set_target_properties(${target} PROPERTIES POSITION_INDEPENDENT_CODE OFF)
+    target_compile_options(${target} PRIVATE -fPIC)
+  endif()
 endfunction()
 
+# The level of optimisation is part of what is precompiled.
 if(TREADMARK_SHARED_PARSING)
   file(WRITE "${PROJECT_BINARY_DIR}/precompiled.cpp" "// holds the precompiled headers\n")
-  add_library(treadmark_precompiled OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
-  target_compile_features(treadmark_precompiled PUBLIC cxx_std_20)
-  target_link_libraries(treadmark_precompiled PRIVATE Eigen3::Eigen fmt::fmt treadmark_warnings)
-  target_precompile_headers(treadmark_precompiled PRIVATE "${CMAKE_CURRENT_LIST_DIR}/precompiled.hpp")
+  foreach(how IN ITEMS full light)
+    add_library(treadmark_precompiled_${how} OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
+    target_compile_features(treadmark_precompiled_${how} PUBLIC cxx_std_20)
+    target_link_libraries(treadmark_precompiled_${how} PRIVATE Eigen3::Eigen fmt::fmt treadmark_warnings)
+    target_precompile_headers(treadmark_precompiled_${how} PRIVATE "${CMAKE_CURRENT_LIST_DIR}/precompiled.hpp")
+  endforeach()
+  target_compile_options(treadmark_precompiled_light PRIVATE $<$<CONFIG:Release>:-O1>)
 endif()
 
 # Kernels named *_avx2.cpp: see core/cpu.hpp.
@@ -46,8 +60,7 @@ function(treadmark_avx2_flags)
 endfunction()
 
 # treadmark_library(<folder> [LIGHT] [PUBLIC targets...] [PRIVATE targets...])
-# A static library treadmark::<folder with _> from the .cpp files directly in the current folder. LIGHT: no loop over points or
-# elements in it is worth the compiler's time.
+# A static library treadmark::<folder with _> from the .cpp files directly in the current folder. LIGHT: see above.
 function(treadmark_library folder)
   cmake_parse_arguments(ARG "LIGHT" "" "PUBLIC;PRIVATE" ${ARGN})
   string(REPLACE "/" "_" name "${folder}")
@@ -62,10 +75,11 @@ function(treadmark_library folder)
     $<BUILD_INTERFACE:${PROJECT_BINARY_DIR}/include> $<INSTALL_INTERFACE:include>)
   target_link_libraries(treadmark_${name} PUBLIC ${ARG_PUBLIC}
     PRIVATE ${ARG_PRIVATE} $<BUILD_INTERFACE:treadmark_warnings>)
+  set(how full)
   if(ARG_LIGHT)
-    target_compile_options(treadmark_${name} PRIVATE $<$<CONFIG:Release>:-O1>)
+    set(how light)
   endif()
-  treadmark_share_parsing(treadmark_${name} 8)
+  treadmark_share_parsing(treadmark_${name} 8 ${how})
   set_property(GLOBAL APPEND PROPERTY TREADMARK_LIBRARIES treadmark_${name})
   install(FILES ${headers} DESTINATION include/treadmark/${folder})
 endfunction()

@@ -14,14 +14,15 @@
 namespace treadmark::app::report {
 namespace {
 
-constexpr double kLeft = 78.0, kTop = 44.0, kWidth = 640.0, kHeight = 260.0, kBottom = 50.0, kBar = 14.0;  // [px]
-constexpr int kMostColumns = 240, kMostRows = 100, kSteps = 20;
+constexpr double kMapLeft = 78.0, kMapTop = 44.0, kWidth = 640.0, kHeight = 260.0, kMapBottom = 50.0,
+                 kBar = 14.0;  // [px]
+constexpr int kMostMapColumns = 240, kMostRows = 100, kMapSteps = 20;
 
-struct Range {
+struct MapRange {
   double low = 0.0, high = 1.0;
 };
 
-Range range_of(const MapView& map) {
+MapRange range_of(const MapView& map) {
   double low = INFINITY, high = -INFINITY;
   for (const double value : map.values)
     if (std::isfinite(value)) low = std::min(low, value), high = std::max(high, value);
@@ -30,7 +31,7 @@ Range range_of(const MapView& map) {
     const double end = std::max(std::fabs(low), std::fabs(high));
     low = -end, high = end;
   }
-  return high > low ? Range{low, high} : Range{low - 0.5, low + 0.5};
+  return high > low ? MapRange{low, high} : MapRange{low - 0.5, low + 0.5};
 }
 
 /// Mean of the values in a block; NaN where there is none.
@@ -48,9 +49,9 @@ double mean(const MapView& map, int ix0, int ix1, int iy0, int iy1) {
   return count > 0 ? sum / count : NAN;
 }
 
-std::string cells(const MapView& map, const Range& range) {
+std::string cells(const MapView& map, const MapRange& range) {
   std::string out;
-  const int columns = std::min(map.nx, kMostColumns), rows = std::min(map.ny, kMostRows);
+  const int columns = std::min(map.nx, kMostMapColumns), rows = std::min(map.ny, kMostRows);
   const double width = kWidth / columns, height = kHeight / rows;
   for (int row = 0; row < rows; ++row) {
     const int iy0 = row * map.ny / rows, iy1 = (row + 1) * map.ny / rows;
@@ -58,16 +59,16 @@ std::string cells(const MapView& map, const Range& range) {
     const auto flush = [&](int to) {
       if (last >= 0)
         out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-                           kLeft + from * width, kTop + kHeight - (row + 1) * height, (to - from) * width + 0.05,
-                           height + 0.05, io::colour((last + 0.5) / kSteps));
+                           kMapLeft + from * width, kMapTop + kHeight - (row + 1) * height, (to - from) * width + 0.05,
+                           height + 0.05, io::colour((last + 0.5) / kMapSteps));
       from = to;
     };
     for (int column = 0; column < columns; ++column) {
       const double value = mean(map, column * map.nx / columns, (column + 1) * map.nx / columns, iy0, iy1);
-      const int step =
-          std::isnan(value)
-              ? -1
-              : std::clamp(static_cast<int>(kSteps * (value - range.low) / (range.high - range.low)), 0, kSteps - 1);
+      const int step = std::isnan(value)
+                           ? -1
+                           : std::clamp(static_cast<int>(kMapSteps * (value - range.low) / (range.high - range.low)), 0,
+                                        kMapSteps - 1);
       if (step == last) continue;
       flush(column);
       last = step;
@@ -77,25 +78,26 @@ std::string cells(const MapView& map, const Range& range) {
   return out;
 }
 
-std::string bar(const MapView& map, const Range& range) {
+std::string bar(const MapView& map, const MapRange& range) {
   std::string out;
-  const double x = kLeft + kWidth + 20.0, step = kHeight / kSteps;
-  for (int k = 0; k < kSteps; ++k)
+  const double x = kMapLeft + kWidth + 20.0, step = kHeight / kMapSteps;
+  for (int k = 0; k < kMapSteps; ++k)
     out += fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", x,
-                       kTop + kHeight - (k + 1) * step, kBar, step + 0.05, io::colour((k + 0.5) / kSteps));
+                       kMapTop + kHeight - (k + 1) * step, kBar, step + 0.05, io::colour((k + 0.5) / kMapSteps));
   for (const double part : {0.0, 0.5, 1.0})
-    out += io::svg_text(x + kBar + 6.0, kTop + kHeight * (1.0 - part) + 4.0,
+    out += io::svg_text(x + kBar + 6.0, kMapTop + kHeight * (1.0 - part) + 4.0,
                         io::three_digits(range.low + part * (range.high - range.low)), "start");
-  return out + io::svg_text(x, kTop - 10.0, fmt::format("{} [{}]", map.label, map.unit), "middle");
+  return out + io::svg_text(x, kMapTop - 10.0, fmt::format("{} [{}]", map.label, map.unit), "middle");
 }
 
 }  // namespace
 
 std::string map_svg(const MapView& map, const std::string& title) {
-  std::string out = io::svg_head(kLeft + kWidth + 100.0, kTop + kHeight + kBottom, io::kChartFont, io::kChartStyle);
-  out += io::svg_text(kLeft, 20.0, title, "start", " class=\"title\"");
+  std::string out =
+      io::svg_head(kMapLeft + kWidth + 100.0, kMapTop + kHeight + kMapBottom, io::kChartFont, io::kChartStyle);
+  out += io::svg_text(kMapLeft, 20.0, title, "start", " class=\"title\"");
   if (map.nx < 1 || map.ny < 1) return out + "</svg>\n";
-  const Range range = range_of(map);
+  const MapRange range = range_of(map);
   out += cells(map, range) + bar(map, range);
   io::Chart frame;
   frame.x_label = fmt::format("{} [{}]", map.x.label, map.x.unit);
@@ -109,7 +111,7 @@ std::string map_svg(const MapView& map, const std::string& title) {
     series.curve_label = mark.label;
     frame.series.push_back(std::move(series));
   }
-  return out + io::draw_chart(frame, {kLeft, kTop, kWidth, kHeight}) + "</svg>\n";
+  return out + io::draw_chart(frame, {kMapLeft, kMapTop, kWidth, kHeight}) + "</svg>\n";
 }
 
 }  // namespace treadmark::app::report

@@ -20,8 +20,8 @@ namespace treadmark::app::report {
 namespace {
 
 // Sizes in pixels.
-constexpr double kLeft = 78.0, kTop = 44.0, kRight = 24.0, kBottom = 50.0;
-constexpr double kWidth = 640.0, kHeight = 200.0, kBetween = 18.0, kLegend = 24.0;
+constexpr double kFigureLeft = 78.0, kFigureTop = 44.0, kFigureRight = 24.0, kFigureBottom = 50.0;
+constexpr double kFigureWidth = 640.0, kFigureHeight = 200.0, kBetween = 18.0, kFigureLegend = 24.0;
 constexpr std::size_t kMostPanels = 24;  // of contact patches in a picture
 
 std::string axis_label(const std::string& label, const std::string& unit) {
@@ -96,9 +96,9 @@ double category_height(const Axis* axis) {
 /// Names of categories below the place where each is.
 std::string category_names(const Axis& axis, double y) {
   std::string out;
-  const double each = kWidth / static_cast<double>(axis.labels.size());
+  const double each = kFigureWidth / static_cast<double>(axis.labels.size());
   for (std::size_t i = 0; i < axis.labels.size(); ++i) {
-    const double x = kLeft + (static_cast<double>(i) + 0.5) * each + 4.0;
+    const double x = kFigureLeft + (static_cast<double>(i) + 0.5) * each + 4.0;
     out += io::svg_text(x, y, axis.labels[i], "end",
                         fmt::format(" transform=\"rotate(-{} {:.1f} {:.1f})\"", kTilt, x, y).c_str());
   }
@@ -131,7 +131,7 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
     std::vector<io::ChartSeries> named;
     for (const io::ChartSeries& series : charts.back().series)
       if (!series.name.empty()) named.push_back(series);
-    if (named.size() > 1) beside = std::max(beside, kLegend + io::legend_width(named));
+    if (named.size() > 1) beside = std::max(beside, kFigureLegend + io::legend_width(named));
   }
   std::vector<double> all_x;
   for (const io::Chart& chart : charts)
@@ -140,11 +140,13 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
       for (const auto& point : series.points) all_x.push_back(point.x);
     }
   const double count = static_cast<double>(charts.size());
-  const double height = kTop + count * kHeight + (count - 1.0) * kBetween + kBottom + category_height(axis);
-  std::string out = io::svg_head(kLeft + kWidth + std::max(kRight, beside), height, io::kChartFont, io::kChartStyle);
-  out += io::svg_text(kLeft + 0.5 * kWidth, 22.0, title, "middle", " class=\"title\"");
+  const double height =
+      kFigureTop + count * kFigureHeight + (count - 1.0) * kBetween + kFigureBottom + category_height(axis);
+  std::string out = io::svg_head(kFigureLeft + kFigureWidth + std::max(kFigureRight, beside), height, io::kChartFont,
+                                 io::kChartStyle);
+  out += io::svg_text(kFigureLeft + 0.5 * kFigureWidth, 22.0, title, "middle", " class=\"title\"");
   const io::ChartAxis range(axis && axis->logarithmic ? io::AxisScale::log : io::AxisScale::linear, all_x);
-  double y = kTop - 10.0;
+  double y = kFigureTop - 10.0;
   for (io::Chart& chart : charts) {
     const bool last = &chart == &charts.back();
     const bool categories = axis && !axis->labels.empty();
@@ -154,13 +156,13 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
       chart.x_range = {-0.5, static_cast<double>(axis->labels.size()) - 0.5};
     else if (chart.x_scale == io::AxisScale::linear)
       chart.x_range = {range.low(), range.high()};
-    out += io::draw_chart(chart, {kLeft, y, kWidth, kHeight});
+    out += io::draw_chart(chart, {kFigureLeft, y, kFigureWidth, kFigureHeight});
     std::vector<io::ChartSeries> named;
     for (const io::ChartSeries& series : chart.series)
       if (!series.name.empty()) named.push_back(series);
-    if (named.size() > 1) out += io::draw_chart_legend(named, kLeft + kWidth + kLegend, y + 10.0);
-    if (last && categories) out += category_names(*axis, y + kHeight + 16.0);
-    y += kHeight + kBetween;
+    if (named.size() > 1) out += io::draw_chart_legend(named, kFigureLeft + kFigureWidth + kFigureLegend, y + 10.0);
+    if (last && categories) out += category_names(*axis, y + kFigureHeight + 16.0);
+    y += kFigureHeight + kBetween;
   }
   return out + "</svg>\n";
 }
