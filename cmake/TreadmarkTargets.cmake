@@ -16,8 +16,9 @@ set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")
 # treadmark_share_parsing(<target> <sources at a time> <how>): how is one of
 #   full   optimised as the build type says
 #   light  no loop over points or elements is worth the compiler's time
+#   tests  as light, and knows GoogleTest
 function(treadmark_share_parsing target sources how)
-  if(how STREQUAL "light")
+  if(how MATCHES "light|tests")
     target_compile_options(${target} PRIVATE $<$<CONFIG:Release>:-O1>)
   endif()
   if(NOT TREADMARK_SHARED_PARSING)
@@ -35,16 +36,28 @@ function(treadmark_share_parsing target sources how)
   endif()
 endfunction()
 
-# The level of optimisation is part of what is precompiled.
+# Parsed once: what nearly every source includes, nothing of Treadmark's own. The level of optimisation is part of what is kept.
 if(TREADMARK_SHARED_PARSING)
+  set(common_headers <algorithm> <array> <cmath> <cstddef> <cstdint> <cstring> <filesystem> <functional> <limits> <map> <memory> <numbers>
+    <numeric> <optional> <set> <span> <string> <string_view> <utility> <variant> <vector> <Eigen/Core> <Eigen/Geometry> <fmt/format.h>)
+  set(kinds full light)
+  if(TREADMARK_BUILD_TESTS)
+    list(APPEND kinds tests)
+  endif()
   file(WRITE "${PROJECT_BINARY_DIR}/precompiled.cpp" "// holds the precompiled headers\n")
-  foreach(how IN ITEMS full light)
+  foreach(how IN LISTS kinds)
     add_library(treadmark_precompiled_${how} OBJECT "${PROJECT_BINARY_DIR}/precompiled.cpp")
     target_compile_features(treadmark_precompiled_${how} PUBLIC cxx_std_20)
     target_link_libraries(treadmark_precompiled_${how} PRIVATE Eigen3::Eigen fmt::fmt treadmark_warnings)
-    target_precompile_headers(treadmark_precompiled_${how} PRIVATE "${CMAKE_CURRENT_LIST_DIR}/precompiled.hpp")
+    target_precompile_headers(treadmark_precompiled_${how} PRIVATE ${common_headers})
+    if(NOT how STREQUAL "full")
+      target_compile_options(treadmark_precompiled_${how} PRIVATE $<$<CONFIG:Release>:-O1>)
+    endif()
   endforeach()
-  target_compile_options(treadmark_precompiled_light PRIVATE $<$<CONFIG:Release>:-O1>)
+  if(TREADMARK_BUILD_TESTS)
+    target_link_libraries(treadmark_precompiled_tests PRIVATE GTest::gtest GTest::gmock)
+    target_precompile_headers(treadmark_precompiled_tests PRIVATE <gtest/gtest.h> <gmock/gmock.h>)
+  endif()
 endif()
 
 # Kernels named *_avx2.cpp: see core/cpu.hpp.
@@ -96,5 +109,6 @@ function(treadmark_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} treadmark_test_support GTest::gtest GTest::gmock GTest::gtest_main
     treadmark_warnings)
+  treadmark_share_parsing(${name} 1 tests)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash scripts/install-packages.sh
-cmake --preset release -DTREADMARK_BUILD_TESTS=OFF
+cmake --preset release -DTREADMARK_BUILD_TESTS=OFF -DTREADMARK_WARNINGS_AS_ERRORS=ON
 cmake --build --preset release
 mkdir -p out/wheel-flat
 build/release/app/treadmark run examples/wheel-flat.toml -o out/wheel-flat --json out/wheel-flat/result.json --report out/wheel-flat/report.html

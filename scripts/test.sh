@@ -6,7 +6,7 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash scripts/install-packages.sh --tests
-cmake -S . -B build/test -G Ninja -DCMAKE_BUILD_TYPE=Release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON \
-  -DTREADMARK_WARNINGS_AS_ERRORS=ON
-cmake --build build/test
-ctest --test-dir build/test --output-on-failure -j2
+# The folder and the options of scripts/main-job.sh: what that has compiled is not compiled again.
+cmake --preset release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
+cmake --build --preset release
+ctest --preset release -j2
