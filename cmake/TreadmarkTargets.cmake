@@ -97,9 +97,10 @@ function(treadmark_library folder)
   install(FILES ${headers} DESTINATION include/treadmark/${folder})
 endfunction()
 
-# treadmark_test(<name> LIBS targets...): a GoogleTest program from the .cpp files of the current folder, one ctest entry a test.
+# treadmark_test(<name> [ALONE] LIBS targets...): a GoogleTest program from the .cpp files of the current folder, one ctest entry a test.
+# ALONE: names of the files' anonymous namespaces are not unique, each file is compiled by itself.
 function(treadmark_test name)
-  cmake_parse_arguments(ARG "" "" "LIBS;SOURCES" ${ARGN})
+  cmake_parse_arguments(ARG "ALONE" "" "LIBS;SOURCES" ${ARGN})
   if(NOT ARG_SOURCES)
     file(GLOB ARG_SOURCES CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
   endif()
@@ -109,6 +110,10 @@ function(treadmark_test name)
   add_executable(${name} ${ARG_SOURCES})
   target_link_libraries(${name} PRIVATE ${ARG_LIBS} treadmark_test_support GTest::gtest GTest::gmock GTest::gtest_main
     treadmark_warnings)
-  treadmark_share_parsing(${name} 1 tests)
+  set(at_once 5)
+  if(ARG_ALONE)
+    set(at_once 1)
+  endif()
+  treadmark_share_parsing(${name} ${at_once} tests)
   gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
 endfunction()

@@ -22,7 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-const char* kFlat = R"(
+const char* kFlatCase = R"(
 [wheel]
 shape.standard = "S1002"
 [[wheel.flats]]
@@ -51,7 +51,7 @@ const io::ComparisonCandidate& find(const io::Comparison& comparison, const std:
 
 TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlat);
+  input.write("flat.toml", kFlatCase);
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
   CompareSettings settings;
   settings.backends = {"analytic", "spline", "mesh"};
@@ -91,7 +91,7 @@ TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
 
 TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlat);
+  input.write("flat.toml", kFlatCase);
   const std::vector<std::string> one_case{"wheelset.pitch_deg=0"};
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), one_case);
   CompareSettings settings;
@@ -139,7 +139,7 @@ TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
 
 TEST(CompareCases, ThreadsChangeNothingButTimes) {
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlat);
+  input.write("flat.toml", kFlatCase);
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
   CompareSettings settings;
   settings.backends = {"mesh", "offset", "nurbs"};
@@ -195,7 +195,7 @@ TEST(CompareCases, RefusesWhatMakesNoSense) {
 
 TEST(CompareCommand, WritesTableFilesAndPictures) {
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlat);
+  input.write("flat.toml", kFlatCase);
   const auto folder = input.folder() / "out";
   const auto r = treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends",
                                                   "spline,mesh-flat", "--resolutions", "2,1", "-o", folder.string()});

@@ -31,7 +31,7 @@ using Json = nlohmann::json;
 namespace fs = std::filesystem;
 constexpr double kPi = std::numbers::pi;
 
-const char* kCase = R"(
+const char* kScannedCase = R"(
 [wheel]
 shape.standard = "S1002"
 [[wheel.flats]]
@@ -60,7 +60,7 @@ ds_mm = 0.8
 
 class ImportCommand : public ::testing::Test {
  protected:
-  ImportCommand() { input.write("case.toml", kCase); }
+  ImportCommand() { input.write("case.toml", kScannedCase); }
 
   std::string path(const std::string& name) const { return (input.folder() / name).string(); }
 

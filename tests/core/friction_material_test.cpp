@@ -8,7 +8,7 @@
 namespace treadmark {
 namespace {
 
-constexpr double kRounding = 1e-15;
+constexpr double kMaterialRounding = 1e-15;
 
 FrictionLaw law(FrictionLaw::Kind kind) {
   FrictionLaw f;
@@ -31,8 +31,8 @@ TEST(FrictionLaw, CoulombDoesNotDependOnSlip) {
 
 TEST(FrictionLaw, StartsAtTheStaticValue) {
   for (const auto kind : {FrictionLaw::Kind::linear, FrictionLaw::Kind::rational, FrictionLaw::Kind::exponential}) {
-    EXPECT_NEAR(law(kind).at(0.0), 0.35, kRounding);
-    EXPECT_NEAR(law(kind).static_friction(), 0.35, kRounding);
+    EXPECT_NEAR(law(kind).at(0.0), 0.35, kMaterialRounding);
+    EXPECT_NEAR(law(kind).static_friction(), 0.35, kMaterialRounding);
   }
 }
 
@@ -41,26 +41,26 @@ TEST(FrictionLaw, HalvesEachAmplitudeAtItsHalfVelocity) {
     FrictionLaw first = law(kind), second = law(kind);
     first.amplitude_2 = 0.0;
     second.amplitude_1 = 0.0;
-    EXPECT_NEAR(first.at(2.0), 0.2 + 0.05, kRounding);
-    EXPECT_NEAR(second.at(0.5), 0.2 + 0.025, kRounding);
+    EXPECT_NEAR(first.at(2.0), 0.2 + 0.05, kMaterialRounding);
+    EXPECT_NEAR(second.at(0.5), 0.2 + 0.025, kMaterialRounding);
   }
 }
 
 TEST(FrictionLaw, HasItsShape) {
   // by hand at w = 1: linear 0.2 + 0.1 (1 - 1/4) + 0.05 max(0, 1 - 1); rational 0.2 + 0.1/1.5 + 0.05/5;
   // exponential 0.2 + 0.1 2^-0.5 + 0.05 2^-2
-  EXPECT_NEAR(law(FrictionLaw::Kind::linear).at(1.0), 0.275, kRounding);
-  EXPECT_NEAR(law(FrictionLaw::Kind::rational).at(1.0), 0.2 + 0.2 / 3.0 + 0.01, kRounding);
-  EXPECT_NEAR(law(FrictionLaw::Kind::exponential).at(1.0), 0.2 + 0.07071067811865475 + 0.0125, kRounding);
+  EXPECT_NEAR(law(FrictionLaw::Kind::linear).at(1.0), 0.275, kMaterialRounding);
+  EXPECT_NEAR(law(FrictionLaw::Kind::rational).at(1.0), 0.2 + 0.2 / 3.0 + 0.01, kMaterialRounding);
+  EXPECT_NEAR(law(FrictionLaw::Kind::exponential).at(1.0), 0.2 + 0.07071067811865475 + 0.0125, kMaterialRounding);
   // linear stops falling at twice the half velocity
-  EXPECT_NEAR(law(FrictionLaw::Kind::linear).at(4.0), 0.2, kRounding);
-  EXPECT_NEAR(law(FrictionLaw::Kind::linear).at(9.0), 0.2, kRounding);
+  EXPECT_NEAR(law(FrictionLaw::Kind::linear).at(4.0), 0.2, kMaterialRounding);
+  EXPECT_NEAR(law(FrictionLaw::Kind::linear).at(9.0), 0.2, kMaterialRounding);
 }
 
 TEST(CombinedMaterial, OfEqualBodiesIsTheirMaterial) {
   const CombinedMaterial c = combine({82e9, 82e9, 0.28, 0.28, 0.0});
   EXPECT_NEAR(c.shear_modulus, 82e9, 1e-3);
-  EXPECT_NEAR(c.poisson, 0.28, kRounding);
+  EXPECT_NEAR(c.poisson, 0.28, kMaterialRounding);
   EXPECT_EQ(c.difference, 0.0);
 }
 
@@ -74,7 +74,7 @@ TEST(CombinedMaterial, OfAluminiumAndSteelAgreesWithBentallAndJohnson) {
 
 TEST(CombinedMaterial, DifferenceChangesSignWithTheBodies) {
   const CombinedMaterial a = combine({23e9, 82e9, 0.31, 0.28, 0.0}), b = combine({82e9, 23e9, 0.28, 0.31, 0.0});
-  EXPECT_NEAR(a.difference, -b.difference, kRounding);
+  EXPECT_NEAR(a.difference, -b.difference, kMaterialRounding);
   EXPECT_GT(a.difference, 0.0);  // the rail is the softer body
 }
 

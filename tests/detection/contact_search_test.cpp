@@ -15,19 +15,20 @@
 namespace treadmark::detection {
 namespace {
 
-constexpr double kRadius = 0.4;
+constexpr double kSearchRadius = 0.4;
 
 /// A ball (wheel of round meridian) over a plane that is rolled by an angle about x: contact at angle = roll.
 struct BallOnPlane {
   std::shared_ptr<const Surface> plane = analytic::make_plane_surface(Facing::up);
-  std::shared_ptr<const Surface> ball = analytic::make_revolved_surface(analytic::barrel_chain(kRadius, 1.3), kRadius);
+  std::shared_ptr<const Surface> ball =
+      analytic::make_revolved_surface(analytic::barrel_chain(kSearchRadius, 1.3), kSearchRadius);
   BodyPair bodies;
 
   BallOnPlane(double roll, double penetration, const Pose& everything = {}) {
     bodies.rail = plane.get();
     bodies.wheel = ball.get();
     bodies.X_TR = everything * Pose{Vec3::Zero(), rotation_x(roll)};
-    const Vec3 centre = everything.apply(rotation_x(roll) * Vec3(0.0, 0.0, penetration - kRadius));
+    const Vec3 centre = everything.apply(rotation_x(roll) * Vec3(0.0, 0.0, penetration - kSearchRadius));
     bodies.X_TW = {centre, everything.rotation};
   }
 };
@@ -53,7 +54,7 @@ TEST_P(RolledPlane, PatchFrameAndDistanceAreThoseOfTheBall) {
   EXPECT_NEAR(patch.x, 0.0, 1e-7);
   // Vertical depths of a ball are larger downhill: the centre shifts by a share of the depth.
   EXPECT_NEAR(patch.y, 0.0, 2e-6 + 0.6 * penetration * std::abs(std::tan(roll)));
-  const double half_width = std::sqrt(2.0 * kRadius * penetration - penetration * penetration);
+  const double half_width = std::sqrt(2.0 * kSearchRadius * penetration - penetration * penetration);
   EXPECT_NEAR(patch.extent.box.x_max, half_width, 1e-4);
   EXPECT_NEAR(patch.extent.box.y_max, half_width * std::cos(roll), 1.5e-4);
 
@@ -73,14 +74,15 @@ TEST_P(RolledPlane, PatchFrameAndDistanceAreThoseOfTheBall) {
   for (int iy = 0; iy < grid.ny; ++iy)
     for (int ix = 0; ix < grid.nx; ++ix) {
       const double s = grid.y(iy) + offset;
-      const double h = kRadius - std::sqrt(kRadius * kRadius - grid.x(ix) * grid.x(ix) - s * s);
+      const double h = kSearchRadius - std::sqrt(kSearchRadius * kSearchRadius - grid.x(ix) * grid.x(ix) - s * s);
       least = std::min(least, h);
     }
   EXPECT_NEAR(undeformed.approach, penetration - least, 1e-12);
   for (int iy = 0; iy < grid.ny; iy += 3)
     for (int ix = 0; ix < grid.nx; ix += 3) {
       const double s = grid.y(iy) + offset;
-      const double h = kRadius - std::sqrt(kRadius * kRadius - grid.x(ix) * grid.x(ix) - s * s) - least;
+      const double h =
+          kSearchRadius - std::sqrt(kSearchRadius * kSearchRadius - grid.x(ix) * grid.x(ix) - s * s) - least;
       EXPECT_NEAR(undeformed.distance[grid.index(ix, iy)], h, 1e-11);
     }
 }

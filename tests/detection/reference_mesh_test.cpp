@@ -17,7 +17,7 @@
 namespace treadmark::detection {
 namespace {
 
-constexpr double kRadius = 0.46, kCrown = 0.3;
+constexpr double kMeshRadius = 0.46, kCrown = 0.3;
 
 /// Rail of crown radius 300 mm whose slices move aside by 1:10; nine slices every 10 mm.
 SliceSet crossing(Body body) {
@@ -48,8 +48,8 @@ struct Scene {
   Scene(std::shared_ptr<const Surface> r, std::shared_ptr<const Surface> w) : rail(std::move(r)), wheel(std::move(w)) {
     bodies.rail = rail.get();
     bodies.wheel = wheel.get();
-    bodies.X_TW = {{0.0, 0.0, -kRadius}, rotation_x(0.01) * rotation_z(0.02) * rotation_y(0.7)};
-    bodies.distance_mesh = DistanceMesh{kRadius};
+    bodies.X_TW = {{0.0, 0.0, -kMeshRadius}, rotation_x(0.01) * rotation_z(0.02) * rotation_y(0.7)};
+    bodies.distance_mesh = DistanceMesh{kMeshRadius};
   }
 
   double greatest_difference(const Grid2& g) const {
@@ -65,7 +65,7 @@ struct Scene {
 
 std::shared_ptr<const Surface> standard_rail() { return analytic::make_standard_surface({"60E1"}, Body::rail, 0.0); }
 std::shared_ptr<const Surface> standard_wheel() {
-  return analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius);
+  return analytic::make_standard_surface({"S1002"}, Body::wheel, kMeshRadius);
 }
 
 TEST(ReferenceMesh, NaturalCurveFollowsACircle) {
@@ -90,7 +90,7 @@ TEST(ReferenceMesh, ChordsOfARoundWheelAreAsFarOffAsTheirSag) {
   fine.dx = fine.dy = 0.1e-3, fine.nx = 81, fine.ny = 61;
   const double coarse_error = scene.greatest_difference(scene.grid), fine_error = scene.greatest_difference(fine);
   // Tread of radius 330 mm and more across, wheel radius along.
-  const double sag = 0.125 * 0.2e-3 * 0.2e-3 * (1.0 / kRadius + 1.0 / 0.33);
+  const double sag = 0.125 * 0.2e-3 * 0.2e-3 * (1.0 / kMeshRadius + 1.0 / 0.33);
   EXPECT_LT(coarse_error, 1.1 * sag);
   EXPECT_GT(coarse_error, 0.1 * sag);
   EXPECT_NEAR(coarse_error / fine_error, 4.0, 1.0);
@@ -116,7 +116,7 @@ TEST(ReferenceMesh, LinesOfARoundWheelPassThroughTheOriginHoweverFar) {
   Profile rough;
   rough.body = Body::wheel;
   for (int i = 60; i >= -60; --i) rough.y.push_back(0.5e-3 * i), rough.z.push_back(5e-6 * std::sin(0.9 * i));
-  Scene scene(standard_rail(), spline::make_profile_surface(rough, kRadius));
+  Scene scene(standard_rail(), spline::make_profile_surface(rough, kMeshRadius));
   scene.bodies.X_TW.rotation = Mat3::Identity();
   scene.X_TC.rotation = Mat3::Identity();
   scene.grid = {-4e-3, -3e-3, 0.2e-3, 0.2e-3, 41, 32};
@@ -135,14 +135,14 @@ TEST(ReferenceMesh, LinesOfARoundWheelPassThroughTheOriginHoweverFar) {
 }
 
 TEST(ReferenceMesh, BicubicMeshOfASmoothSliceWheelIsTheWheel) {
-  const Scene scene(standard_rail(), spline::make_slice_surface(crossing(Body::wheel), kRadius));
+  const Scene scene(standard_rail(), spline::make_slice_surface(crossing(Body::wheel), kMeshRadius));
   Scene level = scene;
   level.bodies.X_TW.rotation = rotation_x(0.01) * rotation_z(0.02);
   EXPECT_LT(level.greatest_difference(level.grid), 2e-10);
 }
 
 TEST(ReferenceMesh, CornersLieWhereTheDataLie) {
-  const auto wheel = spline::make_slice_surface(crossing(Body::wheel), kRadius);
+  const auto wheel = spline::make_slice_surface(crossing(Body::wheel), kMeshRadius);
   const std::vector<double> y = lateral_nodes(*wheel, Pose{}, 0.0, {-10e-3, 10e-3});
   ASSERT_GT(y.size(), 30u);
   std::vector<Vec2> points;
@@ -170,9 +170,9 @@ TEST(ReferenceMesh, SectionsNeedARailMadeOfData) {
 TEST(ReferenceMesh, PlanesAndAnglesGiveOneFacettedWheel) {
   // Both are chords of the same round wheel.
   const auto wheel = standard_wheel();
-  const Pose X_TW{{0.0, 0.0, -kRadius}, rotation_z(0.01) * rotation_y(-2.0)};
+  const Pose X_TW{{0.0, 0.0, -kMeshRadius}, rotation_z(0.01) * rotation_y(-2.0)};
   const WheelFacets angles{WheelFacets::Sections::angles, 0.1, 401, 0.5e-3},
-      planes{WheelFacets::Sections::planes, 0.1 * kRadius, 401, 0.5e-3};
+      planes{WheelFacets::Sections::planes, 0.1 * kMeshRadius, 401, 0.5e-3};
   const Grid2 grid{-5e-3, -10e-3, 0.7e-3, 0.9e-3, 15, 21};
   std::vector<double> by_angles(grid.size()), by_planes(grid.size()), exact(grid.size());
   FacetWheel(*wheel, X_TW, angles).heights(grid, by_angles);

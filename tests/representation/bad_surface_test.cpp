@@ -22,7 +22,7 @@ namespace {
 
 using ::testing::HasSubstr;
 
-constexpr const char* kCase = R"(
+constexpr const char* kBadCase = R"(
 [case]
 side = "right"
 regime = "steady"
@@ -57,7 +57,7 @@ class BadSurface : public ::testing::Test {
  protected:
   /// Writes case.toml and runs it.
   ProgramResult run(const std::string& wheel, const std::string& rail, const std::vector<std::string>& options = {}) {
-    std::string text = kCase;
+    std::string text = kBadCase;
     text.replace(text.find("WHEEL"), 5, wheel);
     text.replace(text.find("RAIL"), 4, rail);
     folder.write("case.toml", text);

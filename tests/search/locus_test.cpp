@@ -17,7 +17,7 @@ using detection::ContactSearch;
 using detection::SearchMethod;
 using detection::SearchSettings;
 
-constexpr double kRadius = 0.46;
+constexpr double kRailRadius = 0.46;
 
 struct Profiles {
   std::shared_ptr<const Surface> rail, wheel;
@@ -25,7 +25,7 @@ struct Profiles {
 
 Profiles profiles(std::string_view backend) {
   return {create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}}, backend),
-          create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}}, backend)};
+          create_surface({Body::wheel, kRailRadius, StandardProfile{"S1002"}, {}}, backend)};
 }
 
 SearchSettings fine_grid() {
@@ -38,7 +38,7 @@ SearchSettings fine_grid() {
 
 detection::BodyPair placed(const Profiles& p, double y, double roll, double yaw, double pitch) {
   detection::BodyPair pair{p.rail.get(), p.wheel.get(), {Vec3::Zero(), rotation_x(-1.0 / 40.0)}, {}};
-  pair.X_TW = {{0.0, y, -kRadius}, rotation({roll, yaw, pitch})};
+  pair.X_TW = {{0.0, y, -kRailRadius}, rotation({roll, yaw, pitch})};
   return pair;
 }
 

@@ -23,18 +23,19 @@ using detection::ReferenceLocus;
 using detection::SearchMethod;
 using detection::SearchSettings;
 
-constexpr double kRadius = 0.46;
-constexpr LocusRows kRows{-0.036, 0.06e-3, 1201, kRadius};
+constexpr double kLocusRadius = 0.46;
+constexpr LocusRows kRows{-0.036, 0.06e-3, 1201, kLocusRadius};
 
 struct StandardPair {
   std::shared_ptr<const Surface> rail = create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}}, "spline");
-  std::shared_ptr<const Surface> wheel = create_surface({Body::wheel, kRadius, StandardProfile{"S1002"}, {}}, "spline");
+  std::shared_ptr<const Surface> wheel =
+      create_surface({Body::wheel, kLocusRadius, StandardProfile{"S1002"}, {}}, "spline");
 
   detection::BodyPair placed(double y, double yaw) const {
     return {rail.get(),
             wheel.get(),
             {Vec3::Zero(), rotation_x(-1.0 / 40.0)},
-            {{0.0, y, -kRadius}, rotation({0.3 * yaw, yaw, 0.5})}};
+            {{0.0, y, -kLocusRadius}, rotation({0.3 * yaw, yaw, 0.5})}};
   }
 };
 
@@ -99,9 +100,11 @@ struct Heads {
       profile.y.push_back(y);
       profile.z.push_back(side * (r - std::sqrt(r * r - y * y)));
     }
-    return create_surface({body, kRadius, profile, {}}, "spline");
+    return create_surface({body, kLocusRadius, profile, {}}, "spline");
   }
-  detection::BodyPair pair() const { return {rail.get(), wheel.get(), {}, {{0.0, 0.0, -kRadius}, Mat3::Identity()}}; }
+  detection::BodyPair pair() const {
+    return {rail.get(), wheel.get(), {}, {{0.0, 0.0, -kLocusRadius}, Mat3::Identity()}};
+  }
   static double gap(double y) {
     return kRailHead - std::sqrt(kRailHead * kRailHead - y * y) + kWheelHead -
            std::sqrt(kWheelHead * kWheelHead - y * y);
@@ -110,8 +113,8 @@ struct Heads {
 
 TEST(ReferenceLocus, SumsPenetrationOverItsRows) {
   const Heads heads;
-  const LocusRows rows{-9.93e-3, 0.21e-3, 96, kRadius};
-  const double dz = 7e-5, kappa = 0.5 / kRadius;
+  const LocusRows rows{-9.93e-3, 0.21e-3, 96, kLocusRadius};
+  const double dz = 7e-5, kappa = 0.5 / kLocusRadius;
   const ReferenceLocus locus(heads.pair(), rows);
   for (const auto weight : {PenetrationWeight::linear, PenetrationWeight::squared}) {
     const ContactLocus::Found found = locus.at(dz, -1.0, weight, false);
@@ -156,7 +159,7 @@ TEST(ReferenceLocus, SumsPenetrationOverItsRows) {
 
 TEST(ReferenceLocus, TellsNearMisses) {
   const Heads heads;
-  const ReferenceLocus locus(heads.pair(), {-9.93e-3, 0.21e-3, 96, kRadius});
+  const ReferenceLocus locus(heads.pair(), {-9.93e-3, 0.21e-3, 96, kLocusRadius});
   EXPECT_NEAR(locus.least(), 0.0, 1e-10);
   const auto apart = locus.at(-1e-5, 5e-5, PenetrationWeight::squared, false);
   EXPECT_TRUE(apart.patches.empty());

@@ -17,9 +17,9 @@ namespace {
 using displacement::BaseHeights;
 using displacement::make_displaced_surface;
 
-constexpr double kR = 0.46;
+constexpr double kGridR = 0.46;
 
-std::shared_ptr<const Surface> s1002() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kR); }
+std::shared_ptr<const Surface> s1002() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kGridR); }
 std::shared_ptr<const Surface> rail_60e1() { return analytic::make_standard_surface({"60E1"}, Body::rail, 0.0); }
 
 /// Grids are solved in bands, lists point by point: two ways to the same lines.
@@ -46,12 +46,12 @@ void expect_grid_is_list(const Surface& surface, const Pose& X, const Grid2& g, 
 
 TEST(DisplacedGrid, EqualsListsOfPointsForAllSteps) {
   const auto wheel = make_displaced_surface(
-      s1002(), std::make_shared<BumpField>(-0.8e-3, 0.01, 0.004, 0.06 / kR, 0.05, true), Body::wheel, "x");
+      s1002(), std::make_shared<BumpField>(-0.8e-3, 0.01, 0.004, 0.06 / kGridR, 0.05, true), Body::wheel, "x");
   const auto rail = make_displaced_surface(
       rail_60e1(), std::make_shared<BumpField>(0.7e-3, 0.002, 0.005, 0.05, 0.03, false), Body::rail, "x");
   int hits = 0;
   for (const bool is_wheel : {true, false})
-    for (const Pose& X : is_wheel ? wheel_planes(kR) : rail_planes())
+    for (const Pose& X : is_wheel ? wheel_planes(kGridR) : rail_planes())
       for (const double step : {0.11e-3, 0.53e-3, 1.9e-3, 3.1e-3})
         for (const int nx : {1, 19}) {
           const int ny = 23;
@@ -68,7 +68,7 @@ TEST(DisplacedGrid, WidthsAcrossTheRimMatchLists) {
   const auto wheel = make_displaced_surface(s1002(), std::make_shared<ConstantField>(-0.3e-3), Body::wheel, "x");
   int hits = 0;
   for (const auto& [roll, yaw] : {std::pair{0.0, 0.0}, {0.03, 0.0}, {-0.06, 0.01}}) {
-    expect_grid_is_list(*wheel, pose({0.0, 0.0, kR}, roll, yaw, 0.0), {-0.0101, -0.0751, 0.0013, 0.0011, 17, 133},
+    expect_grid_is_list(*wheel, pose({0.0, 0.0, kGridR}, roll, yaw, 0.0), {-0.0101, -0.0751, 0.0013, 0.0011, 17, 133},
                         hits);
     if (HasFatalFailure()) FAIL() << roll;
   }
@@ -77,7 +77,7 @@ TEST(DisplacedGrid, WidthsAcrossTheRimMatchLists) {
 
 TEST(DisplacedGrid, BaseHeightsKnowJumpsAndMisses) {
   // seen across the flange, the tread hides behind it
-  const Pose X = pose({0.0, -0.045, kR + 0.02}, 0.9, 0.0, 0.0);
+  const Pose X = pose({0.0, -0.045, kGridR + 0.02}, 0.9, 0.0, 0.0);
   const Grid2 g{-0.01, -0.04, 0.5e-3, 0.5e-3, 21, 161};
   std::vector<double> z(g.size());
   const BaseHeights base(*s1002(), {X, g}, {z, {}, {}});
@@ -100,7 +100,7 @@ TEST(DisplacedGrid, RowsOfNaturalCoordinatesEqualSinglePoints) {
   std::mt19937 random(5);
   std::uniform_real_distribution<double> unit(-1.0, 1.0);
   for (const double width : {0.02, 0.3, 2.0}) {  // up to lines that pass the wheel
-    const Pose X = pose({0.1, 0.02, kR - 0.05}, 0.2, 0.1, 0.3);
+    const Pose X = pose({0.1, 0.02, kGridR - 0.05}, 0.2, 0.1, 0.3);
     displacement::NaturalRow row(Body::wheel, X);
     constexpr std::size_t kPoints = 101;
     row.resize(kPoints);

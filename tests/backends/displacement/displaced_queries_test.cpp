@@ -14,9 +14,9 @@ namespace {
 
 using displacement::make_displaced_surface;
 
-constexpr double kR = 0.46;
+constexpr double kQueriesR = 0.46;
 constexpr double kCylinder = 0.3;
-const Grid2 kGrid{-0.0197, -0.0193, 0.00093, 0.00101, 43, 39};
+const Grid2 kQueriesGrid{-0.0197, -0.0193, 0.00093, 0.00101, 43, 39};
 
 std::shared_ptr<const Surface> wheel(bool exact) {
   WheelFlat f;
@@ -25,11 +25,11 @@ std::shared_ptr<const Surface> wheel(bool exact) {
   f.theta_center = 0.01;
   f.y_center = 0.004;
   f.width = 0.05;
-  if (exact) return analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
+  if (exact) return analytic::make_standard_surface({"S1002"}, Body::wheel, kQueriesR, {f});
   return make_displaced_surface(
-      analytic::make_standard_surface({"S1002"}, Body::wheel, kR),
-      std::make_shared<BumpField>(-f.depth, f.theta_center, f.y_center, f.length / kR, f.width, true), Body::wheel,
-      "displaced");
+      analytic::make_standard_surface({"S1002"}, Body::wheel, kQueriesR),
+      std::make_shared<BumpField>(-f.depth, f.theta_center, f.y_center, f.length / kQueriesR, f.width, true),
+      Body::wheel, "displaced");
 }
 
 /// A cylindrical rail with a dent (amount > 0) or a weld bead standing out.
@@ -91,10 +91,10 @@ TEST(DisplacedQueries, DentsAndBeadsOnARailMatchABruteForceSearch) {
 TEST(DisplacedQueries, LocateFindsPositionNormalAndCurvatures) {
   const auto expected = wheel(true), found = wheel(false);
   std::vector<Vec2> points;
-  for (int iy = 0; iy < kGrid.ny; iy += 2)
-    for (int ix = 0; ix < kGrid.nx; ix += 2) points.push_back({kGrid.x(ix), kGrid.y(iy)});
+  for (int iy = 0; iy < kQueriesGrid.ny; iy += 2)
+    for (int ix = 0; ix < kQueriesGrid.nx; ix += 2) points.push_back({kQueriesGrid.x(ix), kQueriesGrid.y(iy)});
   int compared = 0, wrong = 0;
-  for (const Pose& X : wheel_planes(kR)) {
+  for (const Pose& X : wheel_planes(kQueriesR)) {
     std::vector<SurfacePoint> a(points.size()), b(points.size());
     expected->locate(X, points, a);
     found->locate(X, points, b);
@@ -145,25 +145,26 @@ TEST(DisplacedQueries, CurvaturesOnARailMatchTheFormula) {
 TEST(DisplacedQueries, TilesThreadsAndScatteredPointsGiveTheSame) {
   for (const bool is_wheel : {true, false}) {
     const auto surface = is_wheel ? wheel(false) : rail(-1.5e-3);
-    for (const Pose& X : is_wheel ? wheel_planes(kR) : rail_planes()) {
+    for (const Pose& X : is_wheel ? wheel_planes(kQueriesR) : rail_planes()) {
       Fields one, many;
       {
         const ThreadLimit limit(1);
-        one = evaluate(*surface, X, kGrid);
+        one = evaluate(*surface, X, kQueriesGrid);
       }
       {
         const ThreadLimit limit(4);
-        many = evaluate(*surface, X, kGrid);
+        many = evaluate(*surface, X, kQueriesGrid);
       }
       std::vector<Vec2> points;
-      for (std::size_t i = 0; i < kGrid.size(); ++i) {
+      for (std::size_t i = 0; i < kQueriesGrid.size(); ++i) {
         ASSERT_TRUE(same(one.z[i], many.z[i], 0.0) && same(one.dzdx[i], many.dzdx[i], 0.0) &&
                     same(one.dzdy[i], many.dzdy[i], 0.0));
-        points.push_back({kGrid.x(static_cast<int>(i) % kGrid.nx), kGrid.y(static_cast<int>(i) / kGrid.nx)});
+        points.push_back({kQueriesGrid.x(static_cast<int>(i) % kQueriesGrid.nx),
+                          kQueriesGrid.y(static_cast<int>(i) / kQueriesGrid.nx)});
       }
       std::vector<double> z(points.size());
       surface->heights_at(X, points, {z, {}, {}});
-      for (std::size_t i = 0; i < kGrid.size(); ++i) {
+      for (std::size_t i = 0; i < kQueriesGrid.size(); ++i) {
         const double steep = 1.0 + std::hypot(one.dzdx[i], one.dzdy[i]);
         ASSERT_TRUE(same(one.z[i], z[i], 1e-12 * steep)) << one.z[i] << ' ' << z[i];
         if (i % 7 == 0) {
@@ -182,7 +183,7 @@ TEST(DisplacedQueries, HeightBoundsHoldEveryHeight) {
     const bool is_wheel = trial % 2 == 0;
     static const auto a = wheel(false), b = rail(-1.5e-3);
     const Surface& surface = is_wheel ? *a : *b;
-    const std::vector<Pose> planes = is_wheel ? wheel_planes(kR) : rail_planes();
+    const std::vector<Pose> planes = is_wheel ? wheel_planes(kQueriesR) : rail_planes();
     const Pose& X = planes[static_cast<std::size_t>(trial / 2) % planes.size()];
     const double width = std::pow(10.0, -4.0 + 2.5 * unit(random)), height = std::pow(10.0, -4.0 + 2.5 * unit(random));
     const double x = 0.06 * (unit(random) - 0.5), y = 0.06 * (unit(random) - 0.5);

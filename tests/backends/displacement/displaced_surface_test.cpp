@@ -16,8 +16,8 @@ namespace {
 
 using displacement::make_displaced_surface;
 
-constexpr double kR = 0.46;
-const Grid2 kGrid{-0.0197, -0.0293, 0.00061, 0.00071, 67, 83};
+constexpr double kSurfaceR = 0.46;
+const Grid2 kSurfaceGrid{-0.0197, -0.0293, 0.00061, 0.00071, 67, 83};
 
 WheelFlat flat(double width, double theta = 0.01, double y = 0.004) {
   WheelFlat f;
@@ -32,10 +32,12 @@ WheelFlat flat(double width, double theta = 0.01, double y = 0.004) {
 
 /// Field with the formula of a rounded flat that fades sideways.
 std::shared_ptr<BumpField> flat_field(const WheelFlat& f) {
-  return std::make_shared<BumpField>(-f.depth, f.theta_center, f.y_center, f.length / kR, f.width, true);
+  return std::make_shared<BumpField>(-f.depth, f.theta_center, f.y_center, f.length / kSurfaceR, f.width, true);
 }
 
-std::shared_ptr<const Surface> round_wheel() { return analytic::make_standard_surface({"S1002"}, Body::wheel, kR); }
+std::shared_ptr<const Surface> round_wheel() {
+  return analytic::make_standard_surface({"S1002"}, Body::wheel, kSurfaceR);
+}
 
 /// Both surfaces in all planes. Slopes enter with a power: errors along a steep line, and of its steepness. The
 /// analytic wheel takes its slopes from a point within 3e-8 m of the hit, where 1/12 mm is the greatest curvature.
@@ -43,8 +45,8 @@ void expect_equal(const Surface& expected, const Surface& found, const std::vect
   constexpr double kHeight = 2e-12, kSlope = 2.5e-6;
   int compared = 0, odd = 0;
   for (const Pose& X : planes) {
-    const Fields a = evaluate(expected, X, kGrid), b = evaluate(found, X, kGrid);
-    for (std::size_t i = 0; i < kGrid.size(); ++i) {
+    const Fields a = evaluate(expected, X, kSurfaceGrid), b = evaluate(found, X, kSurfaceGrid);
+    for (std::size_t i = 0; i < kSurfaceGrid.size(); ++i) {
       ASSERT_EQ(std::isnan(b.z[i]), std::isnan(b.dzdx[i]));
       ASSERT_EQ(std::isnan(b.z[i]), std::isnan(b.dzdy[i]));
       const double steep = 1.0 + a.dzdx[i] * a.dzdx[i] + a.dzdy[i] * a.dzdy[i];
@@ -65,24 +67,24 @@ void expect_equal(const Surface& expected, const Surface& found, const std::vect
 
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlat) {
   const WheelFlat f = flat(0.05);
-  const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
+  const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kSurfaceR, {f});
   expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"),
-               wheel_planes(kR));
+               wheel_planes(kSurfaceR));
 }
 
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAcrossTheFlange) {
   const WheelFlat f = flat(0.2, -0.004, -0.03);
-  const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
+  const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kSurfaceR, {f});
   expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"),
-               wheel_planes(kR),
+               wheel_planes(kSurfaceR),
                // a sheet of the base that only the edge of another one hides is not seen through the contract
                3);
 }
 
 TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAtTheSeam) {
   const WheelFlat f = flat(0.05, std::numbers::pi - 0.01);
-  const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {f});
-  std::vector<Pose> planes = wheel_planes(kR);
+  const auto expected = analytic::make_standard_surface({"S1002"}, Body::wheel, kSurfaceR, {f});
+  std::vector<Pose> planes = wheel_planes(kSurfaceR);
   for (Pose& X : planes) X = Pose{Vec3::Zero(), rotation_y(std::numbers::pi)} * X;
   expect_equal(*expected, *make_displaced_surface(round_wheel(), flat_field(f), Body::wheel, "displaced"), planes);
 }
@@ -90,7 +92,8 @@ TEST(DisplacedSurface, EqualsTheAnalyticWheelWithAFlatAtTheSeam) {
 TEST(DisplacedSurface, AConstantOffsetIsAnotherRadiusOrHeight) {
   const auto thicker =
       make_displaced_surface(round_wheel(), std::make_shared<ConstantField>(1e-3), Body::wheel, "displaced");
-  expect_equal(*analytic::make_standard_surface({"S1002"}, Body::wheel, kR + 1e-3), *thicker, wheel_planes(kR));
+  expect_equal(*analytic::make_standard_surface({"S1002"}, Body::wheel, kSurfaceR + 1e-3), *thicker,
+               wheel_planes(kSurfaceR));
 
   const auto rail = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
   const auto lower = make_displaced_surface(rail, std::make_shared<ConstantField>(-1e-3), Body::rail, "displaced");
@@ -107,13 +110,14 @@ TEST(DisplacedSurface, WhereNothingReachesTheBaseStandsBitwise) {
   const auto base = round_wheel();
   const auto displaced = make_displaced_surface(base, flat_field(flat(0.02)), Body::wheel, "displaced");
   int unchanged = 0, changed = 0;
-  for (const Pose& X : wheel_planes(kR)) {
-    const Fields a = evaluate(*base, X, kGrid), b = evaluate(*displaced, X, kGrid);
-    for (std::size_t i = 0; i < kGrid.size(); ++i) {
+  for (const Pose& X : wheel_planes(kSurfaceR)) {
+    const Fields a = evaluate(*base, X, kSurfaceGrid), b = evaluate(*displaced, X, kSurfaceGrid);
+    for (std::size_t i = 0; i < kSurfaceGrid.size(); ++i) {
       if (std::isnan(a.z[i])) continue;
-      const Vec3 p =
-          X.apply({kGrid.x(static_cast<int>(i) % kGrid.nx), kGrid.y(static_cast<int>(i) / kGrid.nx), a.z[i]});
-      const bool outside = std::fabs(std::atan2(p.x(), p.z()) - 0.01) * kR > 0.031 || std::fabs(p.y() - 0.004) > 0.011;
+      const Vec3 p = X.apply({kSurfaceGrid.x(static_cast<int>(i) % kSurfaceGrid.nx),
+                              kSurfaceGrid.y(static_cast<int>(i) / kSurfaceGrid.nx), a.z[i]});
+      const bool outside =
+          std::fabs(std::atan2(p.x(), p.z()) - 0.01) * kSurfaceR > 0.031 || std::fabs(p.y() - 0.004) > 0.011;
       if (outside) {
         EXPECT_EQ(a.z[i], b.z[i]);
         EXPECT_EQ(a.dzdx[i], b.dzdx[i]);

@@ -12,7 +12,7 @@ namespace {
 using namespace testing;
 
 constexpr double kRounding = 1e-12;  // [m]
-const MeshOptions kFacets{.refinement = Refinement::facets};
+const MeshOptions kHeightFacets{.refinement = Refinement::facets};
 
 /// Head with upright, undercut sides: folds in every view.
 TriangleMesh head(double step) {
@@ -55,14 +55,14 @@ Grid2 grid_over(double x, double y, int n) { return {-x, -y, 2.0 * x / n, 2.0001
 TEST(MeshHeights, FacetsMatchBruteForce) {
   for (const Scene& scene : scenes())
     for (const Pose& X : scene.planes) {
-      const auto surface = make_mesh_surface(scene.mesh, scene.body, kFacets),
-                 oracle = make_mesh_oracle(scene.mesh, scene.body, kFacets);
+      const auto surface = make_mesh_surface(scene.mesh, scene.body, kHeightFacets),
+                 oracle = make_mesh_oracle(scene.mesh, scene.body, kHeightFacets);
       // the brute force takes triangles as they stand; those of nets face away from the axle
       TriangleMesh mesh = scene.mesh;
       if (scene.body == Body::rail)
         for (auto& c : mesh.triangles) std::swap(c[0], c[1]);
       MeshRepair repair;
-      make_mesh_oracle(mesh, scene.body, kFacets, &repair);
+      make_mesh_oracle(mesh, scene.body, kHeightFacets, &repair);
       if (repair.turned_inside_out)
         for (auto& c : mesh.triangles) std::swap(c[0], c[1]);
       const Grid2 g = grid_over(0.0313, 0.0717, 15);
@@ -132,7 +132,7 @@ TEST(MeshHeights, LongRailsNeedNoMorePrecision) {
 
 /// Lines exactly through vertices, along edges and through rims.
 void expect_no_miss(const TriangleMesh& mesh, Body body, const Pose& X, int rays, unsigned seed, double least_slant) {
-  const auto surface = make_mesh_surface(mesh, body, kFacets);
+  const auto surface = make_mesh_surface(mesh, body, kHeightFacets);
   std::mt19937 random(seed);
   std::uniform_real_distribution<double> unit(0.0, 1.0);
   std::uniform_int_distribution<std::size_t> pick(0, mesh.triangles.size() - 1);
@@ -201,7 +201,7 @@ TEST(MeshHeights, LinesThroughVerticesAndEdgesAreRepeatable) {
   Fields first;
   for (const int threads : {1, 2, 4}) {
     ThreadLimit limit(threads);
-    const auto surface = make_mesh_surface(ridge, Body::rail, kFacets);
+    const auto surface = make_mesh_surface(ridge, Body::rail, kHeightFacets);
     const Fields f = evaluate(*surface, pose({0.0, 0.0, 0.0}), {-0.05, -0.05, 0.5e-3, 0.5e-3, 201, 201});
     for (const double z : f.z) ASSERT_FALSE(std::isnan(z));
     if (threads == 1) first = f;
@@ -218,8 +218,8 @@ TEST(MeshHeights, HolesStayHoles) {
   };
   std::erase_if(rail.triangles, [&](const auto& c) { return (middle(c) - Vec3(0.05, 0.0, 0.0)).norm() < 0.01; });
   MeshRepair repair;
-  const auto surface = make_mesh_surface(rail, Body::rail, kFacets, &repair),
-             full = make_mesh_surface(whole, Body::rail, kFacets);
+  const auto surface = make_mesh_surface(rail, Body::rail, kHeightFacets, &repair),
+             full = make_mesh_surface(whole, Body::rail, kHeightFacets);
   EXPECT_EQ(repair.boundary_loops, 2u);
   EXPECT_TRUE(std::isnan(height_at(*surface, pose({0.05, 0.0, 0.0}), {0.0, 0.0})));
   EXPECT_TRUE(surface->height_bounds(pose({0.05, 0.0, 0.0}), {-0.003, 0.003, -0.003, 0.003}).empty);

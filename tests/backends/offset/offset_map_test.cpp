@@ -12,7 +12,7 @@ namespace {
 
 using offset::Interpolation;
 
-constexpr double kR = 0.46;
+constexpr double kMapR = 0.46;
 
 /// A wheel 7 times out of round, all round.
 OffsetMap polygon(int n, double amplitude, int extra = 0) {
@@ -24,7 +24,7 @@ OffsetMap polygon(int n, double amplitude, int extra = 0) {
 }
 
 TEST(OffsetMap, AWholeTurnIsPeriodic) {
-  const auto base = analytic::make_revolved_surface(analytic::straight_chain(0.04), kR);
+  const auto base = analytic::make_revolved_surface(analytic::straight_chain(0.04), kMapR);
   for (const int extra : {0, 1}) {
     const auto sample = offset::offsets_from_map(polygon(701, 2e-4, extra), Body::wheel, 0.0);
     EXPECT_NEAR(sample.max_offset, 2e-4, 1e-9);
@@ -32,16 +32,16 @@ TEST(OffsetMap, AWholeTurnIsPeriodic) {
     const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
     for (int k = 0; k < 100; ++k) {
       const double theta = -3.2 + 0.0647 * k;
-      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * theta), 2e-10)
+      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kMapR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * theta), 2e-10)
           << theta;
     }
     const double seam = 0.1 - 0.5 * 2.0 * kPi / 701;
-    EXPECT_NEAR(height_at(*surface, level(seam, 0.0, kR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * seam), 2e-10);
+    EXPECT_NEAR(height_at(*surface, level(seam, 0.0, kMapR), {0.0, 0.003}), 2e-4 * std::cos(7.0 * seam), 2e-10);
   }
 }
 
 TEST(OffsetMap, APatchLiesWhereItsAnglesSayOnAnyBranch) {
-  const auto base = analytic::make_revolved_surface(analytic::straight_chain(0.04), kR);
+  const auto base = analytic::make_revolved_surface(analytic::straight_chain(0.04), kMapR);
   for (const double branch : {0.0, 2.0 * kPi, -2.0 * kPi}) {
     OffsetMap map{"patch", {3.0 + branch, -0.01, 0.013, 0.001, 23, 21}, std::vector<float>(23 * 21, -1e-4f)};
     map.offset[5] = std::numeric_limits<float>::quiet_NaN();
@@ -49,9 +49,9 @@ TEST(OffsetMap, APatchLiesWhereItsAnglesSayOnAnyBranch) {
     EXPECT_EQ(sample.active, 23u * 21u - 1u);
     const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bilinear, "offset");
     for (const double theta : {3.05, 3.14, -3.1, 3.2})
-      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.0}), -1e-4, 1e-10);
+      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kMapR), {0.0, 0.0}), -1e-4, 1e-10);
     for (const double theta : {2.9, -2.9, 0.0})
-      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kR), {0.0, 0.0}), 0.0, 1e-12);
+      EXPECT_NEAR(height_at(*surface, level(theta, 0.0, kMapR), {0.0, 0.0}), 0.0, 1e-12);
   }
 }
 

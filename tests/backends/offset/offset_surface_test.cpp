@@ -14,18 +14,18 @@ namespace {
 using offset::Interpolation;
 using offset::OffsetSettings;
 
-constexpr double kR = 0.46;
+constexpr double kOffsetR = 0.46;
 
 double error_of(double step, Interpolation interpolation, double theta) {
   const WheelFlat flat = rounded_flat(0.06, 0.8e-3, theta, 0.05, 0.004);
-  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
-  const auto target = analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {flat});
-  OffsetSettings settings{step, step, 0.0, region(theta, 0.04, kR)};
-  const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, settings);
+  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR);
+  const auto target = analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR, {flat});
+  OffsetSettings settings{step, step, 0.0, region(theta, 0.04, kOffsetR)};
+  const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kOffsetR, settings);
   const auto surface = offset::make_offset_surface(base, sample.offsets, interpolation, "offset");
   // the inner part, away from the ends where the cosine of the flat has a kink of its curvature
   const Grid2 g{-0.0147, -0.0097, 0.00041, 0.00037, 71, 53};
-  const Pose X = level(theta, 0.004, kR);
+  const Pose X = level(theta, 0.004, kOffsetR);
   return greatest_difference(heights(*target, X, g), heights(*surface, X, g));
 }
 
@@ -85,25 +85,27 @@ TEST(OffsetSurface, AFlatTakesLessThanATenthOfTheDenseWheel) {
 TEST(OffsetSurface, OffsetsUpToTheRimDoNotRing) {
   // a flat over the whole width: the base ends where the offsets are greatest
   const auto chain = analytic::straight_chain(0.03);
-  const auto base = analytic::make_revolved_surface(chain, kR);
-  const auto target = analytic::make_revolved_surface(chain, kR, {rounded_flat(0.06, 0.8e-3, 0.0)});
+  const auto base = analytic::make_revolved_surface(chain, kOffsetR);
+  const auto target = analytic::make_revolved_surface(chain, kOffsetR, {rounded_flat(0.06, 0.8e-3, 0.0)});
   const auto sample =
-      offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 0.7e-3, 1e-9, region(0.0, 0.05, kR)});
+      offset::sample_offsets(*target, *base, Body::wheel, kOffsetR, {1e-3, 0.7e-3, 1e-9, region(0.0, 0.05, kOffsetR)});
   EXPECT_EQ(sample.continued, 0u);
   const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
   const Grid2 g{-0.02, -0.03, 0.0007, 0.0005, 60, 121};
-  EXPECT_LT(greatest_difference(heights(*target, level(0.0, 0.0, kR), g), heights(*surface, level(0.0, 0.0, kR), g)),
+  EXPECT_LT(greatest_difference(heights(*target, level(0.0, 0.0, kOffsetR), g),
+                                heights(*surface, level(0.0, 0.0, kOffsetR), g)),
             5e-9);
 }
 
 TEST(OffsetSurface, ContinuesOffsetsWhereTheTargetIsMissing) {
-  const auto base = analytic::make_revolved_surface(analytic::straight_chain(0.03), kR);
-  const auto target = analytic::make_revolved_surface(analytic::straight_chain(0.02), kR + 1e-4);
-  const auto sample = offset::sample_offsets(*target, *base, Body::wheel, kR, {5e-3, 1e-3, 1e-9, region(0.0, 0.1, kR)});
+  const auto base = analytic::make_revolved_surface(analytic::straight_chain(0.03), kOffsetR);
+  const auto target = analytic::make_revolved_surface(analytic::straight_chain(0.02), kOffsetR + 1e-4);
+  const auto sample =
+      offset::sample_offsets(*target, *base, Body::wheel, kOffsetR, {5e-3, 1e-3, 1e-9, region(0.0, 0.1, kOffsetR)});
   EXPECT_GT(sample.continued, 300u);
   EXPECT_LT(sample.continued, sample.nodes / 2);
   const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bilinear, "offset");
-  EXPECT_NEAR(height_at(*surface, level(0.0, 0.0, kR), {0.0, 0.027}), 1e-4, 1e-10);
+  EXPECT_NEAR(height_at(*surface, level(0.0, 0.0, kOffsetR), {0.0, 0.027}), 1e-4, 1e-10);
 }
 
 TEST(OffsetSurface, ARailWithADent) {
@@ -122,15 +124,15 @@ TEST(OffsetSurface, ARailWithADent) {
 }
 
 TEST(OffsetSurface, BoundsOfTheFieldHoldAndSlopesFit) {
-  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
+  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR);
   const auto target =
-      analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
+      analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR, {rounded_flat(0.06, 0.8e-3, kPi, 0.05, 0.004)});
   const auto sample =
-      offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 1e-3, 1e-9, region(kPi, 0.05, kR)});
+      offset::sample_offsets(*target, *base, Body::wheel, kOffsetR, {1e-3, 1e-3, 1e-9, region(kPi, 0.05, kOffsetR)});
   for (const Interpolation interpolation :
        {Interpolation::bilinear, Interpolation::quadratic, Interpolation::bicubic}) {
     const auto surface = offset::make_offset_surface(base, sample.offsets, interpolation, "offset");
-    const Pose X = level(kPi, 0.0, kR);
+    const Pose X = level(kPi, 0.0, kOffsetR);
     for (const double size : {1e-5, 1e-3, 0.01, 0.1})
       for (int k = 0; k < 50; ++k) {
         const double x = -0.04 + 0.0013 * k, y = -0.02 + 0.00077 * k;
@@ -151,22 +153,23 @@ TEST(OffsetSurface, BoundsOfTheFieldHoldAndSlopesFit) {
 }
 
 TEST(OffsetSurface, ThreadsChangeNothing) {
-  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
+  const auto base = analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR);
   const auto target =
-      analytic::make_standard_surface({"S1002"}, Body::wheel, kR, {rounded_flat(0.06, 0.8e-3, 0.0, 0.05, 0.004)});
+      analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR, {rounded_flat(0.06, 0.8e-3, 0.0, 0.05, 0.004)});
   std::array<std::vector<double>, 2> z;
   for (int run = 0; run < 2; ++run) {
     const ThreadLimit limit(run == 0 ? 1 : 4);
     const auto sample =
-        offset::sample_offsets(*target, *base, Body::wheel, kR, {1e-3, 1e-3, 1e-9, region(0.0, 0.05, kR)});
+        offset::sample_offsets(*target, *base, Body::wheel, kOffsetR, {1e-3, 1e-3, 1e-9, region(0.0, 0.05, kOffsetR)});
     const auto surface = offset::make_offset_surface(base, sample.offsets, Interpolation::bicubic, "offset");
-    z[static_cast<std::size_t>(run)] = heights(*surface, level(0.0, 0.0, kR), {-0.03, -0.02, 0.0007, 0.0007, 90, 60});
+    z[static_cast<std::size_t>(run)] =
+        heights(*surface, level(0.0, 0.0, kOffsetR), {-0.03, -0.02, 0.0007, 0.0007, 90, 60});
   }
   EXPECT_EQ(z[0], z[1]);
 }
 
 TEST(OffsetSurface, RefusesSettingsThatMakeNoSense) {
-  const auto wheel = analytic::make_standard_surface({"S1002"}, Body::wheel, kR);
+  const auto wheel = analytic::make_standard_surface({"S1002"}, Body::wheel, kOffsetR);
   const auto rail = analytic::make_standard_surface({"60E1"}, Body::rail, 0.0);
   const auto kind = [&](Body body, double R, OffsetSettings s) {
     try {
@@ -177,16 +180,16 @@ TEST(OffsetSurface, RefusesSettingsThatMakeNoSense) {
     return -1;
   };
   const int wrong = static_cast<int>(ErrorKind::configuration);
-  EXPECT_EQ(kind(Body::wheel, kR, {.du = 0.0}), wrong);
-  EXPECT_EQ(kind(Body::wheel, kR, {.dy = -1.0}), wrong);
-  EXPECT_EQ(kind(Body::wheel, kR, {.tolerance = -1.0}), wrong);
+  EXPECT_EQ(kind(Body::wheel, kOffsetR, {.du = 0.0}), wrong);
+  EXPECT_EQ(kind(Body::wheel, kOffsetR, {.dy = -1.0}), wrong);
+  EXPECT_EQ(kind(Body::wheel, kOffsetR, {.tolerance = -1.0}), wrong);
   EXPECT_EQ(kind(Body::wheel, 0.0, {}), wrong);
-  EXPECT_EQ(kind(Body::wheel, kR, {.du = 1e-6, .dy = 1e-6}), wrong);
-  EXPECT_EQ(kind(Body::wheel, kR, {.region_uy = {1.0, 0.0, -1.0, 1.0}}), wrong);
+  EXPECT_EQ(kind(Body::wheel, kOffsetR, {.du = 1e-6, .dy = 1e-6}), wrong);
+  EXPECT_EQ(kind(Body::wheel, kOffsetR, {.region_uy = {1.0, 0.0, -1.0, 1.0}}), wrong);
   EXPECT_EQ(kind(Body::rail, 0.0, {}), wrong);
   EXPECT_EQ(kind(Body::rail, 0.0, {.region_uy = {0.0, 0.1, 5.0, 6.0}}), wrong);
-  EXPECT_THROW(offset::sample_offsets(*wheel, *rail, Body::wheel, kR, {}), Error);
-  const auto sample = offset::sample_offsets(*wheel, *wheel, Body::wheel, kR, {.du = 0.01, .dy = 0.01});
+  EXPECT_THROW(offset::sample_offsets(*wheel, *rail, Body::wheel, kOffsetR, {}), Error);
+  const auto sample = offset::sample_offsets(*wheel, *wheel, Body::wheel, kOffsetR, {.du = 0.01, .dy = 0.01});
   EXPECT_EQ(sample.active, 0u);
   EXPECT_THROW(offset::make_offset_surface(rail, sample.offsets, Interpolation::bicubic, "offset"), Error);
   EXPECT_THROW(offset::make_offset_surface(nullptr, sample.offsets, Interpolation::bicubic, "offset"), Error);

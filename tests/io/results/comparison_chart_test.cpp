@@ -17,9 +17,9 @@
 namespace treadmark {
 namespace {
 
-constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
-constexpr double kInfinity = std::numeric_limits<double>::infinity();
-constexpr double kRounding = 1e-9;
+constexpr double kChartNan = std::numeric_limits<double>::quiet_NaN();
+constexpr double kChartInfinity = std::numeric_limits<double>::infinity();
+constexpr double kChartRounding = 1e-9;
 
 TEST(ChartAxis, EveryTickLiesWhereItsNumberBelongs) {
   const std::vector<std::vector<double>> data{{0.03, 4.2},   {17.0},    {1e-4, 1e4}, {3.0, 3.1},
@@ -37,7 +37,7 @@ TEST(ChartAxis, EveryTickLiesWhereItsNumberBelongs) {
         const double at = scale == io::AxisScale::log
                               ? std::log(value / axis.low()) / std::log(axis.high() / axis.low())
                               : (value - axis.low()) / (axis.high() - axis.low());
-        EXPECT_NEAR(tick.at, at, kRounding) << tick.label;
+        EXPECT_NEAR(tick.at, at, kChartRounding) << tick.label;
       }
       EXPECT_GE(labelled, 2);
       EXPECT_LE(labelled, 12);
@@ -74,7 +74,7 @@ TEST(ChartAxis, AFloorHoldsZeroAndSmallValues) {
 }
 
 TEST(ChartAxis, SurvivesWhatCannotBeShown) {
-  const std::vector<std::vector<double>> data{{},          {kNan},          {kInfinity, -kInfinity},
+  const std::vector<std::vector<double>> data{{},          {kChartNan},     {kChartInfinity, -kChartInfinity},
                                               {0.0, -3.0}, {1e308, 1e-320}, {1e300, 1e-300}};
   for (const io::AxisScale scale : {io::AxisScale::linear, io::AxisScale::log})
     for (const auto& values : data) {
@@ -83,8 +83,8 @@ TEST(ChartAxis, SurvivesWhatCannotBeShown) {
       EXPECT_TRUE(std::isfinite(axis.low()) && std::isfinite(axis.high()));
       EXPECT_LE(axis.ticks().size(), 100u);
       EXPECT_GE(axis.ticks().size(), 2u);
-      EXPECT_FALSE(axis.place(kNan));
-      EXPECT_FALSE(axis.place(kInfinity));
+      EXPECT_FALSE(axis.place(kChartNan));
+      EXPECT_FALSE(axis.place(kChartInfinity));
     }
 }
 
@@ -96,7 +96,7 @@ TEST(ChartMarker, EveryShapeHasTheAreaOfTheCircle) {
       const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
       area += 0.5 * (a[0] * b[1] - b[0] * a[1]);
     }
-    EXPECT_NEAR(std::abs(area), 9.0 * M_PI, kRounding);
+    EXPECT_NEAR(std::abs(area), 9.0 * M_PI, kChartRounding);
   }
 }
 
@@ -145,7 +145,8 @@ TEST(ChartDraw, MarkersCanBeReadOffTheAxes) {
   chart.x_scale = chart.y_scale = io::AxisScale::log;
   io::ChartSeries series;
   series.name = "one";
-  const std::vector<std::pair<double, double>> values{{0.25, 0.013}, {0.5, 0.4}, {1.0, kNan}, {2.0, 33.0}, {4.0, 41.0}};
+  const std::vector<std::pair<double, double>> values{
+      {0.25, 0.013}, {0.5, 0.4}, {1.0, kChartNan}, {2.0, 33.0}, {4.0, 41.0}};
   for (const auto& [x, y] : values) {
     io::ChartPoint point;
     point.x = x;

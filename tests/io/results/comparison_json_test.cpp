@@ -22,18 +22,18 @@ namespace {
 using nlohmann::json;
 
 // A change of unit may leave one unit in the twelfth digit.
-constexpr double kDigits = 1e-11;
+constexpr double kComparisonDigits = 1e-11;
 
 void expect_number(const json& object, const char* key, double value) {
   ASSERT_TRUE(object.contains(key)) << key;
   ASSERT_TRUE(object[key].is_number()) << key;
-  EXPECT_NEAR(object[key].get<double>(), value, kDigits * std::abs(value)) << key;
+  EXPECT_NEAR(object[key].get<double>(), value, kComparisonDigits * std::abs(value)) << key;
 }
 
-json parse_sample() { return json::parse(io::to_json(testing::sample_comparison())); }
+json parse_comparison() { return json::parse(io::to_json(testing::sample_comparison())); }
 
 TEST(ComparisonJson, BodiesHaveTheUnitsOfTheirNames) {
-  const json candidate = parse_sample()["candidates"][1];
+  const json candidate = parse_comparison()["candidates"][1];
   EXPECT_EQ(candidate["backend"], "mesh");
   EXPECT_EQ(candidate["resolution_mm"], 1.0);
   EXPECT_FALSE(candidate.contains("failure"));
@@ -51,11 +51,11 @@ TEST(ComparisonJson, BodiesHaveTheUnitsOfTheirNames) {
   EXPECT_EQ(rail["points"], 5000);
   EXPECT_EQ(rail["missing"], 7);
   EXPECT_EQ(rail["note"], "");
-  EXPECT_EQ(parse_sample()["candidates"][2]["wheel"]["note"], "3 triangles mended");
+  EXPECT_EQ(parse_comparison()["candidates"][2]["wheel"]["note"], "3 triangles mended");
 }
 
 TEST(ComparisonJson, ARowSumsUpBothBodiesAndItsErrors) {
-  const json document = parse_sample();
+  const json document = parse_comparison();
   ASSERT_EQ(document["rows"].size(), 16u);  // four candidates of four cases; the one that failed has none
   const json& row = document["rows"][5];    // the coarse mesh, case 2
   EXPECT_EQ(row["backend"], "mesh");
@@ -90,7 +90,7 @@ TEST(ComparisonJson, ARowSumsUpBothBodiesAndItsErrors) {
 }
 
 TEST(ComparisonJson, WhatDoesNotExistIsNullOrAbsent) {
-  const json document = parse_sample();
+  const json document = parse_comparison();
   EXPECT_TRUE(document["candidates"][0]["resolution_mm"].is_null());
   EXPECT_TRUE(document["candidates"][0]["wheel"]["height_max_um"].is_null());  // not measured
   EXPECT_TRUE(document["rows"][0]["height_max_um"].is_null());
@@ -117,7 +117,7 @@ TEST(ComparisonJson, NumbersThatAreNotFiniteBecomeNull) {
 }
 
 TEST(ComparisonJson, NamesTheTruthAndWhyACandidateFailed) {
-  const json document = parse_sample();
+  const json document = parse_comparison();
   EXPECT_EQ(document["truth"], "analytic <profiles> & flats");
   EXPECT_EQ(document["candidates"][4]["failure"], "no \"grid\" <in> this\nbuild, \\ & so on");
   for (const json& row : document["rows"]) EXPECT_NE(row["backend"], "vdb");
@@ -152,7 +152,7 @@ TEST(ComparisonJson, NamesThatAreNotUtf8DoNotSpoilTheFile) {
 TEST(ComparisonJson, FitsTheSchemaAndTheSchemaBites) {
   const std::string root = TREADMARK_SOURCE_DIR;
   const json schema = json::parse(std::ifstream(root + "/docs/compare.schema.json"));
-  const json document = parse_sample();
+  const json document = parse_comparison();
   EXPECT_EQ(testing::first_violation(document, schema, schema), "");
   EXPECT_EQ(testing::first_violation(json::parse(io::to_json(io::Comparison())), schema, schema), "");
 

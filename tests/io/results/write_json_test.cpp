@@ -21,7 +21,7 @@ namespace {
 using nlohmann::json;
 
 // The file keeps 12 digits; the reading program's own conversion of units adds a rounding.
-constexpr double kDigits = 1e-11;
+constexpr double kJsonDigits = 1e-11;
 
 json parse_sample() { return json::parse(io::to_json(testing::sample_run())); }
 
@@ -228,7 +228,7 @@ int compare_numbers(const json& reference, const json& ours, const std::string& 
     EXPECT_TRUE(ours.is_number()) << place;
     if (!ours.is_number()) return 0;
     const double expected = reference;
-    EXPECT_NEAR(ours.get<double>(), expected, kDigits * std::abs(expected)) << place;
+    EXPECT_NEAR(ours.get<double>(), expected, kJsonDigits * std::abs(expected)) << place;
     return 1;
   }
   int count = 0;

@@ -17,7 +17,7 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kStep = 1e-3;
+constexpr double kStrayStep = 1e-3;
 
 /// A scan with all that strays: a wavy patch and half a tube far from it (both real), single points and blobs.
 struct PlantedScan {
@@ -32,25 +32,25 @@ PlantedScan planted_scan() {
     scan.points.push_back(p);
     scan.truth.push_back(kind);
   };
-  const auto noise = [&] { return 0.05 * kStep * (2.0 * random.uniform() - 1.0); };
-  const auto jitter = [&] { return 0.7 * kStep * (random.uniform() - 0.5); };
+  const auto noise = [&] { return 0.05 * kStrayStep * (2.0 * random.uniform() - 1.0); };
+  const auto jitter = [&] { return 0.7 * kStrayStep * (random.uniform() - 0.5); };
   for (int i = 0; i < 150; ++i)
     for (int j = 0; j < 100; ++j) {
-      const double x = i * kStep + jitter(), y = j * kStep + jitter();
-      add({x, y, 5.0 * kStep * std::sin(40.0 * x) + noise()}, Stray::no);
+      const double x = i * kStrayStep + jitter(), y = j * kStrayStep + jitter();
+      add({x, y, 5.0 * kStrayStep * std::sin(40.0 * x) + noise()}, Stray::no);
     }
-  const double radius = 30.0 * kStep;
+  const double radius = 30.0 * kStrayStep;
   for (int i = 0; i < 90; ++i)
     for (int j = 0; j < 60; ++j) {
       const double angle = std::numbers::pi * i / 90.0, r = radius + noise();
-      add({0.4 + r * std::cos(angle), j * kStep + jitter(), r * std::sin(angle)}, Stray::no);
+      add({0.4 + r * std::cos(angle), j * kStrayStep + jitter(), r * std::sin(angle)}, Stray::no);
     }
   for (int i = 0; i < 200; ++i)  // at least 10 steps above everything
     add({0.5 * random.uniform(), 0.1 * random.uniform(), 0.06 + 0.2 * random.uniform()}, Stray::outlier);
   for (int blob = 0; blob < 3; ++blob)  // 60 points each: dense in themselves, 1 % of the patch are 150
     for (int i = 0; i < 60; ++i)
-      add({0.05 + 0.1 * blob + 4.0 * kStep * random.uniform(), 0.05 + 4.0 * kStep * random.uniform(),
-           -0.05 - 4.0 * kStep * random.uniform()},
+      add({0.05 + 0.1 * blob + 4.0 * kStrayStep * random.uniform(), 0.05 + 4.0 * kStrayStep * random.uniform(),
+           -0.05 - 4.0 * kStrayStep * random.uniform()},
           Stray::cluster);
   return scan;
 }
@@ -75,26 +75,26 @@ TEST(StrayPoints, FindsWhatWasPlantedAndKeepsTheSurface) {
   EXPECT_EQ(result.outliers + result.cluster_points,
             static_cast<std::size_t>(
                 std::count_if(result.of_point.begin(), result.of_point.end(), [](Stray s) { return s != Stray::no; })));
-  EXPECT_NEAR(result.spacing, kStep, 0.25 * kStep);
+  EXPECT_NEAR(result.spacing, kStrayStep, 0.25 * kStrayStep);
 }
 
 TEST(StrayPoints, LengthsInTheSettingsHaveTheUnitOfThePoints) {
   // On a square grid the four nearest neighbours are one step away, so that of four the mean is exactly 1 step inside.
   std::vector<Vec3> points;
   for (int i = 0; i < 30; ++i)
-    for (int j = 0; j < 30; ++j) points.emplace_back(i * kStep, j * kStep, 0.0);
-  for (int i = 0; i < 30; ++i) points.emplace_back(i * kStep, 38.0 * kStep, 0.0);  // a line 9 steps away
+    for (int j = 0; j < 30; ++j) points.emplace_back(i * kStrayStep, j * kStrayStep, 0.0);
+  for (int i = 0; i < 30; ++i) points.emplace_back(i * kStrayStep, 38.0 * kStrayStep, 0.0);  // a line 9 steps away
   StraySettings settings;
   settings.neighbours = 4;
-  settings.outlier_distance = 100.0 * kStep;
+  settings.outlier_distance = 100.0 * kStrayStep;
   settings.least_cluster = 0.1;
-  settings.cluster_gap = 9.01 * kStep;
+  settings.cluster_gap = 9.01 * kStrayStep;
   EXPECT_EQ(find_strays(points, settings).clusters, 0U);
-  settings.cluster_gap = 8.99 * kStep;
+  settings.cluster_gap = 8.99 * kStrayStep;
   EXPECT_EQ(find_strays(points, settings).cluster_points, 30U);
   settings.least_cluster = 0.02;  // 18 points
   EXPECT_EQ(find_strays(points, settings).clusters, 0U);
-  settings.outlier_distance = 1.01 * kStep;  // the rims have farther neighbours; of the line all have
+  settings.outlier_distance = 1.01 * kStrayStep;  // the rims have farther neighbours; of the line all have
   const StrayResult rims = find_strays(points, settings);
   EXPECT_EQ(rims.outliers, 900U - 28U * 28U + 30U);
 }
@@ -119,8 +119,8 @@ TEST(StrayPoints, NeitherScaleNorPlaceNorOrderNorThreadsMatter) {
 TEST(StrayPoints, ManyEqualPointsAreNoProblem) {
   std::vector<Vec3> points;
   for (int i = 0; i < 20; ++i)
-    for (int j = 0; j < 20; ++j) points.emplace_back(i * kStep, j * kStep, 0.0);
-  for (int i = 0; i < 100; ++i) points.emplace_back(5.0 * kStep, 5.0 * kStep, 0.0);
+    for (int j = 0; j < 20; ++j) points.emplace_back(i * kStrayStep, j * kStrayStep, 0.0);
+  for (int i = 0; i < 100; ++i) points.emplace_back(5.0 * kStrayStep, 5.0 * kStrayStep, 0.0);
   const StrayResult result = find_strays(points, {});
   EXPECT_EQ(result.outliers + result.cluster_points, 0U);
 

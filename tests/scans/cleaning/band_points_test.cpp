@@ -16,14 +16,14 @@
 namespace treadmark::scans {
 namespace {
 
-constexpr double kPi = std::numbers::pi, kRadius = 0.46, kTurn = 2.0 * kPi * kRadius;
+constexpr double kPi = std::numbers::pi, kBandRadius = 0.46, kTurn = 2.0 * kPi * kBandRadius;
 
 Section section_of(Body body) {
   auto points = tests::nominal_points(body == Body::wheel ? "S1002" : "60E1", body);
   const double reach = body == Body::wheel ? 60e-3 : 30e-3;
   std::erase_if(points, [&](const Vec2& p) { return std::fabs(p.x()) > reach; });
   if (body == Body::wheel)
-    for (Vec2& p : points) p.y() += kRadius;
+    for (Vec2& p : points) p.y() += kBandRadius;
   return Section(points);
 }
 
@@ -81,7 +81,7 @@ void expect_sorted(const Projection& p) {
 void expect_places(const Projection& p, Body body, const std::vector<Known>& places) {
   for (std::size_t i = 0; i < p.points.size(); ++i) {
     const Known& k = places[p.points.index[i]];
-    double off = p.band.a_min + p.points.a[i] - (body == Body::wheel ? kRadius * k.u : k.u);
+    double off = p.band.a_min + p.points.a[i] - (body == Body::wheel ? kBandRadius * k.u : k.u);
     if (body == Body::wheel) off -= kTurn * std::round(off / kTurn);
     ASSERT_NEAR(off, 0.0, 1e-6);
     ASSERT_NEAR(p.points.s[i], k.s, 1e-7);
@@ -96,7 +96,7 @@ TEST(BandPoints, PointsOfAWheelLieWhereTheyWerePut) {
   const auto cloud = cloud_of(Body::wheel, section, places, frame);
   std::vector<std::uint8_t> keep(cloud.size(), 1);
   for (std::size_t i = 0; i < keep.size(); i += 7) keep[i] = 0;
-  const Projection p = project(cloud, keep, frame, section, {Body::wheel, kRadius});
+  const Projection p = project(cloud, keep, frame, section, {Body::wheel, kBandRadius});
   EXPECT_TRUE(p.band.closed);
   EXPECT_NEAR(p.band.length(), kTurn, 1e-12);
   EXPECT_EQ(p.points.size(), static_cast<std::size_t>(std::count(keep.begin(), keep.end(), 1)));
@@ -147,11 +147,11 @@ TEST(BandPoints, AnArcOfAWheelIsOpenAlsoAcrossTheSeam) {
   for (const double from : {0.5, 2.5, -3.1}) {
     const auto places = random_places(section, 30000, from, from + 2.0, 4);
     const Projection p =
-        project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
+        project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kBandRadius});
     EXPECT_FALSE(p.band.closed);
-    const double begin = p.band.a_min - kRadius * from;
+    const double begin = p.band.a_min - kBandRadius * from;
     EXPECT_NEAR(begin - kTurn * std::round(begin / kTurn), 0.0, 2.1e-3) << from;
-    EXPECT_NEAR(p.band.length(), 2.0 * kRadius, 4.2e-3) << from;
+    EXPECT_NEAR(p.band.length(), 2.0 * kBandRadius, 4.2e-3) << from;
     EXPECT_EQ(p.points.size() + p.beyond_length, places.size());
     EXPECT_LT(p.beyond_length, 100u);
     expect_sorted(p);
@@ -167,13 +167,14 @@ TEST(BandPoints, LinesThatAreFarApartCloseAWheel) {
     for (int k = 0; k < 100; ++k)
       places.push_back({2.0 * kPi * (line + 0.37) / lines - kPi, 3e-3 + (section.length() - 6e-3) * k / 99.0, 0.0});
   const auto closed =
-      project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
+      project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kBandRadius});
   EXPECT_TRUE(closed.band.closed);
   EXPECT_EQ(closed.points.size(), places.size());
   expect_places(closed, Body::wheel, places);
   // ten lines missing: an arc
-  std::erase_if(places, [](const Known& k) { return std::fabs(k.u) < 0.15 / kRadius; });
-  const auto arc = project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kRadius});
+  std::erase_if(places, [](const Known& k) { return std::fabs(k.u) < 0.15 / kBandRadius; });
+  const auto arc =
+      project(cloud_of(Body::wheel, section, places, Pose{}), {}, Pose{}, section, {Body::wheel, kBandRadius});
   EXPECT_FALSE(arc.band.closed);
   EXPECT_NEAR(arc.band.length(), kTurn - 0.3, 35e-3);
   EXPECT_EQ(arc.points.size(), places.size());
@@ -199,7 +200,7 @@ TEST(BandPoints, TheSameForAnyNumberOfThreads) {
   std::vector<Projection> results;
   for (const int threads : {1, 2}) {
     const ThreadLimit limit(threads);
-    results.push_back(project(cloud, {}, Pose{}, section, {Body::wheel, kRadius}));
+    results.push_back(project(cloud, {}, Pose{}, section, {Body::wheel, kBandRadius}));
   }
   EXPECT_EQ(results[0].points.index, results[1].points.index);
   EXPECT_EQ(results[0].points.a, results[1].points.a);

@@ -10,8 +10,8 @@ namespace treadmark::scans {
 namespace {
 
 using tests::Sample;
-constexpr double kLength = 0.5, kWidth = 0.064;
-constexpr std::size_t kRows = 500, kColumns = 64;
+constexpr double kSheetLength = 0.5, kSheetWidth = 0.064;
+constexpr std::size_t kSheetRows = 500, kSheetColumns = 64;
 
 struct Circle {
   double a, s, diameter;
@@ -23,17 +23,17 @@ double apart(const Band& band, double a, double b) {
 }
 
 BandPoints with_holes(const Band& band, const std::vector<Circle>& holes) {
-  auto samples = tests::scattered(band, kRows, kColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
+  auto samples = tests::scattered(band, kSheetRows, kSheetColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
   std::erase_if(samples, [&](const Sample& p) {
     return std::any_of(holes.begin(), holes.end(), [&](const Circle& h) {
       return std::hypot(apart(band, p.a, h.a), p.s - h.s) < 0.5 * h.diameter;
     });
   });
-  return tests::sorted(band, kRows, kColumns, samples);
+  return tests::sorted(band, kSheetRows, kSheetColumns, samples);
 }
 
 TEST(Coverage, ADenseBandIsWhole) {
-  const Band band = tests::straight_band(kLength, kWidth, false);
+  const Band band = tests::straight_band(kSheetLength, kSheetWidth, false);
   const BandPoints points = with_holes(band, {});
   const Coverage c = find_coverage(points, band, {});
   EXPECT_TRUE(c.whole());
@@ -42,14 +42,14 @@ TEST(Coverage, ADenseBandIsWhole) {
   EXPECT_NEAR(c.gap_s, points.cell_s, 1e-12);
   EXPECT_DOUBLE_EQ(c.limit, 10e-3);
   EXPECT_EQ(c.first_column, 0u);
-  EXPECT_EQ(c.last_column, kColumns);
-  EXPECT_NEAR(c.area, kLength * kWidth, 1e-9);
+  EXPECT_EQ(c.last_column, kSheetColumns);
+  EXPECT_NEAR(c.area, kSheetLength * kSheetWidth, 1e-9);
   EXPECT_EQ(c.hole_area, 0.0);
 }
 
 TEST(Coverage, HolesAreFoundAndTheLimitDecides) {
   for (const bool closed : {false, true}) {
-    const Band band = tests::straight_band(kLength, kWidth, closed);
+    const Band band = tests::straight_band(kSheetLength, kSheetWidth, closed);
     // the widest lies across the seam of the closed band
     const std::vector<Circle> circles{{closed ? 1e-3 : 0.1, 30e-3, 24e-3}, {0.25, 40e-3, 14e-3}, {0.4, 20e-3, 8e-3}};
     const BandPoints points = with_holes(band, circles);
@@ -84,7 +84,7 @@ TEST(Coverage, HolesAreFoundAndTheLimitDecides) {
 }
 
 TEST(Coverage, OutliersCoverNothing) {
-  const Band band = tests::straight_band(kLength, kWidth, false);
+  const Band band = tests::straight_band(kSheetLength, kSheetWidth, false);
   BandPoints points = with_holes(band, {});
   for (std::size_t i = 0; i < points.size(); ++i) {
     if (std::hypot(points.a[i] - 0.2, points.s[i] - 30e-3) < 8e-3)
@@ -168,30 +168,31 @@ TEST(Coverage, DistancesAgreeWithBruteForce) {
 }
 
 TEST(Coverage, SidesThatAreHardlyCoveredAreLeftOut) {
-  const Band band = tests::straight_band(kLength, kWidth, false);
-  auto samples = tests::scattered(band, kRows, kColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
+  const Band band = tests::straight_band(kSheetLength, kSheetWidth, false);
+  auto samples = tests::scattered(band, kSheetRows, kSheetColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
   // 6 columns at the left with points along a third of the length, 9 without any at the right
-  std::erase_if(samples, [](const Sample& p) { return (p.s < 6e-3 && p.a > kLength / 3) || p.s > 55e-3; });
-  const Coverage c = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
+  std::erase_if(samples, [](const Sample& p) { return (p.s < 6e-3 && p.a > kSheetLength / 3) || p.s > 55e-3; });
+  const Coverage c = find_coverage(tests::sorted(band, kSheetRows, kSheetColumns, samples), band, {});
   // a column beside a full one counts as covered
   EXPECT_EQ(c.first_column, 5u);
-  EXPECT_EQ(c.last_column, kColumns - 8);
+  EXPECT_EQ(c.last_column, kSheetColumns - 8);
   EXPECT_TRUE(c.holes.empty());
-  const Coverage lenient = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {.least_filled = 0.2});
+  const Coverage lenient =
+      find_coverage(tests::sorted(band, kSheetRows, kSheetColumns, samples), band, {.least_filled = 0.2});
   EXPECT_EQ(lenient.first_column, 0u);
-  EXPECT_EQ(lenient.last_column, kColumns - 8);
+  EXPECT_EQ(lenient.last_column, kSheetColumns - 8);
   ASSERT_EQ(lenient.holes.size(), 1u);
   EXPECT_FALSE(lenient.holes[0].filled == (lenient.holes[0].diameter > lenient.limit));
 }
 
 TEST(Coverage, GapsBetweenScanLinesAreNoHoles) {
   for (const bool closed : {false, true}) {
-    const Band band = tests::straight_band(kLength, kWidth, closed);
+    const Band band = tests::straight_band(kSheetLength, kSheetWidth, closed);
     constexpr double kApart = 12.5e-3;
     std::vector<Sample> samples;
     for (int line = 0; line < 40; ++line)
-      for (int k = 0; k < 256; ++k) samples.push_back({kApart * (line + 0.5), kWidth * (k + 0.5) / 256, 0.0});
-    const Coverage lines = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
+      for (int k = 0; k < 256; ++k) samples.push_back({kApart * (line + 0.5), kSheetWidth * (k + 0.5) / 256, 0.0});
+    const Coverage lines = find_coverage(tests::sorted(band, kSheetRows, kSheetColumns, samples), band, {});
     EXPECT_NEAR(lines.gap_a, kApart, 1.1e-3);
     EXPECT_NEAR(lines.gap_s, 1e-3, 1e-9);
     EXPECT_NEAR(lines.limit, 2.0 * lines.gap_a, 1e-12);
@@ -199,7 +200,7 @@ TEST(Coverage, GapsBetweenScanLinesAreNoHoles) {
     // six lines are missing over 50 mm
     std::erase_if(samples,
                   [](const Sample& p) { return std::fabs(p.a - 0.25) < 3 * kApart && p.s > 7e-3 && p.s < 57e-3; });
-    const Coverage hole = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
+    const Coverage hole = find_coverage(tests::sorted(band, kSheetRows, kSheetColumns, samples), band, {});
     EXPECT_NEAR(hole.gap_a, kApart, 1.1e-3);
     ASSERT_EQ(hole.holes.size(), 1u);
     EXPECT_NEAR(hole.holes[0].a, 0.25, 2.0 * kApart);
@@ -214,15 +215,15 @@ TEST(Coverage, GapsBetweenScanLinesAreNoHoles) {
 
 TEST(Coverage, AHoleAllAcrossIsNotUsual) {
   for (const bool closed : {false, true}) {
-    const Band band = tests::straight_band(kLength, kWidth, closed);
-    auto samples = tests::scattered(band, kRows, kColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
+    const Band band = tests::straight_band(kSheetLength, kSheetWidth, closed);
+    auto samples = tests::scattered(band, kSheetRows, kSheetColumns, 2, 0.0, 1, [](double, double) { return 0.0; });
     std::erase_if(samples, [](const Sample& p) { return p.a > 0.2 && p.a < 0.275; });  // 15 %
-    const Coverage c = find_coverage(tests::sorted(band, kRows, kColumns, samples), band, {});
+    const Coverage c = find_coverage(tests::sorted(band, kSheetRows, kSheetColumns, samples), band, {});
     EXPECT_NEAR(c.gap_a, 1e-3, 1e-9);
     ASSERT_EQ(c.holes.size(), 1u);
     EXPECT_NEAR(c.holes[0].diameter, 75e-3, 2.1e-3);
     EXPECT_FALSE(c.holes[0].filled);
-    EXPECT_NEAR(c.hole_area, 75e-3 * kWidth, 3e-3 * kWidth);
+    EXPECT_NEAR(c.hole_area, 75e-3 * kSheetWidth, 3e-3 * kSheetWidth);
   }
 }
 

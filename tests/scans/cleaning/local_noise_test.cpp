@@ -11,7 +11,7 @@ namespace treadmark::scans {
 namespace {
 
 using tests::Sample;
-constexpr double kNoise = 30e-6, kLength = 0.4, kWidth = 0.064;
+constexpr double kTrueNoise = 30e-6, kLength = 0.4, kWidth = 0.064;
 constexpr std::size_t kRows = 400, kColumns = 64;
 
 double flat(double, double) { return 0.0; }
@@ -28,11 +28,11 @@ TEST(LocalNoise, LevelOfKnownNoise) {
       return 1e-3 * std::sin(2.0 * std::numbers::pi * a / kLength) + 0.2 * s * s;
     };
     BandPoints points =
-        tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 3, kNoise, 1, wave));
+        tests::sorted(band, kRows, kColumns, tests::scattered(band, kRows, kColumns, 3, kTrueNoise, 1, wave));
     const LocalNoise noise = find_noise(points, band, {});
-    EXPECT_NEAR(noise.typical, kNoise, 0.03 * kNoise);
+    EXPECT_NEAR(noise.typical, kTrueNoise, 0.03 * kTrueNoise);
     ASSERT_EQ(noise.sigma.size(), noise.tile_rows * noise.tile_columns);
-    for (const float sigma : noise.sigma) EXPECT_NEAR(sigma, kNoise, 0.15 * kNoise);
+    for (const float sigma : noise.sigma) EXPECT_NEAR(sigma, kTrueNoise, 0.15 * kTrueNoise);
     // normal numbers are beyond 4.5 in 7 of a million cases; the scatter of a few points is less sure than that
     EXPECT_LT(noise.outliers, points.size() / 2000);
     EXPECT_EQ(flagged(points), noise.outliers + noise.isolated);
@@ -57,11 +57,11 @@ TEST(LocalNoise, TilesFollowNoiseThatChanges) {
 
 TEST(LocalNoise, PlantedOutliersAreFound) {
   const Band band = tests::straight_band(kLength, kWidth, true);
-  auto samples = tests::scattered(band, kRows, kColumns, 3, kNoise, 3, flat);
+  auto samples = tests::scattered(band, kRows, kColumns, 3, kTrueNoise, 3, flat);
   Random random(9);
   std::vector<std::uint8_t> planted(samples.size(), 0);
   for (std::size_t i = 50; i < samples.size(); i += 250) {
-    samples[i].d += (random.uniform() < 0.5 ? -1.0 : 1.0) * kNoise * (10.0 + 30.0 * random.uniform());
+    samples[i].d += (random.uniform() < 0.5 ? -1.0 : 1.0) * kTrueNoise * (10.0 + 30.0 * random.uniform());
     planted[i] = 1;
   }
   BandPoints points = tests::sorted(band, kRows, kColumns, samples);
@@ -74,7 +74,7 @@ TEST(LocalNoise, PlantedOutliersAreFound) {
   }
   EXPECT_EQ(missed, 0u);
   EXPECT_LT(wrong, points.size() / 1000);
-  EXPECT_NEAR(noise.typical, kNoise, 0.03 * kNoise);
+  EXPECT_NEAR(noise.typical, kTrueNoise, 0.03 * kTrueNoise);
   // none are wanted
   BandPoints kept = tests::sorted(band, kRows, kColumns, samples);
   find_noise(kept, band, {.outlier_factor = 0.0});
@@ -111,7 +111,7 @@ TEST(LocalNoise, AKinkAndAStepKeepTheirPoints) {
 
 TEST(LocalNoise, LonePointsInGapsAreIsolated) {
   const Band band = tests::straight_band(kLength, kWidth, false);
-  auto samples = tests::scattered(band, kRows, kColumns, 3, kNoise, 6, flat);
+  auto samples = tests::scattered(band, kRows, kColumns, 3, kTrueNoise, 6, flat);
   const double round_a = 0.1, wide_a = 0.3, middle = 0.5 * kWidth;
   // a round gap of 20 mm and one of 130 mm all across
   std::erase_if(samples, [&](const Sample& p) {
@@ -139,7 +139,7 @@ TEST(LocalNoise, LonePointsInGapsAreIsolated) {
 
 TEST(LocalNoise, TheSameForAnyNumberOfThreads) {
   const Band band = tests::straight_band(kLength, kWidth, true);
-  auto samples = tests::scattered(band, kRows, kColumns, 3, kNoise, 7, flat);
+  auto samples = tests::scattered(band, kRows, kColumns, 3, kTrueNoise, 7, flat);
   for (std::size_t i = 0; i < samples.size(); i += 100) samples[i].d += 0.4e-3;
   std::vector<BandPoints> points(2, tests::sorted(band, kRows, kColumns, samples));
   std::vector<LocalNoise> noise;

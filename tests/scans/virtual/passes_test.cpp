@@ -16,7 +16,7 @@ namespace {
 
 using namespace scans::testing;
 
-constexpr double kExact = 1e-9;  // [m]
+constexpr double kPassExact = 1e-9;  // [m]
 
 void expect_rigid(const Pose& X) {
   EXPECT_LT((X.rotation.transpose() * X.rotation - Mat3::Identity()).cwiseAbs().maxCoeff(), 1e-12);
@@ -35,7 +35,7 @@ TEST(ScannerPasses, OfARailLieBesideEachOther) {
   std::vector<double> low(3, 9.0), high(3, -9.0), count(3, 0.0);
   for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) {
     const Vec3& p = scan.cloud.points[i];
-    ASSERT_NEAR(off_rail(p), 0.0, kExact);
+    ASSERT_NEAR(off_rail(p), 0.0, kPassExact);
     const std::size_t k = scan.cloud.passes[i];
     ASSERT_LT(k, 3u);
     if (i > 0) {
@@ -108,7 +108,7 @@ TEST(ScannerRegistration, IsTheRigidErrorThatTheTruthStates) {
   double off = 0.0;
   for (std::size_t i = 0; i < scan.cloud.points.size(); ++i) {
     const Vec3 right = scan.truth.X_pass[scan.cloud.passes[i]].apply_inverse(scan.cloud.points[i]);
-    ASSERT_NEAR(off_rail(scan.truth.X_CS.apply_inverse(right)), 0.0, kExact);
+    ASSERT_NEAR(off_rail(scan.truth.X_CS.apply_inverse(right)), 0.0, kPassExact);
     off = std::max(off, std::fabs(off_rail(scan.truth.X_CS.apply_inverse(scan.cloud.points[i]))));
   }
   EXPECT_GT(off, 0.05e-3);
@@ -146,8 +146,8 @@ TEST(ScannerFrame, IsRigidAndMapsBack) {
     x_axes.emplace_back(scan.truth.X_CS.rotation.col(0));
     for (const Vec3& p : scan.cloud.points) {
       const Vec3 p_S = scan.truth.X_CS.apply_inverse(p);
-      ASSERT_NEAR(p_S.norm(), kBallRadius, kExact);
-      ASSERT_LE(std::fabs(p_S.y()), kBallRadius * std::sin(kBallAngle) + kExact);
+      ASSERT_NEAR(p_S.norm(), kBallRadius, kPassExact);
+      ASSERT_LE(std::fabs(p_S.y()), kBallRadius * std::sin(kBallAngle) + kPassExact);
     }
   }
   Vec3 mean = Vec3::Zero(), squares = Vec3::Zero();
@@ -166,7 +166,7 @@ TEST(ScannerFrame, MayBeGiven) {
   const VirtualScan placed = scan_surface(*round_rail(), settings);
   ASSERT_EQ(placed.cloud.points.size(), plain.cloud.points.size());
   for (std::size_t i = 0; i < plain.cloud.points.size(); ++i)
-    ASSERT_LT((settings.X_CS.apply(plain.cloud.points[i]) - placed.cloud.points[i]).norm(), kExact);
+    ASSERT_LT((settings.X_CS.apply(plain.cloud.points[i]) - placed.cloud.points[i]).norm(), kPassExact);
   EXPECT_EQ(placed.truth.X_CS.origin, settings.X_CS.origin);
 }
 

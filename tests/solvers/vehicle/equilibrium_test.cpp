@@ -12,14 +12,14 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kHertz = 9e10;
+constexpr double kHertzStiffness = 9e10;
 
 TEST(Equilibrium, HertzSpringsAndTrackBearTheWeight) {
-  const VehicleOnTrack v =
-      on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), rails_on_springs(200.0, 6e7, 5e4), 20.0, kHertz);
+  const VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), rails_on_springs(200.0, 6e7, 5e4),
+                                            20.0, kHertzStiffness);
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
-  const double load = 0.5 * (1813.0 + 9000.0) * kGravity, approach = std::pow(load / kHertz, 2.0 / 3.0),
+  const double load = 0.5 * (1813.0 + 9000.0) * kGravity, approach = std::pow(load / kHertzStiffness, 2.0 / 3.0),
                sunk = load / 6e7;
   for (const ContactReaction& r : e.reactions) EXPECT_NEAR(r.normal_force, load, 1e-5 * load);
   EXPECT_NEAR(v.motion(0, e.state).rail.z, sunk, 1e-9);
@@ -31,14 +31,14 @@ TEST(Equilibrium, WheelsRollFreely) {
   model.bodies[1].free = {true, true, true, true, true, true};
   model.bodies[1].inertia = {1100.0, 110.0, 1100.0};
   model.springs[0].stiffness = {1e6, 1e6, 2e6, 1e5, 0, 1e5};
-  VehicleOnTrack v = on_hertz_springs(model, {}, 20.0, kHertz, 1e5);
+  VehicleOnTrack v = on_hertz_springs(model, {}, 20.0, kHertzStiffness, 1e5);
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
   EXPECT_NEAR(v.motion(0, e.state).wheelset_velocity.pitch, -20.0 / 0.46, 1e-6);
 }
 
 TEST(Equilibrium, AVehicleWithoutWeightOnItsWheelsIsRefused) {
-  VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, 20.0, kHertz);
+  VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, 20.0, kHertzStiffness);
   v.system.wheelset_load = {0.0};
   EXPECT_THROW(find_equilibrium(v), Error);
 }
@@ -52,11 +52,12 @@ std::pair<double, double> two_masses(double m1, double k1, double m2, double k2)
 
 TEST(Eigenmodes, P1AndP2OfAWheelOnATrack) {
   // A soft spring holds the sprung mass away from the wheel: half a wheelset on a contact on a rail on the ground.
-  const VehicleOnTrack v =
-      on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 1e3, 0.0), rails_on_springs(245.0, 62e6, 0.0), 20.0, kHertz);
+  const VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 1e3, 0.0), rails_on_springs(245.0, 62e6, 0.0),
+                                            20.0, kHertzStiffness);
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
-  const double load = e.reactions[0].normal_force, contact = 1.5 * std::pow(kHertz, 2.0 / 3.0) * std::cbrt(load);
+  const double load = e.reactions[0].normal_force,
+               contact = 1.5 * std::pow(kHertzStiffness, 2.0 / 3.0) * std::cbrt(load);
   const auto [p2, p1] = two_masses(0.5 * 1813.0, contact, 245.0, 62e6);
   std::vector<double> found;
   for (const Eigenmode& m : eigenmodes(v, e.state)) found.push_back(m.frequency);

@@ -13,11 +13,11 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kRadius = 0.46;
+constexpr double kWheelRadius = 0.46;
 
 wheelrail::Geometry bodies(bool flat) {
   SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
-  SurfaceSpec wheel{Body::wheel, kRadius, StandardProfile{"S1002"}, {}};
+  SurfaceSpec wheel{Body::wheel, kWheelRadius, StandardProfile{"S1002"}, {}};
   if (flat) wheel.defects.flats = {{.length = 0.10, .depth = 0.9e-3, .theta_center = 0.0, .y_center = 0.006}};
   return {create_surface(rail), create_surface(wheel), true, !flat};
 }
@@ -26,7 +26,7 @@ wheelrail::Problem prototype(wheelrail::Side side, kalker::Regime regime, double
   wheelrail::Problem p;
   p.side = side;
   p.track.cant = 1.0 / 40.0;
-  p.wheelset.nominal_radius = kRadius;
+  p.wheelset.nominal_radius = kWheelRadius;
   p.regime = regime;
   p.discretisation.dx = p.discretisation.ds = element;
   return p;
@@ -37,7 +37,7 @@ PairMotion rolling(double speed, double z, double pitch = 1.0) {
   m.wheelset.z = z;
   m.wheelset.pitch = pitch;
   m.wheelset_velocity.x = speed;
-  m.wheelset_velocity.pitch = -speed / kRadius * 1.001;
+  m.wheelset_velocity.pitch = -speed / kWheelRadius * 1.001;
   return m;
 }
 
@@ -139,7 +139,7 @@ TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
     disturbed.accept();
     plain.accept();
     m.wheelset.x += dx;
-    m.wheelset.pitch -= dx / kRadius;
+    m.wheelset.pitch -= dx / kWheelRadius;
     m.wheelset.y += 2e-6;
   }
 }
@@ -156,7 +156,7 @@ TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
     last = element.evaluate(m);
     element.accept();
     m.wheelset.x += 7e-4;
-    m.wheelset.pitch -= 7e-4 / kRadius;
+    m.wheelset.pitch -= 7e-4 / kWheelRadius;
   }
   element.save(state);
   FullContact::write(element.accepted(), instant);
@@ -176,8 +176,8 @@ TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
 TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
   // Light load, so that the bodies are nearly rigid.
   SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
-  SurfaceSpec wheel{Body::wheel, kRadius, StandardProfile{"S1002"}, {}};
-  constexpr double kLength = 0.04, kLoad = 400.0, kDepth = kLength * kLength / (8.0 * kRadius);
+  SurfaceSpec wheel{Body::wheel, kWheelRadius, StandardProfile{"S1002"}, {}};
+  constexpr double kLength = 0.04, kLoad = 400.0, kDepth = kLength * kLength / (8.0 * kWheelRadius);
   WheelFlat flat;
   flat.shape = WheelFlat::Shape::fresh;
   flat.length = kLength;
@@ -207,8 +207,8 @@ TEST(FullContact, SlowlyOverAChordFlatTheWheelDropsAsGeometrySays) {
   while (!s.finished()) {
     s.advance();
     // Pivoting about an edge of the flat, the wheel's centre falls by half the square of the way it is off the edge.
-    const double x = std::abs(kSpeed * s.state().time - 0.05 * kRadius), drop = s.state().q[1] - z0;
-    const double rigid = x < 0.5 * kLength ? (0.5 * kLength - x) * (0.5 * kLength - x) / (2.0 * kRadius) : 0.0;
+    const double x = std::abs(kSpeed * s.state().time - 0.05 * kWheelRadius), drop = s.state().q[1] - z0;
+    const double rigid = x < 0.5 * kLength ? (0.5 * kLength - x) * (0.5 * kLength - x) / (2.0 * kWheelRadius) : 0.0;
     worst = std::max(worst, std::abs(drop - rigid));
     deepest = std::max(deepest, drop);
   }
