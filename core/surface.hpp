@@ -3,8 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <limits>
 #include <span>
 #include <string_view>
+#include <vector>
 
 #include "treadmark/core/grid.hpp"
 
@@ -34,6 +36,8 @@ enum class LocateStatus : std::uint8_t {
 struct SurfacePoint {
   LocateStatus status = LocateStatus::outside;
   double u = 0.0, v = 0.0;  ///< surface parameters (u longitudinal: x [m] or theta [rad]; v lateral, backend's own)
+  /// Along the profile of a rail [m], growing with y, zero where the profile's data have it; NaN if it does not tell.
+  double arc_length = std::numeric_limits<double>::quiet_NaN();
   Vec3 position_S = Vec3::Zero();  ///< [m], surface frame
   Vec3 normal_S = Vec3::Zero();    ///< unit, out of the material
   double curvature_1 = 0.0;  ///< principal curvatures [1/m], positive for a convex body; curvature_1 >= curvature_2
@@ -73,6 +77,8 @@ struct HeightBounds {
 /// Rail: x along the track, y to the right, z down. Wheel: origin on the axle, y along the axle, x = r sin(theta), z =
 /// r cos(theta). All queries are const, safe to call from any number of threads, and independent of the number of
 /// threads.
+/// A surface made of another one answers every question for itself: what it keeps of the other (data_v(), v,
+/// SurfacePoint::arc_length) it passes on, what it changes it leaves unanswered.
 class Surface {
  public:
   virtual ~Surface() = default;
@@ -84,6 +90,9 @@ class Surface {
   virtual std::size_t memory_bytes() const = 0;
   /// Whether the shape is one profile: a rail the same at every x, a wheel the same at every theta. False for a roller.
   virtual bool constant_profile() const { return false; }
+  /// Lateral parameters v (see SurfacePoint) of the lines along u at which the data lie that the surface was fitted to,
+  /// increasing. Empty: it was not, or does not tell.
+  virtual std::vector<double> data_v() const { return {}; }
 
   /// Heights (and slopes) over a regular grid in a rigidly placed plane; see HeightsOut.
   /// Errors: Error(configuration) if an output array has another size than the grid, or the grid is not positive.

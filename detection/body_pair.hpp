@@ -15,6 +15,7 @@ struct SampledProfile;
 /// (CONTACT).
 struct DistanceMesh {
   double nominal_radius = 0.0;  ///< of the wheel [m]
+  bool rail_sections = true;    ///< false for rollers, whose one profile that program only bends
 };
 
 /// Two surfaces placed in one common frame T (for a wheelset on track: the track frame). The surfaces must outlive

@@ -5,16 +5,13 @@
 #include <algorithm>
 #include <cmath>
 
-#include "treadmark/core/lateral_data.hpp"
-
 namespace treadmark::detection {
 
 std::vector<double> lateral_nodes(const Surface& surface, const Pose& X_SP, double x_P, const LateralInterval& y_P) {
   constexpr double kStep = 0.1e-3;        // of points between which v is taken as linear [m]
   constexpr std::ptrdiff_t kHidden = 10;  // more data than that between two points: something lies behind the rest
-  const auto* data = dynamic_cast<const LateralData*>(&surface);
-  if (data == nullptr) return {};
-  const std::vector<double> data_v = data->data_v();
+  const std::vector<double> data_v = surface.data_v();
+  if (data_v.empty()) return {};
   const int n = std::max(2, static_cast<int>(std::ceil((y_P.high - y_P.low) / kStep)));
   std::vector<Vec2> points;
   for (int i = 0; i <= n; ++i) points.emplace_back(x_P, y_P.low + (y_P.high - y_P.low) * i / n);

@@ -4,7 +4,6 @@
 
 #include <vector>
 
-#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/detection/lateral_nodes.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 
@@ -13,7 +12,6 @@ namespace treadmark::detection {
 bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std::span<double> rail_n) {
   constexpr double kMargin = 6e-3;  // a dozen data: what lies further off does not bend the curve over the grid
   constexpr std::size_t kFewest = 4;
-  if (dynamic_cast<const LateralData*>(bodies.rail) == nullptr) return false;
   const Pose X_RC = bodies.X_TR.inverse() * X_TC;
   const LateralInterval range{g.y(0) - kMargin, g.y(g.ny - 1) + kMargin};
   for (int ix = 0; ix < g.nx; ++ix) {

@@ -13,8 +13,8 @@ namespace treadmark::detection {
 
 UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C) {
   std::vector<double> rail_n(grid_C.size()), wheel_n(grid_C.size());
-  const bool on_sections =
-      bodies.distance_mesh && !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, rail_n);
+  const bool on_sections = bodies.distance_mesh && bodies.distance_mesh->rail_sections &&
+                           !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, rail_n);
   if (!on_sections) bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {rail_n, {}, {}});
   if (bodies.distance_mesh)
     mesh_heights(bodies, X_TC, grid_C, wheel_n);

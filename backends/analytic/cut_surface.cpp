@@ -139,7 +139,6 @@ void CutSurface::do_locate(const Pose& X, std::span<const Vec2> points_P, std::s
     if (!rays.leave(origin, n.dot(point.position_S - origin), hit, last)) continue;
     point.position_S = origin + hit.t * n;
     point.u = point.position_S.x();
-    point.v = point.position_S.y();
     fill_shape(hit.gradient, cutters_[last].hessian(hit.bound, point.position_S, hint), point);
   }
 }

@@ -11,8 +11,8 @@
 namespace treadmark::analytic {
 
 /// A rail of any backend less the volumes that cutters remove. A line keeps the base's hit where that lies outside of
-/// the volumes, and otherwise ends where it leaves them: on a swept section or on a wall at one of its ends. u = x [m];
-/// v = y [m] of the surface frame where material was removed, else as the base.
+/// the volumes, and otherwise ends where it leaves them: on a swept section or on a wall at one of its ends. u = x [m]
+/// where material was removed; lateral parameters and data are those of the base, met by the same line.
 class CutSurface final : public Surface {
  public:
   CutSurface(std::shared_ptr<const Surface> base, std::vector<Cutter> cutters)
@@ -20,6 +20,7 @@ class CutSurface final : public Surface {
 
   std::string_view backend() const override { return base_->backend(); }
   Facing facing() const override { return Facing::up; }
+  std::vector<double> data_v() const override { return base_->data_v(); }
   Box3 bounds() const override;
   std::size_t memory_bytes() const override;
 

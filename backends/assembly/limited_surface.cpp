@@ -24,6 +24,7 @@ class LimitedSurface final : public Surface {
 
   std::string_view backend() const override { return rail_->backend(); }
   Facing facing() const override { return rail_->facing(); }
+  std::vector<double> data_v() const override { return rail_->data_v(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + rail_->memory_bytes(); }
   Box3 bounds() const override {
     Box3 box = rail_->bounds();

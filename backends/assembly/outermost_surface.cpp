@@ -116,6 +116,7 @@ class OutermostSurface final : public Surface {
         if (!wins(z, best_z[i])) continue;
         best_z[i] = z;
         out[i] = found[i];
+        out[i].arc_length = kNaN;  // every part has a zero of its own
       }
     }
   }

@@ -37,6 +37,7 @@ class Placed : public Surface {
   std::string_view backend() const override { return surface_->backend(); }
   Box3 bounds() const override { return moved(surface_->bounds(), X_SB_); }
   std::size_t memory_bytes() const override { return sizeof(*this) + surface_->memory_bytes(); }
+  std::vector<double> data_v() const override { return surface_->data_v(); }
 
  protected:
   const Surface& surface() const { return *surface_; }
@@ -47,6 +48,7 @@ class Placed : public Surface {
       if (p.status == LocateStatus::outside) continue;
       p.position_S = X_SB_.apply(p.position_S);
       p.normal_S = X_SB_.rotation * p.normal_S;
+      if (X_SB_.rotation(1, 1) < 0.0) p.arc_length = -p.arc_length;
     }
   }
 

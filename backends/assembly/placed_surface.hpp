@@ -8,7 +8,8 @@
 
 namespace treadmark::assembly {
 
-/// A surface whose own frame B has pose X_SB in the frame S of the result; it faces the same way.
+/// A surface whose own frame B has pose X_SB in the frame S of the result; it faces the same way and keeps its
+/// parameters and data. Arc length changes its sign where y does.
 /// Thread-safe as every Surface. Errors: Error(configuration) without a surface.
 std::shared_ptr<const Surface> place_surface(std::shared_ptr<const Surface> surface, const Pose& X_SB);
 

@@ -15,6 +15,7 @@
 #include "treadmark/backends/displacement/reach.hpp"
 #include "treadmark/backends/displacement/shape.hpp"
 #include "treadmark/backends/displacement/upright_rail.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -47,6 +48,7 @@ class DisplacedSurface final : public Surface {
 
   std::string_view backend() const override { return backend_; }
   Facing facing() const override { return base_->facing(); }
+  std::vector<double> data_v() const override { return base_->data_v(); }
   std::size_t memory_bytes() const override { return sizeof(*this) + base_->memory_bytes() + field_->memory_bytes(); }
   Box3 bounds() const override {
     Box3 b = base_->bounds();
@@ -152,6 +154,11 @@ void DisplacedSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> poi
 }
 
 void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  Rectangle whole{kInfinity, -kInfinity, kInfinity, -kInfinity};
+  for (const Vec2& p : points_P)
+    whole = {std::min(whole.x_min, p.x()), std::max(whole.x_max, p.x()), std::min(whole.y_min, p.y()),
+             std::max(whole.y_max, p.y())};
+  if (points_P.empty() || undisturbed(view(X_SP), whole)) return base_->locate(X_SP, points_P, out);
   std::fill(out.begin(), out.end(), SurfacePoint{});
   const std::size_t n = points_P.size();
   std::vector<double> z(n), dzdx(n), dzdy(n);
@@ -181,11 +188,13 @@ void DisplacedSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
       p.position_S = position[k];
       p.normal_S = side * (X_SP.rotation * Vec3(-dzdx[hit[k]], -dzdy[hit[k]], 1.0)).normalized();
       p.u = at.u();
+      p.v = kNaN;
       p.status = LocateStatus::converged;
       continue;
     }
     fill_shape(*base_, body_, position[k], position[k] - offset[k].value * at.e, below[k], offset[k], p);
     p.v = below[k].v;
+    p.arc_length = below[k].arc_length;
     p.status = below[k].status == LocateStatus::ambiguous ? LocateStatus::ambiguous : LocateStatus::converged;
   }
 }

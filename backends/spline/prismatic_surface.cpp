@@ -233,7 +233,7 @@ void PrismaticSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_
     const double n = (hits.n[0] - view.depth.dot(lateral(foot))) / view.normal_part;
     const double v = hits.v[0];
     out[i].u = foot.x() + n * X_SP.rotation(0, 2);
-    out[i].v = v;
+    out[i].v = out[i].arc_length = v;
     const Vec2 d = profile_.derivative(v), dd = profile_.second_derivative(v);
     set_geometry({point(out[i].u, v), {1, 0, 0}, {0, d.x(), d.y()}, Vec3::Zero(), Vec3::Zero(), {0, dd.x(), dd.y()}},
                  out[i]);

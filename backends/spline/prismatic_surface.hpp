@@ -6,14 +6,13 @@
 
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
-#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
 
 /// A rail of constant cross-section: p(u, v) = (u, y(v), z(v)), u = x unlimited, v = arc length along the profile [m].
 /// Heights are those of one plane curve for a plane in any position. A plane whose normal runs along x meets nothing.
-class PrismaticSurface final : public Surface, public ArcLengthParameter {
+class PrismaticSurface final : public Surface {
  public:
   explicit PrismaticSurface(ProfileSpline profile);
 

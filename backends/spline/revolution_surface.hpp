@@ -6,7 +6,6 @@
 
 #include "treadmark/backends/spline/profile_spline.hpp"
 #include "treadmark/backends/spline/profile_tree.hpp"
-#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
@@ -15,7 +14,7 @@ namespace treadmark::spline {
 /// v = arc length along the profile [m]. Only the half turned towards the plane is hit: a line through the inside of
 /// the wheel to its far side is a miss. Within a profile segment of x = +-r, where the surface stands upright over the
 /// plane, points may be misses too.
-class RevolutionSurface final : public Surface, public LateralData {
+class RevolutionSurface final : public Surface {
  public:
   /// Errors: Error(configuration) unless the radius is positive everywhere.
   RevolutionSurface(ProfileSpline profile, double nominal_radius);

@@ -5,7 +5,6 @@
 #include "treadmark/backends/spline/slice_geometry.hpp"
 #include "treadmark/backends/spline/slice_hulls.hpp"
 #include "treadmark/backends/spline/slice_net.hpp"
-#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
@@ -15,7 +14,7 @@ namespace treadmark::spline {
 /// Misses: where parts are missing (also in a cell with one such end, and up to one cell before x = +-r of a wheel); a
 /// plane whose normal runs along a rail. Only the half of a wheel turned towards the plane is hit.
 template <class Geometry>
-class SliceSurface final : public Surface, public LateralData {
+class SliceSurface final : public Surface {
  public:
   /// Wheel: w of the net is the height over nominal_radius. Errors: Error(configuration) unless its radius is positive.
   SliceSurface(SliceNet net, double nominal_radius);

@@ -7,7 +7,6 @@
 #include <utility>
 #include <vector>
 
-#include "treadmark/core/lateral_data.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/sub_patches.hpp"
@@ -18,12 +17,10 @@ namespace {
 /// Signed arc length along the rail's section through a point seen from above: as the rail's own data have it, else
 /// from y = 0 of the profile.
 double profile_arc_length(const Surface& rail, const Pose& X_TR, const Vec3& point_T) {
-  if (dynamic_cast<const ArcLengthParameter*>(&rail) != nullptr) {
-    const Vec2 above(point_T.x(), point_T.y());
-    SurfacePoint found;
-    rail.locate(X_TR.inverse(), {&above, 1}, {&found, 1});
-    if (found.status != LocateStatus::outside) return found.v;
-  }
+  const Vec2 above(point_T.x(), point_T.y());
+  SurfacePoint found;
+  rail.locate(X_TR.inverse(), {&above, 1}, {&found, 1});
+  if (!std::isnan(found.arc_length)) return found.arc_length;
   const Vec3 point_R = X_TR.apply_inverse(point_T);
   constexpr int kSteps = 400;
   const double step = std::abs(point_R.y()) / kSteps;

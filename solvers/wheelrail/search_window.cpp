@@ -95,7 +95,7 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   s.refined_dy = 0.3 * d.ds;
   s.refined_points = geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
-  if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius};
+  if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius, !p.roller};
   s.reference_at_deepest = d.reference_at_deepest;
   s.rules.angle_separation = d.angle_separation;
   s.rules.separation = d.separation;

@@ -5,7 +5,8 @@
 
 usage: check_architecture.py ROOT
 
-Checked: who may include whom, one source file per heavy third-party header, licence lines, no package hosts.
+Checked: who may include whom, one source file per heavy third-party header, surfaces asked through their contract only,
+licence lines, no package hosts.
 """
 import pathlib
 import re
@@ -42,6 +43,9 @@ HEAVY = {
     r"CLI/.*": "app",  # any file of the command line program, nowhere else
 }
 HEAVY_FREE = ("tests", "bench")
+
+# Know nothing of a surface but its contract (core/surface.hpp), so that surfaces made of others may stand in for them.
+CONTRACT_ONLY = ("detection/", "solvers/")
 
 # Put together here, so that this file does not contain them.
 HOSTS = [".".join(parts) for parts in (
@@ -113,6 +117,8 @@ def check(root):
         text = data.decode("utf-8", "replace")
         if relative.endswith(SOURCE):
             violations += [f"{relative}: {what}" for what in check_includes(relative, text, heavy_users)]
+            if relative.startswith(CONTRACT_ONLY) and re.search(r"\bdynamic(_pointer)?_cast\b", text):
+                violations.append(f"{relative}: dynamic_cast: ask a question of the contract instead")
         if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:
             violations.append(f"{relative}: no SPDX-License-Identifier line at its top")
         violations += [f"{relative}: mentions the package host {host}" for host in HOSTS if host in text.lower()]

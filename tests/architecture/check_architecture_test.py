@@ -72,6 +72,13 @@ class Planted(unittest.TestCase):
         self.expect("io/cases/a.cpp", "#include <CLI/CLI.hpp>\n", "app/ only")
         self.expect("backends/a.cpp", "#include <CGAL/Simple_cartesian.h>\n", "scans/cgal/ only")
 
+    def test_questions_beside_the_contract(self):
+        for name in ("detection/a.cpp", "solvers/wheelrail/a.hpp", "solvers/kalker/normal/a.cpp"):
+            with self.subTest(name=name):
+                self.expect(name, "auto* a = dynamic_cast<const A*>(&b);\n", "contract")
+                self.expect(name, "auto a = std::dynamic_pointer_cast<const A>(b);\n", "contract")
+        self.assertEqual(self.violations({"backends/a.cpp": "auto* a = dynamic_cast<const A*>(&b);\n"}), [])
+
     def test_unknown_folder(self):
         self.expect("gadgets/a.cpp", "int a;\n", "no layer")
 

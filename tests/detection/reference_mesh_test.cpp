@@ -5,11 +5,13 @@
 #include <cmath>
 #include <vector>
 
+#include "treadmark/backends/analytic/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/detection/lateral_nodes.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 #include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/detection/wheel_facets.hpp"
 #include "treadmark/detection/wheel_mesh.hpp"
 #include "treadmark/detection/wheel_section.hpp"
@@ -165,6 +167,35 @@ TEST(ReferenceMesh, SectionsNeedARailMadeOfData) {
   const Scene scene(standard_rail(), standard_wheel());
   std::vector<double> n(scene.grid.size());
   EXPECT_FALSE(section_heights(scene.bodies, scene.X_TC, scene.grid, n));
+}
+
+TEST(ReferenceMesh, DamageFarAwayLeavesSectionsAndCorners) {
+  const auto rail = spline::make_slice_surface(crossing(Body::rail), 0.0),
+             wheel = spline::make_slice_surface(crossing(Body::wheel), kRadius);
+  Squat squat;
+  squat.length = squat.width = 20e-3, squat.depth = 0.2e-3, squat.x_center = 10.0;
+  WheelFlat flat;
+  flat.length = 20e-3, flat.depth = 0.2e-3, flat.theta_center = 2.0, flat.width = 0.1;
+  const Scene sound(rail, wheel), damaged(analytic::add_defects(rail, {.squats = {squat}}, Body::rail, 0.0),
+                                          analytic::add_defects(wheel, {.flats = {flat}}, Body::wheel, kRadius));
+  std::vector<double> before(sound.grid.size()), after(sound.grid.size());
+  ASSERT_TRUE(section_heights(sound.bodies, sound.X_TC, sound.grid, before));
+  ASSERT_TRUE(section_heights(damaged.bodies, damaged.X_TC, damaged.grid, after));
+  for (std::size_t i = 0; i < before.size(); ++i) ASSERT_NEAR(after[i], before[i], 1e-12);
+
+  const auto corners = mesh_lines(*wheel, 0.1, 1e-3), found = mesh_lines(*damaged.wheel, 0.1, 1e-3);
+  ASSERT_EQ(found.size(), corners.size());
+  for (std::size_t i = 0; i < corners.size(); ++i) EXPECT_NEAR(found[i], corners[i], 1e-12);
+}
+
+TEST(ReferenceMesh, RollersAreNotCutIntoSections) {
+  Scene scene(spline::make_slice_surface(crossing(Body::rail), 0.0), standard_wheel());
+  scene.bodies.distance_mesh->rail_sections = false;
+  std::vector<double> rail(scene.grid.size()), wheel(scene.grid.size());
+  scene.rail->heights({scene.bodies.X_TR.inverse() * scene.X_TC, scene.grid}, {rail, {}, {}});
+  mesh_heights(scene.bodies, scene.X_TC, scene.grid, wheel);
+  EXPECT_EQ(undeformed_distance(scene.bodies, scene.X_TC, scene.grid).distance,
+            undeformed_distance(rail, wheel).distance);
 }
 
 TEST(ReferenceMesh, PlanesAndAnglesGiveOneFacettedWheel) {

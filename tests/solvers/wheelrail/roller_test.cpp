@@ -8,6 +8,7 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
+#include "treadmark/solvers/wheelrail/search_window.hpp"
 
 // Wheels on rollers and in rings, from the surfaces to the forces.
 
@@ -141,6 +142,16 @@ TEST(RollerContact, LeftIsTheMirrorImageOfRight) {
     const PairSolution r = Pair(geometry).solve(right), l = Pair(geometry).solve(left);
     ASSERT_EQ(r.status, Status::ok) << r.message;
     EXPECT_LE((l.load.track.force - Vec3(1.0, -1.0, 1.0).cwiseProduct(r.load.track.force)).norm(), 1e-9 * 6e4);
+  }
+}
+
+TEST(RollerContact, TheReferenceMeshCutsRailsIntoSectionsNotRollers) {
+  for (const double radius : {0.0, kRoller}) {
+    const Geometry geometry = s1002_on(radius);
+    Problem p = s1002_problem();
+    p.discretisation.distance_on_mesh = true;
+    if (radius != 0.0) p.roller = Roller{radius, 10.0 / radius};
+    EXPECT_EQ(search_settings(geometry, p, place(geometry, p)).distance_mesh->rail_sections, radius == 0.0);
   }
 }
 
