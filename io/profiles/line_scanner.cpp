@@ -57,7 +57,7 @@ std::string lower(std::string_view text) {
 
 bool is_blank(char c) { return c == ' ' || c == '\t' || c == '\v' || c == '\f'; }
 
-LineScanner::LineScanner(std::string_view text, std::string file) : file_(std::move(file)), rest_(text) {
+LineScanner::LineScanner(std::string_view text, std::string file) : TextLine(std::move(file)), rest_(text) {
   if (rest_.starts_with("\xEF\xBB\xBF")) rest_.remove_prefix(3);
   if (const std::size_t nul = text.find('\0'); nul != std::string_view::npos) {
     const std::string_view before = text.substr(0, nul);
@@ -92,36 +92,40 @@ std::optional<Word> LineScanner::next_word() {
   return Word{line_.substr(start, offset_ - start), static_cast<int>(start + 1)};
 }
 
-void LineScanner::fail(const std::string& message, int column, const std::string& advice) const {
+void TextLine::fail(const std::string& message, int column, const std::string& advice) const {
+  // what looks like a wrong number may be a file of another kind
+  if (line_.find('\0') != std::string_view::npos)
+    throw Error(ErrorKind::input_data, "a NUL byte: this is not a plain text file",
+                at(static_cast<int>(line_.find('\0') + 1)), "check the extension, or save it as plain text");
   throw Error(ErrorKind::input_data, message, at(column), advice);
 }
 
 bool looks_numeric(std::string_view word) { return parse(word).kind != Numeric::no; }
 
-double to_number(const LineScanner& scanner, const Word& word) {
+double to_number(const TextLine& line, const Word& word) {
   const Parsed parsed = parse(word.text);
   switch (parsed.kind) {
     case Numeric::finite:
       return parsed.value;
     case Numeric::not_finite:
-      scanner.fail("the number " + printable(word.text) + " is not finite", word.column, "remove or repair the point");
+      line.fail("the number " + printable(word.text) + " is not finite", word.column, "remove or repair the point");
     case Numeric::out_of_range:
-      scanner.fail("the number " + printable(word.text) + " is out of range", word.column);
+      line.fail("the number " + printable(word.text) + " is out of range", word.column);
     case Numeric::no:
       break;
   }
   const bool comma = word.text.find(',') != std::string_view::npos;
-  scanner.fail("a number is expected, this is " + printable(word.text), word.column,
-               comma ? "write decimal points and separate numbers by blanks" : "");
+  line.fail("a number is expected, this is " + printable(word.text), word.column,
+            comma ? "write decimal points and separate numbers by blanks" : "");
 }
 
-int to_integer(const LineScanner& scanner, const Word& word) {
+int to_integer(const TextLine& line, const Word& word) {
   std::string_view text = word.text;
   if (text.size() > 1 && text[0] == '+' && text[1] != '-') text.remove_prefix(1);
   int value = 0;
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error != std::errc{} || end != text.data() + text.size() || value > 1'000'000'000 || value < -1'000'000'000)
-    scanner.fail("a whole number is expected, this is " + printable(word.text), word.column);
+    line.fail("a whole number is expected, this is " + printable(word.text), word.column);
   return value;
 }
 

@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "treadmark/core/error.hpp"
 
@@ -27,9 +28,28 @@ std::string lower(std::string_view text);
 
 bool is_blank(char c);
 
+/// The line of a text that is being read.
+class TextLine {
+ public:
+  std::string_view line() const { return line_; }
+  const std::string& file() const { return file_; }
+  int number() const { return number_; }  ///< of the line, from 1
+
+  SourcePosition at(int column = 0) const { return {file_, number_, column}; }
+
+  [[noreturn]] void fail(const std::string& message, int column = 0, const std::string& advice = {}) const;
+
+ protected:
+  explicit TextLine(std::string file, int number = 0) : file_(std::move(file)), number_(number) {}
+
+  std::string file_;
+  std::string_view line_;
+  int number_;
+};
+
 /// Walks over a text line by line (LF, CR LF or CR) and over the words of a line. Holds views: the text must outlive
 /// it.
-class LineScanner {
+class LineScanner : public TextLine {
  public:
   /// Throws Error(input_data) at the first NUL byte, which no text file has. A UTF-8 byte order mark is skipped.
   LineScanner(std::string_view text, std::string file);
@@ -43,22 +63,12 @@ class LineScanner {
   /// Next word of the current line, nothing at its end.
   std::optional<Word> next_word();
 
-  std::string_view line() const { return line_; }
   std::size_t offset() const { return offset_; }  ///< of the next character to look at in line()
   void set_offset(std::size_t offset) { offset_ = offset; }
-  const std::string& file() const { return file_; }
-  int number() const { return number_; }  ///< of the current line, from 1
-
-  SourcePosition at(int column = 0) const { return {file_, number_, column}; }
-
-  [[noreturn]] void fail(const std::string& message, int column = 0, const std::string& advice = {}) const;
 
  private:
-  std::string file_;
   std::string_view rest_;
-  std::string_view line_;
   std::size_t offset_ = 0;
-  int number_ = 0;
 };
 
 /// Whether the whole word is a decimal number, finite or not.
@@ -66,9 +76,9 @@ bool looks_numeric(std::string_view word);
 
 /// The finite value of a word. Exponents e, E, d and D, a leading '+' and a trailing point are accepted.
 /// Throws Error(input_data) at the word for anything else, NaN and infinities included.
-double to_number(const LineScanner& scanner, const Word& word);
+double to_number(const TextLine& line, const Word& word);
 
 /// As to_number for a whole number of magnitude up to 1e9.
-int to_integer(const LineScanner& scanner, const Word& word);
+int to_integer(const TextLine& line, const Word& word);
 
 }  // namespace treadmark::io::profiles

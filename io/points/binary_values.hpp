@@ -7,7 +7,9 @@
 #include <cstring>
 #include <string>
 
-namespace treadmark::io::scans {
+#include "treadmark/core/pose.hpp"
+
+namespace treadmark::io::points {
 
 /// A number in the bytes of a file.
 template <class T>
@@ -20,6 +22,13 @@ T load(const char* from, bool big_endian = false) {
   return value;
 }
 
+/// Three floats.
+inline Vec3 load_floats(const char* from, bool big_endian = false) {
+  return Eigen::Vector3f(load<float>(from, big_endian), load<float>(from + 4, big_endian),
+                         load<float>(from + 8, big_endian))
+      .cast<double>();
+}
+
 /// Appends little-endian bytes.
 template <class T>
 void put(std::string& out, T value) {
@@ -29,4 +38,4 @@ void put(std::string& out, T value) {
   out.append(raw, sizeof(T));
 }
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

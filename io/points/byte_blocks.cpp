@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
 
 #include <fmt/format.h>
 
@@ -13,7 +13,7 @@
 
 #include "treadmark/io/profiles/line_scanner.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 namespace fs = std::filesystem;
 
@@ -49,8 +49,6 @@ ByteBlocks::ByteBlocks(std::string_view bytes, std::string name, std::size_t blo
       progress_(progress),
       size_(bytes.size()),
       block_(std::max<std::size_t>(block, 1)) {
-  if (bytes.empty())
-    throw Error(ErrorKind::input_data, "the file is empty", {file_, 0, 0}, "was it copied to its end?");
   read_ = [bytes](char* to, std::size_t count) mutable {
     count = std::min(count, bytes.size());
     std::memcpy(to, bytes.data(), count);
@@ -82,11 +80,6 @@ std::size_t ByteBlocks::want(std::size_t bytes) {
   return end_ - begin_;
 }
 
-const char* ByteBlocks::need(std::size_t bytes) {
-  if (want(bytes) < bytes) ends();
-  return buffer_.data() + begin_;
-}
-
 void ByteBlocks::skip(std::uint64_t bytes) {
   if (bytes > left()) ends();
   while (bytes > 0) {
@@ -104,4 +97,4 @@ void ByteBlocks::finish() const {
   if (progress_.report) progress_.report(static_cast<std::size_t>(size_), static_cast<std::size_t>(size_), what_);
 }
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

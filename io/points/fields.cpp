@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/scans/fields.hpp"
+#include "treadmark/io/points/fields.hpp"
 
 #include <algorithm>
 
-#include "treadmark/io/scans/number.hpp"
+#include "treadmark/io/points/number.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 namespace {
 
@@ -83,4 +83,4 @@ FieldStyle find_style(const std::vector<std::string>& lines) {
   return {' ', false};
 }
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

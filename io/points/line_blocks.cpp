@@ -1,10 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/scans/line_blocks.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
-LineBlocks::LineBlocks(ByteBlocks& bytes, int first) : bytes_(bytes), number_(first - 1) {
+LineBlocks::LineBlocks(ByteBlocks& bytes, int first) : TextLine(bytes.file(), first - 1), bytes_(bytes) {
   constexpr std::size_t kSample = 100'000;
   bytes_.want(kSample);
   const std::string_view start = bytes_.window();
@@ -29,12 +29,4 @@ bool LineBlocks::more(std::size_t searched) {
 
 void LineBlocks::too_many() const { fail("more than 2000 million lines", 0, "thin out the points"); }
 
-void LineBlocks::fail(const std::string& message, int column, const std::string& advice) const {
-  // what looks like a wrong number may be a file of another kind
-  if (line_.find('\0') != std::string_view::npos)
-    throw Error(ErrorKind::input_data, "a NUL byte: this is not a plain text file",
-                at(static_cast<int>(line_.find('\0') + 1)), "check the extension, or save it as plain text");
-  throw Error(ErrorKind::input_data, message, at(column), advice);
-}
-
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

@@ -8,7 +8,7 @@
 
 #include "treadmark/io/profiles/line_scanner.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 /// How the numbers of a line are told apart.
 struct FieldStyle {
@@ -20,10 +20,7 @@ struct FieldStyle {
 };
 
 /// A piece of a line without blanks around; may be empty. The column counts from 1.
-struct Field {
-  std::string_view text;
-  int column = 0;
-};
+using Field = profiles::Word;
 
 /// Walks over the fields of a line.
 class FieldScanner {
@@ -62,4 +59,4 @@ std::vector<Field> fields_of(std::string_view line, char separator);
 /// numbers, every one has digits on both sides, and nowhere is a decimal point.
 FieldStyle find_style(const std::vector<std::string>& lines);
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

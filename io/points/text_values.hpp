@@ -5,11 +5,12 @@
 #include <cstdint>
 #include <limits>
 
-#include "treadmark/io/scans/fields.hpp"
-#include "treadmark/io/scans/line_blocks.hpp"
-#include "treadmark/io/scans/number.hpp"
+#include "treadmark/core/pose.hpp"
+#include "treadmark/io/points/fields.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
+#include "treadmark/io/points/number.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 /// The number in a field, which may be NaN or infinite. Error(input_data) at the field for anything else.
 inline double number_in(const LineBlocks& lines, const Field& field, bool decimal_comma = false) {
@@ -28,4 +29,16 @@ inline std::uint64_t count_in(const LineBlocks& lines, const Field& field) {
   return static_cast<std::uint64_t>(value);
 }
 
-}  // namespace treadmark::io::scans
+/// The three numbers behind a key, as the sink reads numbers. what: the message where they are fewer.
+template <class Sink>
+Vec3 three_in(const LineBlocks& lines, FieldScanner& fields, const Field& key, const char* what) {
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) {
+    Field field;
+    if (!fields.next(field)) Sink::too_few(lines, key, what);
+    p[k] = Sink::number(lines, field);
+  }
+  return p;
+}
+
+}  // namespace treadmark::io::points

@@ -1,12 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/scans/number.hpp"
+#include "treadmark/io/points/number.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 bool parse_number_slowly(std::string_view word, bool decimal_comma, double& value) {
   if (word.size() > 1 && word[0] == '+' && word[1] != '-' && word[1] != '+') word.remove_prefix(1);
@@ -42,4 +42,4 @@ bool parse_number_slowly(std::string_view word, bool decimal_comma, double& valu
 
 bool is_whole(double value) { return std::abs(value) <= 9e15 && value == std::floor(value); }
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

@@ -12,7 +12,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/progress.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 /// Bytes of a file, read block by block: only the unread rest of a block is carried over to the next.
 class ByteBlocks {
@@ -39,7 +39,10 @@ class ByteBlocks {
   std::size_t want(std::size_t bytes);
 
   /// As want, but Error(input_data) where the file ends before.
-  const char* need(std::size_t bytes);
+  const char* need(std::size_t bytes) {
+    if (end_ - begin_ < bytes && want(bytes) < bytes) ends();
+    return buffer_.data() + begin_;
+  }
 
   /// Marks bytes of the window as read.
   void consume(std::size_t bytes) { begin_ += bytes; }
@@ -67,4 +70,4 @@ class ByteBlocks {
   std::size_t begin_ = 0, end_ = 0;
 };
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

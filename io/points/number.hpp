@@ -5,7 +5,7 @@
 #include <charconv>
 #include <string_view>
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 /// The number that a whole word says: exponents e, E, d and D, a leading '+', nan and infinities in the spellings of C,
 /// and of Windows ("-1.#IND"); a decimal comma where asked for. Out of range counts as infinite. False for anything
@@ -22,4 +22,4 @@ inline bool parse_number(std::string_view word, bool decimal_comma, double& valu
 /// A whole number that a double holds exactly.
 bool is_whole(double value);
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

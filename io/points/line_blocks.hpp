@@ -6,12 +6,13 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
+#include "treadmark/io/profiles/line_scanner.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 /// The lines of a text that is read in blocks. Lines end with LF or CR LF; where the first block has no LF, with CR.
-class LineBlocks {
+class LineBlocks : public profiles::TextLine {
  public:
   /// Skips a byte order mark of UTF-8; Error(input_data) for UTF-16. first: number of the first line.
   explicit LineBlocks(ByteBlocks& bytes, int first = 1);
@@ -38,13 +39,8 @@ class LineBlocks {
     }
   }
 
-  int number() const { return number_; }           ///< of the line that next() gave last, from 1
-  std::string_view line() const { return line_; }  ///< that line
-  std::uint64_t start() const { return start_; }   ///< its first byte in the file
+  std::uint64_t start() const { return start_; }  ///< first byte in the file of the line that next() gave last
   const ByteBlocks& bytes() const { return bytes_; }
-
-  SourcePosition at(int column = 0) const { return {bytes_.file(), number_, column}; }
-  [[noreturn]] void fail(const std::string& message, int column = 0, const std::string& advice = {}) const;
 
  private:
   void take(std::string_view line, std::size_t bytes) {
@@ -61,9 +57,7 @@ class LineBlocks {
   static constexpr int kMostLines = 2'000'000'000;
   ByteBlocks& bytes_;
   char end_of_line_ = '\n';
-  std::string_view line_;
   std::uint64_t start_ = 0;
-  int number_ = 0;
 };
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

@@ -1,14 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/meshes/ply_header.hpp"
+#include "treadmark/io/points/ply_header.hpp"
 
 #include <charconv>
 #include <optional>
 
-#include "treadmark/io/meshes/parse_mesh.hpp"
+#include "treadmark/io/points/sink.hpp"
 #include "treadmark/io/profiles/line_scanner.hpp"
 
-namespace treadmark::io::meshes {
+namespace treadmark::io::points {
 
 using profiles::LineScanner;
 using profiles::printable;
@@ -105,7 +105,11 @@ PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
   while (scanner.next_line()) {
     ++header.lines;
     const std::optional<Word> key = scanner.next_word();
-    if (!key || key->text == "comment" || key->text == "obj_info" || key->text == "end_header") continue;
+    if (!key || key->text == "end_header") continue;
+    if (key->text == "comment" || key->text == "obj_info") {
+      header.comments.emplace_back(scanner.line().substr(scanner.offset()));
+      continue;
+    }
     if (key->text == "ply" && header.lines == 1) continue;
     if (key->text == "format") {
       header.format = format_of(scanner);
@@ -123,7 +127,7 @@ PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
         property.list = true;
         const Word count = want(scanner, "the type of the length of the list");
         property.count_type = type_of(scanner, count);
-        if (property.count_type == PlyType::float32 || property.count_type == PlyType::float64)
+        if (!is_whole_type(property.count_type))
           scanner.fail("the length of a list must be of a whole type", count.column);
         type = want(scanner, "the type of the entries");
       }
@@ -140,4 +144,4 @@ PlyHeader parse_ply_header(std::string_view bytes, const std::string& file) {
   return header;
 }
 
-}  // namespace treadmark::io::meshes
+}  // namespace treadmark::io::points

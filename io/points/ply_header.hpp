@@ -7,10 +7,11 @@
 #include <string_view>
 #include <vector>
 
-namespace treadmark::io::meshes {
+namespace treadmark::io::points {
 
 enum class PlyType { int8, uint8, int16, uint16, int32, uint32, float32, float64 };
 std::size_t size_of(PlyType type);
+inline bool is_whole_type(PlyType type) { return type != PlyType::float32 && type != PlyType::float64; }
 
 struct PlyProperty {
   std::string name;
@@ -29,6 +30,7 @@ struct PlyHeader {
   enum class Format { ascii, little_endian, big_endian };
   Format format = Format::ascii;
   std::vector<PlyElement> elements;
+  std::vector<std::string> comments;
   std::size_t bytes = 0;  ///< length of the header: where the data begin
   int lines = 0;
 };
@@ -36,4 +38,4 @@ struct PlyHeader {
 /// Error(input_data) with line and column for anything that is not a header of a PLY file, version 1.0.
 PlyHeader parse_ply_header(std::string_view bytes, const std::string& file);
 
-}  // namespace treadmark::io::meshes
+}  // namespace treadmark::io::points
