@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/read_text.hpp"
 #include "treadmark/io/meshes/parse_mesh.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
-#include "treadmark/io/profiles/read_text.hpp"
 
 namespace treadmark::io {
 

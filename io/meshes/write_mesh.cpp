@@ -6,9 +6,9 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/points/binary_values.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
 
 namespace treadmark::io {
 

@@ -11,7 +11,7 @@
 #include <system_error>
 #include <utility>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::points {
 

@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::points {
 

@@ -6,8 +6,8 @@
 #include <string>
 #include <string_view>
 
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/byte_blocks.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
 
 namespace treadmark::io::points {
 

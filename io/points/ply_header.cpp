@@ -5,8 +5,8 @@
 #include <charconv>
 #include <optional>
 
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/sink.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
 
 namespace treadmark::io::points {
 

@@ -8,8 +8,8 @@
 #include <array>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/sink.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
 
 namespace treadmark::io::points {
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

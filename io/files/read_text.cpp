@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/profiles/read_text.hpp"
+#include "treadmark/io/files/read_text.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/twelve_digits.hpp"
+#include "treadmark/io/files/twelve_digits.hpp"
 
 #include <charconv>
 #include <cstdio>

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/utf8.hpp"
+#include "treadmark/io/files/utf8.hpp"
 
 namespace treadmark::io {
 

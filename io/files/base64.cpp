@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/base64.hpp"
+#include "treadmark/io/files/base64.hpp"
 
 #include <algorithm>
 #include <cstdint>
