@@ -9,8 +9,8 @@
 #include "treadmark/app/named_surface.hpp"
 #include "treadmark/app/read_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
 

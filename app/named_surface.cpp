@@ -6,7 +6,7 @@
 #include "treadmark/app/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::app {
 namespace {

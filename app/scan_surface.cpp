@@ -11,7 +11,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::app {

@@ -8,7 +8,7 @@
 
 #include "treadmark/app/read_surface.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
-#include "treadmark/io/results/csv_text.hpp"
+#include "treadmark/io/files/csv_text.hpp"
 
 namespace treadmark::app {
 namespace {

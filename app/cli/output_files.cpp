@@ -3,7 +3,7 @@
 #include "treadmark/app/cli/output_files.hpp"
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_csv.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_pictures.hpp"

@@ -8,7 +8,7 @@
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/plot.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 

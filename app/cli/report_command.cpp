@@ -7,7 +7,7 @@
 #include "treadmark/app/report/assets.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/write_page.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 

@@ -9,7 +9,7 @@
 #include "treadmark/app/scan_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 namespace {

@@ -15,8 +15,8 @@
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::cli {

@@ -10,7 +10,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/natural_view.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/scans/cgal/stray_points.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"

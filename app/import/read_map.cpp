@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/scans/placement/band_frame.hpp"
 

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include "treadmark/app/report/deflate.hpp"
-#include "treadmark/io/results/base64.hpp"
+#include "treadmark/io/files/base64.hpp"
 
 namespace treadmark::app::report {
 namespace {

@@ -11,7 +11,7 @@
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/app/version.hpp"
-#include "treadmark/io/results/base64.hpp"
+#include "treadmark/io/files/base64.hpp"
 
 namespace treadmark::app::report {
 namespace {

@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -22,9 +22,9 @@
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 
 namespace treadmark::app {

@@ -8,7 +8,7 @@
 
 #include "treadmark/app/simulation/input_files.hpp"
 #include "treadmark/app/version.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 
 namespace treadmark::app {

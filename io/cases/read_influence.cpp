@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
-#include "treadmark/io/profiles/read_text.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/read_text.hpp"
 
 namespace treadmark::io {
 

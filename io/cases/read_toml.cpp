@@ -14,7 +14,7 @@
 #include "treadmark/io/cases/case_steps.hpp"
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::io {
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/histories/history_csv.hpp"
 
-#include "treadmark/io/results/atomic_file.hpp"
-#include "treadmark/io/results/csv_text.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/csv_text.hpp"
 
 namespace treadmark::io {
 

@@ -9,12 +9,12 @@
 #include <numbers>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/csv_text.hpp"
 #include "treadmark/io/histories/contour_lines.hpp"
 #include "treadmark/io/histories/patches_view.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/chart_curve.hpp"
 #include "treadmark/io/results/chart_labels.hpp"
-#include "treadmark/io/results/csv_text.hpp"
 #include "treadmark/io/results/svg_panel.hpp"
 #include "treadmark/io/results/svg_text.hpp"
 

@@ -4,9 +4,9 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/histories/store_names.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 
 namespace treadmark::io {
 namespace {

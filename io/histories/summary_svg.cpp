@@ -9,9 +9,9 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/csv_text.hpp"
 #include "treadmark/io/histories/history_curves.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
-#include "treadmark/io/results/csv_text.hpp"
 #include "treadmark/io/results/svg_text.hpp"
 
 namespace treadmark::io {

@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/csv_text.hpp"
 #include "treadmark/io/histories/study_store.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
-#include "treadmark/io/results/csv_text.hpp"
 
 namespace treadmark::io {
 

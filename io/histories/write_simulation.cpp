@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/store_names.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 
 namespace treadmark::io {

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <filesystem>
 
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/imports/import_maps.hpp"
 #include "treadmark/io/imports/import_pictures.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 
 namespace treadmark::io {
 

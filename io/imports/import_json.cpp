@@ -5,9 +5,9 @@
 #include <numbers>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/twelve_digits.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
-#include "treadmark/io/results/twelve_digits.hpp"
 
 namespace treadmark::io {
 namespace {

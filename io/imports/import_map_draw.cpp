@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/io/files/base64.hpp"
 #include "treadmark/io/imports/import_map.hpp"
-#include "treadmark/io/results/base64.hpp"
 #include "treadmark/io/results/svg_text.hpp"
 
 namespace treadmark::io {

@@ -8,10 +8,10 @@
 #include <span>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/imports/import_words.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 
 namespace treadmark::io {
 namespace {

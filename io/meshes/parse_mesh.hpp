@@ -16,7 +16,4 @@ TriangleMesh parse_stl(std::string_view bytes, const std::string& file, double s
 TriangleMesh parse_obj(std::string_view text, const std::string& file, double scale);
 TriangleMesh parse_off(std::string_view text, const std::string& file, double scale);
 
-/// Largest number of vertices or triangles: indices have 32 bits and one value is kept free.
-inline constexpr std::uint64_t kMostElements = 1'000'000'000;
-
 }  // namespace treadmark::io::meshes

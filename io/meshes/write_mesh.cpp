@@ -1,16 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <algorithm>
-#include <bit>
-#include <cstring>
 #include <fstream>
 #include <iterator>
 #include <system_error>
 
 #include <fmt/format.h>
 
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/points/binary_values.hpp"
 
 namespace treadmark::io {
 
@@ -18,15 +16,7 @@ namespace {
 
 constexpr double kMillimetres = 1e3;
 
-/// Appends little-endian bytes.
-template <class T>
-void put(std::string& out, T value) {
-  char raw[sizeof(T)];
-  std::memcpy(raw, &value, sizeof(T));
-  if constexpr (std::endian::native == std::endian::big) std::reverse(raw, raw + sizeof(T));
-  out.append(raw, sizeof(T));
-}
-
+using points::put;
 using Comments = std::span<const std::string>;
 
 std::string lines(Comments comments, const char* start) {

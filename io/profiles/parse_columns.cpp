@@ -3,7 +3,7 @@
 #include <array>
 #include <optional>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
 
 namespace treadmark::io::profiles {

@@ -4,7 +4,7 @@
 #include <optional>
 #include <utility>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
 
 namespace treadmark::io::profiles {

@@ -8,10 +8,10 @@
 #include <cmath>
 #include <optional>
 
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/read_text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
-#include "treadmark/io/profiles/read_text.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -9,8 +9,8 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/io/files/read_text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
-#include "treadmark/io/profiles/read_text.hpp"
 #include "treadmark/io/profiles/record_reader.hpp"
 
 namespace treadmark::io {

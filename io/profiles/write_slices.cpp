@@ -10,8 +10,8 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/line_scanner.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <cmath>
 #include <map>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/chart_draw.hpp"
 #include "treadmark/io/results/comparison_digest.hpp"
 #include "treadmark/io/results/comparison_pictures.hpp"

@@ -6,9 +6,9 @@
 
 #include <cmath>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/csv_text.hpp"
 #include "treadmark/io/results/comparison_fields.hpp"
-#include "treadmark/io/results/csv_text.hpp"
 
 namespace treadmark::io {
 namespace {

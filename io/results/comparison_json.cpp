@@ -7,9 +7,9 @@
 #include <cmath>
 #include <cstring>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/utf8.hpp"
 #include "treadmark/io/results/comparison_fields.hpp"
-#include "treadmark/io/results/utf8.hpp"
 
 namespace treadmark::io {
 namespace {

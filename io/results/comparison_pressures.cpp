@@ -7,7 +7,7 @@
 #include <numbers>
 #include <numeric>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/chart_labels.hpp"
 #include "treadmark/io/results/comparison_cases.hpp"
 #include "treadmark/io/results/comparison_digest.hpp"

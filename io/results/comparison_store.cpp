@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/file_layout.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"

@@ -9,7 +9,7 @@
 #include <iterator>
 #include <numbers>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/picture_patch.hpp"
 #include "treadmark/io/results/svg_panel.hpp"

@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "treadmark/io/results/utf8.hpp"
+#include "treadmark/io/files/utf8.hpp"
 
 namespace treadmark::io {
 std::string xml_text(std::string_view words) {

@@ -7,7 +7,7 @@
 #include <bit>
 #include <span>
 
-#include "treadmark/io/results/base64.hpp"
+#include "treadmark/io/files/base64.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -6,7 +6,7 @@
 
 #include <string>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/attributes.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/file_layout.hpp"

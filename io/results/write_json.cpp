@@ -6,8 +6,8 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
-#include "treadmark/io/results/twelve_digits.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/twelve_digits.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/text_columns.hpp"
 

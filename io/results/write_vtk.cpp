@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/subsurface_vtk.hpp"

@@ -3,21 +3,19 @@
 #pragma once
 
 #include <cstdint>
-#include <functional>
 #include <optional>
 #include <string>
 
-#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/points/sink.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::io::scans {
 
+using namespace points;
+
 /// Collects the points of a file and never makes room for more than the rest of the file can hold.
 class CloudBuilder {
  public:
-  /// Knows the place in the file and throws.
-  using Fail = std::function<void(const std::string& message, const std::string& advice)>;
-
   /// least_bytes: that a point takes in this kind of file.
   CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& options, std::size_t least_bytes, Fail fail);
 
@@ -26,6 +24,7 @@ class CloudBuilder {
     passes_ = passes;
   }
 
+  bool has_passes() const { return passes_; }
   void drop_passes() {
     passes_ = false;
     scan_.cloud.passes = {};

@@ -7,8 +7,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "treadmark/io/scans/line_blocks.hpp"
-#include "treadmark/io/scans/number.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
+#include "treadmark/io/points/number.hpp"
 #include "treadmark/io/scans/unit_words.hpp"
 
 namespace treadmark::io::scans {

@@ -9,10 +9,12 @@
 #include <vector>
 
 #include "treadmark/core/length_unit.hpp"
-#include "treadmark/io/scans/byte_blocks.hpp"
-#include "treadmark/io/scans/fields.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
+#include "treadmark/io/points/fields.hpp"
 
 namespace treadmark::io::scans {
+
+using namespace points;
 
 /// What a line of a text of numbers is.
 enum class LineKind { empty, comment, words, numbers };

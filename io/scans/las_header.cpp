@@ -6,7 +6,7 @@
 
 #include <cmath>
 
-#include "treadmark/io/scans/binary_values.hpp"
+#include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/unit_words.hpp"
 
 namespace treadmark::io::scans {

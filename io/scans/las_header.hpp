@@ -7,9 +7,11 @@
 #include <optional>
 
 #include "treadmark/core/length_unit.hpp"
-#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
 
 namespace treadmark::io::scans {
+
+using namespace points;
 
 /// Places in the public header block of LAS 1.0 to 1.4 (ASPRS).
 namespace las {

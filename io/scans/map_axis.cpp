@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::scans {
 

@@ -7,11 +7,13 @@
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
-#include "treadmark/io/scans/line_blocks.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/io/scans/unit_words.hpp"
 
 namespace treadmark::io::scans {
+
+using namespace points;
 
 /// The first of at least two positions that breaks an even increase; nothing where they increase evenly, within 5 % of
 /// a step (printed positions are rounded). A single position breaks it.

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 
 namespace treadmark::io::scans {

@@ -5,10 +5,10 @@
 #include <array>
 #include <limits>
 
+#include "treadmark/io/points/text_values.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
-#include "treadmark/io/scans/text_values.hpp"
 
 namespace treadmark::io::scans {
 

@@ -7,10 +7,10 @@
 #include <limits>
 #include <map>
 
+#include "treadmark/io/points/text_values.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/map_axis.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
-#include "treadmark/io/scans/text_values.hpp"
 
 namespace treadmark::io::scans {
 

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "treadmark/io/scans/binary_values.hpp"
+#include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/las_header.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"

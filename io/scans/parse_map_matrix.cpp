@@ -5,10 +5,10 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/io/points/text_values.hpp"
 #include "treadmark/io/scans/map_axis.hpp"
 #include "treadmark/io/scans/map_head.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
-#include "treadmark/io/scans/text_values.hpp"
 
 namespace treadmark::io::scans {
 

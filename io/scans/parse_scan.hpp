@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/io/scans/byte_blocks.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 
 namespace treadmark::io::scans {
+
+using namespace points;
 
 /// The readers behind read_scan, one a format. Errors: Error(input_data) that name the line and column or the byte.
 Scan parse_ply(ByteBlocks& bytes, const ScanReadOptions& options);

@@ -4,7 +4,7 @@
 
 #include <cmath>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
 
 namespace treadmark::io {

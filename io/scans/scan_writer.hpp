@@ -8,7 +8,7 @@
 
 #include "treadmark/core/length_unit.hpp"
 #include "treadmark/core/point_cloud.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::io::scans {
 

@@ -2,10 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 
-#include "treadmark/io/scans/line_blocks.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
+#include "treadmark/io/points/number.hpp"
 #include "treadmark/io/scans/map_axis.hpp"
 #include "treadmark/io/scans/map_head.hpp"
-#include "treadmark/io/scans/number.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
 
 namespace treadmark::io::scans {

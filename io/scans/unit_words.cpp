@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::scans {
 

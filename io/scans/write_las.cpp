@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/scans/binary_values.hpp"
+#include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/las_header.hpp"
 #include "treadmark/io/scans/scan_writer.hpp"
 

@@ -4,8 +4,8 @@
 
 #include <iterator>
 
-#include "treadmark/io/profiles/line_scanner.hpp"
-#include "treadmark/io/scans/binary_values.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/io/scans/scan_writer.hpp"
 

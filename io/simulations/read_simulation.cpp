@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/read_text.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"

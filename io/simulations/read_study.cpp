@@ -8,7 +8,7 @@
 
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"

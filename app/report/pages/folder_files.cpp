@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/profiles/read_text.hpp"
+#include "treadmark/io/files/read_text.hpp"
 
 namespace treadmark::app::report {
 

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/profiles/read_text.hpp"
+#include "treadmark/io/files/read_text.hpp"
 
 namespace treadmark::app::report {
 

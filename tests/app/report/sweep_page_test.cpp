@@ -7,8 +7,8 @@
 
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/pages/study_folder.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/io/results/atomic_file.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 

@@ -9,7 +9,7 @@
 
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
 namespace treadmark::io {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/profiles/line_scanner.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/profiles/sha256.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 #include <gtest/gtest.h>
 
