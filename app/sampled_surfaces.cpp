@@ -102,7 +102,7 @@ std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io
     const auto found = inputs.find(result.number);
     if (found == inputs.end() || found->second == nullptr) continue;
     const io::WheelRailCase& input = *found->second;
-    used.left = input.side == io::Side::left;
+    used.left = input.side == Side::left;
     const auto body = [&](const StoredSurface& s, bool constant, double size) {
       UsedBody one{s.body(), s.represented.surface, nullptr, constant, size};
       if (!s.represented.resampled) return one;

@@ -30,7 +30,8 @@ struct Track {
 /// along the track neither: position.x is where the wheelset's axle stands over the roller's.
 struct Roller {
   double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
-  double pitch_rate = 0.0;      ///< [rad/s]; positive where a wheel on top of it rolls forward, negative for a ring
+  double pitch_rate = 0.0;      ///< [rad/s], of a shift [rad]; positive where a wheel on top of it rolls forward,
+                                ///< negative for a ring
 };
 
 /// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the
@@ -80,8 +81,8 @@ enum class SearchMethod {
   locus,        ///< constant profiles only: where the wheel's circles come closest to the rail
 };
 
-/// Grid and patch rules.
-struct Discretisation {
+/// Size of elements, and the rules by which they make patches.
+struct ElementGrid {
   double dx = 0.5e-3, ds = 0.5e-3;               ///< element sizes [m]
   double dq_relative = 1.0;                      ///< rolling step over dx
   double angle_separation = std::numbers::pi;    ///< A_SEP [rad]
@@ -89,7 +90,10 @@ struct Discretisation {
   std::optional<double> turning;                 ///< D_TURN [m]; default 2 D_SEP - D_COMB
   double near_miss = -1e-3;                      ///< G_MISS [m]
   int max_elements = 20000;
-  bool linear_weight = false;
+  bool linear_weight = false;  ///< weight of the penetration in the contact reference; false: squared
+};
+
+struct Discretisation : ElementGrid {
   bool reference_at_deepest = false;
   /// Size and fineness of the first search grid.
   enum class SearchGrid {
