@@ -6,6 +6,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::cli {
 
@@ -15,8 +16,7 @@ int list_command(const std::string& what) {
   } else if (what == "profiles") {
     for (const auto name : standard_profile_names()) std::cout << name << '\n';
   } else if (what == "solvers") {
-    std::cout << "normal: full (half-space, constant elements), elliptic, parabolic\n"
-                 "tangential: full (Kalker's exact theory: shift, steady rolling), fastsim\n";
+    std::cout << theory_list();
   } else if (what == "verbs") {
     std::cout << "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\nreport\nplot\ncheck\nlist\nschema\n";
   } else {

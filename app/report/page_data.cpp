@@ -193,8 +193,8 @@ class Writer {
       Json& patches = frame["patches"] = Json::array();
       for (std::size_t k = 0; k < packed[i].patches.size(); ++k)
         patches.push_back(patch(result.patches[k], packed[i].patches[k], k));
-      frame["wheel"] = result.bodies ? placed(result.wheel_surface, result.bodies->X_TW) : Json();
-      frame["rail"] = result.bodies ? placed(result.rail_surface, result.bodies->X_TR) : Json();
+      frame["wheel"] = result.bodies ? placed(result.wheel_surface, result.bodies->X_TA) : Json();
+      frame["rail"] = result.bodies ? placed(result.rail_surface, result.bodies->X_TS) : Json();
       if (!packed[i].trimmed.empty())
         frame["trimmed"] = packed[i].trimmed + (" All fields are in " + page_.full_data + ".");
       frames.push_back(std::move(frame));

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
 
@@ -56,6 +57,15 @@ inline std::vector<double> numbers_of(const CaseValue& list, double unit) {
 /// What names of backends look like; which there are is not known here.
 inline constexpr const char* kBackendPattern = "^[a-z][a-z0-9_-]*$";
 bool is_backend_name(std::string_view text);
+
+/// Words and enumerators of the theories that cases of this kind may use.
+template <class Content, class Id, std::size_t count>
+std::vector<std::pair<std::string, Id>> words_of(const Theory<Id> (&table)[count]) {
+  std::vector<std::pair<std::string, Id>> words;
+  for (const Theory<Id>& row : table)
+    if (scope_of<Content>() != KeyScope::wheel_rail || !row.limits.patch_only) words.emplace_back(row.word, row.id);
+  return words;
+}
 
 /// A list of keys under construction.
 class KeyList {
@@ -151,23 +161,18 @@ class KeyList {
 /// tangential_model and the fastsim_... keys under prefix.
 template <class Content>
 void add_simplified_theory(KeyList& list, const std::string& prefix) {
-  using T = TangentialModelInput;
-  list.choice<Content, T>(prefix + "tangential_model",
-                          {{"full", T::full},
-                           {"fastsim", T::fastsim},
-                           {"fastsim_one_flexibility", T::fastsim_one_flexibility},
-                           {"fastrip", T::fastrip}},
-                          "tractions: exact theory, FASTSIM with three flexibilities or with one, or FaStrip",
-                          [](Content& c) -> T& { return c.tangential_model; });
+  list.choice<Content>(prefix + "tangential_model", words_of<Content>(kTangentialTheories),
+                       "tractions: exact theory, FASTSIM with three flexibilities or with one, or FaStrip",
+                       [](Content& c) -> TangentialModel& { return c.tangential_model; });
   list.number<Content>(prefix + "fastsim_k0", kPositive, "FASTSIM: initial slope reduction",
-                       [](Content& c) -> double& { return c.fastsim_k0; });
+                       [](Content& c) -> double& { return c.fastsim.k0; });
   list.number<Content>(prefix + "fastsim_alpha", kNotNegative, "FASTSIM: slope at large creepage over the initial one",
-                       [](Content& c) -> double& { return c.fastsim_alpha; });
+                       [](Content& c) -> double& { return c.fastsim.alpha; });
   list.number<Content>(prefix + "fastsim_beta", kNotNegative, "FASTSIM: rate of the slope reduction",
-                       [](Content& c) -> double& { return c.fastsim_beta; });
+                       [](Content& c) -> double& { return c.fastsim.beta; });
   list.number<Content>(prefix + "fastsim_flexibility_mm_per_MPa", kPositive,
                        "flexibility of \"fastsim_one_flexibility\"",
-                       [](Content& c) -> double& { return c.fastsim_flexibility; });
+                       [](Content& c) -> double& { return c.fastsim.flexibility; });
 }
 
 /// Keys by subject; see the .cpp of the same name.

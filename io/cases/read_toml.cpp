@@ -128,11 +128,11 @@ struct Expansion {
 
  private:
   void step(Case& next, bool goes_on, const std::function<bool(std::string_view)>& given) const {
-    HistoryInput& history = std::visit([](auto& content) -> HistoryInput& { return content.history; }, next.content);
-    if (goes_on && history == HistoryInput::start) history = HistoryInput::keep_going;
+    HistoryUse& history = std::visit([](auto& content) -> HistoryUse& { return content.history; }, next.content);
+    if (goes_on && history == HistoryUse::start) history = HistoryUse::keep_going;
     settle_rolling_step(next);
     const Case* previous = previous_of(next);
-    if (previous != nullptr && history != HistoryInput::start && history != HistoryInput::same_instant)
+    if (previous != nullptr && history != HistoryUse::start && history != HistoryUse::same_instant)
       move_on(next, *previous, given);
   }
 };

@@ -114,10 +114,10 @@ std::vector<Attribute> attributes_of(const CaseResult& result) {
     add("roller_pitch_rate", result.roller->pitch_rate);
   }
   if (result.bodies) {
-    add("X_TW_origin", result.bodies->X_TW.origin);
-    add("X_TW_rotation", result.bodies->X_TW.rotation);
-    add("X_TR_origin", result.bodies->X_TR.origin);
-    add("X_TR_rotation", result.bodies->X_TR.rotation);
+    add("X_TA_origin", result.bodies->X_TA.origin);
+    add("X_TA_rotation", result.bodies->X_TA.rotation);
+    add("X_TS_origin", result.bodies->X_TS.origin);
+    add("X_TS_rotation", result.bodies->X_TS.rotation);
   }
   if (!result.wheel_surface.empty()) add("wheel_surface", result.wheel_surface);
   if (!result.rail_surface.empty()) add("rail_surface", result.rail_surface);

@@ -63,6 +63,10 @@ void refuse_result(const Hdf5GroupReader& where, const std::string& what) {
               "give a file that this program wrote");
 }
 
+Pose read_pose(const Hdf5GroupReader& group, const std::string& name) {
+  return {group.vector(name + "_origin"), group.matrix(name + "_rotation")};
+}
+
 CaseResult read_case(const Hdf5GroupReader& group) {
   CaseResult c;
   c.number = group.integer("number");
@@ -75,9 +79,11 @@ CaseResult read_case(const Hdf5GroupReader& group) {
     c.rail_deflection = Vec2(group.number("rail_deflection_y"), group.number("rail_deflection_z"));
   if (group.has_attribute("roller_nominal_radius"))
     c.roller = {group.number("roller_nominal_radius"), group.number("roller_pitch_rate")};
-  if (group.has_attribute("X_TW_origin"))
-    c.bodies = CaseResult::Bodies{{group.vector("X_TW_origin"), group.matrix("X_TW_rotation")},
-                                  {group.vector("X_TR_origin"), group.matrix("X_TR_rotation")}};
+  // Early files name the same poses X_TW and X_TR.
+  const char *wheel = "X_TA", *rail = "X_TS";
+  if (!group.has_attribute("X_TA_origin")) wheel = "X_TW", rail = "X_TR";
+  if (group.has_attribute(std::string(wheel) + "_origin"))
+    c.bodies = CaseResult::Bodies{read_pose(group, wheel), read_pose(group, rail)};
   if (group.has_attribute("wheel_surface")) c.wheel_surface = group.text("wheel_surface");
   if (group.has_attribute("rail_surface")) c.rail_surface = group.text("rail_surface");
   for (int number = 1;; ++number) {

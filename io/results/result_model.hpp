@@ -115,7 +115,7 @@ struct CaseResult {
   /// Poses of the axes of the sampled surfaces in track axes: the wheel's are on its axle and turn with its pitch, the
   /// rail's are those of its profile, moved back by the wheelset's position along the track.
   struct Bodies {
-    Pose X_TW, X_TR;
+    Pose X_TA, X_TS;
   };
   std::optional<Bodies> bodies;
   std::string wheel_surface, rail_surface;  ///< names of sampled surfaces; empty = none

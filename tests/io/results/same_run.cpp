@@ -162,8 +162,8 @@ void expect_same_case(const io::CaseResult& read, const io::CaseResult& written,
   }
   ASSERT_EQ(read.bodies.has_value(), written.bodies.has_value());
   if (read.bodies) {
-    expect_same(read.bodies->X_TW, written.bodies->X_TW, "X_TW");
-    expect_same(read.bodies->X_TR, written.bodies->X_TR, "X_TR");
+    expect_same(read.bodies->X_TA, written.bodies->X_TA, "X_TA");
+    expect_same(read.bodies->X_TS, written.bodies->X_TS, "X_TS");
   }
   EXPECT_EQ(read.wheel_surface, written.wheel_surface);
   EXPECT_EQ(read.rail_surface, written.rail_surface);
