@@ -15,6 +15,7 @@
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/settings/key_schema.hpp"
 
 namespace treadmark::io {
 
@@ -24,7 +25,7 @@ constexpr std::size_t kMostCases = 100000;
 
 bool is_scalar_key(const std::string& path) {
   for (const CaseKey& key : case_keys())
-    if (key.info.path == path) return key.info.type != KeyType::number_list && key.info.type != KeyType::table_list;
+    if (key.info.path == path) return !is_list(key.info);
   return false;
 }
 

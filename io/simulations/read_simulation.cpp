@@ -157,7 +157,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
                 simulation_table == nullptr ? top : simulation_table->value.where, "see docs/simulation-files.md");
 
   const TableReader simulation(simulation_table->value.table(), simulation_table->value.where, "simulation",
-                               kSimulationKeys);
+                               simulation_keys());
   result.settings = read_settings(simulation);
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);

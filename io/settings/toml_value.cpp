@@ -1,12 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/settings/toml_value.hpp"
+
 #include <algorithm>
 #include <cctype>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <toml++/toml.h>
-
-#include "treadmark/io/cases/case_value.hpp"
 
 namespace treadmark::io {
 
@@ -70,13 +71,19 @@ std::string_view CaseValue::kind() const {
   return kKinds[data.index()];
 }
 
-CaseTable parse_toml(std::string_view text, const std::string& name) {
+CaseTable parse_toml(std::string_view text, const std::string& name, std::string_view what) {
   try {
     return convert(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
-    throw Error(ErrorKind::configuration, fmt::format("not valid TOML: {}", error.description()),
+    throw Error(ErrorKind::configuration, fmt::format("{}{}", what, error.description()),
                 position(error.source(), name));
   }
+}
+
+std::string toml_text(const std::string& text) {
+  std::ostringstream quoted;
+  quoted << toml::value<std::string>(text);
+  return quoted.str();
 }
 
 CaseOverride parse_override(std::string_view assignment) {

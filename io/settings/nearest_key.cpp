@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/nearest_key.hpp"
+#include "treadmark/io/settings/nearest_key.hpp"
 
 #include <algorithm>
 #include <cstddef>

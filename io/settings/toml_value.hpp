@@ -19,7 +19,7 @@ struct CaseValue;
 struct CaseEntry;
 using CaseTable = std::vector<CaseEntry>;
 
-/// A value of a case file with its position, independent of the TOML library.
+/// A value of a file with its position, independent of the TOML library.
 struct CaseValue {
   SourcePosition where;
   std::variant<bool, std::int64_t, double, std::string, std::vector<CaseValue>, CaseTable> data;
@@ -44,7 +44,11 @@ struct CaseEntry {
 };
 
 /// Parses TOML; throws Error (configuration) with the position of a syntax error.
-CaseTable parse_toml(std::string_view text, const std::string& name);
+/// what: before the parser's own words.
+CaseTable parse_toml(std::string_view text, const std::string& name, std::string_view what = "not valid TOML: ");
+
+/// A text as it stands in a TOML file, in quotes.
+std::string toml_text(const std::string& text);
 
 /// The value of an override "key.path=value": TOML syntax, and a bare word is text.
 struct CaseOverride {

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/settings/key_info.hpp"
 
 namespace treadmark::io {
 
@@ -28,7 +28,15 @@ std::string_view plain(KeyType type) {
     case KeyType::choice:
       return "one word";
     case KeyType::number_list:
+    case KeyType::triple:
+    case KeyType::direction:
       return "a list of numbers";
+    case KeyType::triple_list:
+    case KeyType::text_list:
+    case KeyType::value_list:
+      return "a list";
+    case KeyType::table:
+      return "a table";
     case KeyType::table_list:
       return "a list of tables";
   }
@@ -50,6 +58,15 @@ void check_range(const KeyInfo& key, double value, const SourcePosition& where) 
 }
 
 }  // namespace
+
+void check_exclusive(const KeyInfo& key, const SourcePosition& where, ChosenKeys& chosen) {
+  if (key.group.empty()) return;
+  for (const ChosenKey& other : chosen)
+    if (other.key->group == key.group && other.key->alternative != key.alternative)
+      throw Error(ErrorKind::configuration, fmt::format("{} and {} exclude each other", other.key->path, key.path),
+                  where, "give one of them");
+  chosen.push_back({&key, where});
+}
 
 void check_value(const KeyInfo& key, const CaseValue& value) {
   const auto wrong = [&] {
@@ -91,12 +108,19 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
       }
       return;
     case KeyType::number_list:
+    case KeyType::triple:
+    case KeyType::direction:
       if (!value.is_list()) wrong();
       for (const CaseValue& one : value.list()) {
         if (!std::holds_alternative<std::int64_t>(one.data) && !std::holds_alternative<double>(one.data))
           refuse_value(fmt::format("{} must be a list of numbers, found {} in it", key.path, one.kind()), one.where);
         check_range(key, one.number(), one.where);
       }
+      return;
+    case KeyType::triple_list:
+    case KeyType::text_list:
+    case KeyType::value_list:
+    case KeyType::table:
       return;
     case KeyType::table_list:
       if (!value.is_list()) wrong();
@@ -106,6 +130,25 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
         check_elements(key, one.table(), one.where, true);
       }
       return;
+  }
+}
+
+void check_elements(const KeyInfo& list, const CaseTable& entries, const SourcePosition& where, bool complete) {
+  std::vector<std::string> known;
+  for (const KeyInfo& element : list.elements) known.push_back(element.path);
+  ChosenKeys chosen;
+  for (const CaseEntry& entry : entries) {
+    const auto found =
+        std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
+    if (found == list.elements.end()) refuse_unknown_key(entry.key, known, entry.key_where);
+    check_value(*found, entry.value);
+    check_exclusive(*found, entry.key_where, chosen);
+  }
+  for (const KeyInfo& element : list.elements) {
+    const bool given =
+        std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
+    if (complete && element.required && !given)
+      refuse_value(fmt::format("{} of {} is missing", element.path, list.path), where);
   }
 }
 
