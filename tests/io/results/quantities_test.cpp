@@ -9,6 +9,7 @@
 #include <set>
 
 #include "treadmark/io/results/attributes.hpp"
+#include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
@@ -63,7 +64,7 @@ TEST(Quantities, AreThoseOfTheSchema) {
 
 TEST(Quantities, TablesOfTheDocumentationAreUpToDate) {
   const std::string text = documentation("results.md");
-  for (const std::string& table : {case_quantity_table(), patch_quantity_table()})
+  for (const std::string& table : {case_quantity_table(), patch_quantity_table(), field_quantity_table()})
     EXPECT_NE(text.find(table), std::string::npos) << "docs/results.md must contain:\n" << table;
 }
 
