@@ -58,6 +58,7 @@ std::vector<FieldInfo> shown_fields() {
 
 std::vector<double> FieldInfo::values(const io::PatchResult& patch) const {
   if (column == nullptr) return made(patch);
+  if (patch.shift && column->unit != column->unit_shift) return {};  // the shown unit is not that of a shift
   Values out = patch.fields.*column->values;
   for (double& value : out) value *= factor;
   return out;

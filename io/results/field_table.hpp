@@ -49,6 +49,8 @@ inline constexpr FieldColumn kFieldColumns[] = {
     {"slip_s", "1", "m", "lateral slip, rail minus wheel, over the rolling speed", &PatchFields::slip_s},
     {"friction", "1", "1", "coefficient of friction", &PatchFields::friction,
      {100, "coefficient of friction"}},
+    {"dissipation", "W/m2", "J/m2", "power (shift: work) of friction that becomes heat", &PatchFields::dissipation,
+     {75, "dissipation by friction", "W/mm²", 1e-6}},
     {"plastic_x", "m", "m", "longitudinal plastic shear of the interface layer", &PatchFields::plastic_x,
      {130, "longitudinal plastic shear", "µm", kMicro, ShownField::Kind::diverging}},
     {"plastic_s", "m", "m", "lateral plastic shear of the interface layer", &PatchFields::plastic_s,

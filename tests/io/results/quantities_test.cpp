@@ -101,5 +101,16 @@ TEST(Quantities, ReachEveryFileOnce) {
   }
 }
 
+TEST(Quantities, ShareInSlipIsOfTheElementsInContact) {
+  RunResult run;
+  run.cases.resize(1);
+  run.cases[0].patches.resize(2);
+  run.cases[0].patches[0].ncon = 12;
+  run.cases[0].patches[0].nslip = 3;
+  const json patches = json::parse(to_json(run))["cases"][0]["patches"];
+  EXPECT_EQ(patches[0]["slip_share"], 0.25);
+  EXPECT_FALSE(patches[1].contains("slip_share"));
+}
+
 }  // namespace
 }  // namespace treadmark::io
