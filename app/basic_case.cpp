@@ -120,6 +120,7 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   r.xi = solution.creepage.xi;
   r.eta = solution.creepage.eta;
   r.phi = solution.creepage.phi;
+  add_dissipation(r);
   add_subsurface(input.subsurface, input.material, p.grid, solution, r);
   result.patches.push_back(std::move(r));
   return result;

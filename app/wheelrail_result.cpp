@@ -79,6 +79,7 @@ io::PatchResult to_patch(const io::WheelRailCase& input, const wheelrail::PatchS
   r.fields.row_angle = patch.row_angle;
   r.fields.extra_slip_x = patch.extra_slip_x;
   r.fields.extra_slip_s = patch.extra_slip_y;
+  add_dissipation(r);
   add_subsurface(input.subsurface, input.material, patch.grid, patch.contact, r, patch.reference_C);
   return r;
 }

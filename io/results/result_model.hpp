@@ -37,6 +37,7 @@ struct PatchFields {
   std::vector<double> displacement_n, displacement_x, displacement_s;  ///< [m]
   std::vector<double> slip_x, slip_s;                                  ///< relative slip [-] (shift: [m])
   std::vector<double> friction;
+  std::vector<double> dissipation;           ///< power of friction that becomes heat [W/m^2] (shift: work [J/m^2])
   std::vector<std::uint8_t> state;           ///< 0 exterior, 1 adhesion, 2 slip, 3 plastic
   std::vector<double> plastic_x, plastic_s;  ///< plastic shear of the interface layer [m]; empty without
   std::vector<double> yield_stress;          ///< of the interface layer [Pa]; empty without
