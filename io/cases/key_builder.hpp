@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/backend_name.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 
 namespace treadmark::io {
@@ -52,10 +53,6 @@ inline std::vector<double> numbers_of(const CaseValue& list, double unit) {
   for (const CaseValue& one : list.list()) numbers.push_back(one.number() * unit);
   return numbers;
 }
-
-/// What names of backends look like; which there are is not known here.
-inline constexpr const char* kBackendPattern = "^[a-z][a-z0-9_-]*$";
-bool is_backend_name(std::string_view text);
 
 /// A list of keys under construction.
 class KeyList {
