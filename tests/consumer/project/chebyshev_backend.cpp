@@ -115,7 +115,7 @@ Differences sample(const Surface& surface, const Surface& base, Body body, std::
 /// Cross approximation with full pivoting: Gaussian elimination stopped when nothing is left (A. Townsend and
 /// L. N. Trefethen, An extension of Chebfun to two dimensions, 2013). rest: the largest difference that is left [m].
 std::vector<SeriesField::Term> low_rank(Differences d, const Rectangle& region, double period, double& rest) {
-  constexpr double kNothing = 1e-10;  // [m]
+  constexpr double kNothing = 1e-8;  // [m]
   constexpr std::size_t kMostTerms = 24;
   const std::size_t rows = d.u.size(), columns = d.y.size();
   std::vector<SeriesField::Term> terms;
