@@ -5,14 +5,11 @@
 #include <string>
 #include <string_view>
 
+#include "treadmark/core/backend_name.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
-
-/// What names of backends look like; which there are is not known here.
-inline constexpr const char* kBackendPattern = "^[a-z][a-z0-9_-]*$";
-bool is_backend_name(std::string_view text);
 
 /// Words and enumerators of the theories that cases of this kind may use.
 template <class Content, class Id, std::size_t count>

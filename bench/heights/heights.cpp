@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/bench/heights/enter.hpp"
-
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/bench/common/scene.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -69,23 +68,27 @@ void located(benchmark::State& state, const Contestant& c) {
   state.counters["per_point"] = time_each(p.size());
 }
 
-}  // namespace
-
-bool enter_heights(const char* backend, std::initializer_list<double> resolutions_mm) {
-  for (const Body body : {Body::wheel, Body::rail})
-    for (const double mm : resolutions_mm) {
-      const Contestant c{body, backend, 1e-3 * mm};
-      const std::string end = std::string(body == Body::wheel ? "/wheel/" : "/rail/") + label(backend, c.resolution);
-      const auto enter = [&](const char* name, auto run) {
-        benchmark::RegisterBenchmark((name + end).c_str(), run)->Unit(benchmark::kMillisecond);
-      };
-      enter("level", [c](benchmark::State& state) { grid(state, c, false, false); });
-      enter("tilted", [c](benchmark::State& state) { grid(state, c, true, false); });
-      enter("slopes", [c](benchmark::State& state) { grid(state, c, true, true); });
-      enter("scattered", [c](benchmark::State& state) { scattered(state, c); });
-      enter("locate", [c](benchmark::State& state) { located(state, c); });
-    }
-  return true;
+/// Level and tilted, with slopes, at points without a grid, and inverse evaluation.
+void enter_heights(Body body, const char* backend, double resolution) {
+  const Contestant c{body, backend, resolution};
+  const std::string end = std::string(body == Body::wheel ? "/wheel/" : "/rail/") + label(backend, resolution);
+  const auto enter = [&](const char* name, auto run) {
+    benchmark::RegisterBenchmark((name + end).c_str(), run)->Unit(benchmark::kMillisecond);
+  };
+  enter("level", [c](benchmark::State& state) { grid(state, c, false, false); });
+  enter("tilted", [c](benchmark::State& state) { grid(state, c, true, false); });
+  enter("slopes", [c](benchmark::State& state) { grid(state, c, true, true); });
+  enter("scattered", [c](benchmark::State& state) { scattered(state, c); });
+  enter("locate", [c](benchmark::State& state) { located(state, c); });
 }
 
+/// Every backend: with samples 1, 0.5 and 0.25 mm apart, or as given where it needs none.
+[[maybe_unused]] const bool entered = [] {
+  for (const Backend* backend : backends())
+    for (const double mm : backend->resample ? std::vector{1.0, 0.5, 0.25} : std::vector{0.0})
+      for (const Body body : {Body::wheel, Body::rail}) enter_heights(body, backend->name.c_str(), 1e-3 * mm);
+  return true;
+}();
+
+}  // namespace
 }  // namespace treadmark::bench

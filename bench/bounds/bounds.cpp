@@ -1,10 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/bench/bounds/enter.hpp"
-
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/bench/common/scene.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -66,19 +65,24 @@ void bounds(benchmark::State& state, Body body, const char* backend, double reso
   state.counters["times_too_wide"] = tightness.bounded / tightness.actual;
 }
 
-}  // namespace
-
-bool enter_bounds(const char* backend, std::initializer_list<double> resolutions_mm) {
-  for (const Body body : {Body::wheel, Body::rail})
-    for (const double mm : resolutions_mm)
-      for (const int side_mm : {1, 5, 25}) {
-        const std::string name =
-            std::to_string(side_mm) + "mm" + (body == Body::wheel ? "/wheel/" : "/rail/") + label(backend, 1e-3 * mm);
-        benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
-          bounds(state, body, backend, 1e-3 * mm, 1e-3 * side_mm);
-        })->Unit(benchmark::kMicrosecond);
-      }
-  return true;
+/// Over squares of 1, 5 and 25 mm.
+void enter_bounds(Body body, const char* backend, double resolution) {
+  for (const int side_mm : {1, 5, 25}) {
+    const std::string name =
+        std::to_string(side_mm) + "mm" + (body == Body::wheel ? "/wheel/" : "/rail/") + label(backend, resolution);
+    benchmark::RegisterBenchmark(name.c_str(), [=](benchmark::State& state) {
+      bounds(state, body, backend, resolution, 1e-3 * side_mm);
+    })->Unit(benchmark::kMicrosecond);
+  }
 }
 
+/// Every backend: with samples 1, 0.5 and 0.25 mm apart, or as given where it needs none.
+[[maybe_unused]] const bool entered = [] {
+  for (const Backend* backend : backends())
+    for (const double mm : backend->resample ? std::vector{1.0, 0.5, 0.25} : std::vector{0.0})
+      for (const Body body : {Body::wheel, Body::rail}) enter_bounds(body, backend->name.c_str(), 1e-3 * mm);
+  return true;
+}();
+
+}  // namespace
 }  // namespace treadmark::bench
