@@ -171,13 +171,13 @@ TEST(ReferenceMesh, SectionsNeedARailMadeOfData) {
 
 TEST(ReferenceMesh, DamageFarAwayLeavesSectionsAndCorners) {
   const auto rail = spline::make_slice_surface(crossing(Body::rail), 0.0),
-             wheel = spline::make_slice_surface(crossing(Body::wheel), kRadius);
+             wheel = spline::make_slice_surface(crossing(Body::wheel), kMeshRadius);
   Squat squat;
   squat.length = squat.width = 20e-3, squat.depth = 0.2e-3, squat.x_center = 10.0;
   WheelFlat flat;
   flat.length = 20e-3, flat.depth = 0.2e-3, flat.theta_center = 2.0, flat.width = 0.1;
   const Scene sound(rail, wheel), damaged(analytic::add_defects(rail, {.squats = {squat}}, Body::rail, 0.0),
-                                          analytic::add_defects(wheel, {.flats = {flat}}, Body::wheel, kRadius));
+                                          analytic::add_defects(wheel, {.flats = {flat}}, Body::wheel, kMeshRadius));
   std::vector<double> before(sound.grid.size()), after(sound.grid.size());
   ASSERT_TRUE(section_heights(sound.bodies, sound.X_TC, sound.grid, before));
   ASSERT_TRUE(section_heights(damaged.bodies, damaged.X_TC, damaged.grid, after));
