@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -10,6 +10,7 @@
 #include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/report/pages/compare_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -69,7 +70,8 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   const ThreadLimit limit(common.threads);
   catch_interrupt();
   const io::CaseFile file = io::read_any_case(options.case_file, options.overrides);
-  io::Comparison result;
+  const auto compared = std::make_shared<io::Comparison>();
+  io::Comparison& result = *compared;
   {
     ProgressLine line(common.quiet);
     Progress progress;
@@ -82,11 +84,8 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   result.settings = echo(options);
   if (!common.quiet)
     for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
-  {
-    const ResultFolder folder(options.output_folder, options.report_file);
-    if (folder.wanted()) write_comparison_folder(folder.path(), result);
-    folder.write_report();
-  }
+  if (!options.output_folder.empty()) write_comparison_folder(options.output_folder, result);
+  write_report_file(options.report_file, [&] { return app::report::compare_page(compared, io::to_json(result)); });
   if (options.json_file == "-")
     std::cout << io::to_json(result);
   else

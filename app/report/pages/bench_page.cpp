@@ -8,11 +8,14 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
-#include "treadmark/app/report/pages/json_tree.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/io/profiles/read_text.hpp"
 
 namespace treadmark::app::report {
+
+using io::JsonTree;
 namespace {
 
 constexpr double kMegabytes = 1e-6;  // bytes -> MB
@@ -217,14 +220,13 @@ Table table_of(const std::vector<Row>& rows) {
 }  // namespace
 
 Page bench_page(const std::filesystem::path& folder) {
-  JsonFile file = read_json_file(folder / "bench.json");
-  const JsonTree& bench = file.root;
+  const JsonTree bench = io::read_json_file(folder / "bench.json");
   const std::vector<Row> rows = rows_of(bench);
   const std::string input = bench.at("input").text("file");
   Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
             fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"),
                         bench.text("machine"))};
-  page.document = std::move(file.text);
+  page.document = io::profiles::read_text(folder / "bench.json", "result", {});
   Section overview{"overview", "Overview"};
   add_banners(bench, rows, overview);
   overview.blocks.emplace_back(cards_of(bench, rows));

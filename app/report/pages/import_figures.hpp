@@ -6,10 +6,12 @@
 #include <vector>
 
 #include "treadmark/app/report/page.hpp"
-#include "treadmark/app/report/pages/json_tree.hpp"
 #include "treadmark/io/imports/import_maps.hpp"
+#include "treadmark/io/json/json_tree.hpp"
 
 namespace treadmark::app::report {
+
+using io::JsonTree;
 
 /// Maps of an import as views, averaged where they are finer than a page needs; nothing of a map without values. Marks
 /// are outlines of holes and damage as report.json has them.

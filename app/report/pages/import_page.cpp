@@ -12,6 +12,7 @@
 #include "treadmark/app/report/pages/import_figures.hpp"
 #include "treadmark/app/report/pages/import_tables.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/io/profiles/read_text.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -182,8 +183,7 @@ Section fit_section(const JsonTree& report, const io::ImportMaps& maps, Optional
 }  // namespace
 
 Page import_page(const std::filesystem::path& folder) {
-  JsonFile file = read_json_file(folder / "report.json");
-  const JsonTree& report = file.root;
+  const JsonTree report = io::read_json_file(folder / "report.json");
   OptionalFiles files(folder);
   io::ImportMaps maps;
   if (files.has("maps.h5", "maps over the band")) maps = io::read_import_maps(files.path("maps.h5"));
@@ -192,7 +192,7 @@ Page import_page(const std::filesystem::path& folder) {
       "import", fmt::format("Import of {}", report.text("input")),
       fmt::format("A {} from {}", body,
                   report.flag("from_map") ? "a map of deviations" : counted(report.count("points_read"), "point"))};
-  page.document = std::move(file.text);
+  page.document = io::profiles::read_text(folder / "report.json", "result", {});
 
   Section overview{"overview", "Overview"};
   add_banners(report, overview);
@@ -205,7 +205,7 @@ Page import_page(const std::filesystem::path& folder) {
   Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"},
       settings{"settings", "Settings"}, summary{"summary", "Summary"};
   if (files.has("times.json", "times of the steps"))
-    steps.blocks.emplace_back(step_table(read_json_file(files.path("times.json")).root));
+    steps.blocks.emplace_back(step_table(io::read_json_file(files.path("times.json"))));
   settings.blocks.emplace_back(Listing{report.text("settings_toml")});
   if (std::string text = files.text("summary.txt", "the summary"); !text.empty())
     summary.blocks.emplace_back(Listing{std::move(text)});

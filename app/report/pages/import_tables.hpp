@@ -3,9 +3,11 @@
 #pragma once
 
 #include "treadmark/app/report/page.hpp"
-#include "treadmark/app/report/pages/json_tree.hpp"
+#include "treadmark/io/json/json_tree.hpp"
 
 namespace treadmark::app::report {
+
+using io::JsonTree;
 
 /// Tables of the report of an import (docs/import.schema.json), a line an entry. Errors: Error(input_data) for keys
 /// that are missing.
