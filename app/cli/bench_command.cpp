@@ -10,6 +10,7 @@
 #include "treadmark/app/cli/commands.hpp"
 #include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -64,11 +65,8 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
   report.settings = echo(options);
   if (!common.quiet)
     for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
-  {
-    const ResultFolder folder(options.output_folder, options.report_file);
-    if (folder.wanted()) app::write_bench_folder(folder.path(), report);
-    folder.write_report();
-  }
+  if (!options.output_folder.empty()) app::write_bench_folder(options.output_folder, report);
+  write_report_file(options.report_file, [&] { return app::report::bench_page(report, app::bench_json(report)); });
   if (!options.json_file.empty() && options.json_file != "-")
     io::write_text_file(options.json_file, app::bench_json(report));
   if (options.json_file == "-")

@@ -14,7 +14,7 @@ Number whole(std::size_t count) { return {static_cast<double>(count), 12}; }
 
 /// A number in the unit of its factor, with the digits of report.json.
 Number shown_in(double factor, double value, int digits = 4) { return {in_file(factor * value), digits}; }
-Number in_mm(double value, int digits = 4) { return shown_in(kMilli, value, digits); }
+Number length_in(double value, int digits = 4) { return shown_in(kMilli, value, digits); }
 
 /// Place along the band: degrees of a wheel, mm of a rail.
 Column along_column(const io::ImportReport& report) {
@@ -50,7 +50,7 @@ Table hole_table(const io::ImportReport& report) {
               "Places without points, largest first.",
               {along_column(report), {"y", "mm"}, {"s", "mm"}, {"diameter", "mm"}, {"area", "mm²"}, {"filled"}}};
   for (const auto& hole : report.holes)
-    table.rows.push_back({{along(report, hole.u), in_mm(hole.y), in_mm(hole.s), in_mm(hole.diameter, 3),
+    table.rows.push_back({{along(report, hole.u), length_in(hole.y), length_in(hole.s), length_in(hole.diameter, 3),
                            shown_in(kSquare, hole.area, 3), std::string(hole.filled ? "by the fit" : "stays open")}});
   return table;
 }
@@ -67,9 +67,9 @@ Table damage_table(const io::ImportReport& report) {
                {"depth", "mm"},
                {"missing volume", "mm³"}}};
   for (const auto& part : report.damage)
-    table.rows.push_back(
-        {{Number{static_cast<double>(table.rows.size() + 1)}, along(report, part.u), in_mm(part.y), in_mm(part.s),
-          in_mm(part.length), in_mm(part.width), in_mm(part.depth), shown_in(kCube, part.volume)}});
+    table.rows.push_back({{Number{static_cast<double>(table.rows.size() + 1)}, along(report, part.u), length_in(part.y),
+                           length_in(part.s), length_in(part.length), length_in(part.width), length_in(part.depth),
+                           shown_in(kCube, part.volume)}});
   return table;
 }
 
@@ -87,7 +87,7 @@ Table pass_table(const io::ImportReport& report) {
   for (const auto& pass : report.passes) {
     Table::Row row{{Number{static_cast<double>(pass.pass), 12}, whole(pass.points)}};
     for (const Vec3& vector : {pass.shift_S, pass.turn_S})
-      for (const double value : vector) row.cells.emplace_back(in_mm(value, 3));  // or mrad
+      for (const double value : vector) row.cells.emplace_back(length_in(value, 3));  // or mrad
     table.rows.push_back(std::move(row));
   }
   return table;
@@ -99,7 +99,7 @@ Table level_table(const io::ImportReport& report) {
               "for them.",
               {{"knots along", "mm"}, {"knots across", "mm"}, {"functions"}, {"used"}, {"iterations"}}};
   for (const auto& level : report.levels)
-    table.rows.push_back({{in_mm(level.knot_a), in_mm(level.knot_s), whole(level.functions), whole(level.used),
+    table.rows.push_back({{length_in(level.knot_a), length_in(level.knot_s), whole(level.functions), whole(level.used),
                            Number{static_cast<double>(level.iterations), 12}}});
   return table;
 }
