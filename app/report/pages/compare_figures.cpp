@@ -308,8 +308,10 @@ Table compared_row_table(const ComparedCandidates& all) {
                       std::string(to_string(c.rows[i]->status))},
                      static_cast<int>(i)};
       const std::vector<io::NamedField> fields = io::row_fields(*c.data, *c.rows[i]);
-      for (const Quantity& q : quantities)
-        row.cells.emplace_back(Number{q.factor * number_in(fields, q.key), q.digits});
+      for (const Quantity& q : quantities) {
+        const bool build = std::string_view(q.key) == "build_s";  // a sum, which files round after their parts
+        row.cells.emplace_back(Number{build ? c.build_s : q.factor * number_in(fields, q.key), q.digits});
+      }
       table.rows.push_back(std::move(row));
     }
   return table;
