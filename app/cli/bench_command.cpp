@@ -9,6 +9,7 @@
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/report_file.hpp"
+#include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -64,11 +65,8 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
   });
   report.settings = echo(options);
   print_notes(file.notes, common.quiet);
-  {
-    const ResultFolder folder(options.output_folder, options.report_file);
-    if (folder.wanted()) app::write_bench_folder(folder.path(), report);
-    folder.write_report();
-  }
+  if (!options.output_folder.empty()) app::write_bench_folder(options.output_folder, report);
+  write_report_file(options.report_file, [&] { return app::report::bench_page(report, app::bench_json(report)); });
   const auto json = [&] { return app::bench_json(report); };
   write_json_file(options.json_file, json);
   print_results(options.json_file, json,

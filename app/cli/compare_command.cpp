@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include <fmt/format.h>
 
@@ -9,6 +9,7 @@
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/report/pages/compare_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -76,15 +77,13 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   const ThreadLimit limit(common.threads);
   catch_interrupt();
   const io::CaseFile file = io::read_any_case(options.case_file, options.overrides);
-  io::Comparison result = with_progress(
-      common.quiet, [&](const Progress& progress) { return app::compare_cases(file, settings_of(options), progress); });
+  const auto compared = std::make_shared<io::Comparison>(with_progress(
+      common.quiet, [&](const Progress& progress) { return app::compare_cases(file, settings_of(options), progress); }));
+  io::Comparison& result = *compared;
   result.settings = echo(options);
   print_notes(file.notes, common.quiet);
-  {
-    const ResultFolder folder(options.output_folder, options.report_file);
-    if (folder.wanted()) write_comparison_folder(folder.path(), result);
-    folder.write_report();
-  }
+  if (!options.output_folder.empty()) write_comparison_folder(options.output_folder, result);
+  write_report_file(options.report_file, [&] { return app::report::compare_page(compared, io::to_json(result)); });
   const auto json = [&] { return io::to_json(result); };
   print_results(options.json_file, json, [&] { return io::comparison_table(result); });
   write_json_file(options.json_file, json);

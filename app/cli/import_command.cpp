@@ -5,7 +5,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
@@ -45,8 +45,9 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
       with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
   if (!options.report_folder.empty()) {
     io::write_import_report(options.report_folder, report);
-    write_report_file(std::filesystem::path(options.report_folder) / "report.html",
-                      [&] { return app::report::read_report(options.report_folder); });
+    write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
+      return app::report::import_page(report, io::import_json(report, false), options.report_folder);
+    });
   }
   const auto json = [&] { return io::import_json(report, true); };
   write_json_file(options.json_file, json);

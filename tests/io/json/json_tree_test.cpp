@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/report/pages/json_tree.hpp"
+#include "treadmark/io/json/json_tree.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
 #include <cmath>
 
-#include "treadmark/tests/app/report/page_reader.hpp"
+#include "treadmark/tests/support/error_text.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
-namespace treadmark::app::report {
+namespace treadmark::io {
 namespace {
 
 using ::testing::ElementsAre;
@@ -20,7 +20,7 @@ using treadmark::testing::error_of;
 
 class JsonTreeFile : public ::testing::Test {
  protected:
-  JsonTree read(const std::string& text) const { return read_json_file(folder_.write("a.json", text)).root; }
+  JsonTree read(const std::string& text) const { return read_json_file(folder_.write("a.json", text)); }
   treadmark::testing::TemporaryFolder folder_;
 };
 
@@ -28,9 +28,7 @@ TEST_F(JsonTreeFile, HoldsValuesOfEveryKind) {
   const std::string text =
       R"({"n": -1.5e3, "big": 9007199254740992, "none": null, "t": "µ <b>\n\u00e9", "f": true, "list": [1, null, 3],
                                "words": ["a", ""], "inner": {"z": 1, "a": {"deep": [[], {}]}}})";
-  const JsonFile file = read_json_file(folder_.write("a.json", text));
-  EXPECT_EQ(file.text, text);
-  const JsonTree& root = file.root;
+  const JsonTree root = read(text);
   EXPECT_EQ(root.number("n"), -1500.0);
   EXPECT_EQ(root.count("big"), std::size_t{1} << 53);
   EXPECT_TRUE(std::isnan(root.number("none")));
@@ -39,7 +37,6 @@ TEST_F(JsonTreeFile, HoldsValuesOfEveryKind) {
   EXPECT_FALSE(root.has("nothing"));
   EXPECT_FALSE(root.find("none").has_value());
   EXPECT_FALSE(root.find("nothing").has_value());
-  EXPECT_TRUE(std::isnan(root.number_or_nan("nothing")));
   EXPECT_EQ(root.text("t"), "µ <b>\né");
   EXPECT_TRUE(root.flag("f"));
   const std::vector<double> list = root.at("list").numbers();
@@ -71,6 +68,7 @@ TEST_F(JsonTreeFile, ErrorsNameThePlace) {
   EXPECT_THAT(error_of([&] { row.flag("b"); }), HasSubstr("where true or false is expected"));
   EXPECT_THAT(error_of([&] { row.at("a").has("q"); }), HasSubstr("rows[1].a is a text where an object"));
   EXPECT_THAT(error_of([&] { row.items(); }), HasSubstr("rows[1] is an object where a list"));
+  EXPECT_THAT(error_of([&] { row.at("a").one_of({"y", "z"}); }), HasSubstr("rows[1].a is \"x\" where y or z is"));
   EXPECT_THAT(error_of([&] { root.at("rows").entries(); }), HasSubstr("rows is a list where an object"));
 }
 
@@ -86,4 +84,4 @@ TEST_F(JsonTreeFile, RefusesWhatIsNoJson) {
 }
 
 }  // namespace
-}  // namespace treadmark::app::report
+}  // namespace treadmark::io

@@ -11,10 +11,7 @@
 #include <utility>
 #include <vector>
 
-namespace treadmark::app::report {
-
-struct JsonNode;
-struct JsonFile;
+namespace treadmark::io {
 
 /// A value in a JSON file that knows its file and its place there. Cheap to copy; keeps the whole file's values alive.
 /// Thread-safe. Errors of everything that asks for more than is there: Error(input_data) that names the file and the
@@ -43,31 +40,26 @@ class JsonTree {
   std::string text(std::string_view key) const { return at(key).text(); }
   bool flag(std::string_view key) const { return at(key).flag(); }
 
-  /// NaN where the key is missing.
-  double number_or_nan(std::string_view key) const;
+  /// The name among these that the text is ("rows[3].body is "axle" where wheel or rail is expected"): its index.
+  std::size_t one_of(const std::vector<std::string_view>& names) const;
 
   /// Throws the error: place and what is wrong with it.
   [[noreturn]] void refuse(const std::string& what) const;
 
  private:
-  friend JsonFile read_json_file(const std::filesystem::path& file);
-  JsonTree(std::shared_ptr<const JsonNode> node, std::shared_ptr<const std::string> file, std::string place)
-      : node_(std::move(node)), file_(std::move(file)), place_(std::move(place)) {}
-  [[noreturn]] void fail(const std::string& what) const;
-  JsonTree child(const JsonNode& node, std::string place) const;
+  struct Document;
+  friend JsonTree read_json_file(const std::filesystem::path& file);
+  JsonTree(std::shared_ptr<const Document> document, const void* value, std::string place)
+      : document_(std::move(document)), value_(value), place_(std::move(place)) {}
+  [[noreturn]] void refuse_kind(const char* wanted) const;
 
-  std::shared_ptr<const JsonNode> node_;
-  std::shared_ptr<const std::string> file_;
+  std::shared_ptr<const Document> document_;
+  const void* value_;  ///< in the document
   std::string place_;
 };
 
-struct JsonFile {
-  JsonTree root;     ///< an object
-  std::string text;  ///< the file as it is
-};
+/// The object in a result file. Errors: Error(input_data) for files that are missing, no JSON (with the line), nested
+/// too deeply, or no object.
+JsonTree read_json_file(const std::filesystem::path& file);
 
-/// Reads a result file. Errors: Error(input_data) for files that are missing, no JSON (with the line), nested too
-/// deeply, or no object.
-JsonFile read_json_file(const std::filesystem::path& file);
-
-}  // namespace treadmark::app::report
+}  // namespace treadmark::io
