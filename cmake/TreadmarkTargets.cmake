@@ -6,7 +6,9 @@ if(NOT EXISTS "${PROJECT_BINARY_DIR}/include/treadmark")
 endif()
 
 add_library(treadmark_warnings INTERFACE)
-target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic -Wshadow=local -Wnon-virtual-dtor
+# Sources that are compiled together see each other's names: only alone can those of a whole file be told to be hidden.
+target_compile_options(treadmark_warnings INTERFACE -Wall -Wextra -Wpedantic
+  $<IF:$<BOOL:${TREADMARK_SHARED_PARSING}>,-Wshadow=local,-Wshadow> -Wnon-virtual-dtor
   $<$<BOOL:${TREADMARK_WARNINGS_AS_ERRORS}>:-Werror>)
 
 set_property(GLOBAL PROPERTY TREADMARK_LIBRARIES "")

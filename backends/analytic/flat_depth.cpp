@@ -12,8 +12,6 @@
 
 namespace treadmark::analytic {
 
-namespace {}
-
 FlatDepth::FlatDepth(const std::vector<WheelFlat>& flats, double R) {
   check_defects({.flats = flats}, Body::wheel, R);
   for (const WheelFlat& given : flats) {

@@ -10,8 +10,6 @@
 
 namespace treadmark::displacement {
 
-namespace {}
-
 DisplacedLine::Sample DisplacedLine::at(double t) const {
   const Mat3& R = view_.X_SP.rotation;
   const NaturalPoint q(view_.body, view_.X_SP.apply({x_, y_, t}));

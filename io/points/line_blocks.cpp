@@ -23,8 +23,9 @@ bool LineBlocks::more(std::size_t searched) {
     fail("a line of more than 64 million characters", 0, "is it a text file?");
   }
   if (bytes_.want(searched + 1) > searched) return true;
-  if (searched > 0) take(bytes_.window(), searched);
-  return false;
+  if (searched == 0) return false;
+  next_ = bytes_.size() + 1;
+  return true;
 }
 
 void LineBlocks::too_many() const { fail("more than 2000 million lines", 0, "thin out the points"); }

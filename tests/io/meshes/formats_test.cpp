@@ -77,6 +77,16 @@ TEST(ReadMesh, PlyRefusals) {
   expect_error(parse_ply, nan, "a coordinate of vertex 1 is not finite");
 }
 
+TEST(ReadMesh, ALoneCarriageReturnEndsALineBesideLineFeedsToo) {
+  const std::string text = obj();
+  for (const char* mixed : {"# made elsewhere\r", "# made\r\r\n# elsewhere\r"})
+    expect_pyramid(parse(parse_obj, mixed + text));
+  std::string ends = text;
+  for (std::size_t i = 0, k = 0; i < ends.size(); ++i)
+    if (ends[i] == '\n' && ++k % 2 == 0) ends[i] = '\r';
+  expect_pyramid(parse(parse_obj, ends));
+}
+
 TEST(ReadMesh, ObjRefusals) {
   expect_error(parse_obj, "", "no triangles");
   expect_error(parse_obj, "v 0 0 0\n", "no triangles");

@@ -139,6 +139,13 @@ TEST(ScanFormats, ObjWithNormalsAndContinuedLines) {
             (std::vector<Vec3>{{1, 2, 3}, {4, 5, 6}}));
 }
 
+TEST(ScanFormats, ALoneCarriageReturnEndsALineBesideLineFeedsToo) {
+  const std::vector<Vec3> both{{1, 2, 3}, {4, 5, 6}};
+  for (const char* text :
+       {"# a\rv 1 2 3\nv 4 5 6\n", "v 1 2 3\nv 4 5 6\r", "v 1 2 3\n# a\rv 4 5 6", "\nv 1 2 3\rv 4 5 6\r\n"})
+    EXPECT_EQ(parse_in_all_blocks(scans::parse_obj, text).cloud.points, both) << text;
+}
+
 TEST(ScanFormats, ObjNormalsOnlyWhereEachVertexHasItsOwn) {
   const Scan fewer = parse(scans::parse_obj, replaced(obj(), "vn 0 0 -1\n", ""));
   EXPECT_TRUE(fewer.cloud.normals.empty());
