@@ -19,15 +19,11 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-std::string lower_extension(const std::filesystem::path& file) {
-  return io::profiles::lower(file.extension().string());
-}
-
 }  // namespace
 
 Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
                           const ConvertSettings& settings) {
-  const std::string extension = lower_extension(output);
+  const std::string extension = io::profiles::lower(output.extension().string());
   const bool triangles = io::is_mesh_file(output), slices = io::is_slices_file(output),
              offsets = is_offset_file(output);
   if (!triangles && !slices && !offsets)

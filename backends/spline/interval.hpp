@@ -27,6 +27,12 @@ struct Interval {
   bool empty() const { return !(low <= high); }
 };
 
+/// Bounds are meant for real numbers; this covers the rounding of their own evaluation and the slack at edges [m].
+inline Interval widened(double low, double high) {
+  constexpr double kSlack = 1e-9;
+  return {low - kSlack, high + kSlack};
+}
+
 /// Least and greatest |x|.
 inline Interval magnitude(const Interval& a) {
   const double low = a.low > 0.0 ? a.low : a.high < 0.0 ? -a.high : 0.0;

@@ -107,11 +107,6 @@ class ProfileWindow {
   WheelWindow window_;
   double small_;
 };
-Interval widened(double low, double high) {
-  constexpr double kSlack = 1e-9;  // [m]
-  return {low - kSlack, high + kSlack};
-}
-
 // Segments that may lie over a rectangle.
 void cells_over(const ProfileSpline& profile, const ProfileHulls& hulls, const PlaneWindow& plane,
                 std::vector<int>& cells) {

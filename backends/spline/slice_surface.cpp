@@ -108,12 +108,6 @@ void hit_cells(SliceSection<Geometry>& section, const std::vector<CellRun>& runs
   raster.finish();
 }
 
-// Bounds are meant for real numbers; this covers the rounding of their own evaluation and the slack at edges.
-Interval widened_slices(double low, double high) {
-  constexpr double kSlack = 1e-9;
-  return {low - kSlack, high + kSlack};
-}
-
 // Calls use(point, section, hits) for every point of a list, in parallel; hits.n[0] is NaN where there is no surface.
 template <class Geometry, class Use>
 void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geometry, const Pose& X_SP,
@@ -122,9 +116,8 @@ void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geom
   const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0),
              normal = X_SP.rotation.col(2);
   const auto over = [&](const Interval& a, const Interval& s) {
-    return runs_over<Geometry>(
-        {across, along, normal, X_SP.origin, widened_slices(a.low, a.high), widened_slices(s.low, s.high)}, net, hulls,
-        true);
+    return runs_over<Geometry>({across, along, normal, X_SP.origin, widened(a.low, a.high), widened(s.low, s.high)},
+                               net, hulls, true);
   };
   const auto count = [](const std::vector<CellRun>& runs) {
     std::size_t cells = 0;
@@ -205,10 +198,10 @@ void SliceSurface<Geometry>::do_heights(const PlaneGrid& plane_grid, const Heigh
     SliceSection<Geometry> section(net_, hulls_, geometry_, g.across, g.along, g.normal, g.origin, work.section);
     const int first = static_cast<int>(task * kSliceLinesPerTask);
     const int last = std::min(g.lines, first + static_cast<int>(kSliceLinesPerTask)) - 1;
-    const auto runs = runs_over<Geometry>(
-        {g.across, g.along, g.normal, g.origin, widened_slices(g.across_at(first), g.across_at(last)),
-         widened_slices(g.samples.first, g.samples.last())},
-        net_, hulls_, first == last);
+    const auto runs =
+        runs_over<Geometry>({g.across, g.along, g.normal, g.origin, widened(g.across_at(first), g.across_at(last)),
+                             widened(g.samples.first, g.samples.last())},
+                            net_, hulls_, first == last);
     for (int line = first; line <= last; ++line) {
       hits.clear();
       if (slopes) hits.clear_places();
@@ -277,8 +270,7 @@ void SliceSurface<Geometry>::do_locate(const Pose& X_SP, std::span<const Vec2> p
 template <class Geometry>
 HeightBounds SliceSurface<Geometry>::do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const {
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
-  const Interval x = widened_slices(rectangle_P.x_min, rectangle_P.x_max),
-                 y = widened_slices(rectangle_P.y_min, rectangle_P.y_max);
+  const Interval x = widened(rectangle_P.x_min, rectangle_P.x_max), y = widened(rectangle_P.y_min, rectangle_P.y_max);
   const WindowOn<Geometry> window({X_SP.rotation.col(along_y ? 0 : 1), X_SP.rotation.col(along_y ? 1 : 0),
                                    X_SP.rotation.col(2), X_SP.origin, along_y ? x : y, along_y ? y : x});
   if (!window.exists()) return {0.0, 0.0, true};
@@ -294,7 +286,7 @@ void SliceSurface<Geometry>::do_grid_bounds(const Pose& X_SP, const RectangleGri
                                             std::span<HeightBounds> out) const {
   const bool along_y = Geometry::lines_along_y(X_SP.rotation);
   const Vec3 across = X_SP.rotation.col(along_y ? 0 : 1), along = X_SP.rotation.col(along_y ? 1 : 0);
-  const Interval x = widened_slices(r.first.x_min, r.first.x_max), y = widened_slices(r.first.y_min, r.first.y_max);
+  const Interval x = widened(r.first.x_min, r.first.x_max), y = widened(r.first.y_min, r.first.y_max);
   const Interval first_across = along_y ? x : y, first_along = along_y ? y : x;
   const double step_across = along_y ? r.step_x : r.step_y, step_along = along_y ? r.step_y : r.step_x;
   const int n_across = along_y ? r.nx : r.ny, n_along = along_y ? r.ny : r.nx;
