@@ -67,17 +67,17 @@ PosedProblem pose(const io::BasicCase& input) {
   p.force_prescribed = input.normal_force_prescribed;
   p.normal_force = input.normal_force;
   p.approach = input.approach;
-  p.regime = to_regime(input.regime);
+  p.regime = input.regime;
   p.creepage = {input.xi, input.eta, input.phi, input.spin_x, input.spin_y};
   p.rolling = {input.chi, input.velocity, input.dq, input.spin_offset_factor};
   p.fx_relative = input.fx_relative;
   p.fy_relative = input.fy_relative;
-  p.normal_model = to_normal_model(input.normal_model);
-  p.tangential_model = to_tangential_model(input.tangential_model);
-  p.fastsim = {input.fastsim_k0, input.fastsim_alpha, input.fastsim_beta, input.fastsim_flexibility};
-  p.settings = to_solver_settings(input.solver);
+  p.normal_model = input.normal_model;
+  p.tangential_model = input.tangential_model;
+  p.fastsim = input.fastsim;
+  p.settings = input.solver;
   p.influence = to_influence(input.influence);
-  p.history = to_history(input.history);
+  p.history = input.history;
   p.friction_of_row = input.friction_of_row;
   p.extra_slip_x = input.extra_slip_x;
   p.extra_slip_y = input.extra_slip_y;
@@ -111,7 +111,7 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
     }
 
   io::PatchResult r = patch_result(solution, p.grid, posed.gap, input.material, input.friction);
-  const bool rolling = input.regime == io::RegimeInput::steady || input.regime == io::RegimeInput::transient;
+  const bool rolling = input.regime == Regime::steady || input.regime == Regime::transient;
   r.shift = !rolling;  // without rolling there is work, not power
   r.has_rolling = rolling;
   r.chi = input.chi;
@@ -120,6 +120,7 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   r.xi = solution.creepage.xi;
   r.eta = solution.creepage.eta;
   r.phi = solution.creepage.phi;
+  add_dissipation(r);
   add_subsurface(input.subsurface, input.material, p.grid, solution, r);
   result.patches.push_back(std::move(r));
   return result;

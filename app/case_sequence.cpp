@@ -21,10 +21,10 @@ bool damped(const io::WheelRailCase& c) { return c.damping.has_value(); }
 bool starts_anew(const io::Case& c) {
   return std::visit(
       [](const auto& content) {
-        if (content.history == io::HistoryInput::start) return true;
+        if (content.history == HistoryUse::start) return true;
         const bool needs_previous =
-            content.regime == io::RegimeInput::shift || content.regime == io::RegimeInput::transient || damped(content);
-        return !needs_previous && content.history != io::HistoryInput::same_instant;
+            content.regime == Regime::shift || content.regime == Regime::transient || damped(content);
+        return !needs_previous && content.history != HistoryUse::same_instant;
       },
       c.content);
 }

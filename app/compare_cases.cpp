@@ -14,6 +14,7 @@
 #include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/app/surface_store.hpp"
 #include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::app {
@@ -46,12 +47,6 @@ Compared compared_bodies(const NaturalSurface& wheel, const NaturalSurface& rail
   return varying;
 }
 
-bool all_natural(const std::string& backend, const NaturalSurface& wheel, const NaturalSurface& rail,
-                 Compared compared) {
-  return (!compared.wheel || wheel.surface->backend() == backend) &&
-         (!compared.rail || rail.surface->backend() == backend);
-}
-
 std::vector<Choice> choices(const NaturalSurface& wheel, const NaturalSurface& rail, const CompareSettings& settings) {
   std::vector<Choice> all;
   if (!settings.wheel_backends.empty() || !settings.rail_backends.empty()) {
@@ -63,17 +58,12 @@ std::vector<Choice> choices(const NaturalSurface& wheel, const NaturalSurface& r
     return all;
   }
   const Compared compared = compared_bodies(wheel, rail, settings);
-  std::vector<std::string> names = settings.backends;
-  if (names.empty())
-    for (const std::string_view name : backend_names())
-      if (name != "analytic" || all_natural("analytic", wheel, rail, compared)) names.emplace_back(name);
-  for (const std::string& name : names) {
+  std::vector<const NaturalSurface*> surfaces;
+  if (compared.wheel) surfaces.push_back(&wheel);
+  if (compared.rail) surfaces.push_back(&rail);
+  for (const auto& [name, resolution] : backend_choices(settings.backends, settings.resolutions, surfaces)) {
     const auto chosen = [&](bool body) { return body ? std::optional(name) : std::nullopt; };
-    const bool natural = all_natural(name, wheel, rail, compared);
-    if (natural || name == "analytic") all.push_back({name, 0.0, chosen(compared.wheel), chosen(compared.rail)});
-    if (name == "analytic") continue;
-    for (const double resolution : settings.resolutions)
-      all.push_back({name, resolution, chosen(compared.wheel), chosen(compared.rail)});
+    all.push_back({name, resolution, chosen(compared.wheel), chosen(compared.rail)});
   }
   return all;
 }

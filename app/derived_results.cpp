@@ -61,4 +61,14 @@ void add_subsurface(const io::SubsurfaceInput& input, const Material& material, 
   result.full_tensor = input.full_tensor;
 }
 
+void add_dissipation(io::PatchResult& result) {
+  io::PatchFields& f = result.fields;
+  if (f.traction_x.empty() || f.slip_x.empty() || !f.yield_stress.empty()) return;
+  const double velocity = result.shift ? 1.0 : result.velocity;  // in a shift, slip is a distance
+  f.dissipation.assign(f.traction_x.size(), 0.0);
+  for (std::size_t i = 0; i < f.dissipation.size(); ++i)
+    if (f.state[i] != 0)
+      f.dissipation[i] = 0.0 - velocity * (f.traction_x[i] * f.slip_x[i] + f.traction_s[i] * f.slip_s[i]);
+}
+
 }  // namespace treadmark::app

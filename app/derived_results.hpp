@@ -14,4 +14,8 @@ void add_subsurface(const io::SubsurfaceInput& input, const Material& material, 
                     const kalker::ContactSolution& solution, io::PatchResult& result,
                     const Vec2& origin = Vec2::Zero());
 
+/// The field of dissipation from tractions and slip, after the patch has got its velocity; zero outside contact. None
+/// without tractions, and none of a plastic layer, whose shear dissipates too.
+void add_dissipation(io::PatchResult& result);
+
 }  // namespace treadmark::app

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -28,18 +29,15 @@ int friction_digit(FrictionLaw::Kind kind) {
 
 template <class Content>
 int material_digit(const Content& input) {
-  using Model = io::TangentialModelInput;
   if (input.material.creep_ratio_1 != 0.0 || input.material.creep_ratio_2 != 0.0) return 1;
-  if (input.tangential_model == Model::fastsim_one_flexibility) return 2;
-  if (input.tangential_model == Model::fastsim) return 3;
-  if (input.tangential_model == Model::fastrip) return 5;
+  if (const int digit = theory(input.tangential_model).digit.value; digit >= 0) return digit;
   return input.material.layer_flexibility > 0.0 ? 4 : 0;
 }
 
 template <class Content>
 io::MatFileHead common_head(const Content& input, int case_number) {
   io::MatFileHead head;
-  head.tangential = static_cast<int>(input.regime);
+  head.tangential = theory(input.regime).digit.value;
   head.heat = input.thermal ? 1 : 0;
   head.case_number = case_number;
   head.material = input.material;
@@ -57,7 +55,7 @@ RollYaw roll_yaw(const Mat3& r) { return {std::atan2(r(2, 1), r(1, 1)), std::asi
 
 int discretisation_digit(const io::WheelRailCase& input) {
   constexpr int kSurfaceSlip = 3, kConformal = 4;
-  using Reference = io::ReferenceSurfaceInput;
+  using Reference = ReferenceSurface;
   return input.reference_surface == Reference::curved               ? kConformal
          : input.reference_surface == Reference::plane_surface_slip ? kSurfaceSlip
                                                                     : input.discretisation.method;
@@ -76,9 +74,8 @@ io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSo
                          int case_number) {
   io::MatFileHead head = common_head(input, case_number);
   head.friction = friction_of(input, solution.patches[patch].frame.angle);
-  const io::WheelsetInput& w = input.wheelset;
-  head.s_ws = input.roller ? 0.0 : w.s;
-  head.pitch_ws = w.pitch;
+  head.s_ws = input.roller ? 0.0 : input.state.position.x;
+  head.pitch_ws = input.state.position.pitch;
   const Pose &rail = solution.placement.X_TR, &wheel = solution.placement.X_TW;
   head.rail_y = rail.origin.y();
   head.rail_z = rail.origin.z();
@@ -90,12 +87,12 @@ io::MatFileHead mat_head(const io::WheelRailCase& input, const wheelrail::PairSo
   const RollYaw turned = roll_yaw(wheel.rotation);
   head.wheel_roll = turned.roll;
   head.wheel_yaw = turned.yaw;
-  head.wheel_radius = w.nominal_radius;
+  head.wheel_radius = input.wheelset.nominal_radius;
   const Vec2& reference = solution.patches[patch].reference_C;
   head.spin_x = reference.x();
   head.spin_y = reference.y();
   constexpr int kOnRoller = 4;
-  head.configuration = (input.side == io::Side::right ? 1 : 0) + (input.roller ? kOnRoller : 0);
+  head.configuration = (input.side == Side::right ? 1 : 0) + (input.roller ? kOnRoller : 0);
   head.discretisation = discretisation_digit(input);
   head.patches = static_cast<int>(solution.patches.size());
   head.patch = static_cast<int>(patch) + 1;

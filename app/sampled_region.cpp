@@ -33,11 +33,13 @@ SampledRegions sampled_regions(const io::CaseFile& file) {
   for (const io::Case& c : file.cases) {
     const auto* input = std::get_if<io::WheelRailCase>(&c.content);
     if (input == nullptr) continue;
-    const io::WheelsetInput& w = input->wheelset;
-    const double turned = std::fabs(w.yaw) + std::fabs(w.dyaw);
-    const double sideways = std::fabs(w.roll) + std::fabs(w.droll) + std::fabs(input->track.cant);
-    theta.include(wrap_angle(-(w.pitch + w.dpitch)), kSearchAngle + kMarginAngle + turned + 0.2 * sideways);
-    x.include(w.s + w.dx, (kSearchAngle + kMarginAngle) * w.nominal_radius + kHalfGauge * turned);
+    const WheelsetState& w = input->state;
+    const double turned = std::fabs(w.position.yaw) + std::fabs(w.wheel_offset.yaw);
+    const double sideways = std::fabs(w.position.roll) + std::fabs(w.wheel_offset.roll) + std::fabs(input->track.cant);
+    theta.include(wrap_angle(-(w.position.pitch + w.wheel_offset.pitch)),
+                  kSearchAngle + kMarginAngle + turned + 0.2 * sideways);
+    x.include(w.position.x + w.wheel_offset.x,
+              (kSearchAngle + kMarginAngle) * input->wheelset.nominal_radius + kHalfGauge * turned);
   }
   SampledRegions regions;
   if (!x.any) return regions;

@@ -42,14 +42,14 @@ std::vector<double> contacts_of(const Use& use, const std::vector<double>& wheel
   std::vector<double> out;
   for (std::size_t i = 0; i < use.cases.size(); ++i) {
     const io::CaseResult& c = *use.cases[i];
-    const Pose& X_TB = use.body->body == Body::wheel ? c.bodies->X_TW : c.bodies->X_TR;
+    const Pose& X_TB = use.body->body == Body::wheel ? c.bodies->X_TA : c.bodies->X_TS;
     const auto add = [&](const Vec3& p_T) {
       const double u = station_of(*use.body, X_TB.apply_inverse(p_T));
       if (std::isfinite(u)) out.push_back(u);
     };
     for (const io::PatchResult& p : c.patches)
       if (p.has_reference) add({p.x_tr, p.y_tr, p.z_tr});
-    if (c.patches.empty()) add(c.bodies->X_TW.origin + wheel_radii[i] * Vec3::UnitZ());
+    if (c.patches.empty()) add(c.bodies->X_TA.origin + wheel_radii[i] * Vec3::UnitZ());
   }
   return out;
 }
@@ -102,7 +102,7 @@ std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io
     const auto found = inputs.find(result.number);
     if (found == inputs.end() || found->second == nullptr) continue;
     const io::WheelRailCase& input = *found->second;
-    used.left = input.side == io::Side::left;
+    used.left = input.side == Side::left;
     const auto body = [&](const StoredSurface& s, bool constant, double size) {
       UsedBody one{s.body(), s.represented.surface, nullptr, constant, size};
       if (!s.represented.resampled) return one;

@@ -57,8 +57,8 @@ void put_resultant(const io::WheelRailCase& input, const wheelrail::PatchSolutio
 }
 
 void put_kinematics(const io::WheelRailCase& input, const wheelrail::PatchSolution& patch, io::PatchResult& r) {
-  r.has_rolling = input.regime == io::RegimeInput::steady || input.regime == io::RegimeInput::transient;
-  r.shift = input.regime == io::RegimeInput::shift;
+  r.has_rolling = input.regime == Regime::steady || input.regime == Regime::transient;
+  r.shift = input.regime == Regime::shift;
   r.chi = patch.kinematics.chi;
   r.velocity = patch.kinematics.velocity;
   r.dq = patch.contact.rolling_step;
@@ -79,6 +79,7 @@ io::PatchResult to_patch(const io::WheelRailCase& input, const wheelrail::PatchS
   r.fields.row_angle = patch.row_angle;
   r.fields.extra_slip_x = patch.extra_slip_x;
   r.fields.extra_slip_s = patch.extra_slip_y;
+  add_dissipation(r);
   add_subsurface(input.subsurface, input.material, patch.grid, patch.contact, r, patch.reference_C);
   return r;
 }
@@ -89,20 +90,20 @@ io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSo
   io::CaseResult result;
   result.status = s.status;
   result.message = s.message;
-  const io::WheelsetInput& w = input.wheelset;
+  const WheelsetState& w = input.state;
   result.has_wheelset = true;
-  result.s = w.s;
-  result.y = w.y;
+  result.s = w.position.x;
+  result.y = w.position.y;
   result.z = s.z;
-  result.roll = w.roll;
-  result.yaw = w.yaw;
-  result.pitch = w.pitch;
-  result.vs = w.vs;
-  result.vy = w.vy;
-  result.vz = w.vz;
-  result.vroll = w.vroll;
-  result.vyaw = w.vyaw;
-  result.vpitch = input.longitudinal_force ? s.pitch_rate : w.vpitch;
+  result.roll = w.position.roll;
+  result.yaw = w.position.yaw;
+  result.pitch = w.position.pitch;
+  result.vs = w.velocity.x;
+  result.vy = w.velocity.y;
+  result.vz = w.velocity.z;
+  result.vroll = w.velocity.roll;
+  result.vyaw = w.velocity.yaw;
+  result.vpitch = input.longitudinal_force ? s.pitch_rate : w.velocity.pitch;
   result.force_tr = s.load.track.force;
   result.force_ws = s.load.wheelset.force;
   result.moment_rail = s.load.track.moment;

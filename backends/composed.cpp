@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/backends/composed.hpp"
-
 #include <algorithm>
 #include <chrono>
 #include <cmath>
@@ -9,13 +7,15 @@
 #include <variant>
 
 #include "treadmark/backends/analytic/moving_section.hpp"
-#include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/assembly/limited_surface.hpp"
 #include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/assembly/placed_surface.hpp"
 #include "treadmark/backends/assembly/ring.hpp"
 #include "treadmark/backends/assembly/roller.hpp"
+#include "treadmark/backends/builtin.hpp"
+#include "treadmark/backends/natural_kind.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark {
@@ -37,25 +37,160 @@ Region roller_region(const Region& wheel, double radius) {
   return {radius * wheel.u_min, radius * wheel.u_max, -wheel.y_max, -wheel.y_min};
 }
 
-Representation wanted_of_wheel(const NaturalSurface& roller, const Representation& wanted) {
-  return {wanted.backend, wanted.resolution, wheel_region(wanted.region, roller.spec.roller_radius)};
-}
-
 Pose shifted(const Vec3& offset) { return {offset, Mat3::Identity()}; }
 
 std::shared_ptr<const Surface> placed(std::shared_ptr<const Surface> surface, const Vec3& offset) {
   return offset.isZero(0.0) ? surface : assembly::place_surface(std::move(surface), shifted(offset));
 }
 
-void turn_back(Sampled* sampled, double radius) {
-  if (sampled != nullptr) sampled->region = roller_region(sampled->region, radius);
+[[noreturn]] void refuse_offsets() {
+  throw Error(ErrorKind::configuration, "files of offsets hold rails and wheels, not rollers", {},
+              "write slices or triangles");
 }
+
+class RollerKind final : public NaturalKind {
+ public:
+  RollerKind(NaturalSurface wheel, double radius) : wheel_(std::move(wheel)), radius_(radius) {}
+
+  RepresentedSurface represent(const NaturalSurface& roller, const Representation& wanted) const override {
+    RepresentedSurface out = treadmark::represent(wheel_, of_wheel(wanted));
+    if (!out.resampled) {
+      out.surface = roller.surface;
+      out.region = wanted.region;
+      return out;
+    }
+    out.surface = assembly::turn_over(out.surface, radius_);
+    out.region = roller_region(out.region, radius_);
+    return out;
+  }
+
+  SurfaceDifference fit_error(const NaturalSurface&, const RepresentedSurface& represented) const override {
+    RepresentedSurface wheel = represented;
+    wheel.surface = assembly::turn_over(represented.surface, radius_);
+    wheel.region = {represented.region.u_min / radius_, represented.region.u_max / radius_, -represented.region.y_max,
+                    -represented.region.y_min};
+    SurfaceDifference d = treadmark::fit_error(wheel_, wheel);
+    d.worst_u *= radius_;
+    d.worst_y *= -1.0;
+    return d;
+  }
+
+  TriangleMesh to_triangles(const NaturalSurface&, const Representation& wanted, Sampled* sampled) const override {
+    TriangleMesh wheel = treadmark::to_triangles(wheel_, of_wheel(wanted), sampled);
+    turn_back(sampled);
+    return assembly::roller_triangles(std::move(wheel), radius_);
+  }
+
+  SliceSet to_slices(const NaturalSurface&, const Representation& wanted, Sampled* sampled) const override {
+    const SliceSet wheel = treadmark::to_slices(wheel_, of_wheel(wanted), sampled);
+    turn_back(sampled);
+    return assembly::roller_slices(wheel, radius_);
+  }
+
+  void write_offsets(const std::filesystem::path&, const NaturalSurface&, const Representation&, Sampled*,
+                     const SurfaceSpec*, const std::string&) const override {
+    refuse_offsets();
+  }
+
+ private:
+  Representation of_wheel(const Representation& wanted) const {
+    return {wanted.backend, wanted.resolution, wheel_region(wanted.region, radius_)};
+  }
+  void turn_back(Sampled* sampled) const {
+    if (sampled != nullptr) sampled->region = roller_region(sampled->region, radius_);
+  }
+
+  NaturalSurface wheel_;  ///< that the roller is when turned over, in the wheel's own frame
+  double radius_;
+};
 
 /// Slices of a rail go on for ever, those of a ring end.
 std::shared_ptr<const Surface> slice_ring(SliceSet slices) {
   const double first = slices.u.front(), last = slices.u.back();
-  return assembly::limit_along(create_natural({Body::rail, 0.0, std::move(slices), {}}).surface, first, last);
+  return assembly::limit_along(make_natural({Body::rail, 0.0, std::move(slices), {}}), first, last);
 }
+
+class RingKind final : public NaturalKind {
+ public:
+  /// The backend of slices goes through sections at the joints of a formula; everything else is sampled from the ring.
+  RepresentedSurface represent(const NaturalSurface& ring, const Representation& wanted) const override {
+    const bool slices = wanted.backend == natural_backend({Body::rail, 0.0, SliceSet{}, {}}).name;
+    const double step = wanted.resolution > 0.0 ? wanted.resolution : kResampleStep;
+    if (!slices || !is_formula(ring.spec)) {
+      RepresentedSurface sampled = treadmark::represent(as_rail(ring), wanted);
+      if (sampled.resampled)
+        sampled.surface = assembly::limit_along(std::move(sampled.surface), sampled.region.u_min, sampled.region.u_max);
+      return sampled;
+    }
+    RepresentedSurface out;
+    const auto start = std::chrono::steady_clock::now();
+    out.resampled = true;
+    out.resolution = step;
+    out.surface = slice_ring(assembly::ring_slices(*sampled_formula(ring.spec, step), ring.spec.roller_radius));
+    const Box3 box = out.surface->bounds();
+    out.region = wanted.region;
+    out.region.u_min = std::max(out.region.u_min, box.min.x());
+    out.region.u_max = std::min(out.region.u_max, box.max.x());
+    out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    return out;
+  }
+
+  TriangleMesh to_triangles(const NaturalSurface& ring, const Representation& wanted, Sampled* sampled) const override {
+    return treadmark::to_triangles(as_rail(ring), wanted, sampled);
+  }
+
+  SliceSet to_slices(const NaturalSurface& ring, const Representation& wanted, Sampled* sampled) const override {
+    return treadmark::to_slices(as_rail(ring), wanted, sampled);
+  }
+
+  void write_offsets(const std::filesystem::path&, const NaturalSurface&, const Representation&, Sampled*,
+                     const SurfaceSpec*, const std::string&) const override {
+    refuse_offsets();
+  }
+
+ private:
+  /// A rail that changes along the track, of unknown origin: sampled from its surface.
+  static NaturalSurface as_rail(const NaturalSurface& ring) {
+    NaturalSurface rail{{}, ring.surface, ring.note};
+    rail.spec.shape = SliceSet{};
+    return rail;
+  }
+};
+
+class PartsKind final : public NaturalKind {
+ public:
+  explicit PartsKind(std::vector<SurfacePart> parts) : parts_(std::move(parts)) {}
+
+  RepresentedSurface represent(const NaturalSurface& whole, const Representation& wanted) const override {
+    RepresentedSurface out;
+    out.region = wanted.region;
+    std::vector<std::shared_ptr<const Surface>> surfaces;
+    for (const SurfacePart& part : parts_) {
+      const bool rail = whole.spec.body == Body::rail;
+      Representation own{part.backend.empty() ? wanted.backend : part.backend,
+                         part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
+      const double along = rail ? part.offset.x() : 0.0;
+      own.region.u_min -= along;
+      own.region.u_max -= along;
+      own.region.y_min -= part.offset.y();
+      own.region.y_max -= part.offset.y();
+      const RepresentedSurface r = treadmark::represent(*part.natural, own);
+      surfaces.push_back(placed(r.surface, part.offset));
+      out.note += r.note;
+      out.build_seconds += r.build_seconds;
+      if (!r.resampled) continue;
+      out.resampled = true;
+      out.resolution = std::max(out.resolution, r.resolution);
+      out.region.u_min = std::max(out.region.u_min, r.region.u_min + along);
+      out.region.u_max = std::min(out.region.u_max, r.region.u_max + along);
+    }
+    out.surface = out.resampled ? assembly::outermost_of(std::move(surfaces)) : whole.surface;
+    return out;
+  }
+
+ private:
+  std::vector<SurfacePart> parts_;
+};
 
 }  // namespace
 
@@ -67,47 +202,9 @@ NaturalSurface create_roller(SurfaceSpec spec) {
     wheel.spec.shape = SliceSet{};  // known no longer: resampled from the surface
   }
   NaturalSurface natural{std::move(spec), assembly::turn_over(wheel.surface, radius), wheel.note};
-  natural.wheel_of_roller = std::make_shared<const NaturalSurface>(std::move(wheel));
+  natural.kind = std::make_shared<const RollerKind>(std::move(wheel), radius);
   return natural;
 }
-
-RepresentedSurface represent_roller(const NaturalSurface& roller, const Representation& wanted) {
-  RepresentedSurface out = represent(*roller.wheel_of_roller, wanted_of_wheel(roller, wanted));
-  if (!out.resampled) {
-    out.surface = roller.surface;
-    out.region = wanted.region;
-    return out;
-  }
-  out.surface = assembly::turn_over(out.surface, roller.spec.roller_radius);
-  out.region = roller_region(out.region, roller.spec.roller_radius);
-  return out;
-}
-
-SurfaceDifference roller_fit_error(const NaturalSurface& roller, const RepresentedSurface& represented) {
-  const double radius = roller.spec.roller_radius;
-  RepresentedSurface wheel = represented;
-  wheel.surface = assembly::turn_over(represented.surface, radius);
-  wheel.region = {represented.region.u_min / radius, represented.region.u_max / radius, -represented.region.y_max,
-                  -represented.region.y_min};
-  SurfaceDifference d = fit_error(*roller.wheel_of_roller, wheel);
-  d.worst_u *= radius;
-  d.worst_y *= -1.0;
-  return d;
-}
-
-TriangleMesh roller_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
-  TriangleMesh wheel = to_triangles(*natural.wheel_of_roller, wanted_of_wheel(natural, wanted), sampled);
-  turn_back(sampled, natural.spec.roller_radius);
-  return assembly::roller_triangles(std::move(wheel), natural.spec.roller_radius);
-}
-
-SliceSet roller_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled) {
-  const SliceSet wheel = to_slices(*natural.wheel_of_roller, wanted_of_wheel(natural, wanted), sampled);
-  turn_back(sampled, natural.spec.roller_radius);
-  return assembly::roller_slices(wheel, natural.spec.roller_radius);
-}
-
-bool is_ring(const NaturalSurface& natural) { return natural.spec.roller_radius < 0.0 && natural.parts.empty(); }
 
 NaturalSurface create_ring(SurfaceSpec spec) {
   const double radius = spec.roller_radius;
@@ -124,66 +221,9 @@ NaturalSurface create_ring(SurfaceSpec spec) {
     const auto* chain = std::get_if<ArcChain>(&spec.shape);
     natural.surface = assembly::make_ring_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), radius);
   }
+  natural.kind = std::make_shared<const RingKind>();
   natural.spec = std::move(spec);
   return natural;
-}
-
-NaturalSurface rail_of_ring(const NaturalSurface& ring) {
-  NaturalSurface rail{{}, ring.surface, ring.note};
-  rail.spec.shape = SliceSet{};
-  return rail;
-}
-
-/// Splines go through sections at the joints of a formula; everything else is sampled from the ring.
-RepresentedSurface represent_ring(const NaturalSurface& ring, const Representation& wanted) {
-  const auto* chain = std::get_if<ArcChain>(&ring.spec.shape);
-  const auto* standard = std::get_if<StandardProfile>(&ring.spec.shape);
-  if (wanted.backend != "spline" || (chain == nullptr && standard == nullptr)) {
-    RepresentedSurface sampled = represent(rail_of_ring(ring), wanted);
-    if (sampled.resampled)
-      sampled.surface = assembly::limit_along(std::move(sampled.surface), sampled.region.u_min, sampled.region.u_max);
-    return sampled;
-  }
-  RepresentedSurface out;
-  const auto start = std::chrono::steady_clock::now();
-  out.resampled = true;
-  out.resolution = wanted.resolution > 0.0 ? wanted.resolution : kResampleStep;
-  const Profile profile = chain != nullptr ? analytic::sample_profile(*chain, Body::rail, out.resolution)
-                                           : analytic::sample_profile(*standard, out.resolution);
-  out.surface = slice_ring(assembly::ring_slices(profile, ring.spec.roller_radius));
-  const Box3 box = out.surface->bounds();
-  out.region = wanted.region;
-  out.region.u_min = std::max(out.region.u_min, box.min.x());
-  out.region.u_max = std::min(out.region.u_max, box.max.x());
-  out.build_seconds = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
-  return out;
-}
-
-RepresentedSurface represent_parts(const NaturalSurface& whole, const Representation& wanted) {
-  RepresentedSurface out;
-  out.region = wanted.region;
-  std::vector<std::shared_ptr<const Surface>> surfaces;
-  for (const SurfacePart& part : whole.parts) {
-    const bool rail = whole.spec.body == Body::rail;
-    Representation own{part.backend.empty() ? wanted.backend : part.backend,
-                       part.resolution > 0.0 ? part.resolution : wanted.resolution, wanted.region};
-    const double along = rail ? part.offset.x() : 0.0;
-    own.region.u_min -= along;
-    own.region.u_max -= along;
-    own.region.y_min -= part.offset.y();
-    own.region.y_max -= part.offset.y();
-    const RepresentedSurface r = represent(*part.natural, own);
-    surfaces.push_back(placed(r.surface, part.offset));
-    out.note += r.note;
-    out.build_seconds += r.build_seconds;
-    if (!r.resampled) continue;
-    out.resampled = true;
-    out.resolution = std::max(out.resolution, r.resolution);
-    out.region.u_min = std::max(out.region.u_min, r.region.u_min + along);
-    out.region.u_max = std::min(out.region.u_max, r.region.u_max + along);
-  }
-  out.surface = out.resampled ? assembly::outermost_of(std::move(surfaces)) : whole.surface;
-  return out;
 }
 
 NaturalSurface join_surfaces(std::vector<SurfacePart> parts) {
@@ -205,17 +245,15 @@ NaturalSurface join_surfaces(std::vector<SurfacePart> parts) {
   natural.spec.body = parts.front().natural->spec.body;
   natural.spec.nominal_radius = parts.front().natural->spec.nominal_radius;
   natural.spec.shape = SliceSet{};  // several: resampled from the surface
-  natural.parts = std::move(parts);
+  natural.kind = std::make_shared<const PartsKind>(std::move(parts));
   return natural;
 }
 
 SliceSet move_section(const SurfaceSpec& section, const MovingSection& motion) {
   if (const auto* points = std::get_if<Profile>(&section.shape))
     return analytic::moving_section_slices(*points, motion);
-  if (const auto* chain = std::get_if<ArcChain>(&section.shape))
-    return analytic::moving_section_slices(analytic::sample_profile(*chain, section.body, kResampleStep), motion);
-  if (const auto* standard = std::get_if<StandardProfile>(&section.shape))
-    return analytic::moving_section_slices(analytic::sample_profile(*standard, kResampleStep), motion);
+  if (const auto formula = sampled_formula(section, kResampleStep))
+    return analytic::moving_section_slices(*formula, motion);
   throw Error(ErrorKind::configuration, "only one section can move along the track, not slices or triangles");
 }
 

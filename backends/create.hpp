@@ -20,9 +20,10 @@ namespace treadmark {
 
 using sampling::Region;
 
-/// The representations of this build: "analytic", "spline", "nurbs", "mesh" (smooth over the triangles), "mesh-flat"
-/// (the triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear".
-std::span<const std::string_view> backend_names();
+/// The representations there are, see registry.hpp: "analytic", "spline", "nurbs", "mesh" (smooth over the triangles),
+/// "mesh-flat" (the triangles themselves), "offset" (bicubic), "offset-quadratic", "offset-bilinear", and what the
+/// program has registered. The texts live as long as the program.
+std::vector<std::string_view> backend_names();
 
 /// Errors: Error(configuration) that lists the representations if this is none of them.
 void require_backend(std::string_view name);
@@ -30,17 +31,16 @@ void require_backend(std::string_view name);
 /// Standard profiles that StandardProfile::name may name: "60E1", "S1002".
 std::span<const std::string_view> standard_profile_names();
 
-struct SurfacePart;
+class NaturalKind;
+std::shared_ptr<const NaturalKind> plain_kind();
 
 /// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles
 /// a mesh.
 struct NaturalSurface {
   SurfaceSpec spec;  ///< what it was made from; of a file of offsets body and radius only
   std::shared_ptr<const Surface> surface;
-  std::string note;  ///< repairs worth knowing; may be empty
-  /// Of a roller only: the wheel that it is when turned over, in the wheel's own frame.
-  std::shared_ptr<const NaturalSurface> wheel_of_roller{};
-  std::vector<SurfacePart> parts{};  ///< of a body of several surfaces only
+  std::string note;                                        ///< repairs worth knowing; may be empty
+  std::shared_ptr<const NaturalKind> kind = plain_kind();  ///< one surface, or made of others; never null
   bool constant_profile() const { return surface->constant_profile(); }
 };
 

@@ -12,15 +12,11 @@
 #include "treadmark/detection/pruned_gap.hpp"
 #include "treadmark/detection/reference_locus.hpp"
 #include "treadmark/detection/search_mesh.hpp"
+#include "treadmark/model/wheel_on_rail.hpp"
 
 namespace treadmark::detection {
 
-enum class SearchMethod {
-  automatic,    ///< locus for constant profiles where refine is on, else pruned grid
-  pruned_grid,  ///< heights only where conservative bounds do not rule contact out
-  full_grid,    ///< heights on the whole grid: the oracle of the others
-  locus,        ///< constant profiles only: where the wheel's circles come closest to the rail
-};
+using treadmark::SearchMethod;
 
 struct SearchSettings {
   SearchMethod method = SearchMethod::automatic;

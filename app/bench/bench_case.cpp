@@ -25,9 +25,9 @@ io::CaseFile bench_case() {
   c.rail.defects.squats = {squat};
   c.track.cant = 1.0 / 40.0;
   c.wheelset.nominal_radius = 0.49;
-  c.wheelset.pitch = 0.06;
-  c.wheelset.vs = 2.0;
-  c.wheelset.vpitch = -2.0 / 0.49;
+  c.state.position.pitch = 0.06;
+  c.state.velocity.x = 2.0;
+  c.state.velocity.pitch = -2.0 / 0.49;
   c.vertical_force = 1.25e5;
   c.discretisation.dx = c.discretisation.ds = 0.4e-3;
 

@@ -6,6 +6,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
+#include "treadmark/io/json/json_tree.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -52,6 +53,53 @@ std::string bench_json(const BenchReport& report) {
     out["rows"].push_back(std::move(item));
   }
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+namespace {
+
+BenchRow row_in(const io::JsonTree& node) {
+  BenchRow out;
+  out.backend = node.text("backend");
+  if (const auto resolution = node.find("resolution_mm")) out.resolution = resolution->number() / 1e3;
+  out.body = node.at("body").one_of({"wheel", "rail"}) == 0 ? Body::wheel : Body::rail;
+  out.agrees = node.flag("agrees");
+  out.reason = node.text("reason");
+  out.difference = node.number("difference_um") / 1e6;
+  out.build = node.number("build_s");
+  out.memory_bytes = node.count("memory_bytes");
+  out.points = node.count("points");
+  out.height = node.number("ns_per_height") / 1e9;
+  out.height_tilted = node.number("ns_per_height_tilted") / 1e9;
+  out.normal = node.number("ns_per_normal") / 1e9;
+  out.base_height = node.number("base_ns_per_height") / 1e9;
+  out.search_cold = node.number("search_cold_s");
+  out.search_warm = node.number("search_warm_s");
+  out.distance = node.number("distance_s");
+  if (const io::JsonTree patches = node.at("patches"); !patches.is_null()) out.patches = patches.integer();
+  return out;
+}
+
+}  // namespace
+
+BenchReport read_bench(const std::filesystem::path& file) {
+  const io::JsonTree root = io::read_json_file(file), made = root.at("treadmark"), input = root.at("input");
+  BenchReport out;
+  out.version = made.text("version");
+  out.git = made.text("git");
+  out.seconds = made.number("seconds");
+  out.date = root.text("date");
+  out.machine = root.text("machine");
+  out.threads = root.at("threads").integer();
+  out.compiler = root.text("compiler");
+  for (const auto& [name, version] : root.at("libraries").entries()) out.libraries.emplace_back(name, version.text());
+  out.input_file = input.text("file");
+  out.input_sha256 = input.text("sha256");
+  out.settings = root.at("settings").texts();
+  out.seconds_per_measure = root.number("seconds_per_measure");
+  out.truth = root.text("truth");
+  out.complete = root.flag("complete");
+  for (const io::JsonTree& node : root.at("rows").items()) out.rows.push_back(row_in(node));
+  return out;
 }
 
 }  // namespace treadmark::app

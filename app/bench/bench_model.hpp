@@ -28,7 +28,7 @@ struct BenchRow {
   // a height each [s]
   double height = kNone, height_tilted = kNone;
   double normal = kNone;       ///< height with both slopes, tilted plane
-  double base_height = kNone;  ///< offsets only: the surface below them, level plane
+  double base_height = kNone;  ///< of backends over a base only: the base, level plane
   // of wheel and rail, both in this representation [s]
   double search_cold = kNone, search_warm = kNone, distance = kNone;
   int patches = -1;  ///< -1: not searched

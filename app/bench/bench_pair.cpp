@@ -73,8 +73,7 @@ class PairBench {
     row.height_tilted = heights("tilted heights", surface, view.tilted, false);
     row.normal = heights("normals", surface, view.tilted, true);
     const Surface* base = scene_.base(body);
-    if (pair_.backend.starts_with("offset") && base != nullptr)
-      row.base_height = heights("base", *base, view.level, false);
+    if (pair_.over_base && base != nullptr) row.base_height = heights("base", *base, view.level, false);
     return row;
   }
 

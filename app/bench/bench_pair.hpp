@@ -18,6 +18,7 @@ struct BenchPair {
   double resolution = 0.0;  ///< of the samples [m]; 0 = as given
   std::shared_ptr<const Surface> rail, wheel;
   double rail_build_seconds = 0.0, wheel_build_seconds = 0.0;
+  bool over_base = false;  ///< see Backend
 };
 
 /// Told before every step of the work; false = stop now.

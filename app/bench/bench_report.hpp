@@ -18,6 +18,9 @@ std::vector<io::NamedField> bench_fields(const BenchRow& row);
 /// A report as JSON text (docs/bench.schema.json); what was not measured is null.
 std::string bench_json(const BenchReport& report);
 
+/// The report in such a file. Errors: Error(input_data) for a file that is missing, broken or lacks keys.
+BenchReport read_bench(const std::filesystem::path& file);
+
 /// The rows as comma-separated values (RFC 4180, lines ended by a line feed) below a head with the names.
 std::string bench_csv(const BenchReport& report);
 

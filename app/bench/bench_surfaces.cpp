@@ -11,6 +11,7 @@
 #include "treadmark/app/bench/build_info.hpp"
 #include "treadmark/app/bench/machine.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -19,11 +20,9 @@ namespace {
 
 using Clock = std::chrono::steady_clock;
 
-struct Choice {
-  std::string backend;
-  double resolution = 0.0;
-  std::string name() const { return resolution > 0.0 ? fmt::format("{} {:g} mm", backend, 1e3 * resolution) : backend; }
-};
+std::string name_of(const BackendChoice& c) {
+  return c.resolution > 0.0 ? fmt::format("{} {:g} mm", c.backend, 1e3 * c.resolution) : c.backend;
+}
 
 void check(const BenchSettings& settings) {
   for (const std::string& name : settings.backends) require_backend(name);
@@ -34,22 +33,7 @@ void check(const BenchSettings& settings) {
     throw Error(ErrorKind::configuration, "the time of a measure must be positive and at most 600 seconds");
 }
 
-std::vector<Choice> choices(const BenchScene& scene, const BenchSettings& settings) {
-  const std::string_view rail = scene.rail->surface->backend(), wheel = scene.wheel->surface->backend();
-  std::vector<std::string> names = settings.backends;
-  if (names.empty())
-    for (const std::string_view name : backend_names())
-      if (name != "analytic" || (rail == name && wheel == name)) names.emplace_back(name);
-  std::vector<Choice> all;
-  for (const std::string& name : names) {
-    if (name == "analytic" || (rail == name && wheel == name)) all.push_back({name, 0.0});
-    if (name == "analytic") continue;
-    for (const double r : settings.resolutions) all.push_back({name, r});
-  }
-  return all;
-}
-
-std::array<BenchRow, 2> not_built(const Choice& choice, const Error& error) {
+std::array<BenchRow, 2> not_built(const BackendChoice& choice, const Error& error) {
   std::array<BenchRow, 2> rows;
   for (BenchRow& row : rows) {
     row.backend = choice.backend;
@@ -60,7 +44,7 @@ std::array<BenchRow, 2> not_built(const Choice& choice, const Error& error) {
   return rows;
 }
 
-std::shared_ptr<const Surface> build(const BenchScene& scene, Body body, const Choice& choice, double& seconds) {
+std::shared_ptr<const Surface> build(const BenchScene& scene, Body body, const BackendChoice& choice, double& seconds) {
   const bool rail = body == Body::rail;
   const Region& region = rail ? scene.regions.rail : scene.regions.wheel;
   const RepresentedSurface r = represent(scene.natural(body), {choice.backend, choice.resolution, region});
@@ -74,7 +58,8 @@ BenchReport bench_surfaces(const io::CaseFile& file, const BenchSettings& settin
   const auto start = Clock::now();
   check(settings);
   const BenchScene scene = make_bench_scene(file, settings.grid);
-  const std::vector<Choice> wanted = choices(scene, settings);
+  const std::vector<BackendChoice> wanted =
+      backend_choices(settings.backends, settings.resolutions, {scene.rail.get(), scene.wheel.get()});
 
   BenchReport out;
   out.version = version();
@@ -92,15 +77,16 @@ BenchReport bench_surfaces(const io::CaseFile& file, const BenchSettings& settin
 
   constexpr std::size_t kBuilds = 2, kSteps = kBuilds + kStepsOfPair;
   for (std::size_t n = 0; n < wanted.size() && out.complete; ++n) {
-    const Choice& choice = wanted[n];
+    const BackendChoice& choice = wanted[n];
     std::size_t done = n * kSteps;
     const auto step = [&](const std::string& what) {
-      if (progress.report) progress.report(done, wanted.size() * kSteps, choice.name() + ", " + what);
+      if (progress.report) progress.report(done, wanted.size() * kSteps, name_of(choice) + ", " + what);
       ++done;
       return !progress.stop_requested();
     };
     try {
-      BenchPair pair{choice.backend, choice.resolution, nullptr, nullptr, 0.0, 0.0};
+      BenchPair pair{
+          choice.backend, choice.resolution, nullptr, nullptr, 0.0, 0.0, backend_of(choice.backend).over_base};
       const bool go_on = step("building the rail");
       if (go_on) pair.rail = build(scene, Body::rail, choice, pair.rail_build_seconds);
       if (go_on && step("building the wheel")) pair.wheel = build(scene, Body::wheel, choice, pair.wheel_build_seconds);

@@ -7,9 +7,9 @@
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -18,6 +18,17 @@
 
 namespace treadmark::cli {
 namespace {
+
+struct BenchOptions {
+  std::string case_file;  ///< empty = the built-in case
+  std::string output_folder, json_file;
+  std::vector<std::string> backends;
+  std::vector<double> resolutions_mm;
+  double seconds_per_measure = 0.2;
+  bool markdown = false;
+  std::vector<std::string> overrides;
+  std::string report_file;  ///< HTML; empty = none
+};
 
 app::BenchSettings settings_of(const BenchOptions& options) {
   app::BenchSettings settings;
@@ -45,40 +56,46 @@ io::CaseFile case_of(const BenchOptions& options) {
   return file;
 }
 
-}  // namespace
-
 int bench_command(const BenchOptions& options, const CommonOptions& common) {
-  const ThreadLimit limit(options.threads_given ? common.threads : 1);
+  const ThreadLimit limit(common.threads_given ? common.threads : 1);
   catch_interrupt();
   const io::CaseFile file = case_of(options);
-  app::BenchReport report;
-  {
-    ProgressLine line(common.quiet);
-    Progress progress;
-    progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
-      line.update(finished, total, what);
-    };
-    report = app::bench_surfaces(file, settings_of(options), progress);
-  }
+  app::BenchReport report = with_progress(common.quiet, [&](const Progress& progress) {
+    return app::bench_surfaces(file, settings_of(options), progress);
+  });
   report.settings = echo(options);
-  if (!common.quiet)
-    for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
-  {
-    const ResultFolder folder(options.output_folder, options.report_file);
-    if (folder.wanted()) app::write_bench_folder(folder.path(), report);
-    folder.write_report();
-  }
-  if (!options.json_file.empty() && options.json_file != "-")
-    io::write_text_file(options.json_file, app::bench_json(report));
-  if (options.json_file == "-")
-    std::cout << app::bench_json(report);
-  else
-    std::cout << (options.markdown ? app::bench_markdown(report) : app::bench_table(report));
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+  print_notes(file.notes, common.quiet);
+  if (!options.output_folder.empty()) app::write_bench_folder(options.output_folder, report);
+  write_report_file(options.report_file, [&] { return app::report::bench_page(report, app::bench_json(report)); });
+  const auto json = [&] { return app::bench_json(report); };
+  write_json_file(options.json_file, json);
+  print_results(options.json_file, json,
+                [&] { return options.markdown ? app::bench_markdown(report) : app::bench_table(report); });
+  check_output();
   if (!report.complete) std::cerr << "interrupted: " << report.rows.size() << " rows finished\n";
   return report.complete && report.agrees() ? kOk : kFailed;
+}
+
+}  // namespace
+
+Command add_bench(CLI::App& verb) {
+  auto options = std::make_shared<BenchOptions>();
+  verb.add_option("CASE", options->case_file,
+                  "Case file (.toml or .inp), default a wheel with a flat on a rail with a squat");
+  add_values(verb, "--backends", options->backends, "Representations, default all that the shapes allow", "A,B,...");
+  add_values(verb, "--resolutions", options->resolutions_mm, "Spacings of the data [mm], default 1,0.5", "MM,...");
+  verb.add_option("--seconds-per-measure", options->seconds_per_measure,
+                  "Each time is the median of repeats over so long [s]")
+      ->type_name("S");
+  verb.add_option("-o,--output", options->output_folder, "Folder for bench.json, bench.csv and a picture (SVG)")
+      ->type_name("FOLDER");
+  CLI::Option* bench_json =
+      verb.add_option("--json", options->json_file, "Write the rows here; - for standard output instead of the table")
+          ->type_name("FILE");
+  verb.add_flag("--markdown", options->markdown, "Print the table in Markdown")->excludes(bench_json);
+  add_report_file(verb, options->report_file);
+  add_overrides(verb, options->overrides);
+  return command(options, bench_command);
 }
 
 }  // namespace treadmark::cli

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/run_cases.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
@@ -13,6 +13,11 @@
 namespace treadmark::cli {
 namespace {
 
+struct CheckOptions {
+  std::vector<std::string> cases;
+  std::vector<std::string> overrides;  ///< key=value
+};
+
 void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run, app::SurfaceStore& surfaces) {
   if (const auto* simulation = std::get_if<io::SimulationFile>(&run))
     app::check_vehicle(*simulation, surfaces);
@@ -20,9 +25,7 @@ void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run, app::S
     app::check_geometry(std::get<io::CaseFile>(run));
 }
 
-}  // namespace
-
-int check_command(const RunOptions& options) {
+int check_command(const CheckOptions& options, const CommonOptions&) {
   for (const std::string& name : options.cases) {
     if (io::is_study_file(name)) {
       const io::StudyFile study = io::read_study_file(name, options.overrides);
@@ -36,16 +39,24 @@ int check_command(const RunOptions& options) {
       app::SurfaceStore surfaces;
       const io::SimulationFile file = io::read_simulation_file(name, options.overrides);
       check_run(file, surfaces);
-      for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+      print_notes(file.notes, false);
       std::cout << name << ": a simulation, no errors\n";
       continue;
     }
     const io::CaseFile file = io::read_any_case(name, options.overrides);
     app::check_geometry(file);
-    for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+    print_notes(file.notes, false);
     std::cout << name << ": " << file.cases.size() << (file.cases.size() == 1 ? " case" : " cases") << ", no errors\n";
   }
   return kOk;
+}
+
+}  // namespace
+
+Command add_check(CLI::App& verb) {
+  auto options = std::make_shared<CheckOptions>();
+  add_case_files(verb, options->cases, options->overrides);
+  return command(options, check_command);
 }
 
 }  // namespace treadmark::cli

@@ -1,15 +1,15 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <filesystem>
 #include <iostream>
+#include <memory>
 
 #include <fmt/format.h>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/report/pages/compare_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -18,6 +18,16 @@
 
 namespace treadmark::cli {
 namespace {
+
+struct CompareOptions {
+  std::string case_file;
+  std::string output_folder, json_file;
+  std::vector<std::string> backends, wheel_backends, rail_backends;
+  std::vector<double> resolutions_mm;
+  std::string bodies = "auto";
+  std::vector<std::string> overrides;
+  std::string report_file;  ///< HTML; empty = none
+};
 
 app::CompareSettings settings_of(const CompareOptions& options) {
   using Bodies = app::CompareSettings::Bodies;
@@ -63,39 +73,52 @@ int exit_status(const io::Comparison& result) {
   return status;
 }
 
-}  // namespace
-
 int compare_command(const CompareOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
   catch_interrupt();
   const io::CaseFile file = io::read_any_case(options.case_file, options.overrides);
-  io::Comparison result;
-  {
-    ProgressLine line(common.quiet);
-    Progress progress;
-    progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
-      line.update(finished, total, what);
-    };
-    result = app::compare_cases(file, settings_of(options), progress);
-  }
+  const auto compared = std::make_shared<io::Comparison>(with_progress(
+      common.quiet, [&](const Progress& progress) { return app::compare_cases(file, settings_of(options), progress); }));
+  io::Comparison& result = *compared;
   result.settings = echo(options);
-  if (!common.quiet)
-    for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
-  {
-    const ResultFolder folder(options.output_folder, options.report_file);
-    if (folder.wanted()) write_comparison_folder(folder.path(), result);
-    folder.write_report();
-  }
-  if (options.json_file == "-")
-    std::cout << io::to_json(result);
-  else
-    std::cout << io::comparison_table(result);
-  if (!options.json_file.empty() && options.json_file != "-") io::write_json(options.json_file, result);
+  print_notes(file.notes, common.quiet);
+  if (!options.output_folder.empty()) write_comparison_folder(options.output_folder, result);
+  write_report_file(options.report_file, [&] { return app::report::compare_page(compared, io::to_json(result)); });
+  const auto json = [&] { return io::to_json(result); };
+  print_results(options.json_file, json, [&] { return io::comparison_table(result); });
+  write_json_file(options.json_file, json);
   if (!result.complete) std::cerr << "interrupted: " << result.candidates.size() << " representations finished\n";
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+  check_output();
   return exit_status(result);
+}
+
+}  // namespace
+
+Command add_compare(CLI::App& verb) {
+  auto options = std::make_shared<CompareOptions>();
+  verb.add_option("CASE", options->case_file, "Treadmark case (.toml) or CONTACT input file (.inp)")->required();
+  CLI::Option* backends = add_values(verb, "--backends", options->backends,
+                                     "Representations, default all that the shapes allow", "A,B,...");
+  add_values(verb, "--resolutions", options->resolutions_mm, "Spacings of the data [mm], default 1,0.5,0.25", "MM,...");
+  CLI::Option* bodies =
+      verb.add_option("--bodies", options->bodies,
+                      "Compared bodies: wheel, rail, both; auto = those that change along their length")
+          ->check(CLI::IsMember({"auto", "wheel", "rail", "both"}));
+  add_values(verb, "--wheel-backends", options->wheel_backends, "With --rail-backends: every wheel on every rail",
+             "A,B,...")
+      ->excludes(backends)
+      ->excludes(bodies);
+  add_values(verb, "--rail-backends", options->rail_backends, "See --wheel-backends", "A,B,...")
+      ->excludes(backends)
+      ->excludes(bodies);
+  verb.add_option("-o,--output", options->output_folder,
+                  "Folder for compare.json, compare.csv, table.txt and pictures (SVG)")
+      ->type_name("FOLDER");
+  verb.add_option("--json", options->json_file, "Write the rows here; - for standard output instead of the table")
+      ->type_name("FILE");
+  add_report_file(verb, options->report_file);
+  add_overrides(verb, options->overrides);
+  return command(options, compare_command);
 }
 
 }  // namespace treadmark::cli

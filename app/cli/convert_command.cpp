@@ -3,12 +3,23 @@
 #include <iostream>
 #include <numbers>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/convert_surface.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::cli {
+namespace {
+
+struct ConvertOptions {
+  std::string input, output;  ///< geometry or case file; surface file
+  std::string body;           ///< "wheel", "rail" or empty
+  double resolution_mm = 0.0;
+  double nominal_radius_mm = 0.0;
+  double scale_to_mm = 1.0;
+  std::vector<double> range_mm, range_deg;  ///< along the track, round the wheel: two numbers or none
+  std::vector<std::string> overrides;
+};
 
 int convert_command(const ConvertOptions& options, const CommonOptions& common) {
   const ThreadLimit limit(common.threads);
@@ -31,6 +42,32 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
       result.written.note};
   std::cout << options.output << ": " << result.kind << ", " << io::summary(use) << '\n';
   return kOk;
+}
+
+}  // namespace
+
+Command add_convert(CLI::App& verb) {
+  auto options = std::make_shared<ConvertOptions>();
+  verb.add_option("IN", options->input,
+                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
+      ->required();
+  verb.add_option("OUT", options->output, ".ply .stl .obj .off, .slcs .slcw, or .vdb")->required();
+  verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
+      ->check(CLI::IsMember({"wheel", "rail"}));
+  verb.add_option("--resolution", options->resolution_mm, "Spacing of the samples [mm]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  verb.add_option("--nominal-radius", options->nominal_radius_mm, "Wheel radius at profile z = 0 [mm]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  verb.add_option("--scale", options->scale_to_mm, "Factor from units of the file to mm (1000 for a file in m)")
+      ->check(CLI::PositiveNumber);
+  verb.add_option("--range-mm", options->range_mm, "Part of a rail: from, to along the track")
+      ->delimiter(',')
+      ->expected(2);
+  verb.add_option("--range-deg", options->range_deg, "Part of a wheel: from, to round it")->delimiter(',')->expected(2);
+  add_overrides(verb, options->overrides);
+  return command(options, convert_command);
 }
 
 }  // namespace treadmark::cli

@@ -2,16 +2,25 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
+namespace {
+
+struct ImportOptions {
+  std::vector<std::string> scans, outputs;
+  std::string report_folder, json_file, settings_file;  ///< empty = none; JSON "-" = stdout
+  std::string body, unit, nominal;                      ///< empty = as the settings say
+  double nominal_radius_mm = 0.0, resolution_mm = 0.0;  ///< 0 = as the settings say
+  bool list_settings = false;
+  std::vector<std::string> overrides;  ///< table.key=value
+};
 
 int import_command(const ImportOptions& options, const CommonOptions& common) {
   app::ImportRequest request;
@@ -32,31 +41,59 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to import", {}, "name its file");
 
   const ThreadLimit limit(common.threads);
-  catch_interrupt();
-  io::ImportReport report;
-  {
-    ProgressLine line(common.quiet);
-    Progress progress;
-    progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
-      line.update(finished, total, what);
-    };
-    report = app::import_scan(request, progress);
-  }
+  const io::ImportReport report =
+      with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
   if (!options.report_folder.empty()) {
     io::write_import_report(options.report_folder, report);
-    write_report_file(std::filesystem::path(options.report_folder) / "report.html",
-                      [&] { return app::report::read_report(options.report_folder); });
+    write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
+      return app::report::import_page(report, io::import_json(report, false), options.report_folder);
+    });
   }
-  if (options.json_file == "-") {
-    std::cout << io::import_json(report, true);
-  } else {
-    if (!options.json_file.empty()) io::write_text_file(options.json_file, io::import_json(report, true));
-    std::cout << io::import_summary(report);
-  }
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+  const auto json = [&] { return io::import_json(report, true); };
+  write_json_file(options.json_file, json);
+  print_results(options.json_file, json, [&] { return io::import_summary(report); });
+  check_output();
   return kOk;
+}
+
+}  // namespace
+
+Command add_import(CLI::App& verb) {
+  auto options = std::make_shared<ImportOptions>();
+  verb.add_option("SCAN", options->scans,
+                  "Points (.ply .stl .obj .off .las .xyz .asc .txt .csv), several files = several passes; or a gridded "
+                  "map of deviations (.csv .asc)");
+  verb.add_option(
+          "-o,--output", options->outputs,
+          "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset); may be given several times")
+      ->allow_extra_args(false)
+      ->type_name("FILE");
+  verb.add_option("--report", options->report_folder,
+                  "Folder for the audit: report.json, summary.txt, settings.toml and pictures (SVG)")
+      ->type_name("FOLDER");
+  verb.add_option("--json", options->json_file,
+                  "Write the audit here (JSON); - for standard output instead of the summary")
+      ->type_name("FILE");
+  verb.add_option("--settings", options->settings_file, "TOML file of settings (see --list-settings)")
+      ->type_name("FILE");
+  verb.add_option("--body", options->body, "wheel or rail, where the surface file does not tell")
+      ->check(CLI::IsMember({"wheel", "rail"}));
+  verb.add_option("--unit", options->unit,
+                  "Unit of the scan: m, mm, um, in; default: the file's word or the size of the wheel or rail")
+      ->check(CLI::IsMember({"auto", "m", "mm", "um", "in"}));
+  verb.add_option("--nominal", options->nominal,
+                  "Nominal profile: S1002, 60E1, a profile file, none; default S1002 for wheels, 60E1 for rails")
+      ->type_name("PROFILE");
+  verb.add_option("--nominal-radius", options->nominal_radius_mm,
+                  "Wheel radius at profile z = 0 [mm], default from the scan")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  verb.add_option("--resolution", options->resolution_mm, "Distance of the surface's points [mm], default 0.5")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  verb.add_flag("--list-settings", options->list_settings, "Print all settings with their defaults as a TOML file");
+  add_overrides(verb, options->overrides);
+  return command(options, import_command);
 }
 
 }  // namespace treadmark::cli

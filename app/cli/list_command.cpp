@@ -2,12 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::cli {
+
+namespace {
 
 int list_command(const std::string& what) {
   if (what == "backends") {
@@ -15,10 +17,9 @@ int list_command(const std::string& what) {
   } else if (what == "profiles") {
     for (const auto name : standard_profile_names()) std::cout << name << '\n';
   } else if (what == "solvers") {
-    std::cout << "normal: full (half-space, constant elements), elliptic, parabolic\n"
-                 "tangential: full (Kalker's exact theory: shift, steady rolling), fastsim\n";
+    std::cout << theory_list();
   } else if (what == "verbs") {
-    std::cout << "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\nreport\nplot\ncheck\nlist\nschema\n";
+    for (const Verb& verb : verbs()) std::cout << verb.name << '\n';
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
                 "choose backends, profiles, solvers or verbs");
@@ -26,9 +27,12 @@ int list_command(const std::string& what) {
   return kOk;
 }
 
-int schema_command() {
-  std::cout << io::case_file_schema() << '\n';
-  return kOk;
+}  // namespace
+
+Command add_list(CLI::App& verb) {
+  auto what = std::make_shared<std::string>();
+  verb.add_option("WHAT", *what, "backends, profiles, solvers or verbs")->required();
+  return [what](const CommonOptions&) { return list_command(*what); };
 }
 
 }  // namespace treadmark::cli

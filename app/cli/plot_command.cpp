@@ -4,13 +4,20 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/plot.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
+namespace {
+
+struct PlotOptions {
+  std::string folder, output_file;  ///< "-" = stdout
+  std::string what;                 ///< empty: list what can be drawn
+  std::vector<int> cases;           ///< numbers; empty = all
+};
 
 int plot_command(const PlotOptions& options, const CommonOptions&) {
   const app::report::Page page = app::report::read_report(options.folder);
@@ -28,6 +35,22 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
   else
     io::write_text_file(options.output_file, svg);
   return kOk;
+}
+
+}  // namespace
+
+Command add_plot(CLI::App& verb) {
+  auto options = std::make_shared<PlotOptions>();
+  verb.add_option("FOLDER", options->folder, "What run, compare, bench, import --report, simulate or sweep wrote")
+      ->required();
+  verb.add_option("--what", options->what,
+                  "pressure, traction, slip, gap, forces, section ...; without it: a list of what can be drawn");
+  verb.add_option("-o,--output", options->output_file, "The picture; - for standard output")->type_name("FILE.svg");
+  verb.add_option("--case", options->cases, "Numbers of the cases that are drawn, default all")
+      ->delimiter(',')
+      ->allow_extra_args(false)
+      ->type_name("N,...");
+  return command(options, plot_command);
 }
 
 }  // namespace treadmark::cli

@@ -3,13 +3,20 @@
 #include <filesystem>
 #include <iostream>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/report/assets.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
+namespace {
+
+struct ReportOptions {
+  std::string folder;
+  std::string output_file;       ///< empty = report.html in the folder
+  bool static_pictures = false;  ///< in place of live views
+};
 
 int report_command(const ReportOptions& options, const CommonOptions& common) {
   namespace fs = std::filesystem;
@@ -25,6 +32,19 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
     std::cerr << "note: this build has no Node.js: the report shows fixed pictures\n";
   std::cout << file.string() << '\n';
   return kOk;
+}
+
+}  // namespace
+
+Command add_report(CLI::App& verb) {
+  auto options = std::make_shared<ReportOptions>();
+  verb.add_option("FOLDER", options->folder, "What run, compare, bench, import --report, simulate or sweep wrote")
+      ->required();
+  verb.add_option("-o,--output", options->output_file, "The report, default FOLDER/report.html")
+      ->type_name("FILE.html");
+  verb.add_flag("--static", options->static_pictures,
+                "Fixed pictures in place of live views: a smaller file without scripts");
+  return command(options, report_command);
 }
 
 }  // namespace treadmark::cli

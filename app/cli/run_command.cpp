@@ -6,10 +6,9 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/run_cases.hpp"
 #include "treadmark/app/sampled_surfaces.hpp"
@@ -22,6 +21,16 @@
 
 namespace treadmark::cli {
 namespace {
+
+struct RunOptions {
+  std::vector<std::string> cases;
+  std::string output_folder;  ///< empty = no files
+  std::string json_file;      ///< "-" = stdout, empty = none
+  std::string backend, wheel_backend, rail_backend;
+  double resolution_mm = 0.0;          ///< of re-represented surfaces, 0 = their default
+  std::vector<std::string> overrides;  ///< key=value
+  std::string report_file;             ///< HTML; empty = none
+};
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
   constexpr double kMetres = 1e-3;
@@ -60,8 +69,6 @@ int exit_status(const io::RunResult& result) {
   return status;
 }
 
-}  // namespace
-
 int run_command(const RunOptions& options, const CommonOptions& common) {
   if (options.cases.size() > 1 && !options.json_file.empty())
     throw Error(ErrorKind::configuration, "--json takes the results of one case file only", {},
@@ -77,21 +84,12 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     refuse_other_files(name);
     io::CaseFile file = io::read_any_case(name, options.overrides);
     choose_backends(file, options);
-    io::RunResult result;
     app::SurfaceStore store;
-    {
-      ProgressLine line(common.quiet);
-      Progress progress;
-      progress.stop = &interrupted();
-      progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
-        line.update(finished, total, what);
-      };
-      result = app::run_cases(file, store, progress);
-    }
+    io::RunResult result =
+        with_progress(common.quiet, [&](const Progress& progress) { return app::run_cases(file, store, progress); });
     result.settings = settings_of(options);
 
-    if (!common.quiet)
-      for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+    print_notes(file.notes, common.quiet);
     if (!common.quiet)
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
@@ -104,11 +102,13 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     write_report_file(options.report_file, [&] {
       return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
     });
-    if (options.json_file == "-")
-      std::cout << io::to_json(result);
-    else
-      for (const io::CaseResult& c : result.cases) std::cout << io::summary(c) << '\n';
-    if (!options.json_file.empty() && options.json_file != "-") io::write_json(options.json_file, result);
+    const auto json = [&] { return io::to_json(result); };
+    print_results(options.json_file, json, [&] {
+      std::string text;
+      for (const io::CaseResult& c : result.cases) text += io::summary(c) + '\n';
+      return text;
+    });
+    write_json_file(options.json_file, json);
 
     if (!result.complete)
       std::cerr << "interrupted: " << result.cases.size() << " of " << result.cases_total << " cases finished\n";
@@ -116,9 +116,30 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (this_status != kOk && (status == kOk || this_status == kFailed)) status = this_status;
     if (!result.complete) break;
   }
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+  check_output();
   return status;
+}
+
+}  // namespace
+
+Command add_run(CLI::App& verb) {
+  auto options = std::make_shared<RunOptions>();
+  add_case_files(verb, options->cases, options->overrides);
+  verb.add_option("-o,--output", options->output_folder,
+                  "Folder for result.json, fields.h5, ParaView files, pressure.svg")
+      ->type_name("FOLDER");
+  verb.add_option("--json", options->json_file,
+                  "Write the result file here; - for standard output instead of the summary")
+      ->type_name("FILE");
+  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)");
+  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
+  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
+  verb.add_option("--resolution", options->resolution_mm,
+                  "Spacing of the data that surfaces in other backends are sampled at [mm]")
+      ->check(CLI::PositiveNumber)
+      ->type_name("MM");
+  add_report_file(verb, options->report_file);
+  return command(options, run_command);
 }
 
 }  // namespace treadmark::cli

@@ -6,9 +6,8 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
@@ -21,6 +20,16 @@
 
 namespace treadmark::cli {
 namespace {
+
+struct SimulateOptions {
+  std::string file;
+  std::string output_folder, json_file;              ///< empty = none; JSON "-" = stdout
+  std::string backend, wheel_backend, rail_backend;  ///< backend: of both, where they are empty
+  bool resume = false;
+  bool modes_only = false;  ///< print eigenfrequencies, do not integrate
+  std::vector<std::string> overrides;
+  std::string report_file;  ///< HTML; empty = none
+};
 
 int exit_status(const io::SimulationResult& result) { return result.status == "complete" ? kOk : kFailed; }
 
@@ -46,16 +55,12 @@ app::FileLock claim(const std::filesystem::path& folder) {
   return std::move(*lock);
 }
 
-/// JSON to standard output in place of the text, or into a file beside it.
-void print(const std::string& json_file, const std::string& json, const std::string& text) {
-  const bool instead = json_file == "-";
-  std::cout << (instead ? json : text);
-  std::cout.flush();
-  if (!instead && !json_file.empty()) io::write_text_file(json_file, json);
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+void print_summary(const std::string& json_file, const std::string& json, const std::string& text) {
+  print_results(
+      json_file, [&] { return json; }, [&] { return text; });
+  write_json_file(json_file, [&] { return json; });
+  check_output();
 }
-
-}  // namespace
 
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
   if (options.resume && options.output_folder.empty())
@@ -65,19 +70,23 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     throw Error(ErrorKind::configuration, options.file + " is a study of several simulations", {},
                 "use treadmark sweep");
   std::vector<std::string> overrides = options.overrides;
-  if (!options.wheel_backend.empty()) overrides.push_back("wheel.backend=" + options.wheel_backend);
-  if (!options.rail_backend.empty()) overrides.push_back("rail.backend=" + options.rail_backend);
+  const auto choose_backend = [&](const char* key, const std::string& own) {
+    const std::string& name = own.empty() ? options.backend : own;
+    if (!name.empty()) overrides.push_back(key + name);
+  };
+  choose_backend("wheel.backend=", options.wheel_backend);
+  choose_backend("rail.backend=", options.rail_backend);
   const ThreadLimit limit(common.threads);
   const io::SimulationFile file = io::read_simulation_file(options.file, overrides);
-  if (!common.quiet)
-    for (const std::string& note : file.notes) std::cerr << "note: " << note << '\n';
+  print_notes(file.notes, common.quiet);
 
   app::SurfaceStore store;
   app::SimulationOptions run;
   run.settings = overrides;
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
-    print(options.json_file, app::to_json(result, {}), app::statics_text(result) + '\n' + app::modes_text(result));
+    print_summary(options.json_file, app::to_json(result, {}),
+                  app::statics_text(result) + '\n' + app::modes_text(result));
     return kOk;
   }
 
@@ -100,18 +109,9 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     }
   }
 
-  catch_interrupt();
   app::SimulationTimes times;
-  io::SimulationResult result;
-  {
-    ProgressLine line(common.quiet);
-    Progress progress;
-    progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
-      line.update(finished, total, what);
-    };
-    result = app::run_simulation(file, store, run, progress, &times);
-  }
+  const io::SimulationResult result = with_progress(
+      common.quiet, [&](const Progress& progress) { return app::run_simulation(file, store, run, progress, &times); });
   if (!folder.empty()) {
     app::write_simulation_folder(folder, result);
     std::error_code ignored;
@@ -119,11 +119,31 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   }
   write_report_file(options.report_file,
                     [&] { return app::report::simulation_page(std::make_shared<io::SimulationResult>(result), {}); });
-  print(options.json_file, app::to_json(result, times), app::summary_text(result) + app::times_text(times));
+  print_summary(options.json_file, app::to_json(result, times), app::summary_text(result) + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   return exit_status(result);
+}
+
+}  // namespace
+
+Command add_simulate(CLI::App& verb) {
+  auto options = std::make_shared<SimulateOptions>();
+  verb.add_option("FILE", options->file, "Simulation file (.toml)")->required();
+  verb.add_option("-o,--output", options->output_folder,
+                  "Folder for simulation.h5, history.csv, events.csv, modes.csv and pictures (SVG)")
+      ->type_name("FOLDER");
+  verb.add_option("--json", options->json_file, "Write the summary here; - for standard output instead of the table")
+      ->type_name("FILE");
+  verb.add_option("--backend", options->backend, "Surface backend for wheel and rail");
+  verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
+  verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
+  verb.add_flag("--resume", options->resume, "Go on with an interrupted simulation in the output folder");
+  verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
+  add_report_file(verb, options->report_file);
+  add_overrides(verb, options->overrides);
+  return command(options, simulate_command);
 }
 
 }  // namespace treadmark::cli

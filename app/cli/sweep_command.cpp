@@ -4,9 +4,8 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/cli/commands.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"
@@ -16,6 +15,14 @@
 
 namespace treadmark::cli {
 namespace {
+
+struct SweepOptions {
+  std::string file;
+  std::string output_folder;
+  bool resume = false;
+  std::vector<std::string> overrides;
+  std::string report_file;  ///< HTML; empty = none
+};
 
 void print_table(const io::StudyResult& study) {
   for (const io::SimulationRun& run : study.runs) {
@@ -28,8 +35,6 @@ void print_table(const io::StudyResult& study) {
   }
 }
 
-}  // namespace
-
 int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   if (!io::is_study_file(options.file))
     throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {},
@@ -37,27 +42,17 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   const app::ProcessPlace place = app::process_place();
   const bool speaks = place.rank == 0 && !common.quiet;
   // Processes that were started together share the cores.
-  const ThreadLimit limit(place.count > 1 && !options.threads_given ? 1 : common.threads);
+  const ThreadLimit limit(place.count > 1 && !common.threads_given ? 1 : common.threads);
   const io::StudyFile study = io::read_study_file(options.file, options.overrides);
-  if (speaks)
-    for (const std::string& note : study.notes) std::cerr << "note: " << note << '\n';
+  print_notes(study.notes, !speaks);
 
   app::StudyOptions wanted;
   wanted.folder = options.output_folder;
   wanted.settings = options.overrides;
   wanted.must_exist = options.resume;
   wanted.workers = std::min(thread_count(), std::max(1, static_cast<int>(study.runs.size())));
-  catch_interrupt();
-  app::StudyOutcome outcome;
-  {
-    ProgressLine line(!speaks);
-    Progress progress;
-    progress.stop = &interrupted();
-    progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
-      line.update(finished, total, what);
-    };
-    outcome = app::run_study(study, wanted, progress);
-  }
+  const app::StudyOutcome outcome =
+      with_progress(!speaks, [&](const Progress& progress) { return app::run_study(study, wanted, progress); });
   if (speaks && outcome.found_finished > 0)
     std::cerr << fmt::format("{} of {} runs were finished already\n", outcome.found_finished, outcome.runs_total);
   const auto write_report = [&] {
@@ -76,6 +71,20 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   const bool all_good =
       std::ranges::all_of(outcome.study.runs, [](const io::SimulationRun& run) { return run.status == "complete"; });
   return all_good ? kOk : kFailed;
+}
+
+}  // namespace
+
+Command add_sweep(CLI::App& verb) {
+  auto options = std::make_shared<SweepOptions>();
+  verb.add_option("STUDY", options->file, "Study file (.toml)")->required();
+  verb.add_option("-o,--output", options->output_folder, "Folder for sweep.h5, sweep.csv, figures and the runs")
+      ->type_name("FOLDER")
+      ->required();
+  verb.add_flag("--resume", options->resume, "Go on with a study that was stopped; there must be one in the folder");
+  add_report_file(verb, options->report_file);
+  add_overrides(verb, options->overrides);
+  return command(options, sweep_command);
 }
 
 }  // namespace treadmark::cli

@@ -23,6 +23,7 @@ extern "C" void on_interrupt(int signal_number) {
 
 const std::atomic<bool>& interrupted() { return interrupt_flag; }
 void catch_interrupt() {
+  if (interrupt_flag.load()) return;  // the next Ctrl-C ends the program
   std::signal(SIGINT, on_interrupt);
   std::signal(SIGTERM, on_interrupt);
 }

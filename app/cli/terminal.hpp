@@ -11,6 +11,7 @@ namespace treadmark::cli {
 
 /// Set by Ctrl-C while it is caught: work stops after the units that run now. A second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupted();
+/// To be called as often as wanted.
 void catch_interrupt();
 
 /// One line on stderr with count and estimated time left, redrawn at most ten times a second. Silent off a terminal.

@@ -2,8 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/report/field_catalogue.hpp"
 
-#include <array>
+#include <algorithm>
 #include <cmath>
+#include <iterator>
 
 #include "treadmark/core/constants.hpp"
 
@@ -11,31 +12,8 @@ namespace treadmark::app::report {
 namespace {
 
 using Values = std::vector<double>;
-using Fields = io::PatchFields;
 
 constexpr double kPercent = 1e2;
-
-template <Values Fields::*Member>
-Values scaled(const io::PatchResult& patch, double factor) {
-  Values out = patch.fields.*Member;
-  for (double& value : out) value *= factor;
-  return out;
-}
-
-template <Values Fields::*Member>
-Values megapascals(const io::PatchResult& patch) {
-  return scaled<Member>(patch, kMega);
-}
-
-template <Values Fields::*Member>
-Values micrometres(const io::PatchResult& patch) {
-  return scaled<Member>(patch, kMicro);
-}
-
-template <Values Fields::*Member>
-Values plain(const io::PatchResult& patch) {
-  return patch.fields.*Member;
-}
 
 Values length_of(const Values& x, const Values& s, double factor) {
   Values out;
@@ -60,29 +38,39 @@ Values slip_distance(const io::PatchResult& patch) {
 Values no_values(const io::PatchResult&) { return {}; }
 
 using Kind = FieldInfo::Kind;
-constexpr std::array<FieldInfo, 14> kFields{{
-    {"pressure", "pressure", "MPa", Kind::sequential, megapascals<&Fields::pressure>},
-    {"state", "adhesion and slip", "", Kind::state, no_values},
-    {"traction", "traction", "MPa", Kind::sequential, traction},
-    {"traction_x", "longitudinal traction", "MPa", Kind::diverging, megapascals<&Fields::traction_x>},
-    {"traction_s", "lateral traction", "MPa", Kind::diverging, megapascals<&Fields::traction_s>},
-    {"slip", "slip", "%", Kind::sequential, slip},
-    {"slip_distance", "slip distance", "µm", Kind::sequential, slip_distance},
-    {"gap", "undeformed distance", "µm", Kind::diverging, micrometres<&Fields::gap>},
-    {"displacement_n", "normal displacement", "µm", Kind::sequential, micrometres<&Fields::displacement_n>},
-    {"friction", "coefficient of friction", "", Kind::sequential, plain<&Fields::friction>},
-    {"temperature_1", "temperature of the rail", "°C", Kind::sequential, plain<&Fields::temperature_1>},
-    {"temperature_2", "temperature of the wheel", "°C", Kind::sequential, plain<&Fields::temperature_2>},
-    {"plastic_x", "longitudinal plastic shear", "µm", Kind::diverging, micrometres<&Fields::plastic_x>},
-    {"plastic_s", "lateral plastic shear", "µm", Kind::diverging, micrometres<&Fields::plastic_s>},
-}};
+// Beside the fields of the files.
+constexpr FieldInfo kMadeFields[] = {
+    {{20, "adhesion and slip", "", 1.0, Kind::state}, "state", nullptr, no_values},
+    {{30, "traction", "MPa"}, "traction", nullptr, traction},
+    {{60, "slip", "%"}, "slip", nullptr, slip},
+    {{70, "slip distance", "µm"}, "slip_distance", nullptr, slip_distance},
+};
+
+std::vector<FieldInfo> shown_fields() {
+  std::vector<FieldInfo> out(std::begin(kMadeFields), std::end(kMadeFields));
+  for (const io::FieldColumn& column : io::kFieldColumns)
+    if (column.shown.rank > 0) out.push_back({column.shown, column.name, &column});
+  std::ranges::sort(out, {}, [](const FieldInfo& field) { return field.rank; });
+  return out;
+}
 
 }  // namespace
 
-std::span<const FieldInfo> field_catalogue() { return kFields; }
+std::vector<double> FieldInfo::values(const io::PatchResult& patch) const {
+  if (column == nullptr) return made(patch);
+  if (patch.shift && column->unit != column->unit_shift) return {};  // the shown unit is not that of a shift
+  Values out = patch.fields.*column->values;
+  for (double& value : out) value *= factor;
+  return out;
+}
+
+std::span<const FieldInfo> field_catalogue() {
+  static const std::vector<FieldInfo> fields = shown_fields();
+  return fields;
+}
 
 const FieldInfo* find_field(std::string_view name) {
-  for (const FieldInfo& field : kFields)
+  for (const FieldInfo& field : field_catalogue())
     if (field.name == name) return &field;
   return nullptr;
 }

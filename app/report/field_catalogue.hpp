@@ -6,18 +6,19 @@
 #include <string_view>
 #include <vector>
 
-#include "treadmark/io/results/result_model.hpp"
+#include "treadmark/io/results/field_table.hpp"
 
 namespace treadmark::app::report {
 
 /// A quantity of the elements of a patch as reports and pictures show it.
-struct FieldInfo {
-  enum class Kind { sequential, diverging, state };
-  std::string_view name, label, unit;
-  Kind kind;
+struct FieldInfo : io::ShownField {
+  std::string_view name;
+  const io::FieldColumn* column = nullptr;  ///< of the files; nullptr: made of others
+  std::vector<double> (*made)(const io::PatchResult& patch) = nullptr;
+
   /// Values in the shown unit, one an element, NaN = none; empty where the patch does not have the quantity. Not for
   /// states.
-  std::vector<double> (*values)(const io::PatchResult& patch);
+  std::vector<double> values(const io::PatchResult& patch) const;
 };
 
 /// All quantities, the more important first.

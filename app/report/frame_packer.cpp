@@ -20,9 +20,13 @@ struct Detail {
   int every;           ///< frame
 };
 
-// The catalogue has 14 quantities; with 5 there are pressure, state and tractions.
-constexpr Detail kDetails[] = {{Precision::two_bytes, 14, 1}, {Precision::byte, 14, 1}, {Precision::byte, 5, 1},
-                               {Precision::byte, 2, 1},       {Precision::byte, 2, 4},  {Precision::byte, 2, 16},
+constexpr std::size_t kAllFields = 1000;  // with 5 there are pressure, state and tractions
+constexpr Detail kDetails[] = {{Precision::two_bytes, kAllFields, 1},
+                               {Precision::byte, kAllFields, 1},
+                               {Precision::byte, 5, 1},
+                               {Precision::byte, 2, 1},
+                               {Precision::byte, 2, 4},
+                               {Precision::byte, 2, 16},
                                {Precision::byte, 2, 64}};
 
 template <class T>
@@ -39,7 +43,7 @@ std::vector<T> part_of(const std::vector<T>& values, const Grid2& grid, const Gr
 PackedPatch pack_patch(const io::PatchResult& patch, const Detail& detail, BlobStore& blobs) {
   PackedPatch out{shown_part(patch.fields), {}};
   const std::size_t size = patch.fields.grid.size();
-  for (const FieldInfo& field : field_catalogue().first(detail.fields)) {
+  for (const FieldInfo& field : field_catalogue().first(std::min(detail.fields, field_catalogue().size()))) {
     if (field.kind == FieldInfo::Kind::state) {
       if (patch.fields.state.size() == size && size > 0)
         out.values.emplace_back(field.name, blobs.add_codes(part_of(patch.fields.state, patch.fields.grid, out.part)));

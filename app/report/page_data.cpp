@@ -12,6 +12,7 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/twelve_digits.hpp"
+#include "treadmark/io/results/quantities.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -138,24 +139,19 @@ class Writer {
     return out;
   }
 
+  /// In a shift, what has another unit there is left out: the names end in units.
   static Json patch_numbers(const io::PatchResult& p) {
-    Json out = {{"fn_N", number(p.fn)},
-                {"fx_N", number(p.fx)},
-                {"fs_N", number(p.fs)},
-                {"pmax_MPa", number(kMega * p.pmax)},
-                {"approach_mm", number(kMilli * p.approach)},
-                {"elements_in_contact", p.ncon},
-                {"elements_in_slip", p.nslip}};
-    if (!p.shift) {
-      out["xi"] = number(p.xi);
-      out["eta"] = number(p.eta);
-      out["phi_rad_mm"] = number(p.phi / kMilli);
-    }
-    if (p.has_reference) {
-      out["x_tr_mm"] = number(kMilli * p.x_tr);
-      out["y_tr_mm"] = number(kMilli * p.y_tr);
-      out["angle_rad"] = number(p.angle);
-    }
+    using io::Block;
+    Json out = Json::object();
+    for (const Block block : {Block::force, Block::pressure, Block::approach, Block::count, Block::creepage,
+                              Block::place, Block::angle, Block::energy, Block::relative, Block::heat})
+      for (const auto& row : io::quantities<io::PatchResult>()) {
+        if (row.block != block || row.label.page.empty() || !io::has_block(p, block) || !row.has(p)) continue;
+        if (p.shift && !row.in_shift.si.empty()) continue;
+        const double value = row.access.get(p);
+        out[std::string(row.label.page)] =
+            row.access.whole ? Json(static_cast<int>(value)) : number(row.unit.in_file(value));
+      }
     return out;
   }
 
@@ -193,8 +189,8 @@ class Writer {
       Json& patches = frame["patches"] = Json::array();
       for (std::size_t k = 0; k < packed[i].patches.size(); ++k)
         patches.push_back(patch(result.patches[k], packed[i].patches[k], k));
-      frame["wheel"] = result.bodies ? placed(result.wheel_surface, result.bodies->X_TW) : Json();
-      frame["rail"] = result.bodies ? placed(result.rail_surface, result.bodies->X_TR) : Json();
+      frame["wheel"] = result.bodies ? placed(result.wheel_surface, result.bodies->X_TA) : Json();
+      frame["rail"] = result.bodies ? placed(result.rail_surface, result.bodies->X_TS) : Json();
       if (!packed[i].trimmed.empty())
         frame["trimmed"] = packed[i].trimmed + (" All fields are in " + page_.full_data + ".");
       frames.push_back(std::move(frame));

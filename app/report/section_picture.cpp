@@ -86,8 +86,8 @@ std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurfac
       }
     chart.series.push_back(std::move(series));
   };
-  add("rail", result->rail_surface, result->bodies->X_TR, 0, true);
-  add("wheel", result->wheel_surface, result->bodies->X_TW, 1, true);
+  add("rail", result->rail_surface, result->bodies->X_TS, 0, true);
+  add("wheel", result->wheel_surface, result->bodies->X_TA, 1, true);
   io::ChartSeries references;
   references.name = "contact reference";
   references.style = 4;

@@ -16,16 +16,12 @@ namespace {
 
 constexpr double kRailBeyond = 0.5;  // [m], ahead of and behind what the wheels pass
 
-UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFile& file, io::Side side) {
+UsedBodies bodies_of(const wheelrail::Geometry& geometry, const io::SimulationFile& file, Side side) {
   UsedBodies used;
   used.wheel = {Body::wheel, geometry.wheel, nullptr, geometry.round_wheel, file.contact.wheelset.nominal_radius};
   used.rail = {Body::rail, geometry.rail, nullptr, geometry.prismatic_rail, 0.0};
-  used.left = side == io::Side::left;
+  used.left = side == Side::left;
   return used;
-}
-
-wheelrail::Side side_of(io::Side side) {
-  return side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right;
 }
 
 io::SurfaceSource round_wheel(const io::SimulationFile& file) {
@@ -111,7 +107,7 @@ std::size_t BuiltVehicle::watched_wheel() const {
 }
 
 std::string wheel_name(const io::WheelContactInput& wheel) {
-  return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == io::Side::left ? "left" : "right");
+  return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == Side::left ? "left" : "right");
 }
 
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
@@ -122,7 +118,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
   v.system = vehicle::assemble(file.vehicle, file.track, v.speed, file.settings.gravity);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
   for (const io::WheelContactInput& wheel : file.wheels) {
-    vehicle::WheelOnRail on{wheel.wheelset, side_of(wheel.side), wheel_name(wheel), nullptr, Vec3::Zero()};
+    vehicle::WheelOnRail on{wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()};
     if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
     if (wheel.model == io::ContactModelInput::full) {
       const wheelrail::Geometry geometry = builder.full_geometry(wheel);
@@ -139,7 +135,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       const auto table = builder.table(load);
       on.element = std::make_shared<vehicle::TableContact>(table, on.side);
       on.rail_marker = table->nominal().X_TR.origin;
-      if (on.side == wheelrail::Side::left) on.rail_marker.y() = -on.rail_marker.y();
+      if (on.side == Side::left) on.rail_marker.y() = -on.rail_marker.y();
       built.full.push_back(nullptr);
       built.bodies.emplace_back();
     }

@@ -23,12 +23,9 @@ bool passed(double before, double now, double angle) {
 io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, const vehicle::PairMotion& m) {
   io::WheelRailCase input = file.contact;
   input.side = file.wheels[wheel].side;
-  io::WheelsetInput& w = input.wheelset;
-  w.s = m.wheelset.x, w.y = m.wheelset.y, w.z = m.wheelset.z, w.roll = m.wheelset.roll, w.yaw = m.wheelset.yaw,
-  w.pitch = m.wheelset.pitch;
-  const auto& v = m.wheelset_velocity;
-  w.vs = v.x, w.vy = v.y, w.vz = v.z, w.vroll = v.roll, w.vyaw = v.yaw, w.vpitch = v.pitch;
-  io::TrackInput& t = input.track;
+  input.state.position = m.wheelset;
+  input.state.velocity = m.wheelset_velocity;
+  Track& t = input.track;
   t.dy = m.rail.y, t.dz = m.rail.z, t.roll = m.rail.roll, t.vy = m.rail.vy, t.vz = m.rail.vz, t.vroll = m.rail.vroll;
   input.vertical_force_prescribed = false;
   return input;
@@ -112,7 +109,7 @@ void Snapshots::describe_scenes(io::SimulationResult& result) const {
 std::vector<double> Snapshots::depth_of(const Kept& kept, const Grid2& grid,
                                         const wheelrail::PairSolution& solution) const {
   if (!built_.defect_depth || !file_.wheels[kept.wheel].defects) return {};
-  const auto side = file_.wheels[kept.wheel].side == io::Side::left ? wheelrail::Side::left : wheelrail::Side::right;
+  const Side side = file_.wheels[kept.wheel].side;
   return built_.defect_depth->over(grid, solution.placement, side);
 }
 

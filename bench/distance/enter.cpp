@@ -3,6 +3,7 @@
 #include "treadmark/bench/distance/enter.hpp"
 
 #include "treadmark/app/bench/check_detection.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -25,8 +26,9 @@ void distance(benchmark::State& state, DistanceMethod method, const char* backen
 }  // namespace
 
 bool enter_distance(const char* name, DistanceMethod method) {
-  for (const char* backend : {"analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset"}) {
-    const double resolution = std::string_view(backend) == "analytic" ? 0.0 : 0.5e-3;
+  for (const Backend* one : backends()) {
+    const char* backend = one->name.c_str();
+    const double resolution = one->resample ? 0.5e-3 : 0.0;
     benchmark::RegisterBenchmark((std::string(name) + "/" + label(backend, resolution)).c_str(),
                                  [=](benchmark::State& state) { distance(state, method, backend, resolution); })
         ->Unit(benchmark::kMillisecond);

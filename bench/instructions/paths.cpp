@@ -12,6 +12,7 @@
 #include "treadmark/app/bench/bench_scene.hpp"
 #include "treadmark/app/bench/check_detection.hpp"
 #include "treadmark/app/bench/check_surface.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 
@@ -28,7 +29,7 @@ const app::BenchScene& scene() {
   return the_scene;
 }
 
-double resolution_of(const std::string& backend) { return backend == "analytic" ? 0.0 : kResolution; }
+double resolution_of(const std::string& backend) { return backend_of(backend).resample ? kResolution : 0.0; }
 
 const Surface& surface(const std::string& backend, Body body) {
   static std::map<std::pair<std::string, Body>, std::shared_ptr<const Surface>> known;

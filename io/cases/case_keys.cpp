@@ -3,41 +3,19 @@
 #include "treadmark/io/cases/case_keys.hpp"
 
 #include <algorithm>
-#include <charconv>
 #include <map>
-#include <numbers>
 #include <set>
 
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/key_builder.hpp"
-#include "treadmark/io/cases/nearest_key.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-constexpr double kDegree = std::numbers::pi / 180.0;
-
-struct UnitEnding {
-  std::string_view ending;
-  double si;
-};
-// Longer endings first.
-constexpr UnitEnding kUnits[] = {
-    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_N_per_mm", 1e3}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0},
-    {"_mm_s", 1e-3},       {"_m_s", 1.0},        {"_mm3", 1e-9},     {"_um", 1e-6},   {"_us", 1e-6},   {"_GPa", 1e9},
-    {"_MPa", 1e6},         {"_deg", kDegree},    {"_rad", 1.0},      {"_mm", 1e-3},   {"_N", 1.0},
-};
-
 [[noreturn]] void fail(std::string message, const SourcePosition& where, std::string advice = {}) {
   throw Error(ErrorKind::configuration, std::move(message), where, std::move(advice));
-}
-
-[[noreturn]] void unknown_key(std::string_view path, std::span<const std::string> known, const SourcePosition& where) {
-  const std::string near = nearest_key(path, known);
-  fail(fmt::format("unknown key '{}'", path.substr(0, 100)), where,
-       near.empty() ? "see docs/case-file.md for all keys" : fmt::format("did you mean '{}'?", near));
 }
 
 const std::vector<std::string>& all_paths() {
@@ -86,21 +64,9 @@ void collect(const CaseTable& table, const std::string& prefix, std::vector<Assi
         fail(fmt::format("{} must be a table, found {}", path, entry.value.kind()), entry.value.where);
       collect(entry.value.table(), path, out);
     } else {
-      unknown_key(path, all_paths(), entry.key_where);
+      refuse_unknown_key(path, all_paths(), entry.key_where);
     }
   }
-}
-
-struct Chosen {
-  const KeyInfo* key;
-  SourcePosition where;
-};
-
-void check_exclusive(const KeyInfo& key, const SourcePosition& where, std::map<std::string, Chosen>& groups) {
-  if (key.group.empty()) return;
-  const auto [other, fresh] = groups.try_emplace(key.group, Chosen{&key, where});
-  if (!fresh && other->second.key->alternative != key.alternative)
-    fail(fmt::format("{} and {} exclude each other", other->second.key->path, key.path), where, "give one of them");
 }
 
 void check_scope(const Case& c, const KeyInfo& key, const SourcePosition& where) {
@@ -172,55 +138,19 @@ std::span<const CaseKey> case_keys() {
   return keys;
 }
 
-double unit_of_key(std::string_view path) {
-  for (const UnitEnding& unit : kUnits)
-    if (path.ends_with(unit.ending)) return unit.si;
-  return 1.0;
-}
-
-void check_elements(const KeyInfo& list, const CaseTable& entries, const SourcePosition& where, bool complete) {
-  std::vector<std::string> known;
-  for (const KeyInfo& element : list.elements) known.push_back(element.path);
-  std::map<std::string, Chosen> groups;
-  for (const CaseEntry& entry : entries) {
-    const auto found =
-        std::find_if(list.elements.begin(), list.elements.end(), [&](const KeyInfo& k) { return k.path == entry.key; });
-    if (found == list.elements.end()) unknown_key(entry.key, known, entry.key_where);
-    check_value(*found, entry.value);
-    check_exclusive(*found, entry.key_where, groups);
-  }
-  for (const KeyInfo& element : list.elements) {
-    const bool given =
-        std::any_of(entries.begin(), entries.end(), [&](const CaseEntry& e) { return e.key == element.path; });
-    if (complete && element.required && !given)
-      fail(fmt::format("{} of {} is missing", element.path, list.path), where);
-  }
-}
-
 void apply_table(Case& target, const CaseTable& table, const std::filesystem::path& folder) {
   std::vector<Assignment> assignments;
   collect(table, "", assignments);
-  std::map<std::string, Chosen> groups;
+  ChosenKeys chosen;
   for (const Assignment& a : assignments) {
     check_scope(target, a.key->info, a.where);
     check_value(a.key->info, *a.value);
-    check_exclusive(a.key->info, a.where, groups);
+    check_exclusive(a.key->info, a.where, chosen);
   }
   check_exclusive_sections(assignments);
   std::stable_sort(assignments.begin(), assignments.end(),
                    [](const Assignment& a, const Assignment& b) { return a.key < b.key; });
   for (const Assignment& a : assignments) a.key->set(target, *a.value, folder);
-}
-
-ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where) {
-  const std::size_t dot = rest.find('.');
-  ElementPath place;
-  const auto [end, error] = std::from_chars(rest.data(), rest.data() + std::min(dot, rest.size()), place.index);
-  if (dot == std::string_view::npos || error != std::errc{} || end != rest.data() + dot)
-    fail(fmt::format("{} is a list", list.path), where,
-         fmt::format("write {}.0.{}=value", list.path, list.elements.front().path));
-  place.key = rest.substr(dot + 1);
-  return place;
 }
 
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder) {
@@ -243,7 +173,7 @@ void apply_assignment(Case& target, const CaseOverride& assignment, const std::f
     key.set_element(target, place.index, {{place.key, where, element_value(key.info, place.key, assignment)}}, where);
     return;
   }
-  unknown_key(path, all_paths(), where);
+  refuse_unknown_key(path, all_paths(), where);
 }
 
 }  // namespace treadmark::io

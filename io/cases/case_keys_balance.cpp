@@ -38,13 +38,13 @@ void add_number(KeyList& list, const std::string& path, KeyLimits limits, const 
 }
 
 void add_roller(KeyList& list) {
-  const auto number = [&](const std::string& name, const std::string& doc, double RollerInput::*member) {
+  const auto number = [&](const std::string& name, const std::string& doc, double Roller::*member) {
     add_number(list, "roller." + name, kAnyNumber, doc, &W::roller, member);
   };
   number("nominal_radius_mm", "radius where the roller's profile has z = 0; negative: the wheel runs inside a ring",
-         &RollerInput::nominal_radius);
+         &Roller::nominal_radius);
   number("pitch_rate_rad_s", "pitch rate of the roller, positive where a wheel on it rolls forward (shift: rotation)",
-         &RollerInput::pitch_rate);
+         &Roller::pitch_rate);
   add_switch(list, "roller",
              "a roller with the profile of [rail] in place of the rail; wheelset.s_mm is where the axle stands over "
              "the roller's",
@@ -52,7 +52,7 @@ void add_roller(KeyList& list) {
 }
 
 void add_springs(KeyList& list) {
-  using S = RailSpringsInput;
+  using S = RailSprings;
   const auto number = [&](const std::string& name, KeyLimits limits, const std::string& doc, double S::*member) {
     add_number(list, "track.springs." + name, limits, doc, &W::rail_springs, member);
   };
@@ -66,7 +66,7 @@ void add_springs(KeyList& list) {
 }
 
 void add_damping(KeyList& list) {
-  using D = DampingInput;
+  using D = Damping;
   const auto number = [&](const std::string& name, const std::string& doc, double D::*member) {
     add_number(list, "damping." + name, kNotNegative, doc, &W::damping, member);
   };
@@ -84,7 +84,7 @@ void add_balance_keys(KeyList& list) {
   add_roller(list);
   add_springs(list);
   add_damping(list);
-  using R = ReferenceSurfaceInput;
+  using R = ReferenceSurface;
   list.choice<W, R>(
       "contact.reference_surface",
       {{"plane", R::plane}, {"plane_surface_slip", R::plane_surface_slip}, {"curved", R::curved}},

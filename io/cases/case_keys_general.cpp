@@ -9,25 +9,22 @@ namespace {
 using W = WheelRailCase;
 
 void add_case(KeyList& list) {
-  using Regime = RegimeInput;
   CaseKey& regime = shared_choice<Regime>(
-      list, "case.regime",
-      {{"none", Regime::none}, {"shift", Regime::shift}, {"transient", Regime::transient}, {"steady", Regime::steady}},
+      list, "case.regime", words_of<Case>(kRegimes),
       "tangential problem: none, one shift, one step of transient rolling or steady rolling; a [patch] starts from "
       "\"none\"",
       [](auto& c) -> Regime& { return c.regime; });
   regime.info.default_text = "\"steady\"";
 
-  using History = HistoryInput;
-  shared_choice<History>(
+  shared_choice<HistoryUse>(
       list, "case.history",
-      {{"start", History::start},
-       {"continue", History::keep_going},
-       {"normal_only", History::normal_only},
-       {"same_instant", History::same_instant}},
+      {{"start", HistoryUse::start},
+       {"continue", HistoryUse::keep_going},
+       {"normal_only", HistoryUse::normal_only},
+       {"same_instant", HistoryUse::same_instant}},
       "what a case takes over from the one before it in its sequence: nothing, its tractions as previous "
       "instant, only the normal part of them, or the same previous instant as that case had",
-      [](auto& c) -> History& { return c.history; });
+      [](auto& c) -> HistoryUse& { return c.history; });
 
   constexpr double kMostSequences = 1e6;
   KeyInfo sequence =
@@ -72,21 +69,21 @@ void add_solver(KeyList& list) {
   shared_number(list, "solver.tolerance", {0.0, {}, 0.1}, "relative accuracy of tractions and forces",
                 [](auto& c) -> double& { return c.solver.eps; });
   shared_integer(list, "solver.max_solver_iterations", "iterations of one linear or tangential solve",
-                 [](auto& c) -> int& { return c.solver.max_gs; });
+                 [](auto& c) -> int& { return c.solver.max_iterations; });
   shared_integer(list, "solver.max_set_iterations", "changes of the contact, adhesion and slip areas",
-                 [](auto& c) -> int& { return c.solver.max_in; });
+                 [](auto& c) -> int& { return c.solver.max_outer; });
   shared_integer(list, "solver.max_force_iterations", "iterations on prescribed total forces",
-                 [](auto& c) -> int& { return c.solver.max_nr; });
+                 [](auto& c) -> int& { return c.solver.max_force; });
   shared_integer(list, "solver.max_outer_iterations",
                  "alternations of the normal and the tangential problem of dissimilar bodies; 1: tangential tractions "
                  "do not act on the "
                  "normal problem",
-                 [](auto& c) -> int& { return c.solver.max_out; });
-  using Method = SolverInput::Method;
+                 [](auto& c) -> int& { return c.solver.max_coupling; });
+  using Method = SolverSettings::Method;
   shared_choice<Method>(list, "solver.method", {{"automatic", Method::automatic}, {"sweeps", Method::sweeps}},
                         "tangential solver: the one that suits the problem, or sweeps over single elements",
                         [](auto& c) -> Method& { return c.solver.method; });
-  using First = SolverInput::FirstSlip;
+  using First = SolverSettings::FirstSlip;
   shared_choice<First>(
       list, "solver.first_slip", {{"below", First::below}, {"above", First::above}, {"last", First::last}},
       "falling friction with several solutions: slip velocity to start from: none, the rolling velocity, or that of "
@@ -96,10 +93,9 @@ void add_solver(KeyList& list) {
 
 /// A [patch] has such keys of its own.
 void add_wheel_rail_models(KeyList& list) {
-  using N = NormalModelInput;
-  list.choice<W, N>("solver.normal_model", {{"full", N::full}, {"kpec", N::kpec}, {"analyn", N::analyn}},
-                    "pressure of a wheel on a rail: solved, or one of two fast approximations",
-                    [](W& c) -> N& { return c.normal_model; });
+  list.choice<W>("solver.normal_model", words_of<W>(kNormalTheories),
+                 "pressure of a wheel on a rail: solved, or one of two fast approximations",
+                 [](W& c) -> NormalModel& { return c.normal_model; });
   add_simplified_theory<W>(list, "solver.");
 }
 

@@ -62,13 +62,9 @@ void add_beyond_elastic(KeyList& list) {
 }
 
 void add_influence(KeyList& list) {
-  using Kind = InfluenceInput::Kind;
+  using Kind = InfluenceSettings::Kind;
   shared_choice<Kind>(
-      list, "influence.kind",
-      {{"constant", Kind::constant},
-       {"bilinear", Kind::bilinear},
-       {"angle_corrected", Kind::angle_corrected},
-       {"table", Kind::table}},
+      list, "influence.kind", words_of<Case>(kInfluenceKinds),
       "influence coefficients: half-space with constant or bilinear tractions on an element, corrected for the "
       "inclination of the surface (wheel on rail: of the curved reference), or numerical ones from a file (patch only)",
       [](auto& c) -> Kind& { return c.influence.kind; });

@@ -78,18 +78,11 @@ void add_rolling(KeyList& list) {
   list.number<B>("patch.spin_offset_factor", kNotNegative,
                  "share of the rolling step by which the spin centre is moved",
                  [](B& c) -> double& { return c.spin_offset_factor; });
-  using N = NormalModelInput;
-  list.choice<B, N>(
-      "patch.normal_model",
-      {{"full", N::full},
-       {"elliptic", N::elliptic},
-       {"parabolic", N::parabolic},
-       {"semi_double_elliptic", N::semi_double_elliptic},
-       {"kpec", N::kpec},
-       {"analyn", N::analyn}},
+  list.choice<B>(
+      "patch.normal_model", words_of<B>(kNormalTheories),
       "pressure: solved; the Hertzian ellipsoid, a paraboloid or two half ellipsoids ([patch.hertz] only); or a fast "
       "approximation (KPEC, ANALYN) at a given approach",
-      [](B& c) -> N& { return c.normal_model; });
+      [](B& c) -> NormalModel& { return c.normal_model; });
   add_simplified_theory<B>(list, "patch.");
 }
 

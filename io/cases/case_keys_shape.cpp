@@ -214,12 +214,6 @@ class ShapeKeys {
 
 }  // namespace
 
-bool is_backend_name(std::string_view text) {
-  constexpr std::string_view kLetters = "abcdefghijklmnopqrstuvwxyz";
-  return !text.empty() && kLetters.find(text.front()) != std::string_view::npos &&
-         text.find_first_not_of("abcdefghijklmnopqrstuvwxyz0123456789_-") == std::string_view::npos;
-}
-
 void add_shape_keys(KeyList& list) {
   ShapeKeys(list, "rail", &W::rail, "60E1").add();
   add_part_keys(list);

@@ -31,25 +31,25 @@ void add_track(KeyList& list) {
   gauge.info.group = "track placement";
   gauge.info.alternative = "gauge";
   gauge.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    TrackInput& t = content_of<W>(c).track;
+    Track& t = content_of<W>(c).track;
     t.gauge_width = v.number() * unit_of_key("gauge_mm");
     t.gauge_based = true;
   };
   list.number<W>("track.gauge_height_mm", kPositive, "depth below the rail top at which the gauge is measured",
                  [](W& c) -> double& { return c.track.gauge_height; });
-  const auto absolute = [&](const std::string& name, const std::string& doc, double TrackInput::*member) {
+  const auto absolute = [&](const std::string& name, const std::string& doc, double Track::*member) {
     list.number<W>("track." + name, kAnyNumber, doc, [member](W& c) -> double& { return c.track.*member; });
     CaseKey& key = list.keys.back();
     key.info.group = "track placement";
     key.info.alternative = "absolute";
     key.set = [member](Case& c, const CaseValue& v, const std::filesystem::path&) {
-      TrackInput& t = content_of<W>(c).track;
+      Track& t = content_of<W>(c).track;
       t.*member = v.number() * unit_of_key("y_mm");
       t.gauge_based = false;
     };
   };
-  absolute("rail_y_mm", "rail profile origin placed at this y instead of by the gauge", &TrackInput::rail_y0);
-  absolute("rail_z_mm", "rail profile origin placed at this z instead of by the gauge", &TrackInput::rail_z0);
+  absolute("rail_y_mm", "rail profile origin placed at this y instead of by the gauge", &Track::rail_y0);
+  absolute("rail_z_mm", "rail profile origin placed at this z instead of by the gauge", &Track::rail_z0);
 
   constexpr KeyLimits kCant{{}, -45.0, 45.0};
   list.angle<W>("track.cant", kCant, "rail inclination, positive = rail head turned inward",
@@ -99,8 +99,9 @@ void add_wheelset(KeyList& list) {
   list.add(tape).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).wheelset.tape_line = v.number() * unit_of_key("y_mm");
   };
-  list.number<W>("wheelset.s_mm", kAnyNumber, "position along the track", [](W& c) -> double& { return c.wheelset.s; });
-  list.number<W>("wheelset.y_mm", kAnyNumber, "lateral position", [](W& c) -> double& { return c.wheelset.y; });
+  list.number<W>("wheelset.s_mm", kAnyNumber, "position along the track",
+                 [](W& c) -> double& { return c.state.position.x; });
+  list.number<W>("wheelset.y_mm", kAnyNumber, "lateral position", [](W& c) -> double& { return c.state.position.y; });
 
   const auto vertical = [&](const std::string& name, KeyLimits limits, const std::string& doc, auto place, bool force) {
     list.number<W>("wheelset." + name, limits, doc, place);
@@ -119,26 +120,28 @@ void add_wheelset(KeyList& list) {
       [](W& c) -> double& { return c.vertical_force; }, true);
   vertical(
       "z_mm", kAnyNumber, "prescribed vertical displacement of the axle, positive down",
-      [](W& c) -> double& { return c.wheelset.z; }, false);
-  list.angle<W>("wheelset.roll", kAnyNumber, "roll angle", [](W& c) -> double& { return c.wheelset.roll; });
-  list.angle<W>("wheelset.yaw", kAnyNumber, "yaw angle", [](W& c) -> double& { return c.wheelset.yaw; });
+      [](W& c) -> double& { return c.state.position.z; }, false);
+  list.angle<W>("wheelset.roll", kAnyNumber, "roll angle", [](W& c) -> double& { return c.state.position.roll; });
+  list.angle<W>("wheelset.yaw", kAnyNumber, "yaw angle", [](W& c) -> double& { return c.state.position.yaw; });
   list.angle<W>("wheelset.pitch", kAnyNumber,
                 "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
-                [](W& c) -> double& { return c.wheelset.pitch; });
+                [](W& c) -> double& { return c.state.position.pitch; });
   list.number<W>("wheelset.velocity_m_s", kAnyNumber, "forward velocity",
-                 [](W& c) -> double& { return c.wheelset.vs; });
-  list.number<W>("wheelset.vy_m_s", kAnyNumber, "lateral velocity", [](W& c) -> double& { return c.wheelset.vy; });
-  list.number<W>("wheelset.vz_m_s", kAnyNumber, "vertical velocity", [](W& c) -> double& { return c.wheelset.vz; });
-  list.number<W>("wheelset.vroll_rad_s", kAnyNumber, "roll rate", [](W& c) -> double& { return c.wheelset.vroll; });
-  list.number<W>("wheelset.vyaw_rad_s", kAnyNumber, "yaw rate", [](W& c) -> double& { return c.wheelset.vyaw; });
+                 [](W& c) -> double& { return c.state.velocity.x; });
+  list.number<W>("wheelset.vy_m_s", kAnyNumber, "lateral velocity", [](W& c) -> double& { return c.state.velocity.y; });
+  list.number<W>("wheelset.vz_m_s", kAnyNumber, "vertical velocity",
+                 [](W& c) -> double& { return c.state.velocity.z; });
+  list.number<W>("wheelset.vroll_rad_s", kAnyNumber, "roll rate",
+                 [](W& c) -> double& { return c.state.velocity.roll; });
+  list.number<W>("wheelset.vyaw_rad_s", kAnyNumber, "yaw rate", [](W& c) -> double& { return c.state.velocity.yaw; });
   list.number<W>("wheelset.vpitch_rad_s", kAnyNumber,
                  "pitch rate, negative when rolling forward (pure rolling: -velocity/radius)",
-                 [](W& c) -> double& { return c.wheelset.vpitch; });
+                 [](W& c) -> double& { return c.state.velocity.pitch; });
   CaseKey& rate = list.keys.back();
   rate.info.group = "wheelset pitch rate";
   rate.info.alternative = "rate";
   rate.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    content_of<W>(c).wheelset.vpitch = v.number();
+    content_of<W>(c).state.velocity.pitch = v.number();
     content_of<W>(c).longitudinal_force.reset();
   };
   KeyInfo force = key_info(
@@ -153,26 +156,28 @@ void add_wheelset(KeyList& list) {
 }
 
 void add_flexible_wheelset(KeyList& list) {
-  const auto deviation = [&](const std::string& name, const std::string& doc, double WheelsetInput::*member) {
+  const auto deviation = [&](const std::string& name, const std::string& doc, SixMotion WheelsetState::*motion,
+                             double SixMotion::*axis) {
     list.number<W>("wheelset.deviation_" + name, kAnyNumber, doc,
-                   [member](W& c) -> double& { return c.wheelset.*member; });
+                   [=](W& c) -> double& { return c.state.*motion.*axis; });
   };
-  const auto rotation = [&](const std::string& name, const std::string& doc, double WheelsetInput::*member) {
+  const auto rotation = [&](const std::string& name, const std::string& doc, double SixMotion::*axis) {
     list.angle<W>("wheelset.deviation_" + name, kAnyNumber, doc,
-                  [member](W& c) -> double& { return c.wheelset.*member; });
+                  [axis](W& c) -> double& { return c.state.wheel_offset.*axis; });
   };
-  deviation("x_mm", "longitudinal deviation of the wheel of a flexible wheelset", &WheelsetInput::dx);
-  deviation("y_mm", "lateral deviation", &WheelsetInput::dy);
-  deviation("z_mm", "vertical deviation", &WheelsetInput::dz);
-  rotation("roll", "roll deviation", &WheelsetInput::droll);
-  rotation("yaw", "yaw deviation", &WheelsetInput::dyaw);
-  rotation("pitch", "pitch deviation", &WheelsetInput::dpitch);
-  deviation("vx_m_s", "rate of the longitudinal deviation", &WheelsetInput::dvx);
-  deviation("vy_m_s", "rate of the lateral deviation", &WheelsetInput::dvy);
-  deviation("vz_m_s", "rate of the vertical deviation", &WheelsetInput::dvz);
-  deviation("vroll_rad_s", "rate of the roll deviation", &WheelsetInput::dvroll);
-  deviation("vyaw_rad_s", "rate of the yaw deviation", &WheelsetInput::dvyaw);
-  deviation("vpitch_rad_s", "rate of the pitch deviation", &WheelsetInput::dvpitch);
+  constexpr auto kOffset = &WheelsetState::wheel_offset, kRate = &WheelsetState::wheel_velocity;
+  deviation("x_mm", "longitudinal deviation of the wheel of a flexible wheelset", kOffset, &SixMotion::x);
+  deviation("y_mm", "lateral deviation", kOffset, &SixMotion::y);
+  deviation("z_mm", "vertical deviation", kOffset, &SixMotion::z);
+  rotation("roll", "roll deviation", &SixMotion::roll);
+  rotation("yaw", "yaw deviation", &SixMotion::yaw);
+  rotation("pitch", "pitch deviation", &SixMotion::pitch);
+  deviation("vx_m_s", "rate of the longitudinal deviation", kRate, &SixMotion::x);
+  deviation("vy_m_s", "rate of the lateral deviation", kRate, &SixMotion::y);
+  deviation("vz_m_s", "rate of the vertical deviation", kRate, &SixMotion::z);
+  deviation("vroll_rad_s", "rate of the roll deviation", kRate, &SixMotion::roll);
+  deviation("vyaw_rad_s", "rate of the yaw deviation", kRate, &SixMotion::yaw);
+  deviation("vpitch_rad_s", "rate of the pitch deviation", kRate, &SixMotion::pitch);
 }
 
 void add_discretisation(KeyList& list) {

@@ -13,6 +13,8 @@
 #include "treadmark/core/material.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/contact_settings.hpp"
+#include "treadmark/model/wheel_on_rail.hpp"
 
 namespace treadmark::io {
 
@@ -61,68 +63,7 @@ struct SurfaceSource {
       parts;  ///< rail only: several surfaces, of which the outermost counts, instead of geometry
 };
 
-enum class Side { left, right };
-
-struct TrackInput {
-  bool gauge_based = true;
-  double gauge_height = 14e-3;             ///< depth below the rail top at which the gauge is measured [m]
-  double gauge_width = 1.435;              ///< [m]
-  double rail_y0 = 0.0, rail_z0 = 0.0;     ///< absolute placement when not gauge_based [m]
-  double cant = 0.0;                       ///< rail inclination, positive = head turned inward [rad]
-  double curvature = 0.0;                  ///< of the track [1/m]
-  double dy = 0.0, dz = 0.0, roll = 0.0;   ///< irregularity [m], [m], [rad]
-  double vy = 0.0, vz = 0.0, vroll = 0.0;  ///< [m/s], [rad/s]
-};
-
-struct WheelsetInput {
-  double flange_back_distance = 1.360;   ///< [m]
-  double flange_back_position = -0.070;  ///< in wheel profile coordinates [m]
-  double nominal_radius = 0.460;         ///< [m]
-  std::optional<double> tape_line;       ///< y of the tape line in profile coordinates [m]
-  double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;        ///< [m], [rad]
-  double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;  ///< [m/s], [rad/s]
-  /// Deviations of the wheel of a flexible wheelset and their rates [m], [rad], [m/s], [rad/s].
-  double dx = 0.0, dy = 0.0, dz = 0.0, droll = 0.0, dyaw = 0.0, dpitch = 0.0;
-  double dvx = 0.0, dvy = 0.0, dvz = 0.0, dvroll = 0.0, dvyaw = 0.0, dvpitch = 0.0;
-};
-
-/// A roller in place of the rail. Then wheelset.s is where the wheelset's axle stands over the roller's.
-struct RollerInput {
-  double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
-  double pitch_rate = 0.0;      ///< [rad/s], positive where a wheel above it rolls forward; shift: [rad]
-};
-
-/// Springs under a rail without mass, which moves until k d = F + force, F the contact force on the rail in track axes.
-struct RailSpringsInput {
-  double stiffness_y = 1e6, stiffness_z = 1e6;  ///< [N/m]; stiffness_z = 0: no vertical deflection
-  double force_y = 0.0, force_z = 0.0;          ///< further forces on the rail [N]
-  double first_step_y = 1e-3;                   ///< of the search for the lateral deflection [m]
-};
-
-/// Force against the change of contact force in time, its rate limited.
-struct DampingInput {
-  double normal = 0.0, tangential = 0.0;                    ///< [s]
-  double max_rate_normal = 0.0, max_rate_tangential = 0.0;  ///< [N/s]
-};
-
-/// Where elements lie, and how the rigid slip of the bodies is found.
-enum class ReferenceSurfaceInput {
-  plane,               ///< tangent plane, creepages at the contact reference
-  plane_surface_slip,  ///< tangent plane, rigid slip of the surfaces at every element
-  curved,              ///< conformal contact: a surface between the bodies
-};
-
-struct DiscretisationInput {
-  double dx = 0.5e-3, ds = 0.5e-3;              ///< [m]
-  double dq_relative = 1.0;                     ///< rolling step over dx
-  double angle_separation = 3.141592653589793;  ///< A_SEP [rad]
-  double separation = 8e-3;                     ///< D_SEP [m]
-  double combination = 4e-3;                    ///< D_COMB [m]
-  std::optional<double> turning;                ///< D_TURN [m]; default 2 D_SEP - D_COMB
-  double near_miss = -1e-3;                     ///< G_MISS [m], negative = off
-  int max_elements = 20000;                     ///< NPOT_MAX
-  /// Weight of the penetration in the contact reference: false = squared (default), true = linear.
-  bool linear_weight = false;
+struct DiscretisationInput : ElementGrid {
   /// 2 automatic (locus for constant profiles), 5 grid, 6 grid for steep slopes, 7 initial contact point.
   int method = 2;
   /// Search mesh as in the reference program (coarse, tied to dx, ds), instead of Treadmark's refined one.
@@ -131,34 +72,9 @@ struct DiscretisationInput {
   bool prune = true;
 };
 
-/// Numbers of the solver lines (G digit).
-struct SolverInput {
-  double eps = 1e-5;
-  int max_gs = 999, max_in = 100, max_nr = 30;
-  int max_out = 30;  ///< dissimilar bodies; 1: tangential tractions do not act on the normal problem
-  enum class Method { automatic, sweeps };
-  Method method = Method::automatic;
-  /// Falling friction: slip speeds to start from: none, the rolling velocity, those of the case before.
-  enum class FirstSlip { below, above, last };
-  FirstSlip first_slip = FirstSlip::last;
-};
-
-/// Tangential problem; transient and shift go on from where the history ends.
-enum class RegimeInput { none, shift, transient, steady };
-enum class NormalModelInput { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
-enum class TangentialModelInput { full, fastsim, fastsim_one_flexibility, fastrip };
-
-/// What a case takes over from the one before it in its sequence.
-enum class HistoryInput { start, keep_going, normal_only, same_instant };
-
-/// Where influence coefficients come from.
-struct InfluenceInput {
-  enum class Kind { constant, bilinear, angle_corrected, table };
-  Kind kind = Kind::constant;
-  std::vector<double> position, inclination;  ///< angle_corrected: [m], [rad]
-  int variant = 4;
-  bool linear = true;          ///< one straight line through the inclinations
-  std::filesystem::path file;  ///< table: resolved against the folder of the case file
+/// Influence coefficients; a table is read when the case is solved.
+struct InfluenceInput : InfluenceSettings {
+  std::filesystem::path file;  ///< resolved against the folder of the case file
 };
 
 /// Restricts where contact can be.
@@ -196,30 +112,29 @@ struct FrictionVariation {
 struct WheelRailCase {
   Side side = Side::right;
   SurfaceSource rail, wheel;
-  TrackInput track;
-  std::optional<RollerInput> roller;
-  std::optional<RailSpringsInput> rail_springs;
-  /// Of a shift velocities are displacements of the step: [m], [rad].
-  WheelsetInput wheelset;
+  Track track;
+  std::optional<Roller> roller;
+  std::optional<RailSprings> rail_springs;
+  WheelsetDimensions wheelset;
+  WheelsetState state;  ///< of a shift velocities are displacements of the step: [m], [rad]
   bool vertical_force_prescribed = true;
   double vertical_force = 0.0;               ///< F_z on the rail, track axes [N]
   std::optional<double> longitudinal_force;  ///< F_x on the rail, wheelset axes [N]: the pitch rate is then sought
-  RegimeInput regime = RegimeInput::steady;
-  HistoryInput history = HistoryInput::start;
-  ReferenceSurfaceInput reference_surface = ReferenceSurfaceInput::plane;
+  Regime regime = Regime::steady;
+  HistoryUse history = HistoryUse::start;
+  ReferenceSurface reference_surface = ReferenceSurface::plane;
   DiscretisationInput discretisation;
   Material material;
   FrictionLaw friction;  ///< of a variation the first law
   FrictionVariation friction_variation;
-  SolverInput solver;
-  NormalModelInput normal_model = NormalModelInput::full;  ///< full, kpec or analyn
-  TangentialModelInput tangential_model = TangentialModelInput::full;
-  double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
-  double fastsim_flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
+  SolverSettings solver;
+  NormalModel normal_model = NormalModel::full;  ///< full, kpec or analyn
+  TangentialModel tangential_model = TangentialModel::full;
+  FastsimSettings fastsim;
   /// constant, bilinear, or angle_corrected without a table: the inclinations are the curved reference's
   InfluenceInput influence;
   std::optional<Thermal> thermal;
-  std::optional<DampingInput> damping;
+  std::optional<Damping> damping;
   bool sensitivities = false;  ///< derivatives of forces are wanted
   SubsurfaceInput subsurface;  ///< element numbers that a patch does not have are passed over
   /// As the reference program: the spin moment of grids that are aligned in time is about their origin instead of the
@@ -265,10 +180,10 @@ struct BasicCase {
   double phi = 0.0;                                ///< [rad/m]; shift: [rad]
   double spin_x = 0.0, spin_y = 0.0;               ///< [m]
   std::optional<double> fx_relative, fy_relative;  ///< prescribed forces over mu F_n
-  RegimeInput regime = RegimeInput::none;
-  NormalModelInput normal_model = NormalModelInput::full;
-  TangentialModelInput tangential_model = TangentialModelInput::full;
-  double fastsim_k0 = 1.0, fastsim_alpha = 1.0, fastsim_beta = 1.0;
+  Regime regime = Regime::frictionless;
+  NormalModel normal_model = NormalModel::full;
+  TangentialModel tangential_model = TangentialModel::full;
+  FastsimSettings fastsim;
   double chi = 0.0, dq = 0.0, velocity = 0.0;  ///< [rad], [m], [m/s]
   double spin_offset_factor = 1.0 / 6.0;       ///< FACPHI
   int mx = 0, my = 0;
@@ -276,11 +191,10 @@ struct BasicCase {
   std::variant<GapInput, HertzInput> geometry;    ///< HertzInput: grid follows from it
   Material material;
   FrictionLaw friction;
-  SolverInput solver;
-  HistoryInput history = HistoryInput::start;
+  SolverSettings solver;
+  HistoryUse history = HistoryUse::start;
   InfluenceInput influence;
   PlanformInput planform;
-  double fastsim_flexibility = 0.0;                ///< fastsim_one_flexibility: L [m/Pa]
   std::vector<FrictionLaw> friction_of_row;        ///< empty, or one for each row
   std::vector<double> extra_slip_x, extra_slip_y;  ///< empty, or one for each element [-]; shift: [m]
   std::optional<Thermal> thermal;

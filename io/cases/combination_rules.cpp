@@ -45,39 +45,36 @@ class Rules {
   }
 
   void regime(const BasicCase& c) {
-    refuse_if(c.regime == RegimeInput::steady && !along_rows(c.chi), CaseSetting::regime,
+    refuse_if(c.regime == Regime::steady && !along_rows(c.chi), CaseSetting::regime,
               fmt::format("steady rolling in direction {:.6g} rad is not supported", c.chi),
               "0 and pi (180 degrees) are; transient rolling takes any direction");
   }
 
   void normal_model(const BasicCase& c) {
-    using Model = NormalModelInput;
+    const Theory<NormalModel>& model = theory(c.normal_model);
     using Given = HertzInput::Given;
     const auto* hertz = std::get_if<HertzInput>(&c.geometry);
     const bool sdec_geometry = hertz != nullptr && hertz->given == Given::semi_double_elliptic;
-    const bool assumed = c.normal_model == Model::elliptic || c.normal_model == Model::parabolic;
-    refuse_if(assumed && hertz == nullptr, CaseSetting::normal_model,
+    refuse_if(model.limits.hertzian && hertz == nullptr, CaseSetting::normal_model,
               "elliptic and parabolic pressures need Hertzian geometry", "IPOTCN < 0 in .inp, [patch.hertz] in .toml");
-    refuse_if((c.normal_model == Model::semi_double_elliptic) != sdec_geometry, CaseSetting::normal_model,
+    refuse_if((c.normal_model == NormalModel::semi_double_elliptic) != sdec_geometry, CaseSetting::normal_model,
               "semi-double-elliptic pressure (SDEC) and semi-double-elliptic geometry need each other",
               "B = 4 and IPOTCN = -6 in .inp, normal_model and hertz.given = \"semi_double_elliptic\" in .toml");
-    const bool approximate = c.normal_model == Model::kpec || c.normal_model == Model::analyn;
-    const std::string name = c.normal_model == Model::kpec ? "KPEC" : "ANALYN";
-    refuse_if(approximate && c.normal_force_prescribed, CaseSetting::load,
-              name + " needs a prescribed approach, but the normal force is given",
+    refuse_if(model.limits.given_approach && c.normal_force_prescribed, CaseSetting::load,
+              std::string(model.name) + " needs a prescribed approach, but the normal force is given",
               "N = 0 in .inp, patch.approach_mm in .toml");
   }
 
   void tangential_model(const BasicCase& c) {
     simplified_theory(found_, c, !c.friction_of_row.empty(), !c.extra_slip_x.empty());
-    refuse_if(c.tangential_model == TangentialModelInput::fastsim_one_flexibility && !(c.fastsim_flexibility > 0.0),
+    refuse_if(c.tangential_model == TangentialModel::fastsim_one_flexibility && !(c.fastsim.flexibility > 0.0),
               CaseSetting::material, "FASTSIM with one flexibility needs that flexibility",
               "FLX in .inp, patch.fastsim_flexibility_mm_per_MPa in .toml");
   }
 
   void material(const BasicCase& c) {
     viscoelastic_rules(found_, c);
-    if (viscoelastic(c.material) && c.regime != RegimeInput::none)
+    if (viscoelastic(c.material) && c.regime != Regime::frictionless)
       refuse_if(!along_rows(c.chi) || std::cos(c.chi) < 0.0, CaseSetting::material,
                 fmt::format("viscoelastic bodies must roll in direction 0, found {:.6g} rad", c.chi));
     if (!(c.material.layer_yield > 0.0) || !rolling(c.regime)) return;
@@ -88,10 +85,10 @@ class Rules {
 
   void influence(const BasicCase& c) {
     const InfluenceInput& in = c.influence;
-    using Kind = InfluenceInput::Kind;
-    if (in.kind != Kind::angle_corrected && in.kind != Kind::table) return;
+    using Kind = InfluenceSettings::Kind;
+    if (!theory(in.kind).limits.full_normal) return;
     const std::string name = in.kind == Kind::table ? "numerical" : "angle-corrected";
-    refuse_if(c.normal_model != NormalModelInput::full, CaseSetting::influence,
+    refuse_if(c.normal_model != NormalModel::full, CaseSetting::influence,
               fmt::format("{} influence coefficients need the full normal problem", name),
               "the other pressures rest on the half-space");
     refuse_if(in.kind == Kind::table && in.file.empty(), CaseSetting::influence,
@@ -129,7 +126,7 @@ class Rules {
               "row by row above the diagonal: 1-2, 1-3, ..., 2-3, ...");
     refuse_if(c.normal_force_prescribed, CaseSetting::load,
               "sub-patches need a prescribed approach, but the normal force is given");
-    refuse_if(c.normal_model != NormalModelInput::full, CaseSetting::normal_model,
+    refuse_if(c.normal_model != NormalModel::full, CaseSetting::normal_model,
               "sub-patches need the full normal problem");
   }
 

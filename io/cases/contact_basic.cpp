@@ -64,7 +64,7 @@ void put_extra_slip(const ContactReader& r, BasicCase& b) {
   if (!b.extra_slip_x.empty() && static_cast<long>(b.extra_slip_x.size()) != elements(b))
     r.fail_at(*r.model, "EXRHS",
               "keeps the extra rigid slip of every element although the number of elements has changed", "use E = 9");
-  if (b.regime != RegimeInput::shift) return;
+  if (b.regime != Regime::shift) return;
   for (std::vector<double>* component : {&b.extra_slip_x, &b.extra_slip_y})
     for (double& value : *component) value *= kMillimetre;
 }
@@ -99,18 +99,12 @@ void put_friction(const ContactReader& r, BasicCase& b) {
 
 void put_models(ContactReader& r, BasicCase& b) {
   const ControlWord& problem = *r.problem;
-  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient,
-                                      RegimeInput::steady};
-  using Normal = NormalModelInput;
-  constexpr Normal kNormal[] = {
-      Normal::full, Normal::full,  Normal::elliptic, Normal::parabolic, Normal::semi_double_elliptic,
-      Normal::kpec, Normal::analyn};
   b.normal_force_prescribed = problem["NORM"] == 1;
-  b.regime = kRegimes[problem["TANG"]];
-  b.normal_model = kNormal[problem["BOUND"]];
+  b.regime = of_contact_digit(kRegimes, problem["TANG"]);
+  b.normal_model = of_contact_digit(kNormalTheories, problem["BOUND"]);
   b.history = r.history();
   b.material = r.effective_material();
-  r.put_simplified_theory(b.tangential_model, b.fastsim_k0, b.fastsim_alpha, b.fastsim_beta, b.fastsim_flexibility);
+  r.put_simplified_theory(b.tangential_model, b.fastsim);
   b.influence = r.kept.influence;
   b.thermal = r.effective_heat();
   b.solver = r.kept.solver;

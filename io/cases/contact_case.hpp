@@ -10,6 +10,7 @@
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/cases/contact_digits.hpp"
 #include "treadmark/io/cases/contact_text.hpp"
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
 
@@ -20,7 +21,7 @@ struct ContactSequence {
   bool has_history = false;  ///< a case has been read that is to be computed
   bool step_noted = false;   ///< a rolling step that does not fit the positions has been noted
   int previous_normal = -1;  ///< N digit of the previous case
-  SolverInput solver;
+  SolverSettings solver;
   int max_elements = 20000;
 
   struct Friction {
@@ -45,20 +46,17 @@ struct ContactSequence {
     SourcePosition where;
   };
   std::optional<Layer> layer;
-  struct Simplified {
-    double k0 = 1.0, alpha = 1.0, beta = 1.0;
-  };
-  std::optional<Simplified> simplified;
+  std::optional<FastsimSettings> simplified;  ///< but for its flexibility
   std::optional<double> simplified_flexibility;
   InfluenceInput influence;
   std::optional<Thermal> thermal;
   SubsurfaceInput subsurface;
-  std::optional<DampingInput> damping;
+  std::optional<Damping> damping;
 
   WheelRailCase wheel_rail;
   /// Of lines whose meaning depends on digits; a case takes what its own digits ask for. SI units.
   std::optional<double> roller_radius, roller_pitch_rate, forward_velocity, pitch_rate, longitudinal_force;
-  std::optional<RailSpringsInput> rail_springs;
+  std::optional<RailSprings> rail_springs;
   int discretisation_method = 2;  ///< D digit that was read last
   bool has_rail = false, has_wheel = false;
 
@@ -105,11 +103,10 @@ struct ContactReader {
 
   /// What the case uses of the kept values; Error where something was never given.
   Material effective_material();
-  void put_simplified_theory(TangentialModelInput& model, double& k0, double& alpha, double& beta,
-                             double& flexibility) const;
+  void put_simplified_theory(TangentialModel& model, FastsimSettings& fastsim) const;
   std::optional<Thermal> effective_heat() const;
   SubsurfaceInput effective_subsurface() const;
-  HistoryInput history() const;
+  HistoryUse history() const;
   [[noreturn]] void fail_at(const ControlWord& word, std::string_view keyword, std::string message,
                             std::string advice = {}) const;
 };

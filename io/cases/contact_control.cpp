@@ -87,30 +87,30 @@ void ContactReader::read_solver() {
   const int method = (*run)["GAUSEI"];
   if (method == 1) return;
   text.begin_record("the line MAXGS");
-  SolverInput& s = kept.solver;
+  SolverSettings& s = kept.solver;
   const auto count = [&](std::string_view name) {
     const long value = text.integer(name);
     if (value < 0 || value > 1000000000) text.fail(fmt::format("{} = {} is not a number of iterations", name, value));
     return static_cast<int>(value);
   };
-  s.max_gs = count("MAXGS");
-  s.max_in = count("MAXIN");
-  s.max_nr = count("MAXNR");
-  s.max_out = count("MAXOUT");
+  s.max_iterations = count("MAXGS");
+  s.max_outer = count("MAXIN");
+  s.max_force = count("MAXNR");
+  s.max_coupling = count("MAXOUT");
   s.eps = text.real("EPS");
   if (!(s.eps > 0.0)) text.fail("EPS must be positive");
   if (const auto elements = text.optional_integer())
     kept.max_elements = static_cast<int>(std::clamp(*elements, 100L, 1000000L));
 
-  s.method = method == 2 ? SolverInput::Method::sweeps : SolverInput::Method::automatic;
-  s.first_slip = SolverInput::FirstSlip::last;
+  s.method = method == 2 ? SolverSettings::Method::sweeps : SolverSettings::Method::automatic;
+  s.first_slip = SolverSettings::FirstSlip::last;
   if (method >= 2 && method <= 4) {
     text.begin_record(method == 4 ? "the line INISLP" : "the line OMEGAH");
     if (method != 4)
       for (const auto name : {"OMEGAH", "OMEGAS"}) text.real(name);
     const long first = text.integer("INISLP");
     if (method != 3 && first != 0)
-      s.first_slip = first > 0 ? SolverInput::FirstSlip::below : SolverInput::FirstSlip::above;
+      s.first_slip = first > 0 ? SolverSettings::FirstSlip::below : SolverSettings::FirstSlip::above;
     text.real("OMGSLP");
   } else if (method == 5) {
     text.begin_record("the line FDECAY");
@@ -120,8 +120,8 @@ void ContactReader::read_solver() {
   }
 }
 
-HistoryInput ContactReader::history() const {
-  using H = HistoryInput;
+HistoryUse ContactReader::history() const {
+  using H = HistoryUse;
   constexpr H kByDigit[] = {H::keep_going, H::normal_only, H::start, H::same_instant};
   return kept.has_history ? kByDigit[(*problem)["PVTIME"]] : H::start;
 }

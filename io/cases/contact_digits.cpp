@@ -3,9 +3,11 @@
 #include "treadmark/io/cases/contact_digits.hpp"
 
 #include <algorithm>
-#include <array>
+#include <tuple>
 
 #include <fmt/format.h>
+
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
 
@@ -16,6 +18,7 @@ constexpr auto maybe = DigitSupport::conditional;
 constexpr auto no_effect = DigitSupport::no_effect;
 constexpr auto no = DigitSupport::no;
 
+// Without those of theories, see model/theories.hpp.
 constexpr DigitValue kDigits[] = {
     {1, 'C', "CONFIG", 0, yes, "left wheel on track"},
     {1, 'C', "CONFIG", 1, yes, "right wheel on track"},
@@ -25,14 +28,7 @@ constexpr DigitValue kDigits[] = {
     {1, 'P', "PVTIME", 1, yes, "keep the normal part of the previous case"},
     {1, 'P', "PVTIME", 2, yes, "start without history"},
     {1, 'P', "PVTIME", 3, yes, "keep the previous time"},
-    {1, 'B', "BOUND", 0, yes, "full normal problem"},
     {1, 'B', "BOUND", 1, yes, "thin flexible sheet"},
-    {1, 'B', "BOUND", 5, maybe, "KPEC", "D other than 4"},
-    {1, 'B', "BOUND", 6, maybe, "ANALYN", "D other than 4"},
-    {1, 'T', "TANG", 0, yes, "no tangential problem"},
-    {1, 'T', "TANG", 1, yes, "shift"},
-    {1, 'T', "TANG", 2, yes, "transient rolling"},
-    {1, 'T', "TANG", 3, yes, "steady rolling"},
     {1, 'N', "NORM", 0, yes, "position z_ws given"},
     {1, 'N', "NORM", 1, yes, "vertical force given"},
     {1, 'F', "FORCE", 0, yes, "pitch rate given"},
@@ -63,16 +59,10 @@ constexpr DigitValue kDigits[] = {
     {1, 'D', "DISCNS", 9, no, "oblique contact search"},
     {1, 'C', "INFLCF", 0, yes, "keep material and influence coefficients"},
     {1, 'C', "INFLCF", 1, yes, "keep material and influence coefficients"},
-    {1, 'C', "INFLCF", 2, yes, "half-space, constant elements"},
-    {1, 'C', "INFLCF", 3, yes, "half-space, bilinear elements"},
-    {1, 'C', "INFLCF", 4, maybe, "angle-corrected influence coefficients", "D = 4 and B = 0, 1"},
     {1, 'C', "INFLCF", 9, no, "numerical influence coefficients"},
     {1, 'M', "MATER", 0, yes, "elastic"},
     {1, 'M', "MATER", 1, maybe, "viscoelastic", "T = 0, 3, rolling forward; C = 2, K = 0"},
-    {1, 'M', "MATER", 2, maybe, "FASTSIM with one flexibility", "T = 0, 3; D other than 3, 4"},
-    {1, 'M', "MATER", 3, maybe, "FASTSIM with three flexibilities", "T = 0, 3; D other than 3, 4"},
     {1, 'M', "MATER", 4, maybe, "elastic with interface layer", "rolling with a layer that yields: DQREL = 1"},
-    {1, 'M', "MATER", 5, maybe, "FaStrip", "T = 0, 3; D other than 3, 4"},
     {1, 'M', "MATER", 6, no, "undocumented material"},
     {1, 'M', "MATER", 7, no, "undocumented material"},
     {1, 'Z', "ZTRACK", 0, yes, "keep the track"},
@@ -92,17 +82,7 @@ constexpr DigitValue kDigits[] = {
     {3, 'P', "PVTIME", 1, yes, "keep the normal part of the previous case"},
     {3, 'P', "PVTIME", 2, yes, "start without history"},
     {3, 'P', "PVTIME", 3, yes, "keep the previous time"},
-    {3, 'B', "BOUND", 0, yes, "full normal problem"},
     {3, 'B', "BOUND", 1, yes, "thin flexible sheet"},
-    {3, 'B', "BOUND", 2, maybe, "elliptic pressure", "Hertzian geometry only: IPOTCN < 0"},
-    {3, 'B', "BOUND", 3, maybe, "parabolic pressure", "Hertzian geometry only: IPOTCN < 0"},
-    {3, 'B', "BOUND", 4, maybe, "semi-double-elliptic pressure (SDEC)", "with IPOTCN = -6 only"},
-    {3, 'B', "BOUND", 5, maybe, "KPEC", "N = 0 only"},
-    {3, 'B', "BOUND", 6, maybe, "ANALYN", "N = 0 only"},
-    {3, 'T', "TANG", 0, yes, "no tangential problem"},
-    {3, 'T', "TANG", 1, yes, "shift"},
-    {3, 'T', "TANG", 2, yes, "transient rolling"},
-    {3, 'T', "TANG", 3, maybe, "steady rolling", "CHI = 0 or 180d"},
     {3, 'N', "NORM", 0, yes, "approach given"},
     {3, 'N', "NORM", 1, yes, "normal force given"},
     {3, 'F', "FORCE", 0, yes, "creepages given"},
@@ -125,18 +105,10 @@ constexpr DigitValue kDigits[] = {
     {3, 'D', "DISCNS", 2, yes, "read the potential contact"},
     {3, 'C', "INFLCF", 0, yes, "keep material and influence coefficients"},
     {3, 'C', "INFLCF", 1, yes, "keep material and influence coefficients"},
-    {3, 'C', "INFLCF", 2, yes, "half-space, constant elements"},
-    {3, 'C', "INFLCF", 3, yes, "half-space, bilinear elements"},
-    {3, 'C', "INFLCF", 4, maybe, "angle-corrected influence coefficients", "B = 0, 1 and M = 0, 2 ... 5"},
-    {3, 'C', "INFLCF", 9, maybe, "numerical influence coefficients from a file",
-     "B = 0, 1 and M = 0, 2 ... 5; NMATRIX = 1 in the file"},
     {3, 'M', "MATER", 0, yes, "elastic"},
     {3, 'M', "MATER", 1, maybe, "viscoelastic", "T = 0, 3 with CHI = 0, C = 2, K = 0"},
-    {3, 'M', "MATER", 2, maybe, "FASTSIM with one flexibility", "T = 0, 3"},
-    {3, 'M', "MATER", 3, maybe, "FASTSIM with three flexibilities", "T = 0, 3"},
     {3, 'M', "MATER", 4, maybe, "elastic with interface layer",
      "rolling with a layer that yields: DQ = DX, CHI = 0 or 180d"},
-    {3, 'M', "MATER", 5, maybe, "FaStrip", "T = 0, 3"},
     {3, 'M', "MATER", 6, no, "undocumented material"},
     {3, 'M', "MATER", 7, no, "undocumented material"},
     {3, 'Z', "RZNORM", 0, yes, "keep the undeformed distance"},
@@ -173,8 +145,27 @@ constexpr DigitValue kRunDigits[] = {
     {0, 'R', "RETURN", 3, yes, "skip this case; the next one starts with a module line"},
 };
 
+template <class Id, std::size_t count>
+void add_theories(std::vector<DigitValue>& list, char letter, std::string_view keyword,
+                  const Theory<Id> (&table)[count]) {
+  for (const int module : {1, 3})
+    for (const Theory<Id>& row : table) {
+      if (row.digit.value < 0 || (module == 1 && row.limits.patch_only)) continue;
+      const std::string_view needs = module == 1 ? row.digit.on_rail : row.digit.of_patch;
+      list.push_back({module, letter, keyword, row.digit.value, needs.empty() ? yes : maybe, row.name, needs});
+    }
+}
+
+/// Where a digit stands among the control words.
+std::ptrdiff_t place_of(std::string_view keyword) {
+  constexpr std::string_view kOrder[] = {"CONFIG", "PVTIME", "BOUND",  "TANG",   "NORM",   "FORCE",
+                                         "STRESS", "VARFRC", "FRCLAW", "DISCNS", "INFLCF", "MATER",
+                                         "ZTRACK", "RZNORM", "EWHEEL", "EXRHS",  "HEAT"};
+  return std::find(std::begin(kOrder), std::end(kOrder), keyword) - std::begin(kOrder);
+}
+
 const DigitValue* find_digit(int module, std::string_view keyword, int value) {
-  for (const DigitValue& d : kDigits)
+  for (const DigitValue& d : contact_digits())
     if (d.module == module && d.keyword == keyword && d.value == value) return &d;
   for (const DigitValue& d : kRunDigits)
     if (d.keyword == keyword && (d.value == value || d.value < 0)) return &d;
@@ -186,6 +177,12 @@ const DigitValue* find_digit(int module, std::string_view keyword, int value) {
 std::span<const DigitValue> contact_digits() {
   static const std::vector<DigitValue> all = [] {
     std::vector<DigitValue> list(std::begin(kDigits), std::end(kDigits));
+    add_theories(list, 'B', "BOUND", kNormalTheories);
+    add_theories(list, 'T', "TANG", kRegimes);
+    add_theories(list, 'C', "INFLCF", kInfluenceKinds);
+    add_theories(list, 'M', "MATER", kTangentialTheories);
+    const auto order = [](const DigitValue& d) { return std::tuple(d.module, place_of(d.keyword), d.value); };
+    std::ranges::sort(list, {}, order);
     list.insert(list.end(), std::begin(kRunDigits), std::end(kRunDigits));
     return list;
   }();

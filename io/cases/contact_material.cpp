@@ -57,12 +57,10 @@ void ContactReader::read_rolling() {
 }
 
 void ContactReader::read_influence() {
-  const int coefficients = (*model)["INFLCF"];
   InfluenceInput in;
-  using Kind = InfluenceInput::Kind;
-  if (coefficients == 3) in.kind = Kind::bilinear;
-  if (coefficients == 4) {
-    in.kind = Kind::angle_corrected;
+  using Kind = InfluenceSettings::Kind;
+  in.kind = of_contact_digit(kInfluenceKinds, (*model)["INFLCF"]);
+  if (in.kind == Kind::angle_corrected) {
     text.begin_record("the line IF_METH");
     const long method = text.integer("IF_METH");
     if (method != 0 && method != 1) text.fail(fmt::format("IF_METH = {} does not exist: expected 0 or 1", method));
@@ -82,8 +80,7 @@ void ContactReader::read_influence() {
         in.inclination.push_back(text.angle("ALPHA"));
       }
     }
-  } else if (coefficients == 9) {
-    in.kind = Kind::table;
+  } else if (in.kind == Kind::table) {
     text.begin_record("the file of influence coefficients");
     const std::string name = text.quoted("the file name");
     if (name.empty()) text.fail("the file of influence coefficients has no name");
@@ -120,10 +117,11 @@ void ContactReader::read_material() {
     v.relaxation_time_1 = not_negative(text, "TC1");
     v.relaxation_time_2 = not_negative(text, "TC2");
     kept.viscoelastic = v;
-  } else if (kind == 2 || kind == 3 || kind == 5) {
+  } else if (const auto simplified = of_contact_digit(kTangentialTheories, kind); simplified != TangentialModel::full) {
     text.begin_record("the flexibility line of the simplified theory");
-    if (kind == 2) kept.simplified_flexibility = positive(text, "FLX") * kFlexibility;
-    ContactSequence::Simplified s;
+    if (simplified == TangentialModel::fastsim_one_flexibility)
+      kept.simplified_flexibility = positive(text, "FLX") * kFlexibility;
+    FastsimSettings s;
     s.k0 = text.real("K0_MF");
     s.alpha = text.real("ALFAMF");
     s.beta = text.real("BETAMF");
@@ -140,7 +138,7 @@ void ContactReader::read_damping() {
   if (damping == 0) kept.damping.reset();
   if (damping < 2) return;
   text.begin_record("the damping line CDAMPN");
-  DampingInput d;
+  Damping d;
   d.normal = not_negative(text, "CDAMPN");
   d.tangential = not_negative(text, "CDAMPT");
   d.max_rate_normal = not_negative(text, "DFNMAX");
@@ -198,24 +196,16 @@ Material ContactReader::effective_material() {
   return m;
 }
 
-void ContactReader::put_simplified_theory(TangentialModelInput& tangential, double& k0, double& alpha, double& beta,
-                                          double& flexibility) const {
-  using Model = TangentialModelInput;
-  const int kind = (*model)["MATER"];
-  tangential = kind == 2   ? Model::fastsim_one_flexibility
-               : kind == 3 ? Model::fastsim
-               : kind == 5 ? Model::fastrip
-                           : Model::full;
-  if (tangential == Model::full) return;
+void ContactReader::put_simplified_theory(TangentialModel& tangential, FastsimSettings& fastsim) const {
+  tangential = of_contact_digit(kTangentialTheories, (*model)["MATER"]);
+  if (tangential == TangentialModel::full) return;
   if (!kept.simplified)
     fail_at(*model, "MATER", "needs the line K0_MF, but no case has given it", "use C (INFLCF) = 2");
-  k0 = kept.simplified->k0;
-  alpha = kept.simplified->alpha;
-  beta = kept.simplified->beta;
-  if (kind != 2) return;
+  fastsim = *kept.simplified;
+  if (tangential != TangentialModel::fastsim_one_flexibility) return;
   if (!kept.simplified_flexibility)
     fail_at(*model, "MATER", "needs FLX, but no case has given it", "use C (INFLCF) = 2");
-  flexibility = *kept.simplified_flexibility;
+  fastsim.flexibility = *kept.simplified_flexibility;
 }
 
 std::optional<Thermal> ContactReader::effective_heat() const {

@@ -14,7 +14,7 @@ namespace {
 
 void read_placement(ContactReader& r) {
   ContactText& text = r.text;
-  TrackInput& t = r.kept.wheel_rail.track;
+  Track& t = r.kept.wheel_rail.track;
   text.begin_record("the track line GAUGHT");
   const double height = text.real("GAUGHT");
   t.gauge_based = height > 0.0;
@@ -51,7 +51,7 @@ void read_placement(ContactReader& r) {
 void read_springs(ContactReader& r) {
   ContactText& text = r.text;
   text.begin_record("the massless rail line KYRAIL");
-  RailSpringsInput springs;
+  RailSprings springs;
   springs.stiffness_y = text.real("KYRAIL") * kMilli;
   springs.force_y = text.real("FYRAIL");
   springs.stiffness_z = text.real("KZRAIL") * kMilli;
@@ -68,7 +68,7 @@ void read_springs(ContactReader& r) {
 void read_track(ContactReader& r) {
   ContactText& text = r.text;
   const int z = (*r.model)["ZTRACK"];
-  TrackInput& t = r.kept.wheel_rail.track;
+  Track& t = r.kept.wheel_rail.track;
   if (z == 1 || z == 3) read_placement(r);
   if (z < 2) return;
   text.begin_record("the track deviation line DY");

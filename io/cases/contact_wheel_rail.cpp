@@ -53,7 +53,7 @@ void put_discretisation(ContactReader& r, WheelRailCase& c) {
   if (model["DISCNS"] < 2 && method >= kOblique)
     r.refuse(model.where("DISCNS"),
              fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method));
-  using Reference = ReferenceSurfaceInput;
+  using Reference = ReferenceSurface;
   c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
                         : method == kConformal ? Reference::curved
                                                : Reference::plane;
@@ -110,17 +110,13 @@ WheelRailCase read_wheel_rail(ContactReader& r) {
   WheelRailCase c = r.kept.wheel_rail;
   c.side = problem["CONFIG"] % 4 == 0 ? Side::left : Side::right;
   c.vertical_force_prescribed = problem["NORM"] == 1;
-  constexpr RegimeInput kRegimes[] = {RegimeInput::none, RegimeInput::shift, RegimeInput::transient,
-                                      RegimeInput::steady};
-  c.regime = kRegimes[problem["TANG"]];
+  c.regime = of_contact_digit(kRegimes, problem["TANG"]);
   c.history = r.history();
   put_motion(r, c);
   c.material = r.effective_material();
   put_friction(r, c);
-  c.normal_model = problem["BOUND"] == 5   ? NormalModelInput::kpec
-                   : problem["BOUND"] == 6 ? NormalModelInput::analyn
-                                           : NormalModelInput::full;
-  r.put_simplified_theory(c.tangential_model, c.fastsim_k0, c.fastsim_alpha, c.fastsim_beta, c.fastsim_flexibility);
+  c.normal_model = of_contact_digit(kNormalTheories, problem["BOUND"]);
+  r.put_simplified_theory(c.tangential_model, c.fastsim);
   c.influence = r.kept.influence;
   c.thermal = r.effective_heat();
   c.damping = r.kept.damping;

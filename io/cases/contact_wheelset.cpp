@@ -14,7 +14,8 @@ namespace treadmark::io {
 namespace {
 
 /// Three lengths and three angles, or their rates.
-void read_six(ContactText& text, const std::array<std::string_view, 6>& names, const std::array<double*, 6>& values) {
+void read_six(ContactText& text, const std::array<std::string_view, 6>& names, SixMotion& motion) {
+  double* const values[] = {&motion.x, &motion.y, &motion.z, &motion.roll, &motion.yaw, &motion.pitch};
   for (std::size_t i = 0; i < 3; ++i) *values[i] = text.real(names[i]) * kMillimetre;
   for (std::size_t i = 3; i < 6; ++i) *values[i] = text.angle(names[i]);
 }
@@ -25,7 +26,8 @@ void read_wheelset(ContactReader& r) {
   ContactText& text = r.text;
   const int e = (*r.model)["EWHEEL"], normal = (*r.problem)["NORM"];
   WheelRailCase& c = r.kept.wheel_rail;
-  WheelsetInput& w = c.wheelset;
+  WheelsetDimensions& w = c.wheelset;
+  WheelsetState& s = c.state;
   if (e == 0) {
     if (r.kept.previous_normal >= 0 && r.kept.previous_normal != normal)
       throw Error(ErrorKind::configuration,
@@ -46,25 +48,25 @@ void read_wheelset(ContactReader& r) {
     r.kept.has_wheel = true;
   }
   text.begin_record("the wheelset position line S");
-  w.s = text.real(r.on_roller() ? "X" : "S") * kMillimetre;
-  w.y = text.real("Y") * kMillimetre;
+  s.position.x = text.real(r.on_roller() ? "X" : "S") * kMillimetre;
+  s.position.y = text.real("Y") * kMillimetre;
   if (normal == 1)
     c.vertical_force = text.real("FZ");
   else
-    w.z = text.real("Z") * kMillimetre;
-  w.roll = text.angle("ROLL");
-  w.yaw = text.angle("YAW");
-  w.pitch = text.angle("PITCH");
+    s.position.z = text.real("Z") * kMillimetre;
+  s.position.roll = text.angle("ROLL");
+  s.position.yaw = text.angle("YAW");
+  s.position.pitch = text.angle("PITCH");
   if (e >= 2) {
     text.begin_record("the wheelset velocity line VS");
     if (r.on_roller())
       r.kept.roller_pitch_rate = text.angle("VPITCH_ROL");
     else
       r.kept.forward_velocity = text.real("VS") * kMillimetre;
-    w.vy = text.real("VY") * kMillimetre;
-    w.vz = text.real("VZ") * kMillimetre;
-    w.vroll = text.angle("VROLL");
-    w.vyaw = text.angle("VYAW");
+    s.velocity.y = text.real("VY") * kMillimetre;
+    s.velocity.z = text.real("VZ") * kMillimetre;
+    s.velocity.roll = text.angle("VROLL");
+    s.velocity.yaw = text.angle("VYAW");
     if ((*r.problem)["FORCE"] == 1)
       r.kept.longitudinal_force = text.real("FX");
     else
@@ -72,11 +74,9 @@ void read_wheelset(ContactReader& r) {
   }
   if (e >= 4) {
     text.begin_record("the wheel deviation line DXWHL");
-    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"},
-             {&w.dx, &w.dy, &w.dz, &w.droll, &w.dyaw, &w.dpitch});
+    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"}, s.wheel_offset);
     text.begin_record("the wheel deviation velocity line VXWHL");
-    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"},
-             {&w.dvx, &w.dvy, &w.dvz, &w.dvroll, &w.dvyaw, &w.dvpitch});
+    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"}, s.wheel_velocity);
   }
 }
 
@@ -95,16 +95,16 @@ void put_motion(ContactReader& r, WheelRailCase& c) {
     if (!kept.roller_radius)
       r.fail_at(problem, "CONFIG", "needs NOMRAD of the roller, but no case has given it", "use Z (ZTRACK) = 3");
     c.roller = {*kept.roller_radius, need(kept.roller_pitch_rate, "CONFIG", "the roller's pitch rate")};
-    c.wheelset.vs = 0.0;
+    c.state.velocity.x = 0.0;
   } else {
-    c.wheelset.vs = need(kept.forward_velocity, "CONFIG", "VS");
+    c.state.velocity.x = need(kept.forward_velocity, "CONFIG", "VS");
   }
   c.longitudinal_force.reset();
   if (problem["FORCE"] == 1) {
     c.longitudinal_force = need(kept.longitudinal_force, "FORCE", "FX");
-    c.wheelset.vpitch = kept.pitch_rate.value_or(0.0);
+    c.state.velocity.pitch = kept.pitch_rate.value_or(0.0);
   } else {
-    c.wheelset.vpitch = need(kept.pitch_rate, "FORCE", "VPITCH");
+    c.state.velocity.pitch = need(kept.pitch_rate, "FORCE", "VPITCH");
   }
   c.rail_springs.reset();
   if (problem["FORCE"] != 3) return;

@@ -15,6 +15,7 @@
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/cases/validate_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/settings/key_schema.hpp"
 
 namespace treadmark::io {
 
@@ -24,7 +25,7 @@ constexpr std::size_t kMostCases = 100000;
 
 bool is_scalar_key(const std::string& path) {
   for (const CaseKey& key : case_keys())
-    if (key.info.path == path) return key.info.type != KeyType::number_list && key.info.type != KeyType::table_list;
+    if (key.info.path == path) return !is_list(key.info);
   return false;
 }
 
@@ -128,11 +129,11 @@ struct Expansion {
 
  private:
   void step(Case& next, bool goes_on, const std::function<bool(std::string_view)>& given) const {
-    HistoryInput& history = std::visit([](auto& content) -> HistoryInput& { return content.history; }, next.content);
-    if (goes_on && history == HistoryInput::start) history = HistoryInput::keep_going;
+    HistoryUse& history = std::visit([](auto& content) -> HistoryUse& { return content.history; }, next.content);
+    if (goes_on && history == HistoryUse::start) history = HistoryUse::keep_going;
     settle_rolling_step(next);
     const Case* previous = previous_of(next);
-    if (previous != nullptr && history != HistoryInput::start && history != HistoryInput::same_instant)
+    if (previous != nullptr && history != HistoryUse::start && history != HistoryUse::same_instant)
       move_on(next, *previous, given);
   }
 };

@@ -8,7 +8,7 @@
 #include <string_view>
 
 #include "treadmark/io/cases/case_model.hpp"
-#include "treadmark/io/cases/case_value.hpp"
+#include "treadmark/io/settings/toml_value.hpp"
 
 namespace treadmark::io {
 

@@ -10,7 +10,7 @@ namespace treadmark::io {
 
 namespace {
 
-bool continues(HistoryInput h) { return h == HistoryInput::keep_going || h == HistoryInput::same_instant; }
+bool continues(HistoryUse h) { return h == HistoryUse::keep_going || h == HistoryUse::same_instant; }
 
 /// Steps equal, origins a whole number of steps apart.
 bool same_raster(double a0, double a_step, double b0, double b_step) {
@@ -61,14 +61,14 @@ std::vector<Contradiction> contradictions(const Case& previous, const Case& next
 
 std::optional<RolledStep> rolled_step(const Case& previous, const Case& next) {
   const auto *a = std::get_if<WheelRailCase>(&previous.content), *b = std::get_if<WheelRailCase>(&next.content);
-  if (a == nullptr || b == nullptr || b->history != HistoryInput::keep_going || b->regime != RegimeInput::transient)
+  if (a == nullptr || b == nullptr || b->history != HistoryUse::keep_going || b->regime != Regime::transient)
     return std::nullopt;
-  const WheelsetInput &from = a->wheelset, &to = b->wheelset;
+  const SixMotion &from = a->state.position, &to = b->state.position;
   RolledStep step;
   step.rolled = b->discretisation.dq_relative * b->discretisation.dx;
   step.longest = 2.0 * b->discretisation.dx;
-  const double along = b->roller ? 0.0 : std::abs(to.s - from.s);
-  step.moved = std::max(along, to.nominal_radius * std::abs(wrap_angle(to.pitch - from.pitch)));
+  const double along = b->roller ? 0.0 : std::abs(to.x - from.x);
+  step.moved = std::max(along, b->wheelset.nominal_radius * std::abs(wrap_angle(to.pitch - from.pitch)));
   return step;
 }
 

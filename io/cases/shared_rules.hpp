@@ -12,6 +12,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/cases/combination_rules.hpp"
+#include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {
 
@@ -32,16 +33,16 @@ class RuleList {
 };
 
 inline bool viscoelastic(const Material& m) { return m.creep_ratio_1 > 0.0 || m.creep_ratio_2 > 0.0; }
-inline bool rolling(RegimeInput r) { return r == RegimeInput::transient || r == RegimeInput::steady; }
+inline bool rolling(Regime r) { return r == Regime::transient || r == Regime::steady; }
 /// The solution depends on the previous instant.
-inline bool goes_on(RegimeInput r) { return r == RegimeInput::transient || r == RegimeInput::shift; }
+inline bool goes_on(Regime r) { return r == Regime::transient || r == Regime::shift; }
 
 /// friction_varies, slip_of_elements: what the content adds to one coefficient of friction and to creepages.
 template <class Content>
 void simplified_theory(RuleList& rules, const Content& c, bool friction_varies, bool slip_of_elements) {
-  if (c.tangential_model == TangentialModelInput::full) return;
+  if (c.tangential_model == TangentialModel::full) return;
   rules.refuse_if(
-      goes_on(c.regime), CaseSetting::material,
+      theory(c.tangential_model).limits.steady_only && goes_on(c.regime), CaseSetting::material,
       "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling");
   rules.refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer,
                   "the simplified theory knows no plasticity of the interface layer");
@@ -66,9 +67,9 @@ void viscoelastic_rules(RuleList& rules, const Content& c) {
   const double difference = combine(m).difference;
   rules.refuse_if(std::abs(difference) >= kDissimilar, CaseSetting::elastic_constants,
                   fmt::format("viscoelastic bodies must not be dissimilar (K = {:.3g})", difference));
-  rules.refuse_if(c.influence.kind != InfluenceInput::Kind::constant, CaseSetting::influence,
+  rules.refuse_if(c.influence.kind != InfluenceSettings::Kind::constant, CaseSetting::influence,
                   "viscoelastic bodies need the half-space with constant elements");
-  rules.refuse_if(c.normal_model != NormalModelInput::full || c.tangential_model != TangentialModelInput::full,
+  rules.refuse_if(c.normal_model != NormalModel::full || c.tangential_model != TangentialModel::full,
                   CaseSetting::material, "viscoelastic bodies need the full normal and tangential problem");
 }
 
@@ -89,7 +90,7 @@ void temperatures(RuleList& rules, const Content& c, std::span<const FrictionLaw
                   CaseSetting::friction,
                   "friction that depends on the temperature needs the thermal data of the bodies",
                   "H = 3 in .inp, [heat] in .toml");
-  rules.refuse_if(c.thermal && c.regime != RegimeInput::steady, CaseSetting::heat,
+  rules.refuse_if(c.thermal && c.regime != Regime::steady, CaseSetting::heat,
                   "surface temperatures need steady rolling");
 }
 

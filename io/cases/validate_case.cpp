@@ -85,7 +85,7 @@ class Checker {
             "give wheelset.vertical_force_N or wheelset.z_mm");
     const DiscretisationInput& d = c.discretisation;
     require(d.separation >= d.combination, "discretisation.separation_mm must not be less than combination_mm");
-    require(c.tangential_model != TangentialModelInput::fastsim_one_flexibility || c.fastsim_flexibility > 0.0,
+    require(c.tangential_model != TangentialModel::fastsim_one_flexibility || c.fastsim.flexibility > 0.0,
             "solver.fastsim_flexibility_mm_per_MPa is missing");
     if (const auto& damping = c.damping) {
       require(damping->normal == 0.0 || damping->max_rate_normal > 0.0, "damping.max_rate_normal_N_per_s is missing");
@@ -166,7 +166,7 @@ class Checker {
     require(!c.normal_force_prescribed || c.normal_force > 0.0, "the normal load is missing",
             "give patch.normal_force_N or patch.approach_mm");
     require(!c.fy_relative || c.fx_relative, "patch.force_y_relative needs patch.force_x_relative");
-    if (c.regime == RegimeInput::steady || c.regime == RegimeInput::transient) {
+    if (c.regime == Regime::steady || c.regime == Regime::transient) {
       require(c.dq > 0.0, "patch.rolling_step_mm is missing");
       require(c.velocity > 0.0, "patch.velocity_m_s is missing");
     }
@@ -201,7 +201,7 @@ void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes)
     const auto [previous, first] = last.try_emplace(c.sequence, &c);
     const Checker check(c);
     if (first) {
-      std::visit([](auto& content) { content.history = HistoryInput::start; }, c.content);
+      std::visit([](auto& content) { content.history = HistoryUse::start; }, c.content);
     } else {
       check.none(contradictions(*previous->second, c));
       const auto step = rolled_step(*previous->second, c);

@@ -7,7 +7,7 @@ namespace treadmark::io {
 namespace {
 
 void forces(RuleList& rules, const WheelRailCase& c) {
-  rules.refuse_if(c.longitudinal_force && c.regime == RegimeInput::none, CaseSetting::force,
+  rules.refuse_if(c.longitudinal_force && c.regime == Regime::frictionless, CaseSetting::force,
                   "a prescribed longitudinal force needs friction, but no tangential problem is solved",
                   "T = 1 ... 3 in .inp, another case.regime in .toml");
   rules.refuse_if(c.rail_springs && !(c.rail_springs->stiffness_y > 0.0), CaseSetting::force,
@@ -32,32 +32,32 @@ void roller(RuleList& rules, const WheelRailCase& c) {
 }
 
 void curved_reference(RuleList& rules, const WheelRailCase& c) {
-  const bool corrected = c.influence.kind == InfluenceInput::Kind::angle_corrected;
-  rules.refuse_if(c.influence.kind == InfluenceInput::Kind::table, CaseSetting::influence,
+  const bool corrected = c.influence.kind == InfluenceSettings::Kind::angle_corrected;
+  rules.refuse_if(theory(c.influence.kind).limits.patch_only, CaseSetting::influence,
                   "numerical influence coefficients are not supported for a wheel on a rail");
   rules.refuse_if(corrected && !c.influence.position.empty(), CaseSetting::influence,
                   "the inclinations of a wheel on a rail come from the curved reference, they cannot be given");
-  rules.refuse_if(corrected && c.reference_surface != ReferenceSurfaceInput::curved, CaseSetting::influence,
+  rules.refuse_if(corrected && c.reference_surface != ReferenceSurface::curved, CaseSetting::influence,
                   "angle-corrected influence coefficients need the curved reference of conformal contact",
                   "D = 4 in .inp, contact.reference_surface = \"curved\" in .toml");
-  const bool approximate = c.normal_model != NormalModelInput::full;
-  rules.refuse_if(c.reference_surface == ReferenceSurfaceInput::curved && approximate, CaseSetting::normal_model,
+  const bool approximate = c.normal_model != NormalModel::full;
+  rules.refuse_if(c.reference_surface == ReferenceSurface::curved && approximate, CaseSetting::normal_model,
                   "conformal contact needs the full normal problem, KPEC and ANALYN are for a plane");
   rules.refuse_if(corrected && approximate, CaseSetting::influence,
                   "angle-corrected influence coefficients need the full normal problem");
 }
 
 void material(RuleList& rules, const WheelRailCase& c) {
-  using Reference = ReferenceSurfaceInput;
+  using Reference = ReferenceSurface;
   const bool by_row =
       c.reference_surface == Reference::curved && c.friction_variation.kind == FrictionVariation::Kind::inclination;
   simplified_theory(rules, c, by_row, false);
-  const bool simplified = c.tangential_model != TangentialModelInput::full;
+  const bool simplified = c.tangential_model != TangentialModel::full;
   rules.refuse_if(simplified && c.reference_surface != Reference::plane, CaseSetting::reference_surface,
                   "the simplified theory takes one creepage for a patch, not the slip of surfaces at every element",
                   "D = 2 in .inp, contact.reference_surface = \"plane\" in .toml");
   viscoelastic_rules(rules, c);
-  rules.refuse_if(viscoelastic(c.material) && c.regime != RegimeInput::none && c.wheelset.vs < 0.0,
+  rules.refuse_if(viscoelastic(c.material) && c.regime != Regime::frictionless && c.state.velocity.x < 0.0,
                   CaseSetting::material, "viscoelastic bodies must roll forward");
   if (c.material.layer_yield > 0.0 && rolling(c.regime))
     step_of_one_element(rules, c.discretisation.dq_relative * c.discretisation.dx, c.discretisation.dx);

@@ -1,13 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 #include <nlohmann/json.hpp>
-#include <numbers>
+
+#include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/twelve_digits.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
+#include "treadmark/io/json/json_tree.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -15,7 +18,7 @@ namespace {
 using Json = nlohmann::ordered_json;
 
 constexpr double kMilli2 = 1e6, kMilli3 = 1e9;
-constexpr double kDegrees = 180.0 / std::numbers::pi;
+constexpr double kDegrees = 180.0 / kPi;
 
 /// Twelve digits, so that changes of unit leave no tail of nines; what is not finite is null.
 Json number(double value) {
@@ -26,140 +29,275 @@ Json number(double value) {
 /// In full precision.
 Json exact(double value) { return std::isfinite(value) ? Json(value + 0.0) : Json(); }
 
-Json exact(const Vec3& v, double factor) {
-  return Json::array({exact(factor * v.x()), exact(factor * v.y()), exact(factor * v.z())});
-}
-
-Json vector(const Vec3& v, double factor) {
-  return Json::array({number(factor * v.x()), number(factor * v.y()), number(factor * v.z())});
-}
-
 std::string dump(const Json& json) { return json.dump(1, ' ', false, Json::error_handler_t::replace) + "\n"; }
 
+/// The functions below name what is in the file once for writing and reading: what they tell a writer to put under a
+/// key a reader takes from there. Factors are from SI to the unit of the key.
+struct ImportWriter {
+  static constexpr bool kReads = false;
+  Json& out;
+
+  template <class T>
+  void value(const char* key, const T& value) const {
+    out[key] = value;
+  }
+  void number(const char* key, double value, double factor) const { out[key] = io::number(factor * value); }
+  void numbers(const char* key, std::initializer_list<double> values, double factor) const {
+    Json& list = out[key] = Json::array();
+    for (const double value : values) list.push_back(io::number(factor * value));
+  }
+  void vector(const char* key, const Vec3& v, double factor) const { numbers(key, {v.x(), v.y(), v.z()}, factor); }
+  template <class Vector>
+  void exact_vector(const char* key, const Vector& v, double factor) const {
+    out[key] = {exact(factor * v.x()), exact(factor * v.y()), exact(factor * v.z())};
+  }
+  template <class Fields>
+  void object(const char* key, Fields fields) const {
+    Json node = Json::object();
+    fields(ImportWriter{node});
+    out[key] = std::move(node);
+  }
+  template <class T, class Fields>
+  void list(const char* key, const std::vector<T>& items, Fields fields) const {
+    Json nodes = Json::array();
+    for (const T& item : items) {
+      nodes.push_back(Json::object());
+      fields(ImportWriter{nodes.back()}, item);
+    }
+    out[key] = std::move(nodes);
+  }
+};
+
+struct ImportReader {
+  static constexpr bool kReads = true;
+  JsonTree in;
+
+  void value(const char* key, std::string& value) const { value = in.text(key); }
+  void value(const char* key, bool& value) const { value = in.flag(key); }
+  void value(const char* key, std::size_t& value) const { value = in.count(key); }
+  void value(const char* key, int& value) const { value = in.at(key).integer(); }
+  void value(const char* key, std::vector<std::string>& value) const { value = in.at(key).texts(); }
+  void value(const char* key, std::vector<std::size_t>& value) const {
+    for (const JsonTree& item : in.at(key).items()) value.push_back(item.count());
+  }
+  void number(const char* key, double& value, double factor) const { value = in.number(key) / factor; }
+  std::vector<double> several(const char* key, std::size_t count) const {
+    std::vector<double> out = in.at(key).numbers();
+    if (out.size() != count) in.at(key).refuse(fmt::format("has {} numbers where {} are expected", out.size(), count));
+    return out;
+  }
+  template <class Vector>
+  void vector(const char* key, Vector&& v, double factor) const {
+    const std::vector<double> values = several(key, 3);
+    for (int i = 0; i < 3; ++i) v[i] = values[static_cast<std::size_t>(i)] / factor;
+  }
+  template <class Vector>
+  void exact_vector(const char* key, Vector&& v, double factor) const {
+    vector(key, v, factor);
+  }
+  template <class Fields>
+  void object(const char* key, Fields fields) const {
+    fields(ImportReader{in.at(key)});
+  }
+  template <class T, class Fields>
+  void list(const char* key, std::vector<T>& items, Fields fields) const {
+    for (const JsonTree& node : in.at(key).items()) fields(ImportReader{node}, items.emplace_back());
+  }
+};
+
 /// Place along the band: u_deg of a wheel, u_mm of a rail.
-void add_place(Json& out, const ImportReport& report, double u, double y, double s) {
-  if (report.body == Body::wheel)
-    out["u_deg"] = number(kDegrees * u);
+template <class File, class Part>
+void place(const File& file, Body body, Part& part) {
+  if (body == Body::wheel)
+    file.number("u_deg", part.u, kDegrees);
   else
-    out["u_mm"] = number(kMilli * u);
-  out["y_mm"] = number(kMilli * y);
-  out["s_mm"] = number(kMilli * s);
+    file.number("u_mm", part.u, kMilli);
+  file.number("y_mm", part.y, kMilli);
+  file.number("s_mm", part.s, kMilli);
 }
 
-Json frame(const ImportReport& report) {
-  if (report.from_map) return nullptr;
-  const Pose& X = report.X_CS;
-  Json matrix = Json::array();
-  for (int i = 0; i < 3; ++i)
-    matrix.push_back(
-        {exact(X.rotation(i, 0)), exact(X.rotation(i, 1)), exact(X.rotation(i, 2)), exact(kMilli * X.origin[i])});
-  Json passes = Json::array();
-  for (const ImportReport::Pass& pass : report.passes)
-    passes.push_back({{"pass", pass.pass},
-                      {"points", pass.points},
-                      {"shift_mm", vector(pass.shift_S, kMilli)},
-                      {"turn_mrad", vector(pass.turn_S, kMilli)}});
-  return {{"origin_mm", exact(X.origin, kMilli)},
-          {"x_axis", exact(X.rotation.col(0), 1.0)},
-          {"y_axis", exact(X.rotation.col(1), 1.0)},
-          {"z_axis", exact(X.rotation.col(2), 1.0)},
-          {"matrix", matrix},
-          {"nominal_profile", report.nominal},
-          {"nominal_radius_mm", number(kMilli * report.nominal_radius)},
-          {"axis_position_error_mm", number(kMilli * report.axis_position_error)},
-          {"axis_direction_error_mrad", number(kMilli * report.axis_direction_error)},
-          {"scatter_mm", number(kMilli * report.scatter)},
-          {"undamaged_percent", number(100.0 * report.undamaged)},
-          {"match_residual_mm", number(kMilli * report.match_residual)},
-          {"match_agreeing_percent", number(100.0 * report.match_agreeing)},
-          {"turned", report.turned},
-          {"zero", report.zero},
-          {"passes", passes},
-          {"pass_distance_before_mm", number(kMilli * report.pass_before)},
-          {"pass_distance_after_mm", number(kMilli * report.pass_after)}};
-}
-
-Json coverage(const ImportReport& report) {
-  Json holes = Json::array();
-  for (const ImportReport::Hole& hole : report.holes) {
-    Json one = Json::object();
-    add_place(one, report, hole.u, hole.y, hole.s);
-    one["diameter_mm"] = number(kMilli * hole.diameter);
-    one["area_mm2"] = number(kMilli2 * hole.area);
-    one["filled"] = hole.filled;
-    holes.push_back(one);
+template <class File, class Report>
+void frame(const File& file, Report& report) {
+  auto& X = report.X_CS;
+  file.exact_vector("origin_mm", X.origin, kMilli);
+  file.exact_vector("x_axis", X.rotation.col(0), 1.0);
+  file.exact_vector("y_axis", X.rotation.col(1), 1.0);
+  file.exact_vector("z_axis", X.rotation.col(2), 1.0);
+  if constexpr (!File::kReads) {
+    Json& matrix = file.out["matrix"] = Json::array();
+    for (int i = 0; i < 3; ++i)
+      matrix.push_back(
+          {exact(X.rotation(i, 0)), exact(X.rotation(i, 1)), exact(X.rotation(i, 2)), exact(kMilli * X.origin[i])});
   }
-  return {{"spacing_mm", number(kMilli * report.spacing)},
-          {"gap_a_mm", number(kMilli * report.gap_a)},
-          {"gap_s_mm", number(kMilli * report.gap_s)},
-          {"area_mm2", number(kMilli2 * report.area)},
-          {"hole_area_mm2", number(kMilli2 * report.hole_area)},
-          {"hole_limit_mm", number(kMilli * report.hole_limit)},
-          {"holes", holes}};
+  file.value("nominal_profile", report.nominal);
+  file.number("nominal_radius_mm", report.nominal_radius, kMilli);
+  file.number("axis_position_error_mm", report.axis_position_error, kMilli);
+  file.number("axis_direction_error_mrad", report.axis_direction_error, kMilli);
+  file.number("scatter_mm", report.scatter, kMilli);
+  file.number("undamaged_percent", report.undamaged, 100.0);
+  file.number("match_residual_mm", report.match_residual, kMilli);
+  file.number("match_agreeing_percent", report.match_agreeing, 100.0);
+  file.value("turned", report.turned);
+  file.value("zero", report.zero);
+  file.list("passes", report.passes, [](const File& node, auto& pass) {
+    node.value("pass", pass.pass);
+    node.value("points", pass.points);
+    node.vector("shift_mm", pass.shift_S, kMilli);
+    node.vector("turn_mrad", pass.turn_S, kMilli);
+  });
+  file.number("pass_distance_before_mm", report.pass_before, kMilli);
+  file.number("pass_distance_after_mm", report.pass_after, kMilli);
 }
 
-Json fit(const ImportReport& report) {
-  Json levels = Json::array();
-  for (const ImportReport::Level& level : report.levels)
-    levels.push_back({{"knot_a_mm", number(kMilli * level.knot_a)},
-                      {"knot_s_mm", number(kMilli * level.knot_s)},
-                      {"functions", level.functions},
-                      {"used", level.used},
-                      {"iterations", level.iterations}});
-  Json sections;
-  if (report.sections)
-    sections = {{"count", report.sections->count},
-                {"fewest_points", report.sections->fewest_points},
-                {"most_points", report.sections->most_points},
-                {"least_gap_mm", number(kMilli * report.sections->least_gap)},
-                {"widest_gap_mm", number(kMilli * report.sections->widest_gap)},
-                {"spread_mm", number(kMilli * report.sections->spread)},
-                {"smoothing_lambda_mm3", number(kMilli3 * report.sections->smoothing)}};
-  return {{"kept_sections", sections},
-          {"levels", levels},
-          {"fitted_points", report.fitted_points},
-          {"held_out_points", report.held_out_points},
-          {"held_out_rms_mm", number(kMilli * report.held_out_rms)},
-          {"held_out_error_mm", number(kMilli * report.held_out_error)},
-          {"histogram_range_mm", number(kMilli * report.residual_range)},
-          {"histogram", report.residual_histogram}};
+template <class File, class Report>
+void coverage(const File& file, Report& report) {
+  file.number("spacing_mm", report.spacing, kMilli);
+  file.number("gap_a_mm", report.gap_a, kMilli);
+  file.number("gap_s_mm", report.gap_s, kMilli);
+  file.number("area_mm2", report.area, kMilli2);
+  file.number("hole_area_mm2", report.hole_area, kMilli2);
+  file.number("hole_limit_mm", report.hole_limit, kMilli);
+  file.list("holes", report.holes, [&](const File& node, auto& hole) {
+    place(node, report.body, hole);
+    node.number("diameter_mm", hole.diameter, kMilli);
+    node.number("area_mm2", hole.area, kMilli2);
+    node.value("filled", hole.filled);
+  });
 }
 
-Json damage(const ImportReport& report) {
-  Json list = Json::array();
-  for (const ImportReport::Damage& part : report.damage) {
-    Json one = Json::object();
-    add_place(one, report, part.u, part.y, part.s);
-    one["length_mm"] = number(kMilli * part.length);
-    one["width_mm"] = number(kMilli * part.width);
-    one["depth_mm"] = number(kMilli * part.depth);
-    one["volume_mm3"] = number(kMilli3 * part.volume);
-    list.push_back(one);
+template <class File, class Sections>
+void sections(const File& file, Sections& kept) {
+  file.value("count", kept.count);
+  file.value("fewest_points", kept.fewest_points);
+  file.value("most_points", kept.most_points);
+  file.number("least_gap_mm", kept.least_gap, kMilli);
+  file.number("widest_gap_mm", kept.widest_gap, kMilli);
+  file.number("spread_mm", kept.spread, kMilli);
+  file.number("smoothing_lambda_mm3", kept.smoothing, kMilli3);
+}
+
+template <class File, class Report>
+void fit(const File& file, Report& report) {
+  const auto kept = [&](const File& node) { sections(node, *report.sections); };
+  if constexpr (File::kReads) {
+    if (file.in.find("kept_sections")) {
+      report.sections.emplace();
+      file.object("kept_sections", kept);
+    }
+  } else {
+    file.value("kept_sections", nullptr);
+    if (report.sections) file.object("kept_sections", kept);
   }
-  return list;
+  file.list("levels", report.levels, [](const File& node, auto& level) {
+    node.number("knot_a_mm", level.knot_a, kMilli);
+    node.number("knot_s_mm", level.knot_s, kMilli);
+    node.value("functions", level.functions);
+    node.value("used", level.used);
+    node.value("iterations", level.iterations);
+  });
+  file.value("fitted_points", report.fitted_points);
+  file.value("held_out_points", report.held_out_points);
+  file.number("held_out_rms_mm", report.held_out_rms, kMilli);
+  file.number("held_out_error_mm", report.held_out_error, kMilli);
+  file.number("histogram_range_mm", report.residual_range, kMilli);
+  file.value("histogram", report.residual_histogram);
 }
 
-Json range(const ImportReport& report) {
-  Json out = {{"closed", report.closed}};
+template <class File, class Report>
+void range(const File& file, Report& report) {
+  file.value("closed", report.closed);
   const bool wheel = report.body == Body::wheel;
-  const double factor = wheel ? kDegrees : kMilli;
-  out[wheel ? "u_deg" : "u_mm"] = Json::array({number(factor * report.u_min), number(factor * report.u_max)});
-  out["y_mm"] = Json::array({number(kMilli * report.y_min), number(kMilli * report.y_max)});
-  return out;
+  const auto ends = [&](const char* key, auto& from, auto& to, double factor) {
+    if constexpr (File::kReads) {
+      const std::vector<double> both = file.several(key, 2);
+      from = both[0] / factor;
+      to = both[1] / factor;
+    } else {
+      file.numbers(key, {from, to}, factor);
+    }
+  };
+  ends(wheel ? "u_deg" : "u_mm", report.u_min, report.u_max, wheel ? kDegrees : kMilli);
+  ends("y_mm", report.y_min, report.y_max, kMilli);
 }
 
-/// Reasons that come twice are counted together, so that no count is lost.
-void add_removed(Json& out, const ImportReport& report) {
-  Json counts = Json::object(), why = Json::object();
-  for (const ImportReport::Removed& removed : report.removed) {
-    const bool again = counts.contains(removed.reason);
-    counts[removed.reason] = removed.count + (again ? counts[removed.reason].get<std::size_t>() : 0);
-    why[removed.reason] = again && why[removed.reason] != removed.why
-                              ? why[removed.reason].get<std::string>() + "; " + removed.why
-                              : removed.why;
+/// Two objects: counts and rules by reason.
+template <class File, class Report>
+void removed(const File& file, Report& report) {
+  if constexpr (File::kReads) {
+    for (const auto& [reason, count] : file.in.at("removed").entries())
+      report.removed.push_back({reason, count.count(), file.in.at("removed_why").text(reason)});
+  } else {
+    Json counts = Json::object(), why = Json::object();
+    for (const ImportReport::Removed& one : removed_by_reason(report)) {
+      counts[one.reason] = one.count;
+      why[one.reason] = one.why;
+    }
+    file.out["removed"] = std::move(counts);
+    file.out["removed_why"] = std::move(why);
   }
-  out["removed"] = counts;
-  out["removed_why"] = why;
+}
+
+template <class File, class Report>
+void audit(const File& file, Report& report) {
+  file.object("treadmark", [&](const File& node) { node.value("version", report.version); });
+  if constexpr (File::kReads)
+    report.body = file.in.at("body").one_of({"wheel", "rail"}) == 0 ? Body::wheel : Body::rail;
+  else
+    file.value("body", body_name(report.body));
+  file.value("from_map", report.from_map);
+  if constexpr (!File::kReads) {
+    file.value("input", report.inputs.empty() ? "" : report.inputs.front().file);
+    file.value("sha256", report.inputs.empty() ? "" : report.inputs.front().sha256);
+  }
+  file.list("inputs", report.inputs, [](const File& node, auto& input) {
+    node.value("file", input.file);
+    node.value("sha256", input.sha256);
+    node.value("format", input.format);
+    node.value("points", input.points);
+    node.value("not_finite", input.not_finite);
+  });
+  file.value("unit", report.unit);
+  file.value("unit_from", report.unit_from);
+  file.value("points_read", report.points_read);
+  file.value("points_used", report.points_used);
+  removed(file, report);
+  file.value("warnings", report.warnings);
+  file.number("noise_mm", report.noise, kMilli);
+  file.number("residual_rms_mm", report.residual_rms, kMilli);
+  file.number("residual_max_mm", report.residual_max, kMilli);
+  if (!report.from_map)
+    file.object("frame", [&](const File& node) { frame(node, report); });
+  else if constexpr (!File::kReads)
+    file.value("frame", nullptr);
+  file.object("coverage", [&](const File& node) { coverage(node, report); });
+  file.object("fit", [&](const File& node) { fit(node, report); });
+  file.number("damage_threshold_mm", report.damage_threshold, kMilli);
+  file.list("damage", report.damage, [&](const File& node, auto& part) {
+    place(node, report.body, part);
+    node.number("length_mm", part.length, kMilli);
+    node.number("width_mm", part.width, kMilli);
+    node.number("depth_mm", part.depth, kMilli);
+    node.number("volume_mm3", part.volume, kMilli3);
+  });
+  file.object("range", [&](const File& node) { range(node, report); });
+  file.list("outputs", report.outputs, [](const File& node, auto& output) {
+    node.value("file", output.file);
+    node.value("kind", output.kind);
+    node.value("sha256", output.sha256);
+    node.value("bytes", output.bytes);
+    node.value("details", output.details);
+    node.number("height_max_um", output.height_max, kMicro);
+    node.number("height_rms_um", output.height_rms, kMicro);
+  });
+  file.value("settings_toml", report.settings_toml);
+}
+
+template <class File, class Report>
+void times(const File& file, Report& report) {
+  file.list("steps", report.steps, [](const File& node, auto& step) {
+    node.value("step", step.name);
+    node.number("seconds", step.seconds, 1.0);
+  });
 }
 
 Json seconds(const ImportReport& report) {
@@ -173,54 +311,41 @@ Json seconds(const ImportReport& report) {
 
 }  // namespace
 
+std::vector<ImportReport::Removed> removed_by_reason(const ImportReport& report) {
+  std::vector<ImportReport::Removed> out;
+  for (const ImportReport::Removed& one : report.removed) {
+    const auto known = std::ranges::find(out, one.reason, &ImportReport::Removed::reason);
+    if (known == out.end()) {
+      out.push_back(one);
+      continue;
+    }
+    known->count += one.count;
+    if (known->why != one.why) known->why += "; " + one.why;
+  }
+  return out;
+}
+
 std::string import_json(const ImportReport& report, bool with_seconds) {
   Json out = Json::object();
-  out["treadmark"] = {{"version", report.version}};
-  out["body"] = body_name(report.body);
-  out["from_map"] = report.from_map;
-  out["input"] = report.inputs.empty() ? "" : report.inputs.front().file;
-  out["sha256"] = report.inputs.empty() ? "" : report.inputs.front().sha256;
-  out["inputs"] = Json::array();
-  for (const ImportReport::Input& input : report.inputs)
-    out["inputs"].push_back({{"file", input.file},
-                             {"sha256", input.sha256},
-                             {"format", input.format},
-                             {"points", input.points},
-                             {"not_finite", input.not_finite}});
-  out["unit"] = report.unit;
-  out["unit_from"] = report.unit_from;
-  out["points_read"] = report.points_read;
-  out["points_used"] = report.points_used;
-  add_removed(out, report);
-  out["warnings"] = report.warnings;
-  out["noise_mm"] = number(kMilli * report.noise);
-  out["residual_rms_mm"] = number(kMilli * report.residual_rms);
-  out["residual_max_mm"] = number(kMilli * report.residual_max);
-  out["frame"] = frame(report);
-  out["coverage"] = coverage(report);
-  out["fit"] = fit(report);
-  out["damage_threshold_mm"] = number(kMilli * report.damage_threshold);
-  out["damage"] = damage(report);
-  out["range"] = range(report);
-  out["outputs"] = Json::array();
-  for (const ImportReport::Output& output : report.outputs)
-    out["outputs"].push_back({{"file", output.file},
-                              {"kind", output.kind},
-                              {"sha256", output.sha256},
-                              {"bytes", output.bytes},
-                              {"details", output.details},
-                              {"height_max_um", number(kMicro * output.height_max)},
-                              {"height_rms_um", number(kMicro * output.height_rms)}});
-  out["settings_toml"] = report.settings_toml;
+  audit(ImportWriter{out}, report);
   if (with_seconds) out["seconds"] = seconds(report);
   return dump(out);
 }
 
 std::string import_times_json(const ImportReport& report) {
-  Json list = Json::array();
-  for (const ImportReport::Step& step : report.steps)
-    list.push_back({{"step", step.name}, {"seconds", number(step.seconds)}});
-  return dump({{"steps", list}});
+  Json out = Json::object();
+  times(ImportWriter{out}, report);
+  return dump(out);
+}
+
+ImportReport read_import_json(const std::filesystem::path& file) {
+  ImportReport out;
+  audit(ImportReader{read_json_file(file)}, out);
+  return out;
+}
+
+void read_import_times(const std::filesystem::path& file, ImportReport& report) {
+  times(ImportReader{read_json_file(file)}, report);
 }
 
 }  // namespace treadmark::io

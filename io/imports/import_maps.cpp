@@ -22,17 +22,16 @@ struct MapName {
   const char* group;
   const char* unit;
   const char* meaning;
-  BandMap ImportReport::*from;
-  BandMap ImportMaps::*to;
+  BandMap ImportReport::*map;
 };
 
 constexpr MapName kMaps[] = {
-    {"density", "1/m^2", "points before cleaning", &ImportReport::density, &ImportMaps::density},
-    {"removed", "1/m^2", "points that were removed", &ImportReport::removed_map, &ImportMaps::removed},
+    {"density", "1/m^2", "points before cleaning", &ImportReport::density},
+    {"removed", "1/m^2", "points that were removed", &ImportReport::removed_map},
     {"fitted", "m", "distance of the fitted surface from its section, positive out of the material",
-     &ImportReport::fitted, &ImportMaps::fitted},
-    {"residual", "m", "mean of measured less fitted", &ImportReport::residual, &ImportMaps::residual},
-    {"noise", "m", "standard deviation of the points", &ImportReport::noise_map, &ImportMaps::noise},
+     &ImportReport::fitted},
+    {"residual", "m", "mean of measured less fitted", &ImportReport::residual},
+    {"noise", "m", "standard deviation of the points", &ImportReport::noise_map},
 };
 
 std::vector<double> edges(double from, double to, std::size_t cells) {
@@ -85,7 +84,7 @@ void write_import_maps(const std::filesystem::path& path, const ImportReport& re
   file.root().write({"nominal_radius", {}, "m", "of a wheel, else 0"},
                     std::span<const double>(&report.nominal_radius, 1));
   for (const MapName& name : kMaps) {
-    const BandMap& map = report.*name.from;
+    const BandMap& map = report.*name.map;
     if (map.value.empty()) continue;
     const Hdf5GroupWriter group = file.root().make_group(name.group);
     const std::vector<double> a = edges(map.a_min, map.a_max, map.rows), s = edges(map.s_min, map.s_max, map.columns);
@@ -99,21 +98,18 @@ void write_import_maps(const std::filesystem::path& path, const ImportReport& re
   target.commit();
 }
 
-ImportMaps read_import_maps(const std::filesystem::path& path) {
+void read_import_maps(const std::filesystem::path& path, ImportReport& report) {
   const Hdf5Reader file(path);
   const Hdf5GroupReader& root = file.root();
   if (const std::string format = root.text("format"); format != kFormat)
     refuse(path, fmt::format("holds \"{}\" where \"{}\" is read", format, kFormat));
-  ImportMaps maps;
-  const std::string body = root.text("body");
-  if (body != "wheel" && body != "rail") refuse(path, fmt::format("is of \"{}\"", body));
-  maps.body = body == "wheel" ? Body::wheel : Body::rail;
+  if (const std::string body = root.text("body"); body != body_name(report.body))
+    refuse(path, fmt::format("is of \"{}\"", body));
   const std::vector<double> radius = root.numbers("nominal_radius");
   if (radius.size() != 1) refuse(path, "has no nominal radius");
-  maps.nominal_radius = radius.front();
+  report.nominal_radius = radius.front();
   for (const MapName& name : kMaps)
-    if (root.has(name.group)) maps.*name.to = read_map(path, root.open_group(name.group), name.group);
-  return maps;
+    if (root.has(name.group)) report.*name.map = read_map(path, root.open_group(name.group), name.group);
 }
 
 }  // namespace treadmark::io

@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <filesystem>
 #include <limits>
 #include <optional>
 #include <string>
@@ -129,11 +130,18 @@ struct ImportReport {
   double residual_range = 0.0;                  ///< [m]
 };
 
+/// What was removed, one entry a reason: counts of reasons that come twice are added.
+std::vector<ImportReport::Removed> removed_by_reason(const ImportReport& report);
+
 /// The whole audit but steps (whose times differ) as JSON text; all lengths in mm or um as the names say;
 /// docs/import.schema.json.
 std::string import_json(const ImportReport& report, bool with_seconds);
 /// {"steps": [{"step", "seconds"}]}.
 std::string import_times_json(const ImportReport& report);
+/// What these texts say of a report, from files. Errors: Error(input_data) for files that are missing, broken or lack
+/// keys.
+ImportReport read_import_json(const std::filesystem::path& file);
+void read_import_times(const std::filesystem::path& file, ImportReport& report);
 /// A page of text for people: what was read, removed, placed, fitted, written; warnings first.
 std::string import_summary(const ImportReport& report);
 
@@ -141,5 +149,9 @@ std::string import_summary(const ImportReport& report);
 /// fitted.svg, residual.svg into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors:
 /// Error(configuration) if a file cannot be written.
 void write_import_report(const std::string& folder, const ImportReport& report);
+
+/// The report in such a folder: report.json and, where they are there, times.json and maps.h5; pictures and sections
+/// are empty. Errors: as read_import_json; for broken files. Not to be called from two threads at once (HDF5).
+ImportReport read_import_report(const std::filesystem::path& folder);
 
 }  // namespace treadmark::io

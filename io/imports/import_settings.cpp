@@ -4,221 +4,199 @@
 
 #include <algorithm>
 #include <cmath>
-#include <functional>
-#include <limits>
-#include <sstream>
-#include <string_view>
-#include <variant>
+#include <fstream>
+#include <iterator>
 
 #include <fmt/format.h>
-#include <toml++/toml.h>
 
-#include "treadmark/core/error.hpp"
-#include "treadmark/io/cases/nearest_key.hpp"
+#include "treadmark/io/settings/key_list.hpp"
+#include "treadmark/io/settings/key_schema.hpp"
+#include "treadmark/io/settings/nearest_key.hpp"
 
 namespace treadmark::io {
 namespace {
 
-constexpr double kMost = std::numeric_limits<double>::max();
+using S = ImportSettings;
+using ImportKey = SettingKey<S>;
+using ImportKeys = SettingKeys<S>;
 
-struct NumberKey {
-  std::function<double&(ImportSettings&)> place;
-  double least = 0.0, most = kMost;
-};
-struct FlagKey {
-  std::function<bool&(ImportSettings&)> place;
-};
-struct WordKey {
-  std::function<std::string&(ImportSettings&)> place;
-  std::vector<std::string> choices;  // empty: any text
-};
-struct DirectionKey {
-  std::function<std::vector<double>&(ImportSettings&)> place;
-};
-
-struct Key {
-  std::string table, name, doc;
-  std::variant<NumberKey, FlagKey, WordKey, DirectionKey> kind;
-};
-
-#define TREADMARK_PLACE(type, table, name) [](ImportSettings& s) -> type& { return s.table.name; }
-
-const std::vector<Key>& keys() {
-  static const std::vector<Key> kKeys{
-      {"scan", "body", "wheel or rail; auto: by the extension of the surface file",
-       WordKey{TREADMARK_PLACE(std::string, scan, body), {"auto", "wheel", "rail"}}},
-      {"scan", "unit", "of the coordinates; auto: what the file says, else what makes it a wheel or rail",
-       WordKey{TREADMARK_PLACE(std::string, scan, unit), {"auto", "m", "mm", "um", "in"}}},
-      {"scan", "pass_steps", "align the passes of the scanner to each other where they overlap",
-       FlagKey{TREADMARK_PLACE(bool, scan, pass_steps)}},
-      {"placement", "nominal", "standard profile, profile file or none; auto: S1002 for wheels, 60E1 for rails",
-       WordKey{TREADMARK_PLACE(std::string, placement, nominal), {}}},
-      {"placement", "nominal_radius_mm", "of a wheel, at profile z = 0; 0: from the scan",
-       NumberKey{TREADMARK_PLACE(double, placement, nominal_radius_mm)}},
-      {"placement", "up", "direction out of a rail's head in the scan's frame, roughly; empty: found",
-       DirectionKey{TREADMARK_PLACE(std::vector<double>, placement, up)}},
-      {"placement", "forward",
-       "direction of +x of a rail, of +y (flange to field side) of a wheel, roughly; empty: found",
-       DirectionKey{TREADMARK_PLACE(std::vector<double>, placement, forward)}},
-      {"placement", "zero",
-       "what lies at theta = 0 or x = 0: the largest defect, the scan's own axes (origin), or a direction",
-       WordKey{TREADMARK_PLACE(std::string, placement, zero), {"defect", "scan", "direction"}}},
-      {"placement", "zero_direction", "from the axle (wheel), in the scan's frame, for zero = \"direction\"",
-       DirectionKey{TREADMARK_PLACE(std::vector<double>, placement, zero_direction)}},
-      {"placement", "zero_deg", "theta that it gets",
-       NumberKey{TREADMARK_PLACE(double, placement, zero_deg), -360.0, 360.0}},
-      {"placement", "zero_mm", "x that it gets", NumberKey{TREADMARK_PLACE(double, placement, zero_mm), -1e6, 1e6}},
-      {"clean", "strays", "remove outliers and small clusters among thinned points before anything else",
-       FlagKey{TREADMARK_PLACE(bool, clean, strays)}},
-      {"clean", "stray_distance",
-       "mean distance to neighbours from which a point is stray, over the size to which points are thinned; 0: 4 times "
-       "the usual one",
-       NumberKey{TREADMARK_PLACE(double, clean, stray_distance)}},
-      {"clean", "stray_cluster", "clusters with less than this part of the largest one are stray",
-       NumberKey{TREADMARK_PLACE(double, clean, stray_cluster), 0.0, 1.0}},
-      {"clean", "farthest_mm", "points farther from the section are removed",
-       NumberKey{TREADMARK_PLACE(double, clean, farthest_mm), 0.01, 50.0}},
-      {"clean", "outlier_factor", "standard deviations from the surroundings that make an outlier; 0: none are",
-       NumberKey{TREADMARK_PLACE(double, clean, outlier_factor)}},
-      {"clean", "edge_share", "where more of the surroundings would be outliers they are an edge and stay",
-       NumberKey{TREADMARK_PLACE(double, clean, edge_share), 0.0, 1.0}},
-      {"clean", "hole_limit_mm",
-       "holes up to this diameter are filled, larger ones stay; 0: 10, or twice the distance of the lines",
-       NumberKey{TREADMARK_PLACE(double, clean, hole_limit_mm)}},
-      {"clean", "least_filled", "lateral positions that are covered along less of the band are left out",
-       NumberKey{TREADMARK_PLACE(double, clean, least_filled), 0.0, 1.0}},
-      {"fit", "resolution_mm", "distance of the surface's points",
-       NumberKey{TREADMARK_PLACE(double, fit, resolution_mm), 0.02, 20.0}},
-      {"fit", "finest_mm", "smallest distance of the spline's knots; 0: 0.5, or the distance of the points",
-       NumberKey{TREADMARK_PLACE(double, fit, finest_mm), 0.0, 50.0}},
-      {"fit", "significance", "how far details must stand out of the noise; above 1 smooths more",
-       NumberKey{TREADMARK_PLACE(double, fit, significance), 0.05, 20.0}},
-      {"fit", "follow", "lower the significance step by step while points held out are met better",
-       FlagKey{TREADMARK_PLACE(bool, fit, follow)}},
-      {"fit", "held_out", "part of the points that the fit does not see, which judge it",
-       NumberKey{TREADMARK_PLACE(double, fit, held_out), 0.0, 0.5}},
-      {"fit", "tolerance_um",
-       "changes along the band below this need no slices of their own; 0: a fiftieth of the noise, 0.02 to 0.5",
-       NumberKey{TREADMARK_PLACE(double, fit, tolerance_um)}},
-      {"fit", "sections",
-       "points that lie in cross-sections: keep (slices with their own points) or fit; auto: keep those with points at "
-       "the same places across",
-       WordKey{TREADMARK_PLACE(std::string, fit, sections), {"auto", "keep", "fit"}}},
-      {"fit", "sections_along", "splines along the band through kept sections: approximate or interpolate",
-       WordKey{TREADMARK_PLACE(std::string, fit, sections_along), {"approximate", "interpolate"}}},
-      {"fit", "smoothing_lambda_mm3",
-       "smoothing across kept sections before triangles or offsets are made of them; slices stay as measured",
-       NumberKey{TREADMARK_PLACE(double, fit, smoothing_lambda_mm3)}},
-      {"fit", "base", "section below offsets: fitted or nominal",
-       WordKey{TREADMARK_PLACE(std::string, fit, base), {"fitted", "nominal"}}},
-      {"fit", "mesh", "band: Delaunay over the unrolled band; free: advancing front through the cleaned points",
-       WordKey{TREADMARK_PLACE(std::string, fit, mesh), {"band", "free"}}},
-      {"fit", "decimate_um", "leave out nodes that triangles do not need to this tolerance; 0: keep all",
-       NumberKey{TREADMARK_PLACE(double, fit, decimate_um)}},
-      {"damage", "threshold_mm", "depth from which damage is listed; 0: from the noise",
-       NumberKey{TREADMARK_PLACE(double, damage, threshold_mm)}},
-      {"map", "height_unit", "of the deviations of a gridded map; auto: what the file says, else scan.unit",
-       WordKey{TREADMARK_PLACE(std::string, map, height_unit), {"auto", "m", "mm", "um", "in"}}},
-      {"map", "angles_deg", "positions of a gridded map round the wheel are degrees, not lengths",
-       FlagKey{TREADMARK_PLACE(bool, map, angles_deg)}},
-  };
-  return kKeys;
+template <class Table, class Member>
+auto at(Table S::*table, Member Table::*member) {
+  return [=](auto& settings) -> auto& { return settings.*table.*member; };
 }
 
-SourcePosition at(const toml::node& node, const std::string& file) {
-  const toml::source_region& source = node.source();
-  return {file, static_cast<int>(source.begin.line), static_cast<int>(source.begin.column)};
+std::vector<ImportKey> listed_keys() {
+  ImportKeys list(ImportKeys::Numbers::as_written);
+  list.word("scan.body", {"auto", "wheel", "rail"}, "wheel or rail; auto: by the extension of the surface file",
+            at(&S::scan, &S::Scan::body));
+  list.word("scan.unit", {"auto", "m", "mm", "um", "in"},
+            "of the coordinates; auto: what the file says, else what makes it a wheel or rail",
+            at(&S::scan, &S::Scan::unit));
+  list.flag("scan.pass_steps", "align the passes of the scanner to each other where they overlap",
+            at(&S::scan, &S::Scan::pass_steps));
+
+  list.word("placement.nominal", {}, "standard profile, profile file or none; auto: S1002 for wheels, 60E1 for rails",
+            at(&S::placement, &S::Placement::nominal));
+  list.number("placement.nominal_radius_mm", kNotNegative, "of a wheel, at profile z = 0; 0: from the scan",
+              at(&S::placement, &S::Placement::nominal_radius_mm));
+  list.direction("placement.up", "direction out of a rail's head in the scan's frame, roughly; empty: found",
+                 at(&S::placement, &S::Placement::up));
+  list.direction("placement.forward",
+                 "direction of +x of a rail, of +y (flange to field side) of a wheel, roughly; empty: found",
+                 at(&S::placement, &S::Placement::forward));
+  list.word("placement.zero", {"defect", "scan", "direction"},
+            "what lies at theta = 0 or x = 0: the largest defect, the scan's own axes (origin), or a direction",
+            at(&S::placement, &S::Placement::zero));
+  list.direction("placement.zero_direction", "from the axle (wheel), in the scan's frame, for zero = \"direction\"",
+                 at(&S::placement, &S::Placement::zero_direction));
+  list.number("placement.zero_deg", {{}, -360.0, 360.0}, "theta that it gets",
+              at(&S::placement, &S::Placement::zero_deg));
+  list.number("placement.zero_mm", {{}, -1e6, 1e6}, "x that it gets", at(&S::placement, &S::Placement::zero_mm));
+
+  list.flag("clean.strays", "remove outliers and small clusters among thinned points before anything else",
+            at(&S::clean, &S::Clean::strays));
+  list.number(
+      "clean.stray_distance", kNotNegative,
+      "mean distance to neighbours from which a point is stray, over the size to which points are thinned; 0: 4 times "
+      "the usual one",
+      at(&S::clean, &S::Clean::stray_distance));
+  list.number("clean.stray_cluster", {{}, 0.0, 1.0}, "clusters with less than this part of the largest one are stray",
+              at(&S::clean, &S::Clean::stray_cluster));
+  list.number("clean.farthest_mm", {{}, 0.01, 50.0}, "points farther from the section are removed",
+              at(&S::clean, &S::Clean::farthest_mm));
+  list.number("clean.outlier_factor", kNotNegative,
+              "standard deviations from the surroundings that make an outlier; 0: none are",
+              at(&S::clean, &S::Clean::outlier_factor));
+  list.number("clean.edge_share", {{}, 0.0, 1.0},
+              "where more of the surroundings would be outliers they are an edge and stay",
+              at(&S::clean, &S::Clean::edge_share));
+  list.number("clean.hole_limit_mm", kNotNegative,
+              "holes up to this diameter are filled, larger ones stay; 0: 10, or twice the distance of the lines",
+              at(&S::clean, &S::Clean::hole_limit_mm));
+  list.number("clean.least_filled", {{}, 0.0, 1.0},
+              "lateral positions that are covered along less of the band are left out",
+              at(&S::clean, &S::Clean::least_filled));
+
+  list.number("fit.resolution_mm", {{}, 0.02, 20.0}, "distance of the surface's points",
+              at(&S::fit, &S::Fit::resolution_mm));
+  list.number("fit.finest_mm", {{}, 0.0, 50.0},
+              "smallest distance of the spline's knots; 0: 0.5, or the distance of the points",
+              at(&S::fit, &S::Fit::finest_mm));
+  list.number("fit.significance", {{}, 0.05, 20.0}, "how far details must stand out of the noise; above 1 smooths more",
+              at(&S::fit, &S::Fit::significance));
+  list.flag("fit.follow", "lower the significance step by step while points held out are met better",
+            at(&S::fit, &S::Fit::follow));
+  list.number("fit.held_out", {{}, 0.0, 0.5}, "part of the points that the fit does not see, which judge it",
+              at(&S::fit, &S::Fit::held_out));
+  list.number("fit.tolerance_um", kNotNegative,
+              "changes along the band below this need no slices of their own; 0: a fiftieth of the noise, 0.02 to 0.5",
+              at(&S::fit, &S::Fit::tolerance_um));
+  list.word(
+      "fit.sections", {"auto", "keep", "fit"},
+      "points that lie in cross-sections: keep (slices with their own points) or fit; auto: keep those with points at "
+      "the same places across",
+      at(&S::fit, &S::Fit::sections));
+  list.word("fit.sections_along", {"approximate", "interpolate"},
+            "splines along the band through kept sections: approximate or interpolate",
+            at(&S::fit, &S::Fit::sections_along));
+  list.number("fit.smoothing_lambda_mm3", kNotNegative,
+              "smoothing across kept sections before triangles or offsets are made of them; slices stay as measured",
+              at(&S::fit, &S::Fit::smoothing_lambda_mm3));
+  list.word("fit.base", {"fitted", "nominal"}, "section below offsets: fitted or nominal", at(&S::fit, &S::Fit::base));
+  list.word("fit.mesh", {"band", "free"},
+            "band: Delaunay over the unrolled band; free: advancing front through the cleaned points",
+            at(&S::fit, &S::Fit::mesh));
+  list.number("fit.decimate_um", kNotNegative,
+              "leave out nodes that triangles do not need to this tolerance; 0: keep all",
+              at(&S::fit, &S::Fit::decimate_um));
+
+  list.number("damage.threshold_mm", kNotNegative, "depth from which damage is listed; 0: from the noise",
+              at(&S::damage, &S::Damage::threshold_mm));
+
+  list.word("map.height_unit", {"auto", "m", "mm", "um", "in"},
+            "of the deviations of a gridded map; auto: what the file says, else scan.unit",
+            at(&S::map, &S::Map::height_unit));
+  list.flag("map.angles_deg", "positions of a gridded map round the wheel are degrees, not lengths",
+            at(&S::map, &S::Map::angles_deg));
+  return std::move(list.keys);
+}
+
+const std::vector<ImportKey>& import_keys() {
+  static const std::vector<ImportKey> keys = listed_keys();
+  return keys;
 }
 
 [[noreturn]] void fail(const std::string& message, const SourcePosition& where, const std::string& advice = {}) {
   throw Error(ErrorKind::configuration, message, where, advice);
 }
 
-double number_of(const toml::node& node, const std::string& name, const SourcePosition& where) {
-  const auto value = node.value<double>();
-  if (!value || !node.is_number() || !std::isfinite(*value)) fail(fmt::format("'{}' must be a number", name), where);
-  return *value;
+double number_of(const CaseValue& value, const std::string& name, const SourcePosition& where) {
+  const bool number = std::holds_alternative<double>(value.data) || std::holds_alternative<std::int64_t>(value.data);
+  if (!number || !std::isfinite(value.number())) fail(fmt::format("'{}' must be a number", name), where);
+  return value.number();
 }
 
-void set(ImportSettings& settings, const Key& key, const toml::node& node, const SourcePosition& where) {
-  const std::string name = key.table + '.' + key.name;
-  if (const auto* number = std::get_if<NumberKey>(&key.kind)) {
-    const double value = number_of(node, name, where);
-    if (value < number->least || value > number->most)
-      fail(number->most < kMost
-               ? fmt::format("'{}' must be between {:g} and {:g}, not {:g}", name, number->least, number->most, value)
-               : fmt::format("'{}' must be at least {:g}, not {:g}", name, number->least, value),
-           where);
-    number->place(settings) = value;
-  } else if (const auto* flag = std::get_if<FlagKey>(&key.kind)) {
-    const auto value = node.value_exact<bool>();
-    if (!value) fail(fmt::format("'{}' must be true or false", name), where);
-    flag->place(settings) = *value;
-  } else if (const auto* word = std::get_if<WordKey>(&key.kind)) {
-    const auto value = node.value_exact<std::string>();
-    if (!value || value->empty()) fail(fmt::format("'{}' must be a text", name), where);
-    if (!word->choices.empty() && std::find(word->choices.begin(), word->choices.end(), *value) == word->choices.end())
-      fail(fmt::format("'{}' cannot be \"{}\"", name, *value), where,
-           fmt::format("choose {}", fmt::join(word->choices, ", ")));
-    word->place(settings) = *value;
+void check_direction(const CaseValue& value, const std::string& name) {
+  if (!value.is_list() || (!value.list().empty() && value.list().size() != 3))
+    fail(fmt::format("'{}' must be a list of three numbers, or empty", name), value.where);
+  double square = 0.0;
+  for (const CaseValue& one : value.list()) square += std::pow(number_of(one, name, value.where), 2);
+  if (!value.list().empty() && !(square > 0.0))
+    fail(fmt::format("'{}' is no direction: all its numbers are zero", name), value.where);
+}
+
+void check_number(const CaseValue& value, const KeyInfo& key) {
+  const double number = number_of(value, key.path, value.where), least = key.at_least.value();
+  if (number < least || (key.at_most && number > *key.at_most))
+    fail(key.at_most
+             ? fmt::format("'{}' must be between {:g} and {:g}, not {:g}", key.path, least, *key.at_most, number)
+             : fmt::format("'{}' must be at least {:g}, not {:g}", key.path, least, number),
+         value.where);
+}
+
+void set(ImportSettings& settings, const ImportKey& key, const CaseValue& value) {
+  const KeyInfo& info = key.info;
+  if (info.type == KeyType::number) {
+    check_number(value, info);
+  } else if (info.type == KeyType::direction) {
+    check_direction(value, info.path);
+  } else if (info.type == KeyType::flag) {
+    if (!std::holds_alternative<bool>(value.data))
+      fail(fmt::format("'{}' must be true or false", info.path), value.where);
   } else {
-    const toml::array* list = node.as_array();
-    if (list == nullptr || (!list->empty() && list->size() != 3))
-      fail(fmt::format("'{}' must be a list of three numbers, or empty", name), where);
-    std::vector<double> values;
-    double square = 0.0;
-    for (const toml::node& entry : *list) {
-      values.push_back(number_of(entry, name, where));
-      square += values.back() * values.back();
-    }
-    if (!values.empty() && !(square > 0.0))
-      fail(fmt::format("'{}' is no direction: all its numbers are zero", name), where);
-    std::get<DirectionKey>(key.kind).place(settings) = values;
+    const auto* word = std::get_if<std::string>(&value.data);
+    if (word == nullptr || word->empty()) fail(fmt::format("'{}' must be a text", info.path), value.where);
+    if (!info.choices.empty() && std::find(info.choices.begin(), info.choices.end(), *word) == info.choices.end())
+      fail(fmt::format("'{}' cannot be \"{}\"", info.path, *word), value.where,
+           fmt::format("choose {}", fmt::join(info.choices, ", ")));
   }
+  key.set(settings, value, {});
 }
 
-[[noreturn]] void unknown(const std::string& name, const SourcePosition& where) {
+[[noreturn]] void unknown(const std::string& path, const SourcePosition& where) {
   std::vector<std::string> known;
-  for (const Key& key : keys()) known.push_back(key.table + '.' + key.name);
-  const std::string nearest = nearest_key(name, known);
-  fail(fmt::format("there is no setting '{}'", name), where,
+  for (const ImportKey& key : import_keys()) known.push_back(key.info.path);
+  const std::string nearest = nearest_key(path, known);
+  fail(fmt::format("there is no setting '{}'", path), where,
        nearest.empty() ? "treadmark import --list-settings shows all" : fmt::format("did you mean '{}'?", nearest));
 }
 
-void read(const toml::table& document, const std::string& file, ImportSettings& settings) {
-  for (const auto& [table_name, table_node] : document) {
-    const toml::table* table = table_node.as_table();
-    if (table == nullptr) unknown(std::string(table_name.str()), at(table_node, file));
-    for (const auto& [name, node] : *table) {
-      const auto found = std::find_if(
-          keys().begin(), keys().end(),
-          [&, t = table_name.str(), n = name.str()](const Key& key) { return key.table == t && key.name == n; });
-      if (found == keys().end()) unknown(std::string(table_name.str()) + '.' + std::string(name.str()), at(node, file));
-      set(settings, *found, node, at(node, file));
-    }
-  }
-}
-
-std::string text_of(ImportSettings& settings, const Key& key) {
-  if (const auto* number = std::get_if<NumberKey>(&key.kind)) return fmt::format("{}", number->place(settings));
-  if (const auto* flag = std::get_if<FlagKey>(&key.kind)) return flag->place(settings) ? "true" : "false";
-  if (const auto* word = std::get_if<WordKey>(&key.kind)) {
-    std::ostringstream quoted;
-    quoted << toml::value<std::string>(word->place(settings));
-    return quoted.str();
-  }
-  return fmt::format("[{}]", fmt::join(std::get<DirectionKey>(key.kind).place(settings), ", "));
+const ImportKey& known_key(const std::string& path, const SourcePosition& where) {
+  for (const ImportKey& key : import_keys())
+    if (key.info.path == path) return key;
+  unknown(path, where);
 }
 
 }  // namespace
 
 void read_import_settings(const std::filesystem::path& file, ImportSettings& settings) {
-  try {
-    read(toml::parse_file(file.string()), file.string(), settings);
-  } catch (const toml::parse_error& error) {
-    throw Error(
-        ErrorKind::configuration, std::string(error.description()),
-        {file.string(), static_cast<int>(error.source().begin.line), static_cast<int>(error.source().begin.column)});
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream) fail("File could not be opened for reading", {file.string()});
+  const std::string text{std::istreambuf_iterator<char>(stream), {}};
+  for (const CaseEntry& table : parse_toml(text, file.string(), "")) {
+    if (!table.value.is_table()) unknown(table.key, table.value.where);
+    for (const CaseEntry& entry : table.value.table())
+      set(settings, known_key(table.key + '.' + entry.key, entry.value.where), entry.value);
   }
 }
 
@@ -226,38 +204,39 @@ void set_import_setting(ImportSettings& settings, const std::string& assignment)
   const std::size_t equals = assignment.find('='), point = assignment.find('.');
   if (equals == std::string::npos || point == std::string::npos || point > equals)
     fail(fmt::format("'{}' is no setting", assignment), {}, "write table.key=value");
-  const std::string table = assignment.substr(0, point), name = assignment.substr(point + 1, equals - point - 1),
-                    value = assignment.substr(equals + 1);
-  const auto found = std::find_if(keys().begin(), keys().end(),
-                                  [&](const Key& key) { return key.table == table && key.name == name; });
-  if (found == keys().end()) unknown(table + '.' + name, {});
+  const std::string path = assignment.substr(0, equals), text = assignment.substr(equals + 1);
+  const ImportKey& key = known_key(path, {});
   // a bare word is a text; numbers, flags and lists stand as in TOML
-  const bool bare = std::holds_alternative<WordKey>(found->kind) && (value.empty() || value.front() != '"');
-  if (bare) {
-    set(settings, *found, toml::value<std::string>(value), {});
-    return;
-  }
+  const bool word = key.info.type == KeyType::text || key.info.type == KeyType::choice;
+  if (word && (text.empty() || text.front() != '"')) return set(settings, key, {{}, text});
+  CaseTable parsed;
   try {
-    const toml::table parsed = toml::parse("value = " + value);
-    if (parsed.size() != 1) fail(fmt::format("'{}.{}' takes one value", table, name), {});
-    set(settings, *found, *parsed.get("value"), {});
-  } catch (const toml::parse_error&) {
+    parsed = parse_toml("value = " + text, "");
+  } catch (const Error&) {
     fail(fmt::format("the value in '{}' cannot be read", assignment), {}, "write it as in TOML");
   }
+  if (parsed.size() != 1) fail(fmt::format("'{}' takes one value", path), {});
+  set(settings, key, {{}, parsed.front().value.data});
 }
 
 std::string import_settings_toml(const ImportSettings& settings) {
-  ImportSettings copy = settings;
   std::string out = "# Settings of treadmark import; lengths in mm or um as the names say.\n", table;
-  for (const Key& key : keys()) {
-    if (key.table != table) out += fmt::format("\n[{}]\n", key.table);
-    table = key.table;
-    std::string choices;
-    if (const auto* word = std::get_if<WordKey>(&key.kind); word != nullptr && !word->choices.empty())
-      choices = fmt::format(" ({})", fmt::join(word->choices, ", "));
-    out += fmt::format("{} = {}  # {}{}\n", key.name, text_of(copy, key), key.doc, choices);
+  for (const ImportKey& key : import_keys()) {
+    const KeyInfo& info = key.info;
+    const std::size_t dot = info.path.find('.');
+    if (info.path.substr(0, dot) != table) out += fmt::format("\n[{}]\n", info.path.substr(0, dot));
+    table = info.path.substr(0, dot);
+    const std::string choices = info.choices.empty() ? "" : fmt::format(" ({})", fmt::join(info.choices, ", "));
+    out += fmt::format("{} = {}  # {}{}\n", info.path.substr(dot + 1),
+                       key.text ? key.text(settings) : fmt::format("{}", key.get(settings)), info.doc, choices);
   }
   return out;
 }
+
+std::string import_settings_schema() {
+  return file_schema("Treadmark import settings", infos_of(std::span(import_keys())));
+}
+
+std::string import_settings_table() { return key_table(infos_of(std::span(import_keys()))); }
 
 }  // namespace treadmark::io

@@ -24,4 +24,13 @@ void check_field_sizes(const PatchFields& fields, int case_number, int patch_num
                                                       patch_number, fields.row_angle.size(), fields.grid.ny));
 }
 
+std::string field_quantity_table() {
+  std::string out = "| dataset | unit | meaning |\n|---|---|---|\n";
+  for (const FieldColumn& column : kFieldColumns)
+    out += fmt::format("| `{}` | {}{} | {} |\n", column.name, column.unit,
+                       column.unit == column.unit_shift ? "" : fmt::format(" (shift: {})", column.unit_shift),
+                       column.meaning);
+  return out;
+}
+
 }  // namespace treadmark::io

@@ -2,13 +2,23 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <array>
+#include <string>
 #include <string_view>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::io {
+
+/// How reports and pictures show a field.
+struct ShownField {
+  enum class Kind { sequential, diverging, state };
+  int rank = 0;  ///< place in menus, small ones first and kept longest where space is short; 0 = not shown
+  std::string_view label = {}, unit = {};
+  double factor = 1.0;  ///< from SI
+  Kind kind = Kind::sequential;
+};
 
 /// A real-valued field of a patch: the name and unit it has in every field file.
 struct FieldColumn {
@@ -17,27 +27,46 @@ struct FieldColumn {
   std::string_view unit_shift;  ///< unit in a shift case
   std::string_view meaning;
   std::vector<double> PatchFields::*values;
+  ShownField shown = {};
 };
 
-inline constexpr std::array<FieldColumn, 17> kFieldColumns{{
-    {"gap", "m", "m", "undeformed distance, NaN where a surface is missing", &PatchFields::gap},
-    {"pressure", "Pa", "Pa", "normal pressure", &PatchFields::pressure},
-    {"traction_x", "Pa", "Pa", "longitudinal traction on the rail", &PatchFields::traction_x},
-    {"traction_s", "Pa", "Pa", "lateral traction on the rail", &PatchFields::traction_s},
-    {"displacement_n", "m", "m", "normal displacement, rail minus wheel", &PatchFields::displacement_n},
+// A row of a table stays a row: clang-format would give each column a line.
+// clang-format off
+inline constexpr FieldColumn kFieldColumns[] = {
+    {"gap", "m", "m", "undeformed distance, NaN where a surface is missing", &PatchFields::gap,
+     {80, "undeformed distance", "µm", kMicro, ShownField::Kind::diverging}},
+    {"pressure", "Pa", "Pa", "normal pressure", &PatchFields::pressure,
+     {10, "pressure", "MPa", kMega}},
+    {"traction_x", "Pa", "Pa", "longitudinal traction on the rail", &PatchFields::traction_x,
+     {40, "longitudinal traction", "MPa", kMega, ShownField::Kind::diverging}},
+    {"traction_s", "Pa", "Pa", "lateral traction on the rail", &PatchFields::traction_s,
+     {50, "lateral traction", "MPa", kMega, ShownField::Kind::diverging}},
+    {"displacement_n", "m", "m", "normal displacement, rail minus wheel", &PatchFields::displacement_n,
+     {90, "normal displacement", "µm", kMicro}},
     {"displacement_x", "m", "m", "longitudinal displacement, rail minus wheel", &PatchFields::displacement_x},
     {"displacement_s", "m", "m", "lateral displacement, rail minus wheel", &PatchFields::displacement_s},
     {"slip_x", "1", "m", "longitudinal slip, rail minus wheel, over the rolling speed", &PatchFields::slip_x},
     {"slip_s", "1", "m", "lateral slip, rail minus wheel, over the rolling speed", &PatchFields::slip_s},
-    {"friction", "1", "1", "coefficient of friction", &PatchFields::friction},
-    {"plastic_x", "m", "m", "longitudinal plastic shear of the interface layer", &PatchFields::plastic_x},
-    {"plastic_s", "m", "m", "lateral plastic shear of the interface layer", &PatchFields::plastic_s},
+    {"friction", "1", "1", "coefficient of friction", &PatchFields::friction,
+     {100, "coefficient of friction"}},
+    {"dissipation", "W/m2", "J/m2", "power (shift: work) of friction that becomes heat", &PatchFields::dissipation,
+     {75, "dissipation by friction", "W/mm²", 1e-6}},
+    {"plastic_x", "m", "m", "longitudinal plastic shear of the interface layer", &PatchFields::plastic_x,
+     {130, "longitudinal plastic shear", "µm", kMicro, ShownField::Kind::diverging}},
+    {"plastic_s", "m", "m", "lateral plastic shear of the interface layer", &PatchFields::plastic_s,
+     {140, "lateral plastic shear", "µm", kMicro, ShownField::Kind::diverging}},
     {"yield_stress", "Pa", "Pa", "shear stress at which the interface layer yields", &PatchFields::yield_stress},
-    {"temperature_1", "degC", "degC", "surface temperature of the rail", &PatchFields::temperature_1},
-    {"temperature_2", "degC", "degC", "surface temperature of the wheel", &PatchFields::temperature_2},
+    {"temperature_1", "degC", "degC", "surface temperature of the rail", &PatchFields::temperature_1,
+     {110, "temperature of the rail", "°C"}},
+    {"temperature_2", "degC", "degC", "surface temperature of the wheel", &PatchFields::temperature_2,
+     {120, "temperature of the wheel", "°C"}},
     {"extra_slip_x", "1", "m", "longitudinal rigid slip beyond the creepages", &PatchFields::extra_slip_x},
     {"extra_slip_s", "1", "m", "lateral rigid slip beyond the creepages", &PatchFields::extra_slip_s},
-}};
+};
+// clang-format on
+
+/// The fields as Markdown table (docs/results.md).
+std::string field_quantity_table();
 
 /// Throws Error(configuration) unless every field of the patch is empty or has one value per element.
 /// case_number and patch_number (from 1) go into the message.

@@ -9,6 +9,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/results/file_layout.hpp"
 #include "treadmark/io/results/read_patch.hpp"
+#include "treadmark/io/results/read_quantities.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -20,20 +21,6 @@ Status status_of(const Hdf5GroupReader& group) {
   for (const Status status : {Status::ok, Status::no_contact, Status::not_converged, Status::failed})
     if (word == to_string(status)) return status;
   refuse_result(group, fmt::format("has the unknown status \"{}\"", word));
-}
-
-void read_wheelset(const Hdf5GroupReader& group, CaseResult& c) {
-  const Vec3 position = group.vector("wheelset_position"), angles = group.vector("wheelset_roll_yaw_pitch");
-  const Vec3 velocity = group.vector("wheelset_velocity"), rates = group.vector("wheelset_rates_roll_yaw_pitch");
-  c.has_wheelset = true;
-  c.s = position.x(), c.y = position.y(), c.z = position.z();
-  c.roll = angles.x(), c.yaw = angles.y(), c.pitch = angles.z();
-  c.vs = velocity.x(), c.vy = velocity.y(), c.vz = velocity.z();
-  c.vroll = rates.x(), c.vyaw = rates.y(), c.vpitch = rates.z();
-  c.force_tr = group.vector("force_on_rail_track");
-  c.force_ws = group.vector("force_on_rail_wheelset");
-  c.moment_rail = group.vector("moment_on_rail_at_rail");
-  c.moment_wheel = group.vector("moment_on_rail_at_wheel");
 }
 
 SampledSurface read_surface(const Hdf5GroupReader& group, const std::string& name) {
@@ -63,21 +50,23 @@ void refuse_result(const Hdf5GroupReader& where, const std::string& what) {
               "give a file that this program wrote");
 }
 
+Pose read_pose(const Hdf5GroupReader& group, const std::string& name) {
+  return {group.vector(name + "_origin"), group.matrix(name + "_rotation")};
+}
+
 CaseResult read_case(const Hdf5GroupReader& group) {
   CaseResult c;
   c.number = group.integer("number");
   c.status = status_of(group);
   c.message = group.text("message");
   if (group.has_attribute("seconds")) c.seconds = group.number("seconds");
-  if (group.has_attribute("wheelset_position")) read_wheelset(group, c);
+  for (const Block block : {Block::wheelset, Block::deflection, Block::roller}) read_block_if_there(group, block, c);
   c.loads = read_loads(group);
-  if (group.has_attribute("rail_deflection_y"))
-    c.rail_deflection = Vec2(group.number("rail_deflection_y"), group.number("rail_deflection_z"));
-  if (group.has_attribute("roller_nominal_radius"))
-    c.roller = {group.number("roller_nominal_radius"), group.number("roller_pitch_rate")};
-  if (group.has_attribute("X_TW_origin"))
-    c.bodies = CaseResult::Bodies{{group.vector("X_TW_origin"), group.matrix("X_TW_rotation")},
-                                  {group.vector("X_TR_origin"), group.matrix("X_TR_rotation")}};
+  // Early files name the same poses X_TW and X_TR.
+  const char *wheel = "X_TA", *rail = "X_TS";
+  if (!group.has_attribute("X_TA_origin")) wheel = "X_TW", rail = "X_TR";
+  if (group.has_attribute(std::string(wheel) + "_origin"))
+    c.bodies = CaseResult::Bodies{read_pose(group, wheel), read_pose(group, rail)};
   if (group.has_attribute("wheel_surface")) c.wheel_surface = group.text("wheel_surface");
   if (group.has_attribute("rail_surface")) c.rail_surface = group.text("rail_surface");
   for (int number = 1;; ++number) {

@@ -11,6 +11,7 @@
 
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
+#include "treadmark/io/results/read_quantities.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
 namespace treadmark::io {
@@ -27,23 +28,9 @@ std::uint64_t patch_id(const Hdf5GroupReader& group, const std::string& text) {
   return value;
 }
 
-void read_reference(const Hdf5GroupReader& group, PatchResult& p) {
-  const Vec3 track = group.vector("reference_track"), rail = group.vector("reference_rail");
-  const Vec3 wheel = group.vector("reference_wheel"), wheelset = group.vector("reference_wheelset");
-  p.has_reference = true;
-  p.x_tr = track.x(), p.y_tr = track.y(), p.z_tr = track.z();
-  p.x_rail = rail.x(), p.y_rail = rail.y(), p.z_rail = rail.z();
-  p.x_wheel = wheel.x(), p.y_wheel = wheel.y(), p.z_wheel = wheel.z();
-  p.x_wheelset = wheelset.x(), p.y_wheelset = wheelset.y(), p.z_wheelset = wheelset.z();
-  p.angle = group.number("contact_angle");
-  p.angle_rail = group.number("contact_angle_rail");
-  p.angle_wheelset = group.number("contact_angle_wheelset");
-  p.angle_wheel = group.number("contact_angle_wheel");
-  p.reference_x = group.number("reference_x");
-  p.reference_s = group.number("reference_s");
+void read_identity(const Hdf5GroupReader& group, PatchResult& p) {
   p.id = patch_id(group, group.text("id"));
   for (const std::string& one : group.texts("came_from")) p.came_from.push_back(patch_id(group, one));
-  p.s_rail = group.number("s_rail");
 }
 
 Grid2 read_grid(const Hdf5GroupReader& group) {
@@ -74,12 +61,7 @@ void read_fields(const Hdf5GroupReader& group, PatchResult& p) {
 
 /// Older files do not count their elements.
 void count_elements(const Hdf5GroupReader& group, PatchResult& p) {
-  if (group.has_attribute("elements_in_contact")) {
-    p.ncon = group.integer("elements_in_contact");
-    p.nadh = group.integer("elements_in_adhesion");
-    p.nslip = group.integer("elements_in_slip");
-    return;
-  }
+  if (group.has_attribute("elements_in_contact")) return;
   constexpr std::uint8_t kAdhesion = 1, kSlip = 2;
   const auto count = [&](auto is) { return static_cast<int>(std::ranges::count_if(p.fields.state, is)); };
   p.ncon = count([](std::uint8_t state) { return state > 0; });
@@ -87,7 +69,7 @@ void count_elements(const Hdf5GroupReader& group, PatchResult& p) {
   p.nslip = count([](std::uint8_t state) { return state == kSlip; });
 }
 
-SubsurfaceBlock read_block(const Hdf5GroupReader& group) {
+SubsurfaceBlock read_subsurface(const Hdf5GroupReader& group) {
   const std::vector<std::size_t> size = group.shape("x");
   if (size.size() != 3 ||
       std::ranges::any_of(size, [](std::size_t n) { return n == 0 || static_cast<double>(n) > kMostElements; }) ||
@@ -115,7 +97,7 @@ void read_blocks(const Hdf5GroupReader& group, PatchResult& p) {
   for (int number = 1;; ++number) {
     const std::string name = fmt::format("block{}", number);
     if (!parent.has(name)) return;
-    p.subsurface.push_back(read_block(parent.open_group(name)));
+    p.subsurface.push_back(read_subsurface(parent.open_group(name)));
   }
 }
 
@@ -132,37 +114,15 @@ std::optional<Loads> read_loads(const Hdf5GroupReader& group) {
 PatchResult read_patch(const Hdf5GroupReader& group) {
   PatchResult p;
   p.shift = group.integer("shift") != 0;
-  const std::pair<const char*, double*> numbers[] = {{"fn", &p.fn},
-                                                     {"fx", &p.fx},
-                                                     {"fs", &p.fs},
-                                                     {"mn", &p.mn},
-                                                     {"xi", &p.xi},
-                                                     {"eta", &p.eta},
-                                                     {"phi", &p.phi},
-                                                     {"approach", &p.approach},
-                                                     {"pmax", &p.pmax},
-                                                     {"elastic_energy", &p.elastic_energy},
-                                                     {"frictional_power", &p.frictional_power},
-                                                     {"shear_modulus", &p.shear_modulus}};
-  for (const auto& [name, value] : numbers) *value = group.number(name);
-  if (group.has_attribute("fx_relative")) {
-    p.fx_relative = group.number("fx_relative");
-    p.fs_relative = group.number("fs_relative");
+  for (const Block block : {Block::force, Block::creepage, Block::approach, Block::pressure, Block::energy})
+    read_block(group, block, p);
+  for (const Block block : {Block::relative, Block::count, Block::heat, Block::rolling, Block::place, Block::local})
+    read_block_if_there(group, block, p);
+  if (p.has_reference) {
+    for (const Block block : {Block::angle, Block::in_grid, Block::arc}) read_block(group, block, p);
+    read_identity(group, p);
   }
-  if (group.has_attribute("max_temperature_1")) p.max_temperature_1 = group.number("max_temperature_1");
-  if (group.has_attribute("max_temperature_2")) p.max_temperature_2 = group.number("max_temperature_2");
-  if (group.has_attribute("chi")) {
-    p.has_rolling = true;
-    p.chi = group.number("chi");
-    p.dq = group.number("dq");
-    p.velocity = group.number("velocity");
-  }
-  if (group.has_attribute("reference_track")) read_reference(group, p);
   p.loads = read_loads(group);
-  if (group.has_attribute("local_forces_x_s_n")) {
-    const Vec3 local = group.vector("local_forces_x_s_n");
-    p.local = PatchResult::LocalForces{local.z(), local.x(), local.y()};
-  }
   read_fields(group, p);
   count_elements(group, p);
   read_blocks(group, p);

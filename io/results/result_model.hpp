@@ -37,6 +37,7 @@ struct PatchFields {
   std::vector<double> displacement_n, displacement_x, displacement_s;  ///< [m]
   std::vector<double> slip_x, slip_s;                                  ///< relative slip [-] (shift: [m])
   std::vector<double> friction;
+  std::vector<double> dissipation;           ///< power of friction that becomes heat [W/m^2] (shift: work [J/m^2])
   std::vector<std::uint8_t> state;           ///< 0 exterior, 1 adhesion, 2 slip, 3 plastic
   std::vector<double> plastic_x, plastic_s;  ///< plastic shear of the interface layer [m]; empty without
   std::vector<double> yield_stress;          ///< of the interface layer [Pa]; empty without
@@ -115,7 +116,7 @@ struct CaseResult {
   /// Poses of the axes of the sampled surfaces in track axes: the wheel's are on its axle and turn with its pitch, the
   /// rail's are those of its profile, moved back by the wheelset's position along the track.
   struct Bodies {
-    Pose X_TW, X_TR;
+    Pose X_TA, X_TS;
   };
   std::optional<Bodies> bodies;
   std::string wheel_surface, rail_surface;  ///< names of sampled surfaces; empty = none

@@ -9,6 +9,8 @@
 #include <numbers>
 #include <utility>
 
+#include "treadmark/io/results/quantities.hpp"
+
 namespace treadmark::io {
 namespace {
 
@@ -22,11 +24,9 @@ class Table {
   void line(const std::string& text) { text_ += text + "\n"; }
 
   template <class Value>
-  void row(const char* label, const char* unit, const char* format, const std::vector<PatchResult>& patches,
-           Value value) {
+  void row(std::string_view label, const std::string& unit, const std::vector<PatchResult>& patches, Value value) {
     text_ += fmt::format("  {:<{}}{:<9}", label, kLabel, unit);
-    for (const PatchResult& patch : patches)
-      text_ += fmt::format("{:>{}}", fmt::format(fmt::runtime(format), value(patch)), kColumn);
+    for (const PatchResult& patch : patches) text_ += fmt::format("{:>{}}", value(patch), kColumn);
     text_ += "\n";
   }
 
@@ -47,6 +47,20 @@ std::string five_digits(double value) {
   const double size = std::abs(value);
   if (!(size >= 1e-3 && size < 1e9)) return fmt::format("{:.5g}", value);
   return fmt::format("{:.{}f}", value, std::max(0, 4 - static_cast<int>(std::floor(std::log10(size)))));
+}
+
+std::string in_digits(double value, Label::Digits digits) {
+  switch (digits) {
+    case Label::Digits::four_decimals:
+      return four_decimals(value);
+    case Label::Digits::five:
+      return five_digits(value);
+    case Label::Digits::four:
+      return fmt::format("{:.4g}", value);
+    case Label::Digits::whole:
+      return fmt::format("{}", static_cast<int>(value));
+  }
+  return {};
 }
 
 std::string three(double a, double b, double c) {
@@ -79,35 +93,18 @@ void add_patches(Table& table, const std::vector<PatchResult>& patches) {
   for (std::size_t i = 1; i <= patches.size(); ++i) heading += fmt::format("{:>{}}", i, kColumn);
   table.line(heading);
 
-  if (patches.front().has_reference) {
-    table.row("position x_tr", "[mm]", "{}", patches, [](const PatchResult& p) { return four_decimals(p.x_tr * 1e3); });
-    table.row("position y_tr", "[mm]", "{}", patches, [](const PatchResult& p) { return four_decimals(p.y_tr * 1e3); });
-    table.row("position z_tr", "[mm]", "{}", patches, [](const PatchResult& p) { return four_decimals(p.z_tr * 1e3); });
-    table.row("contact angle", "[deg]", "{}", patches,
-              [](const PatchResult& p) { return four_decimals(p.angle * kDegrees); });
-  }
   const bool shift = patches.front().shift;
-  table.row("normal force Fn", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fn); });
-  table.row("longitudinal force Fx", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fx); });
-  table.row("lateral force Fs", "[N]", "{}", patches, [](const PatchResult& p) { return five_digits(p.fs); });
-  table.row("spin moment Mn", "[N mm]", "{}", patches, [](const PatchResult& p) { return five_digits(p.mn * 1e3); });
-  table.row("approach", "[mm]", "{}", patches, [](const PatchResult& p) { return five_digits(p.approach * 1e3); });
-  table.row("largest pressure", "[MPa]", "{}", patches,
-            [](const PatchResult& p) { return five_digits(p.pmax * 1e-6); });
-  if (shift) {
-    table.row("shift x", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.xi * 1e3; });
-    table.row("shift s", "[mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.eta * 1e3; });
-    table.row("turn", "[rad]", "{:.4g}", patches, [](const PatchResult& p) { return p.phi; });
-  } else {
-    table.row("creepage xi", "[-]", "{:.4g}", patches, [](const PatchResult& p) { return p.xi; });
-    table.row("creepage eta", "[-]", "{:.4g}", patches, [](const PatchResult& p) { return p.eta; });
-    table.row("spin phi", "[rad/mm]", "{:.4g}", patches, [](const PatchResult& p) { return p.phi * 1e-3; });
-  }
-  table.row("elastic energy", "[J]", "{:.4g}", patches, [](const PatchResult& p) { return p.elastic_energy; });
-  table.row(shift ? "frictional work" : "frictional power", shift ? "[J]" : "[W]", "{:.4g}", patches,
-            [](const PatchResult& p) { return p.frictional_power; });
-  table.row("elements in contact", "", "{}", patches, [](const PatchResult& p) { return p.ncon; });
-  table.row("  adhesion / slip", "", "{}", patches,
+  for (const Block block : {Block::place, Block::angle, Block::force, Block::approach, Block::pressure, Block::creepage,
+                            Block::energy, Block::relative, Block::heat, Block::count})
+    for (const Quantity<PatchResult>& row : quantities<PatchResult>()) {
+      if (row.block != block || row.label.text.empty() || !has_block(patches.front(), block)) continue;
+      const Unit& unit = row.unit_in(shift);
+      table.row(shift && !row.label.in_shift.empty() ? row.label.in_shift : row.label.text,
+                unit.shown.empty() ? "" : fmt::format("[{}]", unit.shown), patches, [&](const PatchResult& p) {
+                  return row.has(p) ? in_digits(unit.to_shown(row.access.get(p)), row.label.digits) : "";
+                });
+    }
+  table.row("  adhesion / slip", "", patches,
             [](const PatchResult& p) { return fmt::format("{} / {}", p.nadh, p.nslip); });
 }
 

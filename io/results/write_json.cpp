@@ -2,12 +2,15 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/results/write_json.hpp"
 
+#include <algorithm>
 #include <cmath>
+#include <initializer_list>
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/files/twelve_digits.hpp"
+#include "treadmark/io/results/quantities.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -26,18 +29,20 @@ Json hashes(const std::vector<std::pair<std::string, std::string>>& files) {
   return list;
 }
 
-Json kinematics(const PatchResult& patch) {
-  Json out = Json::object();
-  if (patch.has_rolling) {
-    out["chi_rad"] = number(patch.chi);
-    out["dq_mm"] = number(patch.dq * kMilli);
-    out["velocity_mm_s"] = number(patch.velocity * kMilli);
+bool in_shift(const PatchResult& patch) { return patch.shift; }
+bool in_shift(const CaseResult&) { return false; }
+
+/// What is known of these blocks, in the order of the table.
+template <class T>
+void add_quantities(Json& out, const T& item, std::initializer_list<Block> blocks) {
+  for (const Quantity<T>& row : quantities<T>()) {
+    if (row.key.empty() || std::ranges::find(blocks, row.block) == blocks.end()) continue;
+    if (!has_block(item, row.block) || !row.has(item)) continue;
+    Json& target = row.object.empty() ? out : out[std::string(row.object)];
+    const double value = row.access.get(item);
+    target[std::string(row.key)] =
+        row.access.whole ? Json(static_cast<int>(value)) : number(row.unit_in(in_shift(item)).in_file(value));
   }
-  const double length = patch.shift ? kMilli : 1.0;
-  out["xi"] = number(patch.xi * length);
-  out["eta"] = number(patch.eta * length);
-  out["phi"] = number(patch.shift ? patch.phi : patch.phi / kMilli);  // rad, rolling: rad/mm
-  return out;
 }
 
 Json load_json(const Load& load) {
@@ -62,40 +67,11 @@ Json patch_json(const PatchResult& patch) {
     out["id"] = patch.id;
     out["came_from"] = patch.came_from;
   }
-  if (patch.has_reference)
-    out["reference"] = {{"x_tr_mm", number(patch.x_tr * kMilli)},       {"y_tr_mm", number(patch.y_tr * kMilli)},
-                        {"z_tr_mm", number(patch.z_tr * kMilli)},       {"angle_rad", number(patch.angle)},
-                        {"x_rail_mm", number(patch.x_rail * kMilli)},   {"y_rail_mm", number(patch.y_rail * kMilli)},
-                        {"z_rail_mm", number(patch.z_rail * kMilli)},   {"s_rail_mm", number(patch.s_rail * kMilli)},
-                        {"x_wheel_mm", number(patch.x_wheel * kMilli)}, {"y_wheel_mm", number(patch.y_wheel * kMilli)},
-                        {"z_wheel_mm", number(patch.z_wheel * kMilli)}, {"x_ws_mm", number(patch.x_wheelset * kMilli)},
-                        {"y_ws_mm", number(patch.y_wheelset * kMilli)}, {"z_ws_mm", number(patch.z_wheelset * kMilli)},
-                        {"angle_rail_rad", number(patch.angle_rail)},   {"angle_ws_rad", number(patch.angle_wheelset)},
-                        {"angle_wheel_rad", number(patch.angle_wheel)}};
-  out["kinematics"] = kinematics(patch);
-  out["xi"] = out["kinematics"]["xi"];
-  out["eta"] = out["kinematics"]["eta"];
-
-  out["fn_N"] = number(patch.fn);
-  out["fx_N"] = number(patch.fx);
-  out["fs_N"] = number(patch.fs);
-  out["mn_Nmm"] = number(patch.mn * kMilli);
-  out["elastic_energy_J"] = number(patch.elastic_energy);
-  out["frictional_power_W"] = number(patch.frictional_power);
-  if (patch.shift) out["frictional_work_J"] = number(patch.frictional_power);
-  out["fn_over_g_mm2"] = number(patch.fn / patch.shear_modulus * kMilli * kMilli);
-  out["fx_rel"] = number(patch.fx_relative);
-  out["fs_rel"] = number(patch.fs_relative);
-  out["approach_mm"] = number(patch.approach * kMilli);
-  out["pmax_MPa"] = number(patch.pmax * kMega);
-
+  add_quantities(out, patch,
+                 {Block::place, Block::angle, Block::arc, Block::rolling, Block::creepage, Block::force, Block::energy,
+                  Block::work, Block::relative, Block::approach, Block::pressure});
   if (patch.loads) out["loads"] = loads_json(*patch.loads);
-  if (patch.local) {
-    out["fn_tilde_N"] = number(patch.local->fn);
-    out["fx_tilde_N"] = number(patch.local->fx);
-    out["fs_tilde_N"] = number(patch.local->fs);
-  }
-
+  add_quantities(out, patch, {Block::local});
   if (patch.sensitivities) {
     const auto& s = *patch.sensitivities;
     out["sensitivities"] = {{"fx_by_xi", number(s.by_creepage[0][0])},    {"fs_by_xi", number(s.by_creepage[0][1])},
@@ -104,10 +80,7 @@ Json patch_json(const PatchResult& patch) {
                             {"fn_by_approach", number(s.by_approach[0])}, {"fx_by_approach", number(s.by_approach[1])},
                             {"fs_by_approach", number(s.by_approach[2])}};
   }
-  if (patch.max_temperature_1) out["max_temperature_1_C"] = number(*patch.max_temperature_1);
-  if (patch.max_temperature_2) out["max_temperature_2_C"] = number(*patch.max_temperature_2);
-
-  out["elements"] = {{"npot", patch.npot}, {"ncon", patch.ncon}, {"nadh", patch.nadh}, {"nslip", patch.nslip}};
+  add_quantities(out, patch, {Block::heat, Block::count});
   const Grid2& grid = patch.fields.grid;
   out["grid"] = {{"mx", grid.nx},
                  {"my", grid.ny},
@@ -125,46 +98,18 @@ Json patch_json(const PatchResult& patch) {
   return out;
 }
 
-void add_wheelset(Json& out, const CaseResult& result) {
-  out["wheelset"] = {{"s_mm", number(result.s * kMilli)}, {"y_mm", number(result.y * kMilli)},
-                     {"z_mm", number(result.z * kMilli)}, {"roll_rad", number(result.roll)},
-                     {"yaw_rad", number(result.yaw)},     {"pitch_rad", number(result.pitch)}};
-  out["wheelset_velocity"] = {{"vx_mm_s", number(result.vs * kMilli)}, {"vy_mm_s", number(result.vy * kMilli)},
-                              {"vz_mm_s", number(result.vz * kMilli)}, {"vroll_rad_s", number(result.vroll)},
-                              {"vyaw_rad_s", number(result.vyaw)},     {"vpitch_rad_s", number(result.vpitch)}};
-  Json forces = Json::object();
-  const auto add = [&](const char* const(&names)[3], const Vec3& values, double factor) {
-    for (int i = 0; i < 3; ++i) forces[names[i]] = number(values[i] * factor);
-  };
-  add({"fx_tr_N", "fy_tr_N", "fz_tr_N"}, result.force_tr, 1.0);
-  add({"fx_ws_N", "fy_ws_N", "fz_ws_N"}, result.force_ws, 1.0);
-  add({"mx_r_Nmm", "my_r_Nmm", "mz_r_Nmm"}, result.moment_rail, kMilli);
-  add({"mx_w_Nmm", "my_w_Nmm", "mz_w_Nmm"}, result.moment_wheel, kMilli);
-  out["force_on_rail"] = std::move(forces);
-  if (result.loads) out["loads"] = loads_json(*result.loads);
-  if (const auto& d = result.rail_deflection)
-    out["rail_deflection"] = {{"y_mm", number(d->x() * kMilli)}, {"z_mm", number(d->y() * kMilli)}};
-  if (const auto& r = result.roller)
-    out["roller"] = {{"nominal_radius_mm", number(r->nominal_radius * kMilli)},
-                     {"pitch_rate_rad_s", number(r->pitch_rate)}};
-}
-
 Json case_json(const CaseResult& result) {
   Json out = Json::object();
   out["case"] = result.number;
   out["status"] = std::string(to_string(result.status));
   out["message"] = result.message;
   out["seconds"] = number(result.seconds);
-  if (result.has_wheelset) add_wheelset(out, result);
-  out["timing"] = {{"search_s", number(result.search_s)},
-                   {"distance_s", number(result.distance_s)},
-                   {"normal_s", number(result.normal_s)},
-                   {"tangential_s", number(result.tangential_s)},
-                   {"total_s", number(result.seconds)}};
-  out["counts"] = {{"searches", result.searches},
-                   {"distances", result.distances},
-                   {"normal_solves", result.normal_solves},
-                   {"tangential_solves", result.tangential_solves}};
+  add_quantities(out, result, {Block::wheelset});
+  if (result.has_wheelset) {
+    if (result.loads) out["loads"] = loads_json(*result.loads);
+    add_quantities(out, result, {Block::deflection, Block::roller});
+  }
+  add_quantities(out, result, {Block::timing});
   out["force_iterations"] = Json::array();
   for (const auto& [z, fz] : result.force_iterations)
     out["force_iterations"].push_back(Json::array({number(z * kMilli), number(fz)}));

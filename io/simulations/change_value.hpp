@@ -4,7 +4,7 @@
 
 #include <string_view>
 
-#include "treadmark/io/cases/case_value.hpp"
+#include "treadmark/io/settings/toml_value.hpp"
 
 namespace treadmark::io {
 

@@ -60,15 +60,15 @@ void check_inertia(const TableReader& part, const BodySpec& body) {
 }
 
 void add_bodies(const CaseValue& table, std::vector<BodySpec>& bodies) {
-  const TableReader unnamed(table.table(), table.where, "bodies", kBodyKeys);
+  const TableReader unnamed(table.table(), table.where, "bodies", body_keys());
   const std::string name = part_name(unnamed);
-  const TableReader part(table.table(), table.where, "bodies." + name, kBodyKeys);
+  const TableReader part(table.table(), table.where, "bodies." + name, body_keys());
   BodySpec body;
   body.name = name;
   body.where = part.where();
-  body.mass = part.number("mass_kg", kPositive);
+  body.mass = part.number("mass_kg");
   body.free = free_directions(part);
-  body.inertia = part.triple("inertia_kg_m2", kNotNegative).value_or(Vec3::Zero());
+  body.inertia = part.triple("inertia_kg_m2").value_or(Vec3::Zero());
   check_inertia(part, body);
   part.exclude("position_m", "positions_m");
   if (part.find("positions_m") == nullptr) {

@@ -45,7 +45,7 @@ std::vector<Places> read_places(const TableReader& part, const std::vector<BodyS
   if (part.find("places") == nullptr) return {read_place(part, known)};
   std::vector<Places> all;
   for (const CaseValue* one : part.tables("places"))
-    all.push_back(read_place(TableReader(one->table(), one->where, part.path_of("places"), kPlaceKeys), known));
+    all.push_back(read_place(TableReader(one->table(), one->where, part.path_of("places"), place_keys()), known));
   if (all.empty())
     throw Error(ErrorKind::configuration, fmt::format("{} is empty", part.path_of("places")),
                 part.need("places").where);
@@ -77,8 +77,8 @@ void check_names(const std::vector<Part>& parts, std::string_view kind) {
 }
 
 SixValues six(const TableReader& part, std::string_view linear, std::string_view rotational) {
-  const Vec3 along = part.triple(linear, kNotNegative).value_or(Vec3::Zero());
-  const Vec3 about = part.triple(rotational, kNotNegative).value_or(Vec3::Zero());
+  const Vec3 along = part.triple(linear).value_or(Vec3::Zero());
+  const Vec3 about = part.triple(rotational).value_or(Vec3::Zero());
   return {along[0], along[1], along[2], about[0], about[1], about[2]};
 }
 
@@ -115,8 +115,8 @@ void check_characteristic(const TableReader& part, const BumpStopSpec& stop) {
 std::vector<SpringSpec> read_springs(const TableReader& document, const std::vector<BodySpec>& bodies) {
   std::vector<SpringSpec> springs;
   for (const CaseValue* table : document.tables("springs")) {
-    const std::string name = part_name(TableReader(table->table(), table->where, "springs", kSpringKeys));
-    const TableReader part(table->table(), table->where, "springs." + name, kSpringKeys);
+    const std::string name = part_name(TableReader(table->table(), table->where, "springs", spring_keys()));
+    const TableReader part(table->table(), table->where, "springs." + name, spring_keys());
     SpringSpec spring;
     spring.name = name;
     spring.where = part.where();
@@ -133,17 +133,17 @@ std::vector<SpringSpec> read_springs(const TableReader& document, const std::vec
 std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies) {
   std::vector<BumpStopSpec> stops;
   for (const CaseValue* table : document.tables("bump_stops")) {
-    const std::string name = part_name(TableReader(table->table(), table->where, "bump_stops", kBumpStopKeys));
-    const TableReader part(table->table(), table->where, "bump_stops." + name, kBumpStopKeys);
+    const std::string name = part_name(TableReader(table->table(), table->where, "bump_stops", bump_stop_keys()));
+    const TableReader part(table->table(), table->where, "bump_stops." + name, bump_stop_keys());
     BumpStopSpec stop;
     stop.name = name;
     stop.where = part.where();
-    const std::string direction = part.choice("direction", {"x", "y", "z"});
+    const std::string direction = part.text("direction");
     stop.direction = static_cast<Freedom>(direction.front() - 'x');
     part.need("displacement_mm");
     part.need("force_N");
-    stop.displacement = part.numbers("displacement_mm", kNotNegative);
-    stop.force = part.numbers("force_N", kNotNegative);
+    stop.displacement = part.numbers("displacement_mm");
+    stop.force = part.numbers("force_N");
     check_characteristic(part, stop);
     add_at(read_places(part, bodies), stop, stops);
   }

@@ -98,7 +98,7 @@ void read_models(const TableReader& simulation, const std::filesystem::path& fol
 
 /// With steps of more than an element the elements at the leading edge stick or slip at random.
 void choose_steps(const TableReader& simulation, SimulationFile& out) {
-  if (out.contact.regime == RegimeInput::transient && simulation.find("max_step_elements") == nullptr)
+  if (out.contact.regime == Regime::transient && simulation.find("max_step_elements") == nullptr)
     out.settings.max_step_elements = 1.0;
 }
 
@@ -109,7 +109,7 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
     return simulation.find(key) ? simulation.find(key)->where : simulation.where();
   };
   constexpr double kMostElements = 2.0;
-  if (out.contact.regime == RegimeInput::transient && s.max_step_elements > kMostElements)
+  if (out.contact.regime == Regime::transient && s.max_step_elements > kMostElements)
     throw Error(
         ErrorKind::configuration,
         fmt::format("simulation.max_step_elements = {:.6g}: steps of transient rolling must not exceed dt = 2 dx / V",
@@ -157,7 +157,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
                 simulation_table == nullptr ? top : simulation_table->value.where, "see docs/simulation-files.md");
 
   const TableReader simulation(simulation_table->value.table(), simulation_table->value.where, "simulation",
-                               kSimulationKeys);
+                               simulation_keys());
   result.settings = read_settings(simulation);
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);

@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/io/cases/case_value.hpp"
+#include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 
 namespace treadmark::io {

@@ -151,7 +151,7 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
     throw Error(ErrorKind::configuration, "[study] is missing, this is no study file",
                 table == nullptr ? SourcePosition{file.string(), 1, 1} : table->value.where,
                 "see docs/simulation-files.md");
-  const TableReader study(table->value.table(), table->value.where, "study", kStudyKeys);
+  const TableReader study(table->value.table(), table->value.where, "study", study_keys());
 
   StudyFile result;
   result.path = file;

@@ -28,7 +28,7 @@ void change_model(CaseTable& document, std::span<const CaseOverride> changes, co
 }
 
 /// Reader of the table that gives the model its name.
-TableReader main_table(const TableReader& document, const std::string& key, std::span<const std::string_view> known) {
+TableReader main_table(const TableReader& document, const std::string& key, const std::vector<KeyInfo>& known) {
   const CaseTable* table = document.table(key);
   if (table == nullptr)
     document.fail(fmt::format("[{0}] is missing, this is no {0} file", key), "see docs/simulation-files.md");
@@ -43,9 +43,8 @@ void scale(SixValues& values, double factor) {
 
 template <class Model>
 void scale_model(Model& model, const TableReader& table) {
-  const double mass = table.number_or("scale_mass", kPositive, 1.0),
-               stiffness = table.number_or("scale_stiffness", kPositive, 1.0),
-               damping = table.number_or("scale_damping", kNotNegative, 1.0);
+  const double mass = table.number_or("scale_mass", 1.0), stiffness = table.number_or("scale_stiffness", 1.0),
+               damping = table.number_or("scale_damping", 1.0);
   for (BodySpec& body : model.bodies) {
     body.mass *= mass;
     body.inertia *= mass;
@@ -61,8 +60,8 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
   std::vector<WheelsetSpec> wheelsets;
   std::set<std::string> seen;
   for (const CaseValue* one : document.tables("wheelsets")) {
-    const TableReader part(one->table(), one->where, "wheelsets", kWheelsetKeys);
-    WheelsetSpec wheelset{part.text("body"), part.number("nominal_radius_mm", kPositive)};
+    const TableReader part(one->table(), one->where, "wheelsets", wheelset_keys());
+    WheelsetSpec wheelset{part.text("body"), part.number("nominal_radius_mm")};
     const SourcePosition& where = part.need("body").where;
     check_name("wheelsets.body: the body", wheelset.body, names_of(bodies), where);
     if (!seen.insert(wheelset.body).second)
@@ -108,8 +107,8 @@ std::vector<CaseOverride> parsed(std::span<const std::string> overrides) {
 VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   CaseTable tables = parse_toml(text, name);
   change_model(tables, changes, "vehicle");
-  const TableReader document(tables, {name, 1, 1}, "", kVehicleTables);
-  const TableReader table = main_table(document, "vehicle", kVehicleKeys);
+  const TableReader document(tables, {name, 1, 1}, "", vehicle_tables());
+  const TableReader table = main_table(document, "vehicle", vehicle_keys());
   VehicleModel vehicle;
   vehicle.name = table.text("name");
   vehicle.bodies = read_bodies(document);
@@ -124,8 +123,8 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
 TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   CaseTable tables = parse_toml(text, name);
   change_model(tables, changes, "track");
-  const TableReader document(tables, {name, 1, 1}, "", kTrackTables);
-  const TableReader table = main_table(document, "track", kTrackKeys);
+  const TableReader document(tables, {name, 1, 1}, "", track_tables());
+  const TableReader table = main_table(document, "track", track_keys());
   TrackModel track;
   track.name = table.text("name");
   track.bodies = read_bodies(document);

@@ -115,7 +115,7 @@ void check_radius(const ContactPart& part, const SimulationFile& out) {
 void check_regime(const ContactPart& part, const SimulationFile& out) {
   const WheelRailCase& c = out.contact;
   const SourcePosition top{part.name.string(), 1, 1};
-  if (c.regime != RegimeInput::steady && c.regime != RegimeInput::transient)
+  if (c.regime != Regime::steady && c.regime != Regime::transient)
     throw Error(ErrorKind::configuration, "case.regime of a simulation must be \"steady\" or \"transient\"",
                 given_at(part, "case.regime").value_or(top), "wheels of a simulation roll");
 }

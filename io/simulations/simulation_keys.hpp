@@ -2,46 +2,54 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <string_view>
+#include <string>
+#include <vector>
+
+#include "treadmark/io/settings/key_list.hpp"
+#include "treadmark/io/simulations/simulation_model.hpp"
 
 namespace treadmark::io {
 
-/// The keys of vehicle, track, simulation and study files, table by table (docs/simulation-files.md).
+/// The keys of one table of vehicle, track, simulation and study files, by name. The reader (TableReader), the schemas
+/// and docs/simulation-files.md come from them. Immutable; safe to use from several threads.
+using TableKeys = std::vector<KeyInfo>;
 
-inline constexpr std::string_view kVehicleTables[] = {"vehicle", "bodies", "springs", "bump_stops", "wheelsets"};
-inline constexpr std::string_view kTrackTables[] = {"track", "bodies", "springs"};
-inline constexpr std::string_view kVehicleKeys[] = {"name", "source", "scale_mass", "scale_stiffness", "scale_damping"};
-inline constexpr std::string_view kTrackKeys[] = {"name",       "source",          "rails",
-                                                  "scale_mass", "scale_stiffness", "scale_damping"};
-inline constexpr std::string_view kBodyKeys[] = {"name",       "mass_kg",     "inertia_kg_m2",
-                                                 "position_m", "positions_m", "free"};
-inline constexpr std::string_view kPlaceKeys[] = {"between", "at_m"};
-inline constexpr std::string_view kSpringKeys[] = {"name",
-                                                   "between",
-                                                   "at_m",
-                                                   "places",
-                                                   "stiffness_N_per_m",
-                                                   "damping_N_s_per_m",
-                                                   "damper_stiffness_N_per_m",
-                                                   "rotational_stiffness_N_m_per_rad",
-                                                   "rotational_damping_N_m_s_per_rad",
-                                                   "rotational_damper_stiffness_N_m_per_rad"};
-inline constexpr std::string_view kBumpStopKeys[] = {"name",      "between",         "at_m",   "places",
-                                                     "direction", "displacement_mm", "force_N"};
-inline constexpr std::string_view kWheelsetKeys[] = {"body", "nominal_radius_mm"};
+inline constexpr double kMostValues = 10000;  ///< of a variation, and runs of a study
 
-inline constexpr std::string_view kSimulationKeys[] = {
-    "vehicle",         "track",       "speed_m_s",   "distance_m",        "duration_s",      "gravity_m_s2",
-    "tolerance_um",    "max_step_us", "min_step_us", "max_step_elements", "spectral_radius", "checkpoint_s",
-    "output_every_mm", "fields",      "wheels",      "other_wheel"};
-inline constexpr std::string_view kFieldKeys[] = {"pitch_deg", "position_m"};
-inline constexpr std::string_view kWheelKeys[] = {"wheelset", "side", "contact", "defects", "pitch_deg"};
+/// The tables of vehicle and of track files, with the keys of each.
+const TableKeys& vehicle_tables();
+const TableKeys& track_tables();
+const TableKeys& vehicle_keys();
+const TableKeys& track_keys();
+const TableKeys& body_keys();
+const TableKeys& place_keys();
+const TableKeys& spring_keys();
+const TableKeys& bump_stop_keys();
+const TableKeys& wheelset_keys();
 
-inline constexpr std::string_view kStudyKeys[] = {"title", "base", "vary", "figures"};
-inline constexpr std::string_view kVaryKeys[] = {"key", "label", "values", "from", "to", "count", "spacing"};
-inline constexpr std::string_view kVaryValueKeys[] = {"label", "set"};
-inline constexpr std::string_view kFigureKeys[] = {"file",    "kind",    "title",  "x",      "y",    "x_label",
-                                                   "y_label", "x_range", "series", "labels", "only", "mark"};
-inline constexpr std::string_view kMarkKeys[] = {"x", "y", "label"};
+/// Keys of [simulation] that are one member of SimulationSettings each, in the order in which they are read.
+const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys();
+/// All keys of [simulation], and those of its tables.
+const TableKeys& simulation_keys();
+const TableKeys& field_keys();
+const TableKeys& wheel_keys();
+
+const TableKeys& study_keys();
+const TableKeys& vary_keys();
+const TableKeys& vary_value_keys();
+const TableKeys& figure_keys();
+const TableKeys& mark_keys();
+
+/// JSON Schemas (draft 2020-12) of the files.
+std::string vehicle_file_schema();
+std::string track_file_schema();
+std::string simulation_file_schema();
+std::string study_file_schema();
+
+/// All keys as Markdown tables (docs/simulation-files.md); tables that a track shares with a vehicle once.
+std::string vehicle_key_table();
+std::string track_key_table();
+std::string simulation_key_table();
+std::string study_key_table();
 
 }  // namespace treadmark::io

@@ -20,16 +20,15 @@ namespace {
 
 double read_speed(const TableReader& simulation) {
   const CaseValue& value = simulation.need("speed_m_s", "a simulation needs a speed");
-  constexpr KeyLimits kSpeeds{{}, 0.0, 1000.0};
-  const double speed = simulation.number("speed_m_s", kSpeeds);
+  const double speed = simulation.number("speed_m_s");
   if (!(speed > 0.0))
     throw Error(ErrorKind::configuration, "simulation.speed_m_s = 0: a simulation needs a speed", value.where,
                 "for a wheel that stands still use a case file");
   return speed;
 }
 
-std::vector<double> increasing(const TableReader& fields, std::string_view key, KeyLimits limits) {
-  const std::vector<double> values = fields.numbers(key, limits);
+std::vector<double> increasing(const TableReader& fields, std::string_view key) {
+  const std::vector<double> values = fields.numbers(key);
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end())
     throw Error(ErrorKind::configuration, fmt::format("{} must increase", fields.path_of(key)), fields.need(key).where);
   return values;
@@ -37,17 +36,16 @@ std::vector<double> increasing(const TableReader& fields, std::string_view key, 
 
 WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
   WheelContactInput wheel;
-  wheel.wheelset = table.integer("wheelset", 1, 1e6) - 1;
+  wheel.wheelset = table.integer("wheelset") - 1;
   if (static_cast<std::size_t>(wheel.wheelset) >= wheelsets)
     throw Error(ErrorKind::configuration,
                 fmt::format("simulation.wheels.wheelset = {}, but the vehicle has {} wheelset{}", wheel.wheelset + 1,
                             wheelsets, wheelsets == 1 ? "" : "s"),
                 table.need("wheelset").where, "wheelsets count from 1, the leading one");
-  wheel.side = table.choice("side", {"left", "right"}) == "left" ? Side::left : Side::right;
-  wheel.model =
-      table.choice("contact", {"full", "table"}) == "full" ? ContactModelInput::full : ContactModelInput::table;
+  wheel.side = table.text("side") == "left" ? Side::left : Side::right;
+  wheel.model = table.text("contact") == "full" ? ContactModelInput::full : ContactModelInput::table;
   wheel.defects = table.flag_or("defects", true);
-  wheel.pitch = table.number_if("pitch_deg", kAnyNumber);
+  wheel.pitch = table.number_if("pitch_deg");
   return wheel;
 }
 
@@ -58,30 +56,24 @@ SimulationSettings read_settings(const TableReader& simulation) {
   s.speed = read_speed(simulation);
   simulation.exclude("distance_m", "duration_s");
   if (simulation.find("duration_s") != nullptr) {
-    s.duration = simulation.number("duration_s", kPositive);
+    s.duration = simulation.number("duration_s");
     s.distance = s.duration * s.speed;
   } else {
     simulation.need("distance_m", "say how far, distance_m, or how long, duration_s");
-    s.distance = simulation.number("distance_m", kPositive);
+    s.distance = simulation.number("distance_m");
     s.duration = s.distance / s.speed;
   }
   if (!std::isfinite(s.duration) || !std::isfinite(s.distance)) simulation.fail("the simulation has no end");
-  s.gravity = simulation.number_or("gravity_m_s2", kPositive, s.gravity);
-  s.tolerance = simulation.number_or("tolerance_um", kPositive, s.tolerance);
-  s.max_step = simulation.number_if("max_step_us", kPositive);
-  s.min_step = simulation.number_or("min_step_us", kPositive, s.min_step);
-  s.max_step_elements = simulation.number_or("max_step_elements", kPositive, s.max_step_elements);
-  s.spectral_radius = simulation.number_or("spectral_radius", {{}, 0.0, 1.0}, s.spectral_radius);
-  s.checkpoint = simulation.number_or("checkpoint_s", kPositive, s.checkpoint);
-  s.output_every = simulation.number_or("output_every_mm", kNotNegative, s.output_every);
+  for (const SettingKey<SimulationSettings>& key : plain_setting_keys())
+    if (const CaseValue* value = simulation.checked_if(key.info.path)) key.set(s, *value, {});
   return s;
 }
 
 FieldRequests read_fields(const TableReader& simulation) {
   const CaseTable* table = simulation.table("fields");
   if (table == nullptr) return {};
-  const TableReader fields(*table, simulation.need("fields").where, simulation.path_of("fields"), kFieldKeys);
-  return {increasing(fields, "pitch_deg", kAnyNumber), increasing(fields, "position_m", kNotNegative)};
+  const TableReader fields(*table, simulation.need("fields").where, simulation.path_of("fields"), field_keys());
+  return {increasing(fields, "pitch_deg"), increasing(fields, "position_m")};
 }
 
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets) {
@@ -92,7 +84,7 @@ std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::s
   }
   std::vector<bool> given(wheels.size());
   for (const CaseValue* one : simulation.tables("wheels")) {
-    const TableReader table(one->table(), one->where, simulation.path_of("wheels"), kWheelKeys);
+    const TableReader table(one->table(), one->where, simulation.path_of("wheels"), wheel_keys());
     const WheelContactInput wheel = read_wheel(table, wheelsets);
     const std::size_t index = 2 * static_cast<std::size_t>(wheel.wheelset) + (wheel.side == Side::left ? 0 : 1);
     if (given[index])

@@ -14,15 +14,15 @@ namespace {
 std::vector<FigureMark> read_marks(const TableReader& figure) {
   std::vector<FigureMark> marks;
   for (const CaseValue* one : figure.tables("mark")) {
-    const TableReader table(one->table(), one->where, figure.path_of("mark"), kMarkKeys);
-    marks.push_back({table.number("x", kAnyNumber), table.number("y", kAnyNumber), table.text_or("label", {})});
+    const TableReader table(one->table(), one->where, figure.path_of("mark"), mark_keys());
+    marks.push_back({table.number("x"), table.number("y"), table.text_or("label", {})});
   }
   return marks;
 }
 
 std::optional<std::array<double, 2>> read_range(const TableReader& figure) {
   if (figure.find("x_range") == nullptr) return std::nullopt;
-  const std::vector<double> range = figure.numbers("x_range", kAnyNumber);
+  const std::vector<double> range = figure.numbers("x_range");
   if (range.size() != 2 || !(range[0] < range[1]))
     throw Error(ErrorKind::configuration, fmt::format("{} must be two increasing numbers", figure.path_of("x_range")),
                 figure.need("x_range").where);
@@ -93,7 +93,7 @@ StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& 
     throw Error(ErrorKind::configuration,
                 fmt::format("{} = '{}' must end with .svg", table.path_of("file"), figure.file.string()),
                 table.need("file").where);
-  const std::string kind = table.choice("kind", {"history", "summary", "patches"});
+  const std::string kind = table.text("kind");
   figure.kind = kind == "history" ? Kind::history : kind == "summary" ? Kind::summary : Kind::patches;
   if (figure.kind != Kind::patches) {
     table.need("x", "the column along the axis");
@@ -118,7 +118,7 @@ StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& 
 std::vector<StudyFigure> read_figures(const TableReader& study, const std::vector<Variation>& variations) {
   std::vector<StudyFigure> figures;
   for (const CaseValue* one : study.tables("figures")) {
-    const TableReader table(one->table(), one->where, study.path_of("figures"), kFigureKeys);
+    const TableReader table(one->table(), one->where, study.path_of("figures"), figure_keys());
     figures.push_back(read_figure(table, variations));
     const auto same = [&](const StudyFigure& figure) { return figure.file == figures.back().file; };
     if (std::count_if(figures.begin(), figures.end(), same) > 1)

@@ -14,8 +14,6 @@ namespace treadmark::io {
 
 namespace {
 
-constexpr double kMostValues = 10000;
-
 std::string quoted(const std::string& text) {
   std::string result = "\"";
   for (const char c : text) {
@@ -57,7 +55,7 @@ VariedValue single_value(const std::string& key, const CaseValue& value) {
 
 /// { label = "FASTSIM", set = ["solver.tangential_model=fastsim", ...] }
 VariedValue set_of_keys(const CaseValue& value, const std::string& path) {
-  const TableReader table(value.table(), value.where, path, kVaryValueKeys);
+  const TableReader table(value.table(), value.where, path, vary_value_keys());
   VariedValue result;
   result.where = value.where;
   result.label = table.text("label");
@@ -95,13 +93,12 @@ std::vector<VariedValue> listed_values(const TableReader& table, const std::stri
 
 std::vector<VariedValue> spaced_values(const TableReader& table, const std::string& key) {
   if (key.empty()) table.fail(fmt::format("{} is missing", table.path_of("key")), "name the key that has these values");
-  const bool logarithmic =
-      table.find("spacing") != nullptr && table.choice("spacing", {"linear", "logarithmic"}) == "logarithmic";
+  const bool logarithmic = table.find("spacing") != nullptr && table.text("spacing") == "logarithmic";
   table.need("to", "from, to and count belong together");
   table.need("count", "from, to and count belong together");
   const KeyLimits limits = logarithmic ? kPositive : kAnyNumber;
   const double from = table.number("from", limits), to = table.number("to", limits);
-  const int count = table.integer("count", 2, kMostValues);
+  const int count = table.integer("count");
   std::vector<VariedValue> values;
   for (int i = 0; i < count; ++i) {
     const double share = static_cast<double>(i) / (count - 1);
@@ -136,7 +133,7 @@ std::vector<Variation> read_variations(const TableReader& study) {
   std::vector<Variation> variations;
   std::set<std::string> seen;
   for (const CaseValue* one : study.tables("vary")) {
-    const TableReader table(one->table(), one->where, study.path_of("vary"), kVaryKeys);
+    const TableReader table(one->table(), one->where, study.path_of("vary"), vary_keys());
     variations.push_back(read_variation(table));
     std::set<std::string> keys;
     for (const VariedValue& value : variations.back().values)

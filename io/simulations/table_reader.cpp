@@ -6,16 +6,32 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/cases/nearest_key.hpp"
+#include "treadmark/io/settings/nearest_key.hpp"
 
 namespace treadmark::io {
+namespace {
+
+/// Three numbers of a list. Error(configuration) at the value.
+Vec3 triple_of(KeyInfo info, const CaseValue& value) {
+  info.type = KeyType::triple;
+  check_value(info, value);
+  if (value.list().size() != 3)
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} has {} numbers, it needs 3: x, y, z", info.path, value.list().size()), value.where);
+  const std::vector<double> numbers = numbers_of(value, unit_of_key(info.path));
+  return {numbers[0], numbers[1], numbers[2]};
+}
+
+}  // namespace
 
 TableReader::TableReader(const CaseTable& table, SourcePosition where, std::string path,
-                         std::span<const std::string_view> known)
+                         const std::vector<KeyInfo>& known)
     : table_(table), where_(std::move(where)), path_(std::move(path)), known_(known) {
+  std::vector<std::string> names;
+  for (const KeyInfo& key : known_) names.push_back(key.path);
   for (const CaseEntry& entry : table_) {
-    if (std::find(known_.begin(), known_.end(), entry.key) != known_.end()) continue;
-    const std::string near = nearest_key(entry.key, std::vector<std::string>(known_.begin(), known_.end()));
+    if (std::find(names.begin(), names.end(), entry.key) != names.end()) continue;
+    const std::string near = nearest_key(entry.key, names);
     throw Error(
         ErrorKind::configuration, fmt::format("unknown key '{}'", path_of(std::string_view(entry.key).substr(0, 100))),
         entry.key_where,
@@ -69,65 +85,54 @@ std::vector<const CaseValue*> TableReader::tables(std::string_view key) const {
   return result;
 }
 
-KeyInfo TableReader::info(std::string_view key, KeyType type, KeyLimits limits) const {
-  KeyInfo result = key_info(path_of(key), type, {});
-  result.above = limits.above;
-  result.at_least = limits.at_least;
-  result.at_most = limits.at_most;
+KeyInfo TableReader::info(std::string_view key) const {
+  KeyInfo result = *std::find_if(known_.begin(), known_.end(), [&](const KeyInfo& one) { return one.path == key; });
+  result.path = path_of(key);
   return result;
 }
 
-double TableReader::number(std::string_view key, KeyLimits limits) const {
-  const CaseValue& value = need(key);
-  check_value(info(key, KeyType::number, limits), value);
-  return value.number() * unit_of_key(key);
+const CaseValue* TableReader::checked_if(std::string_view key) const {
+  return find(key) == nullptr ? nullptr : &checked(key);
 }
 
-std::optional<double> TableReader::number_if(std::string_view key, KeyLimits limits) const {
+const CaseValue& TableReader::checked(std::string_view key) const {
+  const CaseValue& value = need(key);
+  check_value(info(key), value);
+  return value;
+}
+
+double TableReader::number(std::string_view key) const { return checked(key).number() * unit_of_key(key); }
+
+double TableReader::number(std::string_view key, const KeyLimits& limits) const {
+  check_value(key_info(path_of(key), KeyType::number, {}, limits), need(key));
+  return number(key);
+}
+
+std::optional<double> TableReader::number_if(std::string_view key) const {
   if (find(key) == nullptr) return std::nullopt;
-  return number(key, limits);
+  return number(key);
 }
 
-double TableReader::number_or(std::string_view key, KeyLimits limits, double otherwise) const {
-  return number_if(key, limits).value_or(otherwise);
+double TableReader::number_or(std::string_view key, double otherwise) const {
+  return number_if(key).value_or(otherwise);
 }
 
-int TableReader::integer(std::string_view key, double least, double most) const {
-  const CaseValue& value = need(key);
-  check_value(info(key, KeyType::integer, {{}, least, most}), value);
-  return static_cast<int>(value.integer());
-}
+int TableReader::integer(std::string_view key) const { return static_cast<int>(checked(key).integer()); }
 
 bool TableReader::flag_or(std::string_view key, bool otherwise) const {
-  const CaseValue* value = find(key);
-  if (value == nullptr) return otherwise;
-  check_value(info(key, KeyType::flag), *value);
-  return value->flag();
+  const CaseValue* value = checked_if(key);
+  return value == nullptr ? otherwise : value->flag();
 }
 
-std::string TableReader::text(std::string_view key) const {
-  const CaseValue& value = need(key);
-  check_value(info(key, KeyType::text), value);
-  return value.text();
-}
+std::string TableReader::text(std::string_view key) const { return checked(key).text(); }
 
 std::string TableReader::text_or(std::string_view key, std::string otherwise) const {
   return find(key) == nullptr ? std::move(otherwise) : text(key);
 }
 
-std::string TableReader::choice(std::string_view key, std::vector<std::string> choices) const {
-  const CaseValue& value = need(key);
-  KeyInfo word = info(key, KeyType::choice);
-  word.choices = std::move(choices);
-  check_value(word, value);
-  return value.text();
-}
-
-std::vector<double> TableReader::numbers(std::string_view key, KeyLimits limits) const {
-  const CaseValue* value = find(key);
-  if (value == nullptr) return {};
-  check_value(info(key, KeyType::number_list, limits), *value);
-  return numbers_of(*value, unit_of_key(key));
+std::vector<double> TableReader::numbers(std::string_view key) const {
+  const CaseValue* value = checked_if(key);
+  return value == nullptr ? std::vector<double>{} : numbers_of(*value, unit_of_key(key));
 }
 
 std::vector<std::string> TableReader::words(std::string_view key) const {
@@ -146,10 +151,10 @@ std::vector<std::string> TableReader::words(std::string_view key) const {
   return result;
 }
 
-std::optional<Vec3> TableReader::triple(std::string_view key, KeyLimits limits) const {
+std::optional<Vec3> TableReader::triple(std::string_view key) const {
   const CaseValue* value = find(key);
   if (value == nullptr) return std::nullopt;
-  return triple_of(path_of(key), *value, unit_of_key(key), limits);
+  return triple_of(info(key), *value);
 }
 
 std::vector<Vec3> TableReader::points(std::string_view key) const {
@@ -159,7 +164,7 @@ std::vector<Vec3> TableReader::points(std::string_view key) const {
     throw Error(ErrorKind::configuration, fmt::format("{} must be a list of points, [[x, y, z], ...]", path_of(key)),
                 list->where);
   std::vector<Vec3> result;
-  for (const CaseValue& one : list->list()) result.push_back(triple_of(path_of(key), one, unit_of_key(key)));
+  for (const CaseValue& one : list->list()) result.push_back(triple_of(info(key), one));
   return result;
 }
 
@@ -168,19 +173,6 @@ void TableReader::exclude(std::string_view one, std::string_view other) const {
   if (find(one) != nullptr && second != nullptr)
     throw Error(ErrorKind::configuration, fmt::format("{} and {} exclude each other", path_of(one), path_of(other)),
                 second->where, "give one of them");
-}
-
-Vec3 triple_of(const std::string& path, const CaseValue& value, double unit, KeyLimits limits) {
-  KeyInfo info = key_info(path, KeyType::number_list, {});
-  info.above = limits.above;
-  info.at_least = limits.at_least;
-  info.at_most = limits.at_most;
-  check_value(info, value);
-  if (value.list().size() != 3)
-    throw Error(ErrorKind::configuration,
-                fmt::format("{} has {} numbers, it needs 3: x, y, z", path, value.list().size()), value.where);
-  const std::vector<double> numbers = numbers_of(value, unit);
-  return {numbers[0], numbers[1], numbers[2]};
 }
 
 void check_name(std::string_view what, const std::string& name, std::span<const std::string> known,

@@ -9,19 +9,19 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/io/cases/case_value.hpp"
-#include "treadmark/io/cases/key_builder.hpp"
+#include "treadmark/io/settings/key_info.hpp"
 
 namespace treadmark::io {
 
-/// One table of a file, all of whose keys are known. Values come with their type and range checked, and numbers in SI
-/// units by the ending of their key (unit_of_key). Refers to the table, which must outlive it. Errors of all functions:
+/// One table of a file, all of whose keys are known. Values come with type and range checked as their keys say, and
+/// numbers in SI units by the ending of their key (unit_of_key). Refers to table and keys, which must outlive it; only
+/// keys that are known may be asked for. Errors of all functions:
 /// Error(configuration) at the place of the value, of a missing one at that of the table.
 class TableReader {
  public:
   /// path: of the table in messages, "" = top of the file. Refuses keys that are not among known, with the nearest one
   /// that is.
-  TableReader(const CaseTable& table, SourcePosition where, std::string path, std::span<const std::string_view> known);
+  TableReader(const CaseTable& table, SourcePosition where, std::string path, const std::vector<KeyInfo>& known);
 
   const SourcePosition& where() const { return where_; }
   const std::string& path() const { return path_; }
@@ -34,20 +34,22 @@ class TableReader {
   /// The tables of a list [[key]]; none without it.
   std::vector<const CaseValue*> tables(std::string_view key) const;
 
-  double number(std::string_view key, KeyLimits limits) const;
-  std::optional<double> number_if(std::string_view key, KeyLimits limits) const;
-  double number_or(std::string_view key, KeyLimits limits, double otherwise) const;
-  int integer(std::string_view key, double least, double most) const;
+  /// The value, checked, or null without it.
+  const CaseValue* checked_if(std::string_view key) const;
+  double number(std::string_view key) const;
+  /// Within limits that another key decides.
+  double number(std::string_view key, const KeyLimits& limits) const;
+  std::optional<double> number_if(std::string_view key) const;
+  double number_or(std::string_view key, double otherwise) const;
+  int integer(std::string_view key) const;
   bool flag_or(std::string_view key, bool otherwise) const;
   std::string text(std::string_view key) const;
   std::string text_or(std::string_view key, std::string otherwise) const;
-  /// One of some words.
-  std::string choice(std::string_view key, std::vector<std::string> choices) const;
   /// Empty without the key.
-  std::vector<double> numbers(std::string_view key, KeyLimits limits) const;
+  std::vector<double> numbers(std::string_view key) const;
   std::vector<std::string> words(std::string_view key) const;
   /// Three numbers, or null without the key.
-  std::optional<Vec3> triple(std::string_view key, KeyLimits limits = kAnyNumber) const;
+  std::optional<Vec3> triple(std::string_view key) const;
   /// A list of three numbers each.
   std::vector<Vec3> points(std::string_view key) const;
   /// Refuses that both are given.
@@ -56,16 +58,15 @@ class TableReader {
   [[noreturn]] void fail(std::string message, std::string advice = {}) const;
 
  private:
-  KeyInfo info(std::string_view key, KeyType type, KeyLimits limits = kAnyNumber) const;
+  /// What is known of a key, with its whole path.
+  KeyInfo info(std::string_view key) const;
+  const CaseValue& checked(std::string_view key) const;
 
   const CaseTable& table_;
   SourcePosition where_;
   std::string path_;
-  std::span<const std::string_view> known_;
+  const std::vector<KeyInfo>& known_;
 };
-
-/// Three numbers of a list. path: in messages. Error(configuration) at the value.
-Vec3 triple_of(const std::string& path, const CaseValue& value, double unit, KeyLimits limits = kAnyNumber);
 
 /// Error(configuration) for a name that is not among known, with the nearest one: "<what> 'bogi' is not known (did you
 /// mean 'bogie'?)".

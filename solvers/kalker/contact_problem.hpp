@@ -4,7 +4,6 @@
 
 #include <array>
 #include <cstdint>
-#include <memory>
 #include <optional>
 #include <span>
 #include <vector>
@@ -12,10 +11,18 @@
 #include "treadmark/core/friction.hpp"
 #include "treadmark/core/grid.hpp"
 #include "treadmark/core/material.hpp"
-#include "treadmark/core/numerical_influence.hpp"
 #include "treadmark/core/report.hpp"
+#include "treadmark/model/contact_settings.hpp"
 
 namespace treadmark::kalker {
+
+using treadmark::FastsimSettings;
+using treadmark::HistoryUse;
+using treadmark::InfluenceSettings;
+using treadmark::NormalModel;
+using treadmark::Regime;
+using treadmark::SolverSettings;
+using treadmark::TangentialModel;
 
 /// One contact patch on a regular grid of constant-traction elements in the contact plane (x rolling, y lateral, n into
 /// body 1). Tractions and forces act on body 1 (the rail); slip and creepage are body 1 minus body 2. See
@@ -23,20 +30,6 @@ namespace treadmark::kalker {
 
 /// plastic: the interface layer shears plastically without slip
 enum class ElementState : std::uint8_t { exterior = 0, adhesion = 1, slip = 2, plastic = 3 };
-
-/// Pressure distribution: solved; assumed from the Hertz ellipse of the problem; approximated from the gap at a given
-/// approach.
-enum class NormalModel { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
-
-enum class TangentialModel { full, fastsim, fastsim_one_flexibility, fastrip };
-
-/// Which tangential problem is solved.
-enum class Regime {
-  frictionless,  ///< normal problem only
-  shift,         ///< a finite shift; creepages are lengths and an angle; starts where the history ends
-  transient,     ///< a step of rolling from where the history ends
-  steady,        ///< steady rolling
-};
 
 struct Creepage {
   double xi = 0.0, eta = 0.0;         ///< [-], shift: [m]
@@ -51,31 +44,6 @@ struct Rolling {
   double spin_offset_factor = 1.0 / 6.0;  ///< share of dq by which the spin centre is shifted for rolling
 };
 
-/// FASTSIM with slope reduction (Spiryagin et al. 2013).
-struct FastsimSettings {
-  double k0 = 1.0, alpha = 1.0, beta = 1.0;
-  double flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
-};
-
-/// Where coefficients of influence come from.
-struct InfluenceSettings {
-  enum class Kind { constant, bilinear, angle_corrected, table };
-  Kind kind = Kind::constant;
-  /// angle_corrected: inclination of the surface [rad] at positions along y [m] (Vollebregt 2018)
-  std::vector<double> position, inclination;
-  int variant = 4;
-  bool linear = true;                               ///< one straight line through the table, else the table row by row
-  std::shared_ptr<const NumericalInfluence> table;  ///< table: numerical coefficients
-};
-
-/// What is carried from one case to the next.
-enum class HistoryUse {
-  start,         ///< nothing: the bodies come together from rest
-  keep_going,    ///< the last solution is the previous instant
-  normal_only,   ///< of the last solution only the normal part
-  same_instant,  ///< the previous instant stays what it was: the case is solved again
-};
-
 /// Hertz ellipse known beforehand: h = A x^2 + B y^2.
 struct HertzShape {
   double curvature_x = 0.0, curvature_y = 0.0;  ///< A, B [1/m]
@@ -83,28 +51,6 @@ struct HertzShape {
   /// Semi-double-elliptic: semi-axes of the half ellipses towards -y and +y, b is their mean; else 0.
   double semi_axis_y_minus = 0.0, semi_axis_y_plus = 0.0;
   double approach = 0.0, force = 0.0;  ///< [m], [N]
-};
-
-struct SolverSettings {
-  enum class Method {
-    automatic,
-    sweeps
-  };                         ///< sweeps: over single elements, slow; an independent check (tangential problem)
-  double eps = 1e-5;         ///< relative accuracy of tractions
-  int max_iterations = 999;  ///< inner iterations per solve
-  int max_outer = 100;       ///< active-set corrections, friction iterations
-  int max_force = 30;        ///< iterations on a prescribed tangential force
-  int max_coupling = 30;     ///< rounds of normal and tangential problem for dissimilar bodies; 1: the tangential
-                             ///< tractions do not act on the normal problem
-  Method method = Method::automatic;
-  /// Falling friction: slip speeds that the iteration starts from. below: none, above: the rolling velocity, last:
-  /// those of the last solution.
-  enum class FirstSlip { below, above, last };
-  FirstSlip first_slip = FirstSlip::last;
-  /// As the reference program (CONTACT) has it: displacements, and the elastic energy with them, of parts of a patch
-  /// are those of full elastic influence. In KPEC and ANALYN parts are not told apart; KPEC lets ends of rows that lie
-  /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
-  bool reference_quirks = false;
 };
 
 /// Parts of a patch that lie apart: elastic influence across is scaled, so that patches come together without a jump.

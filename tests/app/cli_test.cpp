@@ -39,6 +39,12 @@ TEST(CommandLine, ListsAndSchema) {
   const ProgramResult schema = run_program({"schema"});
   EXPECT_EQ(schema.status, 0);
   EXPECT_THAT(schema.out, HasSubstr("json-schema.org"));
+  EXPECT_EQ(run_program({"schema", "case"}).out, schema.out);
+  EXPECT_THAT(run_program({"schema", "import"}).out, HasSubstr("hole_limit_mm"));
+  EXPECT_THAT(run_program({"schema", "simulation"}).out, HasSubstr("max_step_elements"));
+  EXPECT_EQ(run_program({"schema", "wishes"}).status, 2);
+  EXPECT_EQ(run_program({"list", "verbs"}).out,
+            "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\nreport\nplot\ncheck\nlist\nschema\n");
 }
 
 TEST(CommandLine, CheckReadsWithoutSolving) {

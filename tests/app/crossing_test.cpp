@@ -26,7 +26,7 @@ io::CaseFile passage(double from, double to, double step) {
   for (int i = 0; i <= steps; ++i) {
     file.cases.push_back(first);
     file.cases.back().number = i + 1;
-    std::get<io::WheelRailCase>(file.cases.back().content).wheelset.s = from + i * step;
+    std::get<io::WheelRailCase>(file.cases.back().content).state.position.x = from + i * step;
   }
   return file;
 }

@@ -38,7 +38,7 @@ TEST(RunCases, ThreadsDoNotChangeABit) {
   io::CaseFile file = io::read_any_case(input.inp(), {});
   while (file.cases.size() < 8) {
     file.cases.push_back(file.cases.back());
-    std::get<io::WheelRailCase>(file.cases.back().content).wheelset.y += 5e-4;
+    std::get<io::WheelRailCase>(file.cases.back().content).state.position.y += 5e-4;
   }
   const auto run_with = [&](int threads) {
     const ThreadLimit limit(threads);

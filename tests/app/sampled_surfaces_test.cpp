@@ -85,7 +85,7 @@ void expect_contacts_on_surfaces(const io::RunResult& result) {
       SCOPED_TRACE("case " + std::to_string(c.number));
       ++patches;
       const Vec3 reference(p.x_tr, p.y_tr, p.z_tr);
-      const Vec3 on_wheel = c.bodies->X_TW.apply_inverse(reference), on_rail = c.bodies->X_TR.apply_inverse(reference);
+      const Vec3 on_wheel = c.bodies->X_TA.apply_inverse(reference), on_rail = c.bodies->X_TS.apply_inverse(reference);
       const int station = nearest_station(wheel, std::atan2(on_wheel.x(), on_wheel.z()));
       const double theta = std::atan2(on_wheel.x(), on_wheel.z());
       EXPECT_NEAR(wheel.u[static_cast<std::size_t>(station)], theta, 0.6e-3 / kRadius) << "dense at contacts";

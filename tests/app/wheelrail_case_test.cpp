@@ -18,11 +18,11 @@ TEST(ToProblem, CarriesEverySetting) {
   io::WheelRailCase c;
   c.roller = {-0.5, 12.0};
   c.longitudinal_force = -3e3;
-  c.rail_springs = io::RailSpringsInput{1e5, 2e5, 3.0, 4.0, 5e-4};
-  c.damping = io::DampingInput{1e-4, 2e-4, 3e6, 4e6};
-  c.regime = io::RegimeInput::transient;
-  c.history = io::HistoryInput::keep_going;
-  c.reference_surface = io::ReferenceSurfaceInput::curved;
+  c.rail_springs = RailSprings{1e5, 2e5, 3.0, 4.0, 5e-4};
+  c.damping = Damping{1e-4, 2e-4, 3e6, 4e6};
+  c.regime = Regime::transient;
+  c.history = HistoryUse::keep_going;
+  c.reference_surface = ReferenceSurface::curved;
   c.influence.kind = io::InfluenceInput::Kind::angle_corrected;
   c.influence.variant = 2;
   c.thermal.emplace().plastic_fraction = 0.5;
@@ -55,19 +55,14 @@ TEST(ToProblem, CarriesEverySetting) {
 
 TEST(ToProblem, RegimesAndHistories) {
   io::WheelRailCase c;
-  using From = io::RegimeInput;
-  using To = kalker::Regime;
-  for (const auto& [from, to] : {std::pair{From::none, To::frictionless}, std::pair{From::shift, To::shift},
-                                 std::pair{From::steady, To::steady}}) {
-    c.regime = from;
-    EXPECT_EQ(to_problem(c, true).regime, to);
+  for (const Regime regime : {Regime::frictionless, Regime::shift, Regime::steady}) {
+    c.regime = regime;
+    EXPECT_EQ(to_problem(c, true).regime, regime);
   }
-  using H = io::HistoryInput;
-  using U = kalker::HistoryUse;
-  for (const auto& [from, to] : {std::pair{H::start, U::start}, std::pair{H::normal_only, U::normal_only},
-                                 std::pair{H::same_instant, U::same_instant}}) {
-    c.history = from;
-    EXPECT_EQ(to_problem(c, true).history, to);
+  using H = HistoryUse;
+  for (const H history : {H::start, H::normal_only, H::same_instant}) {
+    c.history = history;
+    EXPECT_EQ(to_problem(c, true).history, history);
   }
 }
 
@@ -117,7 +112,7 @@ wheelrail::PairSolution solved() {
 
 TEST(ToResult, GridsOfASequenceHaveAnotherOriginThanTheReference) {
   io::WheelRailCase c;
-  c.regime = io::RegimeInput::transient;
+  c.regime = Regime::transient;
   const io::CaseResult r = to_result(c, solved());
   const io::PatchResult& p = r.patches.at(0);
   EXPECT_NEAR((p.fields.X_TC.apply({0.5e-3, -0.25e-3, 0.0}) - Vec3(0.1, 0.2, 0.3)).norm(), 0.0, 1e-15);
@@ -159,17 +154,17 @@ TEST(FrictionOf, FollowsInclinationSideAndPlace) {
   c.friction_variation = {io::FrictionVariation::Kind::inclination, {-1.0, 1.0}, {low, high}};
   EXPECT_NEAR(friction_of(c, 0.5).kinetic, 0.35, 1e-15);
   EXPECT_NEAR(to_result(c, solved()).patches.at(0).fx_relative, 1.2e3 / (0.35 * 12e3), 1e-12);
-  c.side = io::Side::left;
+  c.side = Side::left;
   EXPECT_NEAR(friction_of(c, 0.5).kinetic, 0.25, 1e-15);
   c.friction_variation.kind = io::FrictionVariation::Kind::along_track;
-  c.wheelset.s = -1.0;
+  c.state.position.x = -1.0;
   EXPECT_NEAR(friction_of(c, 0.5).kinetic, 0.2, 1e-15);
   EXPECT_NEAR(to_problem(c, true).friction.kinetic, 0.2, 1e-15);
 }
 
 TEST(ToResult, TellsWhatWasFound) {
   io::WheelRailCase c;
-  c.wheelset.vpitch = -4.0;
+  c.state.velocity.pitch = -4.0;
   EXPECT_EQ(to_result(c, solved()).vpitch, -4.0);
   c.longitudinal_force = 100.0;
   c.rail_springs.emplace();
@@ -198,12 +193,12 @@ TEST(ToResult, PointsBelowTheSurfaceCountFromTheReference) {
 
 TEST(ElementTable, HeadOfAWheelOnARail) {
   io::WheelRailCase c;
-  c.side = io::Side::left;
+  c.side = Side::left;
   c.roller = {0.5, 1.0};
-  c.reference_surface = io::ReferenceSurfaceInput::curved;
-  c.regime = io::RegimeInput::transient;
-  c.wheelset.s = 0.2;
-  c.wheelset.pitch = -0.3;
+  c.reference_surface = ReferenceSurface::curved;
+  c.regime = Regime::transient;
+  c.state.position.x = 0.2;
+  c.state.position.pitch = -0.3;
   c.material.layer_flexibility = 1e-12;
   c.thermal.emplace();
   io::MatFileHead h = mat_head(c, solved(), 0, 17);
@@ -225,8 +220,8 @@ TEST(ElementTable, HeadOfAWheelOnARail) {
   EXPECT_EQ(h.wheel_z, -0.46);
   EXPECT_EQ(h.spin_x, 0.5e-3);
   c.roller.reset();
-  c.side = io::Side::right;
-  c.reference_surface = io::ReferenceSurfaceInput::plane;
+  c.side = Side::right;
+  c.reference_surface = ReferenceSurface::plane;
   c.discretisation.method = 5;
   h = mat_head(c, solved(), 0, 1);
   EXPECT_EQ(h.configuration, 1);
@@ -237,8 +232,8 @@ TEST(ElementTable, HeadOfAWheelOnARail) {
 
 TEST(GroupsInTime, CasesThatDependOnOthersFollowThem) {
   io::CaseFile file;
-  using R = io::RegimeInput;
-  using H = io::HistoryInput;
+  using R = Regime;
+  using H = HistoryUse;
   const auto add = [&](int sequence, R regime, H history, bool damped = false) {
     io::WheelRailCase c;
     c.regime = regime;

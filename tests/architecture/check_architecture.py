@@ -15,17 +15,18 @@ import sys
 # A folder and the folders it may include from. The longest match decides.
 ALLOWED = {
     "core": ["core"],
-    "io": ["core", "io"],
-    "backends": ["core", "backends"],
-    "scans": ["core", "scans"],
-    "detection": ["core", "detection"],
-    "solvers/kalker": ["core", "solvers/kalker"],
-    "solvers/wheelrail": ["core", "detection", "solvers/kalker", "solvers/wheelrail"],
-    "solvers/vehicle": ["core", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
-    "app": ["core", "io", "backends", "scans", "detection", "solvers", "app"],
-    "examples": ["core", "io", "backends", "scans", "detection", "solvers", "app"],
-    "bench": ["core", "io", "backends", "scans", "detection", "solvers", "app", "bench"],
-    "tests": ["core", "io", "backends", "scans", "detection", "solvers", "app", "tests"],
+    "model": ["core", "model"],
+    "io": ["core", "model", "io"],
+    "backends": ["core", "model", "backends"],
+    "scans": ["core", "model", "scans"],
+    "detection": ["core", "model", "detection"],
+    "solvers/kalker": ["core", "model", "solvers/kalker"],
+    "solvers/wheelrail": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail"],
+    "solvers/vehicle": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
+    "app": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app"],
+    "examples": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app"],
+    "bench": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app", "bench"],
+    "tests": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app", "tests"],
 }
 
 # Headers that cost compile time or bind to a version: in one .cpp of the whole library ("all") or of each folder, or in any

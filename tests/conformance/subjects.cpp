@@ -9,6 +9,7 @@
 #include <ostream>
 
 #include "treadmark/backends/create.hpp"
+#include "treadmark/tests/consumer/project/chebyshev_backend.hpp"
 
 namespace treadmark::testing {
 
@@ -17,8 +18,9 @@ namespace treadmark::testing {
 // 0.25 mm, that is about 77 h^2/12 = 0.4 um and 77 h/5 = 4 mrad; slices are fitted at h = 0.5 mm. nurbs, mesh: the same
 // at 0.5 mm. mesh-flat: h^2/(8 r) and h/r on the arc of r = 12 mm. offset: exact where nothing is damaged. The ends of
 // the fresh flat turn by k = 44 mrad: facets and bilinear offsets cut up to k h/4 = 5.4 um off there, splines up to
-// about k h/8 = 2.7 um.
+// about k h/8 = 2.7 um. chebyshev: as offset; its waves near the joints of curvature die away slowly.
 std::vector<Contestant> contestants() {
+  [[maybe_unused]] static const bool registered = (register_chebyshev(), true);
   return {
 #define TREADMARK_CONTESTANT(backend, resolution, constant, damaged) {backend, resolution, constant, damaged},
 #include "treadmark/tests/conformance/contestants.def"

@@ -8,7 +8,9 @@
 #include <limits>
 
 #include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/cases/case_schema.hpp"
 #include "treadmark/tests/representation/kinds.hpp"
 
 namespace treadmark::testing {
@@ -38,6 +40,29 @@ TEST(CreateSurface, ListsWhatThereIs) {
   EXPECT_THAT(backend_names(), ElementsAre("analytic", "spline", "nurbs", "mesh", "mesh-flat", "offset",
                                            "offset-quadratic", "offset-bilinear"));
   EXPECT_THAT(standard_profile_names(), ElementsAre("60E1", "S1002"));
+}
+
+TEST(CreateSurface, TheKeysOfCaseFilesNameThem) {
+  std::string names;
+  for (const auto name : backend_names())
+    names += (names.empty() ? "" : name == backend_names().back() ? " or " : ", ") + std::string(name);
+  EXPECT_THAT(io::case_file_schema(), HasSubstr("surface representation: " + names));
+}
+
+/// What a row says of its shapes is what create_natural() makes of them.
+TEST(CreateSurface, RowsKnowTheirNaturalShapes) {
+  const TriangleMesh mesh = to_triangles(create_natural(rail_60e1()), {"", 2e-3, {0.0, 0.02, -1.0, 1.0}});
+  const SurfaceSpec points{Body::rail, 0.0, analytic::sample_profile(StandardProfile{"60E1"}, 1e-3), {}};
+  for (const SurfaceSpec& spec : {rail_60e1(one_squat()), s1002(one_flat()), points, SurfaceSpec{{}, 0.0, mesh, {}}}) {
+    EXPECT_EQ(natural_backend(spec).name, create_natural(spec).surface->backend());
+    int claims = 0;
+    for (const Backend* backend : backends()) {
+      EXPECT_FALSE(backend->summary.empty());
+      EXPECT_GT(backend->order, 1.0) << backend->name;
+      claims += backend->natural_for && backend->natural_for(spec) ? 1 : 0;
+    }
+    EXPECT_EQ(claims, 1);
+  }
 }
 
 TEST(CreateSurface, MakesEveryBackendOfAStandardRail) {

@@ -125,12 +125,11 @@ TEST_P(PrunedSearch, ThreadsDoNotChangeABit) {
   EXPECT_EQ(difference(found(1), found(4), 0.0), "");
 }
 
-INSTANTIATE_TEST_SUITE_P(Backends, PrunedSearch, ::testing::ValuesIn(backend_names().begin(), backend_names().end()),
-                         [](const auto& backend) {
-                           std::string name(backend.param);
-                           std::ranges::replace(name, '-', '_');
-                           return name;
-                         });
+INSTANTIATE_TEST_SUITE_P(Backends, PrunedSearch, ::testing::ValuesIn(backend_names()), [](const auto& backend) {
+  std::string name(backend.param);
+  std::ranges::replace(name, '-', '_');
+  return name;
+});
 
 }  // namespace
 }  // namespace treadmark::testing

@@ -4,35 +4,48 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 
 #include <fmt/format.h>
 
+#include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/report/html_text.hpp"
-#include "treadmark/app/report/pages/json_tree.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/read_text.hpp"
 
 namespace treadmark::app::report {
 namespace {
 
 constexpr double kMegabytes = 1e-6;  // bytes -> MB
 
-/// A row of the file and what names it.
+/// With the digits of bench.json; NaN where that says null.
+double six_digits(double value) {
+  return std::isfinite(value) ? std::strtod(fmt::format("{:.6g}", value).c_str(), nullptr) : NAN;
+}
+
+/// A row with its numbers as the files have them, and what names it.
 struct Row {
-  JsonTree node;
-  std::string label;  ///< "mesh 0.5 mm"
+  const BenchRow* data;
+  std::vector<io::NamedField> fields;
+  std::string label = {};  ///< "mesh 0.5 mm"
   bool wheel = false;
+
+  double number(std::string_view name) const {
+    const io::FieldValue& value = std::ranges::find(fields, name, &io::NamedField::name)->value;
+    const auto* count = std::get_if<std::int64_t>(&value);
+    return count ? static_cast<double>(*count) : six_digits(std::get<double>(value));
+  }
+  const char* body() const { return wheel ? "wheel" : "rail"; }
 };
 
-std::vector<Row> rows_of(const JsonTree& bench) {
+std::vector<Row> rows_of(const BenchReport& bench) {
   std::vector<Row> rows;
-  for (const JsonTree& node : bench.at("rows").items()) {
-    const double resolution = node.number("resolution_mm");
-    const std::string backend = node.text("backend"), body = node.text("body");
-    if (body != "wheel" && body != "rail")
-      node.at("body").refuse(fmt::format("is \"{}\" where wheel or rail is expected", body));
-    rows.push_back(
-        {node, resolution > 0.0 ? fmt::format("{} {:.4g} mm", backend, resolution) : backend, body == "wheel"});
+  for (const BenchRow& data : bench.rows) {
+    Row row{&data, bench_fields(data), data.backend, data.body == Body::wheel};
+    if (const double resolution = row.number("resolution_mm"); resolution > 0.0)
+      row.label += fmt::format(" {:.4g} mm", resolution);
+    rows.push_back(std::move(row));
   }
   return rows;
 }
@@ -43,17 +56,16 @@ std::string joined(const std::vector<std::string>& parts) {
   return out;
 }
 
-void add_banners(const JsonTree& bench, const std::vector<Row>& rows, Section& overview) {
-  if (!bench.flag("complete"))
+void add_banners(const BenchReport& bench, const std::vector<Row>& rows, Section& overview) {
+  if (!bench.complete)
     overview.blocks.emplace_back(
         Banner{Banner::Kind::failed, "Interrupted.",
                fmt::format("Only what was finished is here: {}.", counted(rows.size(), "row"))});
   std::size_t wrong = 0;
   std::string reasons;
   for (const Row& row : rows) {
-    if (row.node.flag("agrees")) continue;
-    reasons += fmt::format("{}{}, {}: {}", wrong++ == 0 ? "" : "; ", row.label, row.node.text("body"),
-                           row.node.text("reason"));
+    if (row.data->agrees) continue;
+    reasons += fmt::format("{}{}, {}: {}", wrong++ == 0 ? "" : "; ", row.label, row.body(), row.data->reason);
   }
   if (wrong > 0)
     overview.blocks.emplace_back(
@@ -68,7 +80,7 @@ Cards::Card least(const std::vector<Row>& rows, const char* label, const char* k
   double best = NAN;
   std::string whose;
   for (const Row& row : rows) {
-    const double value = row.node.number(key);
+    const double value = row.number(key);
     if ((!row.wheel && !rail_too) || !std::isfinite(value) || value >= best) continue;
     best = value;
     whose = row.label;
@@ -76,35 +88,33 @@ Cards::Card least(const std::vector<Row>& rows, const char* label, const char* k
   return {label, std::isnan(best) ? "–" : fmt::format("{} {}", shown({factor * best, 3}), unit), whose};
 }
 
-Cards cards_of(const JsonTree& bench, const std::vector<Row>& rows) {
-  const auto agree = std::ranges::count_if(rows, [](const Row& row) { return row.node.flag("agrees"); });
+Cards cards_of(const BenchReport& bench, const std::vector<Row>& rows) {
+  const auto agree = std::ranges::count_if(rows, [](const Row& row) { return row.data->agrees; });
   Cards cards;
   cards.cards = {{"Rows that agree", fmt::format("{} of {}", agree, rows.size()),
                   "with the surfaces as given and with single heights"},
                  least(rows, "Fastest height on the wheel", "ns_per_height", 1.0, "ns", false),
                  least(rows, "Fastest first search", "search_cold_s", kMilli, "ms", false),
                  least(rows, "Fastest distance", "distance_s", kMilli, "ms", false),
-                 {"Threads", fmt::format("{}", bench.at("threads").integer()), bench.text("machine")}};
+                 {"Threads", fmt::format("{}", bench.threads), bench.machine}};
   return cards;
 }
 
-Facts facts_of(const JsonTree& bench) {
-  const JsonTree made = bench.at("treadmark"), input = bench.at("input");
-  const std::string file = input.text("file"), git = made.text("git");
+Facts facts_of(const BenchReport& bench) {
+  const std::string& file = bench.input_file;
   Facts facts;
-  facts.entries = {{"Machine", bench.text("machine")},
-                   {"Date", bench.text("date")},
-                   {"Version", git.empty() ? made.text("version") : fmt::format("{} ({})", made.text("version"), git)},
-                   {"Compiler", bench.text("compiler")}};
-  for (const auto& [library, version] : bench.at("libraries").entries())
-    facts.entries.emplace_back(library, version.text());
+  facts.entries = {{"Machine", bench.machine},
+                   {"Date", bench.date},
+                   {"Version", bench.git.empty() ? bench.version : fmt::format("{} ({})", bench.version, bench.git)},
+                   {"Compiler", bench.compiler}};
+  facts.entries.insert(facts.entries.end(), bench.libraries.begin(), bench.libraries.end());
   facts.entries.emplace_back("Input", file.empty() ? "the built-in case" : file);
-  if (!file.empty()) facts.entries.emplace_back("SHA-256 of the input", input.text("sha256"));
-  const std::string settings = joined(bench.at("settings").texts());
+  if (!file.empty()) facts.entries.emplace_back("SHA-256 of the input", bench.input_sha256);
+  const std::string settings = joined(bench.settings);
   facts.entries.emplace_back("Settings", settings.empty() ? "as in the input" : settings);
-  facts.entries.emplace_back("Surfaces as given", bench.text("truth"));
-  facts.entries.emplace_back("Time for a measure", duration_text(bench.number("seconds_per_measure")));
-  facts.entries.emplace_back("Time of the whole run", duration_text(made.number("seconds")));
+  facts.entries.emplace_back("Surfaces as given", bench.truth);
+  facts.entries.emplace_back("Time for a measure", duration_text(six_digits(bench.seconds_per_measure)));
+  facts.entries.emplace_back("Time of the whole run", duration_text(six_digits(bench.seconds)));
   return facts;
 }
 
@@ -132,7 +142,7 @@ Panel panel_of(const std::vector<Row>& rows, const char* label, const char* unit
     for (const Row& row : rows) {
       if (row.wheel != wheel) continue;
       const auto place = static_cast<std::size_t>(std::ranges::find(names, row.label) - names.begin());
-      const double value = factor * row.node.number(quantity.key);
+      const double value = factor * row.number(quantity.key);
       series.y[place] = value > 0.0 ? value : NAN;
       series.texts[place] = fmt::format("{}, {}: {} {}", row.label, quantity.name, shown({value, 3}), unit);
     }
@@ -203,12 +213,12 @@ Table table_of(const std::vector<Row>& rows) {
   table.columns.push_back({"reason"});
   for (const Row& row : rows) {
     Table::Row line;
-    line.cells = {row.node.text("backend"), Number{row.node.number("resolution_mm")}, row.node.text("body"),
-                  std::string(row.node.flag("agrees") ? "yes" : "no")};
+    line.cells = {row.data->backend, Number{row.number("resolution_mm")}, row.body(),
+                  std::string(row.data->agrees ? "yes" : "no")};
     for (const auto& [key, column] : quantities)
       line.cells.emplace_back(
-          Number{(column.unit == "MB" ? kMegabytes : 1.0) * row.node.number(key), column.unit.empty() ? 12 : 3});
-    line.cells.emplace_back(row.node.text("reason"));
+          Number{(column.unit == "MB" ? kMegabytes : 1.0) * row.number(key), column.unit.empty() ? 12 : 3});
+    line.cells.emplace_back(row.data->reason);
     table.rows.push_back(std::move(line));
   }
   return table;
@@ -216,15 +226,13 @@ Table table_of(const std::vector<Row>& rows) {
 
 }  // namespace
 
-Page bench_page(const std::filesystem::path& folder) {
-  JsonFile file = read_json_file(folder / "bench.json");
-  const JsonTree& bench = file.root;
+Page bench_page(const BenchReport& bench, std::string document) {
   const std::vector<Row> rows = rows_of(bench);
-  const std::string input = bench.at("input").text("file");
+  const std::string& input = bench.input_file;
   Page page{"bench", input.empty() ? "Costs of surfaces" : fmt::format("Costs of surfaces: {}", title_of(input)),
             fmt::format("{} in {} on {}", counted(rows.size(), "row"), counted(names_of(rows).size(), "representation"),
-                        bench.text("machine"))};
-  page.document = std::move(file.text);
+                        bench.machine)};
+  page.document = std::move(document);
   Section overview{"overview", "Overview"};
   add_banners(bench, rows, overview);
   overview.blocks.emplace_back(cards_of(bench, rows));
@@ -233,6 +241,11 @@ Page bench_page(const std::filesystem::path& folder) {
   if (Section charts = charts_of(rows); !charts.blocks.empty()) page.sections.push_back(std::move(charts));
   page.sections.push_back({"figures", "Figures", {table_of(rows)}});
   return page;
+}
+
+Page bench_page(const std::filesystem::path& folder) {
+  const std::filesystem::path file = folder / "bench.json";
+  return bench_page(read_bench(file), io::profiles::read_text(file, "result", {}));
 }
 
 }  // namespace treadmark::app::report

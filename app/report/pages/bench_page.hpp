@@ -3,10 +3,15 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
+#include "treadmark/app/bench/bench_model.hpp"
 #include "treadmark/app/report/page.hpp"
 
 namespace treadmark::app::report {
+
+/// Report of a benchmark; document: its JSON text.
+Page bench_page(const BenchReport& bench, std::string document);
 
 /// Report of a folder of `treadmark bench`: its bench.json. Errors: Error(input_data) for a file that is missing,
 /// broken or lacks keys.

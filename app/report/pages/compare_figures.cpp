@@ -8,7 +8,11 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/results/comparison_cases.hpp"
+#include "treadmark/io/results/comparison_digest.hpp"
+#include "treadmark/io/results/comparison_fields.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -20,7 +24,7 @@ constexpr std::size_t kFew = 8;
 double pmax_error(const Candidate& c) { return c.pmax_error_percent; }
 double height(const Candidate& c) { return c.height_max_um; }
 double time_ms(const Candidate& c) { return kMilli * c.mean_seconds(); }
-double memory(const Candidate& c) { return c.memory_MB(); }
+double memory(const Candidate& c) { return c.memory_MB; }
 double build_ms(const Candidate& c) { return kMilli * c.build_s; }
 
 std::string with_unit(double value, const char* unit) {
@@ -30,7 +34,7 @@ std::string with_unit(double value, const char* unit) {
 std::string hover(const Candidate& c) {
   return fmt::format("{}: error of the largest pressure {}, surface {}, {} a case, {}", c.label,
                      with_unit(c.pmax_error_percent, "%"), with_unit(c.height_max_um, "µm"),
-                     with_unit(time_ms(c), "ms"), with_unit(c.memory_MB(), "MB"));
+                     with_unit(time_ms(c), "ms"), with_unit(c.memory_MB, "MB"));
 }
 
 /// Candidates with a resolution by their backends, coarse before fine, in the order in which the backends appear.
@@ -39,7 +43,7 @@ std::vector<std::vector<const Candidate*>> by_backend(const ComparedCandidates& 
   for (const Candidate& c : all.candidates) {
     if (c.as_given()) continue;
     const auto known =
-        std::ranges::find_if(groups, [&](const auto& group) { return group.front()->backend == c.backend; });
+        std::ranges::find_if(groups, [&](const auto& group) { return group.front()->data->name == c.data->name; });
     if (known == groups.end())
       groups.push_back({&c});
     else
@@ -62,7 +66,7 @@ Panel over_resolution(const ComparedCandidates& all, const char* label, const ch
                       bool with_truth) {
   Panel panel{label, unit, true};
   for (const auto& group : by_backend(all)) {
-    Series series{group.front()->backend, {}, {}, Series::Marks::both};
+    Series series{group.front()->data->name, {}, {}, Series::Marks::both};
     for (const Candidate* c : group) {
       const double y = placed(value(*c), least);
       if (std::isnan(y)) continue;
@@ -82,7 +86,58 @@ Panel over_resolution(const ComparedCandidates& all, const char* label, const ch
 
 Axis resolution_axis() { return {"resolution", "mm", true}; }
 
+/// A number of the files, in the unit of its name; NaN where it does not exist.
+double number_in(const std::vector<io::NamedField>& fields, std::string_view name) {
+  const io::FieldValue& value = std::ranges::find(fields, name, &io::NamedField::name)->value;
+  if (const auto* count = std::get_if<std::int64_t>(&value)) return static_cast<double>(*count);
+  const auto* number = std::get_if<double>(&value);
+  return number ? in_file(*number) : Candidate::kNone;
+}
+
+/// Of the numbers that the file has.
+double mean(const io::ComparisonCandidate& candidate, double io::ComparisonRow::*value) {
+  double sum = 0.0, count = 0.0;
+  for (const io::ComparisonRow& row : candidate.rows) {
+    if (!std::isfinite(row.*value)) continue;
+    sum += in_file(row.*value);
+    count += 1.0;
+  }
+  return count > 0.0 ? sum / count : Candidate::kNone;
+}
+
+Candidate compared_candidate(const io::ComparisonCandidate& data, const std::vector<int>& cases) {
+  Candidate out{&data, io::candidate_label(data)};
+  if (data.has_resolution()) out.resolution_mm = in_file(kMilli * data.resolution);
+  for (const int number : cases) out.rows.push_back(io::find_row(data, number));
+  const io::CandidateDigest all = io::digest(data);
+  out.pmax_error_percent = in_file(1e2 * all.pmax_error);
+  out.area_error_percent = in_file(1e2 * all.area_error);
+  out.force_error_percent = in_file(1e2 * all.force_error);
+  out.position_error_mm = in_file(kMilli * all.position_error);
+  out.search_s = mean(data, &io::ComparisonRow::search_s);
+  out.distance_s = mean(data, &io::ComparisonRow::distance_s);
+  if (!data.failure.empty()) return out;  // what there is of it was not measured
+  out.height_max_um = in_file(kMicro * all.height_max);
+  out.height_rms_um = in_file(kMicro * all.height_rms);
+  out.slope_max_mrad = in_file(kMilli * all.slope_max);
+  out.curvature_max_per_m = in_file(all.curvature_max);
+  out.build_s = in_file(data.wheel.build_seconds) + in_file(data.rail.build_seconds);
+  out.memory_MB = 1e-6 * static_cast<double>(all.memory_bytes);
+  return out;
+}
+
 }  // namespace
+
+ComparedCandidates compared(const io::Comparison& comparison) {
+  ComparedCandidates out;
+  for (const io::ComparisonCandidate& candidate : comparison.candidates)
+    for (const io::ComparisonRow& row : candidate.rows) out.cases.push_back(row.case_number);
+  std::ranges::sort(out.cases);
+  out.cases.erase(std::unique(out.cases.begin(), out.cases.end()), out.cases.end());
+  for (const io::ComparisonCandidate& candidate : comparison.candidates)
+    out.candidates.push_back(compared_candidate(candidate, out.cases));
+  return out;
+}
 
 ChartView accuracy_chart(const ComparedCandidates& all) {
   ChartView view;
@@ -116,7 +171,7 @@ ChartView trade_chart(const ComparedCandidates& all) {
     }
     if (!series.y.empty()) panel.series.push_back(std::move(series));
   };
-  for (const auto& group : by_backend(all)) add(group, group.front()->backend);
+  for (const auto& group : by_backend(all)) add(group, group.front()->data->name);
   for (const Candidate& c : all.candidates)
     if (c.as_given() && &c != all.truth()) add({&c}, c.label + " (as given)");
   view.panels.push_back(std::move(panel));
@@ -126,12 +181,12 @@ ChartView trade_chart(const ComparedCandidates& all) {
 std::vector<const Candidate*> drawn_over_cases(const ComparedCandidates& all) {
   std::vector<const Candidate*> solved;
   for (const Candidate& c : all.candidates)
-    if (c.solved > 0) solved.push_back(&c);
+    if (c.solved()) solved.push_back(&c);
   if (solved.size() <= kFew) return solved;
   std::vector<const Candidate*> out;
   for (const Candidate* c : solved) {
     const bool finest = std::ranges::none_of(solved, [&](const Candidate* other) {
-      return other->backend == c->backend && other->resolution_mm < c->resolution_mm;
+      return other->data->name == c->data->name && other->resolution_mm < c->resolution_mm;
     });
     if (c == all.truth() || c->as_given() || finest) out.push_back(c);
   }
@@ -148,7 +203,8 @@ ChartView case_errors_chart(const ComparedCandidates& all) {
       const bool truth = c == all.truth();
       if (truth && !with_truth) continue;
       Series series{c->label + (truth ? " (truth)" : ""), {}, {}, Series::Marks::both, truth};
-      for (const auto& row : c->rows) series.y.push_back(row ? factor * row->number_or_nan(key) : Candidate::kNone);
+      for (const auto* row : c->rows)
+        series.y.push_back(row ? factor * number_in(io::row_fields(*c->data, *row), key) : Candidate::kNone);
       out.series.push_back(std::move(series));
     }
     return out;
@@ -187,20 +243,20 @@ Table candidate_table(const ComparedCandidates& all) {
                {"notes"}}};
   for (const Candidate& c : all.candidates) {
     Table::Row row;
-    row.cells = {c.backend + (&c == all.truth() ? " (truth)" : ""),
+    const io::ComparisonCandidate& data = *c.data;
+    row.cells = {data.name + (&c == all.truth() ? " (truth)" : ""),
                  Number{c.resolution_mm},
-                 c.wheel.text("backend"),
-                 c.rail.text("backend"),
-                 Number{static_cast<double>(c.solved)},
-                 Number{static_cast<double>(c.ok)}};
+                 data.wheel.backend,
+                 data.rail.backend,
+                 Number{static_cast<double>(data.rows.size())},
+                 Number{static_cast<double>(std::ranges::count(data.rows, Status::ok, &io::ComparisonRow::status))}};
     for (const double value : {c.pmax_error_percent, c.area_error_percent, c.force_error_percent, c.position_error_mm,
                                c.height_max_um, c.height_rms_um, c.slope_max_mrad, c.curvature_max_per_m,
-                               kMilli * c.mean_search_s, kMilli * c.mean_distance_s, c.build_s, c.memory_MB()})
+                               kMilli * c.search_s, kMilli * c.distance_s, c.build_s, c.memory_MB})
       row.cells.emplace_back(Number{value, 3});
-    std::string notes = c.failure.empty() ? "" : "failed: " + c.failure;
-    for (const auto& [body, node] : {std::pair{"wheel", &c.wheel}, {"rail", &c.rail}})
-      if (const std::string note = node->text("note"); !note.empty())
-        notes += fmt::format("{}{}: {}", notes.empty() ? "" : "; ", body, note);
+    std::string notes = data.failure.empty() ? "" : "failed: " + data.failure;
+    for (const auto& [name, body] : {std::pair{"wheel", &data.wheel}, {"rail", &data.rail}})
+      if (!body->note.empty()) notes += fmt::format("{}{}: {}", notes.empty() ? "" : "; ", name, body->note);
     row.cells.emplace_back(std::move(notes));
     table.rows.push_back(std::move(row));
   }
@@ -248,12 +304,14 @@ Table compared_row_table(const ComparedCandidates& all) {
   for (std::size_t i = 0; i < all.cases.size(); ++i)
     for (const Candidate& c : all.candidates) {
       if (!c.rows[i]) continue;
-      const JsonTree& node = *c.rows[i];
-      Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, node.text("wheel_backend"),
-                      node.text("rail_backend"), node.text("status")},
+      Table::Row row{{Number{static_cast<double>(all.cases[i])}, c.label, c.data->wheel.backend, c.data->rail.backend,
+                      std::string(to_string(c.rows[i]->status))},
                      static_cast<int>(i)};
-      for (const Quantity& q : quantities)
-        row.cells.emplace_back(Number{q.factor * node.number_or_nan(q.key), q.digits});
+      const std::vector<io::NamedField> fields = io::row_fields(*c.data, *c.rows[i]);
+      for (const Quantity& q : quantities) {
+        const bool build = std::string_view(q.key) == "build_s";  // a sum, which files round after their parts
+        row.cells.emplace_back(Number{build ? c.build_s : q.factor * number_in(fields, q.key), q.digits});
+      }
       table.rows.push_back(std::move(row));
     }
   return table;

@@ -2,13 +2,45 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <limits>
 #include <string>
 #include <vector>
 
 #include "treadmark/app/report/page.hpp"
-#include "treadmark/app/report/pages/compared_candidates.hpp"
+#include "treadmark/io/results/comparison_model.hpp"
 
 namespace treadmark::app::report {
+
+/// A candidate and what its page says of all its cases, in the units of compare.json and with the digits of that file.
+/// NaN where nothing was measured.
+struct ComparedCandidate {
+  static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
+
+  const io::ComparisonCandidate* data = nullptr;
+  std::string label;                                ///< "mesh 0.5 mm"
+  double resolution_mm = kNone;                     ///< NaN: the data as given
+  std::vector<const io::ComparisonRow*> rows = {};  ///< of each case of the comparison; nullptr where it is missing
+  // the largest in size over the cases
+  double pmax_error_percent = kNone, area_error_percent = kNone, force_error_percent = kNone, position_error_mm = kNone;
+  double search_s = kNone, distance_s = kNone;  ///< mean per case
+  // of wheel and rail the worse, and their sums
+  double height_max_um = kNone, height_rms_um = kNone, slope_max_mrad = kNone, curvature_max_per_m = kNone;
+  double build_s = kNone, memory_MB = kNone;
+
+  double mean_seconds() const { return search_s + distance_s; }
+  bool as_given() const { return !data->has_resolution(); }
+  bool solved() const { return !data->rows.empty(); }
+};
+
+struct ComparedCandidates {
+  std::vector<int> cases;                     ///< numbers, increasing
+  std::vector<ComparedCandidate> candidates;  ///< the truth first
+
+  const ComparedCandidate* truth() const { return candidates.empty() ? nullptr : &candidates.front(); }
+};
+
+/// The comparison must outlive what is returned.
+ComparedCandidates compared(const io::Comparison& comparison);
 
 /// Errors and deviations of zero lie below any logarithmic axis: the charts show them, and all smaller ones, here [%,
 /// µm].

@@ -9,10 +9,12 @@
 
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/case_figures.hpp"
-#include "treadmark/app/report/pages/compare_fields.hpp"
 #include "treadmark/app/report/pages/compare_figures.hpp"
 #include "treadmark/app/report/pages/folder_files.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/results/comparison_cases.hpp"
+#include "treadmark/io/results/read_comparison.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -28,41 +30,41 @@ std::string listed(const std::vector<int>& cases) {
   return cases.size() > kMost ? out + " ..." : out;
 }
 
-/// Cases of a candidate that ended with this status, or, for nullptr, that it lacks.
-std::vector<int> cases_with(const ComparedCandidates& all, const Candidate& candidate, const char* status) {
+/// Cases of a candidate that ended with this status, or that it lacks.
+std::vector<int> cases_with(const ComparedCandidates& all, const Candidate& candidate, std::optional<Status> status) {
   std::vector<int> out;
   for (std::size_t i = 0; i < all.cases.size(); ++i) {
-    const auto& row = candidate.rows[i];
-    if (status == nullptr ? !row : row && row->text("status") == status) out.push_back(all.cases[i]);
+    const io::ComparisonRow* row = candidate.rows[i];
+    if (status ? row != nullptr && row->status == *status : row == nullptr) out.push_back(all.cases[i]);
   }
   return out;
 }
 
-void add_status(const ComparedCandidates& all, const char* status, Banner::Kind kind, const char* heading,
+void add_status(const ComparedCandidates& all, std::optional<Status> status, Banner::Kind kind, const char* heading,
                 Section& overview) {
   std::string text;
   for (const Candidate& candidate : all.candidates) {
-    if (!candidate.failure.empty()) continue;
+    if (!candidate.data->failure.empty()) continue;
     const std::vector<int> cases = cases_with(all, candidate, status);
     if (!cases.empty()) text += fmt::format("{}{}: {}", text.empty() ? "" : "; ", candidate.label, listed(cases));
   }
   if (!text.empty()) overview.blocks.emplace_back(Banner{kind, heading, text + "."});
 }
 
-void add_banners(const JsonTree& comparison, const ComparedCandidates& all, Section& overview) {
-  if (!comparison.flag("complete"))
+void add_banners(const io::Comparison& comparison, const ComparedCandidates& all, Section& overview) {
+  if (!comparison.complete)
     overview.blocks.emplace_back(Banner{Banner::Kind::failed, "Interrupted.",
                                         fmt::format("{} finished; representations or cases are missing here.",
                                                     counted(all.candidates.size(), "representation") +
                                                         (all.candidates.size() == 1 ? " was" : " were"))});
   for (const Candidate& candidate : all.candidates)
-    if (!candidate.failure.empty())
-      overview.blocks.emplace_back(Banner{Banner::Kind::failed, candidate.label + " failed.", candidate.failure});
-  add_status(all, "failed", Banner::Kind::failed, "Cases that failed:", overview);
-  add_status(all, nullptr, Banner::Kind::failed, "Cases that are missing:", overview);
-  add_status(all, "not_converged", Banner::Kind::warning,
+    if (!candidate.data->failure.empty())
+      overview.blocks.emplace_back(Banner{Banner::Kind::failed, candidate.label + " failed.", candidate.data->failure});
+  add_status(all, Status::failed, Banner::Kind::failed, "Cases that failed:", overview);
+  add_status(all, std::nullopt, Banner::Kind::failed, "Cases that are missing:", overview);
+  add_status(all, Status::not_converged, Banner::Kind::warning,
              "Cases that did not converge; judge them with care:", overview);
-  add_status(all, "no_contact", Banner::Kind::note, "Cases without contact:", overview);
+  add_status(all, Status::no_contact, Banner::Kind::note, "Cases without contact:", overview);
 }
 
 /// The candidates whose errors tell how good the representations can be: those of the finest resolution, or those as
@@ -79,11 +81,11 @@ std::vector<const Candidate*> finest(const ComparedCandidates& all) {
   return out;
 }
 
-Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
+Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) {
   std::size_t failed = 0;
   const Candidate* fastest = nullptr;
   for (const Candidate& c : all.candidates) {
-    if (!c.failure.empty()) ++failed;
+    if (!c.data->failure.empty()) ++failed;
     if (std::isfinite(c.mean_seconds()) && (fastest == nullptr || c.mean_seconds() < fastest->mean_seconds()))
       fastest = &c;
   }
@@ -102,37 +104,55 @@ Cards cards_of(const JsonTree& comparison, const ComparedCandidates& all) {
   if (fastest != nullptr)
     cards.cards.push_back({"Fastest detection", fmt::format("{} ms", shown({1e3 * fastest->mean_seconds(), 3})),
                            fastest->label + ", a case"});
-  cards.cards.push_back({"Wall-clock time", duration_text(comparison.at("treadmark").number("seconds")),
-                         counted(comparison.at("treadmark").count("threads"), "thread")});
+  cards.cards.push_back({"Wall-clock time", duration_text(in_file(comparison.seconds)),
+                         counted(static_cast<std::size_t>(comparison.threads), "thread")});
   return cards;
 }
 
-Facts comparison_facts(const JsonTree& comparison) {
-  const JsonTree made = comparison.at("treadmark"), input = comparison.at("input");
-  Origin origin{made.text("version"),
-                made.text("git"),
-                input.text("file"),
-                input.text("sha256"),
-                {},
-                comparison.at("settings").texts()};
-  for (const JsonTree& file : input.at("geometry").items())
-    origin.geometry_sha256.emplace_back(file.text("file"), file.text("sha256"));
-  Facts facts = origin_facts(origin);
-  facts.entries.insert(facts.entries.begin() + 1, {"Truth", comparison.text("truth")});
+Facts comparison_facts(const io::Comparison& comparison) {
+  Facts facts = origin_facts({comparison.version, comparison.git, comparison.input_file, comparison.input_sha256,
+                              comparison.geometry_sha256, comparison.settings});
+  facts.entries.insert(facts.entries.begin() + 1, {"Truth", comparison.truth});
   return facts;
 }
 
 /// Without fields the number of the case is all that is known of it.
-Timeline timeline_of(const ComparedCandidates& all, const ComparedFields* fields) {
-  if (fields != nullptr) return case_timeline(*fields->truth);
+Timeline numbered(const std::vector<int>& cases) {
   Timeline timeline{"case"};
   Axis axis{"case", ""};
-  for (const int number : all.cases) {
+  for (const int number : cases) {
     timeline.names.push_back(fmt::format("case {}", number));
     axis.values.push_back(static_cast<double>(number));
   }
   timeline.axes.push_back(std::move(axis));
   return timeline;
+}
+
+io::CaseResult result_of(const io::ComparisonCandidate& candidate, int number) {
+  if (const io::CaseResult* found = io::find_result(candidate, number)) return *found;
+  io::CaseResult result;
+  result.number = number;
+  result.status = Status::failed;
+  result.message = "This representation has no result of this case.";
+  return result;
+}
+
+/// A set a candidate that was solved, the truth first, with a frame for every case of the comparison.
+std::vector<FrameSet> sets_of(const std::shared_ptr<const io::Comparison>& comparison, const ComparedCandidates& all,
+                              const std::vector<std::string>& names) {
+  std::vector<FrameSet> sets;
+  for (const Candidate& candidate : all.candidates) {
+    if (!candidate.solved()) continue;
+    FrameSet set{candidate.label + (&candidate == all.truth() ? " (truth)" : "")};
+    for (std::size_t i = 0; i < names.size(); ++i) {
+      const io::CaseResult* found = io::find_result(*candidate.data, all.cases[i]);
+      set.frames.push_back(
+          {names[i], found ? std::shared_ptr<const io::CaseResult>(comparison, found)
+                           : std::make_shared<io::CaseResult>(result_of(*candidate.data, all.cases[i]))});
+    }
+    sets.push_back(std::move(set));
+  }
+  return sets;
 }
 
 Section accuracy_section(const ComparedCandidates& all) {
@@ -155,40 +175,39 @@ Section accuracy_section(const ComparedCandidates& all) {
   return section;
 }
 
-}  // namespace
+bool has_results(const io::Comparison& comparison) {
+  return !comparison.candidates.empty() && !comparison.candidates.front().results.empty();
+}
 
-Page compare_page(const std::filesystem::path& folder) {
-  JsonFile file = read_json_file(folder / "compare.json");
-  const JsonTree& comparison = file.root;
-  const ComparedCandidates all = read_compared(comparison);
-  OptionalFiles files(folder);
-  Page page{"compare", title_of(comparison.at("input").text("file")),
+/// picture, note: in place of fields, and what the folder lacks.
+Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string document, std::vector<Block> picture,
+             std::vector<Block> note) {
+  const io::Comparison& comparison = *data;
+  const ComparedCandidates all = compared(comparison);
+  Page page{"compare", title_of(comparison.input_file),
             fmt::format("{} on {}, measured against {}", counted(all.candidates.size(), "representation"),
-                        counted(all.cases.size(), "case"), comparison.text("truth"))};
-  page.document = std::move(file.text);
+                        counted(all.cases.size(), "case"), comparison.truth)};
+  page.document = std::move(document);
   page.full_data = "fields.h5";
 
-  std::optional<ComparedFields> fields;
-  if (!all.cases.empty() && files.has("fields.h5", "contact fields"))
-    fields = read_compared_fields(files.path("fields.h5"), all);
   Section contact{"contact", "Contact"};
-  if (!all.cases.empty()) page.timeline = timeline_of(all, fields ? &*fields : nullptr);
-  if (fields) {
-    page.sets = std::move(fields->sets);
+  if (has_results(comparison)) {
+    io::RunResult truth;
+    for (const int number : all.cases) truth.cases.push_back(result_of(comparison.candidates.front(), number));
+    page.timeline = case_timeline(truth);
+    page.sets = sets_of(data, all, page.timeline->names);
     ContactView view;
     for (std::size_t i = 0; i < page.sets.size(); ++i) view.sets.push_back(static_cast<int>(i));
     contact.blocks.emplace_back(Figure{"contact-view", "Contact patches", std::move(view)});
-    page.surfaces = std::move(fields->surfaces);
+    page.surfaces = comparison.candidates.front().surfaces;
     if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail, the truth", SceneView{0}});
   } else {
-    if (page.timeline) page.timeline->frames.clear();
-    append(contact.blocks,
-           files.picture("pressures.svg", "pressures", "Contact pressures",
-                         "The first case, and those in which the errors of the largest pressure differ most."));
+    if (!all.cases.empty()) page.timeline = numbered(all.cases);
+    append(contact.blocks, std::move(picture));
   }
   if (all.cases.size() > 1) {
     const std::vector<const Candidate*> drawn = drawn_over_cases(all);
-    const auto solved = std::ranges::count_if(all.candidates, [](const Candidate& c) { return c.solved > 0; });
+    const auto solved = std::ranges::count_if(all.candidates, &Candidate::solved);
     contact.blocks.emplace_back(
         Figure{"cases-chart", "Results over the cases", case_errors_chart(all),
                static_cast<std::size_t>(solved) > drawn.size()
@@ -198,7 +217,7 @@ Page compare_page(const std::filesystem::path& folder) {
 
   Section overview{"overview", "Overview"};
   add_banners(comparison, all, overview);
-  append(overview.blocks, files.note());
+  append(overview.blocks, std::move(note));
   overview.blocks.emplace_back(cards_of(comparison, all));
   overview.blocks.emplace_back(comparison_facts(comparison));
   page.sections.push_back(std::move(overview));
@@ -208,6 +227,25 @@ Page compare_page(const std::filesystem::path& folder) {
   if (!all.cases.empty()) tables.blocks.emplace_back(compared_row_table(all));
   page.sections.push_back(std::move(tables));
   return page;
+}
+
+}  // namespace
+
+Page compare_page(const std::shared_ptr<const io::Comparison>& comparison, std::string document) {
+  return page_of(comparison, std::move(document), {}, {});
+}
+
+Page compare_page(const std::filesystem::path& folder) {
+  const auto comparison = std::make_shared<const io::Comparison>(io::read_comparison(folder));
+  OptionalFiles files(folder);
+  std::vector<Block> picture;
+  if (!has_results(*comparison)) {
+    if (!compared(*comparison).cases.empty()) files.has("fields.h5", "contact fields");
+    picture = files.picture("pressures.svg", "pressures", "Contact pressures",
+                            "The first case, and those in which the errors of the largest pressure differ most.");
+  }
+  return page_of(comparison, io::profiles::read_text(folder / "compare.json", "result", {}), std::move(picture),
+                 files.note());
 }
 
 }  // namespace treadmark::app::report

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/imports/import_map.hpp"
 
@@ -74,32 +75,30 @@ Points rectangle(double a, double s, double length, double width) {
 
 }  // namespace
 
-std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::ImportMaps& maps) {
+std::vector<MapView::Mark> import_marks(const io::ImportReport& report) {
   std::vector<MapView::Mark> marks;
-  const io::BandMap& map = maps.fitted;
+  const io::BandMap& map = report.fitted;
   if (!io::is_drawable(map)) return marks;
-  const bool wheel = maps.body == Body::wheel;
-  const double round_mm =
-      wheel && report.at("range").flag("closed") ? 2.0 * std::numbers::pi * kMilli * maps.nominal_radius : 0.0;
-  const auto along = [&](const JsonTree& node) {
-    return wheel ? std::numbers::pi / 180.0 * node.number("u_deg") * kMilli * maps.nominal_radius : node.number("u_mm");
+  const bool wheel = report.body == Body::wheel;
+  const double round_mm = wheel && report.closed ? 2.0 * kPi * kMilli * report.nominal_radius : 0.0;
+  const auto mm = [](double length) { return in_file(kMilli * length); };
+  const auto along = [&](double u) {
+    return wheel ? kPi / 180.0 * in_file(180.0 / kPi * u) * kMilli * report.nominal_radius : mm(u);
   };
-  std::size_t count = 0;
-  for (const JsonTree& hole : report.at("coverage").at("holes").items()) {
-    const double a = along(hole), s = hole.number("s_mm"), diameter = hole.number("diameter_mm");
-    if (++count > kMostHoles) break;
+  for (std::size_t i = 0; i < std::min(report.holes.size(), kMostHoles); ++i) {
+    const auto& hole = report.holes[i];
+    const double a = along(hole.u), s = mm(hole.s), diameter = mm(hole.diameter);
     if (std::isfinite(a + s) && diameter > 0.0)
-      add_mark(marks, ellipse(a, s, diameter),
-               hole.flag("filled") ? "" : fmt::format("open, {} mm", shown({diameter, 2})), map, round_mm);
+      add_mark(marks, ellipse(a, s, diameter), hole.filled ? "" : fmt::format("open, {} mm", shown({diameter, 2})), map,
+               round_mm);
   }
-  count = 0;
-  for (const JsonTree& damage : report.at("damage").items()) {
-    const double a = along(damage), s = damage.number("s_mm"), length = damage.number("length_mm"),
-                 width = damage.number("width_mm"), depth = damage.number("depth_mm");
-    if (++count > kMostDamage) break;
+  for (std::size_t i = 0; i < std::min(report.damage.size(), kMostDamage); ++i) {
+    const auto& damage = report.damage[i];
+    const double a = along(damage.u), s = mm(damage.s), length = mm(damage.length), width = mm(damage.width),
+                 depth = mm(damage.depth);
     if (std::isfinite(a + s + length + width))
       add_mark(marks, rectangle(a, s, length, width),
-               fmt::format("{}: {} mm {}", count, shown({std::fabs(depth), 3}), depth < 0.0 ? "high" : "deep"), map,
+               fmt::format("{}: {} mm {}", i + 1, shown({std::fabs(depth), 3}), depth < 0.0 ? "high" : "deep"), map,
                round_mm);
   }
   return marks;
@@ -150,11 +149,10 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
   return {Figure{what.id, what.title, std::move(view), std::move(what.note)}};
 }
 
-ChartView residual_chart(const JsonTree& fit) {
-  constexpr double kMicro = 1e3;  // mm -> µm
+ChartView residual_chart(const io::ImportReport& report) {
   ChartView view;
-  const std::vector<double> counts = fit.at("histogram").numbers();
-  const double range = kMicro * fit.number("histogram_range_mm");
+  const std::vector<double> counts(report.residual_histogram.begin(), report.residual_histogram.end());
+  const double range = 1e3 * in_file(kMilli * report.residual_range);  // [µm]
   if (counts.empty() || !(range > 0.0)) return view;
   Axis axis{"measured less fitted", "µm"};
   const double width = 2.0 * range / static_cast<double>(counts.size());

@@ -6,14 +6,13 @@
 #include <vector>
 
 #include "treadmark/app/report/page.hpp"
-#include "treadmark/app/report/pages/json_tree.hpp"
-#include "treadmark/io/imports/import_maps.hpp"
+#include "treadmark/io/imports/import_report.hpp"
 
 namespace treadmark::app::report {
 
 /// Maps of an import as views, averaged where they are finer than a page needs; nothing of a map without values. Marks
 /// are outlines of holes and damage as report.json has them.
-std::vector<MapView::Mark> import_marks(const JsonTree& report, const io::ImportMaps& maps);
+std::vector<MapView::Mark> import_marks(const io::ImportReport& report);
 
 struct MapFigure {
   const char* id;
@@ -32,6 +31,6 @@ std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what,
 std::pair<std::string, double> length_unit_of(const io::BandMap& map);
 
 /// Counts of residuals; no panels where there are none.
-ChartView residual_chart(const JsonTree& fit);
+ChartView residual_chart(const io::ImportReport& report);
 
 }  // namespace treadmark::app::report

@@ -12,167 +12,163 @@
 #include "treadmark/app/report/pages/import_figures.hpp"
 #include "treadmark/app/report/pages/import_tables.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/read_text.hpp"
 
 namespace treadmark::app::report {
 namespace {
-
-constexpr double kMicro = 1e3;  // mm -> µm
 
 std::string in_unit(double value, const char* unit, int digits = 3) {
   return std::isfinite(value) ? fmt::format("{} {}", shown({value, digits}), unit) : "–";
 }
 
-std::size_t removed_count(const JsonTree& report) {
+/// Lengths [m] with the digits of report.json.
+std::string in_mm(double length, int digits = 3) { return in_unit(in_file(kMilli * length), "mm", digits); }
+std::string in_um(double length) { return in_unit(1e3 * in_file(kMilli * length), "µm"); }
+
+std::string body_text(const io::ImportReport& report) { return report.body == Body::wheel ? "wheel" : "rail"; }
+
+std::size_t removed_count(const io::ImportReport& report) {
   std::size_t sum = 0;
-  for (const auto& [reason, count] : report.at("removed").entries()) sum += count.count();
+  for (const auto& removed : report.removed) sum += removed.count;
   return sum;
 }
 
-void add_banners(const JsonTree& report, Section& overview) {
-  for (const std::string& warning : report.at("warnings").texts())
+void add_banners(const io::ImportReport& report, Section& overview) {
+  for (const std::string& warning : report.warnings)
     overview.blocks.emplace_back(Banner{Banner::Kind::warning, "Warning.", warning});
   std::size_t open = 0;
   double widest = 0.0;
-  for (const JsonTree& hole : report.at("coverage").at("holes").items()) {
-    if (hole.flag("filled")) continue;
+  for (const auto& hole : report.holes) {
+    if (hole.filled) continue;
     ++open;
-    widest = std::fmax(widest, hole.number("diameter_mm"));
+    widest = std::fmax(widest, hole.diameter);
   }
   if (open > 0)
     overview.blocks.emplace_back(
         Banner{Banner::Kind::warning, counted(open, "hole") + (open == 1 ? " stays open." : " stay open."),
-               fmt::format("There is no surface there; the widest is {} across.", in_unit(widest, "mm"))});
-  if (report.flag("from_map"))
+               fmt::format("There is no surface there; the widest is {} across.", in_mm(widest))});
+  if (report.from_map)
     overview.blocks.emplace_back(Banner{Banner::Kind::note, "From a map of deviations.",
                                         "It was not placed: it lies over the nominal profile as it is."});
 }
 
-Cards cards_of(const JsonTree& report) {
-  const double read = static_cast<double>(report.count("points_read")),
-               removed = static_cast<double>(removed_count(report));
-  const JsonTree coverage = report.at("coverage"), fit = report.at("fit");
-  const auto holes = coverage.at("holes").items();
-  const auto damage = report.at("damage").items();
+Cards cards_of(const io::ImportReport& report) {
+  const double read = static_cast<double>(report.points_read), removed = static_cast<double>(removed_count(report));
+  const double largest = report.damage.empty() ? 0.0 : report.damage.front().depth;
   Cards cards;
-  cards.cards = {
-      {"Points used", fmt::format("{}", report.count("points_used")),
-       fmt::format("of {}", report.count("points_read"))},
-      {"Removed", read > 0.0 ? fmt::format("{} %", shown({100.0 * removed / read, 3})) : "–",
-       fmt::format("{} points", removed_count(report))},
-      {"Residual", in_unit(kMicro * report.number("residual_rms_mm"), "µm"),
-       fmt::format("rms; largest {}", in_unit(kMicro * report.number("residual_max_mm"), "µm"))},
-      {"Noise", in_unit(kMicro * report.number("noise_mm"), "µm"), "standard deviation of the points"},
-      {"Error of the surface", in_unit(kMicro * fit.number("held_out_error_mm"), "µm"), "by points that were held out"},
-      {"Holes", fmt::format("{}", holes.size()),
-       fmt::format("{} in all", in_unit(coverage.number("hole_area_mm2"), "mm²"))},
-      {"Damage", fmt::format("{}", damage.size()),
-       damage.empty() ? ""
-                      : fmt::format("the largest {} {}", in_unit(std::fabs(damage.front().number("depth_mm")), "mm"),
-                                    damage.front().number("depth_mm") < 0.0 ? "high" : "deep")}};
+  cards.cards = {{"Points used", fmt::format("{}", report.points_used), fmt::format("of {}", report.points_read)},
+                 {"Removed", read > 0.0 ? fmt::format("{} %", shown({100.0 * removed / read, 3})) : "–",
+                  fmt::format("{} points", removed_count(report))},
+                 {"Residual", in_um(report.residual_rms), fmt::format("rms; largest {}", in_um(report.residual_max))},
+                 {"Noise", in_um(report.noise), "standard deviation of the points"},
+                 {"Error of the surface", in_um(report.held_out_error), "by points that were held out"},
+                 {"Holes", fmt::format("{}", report.holes.size()),
+                  fmt::format("{} in all", in_unit(in_file(1e6 * report.hole_area), "mm²"))},
+                 {"Damage", fmt::format("{}", report.damage.size()),
+                  report.damage.empty()
+                      ? ""
+                      : fmt::format("the largest {} {}", in_mm(std::fabs(largest)), largest < 0.0 ? "high" : "deep")}};
   return cards;
 }
 
-Facts import_facts(const JsonTree& report) {
-  const JsonTree range = report.at("range"), coverage = report.at("coverage");
-  const auto span = [&](const char* key, const char* unit) {
-    const auto ends = range.at(key).numbers();
-    return ends.size() == 2 ? fmt::format("{} … {} {}", shown({ends[0], 5}), shown({ends[1], 5}), unit)
-                            : std::string("–");
+Facts import_facts(const io::ImportReport& report) {
+  const auto span = [](double from, double to, double factor, const char* unit) {
+    return fmt::format("{} … {} {}", shown({in_file(factor * from), 5}), shown({in_file(factor * to), 5}), unit);
   };
-  const bool wheel = report.text("body") == "wheel";
+  const bool wheel = report.body == Body::wheel;
   Facts facts;
-  facts.entries = {{"Version", report.at("treadmark").text("version")},
-                   {"Body", report.text("body") + (range.flag("closed") ? ", all round" : "")},
-                   {"Unit of the files", fmt::format("{} (from {})", report.text("unit"), report.text("unit_from"))},
-                   {wheel ? "Angles" : "Along the track", wheel ? span("u_deg", "°") : span("u_mm", "mm")},
-                   {"Across", span("y_mm", "mm")},
-                   {"Distance of points", in_unit(coverage.number("spacing_mm"), "mm")},
-                   {"Holes are filled up to", in_unit(coverage.number("hole_limit_mm"), "mm")},
-                   {"Damage begins at", in_unit(kMicro * report.number("damage_threshold_mm"), "µm")}};
+  facts.entries = {{"Version", report.version},
+                   {"Body", body_text(report) + (report.closed ? ", all round" : "")},
+                   {"Unit of the files", fmt::format("{} (from {})", report.unit, report.unit_from)},
+                   {wheel ? "Angles" : "Along the track",
+                    span(report.u_min, report.u_max, wheel ? 180.0 / kPi : kMilli, wheel ? "°" : "mm")},
+                   {"Across", span(report.y_min, report.y_max, kMilli, "mm")},
+                   {"Distance of points", in_mm(report.spacing)},
+                   {"Holes are filled up to", in_mm(report.hole_limit)},
+                   {"Damage begins at", in_um(report.damage_threshold)}};
   return facts;
 }
 
-std::string vector_text(const JsonTree& node, int digits) {
+std::string vector_text(const Vec3& vector, double factor, int digits) {
   std::string out;
-  for (const double value : node.numbers()) out += fmt::format("{}{}", out.empty() ? "" : ", ", shown({value, digits}));
+  for (const double value : vector)
+    out += fmt::format("{}{}", out.empty() ? "" : ", ", shown({in_file(factor * value), digits}));
   return fmt::format("({})", out);
 }
 
 /// How the surface lies in the scan; nothing for a map.
-std::vector<Block> placement_of(const JsonTree& report) {
-  const auto frame = report.find("frame");
-  if (!frame) return {};
+std::vector<Block> placement_of(const io::ImportReport& report) {
+  if (report.from_map) return {};
+  const Pose& X = report.X_CS;
   Facts facts;
   facts.entries = {
-      {"Nominal profile", frame->text("nominal_profile") + (frame->flag("turned") ? ", turned" : "")},
-      {"Nominal radius", in_unit(frame->number("nominal_radius_mm"), "mm", 6)},
-      {"Origin in the scan", vector_text(frame->at("origin_mm"), 7) + " mm"},
-      {"x axis in the scan", vector_text(frame->at("x_axis"), 6)},
-      {"y axis in the scan", vector_text(frame->at("y_axis"), 6)},
-      {"z axis in the scan", vector_text(frame->at("z_axis"), 6)},
-      {"Zero along the band", frame->text("zero")},
-      {"Standard error of the axis",
-       fmt::format("{}, {}", in_unit(kMicro * frame->number("axis_position_error_mm"), "µm"),
-                   in_unit(frame->number("axis_direction_error_mrad"), "mrad"))},
-      {"Scatter about the section", in_unit(kMicro * frame->number("scatter_mm"), "µm")},
-      {"Undamaged points", in_unit(frame->number("undamaged_percent"), "%")},
-      {"Section from the nominal profile",
-       fmt::format("{} where both agree, {} of it", in_unit(kMicro * frame->number("match_residual_mm"), "µm"),
-                   in_unit(frame->number("match_agreeing_percent"), "%"))}};
-  if (report.text("body") != "wheel")
+      {"Nominal profile", report.nominal + (report.turned ? ", turned" : "")},
+      {"Nominal radius", in_mm(report.nominal_radius, 6)},
+      {"Origin in the scan", vector_text(X.origin, kMilli, 7) + " mm"},
+      {"x axis in the scan", vector_text(X.rotation.col(0), 1.0, 6)},
+      {"y axis in the scan", vector_text(X.rotation.col(1), 1.0, 6)},
+      {"z axis in the scan", vector_text(X.rotation.col(2), 1.0, 6)},
+      {"Zero along the band", report.zero},
+      {"Standard error of the axis", fmt::format("{}, {}", in_um(report.axis_position_error),
+                                                 in_unit(in_file(kMilli * report.axis_direction_error), "mrad"))},
+      {"Scatter about the section", in_um(report.scatter)},
+      {"Undamaged points", in_unit(in_file(100.0 * report.undamaged), "%")},
+      {"Section from the nominal profile", fmt::format("{} where both agree, {} of it", in_um(report.match_residual),
+                                                       in_unit(in_file(100.0 * report.match_agreeing), "%"))}};
+  if (report.body != Body::wheel)
     std::erase_if(facts.entries, [](const auto& entry) { return entry.first == "Nominal radius"; });
   std::vector<Block> out{std::move(facts)};
-  if (Table passes = pass_table(*frame); passes.rows.size() > 1) {
+  if (Table passes = pass_table(report); passes.rows.size() > 1) {
     out.emplace_back(
         Paragraph{fmt::format("Passes lay {} apart where they overlap (rms), and {} after they were moved.",
-                              in_unit(kMicro * frame->number("pass_distance_before_mm"), "µm"),
-                              in_unit(kMicro * frame->number("pass_distance_after_mm"), "µm"))});
+                              in_um(report.pass_before), in_um(report.pass_after))});
     out.emplace_back(std::move(passes));
   }
   return out;
 }
 
-Section surface_section(const JsonTree& report, const io::ImportMaps& maps, OptionalFiles& files) {
+Section surface_section(const io::ImportReport& report, OptionalFiles& files) {
   Section section{"surface", "Surface"};
-  const auto [unit, factor] = length_unit_of(maps.fitted);
+  const auto [unit, factor] = length_unit_of(report.fitted);
   append(section.blocks,
-         map_figure(maps.fitted, maps.body,
+         map_figure(report.fitted, report.body,
                     {"fitted-map", "Distance of the fitted surface from its section", "distance", unit, factor, true,
                      "Above 0: out of the material. Rectangles: damage, by number and depth; circles: holes."},
-                    import_marks(report, maps)));
+                    import_marks(report)));
   section.blocks.emplace_back(damage_table(report));
   section.blocks.emplace_back(hole_table(report));
   append(section.blocks, files.picture("fitted.svg", "fitted", "Fitted surface"));
   return section;
 }
 
-Section points_section(const JsonTree& report, const io::ImportMaps& maps, OptionalFiles& files) {
+Section points_section(const io::ImportReport& report, OptionalFiles& files) {
   Section section{"points", "Points"};
   section.blocks.emplace_back(removed_table(report));
   append(section.blocks,
-         map_figure(maps.density, maps.body, {"density-map", "Points before cleaning", "points", "1/mm²", 1e-6}));
-  append(section.blocks,
-         map_figure(maps.removed, maps.body, {"removed-map", "Points that were removed", "points", "1/mm²", 1e-6}));
+         map_figure(report.density, report.body, {"density-map", "Points before cleaning", "points", "1/mm²", 1e-6}));
+  append(section.blocks, map_figure(report.removed_map, report.body,
+                                    {"removed-map", "Points that were removed", "points", "1/mm²", 1e-6}));
   append(section.blocks, files.picture("before.svg", "before", "Scan before cleaning"));
   append(section.blocks, files.picture("removed.svg", "removed", "What was removed"));
   return section;
 }
 
-Section fit_section(const JsonTree& report, const io::ImportMaps& maps, OptionalFiles& files) {
+Section fit_section(const io::ImportReport& report, OptionalFiles& files) {
   Section section{"fit", "Fit"};
-  const JsonTree fit = report.at("fit");
-  if (const auto kept = fit.find("kept_sections"))
+  if (const auto& kept = report.sections)
     section.blocks.emplace_back(
         Banner{Banner::Kind::note, "The scan's own sections are the surface.",
                fmt::format("{} sections of {} to {} points; the fit below serves pictures, damage and zero alone.",
-                           kept->count("count"), kept->count("fewest_points"), kept->count("most_points"))});
-  section.blocks.emplace_back(Paragraph{fmt::format(
-      "{} points were fitted, {} held out; these lie {} (rms) from the surface.", fit.count("fitted_points"),
-      fit.count("held_out_points"), in_unit(kMicro * fit.number("held_out_rms_mm"), "µm"))});
-  append(section.blocks, map_figure(maps.residual, maps.body,
+                           kept->count, kept->fewest_points, kept->most_points)});
+  section.blocks.emplace_back(
+      Paragraph{fmt::format("{} points were fitted, {} held out; these lie {} (rms) from the surface.",
+                            report.fitted_points, report.held_out_points, in_um(report.held_out_rms))});
+  append(section.blocks, map_figure(report.residual, report.body,
                                     {"residual-map", "Mean residual", "measured less fitted", "µm", 1e6, true}));
-  append(section.blocks, map_figure(maps.noise, maps.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
-  if (ChartView chart = residual_chart(fit); !chart.panels.empty())
+  append(section.blocks,
+         map_figure(report.noise_map, report.body, {"noise-map", "Noise", "standard deviation", "µm", 1e6}));
+  if (ChartView chart = residual_chart(report); !chart.panels.empty())
     section.blocks.emplace_back(Figure{"residuals", "Distribution of the residuals", std::move(chart)});
   section.blocks.emplace_back(level_table(report));
   append(section.blocks, files.picture("residual.svg", "residual", "Residuals"));
@@ -181,18 +177,13 @@ Section fit_section(const JsonTree& report, const io::ImportMaps& maps, Optional
 
 }  // namespace
 
-Page import_page(const std::filesystem::path& folder) {
-  JsonFile file = read_json_file(folder / "report.json");
-  const JsonTree& report = file.root;
+Page import_page(const io::ImportReport& report, std::string document, const std::filesystem::path& folder) {
   OptionalFiles files(folder);
-  io::ImportMaps maps;
-  if (files.has("maps.h5", "maps over the band")) maps = io::read_import_maps(files.path("maps.h5"));
-  const std::string body = report.text("body");
-  Page page{
-      "import", fmt::format("Import of {}", report.text("input")),
-      fmt::format("A {} from {}", body,
-                  report.flag("from_map") ? "a map of deviations" : counted(report.count("points_read"), "point"))};
-  page.document = std::move(file.text);
+  files.has("maps.h5", "maps over the band");
+  Page page{"import", fmt::format("Import of {}", report.inputs.empty() ? "" : report.inputs.front().file),
+            fmt::format("A {} from {}", body_text(report),
+                        report.from_map ? "a map of deviations" : counted(report.points_read, "point"))};
+  page.document = std::move(document);
 
   Section overview{"overview", "Overview"};
   add_banners(report, overview);
@@ -200,13 +191,12 @@ Page import_page(const std::filesystem::path& folder) {
   overview.blocks.emplace_back(cards_of(report));
   overview.blocks.emplace_back(import_facts(report));
   overview.blocks.emplace_back(input_table(report));
-  Section surface = surface_section(report, maps, files), points = points_section(report, maps, files),
-          fit = fit_section(report, maps, files);
+  Section surface = surface_section(report, files), points = points_section(report, files),
+          fit = fit_section(report, files);
   Section output{"outputs", "Outputs", {output_table(report)}}, steps{"steps", "Steps"},
       settings{"settings", "Settings"}, summary{"summary", "Summary"};
-  if (files.has("times.json", "times of the steps"))
-    steps.blocks.emplace_back(step_table(read_json_file(files.path("times.json")).root));
-  settings.blocks.emplace_back(Listing{report.text("settings_toml")});
+  if (files.has("times.json", "times of the steps")) steps.blocks.emplace_back(step_table(report));
+  settings.blocks.emplace_back(Listing{report.settings_toml});
   if (std::string text = files.text("summary.txt", "the summary"); !text.empty())
     summary.blocks.emplace_back(Listing{std::move(text)});
   std::vector<Block> note = files.note();
@@ -217,6 +207,11 @@ Page import_page(const std::filesystem::path& folder) {
   for (Section* section : {&overview, &surface, &points, &placement, &fit, &output, &steps, &settings, &summary})
     if (!section->blocks.empty()) page.sections.push_back(std::move(*section));
   return page;
+}
+
+Page import_page(const std::filesystem::path& folder) {
+  return import_page(io::read_import_report(folder), io::profiles::read_text(folder / "report.json", "result", {}),
+                     folder);
 }
 
 }  // namespace treadmark::app::report

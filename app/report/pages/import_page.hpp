@@ -3,14 +3,19 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
 
 #include "treadmark/app/report/page.hpp"
+#include "treadmark/io/imports/import_report.hpp"
 
 namespace treadmark::app::report {
 
-/// Report of a folder of `treadmark import --report`: report.json and, as far as they are there, times.json, maps.h5,
-/// the pictures, settings.toml and summary.txt. Errors: Error(input_data) for files that are broken or lack keys, and
-/// without report.json. Not to be called from two threads at once (HDF5).
+/// Report of an import whose files io::write_import_report wrote to a folder: pictures and the summary are taken from
+/// there as far as they are there. document: the text of report.json. Errors: Error(input_data) for files that cannot
+/// be read.
+Page import_page(const io::ImportReport& report, std::string document, const std::filesystem::path& folder);
+
+/// The same from the files alone. Errors: as io::read_import_report. Not to be called from two threads at once (HDF5).
 Page import_page(const std::filesystem::path& folder);
 
 }  // namespace treadmark::app::report

@@ -3,22 +3,19 @@
 #pragma once
 
 #include "treadmark/app/report/page.hpp"
-#include "treadmark/app/report/pages/json_tree.hpp"
+#include "treadmark/io/imports/import_report.hpp"
 
 namespace treadmark::app::report {
 
-/// Tables of the report of an import (docs/import.schema.json), a line an entry. Errors: Error(input_data) for keys
-/// that are missing.
+/// Tables of the report of an import, a line an entry, with the numbers of report.json (docs/import.schema.json).
 
-Table input_table(const JsonTree& report);
-Table removed_table(const JsonTree& report);
-Table hole_table(const JsonTree& report);
-Table damage_table(const JsonTree& report);
-Table pass_table(const JsonTree& frame);
-Table level_table(const JsonTree& report);
-Table output_table(const JsonTree& report);
-
-/// times: what times.json holds.
-Table step_table(const JsonTree& times);
+Table input_table(const io::ImportReport& report);
+Table removed_table(const io::ImportReport& report);
+Table hole_table(const io::ImportReport& report);
+Table damage_table(const io::ImportReport& report);
+Table pass_table(const io::ImportReport& report);
+Table level_table(const io::ImportReport& report);
+Table output_table(const io::ImportReport& report);
+Table step_table(const io::ImportReport& report);
 
 }  // namespace treadmark::app::report

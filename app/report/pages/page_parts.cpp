@@ -7,6 +7,9 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/constants.hpp"
+#include "treadmark/io/files/twelve_digits.hpp"
+
 namespace treadmark::app::report {
 
 Facts origin_facts(const Origin& origin) {
@@ -21,6 +24,8 @@ Facts origin_facts(const Origin& origin) {
   facts.entries.emplace_back("Settings", settings.empty() ? "as in the input" : settings);
   return facts;
 }
+
+double in_file(double value) { return std::isfinite(value) ? io::twelve_digits(value) + 0.0 : kNaN; }
 
 std::string title_of(const std::string& input_file) {
   const std::string stem = std::filesystem::path(input_file).stem().string();

@@ -20,6 +20,10 @@ struct Origin {
 /// Version, input and settings as facts.
 Facts origin_facts(const Origin& origin);
 
+/// A number with the 12 digits of the result files, so that a page is the same from a result and from its files; NaN
+/// where it is not finite.
+double in_file(double value);
+
 /// "wheel-flat" of "some/where/wheel-flat.toml"; "result" of nothing.
 std::string title_of(const std::string& input_file);
 

@@ -6,9 +6,11 @@
 
 #include "treadmark/core/material.hpp"
 
-namespace treadmark::kalker {
-
+namespace treadmark {
 struct InfluenceSettings;
+}
+
+namespace treadmark::kalker {
 
 /// Displacement differences in x, y, n (first letter) by tractions in x, y, n (second letter): u = (1/G) C p, C in [m].
 struct InfluenceBlock {

@@ -10,9 +10,11 @@
 #include "treadmark/core/grid.hpp"
 #include "treadmark/solvers/kalker/halfspace/angle_corrected_kernel.hpp"
 
-namespace treadmark::kalker {
-
+namespace treadmark {
 struct InfluenceSettings;
+}
+
+namespace treadmark::kalker {
 
 /// What an inclination does to a row: the trigonometric functions of the angle and of half of it.
 enum class RowFactor { one, cosine, sine, half_cosine, half_sine };

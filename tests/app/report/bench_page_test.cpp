@@ -12,6 +12,7 @@
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
+#include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
@@ -142,6 +143,17 @@ TEST_F(BenchPage, ChartsHaveAPlaceForEveryRepresentation) {
   EXPECT_THAT(chart_svg(heights, page, "heights"), AllOf(HasSubstr(">mesh 1 mm</text>"), HasSubstr("rotate(-35")));
   EXPECT_THAT(html, HasSubstr("a &lt;fast&gt; processor"));
   EXPECT_THAT(html, Not(HasSubstr("<fast>")));
+}
+
+TEST_F(BenchPage, OfAReportEqualsThatOfItsFile) {
+  BenchReport report = made_up_report();
+  report.seconds = 65.123456789;
+  report.rows[1].search_cold = 1.0 / 3.0;
+  report.rows[2].agrees = false;
+  report.rows[3].patches = -1;
+  const Page at_once = bench_page(report, bench_json(report)), later = page_of(report);
+  EXPECT_EQ(to_html(at_once, {.live = false}), to_html(later, {.live = false}));
+  EXPECT_EQ(page_data(at_once, 0), page_data(later, 0));
 }
 
 TEST_F(BenchPage, SaysWhatDoesNotAgreeAndWhatWasInterrupted) {

@@ -10,6 +10,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
@@ -164,6 +165,9 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
   EXPECT_FALSE(has_figure(page, "pressures"));
 
   const std::string html = to_html(page, {.live = false});
+  const Page at_once = compare_page(std::make_shared<io::Comparison>(comparison), io::to_json(comparison));
+  EXPECT_EQ(to_html(at_once, {.live = false}), html);
+  EXPECT_EQ(page_data(at_once, 1 << 20), page_data(page, 1 << 20));
   EXPECT_THAT(html, HasSubstr("id=\"table-rows\""));
   EXPECT_THAT(html, HasSubstr("mesh-flat 2 mm"));
 }

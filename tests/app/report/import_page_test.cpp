@@ -12,6 +12,7 @@
 #include <sstream>
 
 #include "treadmark/app/import/import_scan.hpp"
+#include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/io/imports/sample_report.hpp"
@@ -85,6 +86,15 @@ TEST_F(ImportPage, HasTheNumbersOfTheFile) {
   EXPECT_EQ(card_of(page, "Residual"), "36 µm | rms; largest 190 µm");
   EXPECT_EQ(card_of(page, "Removed"), "1.81 % | 29000 points");
   EXPECT_EQ(fact_of(page, "Nominal radius"), "460 mm");
+}
+
+TEST_F(ImportPage, OfAReportEqualsThatOfItsFiles) {
+  for (const io::ImportReport& report :
+       {treadmark::testing::sample_report(), treadmark::testing::sample_map_report()}) {
+    const Page later = page_of(report), at_once = import_page(report, io::import_json(report, false), folder_.path());
+    EXPECT_EQ(to_html(at_once, {.live = false}), to_html(later, {.live = false}));
+    EXPECT_EQ(page_data(at_once, 1 << 20), page_data(later, 1 << 20));
+  }
 }
 
 TEST_F(ImportPage, WarningsComeFirstAndMarkupArrivesAsText) {

@@ -91,16 +91,4 @@ std::vector<std::string> texts_in(const Table& table, const std::string& column)
   return out;
 }
 
-std::string error_of(const std::function<void()>& action) {
-  try {
-    action();
-  } catch (const Error& error) {
-    const char* kind = error.kind() == ErrorKind::input_data      ? "input data"
-                       : error.kind() == ErrorKind::configuration ? "configuration"
-                                                                  : "numerical";
-    return std::string(kind) + ": " + error.where().to_string() + ": " + error.message();
-  }
-  return {};
-}
-
 }  // namespace treadmark::testing

@@ -2,12 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <functional>
 #include <string>
 #include <vector>
 
 #include "treadmark/app/report/page.hpp"
-#include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/error_text.hpp"
 
 namespace treadmark::testing {
 
@@ -26,8 +25,5 @@ std::string banners_of(const app::report::Page& page);
 /// Cells of a column, by its label.
 std::vector<double> numbers_in(const app::report::Table& table, const std::string& column);
 std::vector<std::string> texts_in(const app::report::Table& table, const std::string& column);
-
-/// What an action that must fail says: "kind: file: message"; empty if it does not fail.
-std::string error_of(const std::function<void()>& action);
 
 }  // namespace treadmark::testing

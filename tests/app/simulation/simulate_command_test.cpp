@@ -157,7 +157,7 @@ TEST_F(Simulate, FieldsAreDrawnAndStored) {
     EXPECT_GE(io::surface_index(snapshots.run.sampled, c.rail_surface), 0);
     ASSERT_FALSE(c.patches.empty());
     const io::PatchResult& p = c.patches.front();
-    const Vec3 on_rail = c.bodies->X_TR.apply_inverse({p.x_tr, p.y_tr, p.z_tr});
+    const Vec3 on_rail = c.bodies->X_TS.apply_inverse({p.x_tr, p.y_tr, p.z_tr});
     EXPECT_NEAR(on_rail.x(), c.s + p.x_tr, 1e-9) << "the rail passes below the wheel";
   }
 }

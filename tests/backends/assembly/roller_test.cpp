@@ -98,8 +98,6 @@ TEST(Roller, IsNotPrismaticForAnybodyWhoAsks) {
   const NaturalSurface natural = create_natural({Body::rail, 0.0, StandardProfile{"60E1"}, {}, 0.5});
   EXPECT_FALSE(natural.constant_profile());
   EXPECT_FALSE(natural.surface->constant_profile());
-  ASSERT_NE(natural.wheel_of_roller, nullptr);
-  EXPECT_TRUE(natural.wheel_of_roller->constant_profile());
   EXPECT_NEAR(natural.surface->bounds().min.z(), 0.0, 1e-9);
   EXPECT_NEAR(natural.surface->bounds().max.z(), 1.0, 1e-9);
   EXPECT_GE(natural.surface->bounds().max.x(), 0.5 - 1e-9);

@@ -2,22 +2,155 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 #include <cstdio>
+#include <stdexcept>
+#include <string>
 
+#include "chebyshev_backend.hpp"
+#include "treadmark/app/bench/bench_case.hpp"
+#include "treadmark/app/bench/bench_surfaces.hpp"
+#include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/run_cases.hpp"
+#include "treadmark/backends/create.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
 #include "treadmark/core/report.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/results/summary.hpp"
 
-/// A program outside the project: a quarter turn about the axle, and the summary of an empty case.
-int main() {
-  const double quarter = std::acos(0.0);
-  const treadmark::Pose X_AB{{1.0, 2.0, 3.0}, treadmark::rotation_y(quarter)};
-  const treadmark::Vec3 p_A = X_AB.apply({0.0, 0.0, 0.5});  // z turns to x
-  if ((p_A - treadmark::Vec3(1.5, 2.0, 3.0)).norm() > 1e-15) return 1;
+namespace {
 
-  treadmark::io::CaseResult result;
+using namespace treadmark;
+
+void expect(bool holds, const char* what) {
+  if (!holds) throw std::runtime_error(what);
+}
+
+void core_and_io() {
+  const double quarter = std::acos(0.0);
+  const Pose X_AB{{1.0, 2.0, 3.0}, rotation_y(quarter)};
+  const Vec3 p_A = X_AB.apply({0.0, 0.0, 0.5});  // z turns to x
+  expect((p_A - Vec3(1.5, 2.0, 3.0)).norm() <= 1e-15, "a quarter turn about the axle");
+
+  io::CaseResult result;
   result.number = 7;
-  result.status = treadmark::Status::no_contact;
-  if (treadmark::io::summary(result).rfind("case 7: no_contact", 0) != 0) return 2;
+  result.status = Status::no_contact;
+  expect(io::summary(result).rfind("case 7: no_contact", 0) == 0, "the summary of an empty case");
+}
+
+/// The backend's squat against its formula, dip = depth/4 (1 + cos)(1 + cos), and an undamaged rail and wheel.
+void heights() {
+  SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  const auto plain = create_surface(rail);
+  rail.defects.squats.push_back({});
+  Squat& squat = rail.defects.squats.front();
+  squat.length = 0.03, squat.width = 0.024, squat.depth = 0.4e-3, squat.x_center = 0.31, squat.y_center = 0.004;
+  const auto surface = create_surface(rail, "chebyshev");
+  expect(surface->backend() == "chebyshev", "the surface names its backend");
+  const double turn = 4.0 * std::acos(0.0);
+  for (double x = 0.28; x < 0.34; x += 0.00131)
+    for (double y = -0.012; y < 0.02; y += 0.00093) {
+      const double dx = x - 0.31, dy = y - 0.004;
+      const double dip = std::fabs(dx) < 0.015 && std::fabs(dy) < 0.012
+                             ? 0.1e-3 * (1.0 + std::cos(turn * dx / 0.03)) * (1.0 + std::cos(turn * dy / 0.024))
+                             : 0.0;
+      const double error = height_at(*surface, {}, {x, y}) - height_at(*plain, {}, {x, y}) - dip;
+      expect(std::fabs(error) < 3e-7, "the squat is that of the formula");
+    }
+  expect(std::isnan(height_at(*surface, {}, {0.3, 0.05})), "beside the rail there is nothing");
+  const SurfaceSpec wheel{Body::wheel, 0.46, StandardProfile{"S1002"}, {}};
+  const double z = height_at(*create_surface(wheel), {}, {0.02, 0.01});
+  expect(std::fabs(height_at(*create_surface(wheel, "chebyshev"), {}, {0.02, 0.01}) - z) < 1e-12, "an undamaged wheel");
+}
+
+/// The wheel with a flat on the rail with a squat that the benchmark is made of, compared, timed, and asked for by key.
+void cases() {
+  const io::CaseFile file = app::bench_case();
+  app::CompareSettings compare;
+  compare.backends = {"spline", "chebyshev", "mesh"};
+  compare.resolutions = {1e-3};
+  const io::Comparison comparison = app::compare_cases(file, compare);
+  expect(comparison.truth == "analytic" && comparison.candidates.size() == 4, "the truth and three candidates");
+  for (const auto& candidate : comparison.candidates) {
+    expect(candidate.failure.empty() && !candidate.rows.empty(), "a candidate could not be built");
+    std::printf("%s: pmax %+.3f %%, position %.5f mm\n", candidate.name.c_str(),
+                1e2 * candidate.rows.front().pmax_error, 1e3 * candidate.rows.front().position_error);
+    if (candidate.name != "chebyshev") continue;
+    expect(std::fabs(candidate.rows.front().pmax_error) < 2e-3, "the pressure is that of the formula");
+    expect(candidate.rows.front().position_error < 1e-5, "the contact lies where that of the formula lies");
+    expect(candidate.wheel.difference.height_max < 1e-6 && candidate.rail.difference.height_max < 1e-6,
+           "the series follow the formulas");
+  }
+
+  app::BenchSettings bench;
+  bench.backends = {"chebyshev"};
+  bench.resolutions = {1e-3};
+  bench.seconds_per_measure = 1e-3;
+  bench.grid = {0.5e-3, 6000};
+  const app::BenchReport report = app::bench_surfaces(file, bench);
+  for (const app::BenchRow& row : report.rows)
+    if (!row.agrees) std::puts(row.reason.c_str());
+  expect(report.rows.size() == 2 && report.agrees() && report.rows[0].base_height > 0.0,
+         "heights, search and distance");
+
+  io::CaseFile keyed = io::parse_case_text(R"(
+[wheel]
+shape.standard = "S1002"
+[rail]
+shape.standard = "60E1"
+backend = "chebyshev"
+[track]
+gauge_mm = 1435.0
+gauge_height_mm = 14.0
+cant = "1:40"
+[wheelset]
+flange_back_distance_mm = 1360.0
+flange_back_position_mm = -70.0
+nominal_radius_mm = 460.0
+vertical_force_N = 1e5
+velocity_m_s = 2.0
+vpitch_rad_s = -4.3478
+[material]
+shear_modulus_GPa = 82.0
+poisson_ratio = 0.28
+[friction]
+coefficient = 0.3
+[discretisation]
+dx_mm = 1.0
+ds_mm = 1.0
+)",
+                                           "keyed.toml");
+  const io::RunResult run = app::run_cases(keyed);
+  bool used = false;
+  for (const auto& use : run.surfaces) used = used || (use.body == "rail" && use.backend == "chebyshev");
+  expect(used && run.cases.front().status == Status::ok, "rail.backend in a case file");
+}
+
+void refused(void (*call)(), const std::string& words) {
+  try {
+    call();
+  } catch (const Error& error) {
+    if (std::string(error.what()).find(words) != std::string::npos) return;
+    throw;
+  }
+  throw std::runtime_error("not refused: " + words);
+}
+
+}  // namespace
+
+/// A program outside the project, with a backend of its own: what it can do with the installed package.
+int main() {
+  try {
+    core_and_io();
+    refused([] { create_surface({Body::rail, 0.0, StandardProfile{"60E1"}, {}}, "chebyshev"); }, "unknown backend");
+    register_chebyshev();
+    refused(register_chebyshev, "exists already");
+    expect(backend_names().back() == "chebyshev", "new backends come last");
+    heights();
+    cases();
+  } catch (const std::exception& error) {
+    std::printf("failed: %s\n", error.what());
+    return 1;
+  }
   std::puts("the installed package works");
   return 0;
 }

@@ -31,7 +31,7 @@ TEST(ContactHistory, FollowsThePDigitAndTheSequence) {
   for (const char* id : {"3 1", "3 2"})
     for (const int p : {0, 1, 2, 3, 0}) text += basic().set("TANG", 1).set("PVTIME", p).line("module", id).str();
   const CaseFile f = parse(text);
-  using H = HistoryInput;
+  using H = HistoryUse;
   const std::vector<H> expected{H::start, H::normal_only, H::start, H::same_instant,
                                 H::keep_going};  // the first of a sequence starts
   for (std::size_t i = 0; i < 10; ++i) {
@@ -43,8 +43,8 @@ TEST(ContactHistory, FollowsThePDigitAndTheSequence) {
 TEST(ContactHistory, SkippedCasesLeaveNone) {
   const CaseFile f =
       parse(basic().set("RETURN", 3).str() + basic().set("PVTIME", 0).str() + basic().set("PVTIME", 0).str());
-  EXPECT_EQ(at(f, 0).history, HistoryInput::start);
-  EXPECT_EQ(at(f, 1).history, HistoryInput::keep_going);
+  EXPECT_EQ(at(f, 0).history, HistoryUse::start);
+  EXPECT_EQ(at(f, 1).history, HistoryUse::keep_going);
 }
 
 TEST(ContactHistory, CasesOfDifferentModulesAreDifferentSequences) {
@@ -56,12 +56,12 @@ TEST(ContactHistory, CasesOfDifferentModulesAreDifferentSequences) {
 
 TEST(ContactRolling, TransientInAnyDirection) {
   const BasicCase c = only(basic().set("TANG", 2).line("rolling", "30d 0.4 20000. 0.25"));
-  EXPECT_EQ(c.regime, RegimeInput::transient);
+  EXPECT_EQ(c.regime, Regime::transient);
   EXPECT_DOUBLE_EQ(c.chi, 30 * kDegree);
   EXPECT_DOUBLE_EQ(c.dq, 0.4e-3);
   EXPECT_DOUBLE_EQ(c.velocity, 20.0);
   EXPECT_DOUBLE_EQ(c.spin_offset_factor, 0.25);
-  EXPECT_EQ(only(basic().set("TANG", 3).line("rolling", "180d 0.4 20000.")).regime, RegimeInput::steady);
+  EXPECT_EQ(only(basic().set("TANG", 3).line("rolling", "180d 0.4 20000.")).regime, Regime::steady);
 }
 
 TEST(ContactMaterial, SheetViscoelasticityAndLayer) {
@@ -98,27 +98,27 @@ TEST(ContactMaterial, DissimilarBodies) {
   const BasicCase c = only(basic().line("material", "0.31 0.28 23000. 82000.").line("solver", "500 100 30 10 1e-6"));
   EXPECT_DOUBLE_EQ(c.material.shear_modulus_1, 23e9);
   EXPECT_DOUBLE_EQ(c.material.poisson_1, 0.31);
-  EXPECT_EQ(c.solver.max_out, 10);
+  EXPECT_EQ(c.solver.max_coupling, 10);
 }
 
 TEST(ContactModels, SimplifiedTheories) {
-  using T = TangentialModelInput;
+  using T = TangentialModel;
   const BasicCase one = only(basic().set("MATER", 2).line("simplified", "2e-5 0.9 0.8 0.7"));
   EXPECT_EQ(one.tangential_model, T::fastsim_one_flexibility);
-  EXPECT_DOUBLE_EQ(one.fastsim_flexibility, 2e-14);
-  EXPECT_DOUBLE_EQ(one.fastsim_alpha, 0.8);
+  EXPECT_DOUBLE_EQ(one.fastsim.flexibility, 2e-14);
+  EXPECT_DOUBLE_EQ(one.fastsim.alpha, 0.8);
   EXPECT_EQ(only(basic().set("MATER", 3)).tangential_model, T::fastsim);
   const BasicCase strip = only(basic().set("MATER", 5));
   EXPECT_EQ(strip.tangential_model, T::fastrip);
-  EXPECT_DOUBLE_EQ(strip.fastsim_beta, 0.7);
+  EXPECT_DOUBLE_EQ(strip.fastsim.beta, 0.7);
 }
 
 TEST(ContactModels, ApproximatePressures) {
-  EXPECT_EQ(only(basic().set("NORM", 0).set("BOUND", 5)).normal_model, NormalModelInput::kpec);
-  EXPECT_EQ(only(basic().set("NORM", 0).set("BOUND", 6)).normal_model, NormalModelInput::analyn);
+  EXPECT_EQ(only(basic().set("NORM", 0).set("BOUND", 5)).normal_model, NormalModel::kpec);
+  EXPECT_EQ(only(basic().set("NORM", 0).set("BOUND", 6)).normal_model, NormalModel::analyn);
   const BasicCase c =
       only(basic().set("BOUND", 4).line("ipotcn", "-6").line("potcon", "4 5 8.0 3.0 5.0 1.1").line("hertz", ""));
-  EXPECT_EQ(c.normal_model, NormalModelInput::semi_double_elliptic);
+  EXPECT_EQ(c.normal_model, NormalModel::semi_double_elliptic);
   const HertzInput& h = std::get<HertzInput>(c.geometry);
   EXPECT_EQ(h.given, HertzInput::Given::semi_double_elliptic);
   EXPECT_DOUBLE_EQ(h.aa, 8e-3);
@@ -192,7 +192,7 @@ TEST(ContactHeat, ThermalDataAndFriction) {
 }
 
 TEST(ContactSolver, MethodAndFirstSlip) {
-  using S = SolverInput;
+  using S = SolverSettings;
   const auto of = [](int digit, const char* slip) {
     return only(basic().set("GAUSEI", digit).line("slip", slip).line("omega", "0.5 1.0 " + std::string(slip))).solver;
   };
@@ -292,12 +292,12 @@ TEST(ContactOutput, TableOfElements) {
 TEST(ContactWheelRail, ApproximationsAndFrictionThatVaries) {
   const auto rail = [](const CaseFile& f, std::size_t i) { return std::get<WheelRailCase>(f.cases.at(i).content); };
   const WheelRailCase kpec = rail(parse(ContactWriter(1).set("BOUND", 5).set("MATER", 2).set("INFLCF", 3).str()), 0);
-  EXPECT_EQ(kpec.normal_model, NormalModelInput::kpec);
-  EXPECT_EQ(kpec.tangential_model, TangentialModelInput::fastsim_one_flexibility);
-  EXPECT_DOUBLE_EQ(kpec.fastsim_flexibility, 1e-14);
+  EXPECT_EQ(kpec.normal_model, NormalModel::kpec);
+  EXPECT_EQ(kpec.tangential_model, TangentialModel::fastsim_one_flexibility);
+  EXPECT_DOUBLE_EQ(kpec.fastsim.flexibility, 1e-14);
   EXPECT_EQ(kpec.influence.kind, InfluenceInput::Kind::bilinear);
   EXPECT_EQ(rail(parse(ContactWriter(1).set("BOUND", 6).set("MATER", 5).str()), 0).tangential_model,
-            TangentialModelInput::fastrip);
+            TangentialModel::fastrip);
 
   const CaseFile f = parse(ContactWriter(1).set("VARFRC", 1).set("FRCLAW", 4).str() +
                            ContactWriter(1).set("VARFRC", 1).set("FRCLAW", 1).str() +

@@ -28,7 +28,7 @@ TEST(ContactInputModule1, ConvertsEveryValueToSi) {
   EXPECT_EQ(f.cases[0].where.line, 1);
   const WheelRailCase& c = rail_case(f, 0);
   EXPECT_EQ(c.side, Side::right);
-  EXPECT_EQ(c.regime, RegimeInput::steady);
+  EXPECT_EQ(c.regime, Regime::steady);
   EXPECT_TRUE(c.vertical_force_prescribed);
   EXPECT_DOUBLE_EQ(c.vertical_force, 125000.0);
   EXPECT_DOUBLE_EQ(c.discretisation.dx, 0.4e-3);
@@ -53,44 +53,45 @@ TEST(ContactInputModule1, ConvertsEveryValueToSi) {
   EXPECT_DOUBLE_EQ(c.track.vy, 4e-3);
   EXPECT_DOUBLE_EQ(c.track.vz, 5e-3);
   EXPECT_DOUBLE_EQ(c.track.vroll, 0.6);
-  const WheelsetInput& w = c.wheelset;
+  const WheelsetDimensions& w = c.wheelset;
+  const WheelsetState& s = c.state;
   EXPECT_DOUBLE_EQ(w.flange_back_distance, 1.36);
   EXPECT_DOUBLE_EQ(w.flange_back_position, -0.07);
   EXPECT_DOUBLE_EQ(w.nominal_radius, 0.46);
   EXPECT_FALSE(w.tape_line);
-  EXPECT_DOUBLE_EQ(w.s, 1e-3);
-  EXPECT_DOUBLE_EQ(w.y, 2e-3);
-  EXPECT_DOUBLE_EQ(w.roll, 0.001);
-  EXPECT_DOUBLE_EQ(w.yaw, 0.002);
-  EXPECT_DOUBLE_EQ(w.pitch, -25 * kDegree);
-  EXPECT_DOUBLE_EQ(w.vs, 2.0);
-  EXPECT_DOUBLE_EQ(w.vy, 1e-3);
-  EXPECT_DOUBLE_EQ(w.vz, 2e-3);
-  EXPECT_DOUBLE_EQ(w.vroll, 0.1);
-  EXPECT_DOUBLE_EQ(w.vyaw, 0.2);
-  EXPECT_DOUBLE_EQ(w.vpitch, -4.0);
-  EXPECT_DOUBLE_EQ(w.dx, 0.1e-3);
-  EXPECT_DOUBLE_EQ(w.dy, 0.2e-3);
-  EXPECT_DOUBLE_EQ(w.dz, 0.3e-3);
-  EXPECT_DOUBLE_EQ(w.droll, 1 * kDegree);
-  EXPECT_DOUBLE_EQ(w.dyaw, 2 * kDegree);
-  EXPECT_DOUBLE_EQ(w.dpitch, 3 * kDegree);
-  EXPECT_DOUBLE_EQ(w.dvx, 1e-3);
-  EXPECT_DOUBLE_EQ(w.dvy, 2e-3);
-  EXPECT_DOUBLE_EQ(w.dvz, 3e-3);
-  EXPECT_DOUBLE_EQ(w.dvroll, 0.1);
-  EXPECT_DOUBLE_EQ(w.dvyaw, 0.2);
-  EXPECT_DOUBLE_EQ(w.dvpitch, 0.3);
+  EXPECT_DOUBLE_EQ(s.position.x, 1e-3);
+  EXPECT_DOUBLE_EQ(s.position.y, 2e-3);
+  EXPECT_DOUBLE_EQ(s.position.roll, 0.001);
+  EXPECT_DOUBLE_EQ(s.position.yaw, 0.002);
+  EXPECT_DOUBLE_EQ(s.position.pitch, -25 * kDegree);
+  EXPECT_DOUBLE_EQ(s.velocity.x, 2.0);
+  EXPECT_DOUBLE_EQ(s.velocity.y, 1e-3);
+  EXPECT_DOUBLE_EQ(s.velocity.z, 2e-3);
+  EXPECT_DOUBLE_EQ(s.velocity.roll, 0.1);
+  EXPECT_DOUBLE_EQ(s.velocity.yaw, 0.2);
+  EXPECT_DOUBLE_EQ(s.velocity.pitch, -4.0);
+  EXPECT_DOUBLE_EQ(s.wheel_offset.x, 0.1e-3);
+  EXPECT_DOUBLE_EQ(s.wheel_offset.y, 0.2e-3);
+  EXPECT_DOUBLE_EQ(s.wheel_offset.z, 0.3e-3);
+  EXPECT_DOUBLE_EQ(s.wheel_offset.roll, 1 * kDegree);
+  EXPECT_DOUBLE_EQ(s.wheel_offset.yaw, 2 * kDegree);
+  EXPECT_DOUBLE_EQ(s.wheel_offset.pitch, 3 * kDegree);
+  EXPECT_DOUBLE_EQ(s.wheel_velocity.x, 1e-3);
+  EXPECT_DOUBLE_EQ(s.wheel_velocity.y, 2e-3);
+  EXPECT_DOUBLE_EQ(s.wheel_velocity.z, 3e-3);
+  EXPECT_DOUBLE_EQ(s.wheel_velocity.roll, 0.1);
+  EXPECT_DOUBLE_EQ(s.wheel_velocity.yaw, 0.2);
+  EXPECT_DOUBLE_EQ(s.wheel_velocity.pitch, 0.3);
   EXPECT_DOUBLE_EQ(c.material.shear_modulus_1, 82e9);
   EXPECT_DOUBLE_EQ(c.material.shear_modulus_2, 82e9);
   EXPECT_DOUBLE_EQ(c.material.poisson_1, 0.28);
   EXPECT_DOUBLE_EQ(c.material.layer_flexibility, 0.0);
   EXPECT_EQ(c.friction.kind, FrictionLaw::Kind::coulomb);
   EXPECT_DOUBLE_EQ(c.friction.kinetic, 0.3);
-  EXPECT_EQ(c.solver.max_gs, 999);
-  EXPECT_EQ(c.solver.max_in, 100);
-  EXPECT_EQ(c.solver.max_nr, 30);
-  EXPECT_EQ(c.solver.max_out, 1);
+  EXPECT_EQ(c.solver.max_iterations, 999);
+  EXPECT_EQ(c.solver.max_outer, 100);
+  EXPECT_EQ(c.solver.max_force, 30);
+  EXPECT_EQ(c.solver.max_coupling, 1);
   EXPECT_DOUBLE_EQ(c.solver.eps, 1e-5);
   const auto& rail = std::get<GeometryFile>(c.rail.geometry);
   EXPECT_EQ(rail.file, "folder/rail.prr");
@@ -107,19 +108,20 @@ TEST(ContactInputModule1, KeepsValuesThatLaterCasesDoNotGive) {
   ASSERT_EQ(f.cases.size(), 2u);
   EXPECT_EQ(f.cases[1].number, 2);
   const WheelRailCase &a = rail_case(f, 0), &b = rail_case(f, 1);
-  EXPECT_DOUBLE_EQ(b.wheelset.s, 5e-3);
+  EXPECT_DOUBLE_EQ(b.state.position.x, 5e-3);
   EXPECT_DOUBLE_EQ(b.vertical_force, 99000.0);
-  EXPECT_DOUBLE_EQ(b.wheelset.pitch, -26 * kDegree);
+  EXPECT_DOUBLE_EQ(b.state.position.pitch, -26 * kDegree);
   EXPECT_EQ(std::get<GeometryFile>(b.rail.geometry).file, std::get<GeometryFile>(a.rail.geometry).file);
   EXPECT_EQ(std::get<GeometryFile>(b.wheel.geometry).options, std::get<GeometryFile>(a.wheel.geometry).options);
   EXPECT_DOUBLE_EQ(b.track.cant, a.track.cant);
   EXPECT_DOUBLE_EQ(b.track.dy, a.track.dy);
-  EXPECT_DOUBLE_EQ(b.wheelset.droll, a.wheelset.droll);  // deviations stay when E = 2 does not give them
+  EXPECT_DOUBLE_EQ(b.state.wheel_offset.roll,
+                   a.state.wheel_offset.roll);  // deviations stay when E = 2 does not give them
   EXPECT_DOUBLE_EQ(b.friction.half_velocity_1, a.friction.half_velocity_1);
   EXPECT_EQ(b.friction.kind, FrictionLaw::Kind::exponential);
   EXPECT_DOUBLE_EQ(b.material.shear_modulus_1, 82e9);
   EXPECT_DOUBLE_EQ(b.discretisation.dx, a.discretisation.dx);
-  EXPECT_EQ(b.solver.max_gs, 999);
+  EXPECT_EQ(b.solver.max_iterations, 999);
 }
 
 TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
@@ -139,7 +141,7 @@ TEST(ContactInputModule1, ReadsOptionalValuesOfTheirLinesOnly) {
   EXPECT_DOUBLE_EQ(c.track.cant, 0.02);
   EXPECT_DOUBLE_EQ(c.track.curvature, 1.0);
   EXPECT_DOUBLE_EQ(c.wheelset.tape_line.value(), 0.5e-3);
-  EXPECT_EQ(c.solver.max_out, 13);
+  EXPECT_EQ(c.solver.max_coupling, 13);
   EXPECT_EQ(c.discretisation.max_elements, 100);  // the limit is not below 100
   // An unused tape line is written as a large number.
   const CaseFile unused = parse(ContactWriter(1).line("wheelset", "1360. -70. 460. 1000.").str() + "0\n");
@@ -198,7 +200,7 @@ TEST(ContactInputModule1, SecondIntegerOfTheModelLineHoldsTheWeight) {
 TEST(ContactInputModule1, PositionInsteadOfForce) {
   const WheelRailCase c = rail_case(parse(ContactWriter(1).set("NORM", 0).set("CONFIG", 0).str() + "0\n"), 0);
   EXPECT_FALSE(c.vertical_force_prescribed);
-  EXPECT_DOUBLE_EQ(c.wheelset.z, 0.3e-3);
+  EXPECT_DOUBLE_EQ(c.state.position.z, 0.3e-3);
   EXPECT_EQ(c.side, Side::left);
 }
 
@@ -241,7 +243,7 @@ TEST(ContactInputModule3, ConvertsEveryValueToSi) {
 
 TEST(ContactInputModule3, ShiftIsALength) {
   const BasicCase c = basic_case(parse(ContactWriter(3).set("TANG", 1).str() + "0\n"), 0);
-  EXPECT_EQ(c.regime, RegimeInput::shift);
+  EXPECT_EQ(c.regime, Regime::shift);
   EXPECT_DOUBLE_EQ(c.xi, -1e-6);
   EXPECT_DOUBLE_EQ(c.eta, 2e-6);
   EXPECT_DOUBLE_EQ(c.phi, 0.0003);
@@ -335,10 +337,10 @@ TEST(ContactInputModule3, FastsimAndFrictionLaws) {
   const CaseFile f =
       parse(ContactWriter(3).set("MATER", 3).set("FRCLAW", 2).str() + ContactWriter(3).set("FRCLAW", 3).str() + "0\n");
   const BasicCase& c = basic_case(f, 0);
-  EXPECT_EQ(c.tangential_model, TangentialModelInput::fastsim);
-  EXPECT_DOUBLE_EQ(c.fastsim_k0, 0.9);
-  EXPECT_DOUBLE_EQ(c.fastsim_alpha, 0.8);
-  EXPECT_DOUBLE_EQ(c.fastsim_beta, 0.7);
+  EXPECT_EQ(c.tangential_model, TangentialModel::fastsim);
+  EXPECT_DOUBLE_EQ(c.fastsim.k0, 0.9);
+  EXPECT_DOUBLE_EQ(c.fastsim.alpha, 0.8);
+  EXPECT_DOUBLE_EQ(c.fastsim.beta, 0.7);
   EXPECT_EQ(c.friction.kind, FrictionLaw::Kind::linear);
   EXPECT_DOUBLE_EQ(c.friction.kinetic, 0.2);
   EXPECT_DOUBLE_EQ(c.friction.amplitude_1, 0.1);
@@ -347,7 +349,7 @@ TEST(ContactInputModule3, FastsimAndFrictionLaws) {
   EXPECT_DOUBLE_EQ(c.friction.half_velocity_2, 0.2);
   EXPECT_DOUBLE_EQ(c.friction.memory_distance, 3e-6);
   EXPECT_DOUBLE_EQ(c.friction.memory_velocity, 1e-3);
-  EXPECT_EQ(basic_case(f, 1).tangential_model, TangentialModelInput::full);
+  EXPECT_EQ(basic_case(f, 1).tangential_model, TangentialModel::full);
   EXPECT_EQ(basic_case(f, 1).friction.kind, FrictionLaw::Kind::rational);
 }
 

@@ -50,10 +50,10 @@ TEST(ContactRoller, HasItsRadiusAndPitchRate) {
     EXPECT_DOUBLE_EQ(c.roller->nominal_radius, 0.5);
     EXPECT_DOUBLE_EQ(c.roller->pitch_rate, 20.0);
     EXPECT_DOUBLE_EQ(c.track.cant, 0.0);
-    EXPECT_DOUBLE_EQ(c.wheelset.s, 1e-3);  // X_WS
-    EXPECT_DOUBLE_EQ(c.wheelset.vs, 0.0);
-    EXPECT_DOUBLE_EQ(c.wheelset.vy, 1e-3);
-    EXPECT_DOUBLE_EQ(c.wheelset.vpitch, -40.0);
+    EXPECT_DOUBLE_EQ(c.state.position.x, 1e-3);  // X_WS
+    EXPECT_DOUBLE_EQ(c.state.velocity.x, 0.0);
+    EXPECT_DOUBLE_EQ(c.state.velocity.y, 1e-3);
+    EXPECT_DOUBLE_EQ(c.state.velocity.pitch, -40.0);
   }
   EXPECT_FALSE(only(rail()).roller);
   EXPECT_DOUBLE_EQ(only(rail().set("CONFIG", 5).line("track", "-1.0 750. 0.1 -500. 0.001")).roller->nominal_radius,
@@ -77,11 +77,11 @@ TEST(ContactForces, LongitudinalForceReplacesThePitchRate) {
       parse(rail().set("FORCE", 1).str() + keeping().set("FORCE", 1).line("velocity", "2000. 0. 0. 0. 0. 5000.").str() +
             keeping().set("FORCE", 1).set("EWHEEL", 1).str() + keeping().str());
   EXPECT_EQ(at(f, 0).longitudinal_force, std::optional(-4.0));
-  EXPECT_DOUBLE_EQ(at(f, 0).wheelset.vpitch, 0.0);
+  EXPECT_DOUBLE_EQ(at(f, 0).state.velocity.pitch, 0.0);
   EXPECT_EQ(at(f, 1).longitudinal_force, std::optional(5000.0));
   EXPECT_EQ(at(f, 2).longitudinal_force, std::optional(5000.0));
   EXPECT_FALSE(at(f, 3).longitudinal_force);
-  EXPECT_DOUBLE_EQ(at(f, 3).wheelset.vpitch, -4.0);
+  EXPECT_DOUBLE_EQ(at(f, 3).state.velocity.pitch, -4.0);
   EXPECT_THAT(error_of(rail().str() + keeping().set("FORCE", 1).set("EWHEEL", 1).str()),
               HasSubstr("test.inp:17:8: F (FORCE) = 1 needs FX"));
   EXPECT_THAT(error_of(rail().set("FORCE", 1).str() + keeping().set("EWHEEL", 0).str()),
@@ -93,7 +93,7 @@ TEST(ContactForces, RailOnSpringsInSiUnits) {
                            keeping().set("FORCE", 3).str() + keeping().set("FORCE", 3).set("ZTRACK", 2).str() +
                            keeping().set("ZTRACK", 2).str());
   for (const std::size_t i : {0u, 1u}) {
-    const RailSpringsInput s = at(f, i).rail_springs.value();
+    const RailSprings s = at(f, i).rail_springs.value();
     EXPECT_DOUBLE_EQ(s.stiffness_y, 1e5);
     EXPECT_DOUBLE_EQ(s.force_y, -2000.0);
     EXPECT_DOUBLE_EQ(s.stiffness_z, 5e4);
@@ -114,7 +114,7 @@ TEST(ContactForces, DampingIsReadKeptAndDropped) {
       parse(rail().line("word2", "0022033 2").line("damping", "1e-4 2e-4 3e6 4e6").str() +
             keeping().line("word2", "0100002 1").str() + keeping().str() + keeping().line("word2", "0100002 1").str());
   for (const std::size_t i : {0u, 1u}) {
-    const DampingInput d = at(f, i).damping.value();
+    const Damping d = at(f, i).damping.value();
     EXPECT_DOUBLE_EQ(d.normal, 1e-4);
     EXPECT_DOUBLE_EQ(d.tangential, 2e-4);
     EXPECT_DOUBLE_EQ(d.max_rate_normal, 3e6);
@@ -130,12 +130,12 @@ TEST(ContactSequenceOfAWheel, FollowsThePDigit) {
   std::string text;
   for (const int p : {0, 1, 2, 3, 0}) text += rail().set("TANG", p == 2 ? 1 : 2).set("PVTIME", p).str();
   const CaseFile f = parse(text);
-  using H = HistoryInput;
+  using H = HistoryUse;
   const std::vector<H> expected{H::start, H::normal_only, H::start, H::same_instant, H::keep_going};
   for (std::size_t i = 0; i < 5; ++i) EXPECT_EQ(at(f, i).history, expected[i]) << i;
-  EXPECT_EQ(at(f, 0).regime, RegimeInput::transient);
-  EXPECT_EQ(at(f, 2).regime, RegimeInput::shift);
-  EXPECT_DOUBLE_EQ(at(f, 2).wheelset.vs, 2.0);  // 2000 mm in the step
+  EXPECT_EQ(at(f, 0).regime, Regime::transient);
+  EXPECT_EQ(at(f, 2).regime, Regime::shift);
+  EXPECT_DOUBLE_EQ(at(f, 2).state.velocity.x, 2.0);  // 2000 mm in the step
 }
 
 TEST(ContactSequenceOfAWheel, KeepsElementsAndSide) {
@@ -174,7 +174,7 @@ TEST(ContactSequenceOfAWheel, StepsThatDoNotFitAreNotedOnce) {
 }
 
 TEST(ContactMethods, ReferenceSurfaces) {
-  using R = ReferenceSurfaceInput;
+  using R = ReferenceSurface;
   EXPECT_EQ(only(rail()).reference_surface, R::plane);
   EXPECT_EQ(only(rail().set("DISCNS", 3)).reference_surface, R::plane_surface_slip);
   EXPECT_EQ(only(rail().set("DISCNS", 4)).reference_surface, R::curved);

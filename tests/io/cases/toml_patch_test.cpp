@@ -45,7 +45,7 @@ TEST(TomlPatch, HistoryAndSequences) {
             "[[cases]]\ncase.regime = \"shift\"\npatch.shift_x_mm = [0.1, 0.2]\n[[cases]]\ncase.sequence = 4\n"
             "[[cases]]\ncase.sequence = 4\ncase.history = \"same_instant\"\ncase.element_table = \"contact\"\n"
             "[[cases]]\ncase.history = \"normal_only\"\n[[cases]]\ncase.history = \"start\"\n");
-  using H = HistoryInput;
+  using H = HistoryUse;
   const std::vector<H> history{H::start,        H::keep_going,  H::start,
                                H::same_instant, H::normal_only, H::start};  // the first of each starts
   const std::vector<int> sequence{0, 0, 4, 4, 0, 0}, table{2, 2, 2, 1, 2, 2};
@@ -61,7 +61,7 @@ TEST(TomlPatch, HistoryAndSequences) {
 
 TEST(TomlPatch, TransientRolling) {
   const BasicCase c = one("case.regime = \"transient\"\n" + kGap + "rolling_direction_deg = 30\n");
-  EXPECT_EQ(c.regime, RegimeInput::transient);
+  EXPECT_EQ(c.regime, Regime::transient);
   EXPECT_DOUBLE_EQ(c.chi, 30 * kDegree);
 }
 
@@ -105,11 +105,11 @@ TEST(TomlPatch, ModelsAndSolver) {
       one(kSteady + kGap +
           "normal_model = \"kpec\"\ntangential_model = \"fastsim_one_flexibility\"\n"
           "fastsim_flexibility_mm_per_MPa = 3e-5\n[solver]\nmethod = \"sweeps\"\nfirst_slip = \"above\"\n");
-  EXPECT_EQ(c.normal_model, NormalModelInput::kpec);
-  EXPECT_EQ(c.tangential_model, TangentialModelInput::fastsim_one_flexibility);
-  EXPECT_DOUBLE_EQ(c.fastsim_flexibility, 3e-14);
-  EXPECT_EQ(c.solver.method, SolverInput::Method::sweeps);
-  EXPECT_EQ(c.solver.first_slip, SolverInput::FirstSlip::above);
+  EXPECT_EQ(c.normal_model, NormalModel::kpec);
+  EXPECT_EQ(c.tangential_model, TangentialModel::fastsim_one_flexibility);
+  EXPECT_DOUBLE_EQ(c.fastsim.flexibility, 3e-14);
+  EXPECT_EQ(c.solver.method, SolverSettings::Method::sweeps);
+  EXPECT_EQ(c.solver.first_slip, SolverSettings::FirstSlip::above);
   const BasicCase sdec =
       one("[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\nnormal_model = \"semi_double_elliptic\"\n"
           "hertz = { given = \"semi_double_elliptic\", semi_axis_x_mm = 8, semi_axis_y_negative_mm = 3, "
@@ -197,9 +197,9 @@ TEST(TomlWheelRail, ApproximationsAndFrictionThatVaries) {
             "coefficient = 0.3 }]\n"
             "[[cases]]\n[[cases]]\nfriction.along_track = [{ s_mm = 5, coefficient = 0.4, law = \"exponential\" }]\n"
             "[[cases]]\nfriction.along_track = []\n");
-  EXPECT_EQ(rail(f, 0).normal_model, NormalModelInput::analyn);
-  EXPECT_EQ(rail(f, 0).tangential_model, TangentialModelInput::fastsim);
-  EXPECT_DOUBLE_EQ(rail(f, 0).fastsim_k0, 0.5);
+  EXPECT_EQ(rail(f, 0).normal_model, NormalModel::analyn);
+  EXPECT_EQ(rail(f, 0).tangential_model, TangentialModel::fastsim);
+  EXPECT_DOUBLE_EQ(rail(f, 0).fastsim.k0, 0.5);
   EXPECT_EQ(rail(f, 0).influence.kind, InfluenceInput::Kind::bilinear);
   using Kind = FrictionVariation::Kind;
   EXPECT_EQ(rail(f, 0).friction_variation.kind, Kind::inclination);

@@ -51,14 +51,14 @@ max_rate_tangential_N_per_s = 4e6
   EXPECT_DOUBLE_EQ(c.roller.value().nominal_radius, -0.9);
   EXPECT_DOUBLE_EQ(c.roller.value().pitch_rate, 12.0);
   EXPECT_EQ(c.longitudinal_force, std::optional(-5e3));
-  EXPECT_EQ(c.reference_surface, ReferenceSurfaceInput::plane_surface_slip);
-  const RailSpringsInput s = c.rail_springs.value();
+  EXPECT_EQ(c.reference_surface, ReferenceSurface::plane_surface_slip);
+  const RailSprings s = c.rail_springs.value();
   EXPECT_DOUBLE_EQ(s.stiffness_y, 1e5);
   EXPECT_DOUBLE_EQ(s.stiffness_z, 0.0);
   EXPECT_DOUBLE_EQ(s.force_y, -2e3);
   EXPECT_DOUBLE_EQ(s.force_z, 3e3);
   EXPECT_DOUBLE_EQ(s.first_step_y, 0.2e-3);
-  const DampingInput d = c.damping.value();
+  const Damping d = c.damping.value();
   EXPECT_DOUBLE_EQ(d.normal, 1e-4);
   EXPECT_DOUBLE_EQ(d.tangential, 2e-4);
   EXPECT_DOUBLE_EQ(d.max_rate_normal, 3e6);
@@ -79,7 +79,7 @@ TEST(TomlBalance, CasesSwitchPartsOff) {
               at(f, 0).thermal);
   EXPECT_FALSE(at(f, 1).longitudinal_force || at(f, 1).roller || at(f, 1).rail_springs || at(f, 1).damping ||
                at(f, 1).thermal);
-  EXPECT_DOUBLE_EQ(at(f, 1).wheelset.vpitch, -4.0);
+  EXPECT_DOUBLE_EQ(at(f, 1).state.velocity.pitch, -4.0);
   EXPECT_DOUBLE_EQ(at(f, 2).damping.value().normal, 1.0);
   EXPECT_DOUBLE_EQ(at(f, 2).damping.value().tangential, 2.0);
 }
@@ -143,22 +143,22 @@ TEST(TomlSteps, MoveOnByTheVelocities) {
   const CaseFile f =
       parse(kRolling + "[[cases]]\ncase.steps = 400\n[[cases]]\ncase.steps = 2\nwheelset.velocity_m_s = 1.0\n");
   ASSERT_EQ(f.cases.size(), 403u);
-  EXPECT_DOUBLE_EQ(at(f, 0).wheelset.s, 0.0);
-  EXPECT_EQ(at(f, 0).history, HistoryInput::start);
+  EXPECT_DOUBLE_EQ(at(f, 0).state.position.x, 0.0);
+  EXPECT_EQ(at(f, 0).history, HistoryUse::start);
   constexpr double kStep = 0.4e-3 / 2.0;
   for (std::size_t i = 1; i <= 400; ++i) {
     const double t = static_cast<double>(i) * kStep;
-    EXPECT_NEAR(at(f, i).wheelset.s, 2.0 * t, 1e-12) << i;
-    EXPECT_NEAR(at(f, i).wheelset.pitch, 0.25 - 4.0 * t, 1e-12) << i;
-    EXPECT_NEAR(at(f, i).wheelset.y, 0.01 * t, 1e-12) << i;
-    EXPECT_NEAR(at(f, i).wheelset.dz, 0.02 * t, 1e-12) << i;
+    EXPECT_NEAR(at(f, i).state.position.x, 2.0 * t, 1e-12) << i;
+    EXPECT_NEAR(at(f, i).state.position.pitch, 0.25 - 4.0 * t, 1e-12) << i;
+    EXPECT_NEAR(at(f, i).state.position.y, 0.01 * t, 1e-12) << i;
+    EXPECT_NEAR(at(f, i).state.wheel_offset.z, 0.02 * t, 1e-12) << i;
     EXPECT_NEAR(at(f, i).track.roll, 0.5 * t, 1e-12) << i;
-    EXPECT_EQ(at(f, i).history, HistoryInput::keep_going) << i;
+    EXPECT_EQ(at(f, i).history, HistoryUse::keep_going) << i;
     EXPECT_EQ(f.cases[i].number, static_cast<int>(i) + 1);
     EXPECT_EQ(f.cases[i].steps, 0);
   }
-  EXPECT_NEAR(at(f, 402).wheelset.s, 402 * 0.4e-3, 1e-12);
-  EXPECT_NEAR(at(f, 402).wheelset.pitch, 0.25 - 4.0 * (400 * kStep + 2 * 0.4e-3), 1e-12);
+  EXPECT_NEAR(at(f, 402).state.position.x, 402 * 0.4e-3, 1e-12);
+  EXPECT_NEAR(at(f, 402).state.position.pitch, 0.25 - 4.0 * (400 * kStep + 2 * 0.4e-3), 1e-12);
 }
 
 TEST(TomlSteps, PositionsAndListsOfTheTableWin) {
@@ -166,17 +166,17 @@ TEST(TomlSteps, PositionsAndListsOfTheTableWin) {
                            "[[cases]]\ncase.steps = 2\nwheelset.pitch_deg = [14.3, 14.28]\nwheelset.vertical_force_N = "
                            "[9e4, 8e4]\nwheelset.y_mm = 3\n");
   for (const std::size_t i : {1u, 2u}) {
-    EXPECT_NEAR(at(f, i).wheelset.pitch, (i == 1 ? 14.3 : 14.28) * std::numbers::pi / 180.0, 1e-15);
+    EXPECT_NEAR(at(f, i).state.position.pitch, (i == 1 ? 14.3 : 14.28) * std::numbers::pi / 180.0, 1e-15);
     EXPECT_DOUBLE_EQ(at(f, i).vertical_force, i == 1 ? 9e4 : 8e4);
-    EXPECT_DOUBLE_EQ(at(f, i).wheelset.y, 3e-3);
-    EXPECT_NEAR(at(f, i).wheelset.s, static_cast<double>(i) * 0.4e-3, 1e-15);
+    EXPECT_DOUBLE_EQ(at(f, i).state.position.y, 3e-3);
+    EXPECT_NEAR(at(f, i).state.position.x, static_cast<double>(i) * 0.4e-3, 1e-15);
   }
 }
 
 TEST(TomlSteps, TimeStepSetsTheRollingStep) {
   const CaseFile f = parse(kRolling + "[[cases]]\ncase = { steps = 3, time_step_s = 1e-4 }\n");
   for (const std::size_t i : {1u, 2u, 3u}) {
-    EXPECT_NEAR(at(f, i).wheelset.s, static_cast<double>(i) * 2e-4, 1e-15);
+    EXPECT_NEAR(at(f, i).state.position.x, static_cast<double>(i) * 2e-4, 1e-15);
     EXPECT_DOUBLE_EQ(at(f, i).discretisation.dq_relative, 0.5);
   }
   EXPECT_THAT(f.notes, IsEmpty());
@@ -188,12 +188,12 @@ TEST(TomlSteps, ShiftsAreDisplacements) {
       "case = { regime = \"shift\", steps = 3 }\nwheelset.velocity_m_s = 0.0002\nwheelset.vpitch_rad_s = -0.0004\n"
       "wheelset.s_mm = 5\n");
   ASSERT_EQ(f.cases.size(), 3u);
-  EXPECT_EQ(at(f, 0).history, HistoryInput::start);
+  EXPECT_EQ(at(f, 0).history, HistoryUse::start);
   for (const std::size_t i : {0u, 1u, 2u}) {
-    EXPECT_NEAR(at(f, i).wheelset.s, 5e-3 + static_cast<double>(i) * 2e-4, 1e-15);
-    EXPECT_NEAR(at(f, i).wheelset.pitch, static_cast<double>(i) * -4e-4, 1e-15);
+    EXPECT_NEAR(at(f, i).state.position.x, 5e-3 + static_cast<double>(i) * 2e-4, 1e-15);
+    EXPECT_NEAR(at(f, i).state.position.pitch, static_cast<double>(i) * -4e-4, 1e-15);
   }
-  EXPECT_EQ(at(f, 1).history, HistoryInput::keep_going);
+  EXPECT_EQ(at(f, 1).history, HistoryUse::keep_going);
 }
 
 TEST(TomlSteps, OnARollerOnlyTheWheelTurns) {
@@ -201,8 +201,8 @@ TEST(TomlSteps, OnARollerOnlyTheWheelTurns) {
                            "case = { regime = \"transient\", steps = 2 }\nwheelset.longitudinal_force_N = "
                            "0\nwheelset.s_mm = 1\nwheelset.nominal_radius_mm = 500\n"
                            "roller = { nominal_radius_mm = 1000, pitch_rate_rad_s = 2 }\ndiscretisation.dx_mm = 1\n");
-  EXPECT_DOUBLE_EQ(at(f, 1).wheelset.s, 1e-3);
-  EXPECT_NEAR(at(f, 1).wheelset.pitch, -4.0 * 1e-3 / 2.0, 1e-15);  // as if it rolled freely
+  EXPECT_DOUBLE_EQ(at(f, 1).state.position.x, 1e-3);
+  EXPECT_NEAR(at(f, 1).state.position.pitch, -4.0 * 1e-3 / 2.0, 1e-15);  // as if it rolled freely
 }
 
 TEST(TomlBalance, ARollerHasNoCant) {
@@ -214,11 +214,11 @@ TEST(TomlBalance, ARollerHasNoCant) {
 TEST(TomlSteps, OverridesComeBeforeTheSteps) {
   const std::string text = kRolling + "[[cases]]\ncase.steps = 3\n";
   const CaseFile finer = parse(text, {"discretisation.dx_mm=0.2"});
-  EXPECT_NEAR(at(finer, 3).wheelset.s, 3 * 0.2e-3, 1e-15);
+  EXPECT_NEAR(at(finer, 3).state.position.x, 3 * 0.2e-3, 1e-15);
   const CaseFile fewer = parse(text, {"case.steps=2"});
   ASSERT_EQ(fewer.cases.size(), 4u);
   const CaseFile still = parse(text, {"wheelset.s_mm=7"});
-  EXPECT_DOUBLE_EQ(at(still, 3).wheelset.s, 7e-3);
+  EXPECT_DOUBLE_EQ(at(still, 3).state.position.x, 7e-3);
   CaseFile made = parse(text);
   const std::vector<std::string> late{"case.steps=2"};
   EXPECT_THROW(apply_overrides(made, late), Error);
@@ -230,7 +230,7 @@ TEST(TomlSteps, RepeatPatches) {
       "[patch]\nnormal_force_N = 1e3\nmx = 3\nmy = 2\ndx_mm = 1\ndy_mm = 1\ngap.coefficients_si = [1, 0, 1, 0, 0, "
       "0]\n[case]\nregime = \"shift\"\nsteps = 3\n");
   ASSERT_EQ(f.cases.size(), 3u);
-  EXPECT_EQ(std::get<BasicCase>(f.cases[2].content).history, HistoryInput::keep_going);
+  EXPECT_EQ(std::get<BasicCase>(f.cases[2].content).history, HistoryUse::keep_going);
 }
 
 TEST(TomlSteps, ErrorsTellTheReason) {

@@ -20,6 +20,14 @@ namespace {
 
 using ::testing::HasSubstr;
 
+/// Of a report of this body.
+io::ImportReport maps_in(const std::filesystem::path& path, Body body) {
+  io::ImportReport report;
+  report.body = body;
+  io::read_import_maps(path, report);
+  return report;
+}
+
 class ImportMapsFile : public ::testing::Test {
  protected:
   std::string bytes(const std::filesystem::path& file) const {
@@ -42,7 +50,7 @@ class ImportMapsFile : public ::testing::Test {
   }
   void refused(const std::string& words) const {
     try {
-      io::read_import_maps(path_);
+      maps_in(path_, Body::rail);
       ADD_FAILURE() << "read, should be refused: " << words;
     } catch (const Error& error) {
       EXPECT_EQ(error.kind(), ErrorKind::input_data);
@@ -73,14 +81,13 @@ void expect_equal(const io::BandMap& found, const io::BandMap& wanted) {
 TEST_F(ImportMapsFile, AllMapsComeBackAsTheyWere) {
   const io::ImportReport report = testing::sample_report();
   io::write_import_maps(path_, report);
-  const io::ImportMaps maps = io::read_import_maps(path_);
-  EXPECT_EQ(maps.body, Body::wheel);
+  const io::ImportReport maps = maps_in(path_, Body::wheel);
   EXPECT_EQ(maps.nominal_radius, 0.46);
   expect_equal(maps.density, report.density);
-  expect_equal(maps.removed, report.removed_map);
+  expect_equal(maps.removed_map, report.removed_map);
   expect_equal(maps.fitted, report.fitted);
   expect_equal(maps.residual, report.residual);
-  expect_equal(maps.noise, report.noise_map);
+  expect_equal(maps.noise_map, report.noise_map);
 }
 
 TEST_F(ImportMapsFile, HasTheLayoutOfTheManual) {
@@ -113,10 +120,9 @@ TEST_F(ImportMapsFile, TheSameReportGivesTheSameBytes) {
 
 TEST_F(ImportMapsFile, MapsThatAReportLacksAreEmpty) {
   io::write_import_maps(path_, testing::sample_map_report());
-  const io::ImportMaps maps = io::read_import_maps(path_);
-  EXPECT_EQ(maps.body, Body::rail);
+  const io::ImportReport maps = maps_in(path_, Body::rail);
   EXPECT_FALSE(maps.fitted.value.empty());
-  for (const io::BandMap* map : {&maps.density, &maps.removed, &maps.residual, &maps.noise})
+  for (const io::BandMap* map : {&maps.density, &maps.removed_map, &maps.residual, &maps.noise_map})
     EXPECT_TRUE(map->value.empty());
 }
 
@@ -133,7 +139,8 @@ TEST_F(ImportMapsFile, RefusesOtherFiles) {
   refused("cannot read");
   const char* format = "treadmark import maps 1";
   write_small(format, {0.0, 0.5, 1.0}, 6);
-  EXPECT_EQ(io::read_import_maps(path_).noise.rows, 2u);
+  EXPECT_EQ(maps_in(path_, Body::rail).noise_map.rows, 2u);
+  EXPECT_THROW(maps_in(path_, Body::wheel), Error);
   write_small("treadmark result 1", {0.0, 0.5, 1.0}, 6);
   refused("\"treadmark result 1\"");
   write_small(format, {0.0, 0.6, 1.0}, 6);

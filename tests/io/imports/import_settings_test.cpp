@@ -8,6 +8,7 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
 
@@ -270,6 +271,37 @@ TEST(ImportSettings, BrokenFilesAreRefusedAtTheirPlace) {
   ImportSettings settings;
   EXPECT_THROW(read_import_settings(std::filesystem::path(testing::TempDir()) / "no_such_settings.toml", settings),
                Error);
+}
+
+TEST(ImportSettings, TheSchemaHasEveryKeyWithItsDefault) {
+  const nlohmann::json schema = nlohmann::json::parse(import_settings_schema());
+  EXPECT_EQ(schema.at("additionalProperties"), false);
+  std::size_t count = 0;
+  for (const auto& [name, table] : schema.at("properties").items()) {
+    EXPECT_EQ(table.at("additionalProperties"), false) << name;
+    count += table.at("properties").size();
+  }
+  EXPECT_EQ(count, cases().size());
+  const ImportSettings defaults;
+  for (const Case& c : cases()) {
+    SCOPED_TRACE(c.key());
+    const nlohmann::json& key = schema.at("properties").at(c.table).at("properties").at(c.name);
+    ImportSettings settings;
+    set_import_setting(settings, c.key() + '=' + key.at("default").dump());
+    EXPECT_EQ(import_settings_toml(settings), import_settings_toml(defaults));
+  }
+  const nlohmann::json& fit = schema.at("properties").at("fit").at("properties");
+  EXPECT_EQ(fit.at("held_out").at("maximum"), 0.5);
+  EXPECT_EQ(fit.at("sections").at("enum"), nlohmann::json({"auto", "keep", "fit"}));
+  EXPECT_EQ(schema.at("properties").at("placement").at("properties").at("up").at("maxItems"), 3);
+}
+
+TEST(ImportSettings, TableOfKeysIsUpToDate) {
+  std::ifstream stream(std::string(TREADMARK_SOURCE_DIR) + "/docs/scans.md");
+  std::stringstream text;
+  text << stream.rdbuf();
+  EXPECT_NE(text.str().find(import_settings_table()), std::string::npos) << "docs/scans.md must contain:\n"
+                                                                         << import_settings_table();
 }
 
 }  // namespace

@@ -146,7 +146,7 @@ TEST_F(ReadHdf5, FilesFromBeforeSurfacesAreRead) {
   const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
   remove(file, "surfaces");
   for (const char* name :
-       {"X_TW_origin", "X_TW_rotation", "X_TR_origin", "X_TR_rotation", "wheel_surface", "rail_surface"})
+       {"X_TA_origin", "X_TA_rotation", "X_TS_origin", "X_TS_rotation", "wheel_surface", "rail_surface"})
     remove_attribute(file, "case_0001", name);
   for (const char* name : {"elements_in_contact", "elements_in_adhesion", "elements_in_slip"})
     remove_attribute(file, "case_0001/patch_2", name);
@@ -155,6 +155,17 @@ TEST_F(ReadHdf5, FilesFromBeforeSurfacesAreRead) {
   run_.cases[0].bodies.reset();
   run_.cases[0].wheel_surface = run_.cases[0].rail_surface = "";
   testing::expect_same_run(io::read_hdf5(path_), run_);  // the elements are counted again
+}
+
+TEST_F(ReadHdf5, PosesOfBodiesAreReadByTheirOldNames) {
+  const hid_t file = H5Fopen(path_.c_str(), H5F_ACC_RDWR, H5P_DEFAULT);
+  for (const auto& [now, before] : {std::pair{"X_TA_origin", "X_TW_origin"},
+                                    {"X_TA_rotation", "X_TW_rotation"},
+                                    {"X_TS_origin", "X_TR_origin"},
+                                    {"X_TS_rotation", "X_TR_rotation"}})
+    ASSERT_GE(H5Arename_by_name(file, "case_0001", now, before, H5P_DEFAULT), 0);
+  H5Fclose(file);
+  testing::expect_same_run(io::read_hdf5(path_), run_);
 }
 
 TEST_F(ReadHdf5, OtherFilesAreRefused) {
@@ -205,9 +216,9 @@ TEST_F(ReadHdf5, DamagedFilesAreRefused) {
                  "no size");
   expect_refused(
       [&](hid_t file) {
-        set_attribute<double>(file, "case_0001", "X_TW_origin", H5T_NATIVE_DOUBLE, {1.0, 2.0});
+        set_attribute<double>(file, "case_0001", "X_TA_origin", H5T_NATIVE_DOUBLE, {1.0, 2.0});
       },
-      "X_TW_origin");
+      "X_TA_origin");
 }
 
 TEST_F(ReadHdf5, FilesCutOffAreRefused) {

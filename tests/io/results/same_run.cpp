@@ -8,6 +8,8 @@
 #include <limits>
 #include <span>
 
+#include "treadmark/io/results/field_table.hpp"
+
 namespace treadmark::testing {
 namespace {
 
@@ -42,14 +44,9 @@ void expect_same(const std::optional<io::Loads>& read, const std::optional<io::L
 }
 
 void expect_same(const io::PatchFields& read, const io::PatchFields& written) {
-  using F = io::PatchFields;
-  EXPECT_EQ(read.grid, written.grid);
-  expect_same(read.X_TC, written.X_TC, "X_TC");
-  for (const auto field :
-       {&F::gap, &F::pressure, &F::traction_x, &F::traction_s, &F::displacement_n, &F::displacement_x,
-        &F::displacement_s, &F::slip_x, &F::slip_s, &F::friction, &F::plastic_x, &F::plastic_s, &F::yield_stress,
-        &F::temperature_1, &F::temperature_2, &F::extra_slip_x, &F::extra_slip_s, &F::row_angle})
-    expect_same(read.*field, written.*field, "a field");
+  for (const io::FieldColumn& column : io::kFieldColumns)
+    expect_same(read.*column.values, written.*column.values, column.name.data());
+  expect_same(read.row_angle, written.row_angle, "row_angle");
   EXPECT_EQ(read.state, written.state);
 }
 
@@ -162,8 +159,8 @@ void expect_same_case(const io::CaseResult& read, const io::CaseResult& written,
   }
   ASSERT_EQ(read.bodies.has_value(), written.bodies.has_value());
   if (read.bodies) {
-    expect_same(read.bodies->X_TW, written.bodies->X_TW, "X_TW");
-    expect_same(read.bodies->X_TR, written.bodies->X_TR, "X_TR");
+    expect_same(read.bodies->X_TA, written.bodies->X_TA, "X_TA");
+    expect_same(read.bodies->X_TS, written.bodies->X_TS, "X_TS");
   }
   EXPECT_EQ(read.wheel_surface, written.wheel_surface);
   EXPECT_EQ(read.rail_surface, written.rail_surface);

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gmock/gmock.h>
-#include <gtest/gtest.h>
-
 #include <set>
-#include <span>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <toml++/toml.h>
+#include <nlohmann/json.hpp>
 
 #include "treadmark/io/cases/read_text.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
@@ -46,25 +47,53 @@ TEST(SimulationDocs, ExamplesAreRead) {
   EXPECT_EQ(std::get<SimulationFile>(read_study_run(study, study.runs.back())).settings.speed, 40.0);
 }
 
-TEST(SimulationDocs, EveryKeyIsThere) {
+TEST(SimulationDocs, TablesOfKeysAreUpToDate) {
   const std::string text = documentation();
-  const auto all = [&](std::span<const std::string_view> keys) {
-    for (const std::string_view key : keys)
-      EXPECT_NE(text.find('`' + std::string(key) + '`'), std::string::npos) << key;
-  };
-  for (const std::span<const std::string_view> keys :
-       {std::span<const std::string_view>(kVehicleKeys), std::span<const std::string_view>(kTrackKeys),
-        std::span<const std::string_view>(kBodyKeys), std::span<const std::string_view>(kSpringKeys),
-        std::span<const std::string_view>(kBumpStopKeys), std::span<const std::string_view>(kWheelsetKeys),
-        std::span<const std::string_view>(kFieldKeys), std::span<const std::string_view>(kWheelKeys),
-        std::span<const std::string_view>(kVaryKeys), std::span<const std::string_view>(kVaryValueKeys),
-        std::span<const std::string_view>(kFigureKeys), std::span<const std::string_view>(kMarkKeys)})
-    all(keys);
-  for (const std::string_view key : kSimulationKeys) {
-    const bool table = key == "fields" || key == "wheels" || key == "other_wheel";
-    const std::string shown = table ? "simulation." + std::string(key) + ']' : '`' + std::string(key) + '`';
-    EXPECT_NE(text.find(shown), std::string::npos) << key;
+  for (const std::string& table : {vehicle_key_table(), track_key_table(), simulation_key_table(), study_key_table()})
+    EXPECT_NE(text.find(table), std::string::npos) << "docs/simulation-files.md must contain:\n" << table;
+}
+
+using Json = nlohmann::json;
+
+/// Every table and key of a file must stand in its schema.
+void expect_described(const toml::table& table, const Json& schema, const std::string& path) {
+  for (const auto& [key, value] : table) {
+    const std::string name(key.str());
+    ASSERT_TRUE(schema.contains("properties") && schema.at("properties").contains(name)) << path << '.' << name;
+    const Json& own = schema.at("properties").at(name);
+    if (const toml::table* inner = value.as_table()) expect_described(*inner, own, path + '.' + name);
+    if (const toml::array* list = value.as_array(); list != nullptr && list->is_array_of_tables())
+      for (const toml::node& one : *list)
+        if (own.contains("items") && own.at("items").contains("properties"))
+          expect_described(*one.as_table(), own.at("items"), path + '.' + name);
   }
+}
+
+TEST(SimulationSchema, DescribesTheExamples) {
+  const treadmark::testing::TemporaryFolder folder;
+  write_examples(folder);
+  const std::pair<const char*, std::string> schemas[] = {{"vehicle.toml", vehicle_file_schema()},
+                                                         {"track.toml", track_file_schema()},
+                                                         {"simulation.toml", simulation_file_schema()},
+                                                         {"study.toml", study_file_schema()}};
+  for (const auto& [name, text] : schemas) {
+    SCOPED_TRACE(name);
+    const Json schema = Json::parse(text);
+    EXPECT_EQ(schema.at("additionalProperties"), false);
+    expect_described(toml::parse(read_text(folder.path() / name)), schema, name);
+  }
+}
+
+TEST(SimulationSchema, HasLimitsAndDefaults) {
+  const Json schema = Json::parse(simulation_file_schema());
+  const Json& simulation = schema.at("properties").at("simulation");
+  EXPECT_EQ(simulation.at("properties").at("tolerance_um").at("default"), 0.1);
+  EXPECT_EQ(simulation.at("properties").at("speed_m_s").at("maximum"), 1000.0);
+  EXPECT_EQ(simulation.at("required"), Json({"vehicle", "speed_m_s"}));
+  EXPECT_EQ(schema.at("required"), Json({"simulation"}));
+  const Json springs = Json::parse(vehicle_file_schema()).at("properties").at("springs").at("items").at("properties");
+  EXPECT_EQ(springs.at("stiffness_N_per_m").at("minItems"), 3);
+  EXPECT_EQ(springs.at("stiffness_N_per_m").at("items").at("minimum"), 0.0);
 }
 
 }  // namespace

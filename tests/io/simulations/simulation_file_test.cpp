@@ -67,7 +67,7 @@ TEST_F(SimulationText, FillsEveryValueInSIUnits) {
 
 TEST_F(SimulationText, ContactIsThatOfACaseFile) {
   const WheelRailCase c = parse(kSimulation).contact;
-  EXPECT_EQ(c.regime, RegimeInput::transient);
+  EXPECT_EQ(c.regime, Regime::transient);
   EXPECT_DOUBLE_EQ(c.track.cant, std::atan(1.0 / 40.0));
   EXPECT_DOUBLE_EQ(c.discretisation.dx, 0.5e-3);
   ASSERT_EQ(c.wheel.defects.flats.size(), 1u);
@@ -75,8 +75,8 @@ TEST_F(SimulationText, ContactIsThatOfACaseFile) {
   EXPECT_EQ(std::get<StandardProfile>(c.rail.geometry).name, "60E1");
   // What the simulation gives: the radius of the vehicle, rolling at its speed, no load yet.
   EXPECT_DOUBLE_EQ(c.wheelset.nominal_radius, 0.46);
-  EXPECT_DOUBLE_EQ(c.wheelset.vs, 20.0);
-  EXPECT_DOUBLE_EQ(c.wheelset.vpitch, -20.0 / 0.46);
+  EXPECT_DOUBLE_EQ(c.state.velocity.x, 20.0);
+  EXPECT_DOUBLE_EQ(c.state.velocity.pitch, -20.0 / 0.46);
   EXPECT_EQ(c.vertical_force, 0.0);
 }
 
@@ -143,7 +143,7 @@ TEST_F(SimulationText, OverridesOfEveryKind) {
   EXPECT_EQ(file.track->springs[0].stiffness[2], 2e6);
   EXPECT_DOUBLE_EQ(file.track->bodies[0].mass, 120.0);
   EXPECT_DOUBLE_EQ(file.contact.wheel.defects.flats[0].depth, 1.2e-3);
-  EXPECT_DOUBLE_EQ(file.contact.wheelset.vs, 10.0);
+  EXPECT_DOUBLE_EQ(file.contact.state.velocity.x, 10.0);
 }
 
 TEST_F(SimulationText, OtherWheelIsReadLikeAWheel) {

@@ -108,8 +108,8 @@ TEST_F(Study, ARunIsTheBaseWithItsOverrides) {
   const StudyFile study = read(kStudy);
   const auto file = std::get<SimulationFile>(read_study_run(study, study.runs[11]));
   EXPECT_EQ(file.settings.speed, 10.5);
-  EXPECT_EQ(file.contact.tangential_model, TangentialModelInput::fastsim);
-  EXPECT_EQ(file.contact.regime, RegimeInput::steady);
+  EXPECT_EQ(file.contact.tangential_model, TangentialModel::fastsim);
+  EXPECT_EQ(file.contact.regime, Regime::steady);
   EXPECT_DOUBLE_EQ(file.contact.wheel.defects.flats.at(0).depth, 10e-3);
   EXPECT_EQ(file.sha256, sha256_hex(kSimulation));
 }
@@ -146,7 +146,7 @@ TEST_F(Study, BaseMayBeACaseFile) {
   EXPECT_FALSE(study.base_is_simulation);
   ASSERT_EQ(study.runs.size(), 2u);
   const auto file = std::get<CaseFile>(read_study_run(study, study.runs[1]));
-  EXPECT_DOUBLE_EQ(std::get<WheelRailCase>(file.cases.at(0).content).wheelset.y, 1.5e-3);
+  EXPECT_DOUBLE_EQ(std::get<WheelRailCase>(file.cases.at(0).content).state.position.y, 1.5e-3);
 }
 
 TEST_F(Study, ListsAndTextsBecomeToml) {

@@ -19,7 +19,7 @@ export function isEverywhere(name: string): boolean {
 
 /** Fields that are zero outside contact, so that lines may run to the edge of contact. */
 export function isZeroOutside(name: string): boolean {
-  return name === "pressure" || name.startsWith(TRACTION) || name === FRICTION_BOUND;
+  return name === "pressure" || name.startsWith(TRACTION) || name === FRICTION_BOUND || name === "dissipation";
 }
 
 const made = new WeakMap<Patch, Map<string, Decoded | null>>();

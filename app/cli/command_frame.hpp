@@ -1,0 +1,63 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <functional>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+
+#include "treadmark/app/cli/terminal.hpp"
+#include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/core/progress.hpp"
+
+namespace treadmark::cli {
+
+/// What several verbs have in common: options, and the frame round their work.
+
+/// The command of a verb: run(options, common).
+template <class Options>
+Command command(std::shared_ptr<Options> options, int (*run)(const Options&, const CommonOptions&)) {
+  return [options, run](const CommonOptions& common) { return run(*options, common); };
+}
+
+/// CASE... and --set.
+void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector<std::string>& overrides);
+/// --set.
+void add_overrides(CLI::App& verb, std::vector<std::string>& overrides);
+/// --report of a file.
+void add_report_file(CLI::App& verb, std::string& file);
+/// An option of several values with commas between them.
+template <class Value>
+CLI::Option* add_values(CLI::App& verb, const char* name, std::vector<Value>& values, const char* text,
+                        const char* type) {
+  return verb.add_option(name, values, text)->delimiter(',')->allow_extra_args(false)->type_name(type);
+}
+
+/// Does the work with a progress line on a terminal (unless quiet), and stops it at Ctrl-C.
+template <class Work>
+auto with_progress(bool quiet, Work work) {
+  catch_interrupt();
+  ProgressLine line(quiet);
+  Progress progress;
+  progress.stop = &interrupted();
+  progress.report = [&](std::size_t finished, std::size_t total, const std::string& what) {
+    line.update(finished, total, what);
+  };
+  return work(progress);
+}
+
+/// Notes to standard error, unless quiet.
+void print_notes(const std::vector<std::string>& notes, bool quiet);
+
+/// The results on standard output: as JSON where the name of the JSON file is "-", else as text.
+void print_results(const std::string& json_file, const std::function<std::string()>& json,
+                   const std::function<std::string()>& text);
+/// The JSON file, if one was asked for and is not standard output.
+void write_json_file(const std::string& json_file, const std::function<std::string()>& json);
+/// Errors: Error(numerical) if standard output did not take everything.
+void check_output();
+
+}  // namespace treadmark::cli

@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <iostream>
+
+#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/io/imports/import_settings.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+struct FileSchema {
+  const char* name;
+  std::string (*text)();
+};
+constexpr FileSchema kSchemas[] = {
+    {"case", io::case_file_schema},   {"import", io::import_settings_schema},     {"vehicle", io::vehicle_file_schema},
+    {"track", io::track_file_schema}, {"simulation", io::simulation_file_schema}, {"study", io::study_file_schema}};
+
+}  // namespace
+
+Command add_schema(CLI::App& verb) {
+  auto what = std::make_shared<std::string>("case");
+  std::vector<std::string> names;
+  for (const FileSchema& schema : kSchemas) names.emplace_back(schema.name);
+  verb.add_option("WHAT", *what, "Kind of file, default case")->check(CLI::IsMember(names));
+  return [what](const CommonOptions&) -> int {
+    for (const FileSchema& schema : kSchemas)
+      if (*what == schema.name) std::cout << schema.text() << '\n';
+    return kOk;
+  };
+}
+
+}  // namespace treadmark::cli

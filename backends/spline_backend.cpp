@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <utility>
+#include <variant>
+
+#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/backends/assembly/outermost_surface.hpp"
+#include "treadmark/backends/builtin.hpp"
+#include "treadmark/backends/spline/make.hpp"
+#include "treadmark/backends/spline/slice_kinks.hpp"
+
+namespace treadmark {
+namespace {
+
+std::shared_ptr<const Surface> slice_surface(const SliceSet& slices, double nominal_radius) {
+  if (slices.kinks.empty()) return spline::make_slice_surface(slices, nominal_radius);
+  std::vector<std::shared_ptr<const Surface>> parts;
+  for (const SliceSet& part : spline::split_at_kinks(slices))
+    parts.push_back(spline::make_slice_surface(part, nominal_radius));
+  return assembly::outermost_of(std::move(parts));
+}
+
+bool is_measured_lines(const SurfaceSpec& spec) {
+  return std::holds_alternative<Profile>(spec.shape) || std::holds_alternative<SliceSet>(spec.shape);
+}
+
+std::shared_ptr<const Surface> natural_spline(const SurfaceSpec& spec, std::string&) {
+  const auto* slices = std::get_if<SliceSet>(&spec.shape);
+  auto surface = slices != nullptr ? slice_surface(*slices, spec.nominal_radius)
+                                   : spline::make_profile_surface(std::get<Profile>(spec.shape), spec.nominal_radius);
+  return analytic::add_defects(std::move(surface), spec.defects, spec.body, spec.nominal_radius);
+}
+
+std::shared_ptr<const Surface> as_spline(Resampling& r) {
+  const SurfaceSpec& spec = r.spec();
+  if (is_formula(spec) && (spec.defects.empty() || flats_only(spec))) {
+    // formulas are sampled at their own joints
+    const double step = r.asked() ? r.resolution() : kResampleStep;
+    const Profile profile = *sampled_formula(spec, step);
+    r.set_resolution(step);
+    if (spec.defects.empty()) return spline::make_profile_surface(profile, spec.nominal_radius);
+    return spline::make_slice_surface(analytic::sample_wheel(profile, spec.nominal_radius, spec.defects.flats, step),
+                                      spec.nominal_radius);
+  }
+  if (r.natural().constant_profile()) return spline::make_profile_surface(r.section(), spec.nominal_radius);
+  return spline::make_slice_surface(r.slices(), spec.nominal_radius);
+}
+
+std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
+  const SurfaceSpec& spec = r.spec();
+  const auto* chain = std::get_if<ArcChain>(&spec.shape);
+  const auto* standard = std::get_if<StandardProfile>(&spec.shape);
+  if (spec.defects.empty() && !r.asked() && (chain != nullptr || (standard != nullptr && standard->name == "60E1"))) {
+    r.set_resolution(0.0);
+    r.limit_rail();
+    return spline::make_nurbs_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), spec.body,
+                                      spec.nominal_radius, r.region().u_min, r.region().u_max);
+  }
+  return spline::make_nurbs_surface(r.points(true));
+}
+
+}  // namespace
+
+std::vector<Backend> spline_backends() {
+  Backend spline{"spline", "cubic along the section, tensor B-spline of slices along or round", 4.0, false, as_spline};
+  spline.natural_for = is_measured_lines;
+  spline.make_natural = natural_spline;
+  return {spline, {"nurbs", "full-parametric tensor B-spline, exact rational arcs", 4.0, false, as_nurbs}};
+}
+
+}  // namespace treadmark

@@ -1,9 +1,0 @@
-// SPDX-License-Identifier: Apache-2.0
-// SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/bench/heights/enter.hpp"
-
-namespace treadmark::bench {
-
-[[maybe_unused]] const bool nurbs = enter_heights("nurbs", {1.0, 0.5, 0.25});
-
-}  // namespace treadmark::bench

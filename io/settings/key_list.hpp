@@ -1,0 +1,187 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <functional>
+#include <span>
+#include <string>
+#include <type_traits>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/settings/key_info.hpp"
+
+namespace treadmark::io {
+
+/// One key with the way to its place in a Root: a case, the settings of an import, a table of a simulation.
+template <class Root>
+struct SettingKey {
+  KeyInfo info;
+  /// value has been checked against info; relative paths count from folder.
+  std::function<void(Root&, const CaseValue& value, const std::filesystem::path& folder)> set = {};
+  /// Numbers that are stored as they are: the value in the unit of the key. Empty for all other keys.
+  std::function<double(const Root&)> get = {};
+  /// table_list only: changes some keys of the element with this index (which exists, or Error). A key of a nested list
+  /// has the rest of its path as name: "waves.1.phase_deg".
+  std::function<void(Root&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element = {};
+  /// The value as TOML, for flags, texts and directions.
+  std::function<std::string(const Root&)> text = {};
+};
+
+template <class Root>
+std::vector<KeyInfo> infos_of(std::span<const SettingKey<Root>> keys) {
+  std::vector<KeyInfo> infos;
+  for (const SettingKey<Root>& key : keys) infos.push_back(key.info);
+  return infos;
+}
+
+/// The part of a Root that keys of one scope live in: the Root itself, or one alternative of its member `content`.
+template <class Content, class Root>
+Content& content_of(Root& root) {
+  if constexpr (std::is_same_v<Content, Root>)
+    return root;
+  else
+    return std::get<Content>(root.content);
+}
+template <class Content, class Root>
+KeyScope scope_of() {
+  if constexpr (std::is_same_v<Content, Root>)
+    return KeyScope::any;
+  else
+    return static_cast<KeyScope>(1 + decltype(Root::content)(std::in_place_type<Content>).index());
+}
+
+/// A list of keys under construction: a line for each member of a Root. place: Content& -> member&.
+template <class Root>
+class SettingKeys {
+ public:
+  using Key = SettingKey<Root>;
+  using Folder = const std::filesystem::path&;
+
+  enum class Numbers { si, as_written };
+  /// as_written: the Root has its numbers in the units of their keys.
+  explicit SettingKeys(Numbers numbers = Numbers::si) : numbers_(numbers) {}
+
+  std::vector<Key> keys;
+
+  Key& add(KeyInfo info) {
+    keys.push_back({std::move(info)});
+    return keys.back();
+  }
+
+  template <class Content = Root, class Place>
+  KeyInfo& number(std::string path, KeyLimits limits, std::string doc, Place place) {
+    const double unit = unit_of(path);
+    Content fresh;
+    KeyInfo info = key_info(std::move(path), KeyType::number, std::move(doc), limits);
+    info.default_text = fmt::format("{:.10g}", place(fresh) / unit);
+    Key& key = add<Content>(std::move(info));
+    key.set = [place, unit](Root& c, const CaseValue& v, Folder) { place(content_of<Content>(c)) = v.number() * unit; };
+    key.get = [place, unit](const Root& c) {
+      Root copy = c;
+      return place(content_of<Content>(copy)) / unit;
+    };
+    return key.info;
+  }
+
+  template <class Content = Root, class Place>
+  KeyInfo& number_list(std::string path, std::string doc, Place place, KeyLimits limits = kAnyNumber,
+                       KeyType type = KeyType::number_list) {
+    const double unit = unit_of(path);
+    Key& key = add<Content>(key_info(std::move(path), type, std::move(doc), limits));
+    key.set = [place, unit](Root& c, const CaseValue& v, Folder) {
+      place(content_of<Content>(c)) = numbers_of(v, unit);
+    };
+    return key.info;
+  }
+
+  /// place: -> std::vector<double>&, three numbers or none.
+  template <class Place>
+  KeyInfo& direction(std::string path, std::string doc, Place place) {
+    KeyInfo& info = number_list(std::move(path), std::move(doc), place, kAnyNumber, KeyType::direction);
+    info.default_text = "[]";
+    keys.back().text = [place](const Root& c) { return fmt::format("[{}]", fmt::join(place(c), ", ")); };
+    return info;
+  }
+
+  /// Two keys, base_deg and base_rad, that exclude each other.
+  template <class Content, class Place>
+  void angle(const std::string& base, KeyLimits limits_deg, const std::string& doc, Place place) {
+    for (const std::string unit : {"deg", "rad"}) {
+      KeyInfo& info = number<Content>(base + '_' + unit, limits_deg, doc, place);
+      const double factor = unit == "rad" ? unit_of_key("x_deg") : 1.0;
+      for (auto* limit : {&info.above, &info.at_least, &info.at_most})
+        if (*limit) *limit = **limit * factor;
+      info.group = base;
+      info.alternative = unit;
+    }
+  }
+
+  template <class Content = Root, class Place>
+  KeyInfo& integer(std::string path, double least, double most, std::string doc, Place place) {
+    Content fresh;
+    KeyInfo info = key_info(std::move(path), KeyType::integer, std::move(doc), {{}, least, most});
+    info.default_text = std::to_string(place(fresh));
+    Key& key = add<Content>(std::move(info));
+    key.set = [place](Root& c, const CaseValue& v, Folder) {
+      place(content_of<Content>(c)) = static_cast<int>(v.integer());
+    };
+    return key.info;
+  }
+
+  /// place takes a const Root, too.
+  template <class Place>
+  KeyInfo& flag(std::string path, std::string doc, Place place) {
+    Key& key = add(key_info(std::move(path), KeyType::flag, std::move(doc)));
+    key.set = [place](Root& c, const CaseValue& v, Folder) { place(c) = v.flag(); };
+    key.text = [place](const Root& c) { return std::string(place(c) ? "true" : "false"); };
+    key.info.default_text = key.text(Root{});
+    return key.info;
+  }
+
+  /// place: -> std::string&, of a const Root, too. choices: empty = any text.
+  template <class Place>
+  KeyInfo& word(std::string path, std::vector<std::string> choices, std::string doc, Place place) {
+    KeyInfo info = key_info(std::move(path), choices.empty() ? KeyType::text : KeyType::choice, std::move(doc));
+    info.choices = std::move(choices);
+    Key& key = add(std::move(info));
+    key.set = [place](Root& c, const CaseValue& v, Folder) { place(c) = v.text(); };
+    key.text = [place](const Root& c) { return toml_text(place(c)); };
+    const Root fresh;
+    key.info.default_text = '"' + place(fresh) + '"';
+    return key.info;
+  }
+
+  /// choices: word and enumerator.
+  template <class Content, class Enum, class Place>
+  KeyInfo& choice(std::string path, std::vector<std::pair<std::string, Enum>> choices, std::string doc, Place place) {
+    KeyInfo info = key_info(std::move(path), KeyType::choice, std::move(doc));
+    Content fresh;
+    for (const auto& [word, value] : choices) {
+      info.choices.push_back(word);
+      if (place(fresh) == value) info.default_text = '"' + word + '"';
+    }
+    Key& key = add<Content>(std::move(info));
+    key.set = [place, choices](Root& c, const CaseValue& v, Folder) {
+      for (const auto& [word, value] : choices)
+        if (word == v.text()) place(content_of<Content>(c)) = value;
+    };
+    return key.info;
+  }
+
+ private:
+  template <class Content>
+  Key& add(KeyInfo info) {
+    info.scope = scope_of<Content, Root>();
+    return add(std::move(info));
+  }
+  double unit_of(std::string_view path) const { return numbers_ == Numbers::si ? unit_of_key(path) : 1.0; }
+
+  Numbers numbers_;
+};
+
+}  // namespace treadmark::io

@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/io/simulations/simulation_keys.hpp"
+
+#include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/settings/key_schema.hpp"
+
+namespace treadmark::io {
+
+namespace {
+
+KeyInfo needed(KeyInfo info) {
+  info.required = true;
+  return info;
+}
+KeyInfo with_default(std::string text, KeyInfo info) {
+  info.default_text = std::move(text);
+  return info;
+}
+KeyInfo one_of(std::string name, std::vector<std::string> choices, std::string doc) {
+  KeyInfo info = key_info(std::move(name), KeyType::choice, std::move(doc));
+  info.choices = std::move(choices);
+  return info;
+}
+/// A table or a list of tables.
+KeyInfo table_key(std::string name, KeyType type, std::string doc, TableKeys keys = {}) {
+  KeyInfo info = key_info(std::move(name), type, std::move(doc));
+  info.elements = std::move(keys);
+  return info;
+}
+
+KeyInfo scale_key(std::string name, KeyLimits limits, std::string doc) {
+  return with_default("1", key_info(std::move(name), KeyType::number, std::move(doc), limits));
+}
+
+TableKeys model_keys() {
+  return {needed(key_info("name", KeyType::text, "of the model")),
+          key_info("source", KeyType::text, "where the numbers come from"),
+          scale_key("scale_mass", kPositive, "factor on all masses and moments of inertia"),
+          scale_key("scale_stiffness", kPositive, "factor on all stiffnesses of springs; bump stops stay"),
+          scale_key("scale_damping", kNotNegative, "factor on all damping")};
+}
+
+TableKeys place_keys_of(const std::string& part) {
+  return {key_info("between", KeyType::text_list, "two bodies, or one and \"ground\"; required with at_m, or places"),
+          key_info("at_m", KeyType::triple_list, "one " + part + " at each of these points")};
+}
+
+/// name, between, at_m and places of a part that connects bodies, then its own keys.
+TableKeys connecting(const std::string& part, const TableKeys& own) {
+  TableKeys keys = place_keys_of(part);
+  keys.insert(keys.begin(), needed(key_info("name", KeyType::text, "several equal ones are numbered from 1")));
+  keys.push_back(
+      table_key("places", KeyType::table_list, "between and at_m for several pairs of bodies", place_keys()));
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
+}
+
+KeyInfo six_key(std::string name, std::string doc) {
+  return with_default("[0, 0, 0]", key_info(std::move(name), KeyType::triple, std::move(doc), kNotNegative));
+}
+
+std::string schema_of(std::string_view title, TableKeys keys, bool with_case) {
+  if (with_case) {
+    keys.push_back(key_info("title", KeyType::text, "without it the name of the file"));
+    for (const CaseKey& key : case_keys())
+      if (key.info.scope != KeyScope::patch) keys.push_back(key.info);
+  }
+  return file_schema(title, keys);
+}
+
+TableKeys simulation_tables() {
+  return {needed(table_key("simulation", KeyType::table, "a vehicle on its track", simulation_keys()))};
+}
+TableKeys study_tables() { return {needed(table_key("study", KeyType::table, "runs with varied keys", study_keys()))}; }
+
+}  // namespace
+
+const TableKeys& vehicle_tables() {
+  static const TableKeys keys{
+      needed(table_key("vehicle", KeyType::table, "the vehicle as a whole", vehicle_keys())),
+      needed(table_key("bodies", KeyType::table_list, "rigid bodies", body_keys())),
+      table_key("springs", KeyType::table_list, "springs and dampers between them", spring_keys()),
+      table_key("bump_stops", KeyType::table_list, "springs with a characteristic", bump_stop_keys()),
+      needed(table_key("wheelsets", KeyType::table_list, "bodies that run on the rails, the leading one first",
+                       wheelset_keys()))};
+  return keys;
+}
+
+const TableKeys& track_tables() {
+  static const TableKeys keys{
+      needed(table_key("track", KeyType::table, "the track as a whole", track_keys())),
+      needed(table_key("bodies", KeyType::table_list, "rigid bodies", body_keys())),
+      table_key("springs", KeyType::table_list, "springs and dampers between them", spring_keys())};
+  return keys;
+}
+
+const TableKeys& vehicle_keys() {
+  static const TableKeys keys = model_keys();
+  return keys;
+}
+
+const TableKeys& track_keys() {
+  static const TableKeys keys = [] {
+    TableKeys list = model_keys();
+    list.insert(list.begin() + 2,
+                needed(key_info("rails", KeyType::text_list, "the bodies that carry the left and the right rail")));
+    return list;
+  }();
+  return keys;
+}
+
+const TableKeys& body_keys() {
+  static const TableKeys keys{
+      needed(key_info("name", KeyType::text, "letters, digits, `_`, `-`; equal bodies are numbered from 1")),
+      needed(key_info("mass_kg", KeyType::number, "its mass", kPositive)),
+      key_info("inertia_kg_m2", KeyType::triple, "positive about every axis about which the body can rotate",
+               kNotNegative),
+      key_info("position_m", KeyType::triple, "centre of mass; this or the next one is required"),
+      key_info("positions_m", KeyType::triple_list, "those of several equal bodies"),
+      needed(key_info("free", KeyType::text_list,
+                      "directions in which it moves: \"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\""))};
+  return keys;
+}
+
+const TableKeys& place_keys() {
+  static const TableKeys keys = place_keys_of("part");
+  return keys;
+}
+
+const TableKeys& spring_keys() {
+  static const TableKeys keys = connecting(
+      "spring",
+      {six_key("stiffness_N_per_m", "along x, y, z"), six_key("damping_N_s_per_m", "along x, y, z"),
+       six_key("damper_stiffness_N_per_m", "springs in series with these dampers, 0 = rigid"),
+       six_key("rotational_stiffness_N_m_per_rad", "about x, y, z"),
+       six_key("rotational_damping_N_m_s_per_rad", "about x, y, z"),
+       six_key("rotational_damper_stiffness_N_m_per_rad", "springs in series with these dampers, 0 = rigid")});
+  return keys;
+}
+
+const TableKeys& bump_stop_keys() {
+  static const TableKeys keys = connecting(
+      "bump stop",
+      {needed(one_of("direction", {"x", "y", "z"}, "of the displacement, the second body against the first")),
+       needed(key_info("displacement_mm", KeyType::number_list, "increasing; the force is odd", kNotNegative)),
+       needed(key_info("force_N", KeyType::number_list,
+                       "from 0, not decreasing; linear between, continued by the last slope", kNotNegative))});
+  return keys;
+}
+
+const TableKeys& wheelset_keys() {
+  static const TableKeys keys{needed(key_info("body", KeyType::text, "free in z at least")),
+                              needed(key_info("nominal_radius_mm", KeyType::number, "of its wheels", kPositive))};
+  return keys;
+}
+
+const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
+  using S = SimulationSettings;
+  static const std::vector<SettingKey<S>> keys = [] {
+    SettingKeys<S> list;
+    list.number("gravity_m_s2", kPositive, "acceleration of gravity", [](S& s) -> double& { return s.gravity; });
+    list.number("tolerance_um", kPositive, "local error of a step", [](S& s) -> double& { return s.tolerance; });
+    list.add(key_info("max_step_us", KeyType::number, "longest step", kPositive)).set =
+        [](S& s, const CaseValue& v, const std::filesystem::path&) {
+          s.max_step = v.number() * unit_of_key("max_step_us");
+        };
+    list.number("min_step_us", kPositive, "shortest step", [](S& s) -> double& { return s.min_step; });
+    list.number(
+        "max_step_elements", kPositive,
+        "distance travelled in a step over `discretisation.dx_mm`; in transient rolling 1 without the key, at most 2 "
+        "(dt ≤ 2 dx/V). Steps of two elements take half the time, but lateral creep forces then scatter by some per "
+        "cent, because elements at the leading edge stick or slip as they happen to come in",
+        [](S& s) -> double& { return s.max_step_elements; });
+    list.number("spectral_radius", {{}, 0.0, 1.0},
+                "of the time integration at infinite frequency: 1 = no numerical damping",
+                [](S& s) -> double& { return s.spectral_radius; });
+    list.number("checkpoint_s", kPositive, "time of the computer between two checkpoints",
+                [](S& s) -> double& { return s.checkpoint; });
+    list.number("output_every_mm", kNotNegative,
+                "distance travelled between two lines of the history; 0 = every step. The summary counts every step",
+                [](S& s) -> double& { return s.output_every; });
+    return std::move(list.keys);
+  }();
+  return keys;
+}
+
+const TableKeys& simulation_keys() {
+  static const TableKeys keys = [] {
+    TableKeys list{
+        needed(key_info("vehicle", KeyType::path, "vehicle file")),
+        key_info("track", KeyType::path, "track file; without it the track is rigid"),
+        needed(key_info("speed_m_s", KeyType::number, "more than 0", {{}, 0.0, 1000.0})),
+        key_info("distance_m", KeyType::number, "travelled in all; this or the next one is required", kPositive),
+        key_info("duration_s", KeyType::number, "of the whole simulation", kPositive)};
+    for (const auto& key : plain_setting_keys()) list.push_back(key.info);
+    list.push_back(table_key("fields", KeyType::table, "when contact fields are kept", field_keys()));
+    list.push_back(table_key("wheels", KeyType::table_list, "how the contact of single wheels is found", wheel_keys()));
+    list.push_back(
+        table_key("other_wheel", KeyType::table,
+                  "shape of the round wheels, with the keys of `[wheel]`; required where `[wheel]` is made of "
+                  "slices or triangles and a wheel is round"));
+    return list;
+  }();
+  return keys;
+}
+
+const TableKeys& field_keys() {
+  static const TableKeys keys{
+      key_info("pitch_deg", KeyType::number_list,
+               "increasing; contact fields are kept where a wheelset passes these angles"),
+      key_info("position_m", KeyType::number_list, "increasing; contact fields are kept at these distances travelled",
+               kNotNegative)};
+  return keys;
+}
+
+const TableKeys& wheel_keys() {
+  static const TableKeys keys{
+      needed(key_info("wheelset", KeyType::integer, "number of the wheelset, 1 = leading", {{}, 1.0, 1e6})),
+      needed(one_of("side", {"left", "right"}, "of the wheelset")),
+      needed(one_of("contact", {"full", "table"}, "the contact problem itself, or a table of solutions")),
+      with_default("true", key_info("defects", KeyType::flag, "false: the wheel is round")),
+      with_default("0", key_info("pitch_deg", KeyType::number,
+                                 "pitch of the wheelset at the start, the same for both its wheels"))};
+  return keys;
+}
+
+const TableKeys& study_keys() {
+  static const TableKeys keys{
+      key_info("title", KeyType::text, "without it the name of the file"),
+      key_info("base", KeyType::path, "simulation or case file"),
+      table_key("vary", KeyType::table_list, "what is varied, the last one fastest", vary_keys()),
+      table_key("figures", KeyType::table_list, "pictures of the results", figure_keys())};
+  return keys;
+}
+
+const TableKeys& vary_keys() {
+  static const TableKeys keys{
+      key_info("key", KeyType::text, "key of the base, as in `--set`"),
+      key_info("label", KeyType::text, "for charts, default the key"),
+      key_info("values", KeyType::value_list,
+               "numbers, texts, true or false, lists, or sets of keys: tables of `label` (required) and `set`, a list "
+               "of `\"key=value\"` (required)"),
+      key_info("from", KeyType::number, "instead of `values`: evenly spaced numbers from here"),
+      key_info("to", KeyType::number, "the last of them"),
+      key_info("count", KeyType::integer, "how many of them", {{}, 2.0, kMostValues}),
+      with_default("\"linear\"", one_of("spacing", {"linear", "logarithmic"}, "even steps or even ratios"))};
+  return keys;
+}
+
+const TableKeys& vary_value_keys() {
+  static const TableKeys keys{needed(key_info("label", KeyType::text, "for charts")),
+                              needed(key_info("set", KeyType::text_list, "\"key=value\""))};
+  return keys;
+}
+
+const TableKeys& figure_keys() {
+  static const TableKeys keys{
+      needed(key_info("file", KeyType::text, "ends with `.svg`")),
+      needed(one_of("kind", {"history", "summary", "patches"},
+                    "a line for each run, a point for each run, or contact patches")),
+      key_info("title", KeyType::text, "above the figure"),
+      key_info("x", KeyType::text, "column along the axis, or the key of a variation (required but for patches)"),
+      key_info("y", KeyType::text_list, "columns (required but for patches)"),
+      key_info("x_label", KeyType::text, "instead of that of the column"),
+      key_info("y_label", KeyType::text, "instead of that of the columns"),
+      key_info("x_range", KeyType::number_list, "two numbers"),
+      key_info("series", KeyType::text, "variation whose values get a line each, by its key or label"),
+      key_info("labels", KeyType::text_list, "names of these lines instead of the values"),
+      key_info("only", KeyType::text_list,
+               "`\"key=value\"`: of the variations named, by key or label, only these values are drawn"),
+      table_key("mark", KeyType::table_list, "numbers of others", mark_keys())};
+  return keys;
+}
+
+const TableKeys& mark_keys() {
+  static const TableKeys keys{needed(key_info("x", KeyType::number, "in the unit of the column")),
+                              needed(key_info("y", KeyType::number, "in the unit of the column")),
+                              key_info("label", KeyType::text, "beside it")};
+  return keys;
+}
+
+std::string vehicle_file_schema() { return schema_of("Treadmark vehicle file", vehicle_tables(), false); }
+std::string track_file_schema() { return schema_of("Treadmark track file", track_tables(), false); }
+std::string simulation_file_schema() { return schema_of("Treadmark simulation file", simulation_tables(), true); }
+std::string study_file_schema() {
+  // Beside [study] the tables of its base may stand.
+  TableKeys keys = study_tables();
+  keys.push_back(table_key("simulation", KeyType::table, "of the base", simulation_keys()));
+  keys.push_back(table_key("cases", KeyType::table_list, "of the base, a case file"));
+  return schema_of("Treadmark study file", std::move(keys), true);
+}
+
+std::string vehicle_key_table() { return key_table(vehicle_tables()); }
+std::string track_key_table() { return key_table(std::span(track_tables()).first(1)); }
+std::string simulation_key_table() { return key_table(simulation_tables()); }
+std::string study_key_table() { return key_table(study_tables()); }
+
+}  // namespace treadmark::io

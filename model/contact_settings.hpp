@@ -1,0 +1,73 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "treadmark/core/numerical_influence.hpp"
+
+namespace treadmark {
+
+/// What is asked of the solver of one contact patch: plain data in SI units.
+
+/// Pressure distribution: solved; assumed from the Hertz ellipse of the problem; approximated from the gap at a given
+/// approach.
+enum class NormalModel { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
+
+enum class TangentialModel { full, fastsim, fastsim_one_flexibility, fastrip };
+
+/// Which tangential problem is solved.
+enum class Regime {
+  frictionless,  ///< normal problem only
+  shift,         ///< a finite shift; creepages are lengths and an angle; starts where the history ends
+  transient,     ///< a step of rolling from where the history ends
+  steady,        ///< steady rolling
+};
+
+/// What is carried from one case to the next.
+enum class HistoryUse {
+  start,         ///< nothing: the bodies come together from rest
+  keep_going,    ///< the last solution is the previous instant
+  normal_only,   ///< of the last solution only the normal part
+  same_instant,  ///< the previous instant stays what it was: the case is solved again
+};
+
+/// FASTSIM with slope reduction (Spiryagin et al. 2013).
+struct FastsimSettings {
+  double k0 = 1.0, alpha = 1.0, beta = 1.0;
+  double flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
+};
+
+/// Where coefficients of influence come from.
+struct InfluenceSettings {
+  enum class Kind { constant, bilinear, angle_corrected, table };
+  Kind kind = Kind::constant;
+  /// angle_corrected: inclination of the surface [rad] at positions along y [m] (Vollebregt 2018)
+  std::vector<double> position, inclination;
+  int variant = 4;
+  bool linear = true;                               ///< one straight line through the table, else the table row by row
+  std::shared_ptr<const NumericalInfluence> table;  ///< table: numerical coefficients
+};
+
+struct SolverSettings {
+  /// sweeps: over single elements, slow; an independent check (tangential problem)
+  enum class Method { automatic, sweeps };
+  double eps = 1e-5;         ///< relative accuracy of tractions
+  int max_iterations = 999;  ///< inner iterations per solve
+  int max_outer = 100;       ///< active-set corrections, friction iterations
+  int max_force = 30;        ///< iterations on a prescribed tangential force
+  int max_coupling = 30;     ///< rounds of normal and tangential problem for dissimilar bodies; 1: the tangential
+                             ///< tractions do not act on the normal problem
+  Method method = Method::automatic;
+  /// Falling friction: slip speeds that the iteration starts from. below: none, above: the rolling velocity, last:
+  /// those of the last solution.
+  enum class FirstSlip { below, above, last };
+  FirstSlip first_slip = FirstSlip::last;
+  /// As the reference program (CONTACT) has it: displacements, and the elastic energy with them, of parts of a patch
+  /// are those of full elastic influence. In KPEC and ANALYN parts are not told apart; KPEC lets ends of rows that lie
+  /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
+  bool reference_quirks = false;
+};
+
+}  // namespace treadmark
