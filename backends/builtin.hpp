@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "treadmark/backends/registry.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark {
 

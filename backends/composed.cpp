@@ -6,7 +6,7 @@
 #include <utility>
 #include <variant>
 
-#include "treadmark/backends/analytic/moving_section.hpp"
+#include "treadmark/backends/analytic/defects/moving_section.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/assembly/limited_surface.hpp"
 #include "treadmark/backends/assembly/outermost_surface.hpp"

@@ -11,10 +11,10 @@
 #include <vector>
 
 #include "treadmark/backends/sampling/region.hpp"
-#include "treadmark/core/moving_section.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_difference.hpp"
-#include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/moving_section.hpp"
+#include "treadmark/model/surface_difference.hpp"
+#include "treadmark/model/surface_spec.hpp"
 
 namespace treadmark {
 

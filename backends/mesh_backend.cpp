@@ -4,7 +4,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/backends/mesh/make.hpp"
 

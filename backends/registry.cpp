@@ -11,8 +11,8 @@
 #include <fmt/ranges.h>
 
 #include "treadmark/backends/builtin.hpp"
-#include "treadmark/core/backend_name.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/backend_name.hpp"
 
 namespace treadmark {
 namespace {

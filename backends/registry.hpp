@@ -10,7 +10,7 @@
 
 #include "treadmark/backends/resampling.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/surface_spec.hpp"
 
 namespace treadmark {
 

@@ -6,7 +6,7 @@
 #include <utility>
 
 #include "treadmark/backends/create.hpp"
-#include "treadmark/backends/sampling/point_grid.hpp"
+#include "treadmark/backends/sampling/region.hpp"
 
 namespace treadmark {
 

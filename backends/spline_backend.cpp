@@ -3,13 +3,13 @@
 #include <utility>
 #include <variant>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/backends/spline/slice_kinks.hpp"
+#include "treadmark/backends/spline/slices/slice_net.hpp"
 
 namespace treadmark {
 namespace {

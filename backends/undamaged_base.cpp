@@ -6,7 +6,7 @@
 #include <cmath>
 #include <variant>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/builtin.hpp"
 
 namespace treadmark {

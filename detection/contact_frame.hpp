@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/detection/body_pair.hpp"
 #include "treadmark/detection/contact_patch.hpp"
+#include "treadmark/detection/gap_field.hpp"
 
 namespace treadmark::detection {
 

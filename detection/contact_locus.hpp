@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "treadmark/detection/body_pair.hpp"
 #include "treadmark/detection/contact_patch.hpp"
+#include "treadmark/detection/gap_field.hpp"
 #include "treadmark/detection/interpenetration.hpp"
 #include "treadmark/detection/sampled_profile.hpp"
 

@@ -1,12 +1,11 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/detection/natural_curve.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
-
-#include "treadmark/detection/natural_spline.hpp"
 
 namespace treadmark::detection {
 

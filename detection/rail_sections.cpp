@@ -1,10 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/rail_sections.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 
+#include <algorithm>
+#include <cmath>
 #include <vector>
 
-#include "treadmark/detection/lateral_nodes.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 
 namespace treadmark::detection {
@@ -25,6 +31,62 @@ bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, s
     for (int iy = 0; iy < g.ny; ++iy) rail_n[g.index(ix, iy)] = curve.least_over(g.y(iy));
   }
   return true;
+}
+
+namespace {
+
+std::vector<double> equal_steps(double low, double high, double step) {
+  const int n = 1 + static_cast<int>(std::floor((high - low) / step));
+  std::vector<double> y;
+  for (int i = 0; i <= n; ++i) y.push_back(low + (high - low) * i / n);
+  return y;
+}
+
+}  // namespace
+
+double lowest_angle(const Pose& X_TW) { return -std::atan2(X_TW.rotation(0, 2), X_TW.rotation(0, 0)); }
+
+std::vector<double> mesh_lines(const Surface& wheel, double angle, double step) {
+  const Box3 box = wheel.bounds();
+  const std::vector<double> y =
+      lateral_nodes(wheel, {Vec3::Zero(), rotation_y(angle)}, 0.0, {box.min.y(), box.max.y()});
+  constexpr std::size_t kFewest = 4;
+  return y.size() >= kFewest ? y : equal_steps(box.min.y(), box.max.y(), step);
+}
+
+std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y) {
+  std::vector<Vec2> points;
+  points.reserve(y.size());
+  for (const double at : y) points.emplace_back(0.0, at);
+  std::vector<double> radius(y.size());
+  wheel.heights_at({Vec3::Zero(), rotation_y(angle)}, points, {radius, {}, {}});
+  return radius;
+}
+
+std::vector<double> lateral_nodes(const Surface& surface, const Pose& X_SP, double x_P, const LateralInterval& y_P) {
+  constexpr double kStep = 0.1e-3;        // of points between which v is taken as linear [m]
+  constexpr std::ptrdiff_t kHidden = 10;  // more data than that between two points: something lies behind the rest
+  const std::vector<double> data_v = surface.data_v();
+  if (data_v.empty()) return {};
+  const int n = std::max(2, static_cast<int>(std::ceil((y_P.high - y_P.low) / kStep)));
+  std::vector<Vec2> points;
+  for (int i = 0; i <= n; ++i) points.emplace_back(x_P, y_P.low + (y_P.high - y_P.low) * i / n);
+  std::vector<SurfacePoint> found(points.size());
+  surface.locate(X_SP, points, found);
+
+  std::vector<double> y;
+  for (std::size_t i = 0; i + 1 < found.size(); ++i) {
+    const SurfacePoint &a = found[i], &b = found[i + 1];
+    if (a.status == LocateStatus::outside || b.status == LocateStatus::outside) continue;
+    const auto begin = std::ranges::lower_bound(data_v, std::min(a.v, b.v)),
+               end = std::ranges::lower_bound(data_v, std::max(a.v, b.v));
+    if (end - begin > kHidden) continue;
+    const auto first = static_cast<std::ptrdiff_t>(y.size());
+    for (auto v = begin; v != end; ++v)
+      y.push_back(points[i].y() + (points[i + 1].y() - points[i].y()) * (*v - a.v) / (b.v - a.v));
+    if (b.v < a.v) std::reverse(y.begin() + first, y.end());
+  }
+  return y;
 }
 
 }  // namespace treadmark::detection

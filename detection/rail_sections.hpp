@@ -3,8 +3,10 @@
 #pragma once
 
 #include <span>
+#include <vector>
 
-#include "treadmark/detection/body_pair.hpp"
+#include "treadmark/core/surface.hpp"
+#include "treadmark/detection/gap_field.hpp"
 
 namespace treadmark::detection {
 
@@ -13,5 +15,26 @@ namespace treadmark::detection {
 /// outermost of these. Returns false, with heights that mean nothing, for a rail whose data are not known. Only for
 /// agreement with that program's results.
 bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C, std::span<double> rail_n);
+
+/// Angle in the wheel's own frame [rad] of the line of a round wheel that is lowest in T, yaw and roll being small:
+/// pitch taken back.
+double lowest_angle(const Pose& X_TW);
+
+/// Lateral positions in the wheel's frame, increasing, at which the reference program (CONTACT) puts the corners of its
+/// meshes [m]: where the data of the wheel's surface lie if it tells, in equal steps not longer than step otherwise.
+/// angle: of the section that tells y over v [rad].
+std::vector<double> mesh_lines(const Surface& wheel, double angle, double step);
+
+/// Radius over lateral positions of the section at an angle [m]; NaN where the wheel is missing.
+std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y);
+
+/// Lateral range [m].
+struct LateralInterval {
+  double low = 0.0, high = 0.0;
+};
+
+/// Lateral positions [m] at which the data of a surface lie on the line x of a plane P, increasing; where the surface
+/// can be seen. Empty if the surface was not made from data, or does not tell.
+std::vector<double> lateral_nodes(const Surface& surface, const Pose& X_SP, double x_P, const LateralInterval& y_P);
 
 }  // namespace treadmark::detection

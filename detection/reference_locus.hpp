@@ -4,8 +4,8 @@
 
 #include <vector>
 
-#include "treadmark/detection/body_pair.hpp"
 #include "treadmark/detection/contact_locus.hpp"
+#include "treadmark/detection/gap_field.hpp"
 
 namespace treadmark::detection {
 

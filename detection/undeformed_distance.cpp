@@ -1,11 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 
 #include <cmath>
 #include <limits>
 #include <utility>
 
+#include "treadmark/core/error.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 #include "treadmark/detection/wheel_mesh.hpp"
 
@@ -34,6 +37,41 @@ UndeformedDistance undeformed_distance(std::vector<double> rail_n, std::span<con
   result.approach = -least;
   for (double& h : result.distance) h -= least;
   return result;
+}
+
+FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
+                               const ReferenceRows& reference) {
+  if (reference.rows.size() != static_cast<std::size_t>(grid.ny))
+    throw Error(ErrorKind::configuration, "the reference surface has another number of rows than the grid of elements");
+  FacingSurfaces surfaces{std::vector<double>(grid.size()), std::vector<double>(grid.size())};
+  const auto width = static_cast<std::size_t>(grid.nx);
+  const Pose X_RC = bodies.X_TR.inverse() * X_TC, X_WC = bodies.X_TW.inverse() * X_TC;
+  const Grid2 row{grid.x0, 0.0, grid.dx, grid.dy, grid.nx, 1};
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const Pose X_CL = reference.X_CL(iy);
+    const std::size_t first = grid.index(0, iy);
+    bodies.rail->heights({X_RC * X_CL, row}, {{surfaces.rail.data() + first, width}, {}, {}});
+    bodies.wheel->heights({X_WC * X_CL, row}, {{surfaces.wheel.data() + first, width}, {}, {}});
+  }
+  return surfaces;
+}
+
+UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
+                                      const ReferenceRows& reference) {
+  const auto width = static_cast<std::size_t>(grid.nx);
+  std::vector<double> rail(grid.size()), wheel(grid.size());
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const ReferenceRow& row = reference.rows[static_cast<std::size_t>(iy)];
+    const Grid2 line{grid.x0 - reference.reference_C.x(), row.y, grid.dx, grid.dy, grid.nx, 1};
+    const UndeformedDistance h = undeformed_distance(bodies, X_TC, line);
+    for (std::size_t ix = 0; ix < width; ++ix)
+      rail[grid.index(static_cast<int>(ix), iy)] = std::cos(row.angle) * (h.distance[ix] - h.approach);
+  }
+  return undeformed_distance(std::move(rail), wheel);
+}
+
+UndeformedDistance undeformed_distance(const FacingSurfaces& surfaces) {
+  return undeformed_distance(surfaces.rail, surfaces.wheel);
 }
 
 }  // namespace treadmark::detection

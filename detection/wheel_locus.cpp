@@ -9,8 +9,8 @@
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/detection/natural_spline.hpp"
-#include "treadmark/detection/wheel_section.hpp"
+#include "treadmark/detection/natural_curve.hpp"
+#include "treadmark/detection/rail_sections.hpp"
 
 namespace treadmark::detection {
 namespace {

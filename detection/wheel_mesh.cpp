@@ -9,8 +9,8 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/detection/facet_search.hpp"
-#include "treadmark/detection/wheel_section.hpp"
+#include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/search_mesh.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "treadmark/detection/body_pair.hpp"
+#include "treadmark/detection/gap_field.hpp"
 
 namespace treadmark::detection {
 

@@ -7,10 +7,10 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_report.hpp"
-#include "treadmark/io/results/chart_axis.hpp"
-#include "treadmark/io/results/chart_draw.hpp"
-#include "treadmark/io/results/chart_marker.hpp"
-#include "treadmark/io/results/svg_text.hpp"
+#include "treadmark/pictures/chart_axis.hpp"
+#include "treadmark/pictures/chart_draw.hpp"
+#include "treadmark/pictures/chart_marks.hpp"
+#include "treadmark/pictures/svg_text.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/bench/bench_pair.hpp"
 
-#include "treadmark/app/bench/check_detection.hpp"
 #include "treadmark/app/bench/check_surface.hpp"
-#include "treadmark/app/bench/median_time.hpp"
+#include "treadmark/app/bench/machine.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 

@@ -7,7 +7,7 @@
 #include <optional>
 #include <string>
 
-#include "treadmark/app/bench/bench_model.hpp"
+#include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_scene.hpp"
 
 namespace treadmark::app {

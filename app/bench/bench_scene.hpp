@@ -5,7 +5,7 @@
 #include <memory>
 #include <vector>
 
-#include "treadmark/app/sampled_region.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/detection/contact_search.hpp"
 #include "treadmark/io/cases/case_model.hpp"
@@ -51,5 +51,9 @@ struct BenchGrid {
 /// Solves the first wheel-rail case of a file with the surfaces as given; a left-hand one as its mirror image.
 /// Errors: those of the readers; Error(configuration) without such a case; Error(numerical) without contact.
 BenchScene make_bench_scene(const io::CaseFile& file, const BenchGrid& grid = {});
+
+/// A view of a surface round a point of contact, from y_before (negative) to y_after beside it [m].
+BenchView make_bench_view(const Surface& surface, const Vec3& contact_S, double y_before, double y_after,
+                          const BenchGrid& grid);
 
 }  // namespace treadmark::app

@@ -8,7 +8,6 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/bench/bench_pair.hpp"
-#include "treadmark/app/bench/build_info.hpp"
 #include "treadmark/app/bench/machine.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/backends/registry.hpp"

@@ -5,7 +5,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/app/bench/bench_model.hpp"
+#include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_scene.hpp"
 #include "treadmark/core/progress.hpp"
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include "treadmark/app/bench/bench_scene.hpp"
+#include "treadmark/detection/contact_search.hpp"
 
 namespace treadmark::app {
 
@@ -21,5 +22,17 @@ SurfaceAgreement check_surface(const Surface& subject, const BenchView& truth, d
 
 /// How far chords of this length may lie from a surface so curved, with room for two directions [m].
 double representation_limit(double resolution, double largest_curvature);
+
+/// The wheel moves so far down between a first and a second search [m].
+inline constexpr double kWarmStep = 1e-6;
+
+/// Holds a search by the method of its settings, first and after a small move, against searches on the full grid: the
+/// same patches, references and least gaps. Returns what does not agree, or nothing; patches: their number, if not
+/// null.
+std::string check_search(const detection::BodyPair& bodies, const detection::SearchSettings& settings,
+                         int* patches = nullptr);
+
+/// Holds the undeformed distance on a grid against one put together from single heights.
+std::string check_distance(const detection::BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C);
 
 }  // namespace treadmark::app

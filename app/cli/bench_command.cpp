@@ -8,7 +8,6 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"

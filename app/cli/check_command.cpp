@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
+#include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/run_cases.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/io/cases/read_case.hpp"

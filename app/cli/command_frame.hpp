@@ -2,18 +2,40 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <CLI/CLI.hpp>
+
+#include <atomic>
+#include <chrono>
+#include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <memory>
 #include <string>
 #include <vector>
 
-#include <CLI/CLI.hpp>
-
-#include "treadmark/app/cli/terminal.hpp"
 #include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/app/report/page.hpp"
 #include "treadmark/core/progress.hpp"
 
 namespace treadmark::cli {
+
+/// Set by Ctrl-C while it is caught: work stops after the units that run now. A second Ctrl-C ends the program at once.
+const std::atomic<bool>& interrupted();
+/// To be called as often as wanted.
+void catch_interrupt();
+
+/// One line on stderr with count and estimated time left, redrawn at most ten times a second. Silent off a terminal.
+class ProgressLine {
+ public:
+  explicit ProgressLine(bool quiet);
+  ~ProgressLine();
+  void update(std::size_t finished, std::size_t total, const std::string& what);
+
+ private:
+  bool visible_;
+  bool drawn_ = false;
+  std::chrono::steady_clock::time_point start_, last_;
+};
 
 /// What several verbs have in common: options, and the frame round their work.
 
@@ -59,5 +81,8 @@ void print_results(const std::string& json_file, const std::function<std::string
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json);
 /// Errors: Error(numerical) if standard output did not take everything.
 void check_output();
+
+/// Makes the page and writes it as a live report; an empty name: does nothing.
+void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page);
 
 }  // namespace treadmark::cli

@@ -7,8 +7,7 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
-#include "treadmark/app/cli/report_file.hpp"
-#include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/report/pages/compare_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -77,8 +76,9 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   const ThreadLimit limit(common.threads);
   catch_interrupt();
   const io::CaseFile file = io::read_any_case(options.case_file, options.overrides);
-  const auto compared = std::make_shared<io::Comparison>(with_progress(
-      common.quiet, [&](const Progress& progress) { return app::compare_cases(file, settings_of(options), progress); }));
+  const auto compared = std::make_shared<io::Comparison>(with_progress(common.quiet, [&](const Progress& progress) {
+    return app::compare_cases(file, settings_of(options), progress);
+  }));
   io::Comparison& result = *compared;
   result.settings = echo(options);
   print_notes(file.notes, common.quiet);

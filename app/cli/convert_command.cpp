@@ -4,7 +4,7 @@
 #include <numbers>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/convert_surface.hpp"
+#include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/results/summary.hpp"
 

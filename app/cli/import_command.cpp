@@ -3,7 +3,6 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"

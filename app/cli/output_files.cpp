@@ -4,17 +4,16 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
-#include "treadmark/io/results/comparison_csv.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
-#include "treadmark/io/results/comparison_pictures.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
-#include "treadmark/io/results/picture_svg.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/io/results/write_mat.hpp"
 #include "treadmark/io/results/write_subs.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
+#include "treadmark/pictures/comparison_pictures.hpp"
+#include "treadmark/pictures/picture_svg.hpp"
 
 namespace treadmark::cli {
 

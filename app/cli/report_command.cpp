@@ -4,7 +4,6 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/report/assets.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/io/files/atomic_file.hpp"

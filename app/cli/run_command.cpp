@@ -6,12 +6,11 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
-#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
-#include "treadmark/app/run_cases.hpp"
-#include "treadmark/app/sampled_surfaces.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"

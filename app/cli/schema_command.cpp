@@ -3,7 +3,7 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/imports/import_settings.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 

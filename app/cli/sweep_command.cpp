@@ -5,7 +5,6 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/report_file.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"

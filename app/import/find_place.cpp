@@ -9,9 +9,9 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/model/natural_view.hpp"
 #include "treadmark/scans/cgal/stray_points.hpp"
 #include "treadmark/scans/cleaning/band_points.hpp"
 #include "treadmark/scans/cleaning/pass_steps.hpp"

@@ -8,6 +8,7 @@
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_settings.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::app {
 
@@ -22,5 +23,9 @@ struct ImportRequest {
 /// any number of threads. Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for
 /// outputs that cannot hold the surface; Error(numerical) when stopped. Nothing is written then.
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress = {});
+
+/// Refuses settings that would be ignored because they belong to the other body or to another choice.
+/// Errors: Error(configuration) that names the setting.
+void check_settings(const io::ImportSettings& settings, Body body);
 
 }  // namespace treadmark::app

@@ -8,8 +8,8 @@
 #include <vector>
 
 #include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/core/length_unit.hpp"
-#include "treadmark/core/point_cloud.hpp"
+#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/point_cloud.hpp"
 
 namespace treadmark::app {
 

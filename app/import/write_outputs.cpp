@@ -7,16 +7,16 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/read_surface.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/model/natural_view.hpp"
 #include "treadmark/scans/cgal/free_mesh.hpp"
 #include "treadmark/scans/cgal/plane_triangulation.hpp"
 #include "treadmark/scans/cgal/stray_points.hpp"

@@ -1,6 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/app/report/blob_store.hpp"
+
+#include <zlib.h>
 
 #include <algorithm>
 #include <bit>
@@ -8,10 +11,11 @@
 #include <cstdint>
 #include <limits>
 
-#include "treadmark/app/report/deflate.hpp"
-#include "treadmark/io/files/base64.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
+
 namespace {
 
 /// Byte k of all numbers before byte k + 1 of all.
@@ -101,6 +105,17 @@ std::size_t BlobStore::text_size() const {
   std::size_t sum = 0;
   for (const std::string& text : texts_) sum += text.size();
   return sum;
+}
+
+std::vector<std::byte> deflated(std::span<const std::byte> bytes) {
+  constexpr int kLevel = 9;
+  uLongf size = compressBound(static_cast<uLong>(bytes.size()));
+  std::vector<std::byte> out(size);
+  const int status = compress2(reinterpret_cast<Bytef*>(out.data()), &size,
+                               reinterpret_cast<const Bytef*>(bytes.data()), static_cast<uLong>(bytes.size()), kLevel);
+  if (status != Z_OK) throw Error(ErrorKind::numerical, "the data of the report could not be compressed");
+  out.resize(size);
+  return out;
 }
 
 }  // namespace treadmark::app::report

@@ -51,4 +51,8 @@ class BlobStore {
   bool open_ = false;
 };
 
+/// The bytes as a zlib stream (RFC 1950). The same bytes give the same stream. Thread-safe. Errors: Error(numerical)
+/// without memory.
+std::vector<std::byte> deflated(std::span<const std::byte> bytes);
+
 }  // namespace treadmark::app::report

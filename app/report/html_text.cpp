@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/results/svg_text.hpp"
+#include "treadmark/pictures/svg_text.hpp"
 
 namespace treadmark::app::report {
 

@@ -11,7 +11,7 @@
 #include "treadmark/app/report/frame_packer.hpp"
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/twelve_digits.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 
 namespace treadmark::app::report {

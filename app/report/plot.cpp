@@ -7,7 +7,6 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/field_catalogue.hpp"
-#include "treadmark/app/report/field_picture.hpp"
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/core/error.hpp"

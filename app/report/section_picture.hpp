@@ -14,4 +14,7 @@ namespace treadmark::app::report {
 /// largest normal force is shown. Thread-safe.
 std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurface>& surfaces);
 
+/// A map as an SVG picture, averaged where it is finer than the picture; places without values stay empty. Thread-safe.
+std::string map_svg(const MapView& map, const std::string& title);
+
 }  // namespace treadmark::app::report

@@ -28,7 +28,7 @@ if(SCRIPT)
   file(READ "${SCRIPT}" code)
 endif()
 
-file(WRITE "${OUT}.new" "// Made by write_assets.cmake.\n#include \"treadmark/app/report/assets.hpp\"\n\n#include <span>\n#include <string_view>\n\nnamespace treadmark::app::report {\nnamespace {\n\n")
+file(WRITE "${OUT}.new" "// Made by write_assets.cmake.\n#include \"treadmark/app/report/write_page.hpp\"\n\n#include <span>\n#include <string_view>\n\nnamespace treadmark::app::report {\nnamespace {\n\n")
 add_text(Style "${style}")
 add_text(Script "${code}")
 file(APPEND "${OUT}.new" "\nstd::string joined(std::span<const std::string_view> parts) {\n  std::string text;\n  for (const std::string_view part : parts) text += part;\n  return text;\n}\n\n}  // namespace\n\nconst std::string& page_style() {\n  static const std::string text = joined(kStyle);\n  return text;\n}\n\nconst std::string& page_script() {\n  static const std::string text = joined(kScript);\n  return text;\n}\n\n}  // namespace treadmark::app::report\n")

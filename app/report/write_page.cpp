@@ -1,19 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/report/write_page.hpp"
 
-#include <cmath>
+#include "treadmark/app/report/write_page.hpp"
 
 #include <fmt/format.h>
 
-#include "treadmark/app/report/assets.hpp"
+#include <cmath>
+
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/app/version.hpp"
-#include "treadmark/io/files/base64.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
+
 namespace {
 
 template <class... Ts>

@@ -18,4 +18,10 @@ struct PageOptions {
 /// that do not match their grid.
 std::string to_html(const Page& page, const PageOptions& options = {});
 
+/// Style sheet of the pages.
+const std::string& page_style();
+
+/// The script that makes views live; empty where Treadmark was built without Node.js.
+const std::string& page_script();
+
 }  // namespace treadmark::app::report

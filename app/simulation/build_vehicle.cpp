@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"

@@ -6,9 +6,9 @@
 #include <memory>
 #include <vector>
 
-#include "treadmark/app/sampled_surfaces.hpp"
 #include "treadmark/app/simulation/defect_depth.hpp"
-#include "treadmark/app/surface_store.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/solvers/vehicle/full_contact.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"

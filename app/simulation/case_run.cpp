@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <functional>
 
-#include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
 
 namespace treadmark::app {

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 
 namespace treadmark::app {
@@ -33,6 +34,34 @@ class HistoryRecord {
 
   const vehicle::Simulation& simulation_;
   std::vector<Column> columns_;
+};
+
+/// Numbers that sum up a simulation: largest and least forces of the watched wheel, where and when, energies and
+/// counts. Every instant counts that is noted, whether it is written down or not. Not thread-safe.
+class HistorySummary {
+ public:
+  /// Both must outlive this.
+  HistorySummary(const BuiltVehicle& built, const vehicle::Simulation& simulation);
+
+  /// Takes the present instant into account; the first one is the start.
+  void note();
+  /// SI; empty before the first instant.
+  std::vector<io::NamedValue> values() const;
+
+  void save(ByteWriter& out) const;
+  /// Errors: Error(input_data) where bytes end too early.
+  void restore(ByteReader& in);
+
+ private:
+  struct Extreme {
+    double value = 0.0, time = 0.0;  ///< SI, [s]
+  };
+
+  const vehicle::Simulation& simulation_;
+  std::size_t watched_;
+  bool has_pressure_, begun_ = false;
+  double at_rest_ = 0.0;  ///< vertical force [N]
+  Extreme highest_, lowest_, ty_max_, ty_min_, pmax_;
 };
 
 }  // namespace treadmark::app

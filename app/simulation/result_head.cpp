@@ -1,11 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/app/simulation/result_head.hpp"
+#include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
 
-#include "treadmark/app/simulation/input_files.hpp"
+#include <algorithm>
+
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::app {
+
 namespace {
 
 template <class File>
@@ -29,6 +36,68 @@ io::SimulationResult result_head(const io::SimulationFile& file, const Simulatio
 }
 io::SimulationResult result_head(const io::CaseFile& file, const SimulationOptions& options) {
   return head_of(file, options);
+}
+
+namespace {
+
+class Hashes {
+ public:
+  void add(const std::filesystem::path& file, const SourcePosition& where) {
+    if (std::ranges::find(seen_, file) != seen_.end()) return;
+    try {
+      hashes_.emplace_back(file.filename().string(), io::sha256_file(file));
+    } catch (const Error& e) {
+      if (where.file.empty()) throw;
+      throw Error(e.kind(), file.string() + ": " + e.message(), where, e.advice());
+    }
+    seen_.push_back(file);
+  }
+
+  void add(const io::SurfaceSource& source) {
+    for (const io::SurfaceSource& part : source.parts) add(part);
+    const auto* geometry = std::get_if<io::GeometryFile>(&source.geometry);
+    if (geometry != nullptr && source.parts.empty()) add(geometry->file, source.where);
+  }
+
+  void add(const io::InfluenceInput& influence) {
+    if (influence.kind == io::InfluenceInput::Kind::table) add(influence.file, {});
+  }
+
+  void add(const io::WheelRailCase& c) {
+    add(c.rail);
+    add(c.wheel);
+    add(c.influence);
+  }
+
+  void add(const io::NamedFile& file) { hashes_.emplace_back(file.path.filename().string(), file.sha256); }
+
+  FileHashes take() { return std::move(hashes_); }
+
+ private:
+  std::vector<std::filesystem::path> seen_;
+  FileHashes hashes_;
+};
+
+}  // namespace
+
+FileHashes input_hashes(const io::SimulationFile& file) {
+  Hashes hashes;
+  hashes.add(file.contact);
+  if (file.other_wheel) hashes.add(*file.other_wheel);
+  hashes.add(file.vehicle_file);
+  if (file.track_file) hashes.add(*file.track_file);
+  return hashes.take();
+}
+
+FileHashes input_hashes(const io::CaseFile& file) {
+  Hashes hashes;
+  for (const io::Case& c : file.cases) {
+    if (const auto* contact = std::get_if<io::WheelRailCase>(&c.content))
+      hashes.add(*contact);
+    else
+      hashes.add(std::get<io::BasicCase>(c.content).influence);
+  }
+  return hashes.take();
 }
 
 }  // namespace treadmark::app

@@ -9,15 +9,13 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/history_record.hpp"
-#include "treadmark/app/simulation/history_summary.hpp"
-#include "treadmark/app/simulation/input_files.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
-#include "treadmark/io/histories/history_csv.hpp"
+#include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
 

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/app/surface_store.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"

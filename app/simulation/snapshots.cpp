@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/wheelrail_result.hpp"
+#include "treadmark/app/cases/wheelrail_result.hpp"
 
 namespace treadmark::app {
 namespace {

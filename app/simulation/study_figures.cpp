@@ -9,9 +9,9 @@
 
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/histories/history_svg.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/io/histories/summary_svg.hpp"
+#include "treadmark/pictures/history_svg.hpp"
+#include "treadmark/pictures/summary_svg.hpp"
 
 namespace treadmark::app {
 namespace {

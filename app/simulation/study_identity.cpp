@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/app/simulation/input_files.hpp"
+#include "treadmark/app/simulation/result_head.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/read_study.hpp"

@@ -1,11 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/backends/analytic/chain.hpp"
+
+#include <fmt/format.h>
 
 #include <cmath>
 #include <numbers>
-
-#include <fmt/format.h>
 
 #include "treadmark/core/error.hpp"
 

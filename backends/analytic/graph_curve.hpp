@@ -6,7 +6,7 @@
 
 #include "treadmark/backends/analytic/arc_graph.hpp"
 #include "treadmark/backends/analytic/chord_tree.hpp"
-#include "treadmark/backends/analytic/wheel_lanes.hpp"
+#include "treadmark/backends/analytic/wheels/wheel_lanes.hpp"
 
 namespace treadmark::analytic {
 

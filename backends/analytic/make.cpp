@@ -8,8 +8,8 @@
 
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/backends/analytic/prismatic_surface.hpp"
-#include "treadmark/backends/analytic/revolved_surface.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
+#include "treadmark/backends/analytic/wheels/revolved_surface.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::analytic {

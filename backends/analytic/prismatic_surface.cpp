@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "treadmark/backends/analytic/turned_chain.hpp"
+#include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 

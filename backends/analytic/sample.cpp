@@ -7,7 +7,7 @@
 #include <numbers>
 
 #include "treadmark/backends/analytic/chain.hpp"
-#include "treadmark/backends/analytic/flat_depth.hpp"
+#include "treadmark/backends/analytic/defects/flat_depth.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"

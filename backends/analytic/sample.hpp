@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

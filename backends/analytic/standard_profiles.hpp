@@ -5,7 +5,7 @@
 #include <string_view>
 
 #include "treadmark/backends/analytic/graph_curve.hpp"
-#include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/surface_spec.hpp"
 
 namespace treadmark::analytic {
 

@@ -4,10 +4,10 @@
 
 #include <memory>
 
-#include "treadmark/core/slices.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_spec.hpp"
-#include "treadmark/core/triangle_mesh.hpp"
+#include "treadmark/model/slices.hpp"
+#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::assembly {
 

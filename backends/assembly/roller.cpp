@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "treadmark/backends/analytic/chain.hpp"
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
 #include "treadmark/backends/displacement/displaced_surface.hpp"
 #include "treadmark/core/constants.hpp"

@@ -4,11 +4,11 @@
 
 #include <memory>
 
-#include "treadmark/core/defects.hpp"
-#include "treadmark/core/slices.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_spec.hpp"
-#include "treadmark/core/triangle_mesh.hpp"
+#include "treadmark/model/defects.hpp"
+#include "treadmark/model/slices.hpp"
+#include "treadmark/model/surface_spec.hpp"
+#include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::assembly {
 

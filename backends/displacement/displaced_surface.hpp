@@ -6,8 +6,8 @@
 #include <string>
 
 #include "treadmark/backends/displacement/offset_field.hpp"
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::displacement {
 

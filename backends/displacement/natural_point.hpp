@@ -5,7 +5,7 @@
 #include <cmath>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::displacement {
 

@@ -8,7 +8,7 @@
 
 #include "treadmark/backends/displacement/band_kernel.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::displacement {
 

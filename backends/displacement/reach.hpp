@@ -5,7 +5,7 @@
 #include <algorithm>
 
 #include "treadmark/backends/displacement/offset_field.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::displacement {
 

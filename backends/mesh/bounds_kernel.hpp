@@ -2,12 +2,96 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/backends/mesh/bounds.hpp"
-#include "treadmark/backends/mesh/clip_kernel.hpp"
+#include "treadmark/backends/mesh/kernel_types.hpp"
 #include "treadmark/backends/mesh/lanes.hpp"
-#include "treadmark/backends/mesh/triangle_kernel.hpp"
 
 namespace treadmark::mesh {
+
+namespace {
+
+/// Least and greatest z of the part of a triangle over the rectangle round (x, y); false if it lies beside.
+[[maybe_unused]] bool clipped_heights(const double (&triangle)[9], double x, double y, double half_x, double half_y,
+                                      double& low, double& high) {
+  // one side after the other cuts off what lies beyond it (Sutherland & Hodgman 1974); each adds at most one corner
+  double corners[8][3], kept[8][3];
+  int count = 3;
+  for (int k = 0; k < 3; ++k) {
+    corners[k][0] = triangle[3 * k] - x;
+    corners[k][1] = triangle[3 * k + 1] - y;
+    corners[k][2] = triangle[3 * k + 2];
+  }
+  for (int cut = 0; cut < 4; ++cut) {
+    const int axis = cut / 2;
+    const double sign = cut % 2 == 0 ? 1.0 : -1.0, half = axis == 0 ? half_x : half_y;
+    int n = 0;
+    for (int k = 0; k < count; ++k) {
+      const double *a = corners[k], *b = corners[k + 1 == count ? 0 : k + 1];
+      const double beyond_a = sign * a[axis] - half, beyond_b = sign * b[axis] - half;
+      if (beyond_a <= 0.0) {
+        for (int i = 0; i < 3; ++i) kept[n][i] = a[i];
+        ++n;
+      }
+      if ((beyond_a < 0.0 && beyond_b > 0.0) || (beyond_a > 0.0 && beyond_b < 0.0)) {
+        const double part = beyond_a / (beyond_a - beyond_b);
+        for (int i = 0; i < 3; ++i) kept[n][i] = a[i] + (b[i] - a[i]) * part;
+        ++n;
+      }
+    }
+    count = n;
+    for (int k = 0; k < count; ++k)
+      for (int i = 0; i < 3; ++i) corners[k][i] = kept[k][i];
+  }
+  if (count == 0) return false;
+  low = high = corners[0][2];
+  for (int k = 1; k < count; ++k) {
+    if (corners[k][2] < low) low = corners[k][2];
+    if (corners[k][2] > high) high = corners[k][2];
+  }
+  return true;
+}
+
+}  // namespace
+
+namespace {
+
+constexpr double kNearEdge = 2e-10;  ///< [m] more than kRimTolerance and rounding
+constexpr double kEdgeOn = 1e-12;    ///< twice the area in the plane over the longest side squared: far above rounding
+
+// The operations of PlaneView::to_plane and ProjectedTriangle::edges, in their order.
+
+TREADMARK_LANES void project(const MeshArrays& mesh, const PlaneLines& lines, std::uint32_t vertex, double* q) {
+  const double* p = mesh.vertices + 3 * static_cast<std::size_t>(vertex);
+  const double dx = p[0] - lines.origin[0], dy = p[1] - lines.origin[1], dz = p[2] - lines.origin[2];
+  for (int i = 0; i < 3; ++i)
+    q[i] = (lines.rotation[0][i] * dx + lines.rotation[1][i] * dy) + lines.rotation[2][i] * dz;
+}
+
+/// Corner k of triangle index[l] to q[3k], q[3k + 1], q[3k + 2] of lane l.
+TREADMARK_LANES void project_lanes(const MeshArrays& mesh, const PlaneLines& lines,
+                                   const std::uint32_t (&index)[kLanes], V4 (&q)[9]) {
+  for (int k = 0; k < 3; ++k) {
+    const double* p[kLanes];
+    for (int l = 0; l < kLanes; ++l)
+      p[l] =
+          mesh.vertices + 3 * static_cast<std::size_t>(
+                                  mesh.triangles[3 * static_cast<std::size_t>(index[l]) + static_cast<std::size_t>(k)]);
+    const V4 dx = V4{p[0][0], p[1][0], p[2][0], p[3][0]} - all(lines.origin[0]);
+    const V4 dy = V4{p[0][1], p[1][1], p[2][1], p[3][1]} - all(lines.origin[1]);
+    const V4 dz = V4{p[0][2], p[1][2], p[2][2], p[3][2]} - all(lines.origin[2]);
+    for (int i = 0; i < 3; ++i)
+      q[3 * k + i] = (all(lines.rotation[0][i]) * dx + all(lines.rotation[1][i]) * dy) + all(lines.rotation[2][i]) * dz;
+  }
+}
+
+TREADMARK_LANES void edge_functions(const double* q, double x, double y, double side, double* e) {
+  const double ax = q[0] - x, ay = q[1] - y, bx = q[3] - x, by = q[4] - y, cx = q[6] - x, cy = q[7] - y;
+  e[0] = side * (bx * cy - by * cx);
+  e[1] = side * (cx * ay - cy * ax);
+  e[2] = side * (ax * by - ay * bx);
+}
+
+}  // namespace
+
 namespace {
 
 constexpr double kHuge = 1e300, kLeastOut = 0.1;  ///< the latter as in SmoothPatches::reach
@@ -222,4 +306,5 @@ struct BoundsSearch {
 };
 
 }  // namespace
+
 }  // namespace treadmark::mesh

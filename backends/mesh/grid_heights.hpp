@@ -3,7 +3,7 @@
 #pragma once
 
 #include "treadmark/backends/mesh/bvh.hpp"
-#include "treadmark/backends/mesh/results.hpp"
+#include "treadmark/backends/mesh/point_heights.hpp"
 #include "treadmark/backends/mesh/smooth_patches.hpp"
 
 namespace treadmark::mesh {

@@ -38,4 +38,54 @@ struct PlaneLines {
 constexpr double kBoxRounding = 1e-11;  ///< [m] for comparisons of heights and boxes at coordinates up to 100 m
 constexpr double kSameHeight = 1e-11;   ///< [m] the two sides of a fold meet at one height: its outside is seen
 
+/// A rectangle of the plane by its middle and half its sides [m].
+struct BoundsQuery {
+  double x, y, half_x, half_y;
+};
+
+/// Range of heights; low > high: nothing there.
+struct BoundsFound {
+  double low, high;
+};
+
+/// Range of what shows its outside over the rectangle. Nodes much smaller than the rectangle and thin ones count as a
+/// whole, with the slab that holds them; triangles of leaves by their planes over the common part of their boxes and
+/// the rectangle. Whether anything is there at all is decided by triangles that meet the rectangle, or nodes inside of
+/// it.
+BoundsFound find_bounds_generic(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
+BoundsFound find_bounds_avx2(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
+
+/// A triangle that shows its outside over points of a tile, in the plane frame.
+struct TileTriangle {
+  double q[9];  ///< x, y, z of the three corners
+  std::uint32_t index;
+};
+
+/// A small piece of a grid with, for every point, the outermost triangle found so far. Rows are kStride apart.
+struct Tile {
+  static constexpr int kWide = 32, kHigh = 32;
+  static constexpr int kPad = 4;  ///< entries behind a row that lanes may touch
+  static constexpr int kStride = kWide + kPad;
+  static constexpr int kSlots = 2 * kWide * kHigh;
+  static constexpr std::int64_t kNobody = -1, kRim = -2,
+                                kInside = -3;  ///< kRim: close to an edge, kInside: seen from inside
+
+  double x[kStride], y[kHigh + kPad];  ///< places of the points [m]
+  double inverse_dx, inverse_dy;       ///< [1/m]
+  int nx, ny;
+
+  double depth[kStride * kHigh];        ///< outwards, of the outermost triangle; -inf without one
+  std::int64_t owner[kStride * kHigh];  ///< number in triangles, or one of the above
+  bool asked[kStride * kHigh];          ///< too close to call: the hierarchy decides
+  bool any_asked;
+  TileTriangle triangles[kSlots];
+  int used;  ///< of triangles
+};
+
+/// Scan conversion: every triangle over the tile marks the points that it covers and keeps those where it is outermost.
+/// The hierarchy is descended only where its nodes hold points that are not yet hidden, so that coarse grids cost like
+/// lines. Rounds like ProjectedTriangle, bit by bit. False if the tile has too many triangles: take a smaller one.
+bool fill_tile_generic(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
+bool fill_tile_avx2(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
+
 }  // namespace treadmark::mesh

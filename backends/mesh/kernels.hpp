@@ -2,9 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/backends/mesh/bounds.hpp"
+#include "treadmark/backends/mesh/kernel_types.hpp"
 #include "treadmark/backends/mesh/patch.hpp"
-#include "treadmark/backends/mesh/tile.hpp"
 
 namespace treadmark::mesh {
 

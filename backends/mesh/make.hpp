@@ -6,9 +6,9 @@
 #include <memory>
 #include <string>
 
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/triangle_mesh.hpp"
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::mesh {
 

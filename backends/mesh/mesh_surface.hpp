@@ -8,8 +8,8 @@
 
 #include "treadmark/backends/mesh/bvh.hpp"
 #include "treadmark/backends/mesh/make.hpp"
+#include "treadmark/backends/mesh/point_heights.hpp"
 #include "treadmark/backends/mesh/ray_scene.hpp"
-#include "treadmark/backends/mesh/results.hpp"
 #include "treadmark/backends/mesh/smooth_patches.hpp"
 
 namespace treadmark::mesh {

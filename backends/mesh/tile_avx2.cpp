@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/backends/mesh/tile.hpp"
+#include "treadmark/backends/mesh/kernel_types.hpp"
 #if defined(__AVX2__)
 #include "treadmark/backends/mesh/tile_kernel.hpp"
 

@@ -2,9 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include "treadmark/backends/mesh/bounds_kernel.hpp"
+#include "treadmark/backends/mesh/kernel_types.hpp"
 #include "treadmark/backends/mesh/lanes.hpp"
-#include "treadmark/backends/mesh/tile.hpp"
-#include "treadmark/backends/mesh/triangle_kernel.hpp"
 
 namespace treadmark::mesh {
 namespace {

@@ -1,13 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/backends/offset/file.hpp"
+#include "treadmark/backends/offset/file.hpp"
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 #include <cmath>
+#include <cstdlib>
 #include <cstring>
 #include <fstream>
 #include <vector>
 
 #include "treadmark/backends/offset/make.hpp"
-#include "treadmark/backends/offset/metadata.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -110,6 +117,161 @@ OffsetFile read_vdb(const fs::path& file) {
   offsets->grid = std::move(sheet.grid);
   result.offsets = offsets;
   return result;
+}
+
+namespace {
+
+constexpr const char* kFormat = "treadmark offsets 1";
+
+std::string number(double v) { return fmt::format("{:.17g}", v); }
+std::string list(const std::vector<double>& v) { return fmt::format("{:.17g}", fmt::join(v, " ")); }
+
+/// Reads entries, with errors that name them.
+class Reader {
+ public:
+  Reader(const Metadata& metadata, const std::string& file) : metadata_(metadata), file_(file) {}
+
+  [[noreturn]] void refuse(const std::string& why) const { throw Error(ErrorKind::input_data, why, {file_}); }
+  const std::string& text(const std::string& name) const {
+    const auto found = metadata_.find(name);
+    if (found == metadata_.end())
+      refuse(fmt::format("the VDB file was not written for offsets: it lacks the entry '{}'", name));
+    return found->second;
+  }
+  void require(const std::string& name, const std::string& wanted) const {
+    if (text(name) != wanted)
+      refuse(fmt::format("the entry '{}' of the VDB file is '{}', wanted is '{}'", name, text(name), wanted));
+  }
+  std::vector<double> numbers(const std::string& name) const {
+    std::vector<double> all;
+    const std::string& from = text(name);
+    const char* at = from.c_str();
+    const char* const end = at + from.size();
+    while (at < end) {
+      char* next = nullptr;
+      const double v = std::strtod(at, &next);
+      if (next == at || !std::isfinite(v) || (*next != ' ' && next != end))
+        refuse(fmt::format("the entry '{}' of the VDB file is not a list of numbers", name));
+      all.push_back(v);
+      at = next == end ? end : next + 1;
+    }
+    return all;
+  }
+  double one(const std::string& name) const {
+    const std::vector<double> all = numbers(name);
+    if (all.size() != 1) refuse(fmt::format("the entry '{}' of the VDB file must be one number", name));
+    return all.front();
+  }
+
+ private:
+  const Metadata& metadata_;
+  const std::string& file_;
+};
+
+void write_shape(const Profile& p, Metadata& m) {
+  const SmoothingOptions& s = p.smoothing;
+  m.emplace("base", "points");
+  m.emplace("base_name", p.name);
+  m.emplace("base_y", list(p.y));
+  m.emplace("base_z", list(p.z));
+  m.emplace("base_smoothing", list({static_cast<double>(s.method), s.strength, s.kink_high, s.kink_low, s.kink_width}));
+}
+void write_shape(const StandardProfile& p, Metadata& m) {
+  m.emplace("base", "standard");
+  m.emplace("base_name", p.name);
+}
+void write_shape(const ArcChain& chain, Metadata& m) {
+  std::vector<double> segments;
+  for (const ArcChain::Segment& s : chain.segments) segments.insert(segments.end(), {s.length, s.curvature});
+  m.emplace("base", "arcs");
+  m.emplace("base_start", list({chain.start_y, chain.start_z, chain.start_angle}));
+  m.emplace("base_segments", list(segments));
+}
+
+Profile read_points(const Reader& in, Body body) {
+  Profile p;
+  p.body = body;
+  p.name = in.text("base_name");
+  p.y = in.numbers("base_y");
+  p.z = in.numbers("base_z");
+  if (p.y.size() != p.z.size() || p.y.size() < 2)
+    in.refuse("the base in the VDB file has not as many y as z, at least 2");
+  const std::vector<double> s = in.numbers("base_smoothing");
+  if (s.size() != 5 || !(s[0] == 0.0 || s[0] == 1.0 || s[0] == 2.0))
+    in.refuse("the entry 'base_smoothing' of the VDB file is broken");
+  p.smoothing = {static_cast<SmoothingOptions::Method>(static_cast<int>(s[0])), s[1], s[2], s[3], s[4]};
+  return p;
+}
+
+ArcChain read_arcs(const Reader& in) {
+  const std::vector<double> start = in.numbers("base_start"), segments = in.numbers("base_segments");
+  if (start.size() != 3 || segments.empty() || segments.size() % 2 != 0)
+    in.refuse("the arcs of the base in the VDB file are broken");
+  ArcChain chain{start[0], start[1], start[2], {}};
+  for (std::size_t k = 0; k < segments.size(); k += 2) chain.segments.push_back({segments[k], segments[k + 1]});
+  return chain;
+}
+
+}  // namespace
+
+Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base) {
+  const SheetFrame& f = offsets.frame;
+  if (base.body != f.body) throw Error(ErrorKind::configuration, "the base of the offsets belongs to the other body");
+  const bool wheel = f.body == Body::wheel;
+  Metadata m;
+  m.emplace("format", kFormat);
+  m.emplace("units", "m");
+  m.emplace("axes", wheel ? "i: theta [rad], j: y [m], value: radius [m]" : "i: x [m], j: y [m], value: z [m], down");
+  m.emplace("body", wheel ? "wheel" : "rail");
+  m.emplace("nominal_radius", number(wheel ? base.nominal_radius : 0.0));
+  m.emplace("frame", list({f.u0, f.y0, f.du, f.dy, static_cast<double>(f.turn), f.first, f.last}));
+  m.emplace("tolerance", number(offsets.tolerance));
+  if (const auto* points = std::get_if<Profile>(&base.shape))
+    write_shape(*points, m);
+  else if (const auto* standard = std::get_if<StandardProfile>(&base.shape))
+    write_shape(*standard, m);
+  else if (const auto* arcs = std::get_if<ArcChain>(&base.shape))
+    write_shape(*arcs, m);
+  else
+    throw Error(ErrorKind::configuration,
+                "the base of offsets in a file must be one section: points, arcs or a standard profile");
+  return m;
+}
+
+void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec& base, const std::string& file) {
+  const Reader in(metadata, file);
+  in.require("format", kFormat);
+  in.require("units", "m");
+  const bool wheel = in.text("body") == "wheel";
+  if (!wheel) in.require("body", "rail");
+  SheetFrame& f = offsets.frame;
+  f.body = base.body = wheel ? Body::wheel : Body::rail;
+  base.nominal_radius = offsets.nominal_radius = in.one("nominal_radius");
+  if (wheel ? !(base.nominal_radius > 0.0) : base.nominal_radius != 0.0)
+    in.refuse("the nominal radius in the VDB file makes no sense");
+  offsets.tolerance = in.one("tolerance");
+  const std::vector<double> frame = in.numbers("frame");
+  constexpr double kMostVoxels = 1 << 29;
+  if (frame.size() != 7 || !(frame[2] > 0.0) || !(frame[3] > 0.0) || !(frame[4] >= 0.0 && frame[4] < kMostVoxels) ||
+      (!wheel && frame[4] != 0.0) || !(frame[5] <= frame[6]) || std::fabs(frame[5]) > kMostVoxels ||
+      std::fabs(frame[6]) > kMostVoxels)
+    in.refuse("the entry 'frame' of the VDB file is broken");
+  if (!(frame[2] >= kLeastStep) || !(frame[3] >= kLeastStep))
+    in.refuse(fmt::format("the steps of the offsets in the VDB file are below {} m", kLeastStep));
+  f.u0 = frame[0], f.y0 = frame[1], f.du = frame[2], f.dy = frame[3];
+  f.turn = static_cast<int>(frame[4]);
+  f.first = frame[5], f.last = frame[6];
+  if (f.turn != frame[4] || (f.turn > 0 && std::fabs(f.turn * f.du - 2.0 * std::numbers::pi) > 1e-9))
+    in.refuse("the voxels in the VDB file do not fill the turn");
+  const std::string& kind = in.text("base");
+  if (kind == "points")
+    base.shape = read_points(in, f.body);
+  else if (kind == "standard")
+    base.shape = StandardProfile{in.text("base_name")};
+  else if (kind == "arcs")
+    base.shape = read_arcs(in);
+  else
+    in.refuse(fmt::format("the base '{}' in the VDB file is not known", kind));
 }
 
 }  // namespace treadmark::offset

@@ -9,9 +9,9 @@
 #include <string>
 #include <variant>
 
-#include "treadmark/core/offset_map.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/offset_map.hpp"
+#include "treadmark/model/surface_spec.hpp"
 
 namespace treadmark::offset {
 

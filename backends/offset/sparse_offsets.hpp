@@ -7,7 +7,7 @@
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::offset {
 

@@ -4,9 +4,9 @@
 
 #include <string>
 
-#include "treadmark/backends/sampling/point_grid.hpp"
-#include "treadmark/core/slices.hpp"
-#include "treadmark/core/triangle_mesh.hpp"
+#include "treadmark/backends/sampling/region.hpp"
+#include "treadmark/model/slices.hpp"
+#include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::sampling {
 

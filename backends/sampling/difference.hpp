@@ -3,9 +3,9 @@
 #pragma once
 
 #include "treadmark/backends/sampling/region.hpp"
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_difference.hpp"
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/surface_difference.hpp"
 
 namespace treadmark::sampling {
 

@@ -8,7 +8,7 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/natural_view.hpp"
+#include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::sampling {
 namespace {

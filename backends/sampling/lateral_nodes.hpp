@@ -5,8 +5,8 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::sampling {
 

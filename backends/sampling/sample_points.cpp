@@ -9,8 +9,8 @@
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::sampling {
 namespace {

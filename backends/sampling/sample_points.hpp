@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/backends/sampling/point_grid.hpp"
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
 

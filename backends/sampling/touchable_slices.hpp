@@ -3,8 +3,8 @@
 #pragma once
 
 #include "treadmark/backends/sampling/region.hpp"
-#include "treadmark/core/slices.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/slices.hpp"
 
 namespace treadmark::sampling {
 

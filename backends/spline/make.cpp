@@ -3,12 +3,11 @@
 #include "treadmark/backends/spline/make.hpp"
 
 #include "treadmark/backends/spline/fit_profile.hpp"
-#include "treadmark/backends/spline/fit_slices.hpp"
-#include "treadmark/backends/spline/nurbs_fit.hpp"
-#include "treadmark/backends/spline/nurbs_surface.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
-#include "treadmark/backends/spline/slice_surface.hpp"
+#include "treadmark/backends/spline/slices/fit_slices.hpp"
+#include "treadmark/backends/spline/slices/slice_surface.hpp"
 
 namespace treadmark::spline {
 

@@ -4,11 +4,11 @@
 
 #include <memory>
 
-#include "treadmark/backends/sampling/point_grid.hpp"
-#include "treadmark/core/profile.hpp"
-#include "treadmark/core/slices.hpp"
+#include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/surface_spec.hpp"
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/slices.hpp"
+#include "treadmark/model/surface_spec.hpp"
 
 namespace treadmark::spline {
 

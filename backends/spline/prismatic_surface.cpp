@@ -9,10 +9,10 @@
 #include <memory>
 #include <vector>
 
-#include "treadmark/backends/spline/bound_search.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
-#include "treadmark/backends/spline/profile_hull.hpp"
+#include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/backends/spline/viewed_profile.hpp"
 #include "treadmark/core/parallel.hpp"

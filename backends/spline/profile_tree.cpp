@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/backends/spline/profile_tree.hpp"
 
 namespace treadmark::spline {

@@ -6,11 +6,10 @@
 #include <cmath>
 #include <vector>
 
-#include "treadmark/backends/spline/bound_search.hpp"
-#include "treadmark/backends/spline/column_hits.hpp"
 #include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
-#include "treadmark/backends/spline/profile_hull.hpp"
+#include "treadmark/backends/spline/profile_tree.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/backends/spline/wheel_view.hpp"
 #include "treadmark/core/error.hpp"

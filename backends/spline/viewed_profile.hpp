@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/backends/spline/column_hits.hpp"
+#include "treadmark/backends/spline/grid_lines.hpp"
 #include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
 #include "treadmark/backends/spline/profile_spline.hpp"

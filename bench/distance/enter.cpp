@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/bench/distance/enter.hpp"
 
-#include "treadmark/app/bench/check_detection.hpp"
+#include "treadmark/app/bench/check_surface.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/core/parallel.hpp"

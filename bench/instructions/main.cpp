@@ -7,7 +7,7 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/app/bench/build_info.hpp"
+#include "treadmark/app/bench/machine.hpp"
 #include "treadmark/bench/instructions/paths.hpp"
 #include "treadmark/core/parallel.hpp"
 

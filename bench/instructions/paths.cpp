@@ -10,7 +10,6 @@
 
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_scene.hpp"
-#include "treadmark/app/bench/check_detection.hpp"
 #include "treadmark/app/bench/check_surface.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"

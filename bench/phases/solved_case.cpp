@@ -8,8 +8,8 @@
 #include <variant>
 
 #include "treadmark/app/bench/bench_case.hpp"
-#include "treadmark/app/read_surface.hpp"
-#include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
 
 namespace treadmark::bench {
 namespace {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string_view>
 
-#include "treadmark/app/bench/check_detection.hpp"
+#include "treadmark/app/bench/check_surface.hpp"
 #include "treadmark/bench/common/refuse.hpp"
 #include "treadmark/core/parallel.hpp"
 

@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <span>
+#include <string>
 #include <string_view>
 
 #include "treadmark/io/cases/case_model.hpp"
@@ -28,5 +29,12 @@ void apply_table(Case& target, const CaseTable& table, const std::filesystem::pa
 /// Applies one override; its path may also name a key of a list element ("wheel.flats.0.depth_mm",
 /// "rail.corrugations.0.waves.1.phase_deg").
 void apply_assignment(Case& target, const CaseOverride& assignment, const std::filesystem::path& folder);
+
+/// JSON Schema (draft 2020-12) of the Treadmark case file, for editors and validators; from the same table as the
+/// reader.
+std::string case_file_schema();
+
+/// All keys as Markdown tables, one for each section (docs/case-file.md).
+std::string case_key_table();
 
 }  // namespace treadmark::io

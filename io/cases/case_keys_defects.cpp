@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <utility>
 
-#include "treadmark/io/cases/element_keys.hpp"
+#include "treadmark/io/cases/shared_keys.hpp"
 
 namespace treadmark::io {
 

@@ -1,6 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/element_keys.hpp"
 #include "treadmark/io/cases/shared_keys.hpp"
 
 namespace treadmark::io {

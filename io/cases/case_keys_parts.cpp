@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "treadmark/io/cases/element_keys.hpp"
+#include "treadmark/io/cases/shared_keys.hpp"
 
 namespace treadmark::io {
 

@@ -9,11 +9,11 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/friction.hpp"
-#include "treadmark/core/material.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/core/surface_spec.hpp"
 #include "treadmark/model/contact_settings.hpp"
+#include "treadmark/model/friction.hpp"
+#include "treadmark/model/material.hpp"
+#include "treadmark/model/surface_spec.hpp"
 #include "treadmark/model/wheel_on_rail.hpp"
 
 namespace treadmark::io {

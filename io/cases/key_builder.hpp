@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/core/backend_name.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/model/backend_name.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::io {

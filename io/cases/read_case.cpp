@@ -1,12 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/read_case.hpp"
 
-#include <algorithm>
-#include <cctype>
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cctype>
+#include <fstream>
+#include <iterator>
+
+#include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 
@@ -23,6 +28,16 @@ CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::s
   CaseFile result = read_contact_input(file);
   apply_overrides(result, overrides);
   return result;
+}
+
+std::string read_text(const std::filesystem::path& file) {
+  std::error_code code;
+  if (std::filesystem::is_directory(file, code))
+    throw Error(ErrorKind::configuration, "a case file is expected, this is a folder", {file.string()});
+  std::ifstream stream(file, std::ios::binary);
+  if (!stream)
+    throw Error(ErrorKind::configuration, "the case file cannot be opened", {file.string()}, "check its name");
+  return std::string(std::istreambuf_iterator<char>(stream), std::istreambuf_iterator<char>());
 }
 
 }  // namespace treadmark::io

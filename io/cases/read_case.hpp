@@ -15,4 +15,7 @@ namespace treadmark::io {
 /// Throws Error (configuration). Safe to call from several threads.
 CaseFile read_any_case(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
+/// Whole content of a text file; throws Error (configuration) when it cannot be read.
+std::string read_text(const std::filesystem::path& file);
+
 }  // namespace treadmark::io

@@ -9,7 +9,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 

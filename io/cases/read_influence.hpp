@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string_view>
 
-#include "treadmark/core/numerical_influence.hpp"
+#include "treadmark/model/numerical_influence.hpp"
 
 namespace treadmark::io {
 

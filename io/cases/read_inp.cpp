@@ -11,7 +11,7 @@
 
 #include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
-#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::io {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <filesystem>
+#include <functional>
 #include <span>
 #include <string>
 #include <string_view>
@@ -34,5 +35,15 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
 void apply_override(Case& target, std::string_view assignment);
 /// Several of them to every case of a file; the cases are checked when all have been applied.
 void apply_overrides(CaseFile& target, std::span<const std::string> overrides);
+
+/// Cases of a case file that follow each other in time (case.steps).
+
+/// The rolling step that case.time_step_s means.
+void settle_rolling_step(Case& c);
+
+/// Moves rail and wheelset of a case from where they are in the case before it, by its velocities; a shift by its
+/// displacements. given: whether the file gives the position with this key itself, which then stays. Basic cases have
+/// no position. Errors: Error(configuration) if neither a velocity nor a time step tells how far.
+void move_on(Case& next, const Case& previous, const std::function<bool(std::string_view)>& given);
 
 }  // namespace treadmark::io

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/io/hdf5/hdf5_id.hpp"
+#include "treadmark/io/hdf5/hdf5_file.hpp"
 
 namespace treadmark::io {
 

@@ -9,8 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/io/hdf5/attribute.hpp"
-#include "treadmark/io/hdf5/hdf5_id.hpp"
+#include "treadmark/io/hdf5/hdf5_file.hpp"
 
 namespace treadmark::io {
 

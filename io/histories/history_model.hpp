@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -79,5 +80,18 @@ std::size_t column_index(const SimulationResult& result, const std::string& name
 
 /// The values of a column, an instant each; index < columns.size().
 std::vector<double> column_values(const SimulationResult& result, std::size_t index);
+
+/// Tables with commas, a line of names first, in SI units; numbers are the shortest that read back exactly. The files
+/// appear only when complete. Errors: Error(configuration) as check_simulation and for files that cannot be written.
+/// Thread-safe.
+
+/// The columns of the history, a line an instant.
+void write_history_csv(const std::filesystem::path& path, const SimulationResult& result);
+
+/// t_s,x_m,wheel,kind
+void write_events_csv(const std::filesystem::path& path, const SimulationResult& result);
+
+/// frequency_Hz,damping_ratio,shape
+void write_modes_csv(const std::filesystem::path& path, const SimulationResult& result);
 
 }  // namespace treadmark::io

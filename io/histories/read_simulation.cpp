@@ -5,7 +5,6 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/io/histories/store_names.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 
 namespace treadmark::io {

@@ -1,14 +1,21 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/io/histories/study_store.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
+#include "treadmark/core/error.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
-#include "treadmark/io/histories/store_names.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
 
 namespace treadmark::io {
+
 namespace {
 
 /// A dataset with a value of each run.
@@ -63,6 +70,45 @@ void write_study_store(const std::filesystem::path& path, const StudyResult& stu
     if (!run->store.empty()) file.root().copy_file(run->store, fmt::format("run_{:04}", run->number));
   file.close();
   target.commit();
+}
+
+StudyResult read_study_head(const std::filesystem::path& path) {
+  const Hdf5Reader file(path);
+  const Hdf5GroupReader& root = file.root();
+  if (const std::string format = root.text("format"); format != kStudyFormat)
+    throw Error(ErrorKind::input_data,
+                fmt::format("the store of a study holds \"{}\" where \"{}\" is read", format, kStudyFormat),
+                {path.string(), 0, 0}, "give a file that treadmark sweep wrote");
+  StudyResult study;
+  study.version = root.text("version");
+  study.git = root.text("git");
+  study.input_file = root.text("input");
+  study.input_sha256 = root.text("sha256");
+  study.title = root.text("title");
+  study.settings = root.texts("settings");
+  return study;
+}
+
+void write_sweep_csv(const std::filesystem::path& path, const StudyResult& study) {
+  const StudyTable table = study_table(study);
+  std::string out;
+  for (const std::string& key : table.keys) out += csv_cell(key) + ',';
+  for (const NamedValue& quantity : table.quantities) out += csv_cell(quantity.name) + ',';
+  out += "run,label,status,message\n";
+  for (const SimulationRun* run : table.runs) {
+    for (const std::string& key : table.keys) {
+      const std::string* value = swept_value(*run, key);
+      out += (value != nullptr ? csv_cell(*value) : "") + ',';
+    }
+    for (const NamedValue& quantity : table.quantities) {
+      const auto same = [&](const NamedValue& one) { return one.name == quantity.name; };
+      const auto found = std::find_if(run->summary.begin(), run->summary.end(), same);
+      out += (found != run->summary.end() ? csv_number(found->value) : "") + ',';
+    }
+    out +=
+        fmt::format("{},{},{},{}\n", run->number, csv_cell(run->label), csv_cell(run->status), csv_cell(run->message));
+  }
+  write_text_file(path, out);
 }
 
 }  // namespace treadmark::io

@@ -5,7 +5,6 @@
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/io/histories/store_names.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
 
 namespace treadmark::io {

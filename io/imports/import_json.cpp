@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/twelve_digits.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/imports/import_report.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/io/json/json_tree.hpp"

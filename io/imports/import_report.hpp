@@ -12,7 +12,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::io {
 

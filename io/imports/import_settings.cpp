@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/settings/key_info.hpp"
 #include "treadmark/io/settings/key_list.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
-#include "treadmark/io/settings/nearest_key.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -8,7 +8,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "treadmark/io/files/utf8.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 namespace {

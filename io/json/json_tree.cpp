@@ -10,7 +10,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 namespace {

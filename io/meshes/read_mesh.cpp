@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/files/line_scanner.hpp"
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/meshes/parse_mesh.hpp"
 
 namespace treadmark::io {

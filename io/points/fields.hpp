@@ -2,11 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <charconv>
+#include <cstdint>
+#include <limits>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "treadmark/core/pose.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/points/line_blocks.hpp"
 
 namespace treadmark::io::points {
 
@@ -58,5 +63,49 @@ std::vector<Field> fields_of(std::string_view line, char separator);
 /// The style that all of these lines of numbers share. Commas are decimal commas where something else separates the
 /// numbers, every one has digits on both sides, and nowhere is a decimal point.
 FieldStyle find_style(const std::vector<std::string>& lines);
+
+/// The number that a whole word says: exponents e, E, d and D, a leading '+', nan and infinities in the spellings of C,
+/// and of Windows ("-1.#IND"); a decimal comma where asked for. Out of range counts as infinite. False for anything
+/// else.
+bool parse_number_slowly(std::string_view word, bool decimal_comma, double& value);
+
+inline bool parse_number(std::string_view word, bool decimal_comma, double& value) {
+  const char* const end = word.data() + word.size();
+  const std::from_chars_result result = std::from_chars(word.data(), end, value);
+  if (result.ptr == end && result.ec == std::errc{}) return true;
+  return parse_number_slowly(word, decimal_comma, value);
+}
+
+/// A whole number that a double holds exactly.
+bool is_whole(double value);
+
+/// The number in a field, which may be NaN or infinite. Error(input_data) at the field for anything else.
+inline double number_in(const LineBlocks& lines, const Field& field, bool decimal_comma = false) {
+  double value = 0.0;
+  if (parse_number(field.text, decimal_comma, value)) return value;
+  const bool comma = !decimal_comma && field.text.find(',') != std::string_view::npos;
+  lines.fail("a number is expected, this is " + profiles::printable(field.text), field.column,
+             comma ? "write decimal points, or separate numbers with decimal commas by ';'" : "");
+}
+
+/// A number of elements. Error(input_data) at the field for anything but a whole number up to 1e12.
+inline std::uint64_t count_in(const LineBlocks& lines, const Field& field) {
+  double value = 0.0;
+  if (!parse_number(field.text, false, value) || !is_whole(value) || value < 0.0 || value > 1e12)
+    lines.fail("a number of elements is expected, this is " + profiles::printable(field.text), field.column);
+  return static_cast<std::uint64_t>(value);
+}
+
+/// The three numbers behind a key, as the sink reads numbers. what: the message where they are fewer.
+template <class Sink>
+Vec3 three_in(const LineBlocks& lines, FieldScanner& fields, const Field& key, const char* what) {
+  Vec3 p;
+  for (int k = 0; k < 3; ++k) {
+    Field field;
+    if (!fields.next(field)) Sink::too_few(lines, key, what);
+    p[k] = Sink::number(lines, field);
+  }
+  return p;
+}
 
 }  // namespace treadmark::io::points

@@ -11,7 +11,7 @@
 
 #include "treadmark/core/pose.hpp"
 #include "treadmark/io/points/byte_blocks.hpp"
-#include "treadmark/io/points/text_values.hpp"
+#include "treadmark/io/points/fields.hpp"
 
 namespace treadmark::io::points {
 

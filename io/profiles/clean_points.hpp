@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/core/profile.hpp"
 #include "treadmark/io/profiles/raw_points.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::io::profiles {
 

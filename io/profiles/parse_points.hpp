@@ -5,8 +5,8 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/core/profile.hpp"
 #include "treadmark/io/profiles/raw_points.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::io::profiles {
 

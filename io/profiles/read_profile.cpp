@@ -9,7 +9,7 @@
 #include <optional>
 
 #include "treadmark/io/files/line_scanner.hpp"
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
 

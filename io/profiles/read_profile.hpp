@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/profile.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::io {
 

@@ -9,7 +9,7 @@
 #include <limits>
 #include <numbers>
 
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/record_reader.hpp"
 

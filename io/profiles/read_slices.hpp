@@ -8,8 +8,8 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/slices.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/slices.hpp"
 
 namespace treadmark::io {
 

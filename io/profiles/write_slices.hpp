@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "treadmark/core/slices.hpp"
+#include "treadmark/model/slices.hpp"
 
 namespace treadmark::io {
 

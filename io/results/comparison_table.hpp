@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <filesystem>
 #include <string>
 
 #include "treadmark/io/results/comparison_model.hpp"
@@ -12,5 +13,12 @@ namespace treadmark::io {
 /// Errors are the largest over the cases, times the mean per case. Below: what failed and the notes of the builders.
 /// Ends in a newline. Thread-safe.
 std::string comparison_table(const Comparison& comparison);
+
+/// The rows of a comparison as comma-separated values (RFC 4180, lines ended by a line feed): a head with the names of
+/// the rows in the JSON file, then one line a row. What is null or absent there is empty here. Thread-safe.
+std::string to_csv(const Comparison& comparison);
+
+/// Writes the text to a file that appears only when complete. Errors: Error(configuration).
+void write_csv(const std::filesystem::path& path, const Comparison& comparison);
 
 }  // namespace treadmark::io

@@ -3,11 +3,13 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
+#include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::io {
@@ -32,5 +34,47 @@ void check_surface_names(const Hdf5GroupReader& where, std::span<const CaseResul
 
 /// Throws Error(input_data): the file is none of ours. what goes on from "the file of results ...".
 [[noreturn]] void refuse_result(const Hdf5GroupReader& where, const std::string& what);
+
+/// A patch with its fields and blocks from the group of a file of results. Errors: Error(input_data).
+PatchResult read_patch(const Hdf5GroupReader& group);
+
+/// Loads of a case or patch; none where they are not known. Errors: Error(input_data).
+std::optional<Loads> read_loads(const Hdf5GroupReader& group);
+
+template <class T>
+void read_rows(const Hdf5GroupReader& group, std::span<const Quantity<T>> rows, T& item) {
+  const auto& [get, put, has, whole] = rows.front().access;
+  const std::string name(rows.front().stored.name);
+  if (rows.front().stored.component < 0) {
+    put(item, whole ? group.integer(name) : group.number(name));
+    return;
+  }
+  const Vec3 vector = group.vector(name);
+  for (const Quantity<T>& row : rows) row.access.put(item, vector[row.stored.component]);
+}
+
+/// The rows of a block from the attributes of a group. Errors: Error(input_data), also where one is missing.
+template <class T>
+void read_block(const Hdf5GroupReader& group, Block block, T& item) {
+  for_each_stored<T>(block, [&](auto rows) { read_rows<T>(group, rows, item); });
+}
+
+/// The same where the group has the first attribute of the block; temperatures are known each for itself.
+template <class T>
+void read_block_if_there(const Hdf5GroupReader& group, Block block, T& item) {
+  bool first = true, there = false;
+  for_each_stored<T>(block, [&](auto rows) {
+    if (first || block == Block::heat) there = group.has_attribute(std::string(rows.front().stored.name));
+    first = false;
+    if (there) read_rows<T>(group, rows, item);
+  });
+  if (const auto flag = flag_of<T>(block); flag != nullptr && there) item.*flag = true;
+}
+
+/// Names in files of results that writer and reader share.
+inline constexpr const char* kResultFormat = "treadmark result 1";
+inline constexpr const char* kAxes = "x forward, y right, z down; forces and tractions act on the rail";
+inline constexpr const char* kSurfaces = "surfaces";
+inline constexpr const char* kSurfaceNames = "names";  // attribute of that group: its surfaces in their order
 
 }  // namespace treadmark::io

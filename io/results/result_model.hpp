@@ -3,19 +3,82 @@
 #pragma once
 
 #include <array>
+#include <cstddef>
 #include <cstdint>
 #include <optional>
+#include <span>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
+#include "treadmark/core/pose.hpp"
 #include "treadmark/core/report.hpp"
-#include "treadmark/core/surface_difference.hpp"
-#include "treadmark/io/results/mat_file_head.hpp"
-#include "treadmark/io/results/sampled_surface.hpp"
-#include "treadmark/io/results/subsurface_block.hpp"
+#include "treadmark/model/friction.hpp"
+#include "treadmark/model/material.hpp"
+#include "treadmark/model/surface_difference.hpp"
 
 namespace treadmark::io {
+
+/// What the head of a `.mat` text file says beyond the patch itself. The digits are those of CONTACT's control words;
+/// SI units.
+struct MatFileHead {
+  double time = 0.0;                                   ///< [s]
+  double s_ws = 0.0, pitch_ws = 0.0;                   ///< wheelset along the track [m], pitch angle [rad]
+  double rail_y = 0.0, rail_z = 0.0, rail_roll = 0.0;  ///< rail marker in track axes [m], [rad]
+  double roller_radius = 0.0;                          ///< [m], 0 = track
+  double wheel_x = 0.0, wheel_y = 0.0, wheel_z = 0.0;  ///< wheel marker in track axes [m]
+  double wheel_roll = 0.0, wheel_yaw = 0.0;            ///< [rad]
+  double wheel_radius = 0.0;                           ///< nominal [m]
+  double spin_x = 0.0, spin_y = 0.0;                   ///< spin centre in the grid's axes [m]
+  int configuration = 0, discretisation = 0;           ///< C1, D
+  int tangential = 0, material_model = 0;              ///< T, M
+  int friction_law = 0, heat = 0;                      ///< L, H
+  int case_number = 1, patches = 1, patch = 1;         ///< number of the case, of its patches, and of this one
+  Material material;
+  double layer_shear_modulus = 0.0, layer_thickness = 0.0;  ///< M = 4: G3 [Pa], h3 [m]
+  FrictionLaw friction;
+  int format = 2510;  ///< version of the layout, as year and release: 25.10
+};
+
+/// Displacement and stress at a point below the surface, in the axes of the patch (x, s, n).
+struct SubsurfaceValue {
+  Vec3 point = Vec3::Zero();                                ///< [m]; n >= 0: rail, n < 0: wheel
+  Vec3 displacement = Vec3::Zero();                         ///< [m]
+  Mat3 stress = Mat3::Zero();                               ///< symmetric, tension positive [Pa]
+  double hydrostatic = 0.0, von_mises = 0.0, tresca = 0.0;  ///< [Pa]
+  Vec3 principal = Vec3::Zero();                            ///< sigma_1 >= sigma_2 >= sigma_3 [Pa]
+};
+
+/// Points in nx columns, ny rows and nz layers: values[ix + nx (iy + ny iz)].
+struct SubsurfaceBlock {
+  int nx = 0, ny = 0, nz = 0;
+  std::vector<SubsurfaceValue> values;
+};
+
+/// Points of a wheel or rail as it was used in a run: nu stations, nv points across in each. In the axes of the body:
+/// of a wheel on its axle (x = r sin(theta), z = r cos(theta)), of a rail those of its profile; that of a left-hand
+/// pair already is the mirror image.
+struct SampledSurface {
+  std::string body;  ///< "wheel" or "rail"
+  std::string name;  ///< in the run: "wheel_1"
+  int nu = 0, nv = 0;
+  bool closed = false;          ///< the last station joins the first
+  std::vector<double> u;        ///< stations: x of a rail [m], angle round a wheel or roller [rad]; increasing
+  std::vector<double> x, y, z;  ///< [m], station after station, y increasing in each; NaN = no surface
+  std::vector<double>
+      deviation;  ///< along the outward normal from the body's mean section [m]; empty: all sections are alike
+
+  std::size_t index(int iu, int iv) const {
+    return static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv);
+  }
+};
+
+/// Errors: Error(configuration) for lists of wrong lengths, other bodies than these two, and names that are not fit for
+/// a file or repeated.
+void check_surfaces(std::span<const SampledSurface> surfaces);
+
+/// Index of the surface of this name; -1 = none.
+int surface_index(std::span<const SampledSurface> surfaces, const std::string& name);
 
 /// Results of a run as plain data in SI units; the writers convert to the units in the names of the result file.
 

@@ -1,12 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/io/results/subsurface_table.hpp"
 
 #include <fmt/format.h>
 
+#include <bit>
+#include <span>
+
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
+
 namespace {
 
 void append(const Vec3& vector, std::vector<double>& out) { out.insert(out.end(), vector.data(), vector.data() + 3); }
@@ -66,5 +72,69 @@ void check_blocks(std::span<const SubsurfaceBlock> blocks, const std::string& wh
                             number, block.values.size(), block.nx, block.ny, block.nz));
   }
 }
+
+std::string block_to_vts(const SubsurfaceBlock& block, const Pose& X_TC) {
+  SubsurfaceBlock turned = block;
+  std::vector<double> points;
+  points.reserve(3 * block.values.size());
+  for (SubsurfaceValue& value : turned.values) {
+    const Vec3 p_T = X_TC.apply(value.point);
+    points.insert(points.end(), p_T.data(), p_T.data() + 3);
+    value.displacement = X_TC.rotation * value.displacement;
+    value.stress = X_TC.rotation * value.stress * X_TC.rotation.transpose();
+  }
+  std::string data;
+  for (const SubsurfaceColumn& column : kSubsurfaceColumns) {
+    if (column.unit == "m" && column.components == 1) continue;  // the places are the points
+    const std::vector<double> values = column_values(turned, column);
+    data += vtk_data_array(fmt::format("{}_{}", column.name, column.unit),
+                           std::vector<float>(values.begin(), values.end()), column.components);
+  }
+  return vtk_structured_grid(fmt::format("0 {} 0 {} 0 {}", block.nx - 1, block.ny - 1, block.nz - 1), "PointData", data,
+                             vtk_data_array("points_m", points, 3));
+}
+
+namespace {
+
+template <class T>
+std::string data_array(const char* type, const std::string& name, const std::vector<T>& values, int components) {
+  const std::uint64_t size = values.size() * sizeof(T);
+  return fmt::format(
+      "        <DataArray type=\"{}\" Name=\"{}\" NumberOfComponents=\"{}\" format=\"binary\">{}{}</DataArray>\n", type,
+      name, components, to_base64(std::as_bytes(std::span(&size, 1))), to_base64(std::as_bytes(std::span(values))));
+}
+
+}  // namespace
+
+std::string vtk_data_array(const std::string& name, const std::vector<double>& values, int components) {
+  return data_array("Float64", name, values, components);
+}
+
+std::string vtk_data_array(const std::string& name, const std::vector<float>& values, int components) {
+  return data_array("Float32", name, values, components);
+}
+
+std::string vtk_data_array(const std::string& name, const std::vector<std::uint8_t>& values, int components) {
+  return data_array("UInt8", name, values, components);
+}
+
+std::string vtk_structured_grid(const std::string& extent, const std::string& data_element, const std::string& data,
+                                const std::string& points) {
+  return fmt::format(R"(<?xml version="1.0"?>
+<VTKFile type="StructuredGrid" version="1.0" byte_order="{}" header_type="UInt64">
+  <StructuredGrid WholeExtent="{}">
+    <Piece Extent="{}">
+      <{}>
+{}      </{}>
+      <Points>
+{}      </Points>
+    </Piece>
+  </StructuredGrid>
+</VTKFile>
+)",
+                     vtk_byte_order(), extent, extent, data_element, data, data_element, points);
+}
+
+const char* vtk_byte_order() { return std::endian::native == std::endian::little ? "LittleEndian" : "BigEndian"; }
 
 }  // namespace treadmark::io

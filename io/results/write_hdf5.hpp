@@ -4,7 +4,9 @@
 
 #include <filesystem>
 #include <span>
+#include <vector>
 
+#include "treadmark/io/hdf5/hdf5_file.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
@@ -28,5 +30,10 @@ void write_case(const Hdf5GroupWriter& group, const CaseResult& result, CaseTime
 /// Writes surfaces to a group of their own, as they stand at /surfaces of the file above; none: no group. Errors: as
 /// check_surfaces.
 void write_surfaces(const Hdf5GroupWriter& parent, std::span<const SampledSurface> surfaces);
+
+/// What is written at the group of a run, a case and a patch, besides their parts and fields.
+std::vector<Attribute> attributes_of(const RunResult& run);
+std::vector<Attribute> attributes_of(const CaseResult& result);
+std::vector<Attribute> attributes_of(const PatchResult& patch);
 
 }  // namespace treadmark::io

@@ -9,7 +9,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
-#include "treadmark/io/files/twelve_digits.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 
 namespace treadmark::io {

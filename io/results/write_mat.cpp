@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/io/results/write_mat.hpp"
+#include "treadmark/io/results/write_mat.hpp"
 #include "treadmark/io/results/write_mat.hpp"
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <initializer_list>
 #include <string_view>
@@ -12,9 +16,9 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
-#include "treadmark/io/results/text_columns.hpp"
 
 namespace treadmark::io {
+
 namespace {
 
 /// A column: its name and value.
@@ -192,6 +196,37 @@ std::string case_file_name(const std::string& stem, int case_number, int patch, 
                 "write the files of at most 26 patches");
   const std::string letter = patch == 0 ? "" : std::string(1, static_cast<char>('a' + patch - 1));
   return fmt::format("{}.{:04}{}.{}", stem, case_number, letter, extension);
+}
+
+namespace {
+
+constexpr int kWidth = 21;
+constexpr double kLargestWhole = 1e9;
+
+std::string column(double value) {
+  if (std::isnan(value)) return fmt::format("{:>{}}", "NaN", kWidth);
+  if (std::abs(value) < kLargestWhole && value == std::trunc(value))
+    return fmt::format("{:>{}d}", static_cast<long long>(value), kWidth);
+  return fmt::format("{:>{}.12E}", value, kWidth);
+}
+
+}  // namespace
+
+std::string column_head(std::span<const std::string_view> names) {
+  std::string line = "%";
+  int width = kWidth - 1;
+  for (const std::string_view name : names) {
+    line += fmt::format("{:>{}}", name, width);
+    width = kWidth;
+  }
+  return line + "\n";
+}
+
+std::string column_line(std::span<const double> values, std::size_t count) {
+  std::string line;
+  for (const double value : values) line += column(value);
+  for (std::size_t k = values.size(); k < count; ++k) line += column(0.0);
+  return line + "\n";
 }
 
 }  // namespace treadmark::io

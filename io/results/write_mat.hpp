@@ -3,7 +3,9 @@
 #pragma once
 
 #include <filesystem>
+#include <span>
 #include <string>
+#include <string_view>
 
 #include "treadmark/io/results/result_model.hpp"
 
@@ -22,5 +24,14 @@ void write_mat(const std::filesystem::path& path, const MatFileHead& head, const
 /// "<stem>.0001a.mat" for case 1, patch 1 (a), extension "mat"; patch 0: no letter (a basic case).
 /// Errors: Error(configuration) for a patch that has no letter.
 std::string case_file_name(const std::string& stem, int case_number, int patch, const std::string& extension);
+
+/// Columns of text as numerical tools load them: names behind a percent sign, numbers with 13 significant digits, whole
+/// numbers without a fraction, columns of equal width.
+
+/// "% NAME NAME ...", names over their columns.
+std::string column_head(std::span<const std::string_view> names);
+
+/// One line of numbers, filled up with zeros to `count` columns where there are fewer values.
+std::string column_line(std::span<const double> values, std::size_t count = 0);
 
 }  // namespace treadmark::io

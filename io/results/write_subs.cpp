@@ -8,7 +8,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
-#include "treadmark/io/results/text_columns.hpp"
+#include "treadmark/io/results/write_mat.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -6,7 +6,7 @@
 #include <span>
 #include <string>
 
-#include "treadmark/io/results/subsurface_block.hpp"
+#include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::io {
 

@@ -9,8 +9,6 @@
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
-#include "treadmark/io/results/subsurface_vtk.hpp"
-#include "treadmark/io/results/vtk_xml.hpp"
 
 namespace treadmark::io {
 namespace {

@@ -8,9 +8,9 @@
 #include <string_view>
 #include <vector>
 
-#include "treadmark/core/length_unit.hpp"
 #include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/points/fields.hpp"
+#include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::io::scans {
 

@@ -6,8 +6,8 @@
 #include <cstdint>
 #include <optional>
 
-#include "treadmark/core/length_unit.hpp"
 #include "treadmark/io/points/byte_blocks.hpp"
+#include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::io::scans {
 

@@ -4,10 +4,13 @@
 
 #include <cstddef>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
+#include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/points/line_blocks.hpp"
+#include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/io/scans/unit_words.hpp"
 
@@ -46,5 +49,15 @@ float deviation_in_metres(const LineBlocks& lines, double value, double scale, i
 void check_turn(const Grid2& grid, const MapReadOptions& options, const std::string& file);
 
 [[noreturn]] void no_data(const std::string& file);
+
+/// The first lines of a matrix, without comments and empty lines.
+struct MapHead {
+  std::vector<std::string> lines;
+  FieldStyle style;
+  bool corner_missing = false;  ///< separated by blanks, the first row has one field less than the others
+};
+
+/// Leaves the bytes where they are.
+MapHead find_map_head(ByteBlocks& bytes);
 
 }  // namespace treadmark::io::scans

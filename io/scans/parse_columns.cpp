@@ -5,7 +5,7 @@
 #include <array>
 #include <limits>
 
-#include "treadmark/io/points/text_values.hpp"
+#include "treadmark/io/points/fields.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"

@@ -7,7 +7,7 @@
 #include <limits>
 #include <map>
 
-#include "treadmark/io/points/text_values.hpp"
+#include "treadmark/io/points/fields.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/map_axis.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"

@@ -5,9 +5,8 @@
 #include <cmath>
 #include <limits>
 
-#include "treadmark/io/points/text_values.hpp"
+#include "treadmark/io/points/fields.hpp"
 #include "treadmark/io/scans/map_axis.hpp"
-#include "treadmark/io/scans/map_head.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
 
 namespace treadmark::io::scans {

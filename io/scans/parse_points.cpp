@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/io/scans/parse_points.hpp"
 #include "treadmark/io/points/parse_obj.hpp"
 #include "treadmark/io/points/parse_off.hpp"
 #include "treadmark/io/points/parse_ply.hpp"
@@ -7,7 +9,6 @@
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
 #include "treadmark/io/scans/unit_words.hpp"
-#include "treadmark/io/scans/vertex_set.hpp"
 
 namespace treadmark::io::scans {
 

@@ -8,11 +8,11 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/length_unit.hpp"
-#include "treadmark/core/offset_map.hpp"
-#include "treadmark/core/point_cloud.hpp"
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/progress.hpp"
+#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/offset_map.hpp"
+#include "treadmark/model/point_cloud.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::io {
 

@@ -5,7 +5,7 @@
 #include <optional>
 #include <string_view>
 
-#include "treadmark/core/length_unit.hpp"
+#include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::io::scans {
 

@@ -10,7 +10,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/las_header.hpp"
-#include "treadmark/io/scans/scan_writer.hpp"
+#include "treadmark/io/scans/write_scan.hpp"
 
 namespace treadmark::io::scans {
 

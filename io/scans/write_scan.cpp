@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include <fmt/format.h>
 
 #include <iterator>
@@ -7,7 +8,7 @@
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
-#include "treadmark/io/scans/scan_writer.hpp"
+#include "treadmark/io/scans/write_scan.hpp"
 
 namespace treadmark::io {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <optional>
+#include <span>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -95,5 +96,8 @@ void check_exclusive(const KeyInfo& key, const SourcePosition& where, ChosenKeys
 
 [[noreturn]] void refuse_unknown_key(std::string_view path, const std::vector<std::string>& known,
                                      const SourcePosition& where);
+
+/// The known key that an unknown one was probably meant to be; empty when nothing is near.
+std::string nearest_key(std::string_view path, std::span<const std::string> known);
 
 }  // namespace treadmark::io

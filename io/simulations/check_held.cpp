@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <Eigen/Dense>
 
-#include "treadmark/io/simulations/model_parts.hpp"
+#include "treadmark/io/simulations/read_vehicle.hpp"
 
 namespace treadmark::io {
 

@@ -5,7 +5,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/simulations/model_parts.hpp"
+#include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::io {

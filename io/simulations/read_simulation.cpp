@@ -1,18 +1,18 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/io/simulations/read_simulation.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cctype>
 
-#include <fmt/format.h>
-
-#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
-#include "treadmark/io/simulations/simulation_parts.hpp"
 
 namespace treadmark::io {
 

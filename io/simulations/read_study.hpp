@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 #include <variant>
+#include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
+#include "treadmark/io/simulations/table_reader.hpp"
 
 namespace treadmark::io {
 
@@ -21,5 +23,16 @@ StudyFile read_study_file(const std::filesystem::path& file, std::span<const std
 
 /// The base with the overrides of one run. Throws as above.
 std::variant<SimulationFile, CaseFile> read_study_run(const StudyFile& study, const StudyRun& run);
+
+/// Parts of the reader of study files. Error(configuration) at the place of what is wrong.
+
+/// [[study.vary]].
+std::vector<Variation> read_variations(const TableReader& study);
+
+/// All combinations, the last variation fastest. common: overrides of all runs.
+std::vector<StudyRun> runs_of(const std::vector<Variation>& variations, const std::vector<std::string>& common);
+
+/// [[study.figures]].
+std::vector<StudyFigure> read_figures(const TableReader& study, const std::vector<Variation>& variations);
 
 }  // namespace treadmark::io

@@ -1,16 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/io/simulations/read_vehicle.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <set>
 
-#include <fmt/format.h>
-
-#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
 #include "treadmark/io/simulations/check_held.hpp"
-#include "treadmark/io/simulations/model_parts.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::io {

@@ -6,9 +6,11 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <vector>
 
-#include "treadmark/core/vehicle_model.hpp"
 #include "treadmark/io/settings/toml_value.hpp"
+#include "treadmark/io/simulations/table_reader.hpp"
+#include "treadmark/model/vehicle_model.hpp"
 
 namespace treadmark::io {
 
@@ -23,5 +25,21 @@ TrackModel read_track_file(const std::filesystem::path& file, std::span<const st
 VehicleModel parse_vehicle_text(std::string_view text, const std::string& name,
                                 std::span<const CaseOverride> changes = {});
 TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes = {});
+
+/// The parts that vehicle and track files share. One table may stand for several equal parts at different places, which
+/// are then called by its name and their number from 1. Error(configuration) at the place of what is wrong.
+
+std::vector<BodySpec> read_bodies(const TableReader& document);
+/// bodies: those that can be connected, beside the ground.
+std::vector<SpringSpec> read_springs(const TableReader& document, const std::vector<BodySpec>& bodies);
+std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies);
+
+std::vector<std::string> names_of(const std::vector<BodySpec>& bodies);
+
+/// Names of parts start with a letter and go on with letters, digits, '_' and '-'.
+std::string part_name(const TableReader& part);
+
+/// The word of a direction: "x" ... "yaw".
+std::string_view freedom_word(int freedom);
 
 }  // namespace treadmark::io

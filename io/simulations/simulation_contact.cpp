@@ -8,7 +8,7 @@
 
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/simulations/change_value.hpp"
-#include "treadmark/io/simulations/simulation_parts.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::io {
 

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/core/vehicle_model.hpp"
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/vehicle_model.hpp"
 
 namespace treadmark::io {
 

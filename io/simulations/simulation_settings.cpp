@@ -7,8 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
-#include "treadmark/io/simulations/simulation_parts.hpp"
 
 namespace treadmark::io {
 

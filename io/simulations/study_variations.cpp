@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include "treadmark/io/simulations/change_value.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
-#include "treadmark/io/simulations/study_parts.hpp"
 
 namespace treadmark::io {
 

@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/settings/nearest_key.hpp"
+#include "treadmark/io/settings/key_info.hpp"
 
 namespace treadmark::io {
 namespace {

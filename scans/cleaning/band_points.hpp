@@ -7,7 +7,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 #include "treadmark/scans/placement/section.hpp"
 
 namespace treadmark::scans {

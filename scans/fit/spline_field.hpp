@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include "treadmark/scans/placement/cubic_basis.hpp"
+#include "treadmark/scans/placement/section_fit.hpp"
 
 namespace treadmark::scans {
 

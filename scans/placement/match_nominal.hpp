@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 #include "treadmark/scans/placement/section.hpp"
 
 namespace treadmark::scans {

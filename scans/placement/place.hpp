@@ -6,8 +6,8 @@
 #include <optional>
 #include <span>
 
-#include "treadmark/core/length_unit.hpp"
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/profile.hpp"
 #include "treadmark/scans/placement/elements.hpp"
 #include "treadmark/scans/placement/match_nominal.hpp"
 #include "treadmark/scans/placement/refine_axis.hpp"

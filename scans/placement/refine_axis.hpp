@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "treadmark/core/profile.hpp"
+#include "treadmark/model/profile.hpp"
 #include "treadmark/scans/placement/section_fit.hpp"
 
 namespace treadmark::scans {

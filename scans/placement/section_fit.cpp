@@ -1,21 +1,22 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/scans/placement/section_fit.hpp"
+
+#include <fmt/format.h>
+#include <Eigen/Cholesky>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 
-#include <fmt/format.h>
-#include <Eigen/Cholesky>
-
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/scans/placement/cubic_basis.hpp"
 
 namespace treadmark::scans {
+
 namespace {
 
 constexpr std::size_t kFewestInStrip = 5;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <array>
 #include <span>
 
 #include "treadmark/scans/placement/section.hpp"
@@ -27,5 +28,12 @@ struct SectionFit {
 /// weights, knots about knot_spacing apart), repeated in rounds. farthest: points beyond do not count [m].
 SectionFit fit_section(const Section& start, std::span<const Vec2> points, double farthest, double knot_spacing,
                        int rounds = 4);
+
+/// Values of the four uniform cubic B-splines that are not zero at t in [0, 1) of an interval.
+inline std::array<double, 4> cubic_basis(double t) {
+  const double o = 1.0 - t;
+  return {o * o * o / 6.0, (4.0 - 6.0 * t * t + 3.0 * t * t * t) / 6.0, (4.0 - 6.0 * o * o + 3.0 * o * o * o) / 6.0,
+          t * t * t / 6.0};
+}
 
 }  // namespace treadmark::scans

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "treadmark/core/pose.hpp"
-#include "treadmark/core/slices.hpp"
+#include "treadmark/model/slices.hpp"
 
 namespace treadmark::scans {
 

@@ -6,9 +6,9 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/core/natural_view.hpp"
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/natural_view.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::scans::scanner {
 

@@ -7,11 +7,11 @@
 #include <limits>
 #include <vector>
 
-#include "treadmark/core/length_unit.hpp"
-#include "treadmark/core/point_cloud.hpp"
-#include "treadmark/core/profile.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/point_cloud.hpp"
+#include "treadmark/model/profile.hpp"
 
 namespace treadmark::scans {
 

@@ -8,11 +8,11 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/core/friction.hpp"
 #include "treadmark/core/grid.hpp"
-#include "treadmark/core/material.hpp"
 #include "treadmark/core/report.hpp"
 #include "treadmark/model/contact_settings.hpp"
+#include "treadmark/model/friction.hpp"
+#include "treadmark/model/material.hpp"
 
 namespace treadmark::kalker {
 

@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/core/material.hpp"
 #include "treadmark/core/pose.hpp"
+#include "treadmark/model/material.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 
 namespace treadmark::vehicle {

@@ -6,8 +6,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
-#include "treadmark/solvers/wheelrail/state_archive.hpp"
 
 namespace treadmark::vehicle {
 namespace {

@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "treadmark/core/material.hpp"
+#include "treadmark/model/material.hpp"
 #include "treadmark/solvers/vehicle/contact_element.hpp"
 #include "treadmark/solvers/vehicle/contact_table.hpp"
 

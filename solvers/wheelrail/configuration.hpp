@@ -5,9 +5,9 @@
 #include <memory>
 #include <optional>
 
-#include "treadmark/core/friction.hpp"
-#include "treadmark/core/material.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/friction.hpp"
+#include "treadmark/model/material.hpp"
 #include "treadmark/model/wheel_on_rail.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/solvers/wheelrail/bracket.hpp"
+#include "treadmark/solvers/wheelrail/root_search.hpp"
 
 namespace treadmark::wheelrail {
 

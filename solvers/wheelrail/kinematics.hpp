@@ -20,4 +20,28 @@ struct ContactKinematics {
 ContactKinematics contact_kinematics(const Problem& right_hand_problem, const Placement& placement, const Pose& X_TC,
                                      double approach);
 
+/// Motion of a rigid body: velocity of one of its points and its rate of turning.
+struct RigidMotion {
+  Vec3 point = Vec3::Zero();             ///< [m]
+  Vec3 velocity = Vec3::Zero();          ///< of the body at that point [m/s]
+  Vec3 angular_velocity = Vec3::Zero();  ///< [rad/s]
+
+  /// Velocity of the body's material at a point [m/s].
+  Vec3 at(const Vec3& place) const { return velocity + angular_velocity.cross(place - point); }
+};
+
+/// How the material of rail (or roller) and wheel moves, in track axes, which move along with the wheelset.
+struct MaterialVelocity {
+  RigidMotion rail, wheel;
+  RigidMotion pitch;  ///< the part of the wheel's motion by the wheelset's pitch rate
+
+  /// rail - wheel at one place [m/s].
+  Vec3 difference(const Vec3& place_T) const { return rail.at(place_T) - wheel.at(place_T); }
+  Vec3 rotation_difference() const { return rail.angular_velocity - wheel.angular_velocity; }
+};
+
+/// Of a right-hand pair. Shifts: displacements of the step. The rail turns with the track curve that the wheelset runs
+/// through; a roller turns about its own axle, whose middle lies over the track's.
+MaterialVelocity material_velocity(const Problem& right_hand_problem, const Placement& placement);
+
 }  // namespace treadmark::wheelrail

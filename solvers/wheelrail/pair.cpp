@@ -14,7 +14,6 @@
 #include "treadmark/solvers/wheelrail/damping.hpp"
 #include "treadmark/solvers/wheelrail/force_iteration.hpp"
 #include "treadmark/solvers/wheelrail/mirror.hpp"
-#include "treadmark/solvers/wheelrail/missing_surface.hpp"
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"

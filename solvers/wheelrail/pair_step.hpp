@@ -8,7 +8,10 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/detection/facing_surfaces.hpp"
+#include "treadmark/detection/contact_frame.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/solvers/kalker/contact_problem.hpp"
+#include "treadmark/solvers/wheelrail/configuration.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/solvers/wheelrail/patch_memory.hpp"
 
@@ -90,5 +93,10 @@ class PairStep {
   std::vector<TangentialShare> tangential_share_;
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
+
+/// Elements of each part of a patch, a little enlarged, and how much the parts feel of each other.
+/// Empty for a patch of one part.
+kalker::SubPatches sub_patches(const Discretisation& discretisation, const detection::ContactPatch& region,
+                               const detection::ContactFrame& frame, const Vec2& reference_C, const Grid2& grid);
 
 }  // namespace treadmark::wheelrail

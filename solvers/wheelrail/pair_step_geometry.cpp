@@ -9,7 +9,6 @@
 
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
-#include "treadmark/solvers/wheelrail/sub_patches.hpp"
 
 namespace treadmark::wheelrail {
 namespace {

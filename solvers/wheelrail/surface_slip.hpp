@@ -4,8 +4,11 @@
 
 #include <vector>
 
-#include "treadmark/detection/facing_surfaces.hpp"
+#include "treadmark/core/surface.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
+#include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -26,5 +29,16 @@ struct SurfaceSlip {
 SurfaceSlip surface_slip(const Problem& right_hand_problem, const Placement& placement, const Pose& X_TC,
                          const Grid2& grid, const detection::ReferenceRows& reference,
                          const detection::FacingSurfaces& surfaces, const ContactKinematics& at_reference);
+
+/// Rigid slip of the elements of a patch of several parts beyond its creepages and spin, per element [-] (shift: [m]).
+struct PartSlip {
+  std::vector<double> x, y;  ///< empty for a patch of one part
+};
+
+/// Every part creeps as about its own contact reference where it feels little of the others, and with the patch where
+/// it feels all of them: patches that join or part do not change their slip at once. With one reference alone parts
+/// that lie off its tangent plane would. rail: the surface placed by placement.X_TS. Thread-safe.
+PartSlip part_slip(const Problem& right_hand_problem, const Placement& placement, const Surface& rail,
+                   const PatchSolution& patch, const kalker::SubPatches& parts);
 
 }  // namespace treadmark::wheelrail

@@ -8,8 +8,8 @@
 #include <cmath>
 #include <filesystem>
 
-#include "treadmark/app/compare_cases.hpp"
-#include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"

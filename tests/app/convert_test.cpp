@@ -8,8 +8,8 @@
 #include <numbers>
 #include <tuple>
 
-#include "treadmark/app/convert_surface.hpp"
-#include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/program.hpp"

@@ -7,8 +7,8 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/app/compare_cases.hpp"
-#include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
 namespace treadmark::app {

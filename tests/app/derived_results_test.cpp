@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/derived_results.hpp"
+#include "treadmark/app/cases/wheelrail_result.hpp"
 
 #include <gtest/gtest.h>
 

@@ -12,11 +12,11 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/app/read_surface.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
-#include "treadmark/core/length_unit.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
+#include "treadmark/model/length_unit.hpp"
+#include "treadmark/model/natural_view.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"

@@ -6,8 +6,8 @@
 #include <algorithm>
 #include <cmath>
 
-#include "treadmark/app/surface_store.hpp"
-#include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/tests/support/shared_data.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/cases/run_cases.hpp"
 
 #include <gtest/gtest.h>
 

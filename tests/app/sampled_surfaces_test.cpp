@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/sampled_surfaces.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,7 +10,7 @@
 #include <optional>
 #include <string>
 
-#include "treadmark/app/run_cases.hpp"
+#include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/sample_input.hpp"

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/wheelrail_case.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
 
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include "treadmark/app/case_sequence.hpp"
-#include "treadmark/app/element_table.hpp"
-#include "treadmark/app/wheelrail_result.hpp"
+#include "treadmark/app/cases/case_sequence.hpp"
+#include "treadmark/app/cases/element_table.hpp"
+#include "treadmark/app/cases/wheelrail_result.hpp"
 
 namespace treadmark::app {
 namespace {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/assembly/limited_surface.hpp"
 #include "treadmark/backends/assembly/outermost_surface.hpp"
 #include "treadmark/backends/assembly/placed_surface.hpp"

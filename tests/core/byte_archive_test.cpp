@@ -13,7 +13,6 @@
 #include <vector>
 
 #include "treadmark/core/byte_archive.hpp"
-#include "treadmark/core/grid_archive.hpp"
 
 namespace treadmark {
 namespace {

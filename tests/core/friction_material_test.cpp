@@ -2,8 +2,8 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
-#include "treadmark/core/friction.hpp"
-#include "treadmark/core/material.hpp"
+#include "treadmark/model/friction.hpp"
+#include "treadmark/model/material.hpp"
 
 namespace treadmark {
 namespace {

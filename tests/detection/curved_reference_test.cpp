@@ -8,7 +8,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/detection/facing_surfaces.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -5,16 +5,14 @@
 #include <cmath>
 #include <vector>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/detection/lateral_nodes.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 #include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/search_mesh.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
-#include "treadmark/detection/wheel_facets.hpp"
 #include "treadmark/detection/wheel_mesh.hpp"
-#include "treadmark/detection/wheel_section.hpp"
 
 namespace treadmark::detection {
 namespace {

@@ -6,9 +6,9 @@
 #include <filesystem>
 #include <string>
 
-#include "treadmark/app/named_surface.hpp"
-#include "treadmark/app/read_surface.hpp"
-#include "treadmark/app/surface_store.hpp"
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/profiles/write_slices.hpp"

@@ -10,7 +10,7 @@
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/tests/representation/kinds.hpp"
 
 namespace treadmark::testing {

@@ -5,7 +5,7 @@
 #include <cmath>
 #include <string>
 
-#include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/tests/representation/example_cases.hpp"
 
 // Any representation of the wheel rolls on any of the rail: spline, mesh and offset on spline, mesh and offset, for

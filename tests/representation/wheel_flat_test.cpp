@@ -5,7 +5,7 @@
 #include <cmath>
 #include <map>
 
-#include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/tests/representation/example_cases.hpp"
 
 // A wheel flat known by formula, at the element size of its example: what contact results lose in every representation.

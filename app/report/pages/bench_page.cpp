@@ -12,7 +12,7 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
 namespace {

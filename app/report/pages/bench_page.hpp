@@ -5,7 +5,7 @@
 #include <filesystem>
 #include <string>
 
-#include "treadmark/app/bench/bench_model.hpp"
+#include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/report/page.hpp"
 
 namespace treadmark::app::report {

@@ -10,9 +10,9 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/results/comparison_cases.hpp"
-#include "treadmark/io/results/comparison_digest.hpp"
-#include "treadmark/io/results/comparison_fields.hpp"
+#include "treadmark/io/results/comparison_model.hpp"
+#include "treadmark/io/results/comparison_store.hpp"
+#include "treadmark/pictures/comparison_cases.hpp"
 
 namespace treadmark::app::report {
 namespace {

@@ -10,11 +10,10 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/case_figures.hpp"
 #include "treadmark/app/report/pages/compare_figures.hpp"
-#include "treadmark/app/report/pages/folder_files.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
-#include "treadmark/io/files/read_text.hpp"
-#include "treadmark/io/results/comparison_cases.hpp"
-#include "treadmark/io/results/read_comparison.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/results/comparison_json.hpp"
+#include "treadmark/pictures/comparison_cases.hpp"
 
 namespace treadmark::app::report {
 namespace {

@@ -11,7 +11,7 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/imports/import_map.hpp"
+#include "treadmark/pictures/imports/import_map.hpp"
 
 namespace treadmark::app::report {
 namespace {

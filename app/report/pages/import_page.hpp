@@ -18,4 +18,15 @@ Page import_page(const io::ImportReport& report, std::string document, const std
 /// The same from the files alone. Errors: as io::read_import_report. Not to be called from two threads at once (HDF5).
 Page import_page(const std::filesystem::path& folder);
 
+/// Tables of the report of an import, a line an entry, with the numbers of report.json (docs/import.schema.json).
+
+Table input_table(const io::ImportReport& report);
+Table removed_table(const io::ImportReport& report);
+Table hole_table(const io::ImportReport& report);
+Table damage_table(const io::ImportReport& report);
+Table pass_table(const io::ImportReport& report);
+Table level_table(const io::ImportReport& report);
+Table output_table(const io::ImportReport& report);
+Table step_table(const io::ImportReport& report);
+
 }  // namespace treadmark::app::report

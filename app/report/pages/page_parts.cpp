@@ -1,14 +1,16 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/app/report/pages/page_parts.hpp"
 
-#include <cmath>
-#include <filesystem>
+#include "treadmark/app/report/pages/page_parts.hpp"
 
 #include <fmt/format.h>
 
+#include <cmath>
+#include <filesystem>
+#include <iterator>
+
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/twelve_digits.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
 
@@ -49,6 +51,35 @@ std::pair<double, std::string> force_unit(const std::vector<double>& newtons) {
   for (const double force : newtons)
     if (std::fabs(force) > kFewest) return {1e-3, "kN"};
   return {1.0, "N"};
+}
+
+bool OptionalFiles::has(const std::string& file, const std::string& what) {
+  std::error_code code;
+  if (std::filesystem::is_regular_file(path(file), code)) return true;
+  missing_.push_back(fmt::format("{} ({})", file, what));
+  return false;
+}
+
+std::vector<Block> OptionalFiles::picture(const std::string& file, const std::string& id, const std::string& title,
+                                          const std::string& note) {
+  if (!has(file, "a picture")) return {};
+  return {Figure{id, title, PictureView{io::profiles::read_text(path(file), "picture", {})}, note}};
+}
+
+std::string OptionalFiles::text(const std::string& file, const std::string& what) {
+  return has(file, what) ? io::profiles::read_text(path(file), "text", {}) : std::string();
+}
+
+std::vector<Block> OptionalFiles::note() const {
+  if (missing_.empty()) return {};
+  std::string files;
+  for (const std::string& file : missing_) files += (files.empty() ? "" : ", ") + file;
+  return {Banner{Banner::Kind::note,
+                 "Files that are not in the folder:", fmt::format("{}. The page shows what is left.", files)}};
+}
+
+void append(std::vector<Block>& to, std::vector<Block> blocks) {
+  to.insert(to.end(), std::make_move_iterator(blocks.begin()), std::make_move_iterator(blocks.end()));
 }
 
 }  // namespace treadmark::app::report

@@ -13,7 +13,6 @@
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
-#include "treadmark/app/report/pages/study_folder.hpp"
 #include "treadmark/app/report/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -22,5 +23,9 @@ struct StudyOnDisk {
 /// for. Reads the histories from the stores of the runs. Errors: Error(input_data). Not to be called from two threads
 /// at once.
 Page sweep_page(const StudyOnDisk& study);
+
+/// The folder of a study, also while runs are being solved or after they were interrupted. Errors: Error(input_data).
+/// Not to be called from two threads at once.
+StudyOnDisk read_study_folder(const std::filesystem::path& folder);
 
 }  // namespace treadmark::app::report

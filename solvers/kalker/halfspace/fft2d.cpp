@@ -10,7 +10,6 @@
 #include <mutex>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
 namespace treadmark::kalker {

@@ -6,7 +6,6 @@
 
 #include <new>
 
-#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 

@@ -1,7 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
@@ -47,6 +50,23 @@ double influence(Component component, double X, double Y, double dx, double dy, 
   if (component == Component::xy) return -poisson * std::numbers::inv_pi * distance_integral(X, Y, dx, dy);
   const UncoupledCoefficients all = influence(X, Y, dx, dy, poisson);
   return component == Component::nn ? all.nn : component == Component::xx ? all.xx : all.yy;
+}
+
+InfluenceTable::InfluenceTable(Component component, double dx, double dy, double poisson)
+    : component_(component), dx_(dx), dy_(dy), poisson_(poisson), odd_(component == Component::xy) {}
+
+void InfluenceTable::grow(int nx, int ny) {
+  const int new_nx = std::max(nx, nx_), new_ny = std::max(ny, ny_);
+  if (new_nx == nx_ && new_ny == ny_) return;
+  std::vector<double> values;
+  values.reserve(static_cast<std::size_t>(new_nx) * static_cast<std::size_t>(new_ny));
+  for (int iy = 0; iy < new_ny; ++iy)
+    for (int ix = 0; ix < new_nx; ++ix)
+      values.push_back(ix < nx_ && iy < ny_ ? (*this)(ix, iy)
+                                            : influence(component_, ix * dx_, iy * dy_, dx_, dy_, poisson_));
+  values_ = std::move(values);
+  nx_ = new_nx;
+  ny_ = new_ny;
 }
 
 }  // namespace treadmark::kalker

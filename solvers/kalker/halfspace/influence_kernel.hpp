@@ -4,7 +4,7 @@
 
 #include <memory>
 
-#include "treadmark/core/material.hpp"
+#include "treadmark/model/material.hpp"
 
 namespace treadmark {
 struct InfluenceSettings;

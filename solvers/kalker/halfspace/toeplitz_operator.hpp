@@ -7,8 +7,8 @@
 #include <optional>
 #include <span>
 
-#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
 namespace treadmark::kalker {
 

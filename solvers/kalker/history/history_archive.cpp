@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/kalker/history/history_archive.hpp"
 
-#include "treadmark/core/grid_archive.hpp"
+#include "treadmark/core/byte_archive.hpp"
 
 namespace treadmark::kalker {
 

@@ -3,9 +3,8 @@
 #include "treadmark/solvers/kalker/normal/assumed_pressure.hpp"
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/normal/half_space_displacement.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
-#include "treadmark/solvers/kalker/normal/semi_double_elliptic.hpp"
+#include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 
 namespace treadmark::kalker {
 

@@ -4,7 +4,7 @@
 
 #include <span>
 
-#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
 
 namespace treadmark::kalker {

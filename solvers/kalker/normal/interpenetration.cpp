@@ -1,5 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 #include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 
 namespace treadmark::kalker {
@@ -14,6 +16,22 @@ Interpenetration::Interpenetration(const Grid2& grid, std::span<const double> ga
     }
     if (least_distance(iy) < least_distance(deepest_row_)) deepest_row_ = iy;
   }
+}
+
+void half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
+                             std::span<const double> pressure, std::span<double> displacement) {
+  const Grid2& grid = problem.grid;
+  // Beyond the box, possibly beyond the grid, there are no pressures; the size is one that transforms like.
+  const int nx = NormalOperatorCache::rounded_up(box.nx()), ny = NormalOperatorCache::rounded_up(box.ny());
+  AlignedVector<double> field(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
+  const auto local = [&](int ix, int iy) {
+    return static_cast<std::size_t>(ix - box.x0) + static_cast<std::size_t>(nx) * static_cast<std::size_t>(iy - box.y0);
+  };
+  for (int iy = box.y0; iy < box.y1; ++iy)
+    for (int ix = box.x0; ix < box.x1; ++ix) field[local(ix, iy)] = pressure[grid.index(ix, iy)];
+  operators.get(nx, ny, box.y0, problem).displacement(field, field);
+  for (int iy = box.y0; iy < box.y1; ++iy)
+    for (int ix = box.x0; ix < box.x1; ++ix) displacement[grid.index(ix, iy)] = field[local(ix, iy)];
 }
 
 }  // namespace treadmark::kalker

@@ -8,7 +8,7 @@
 #include <utility>
 
 #include "treadmark/solvers/kalker/contact_problem.hpp"
-#include "treadmark/solvers/kalker/halfspace/influence_table.hpp"
+#include "treadmark/solvers/kalker/halfspace/influence.hpp"
 #include "treadmark/solvers/kalker/halfspace/kernel_store.hpp"
 #include "treadmark/solvers/kalker/halfspace/toeplitz_operator.hpp"
 #include "treadmark/solvers/kalker/halfspace/turned_product.hpp"

@@ -1,18 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <string>
 
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/normal/assumed_pressure.hpp"
 #include "treadmark/solvers/kalker/normal/bound_constrained_cg.hpp"
 #include "treadmark/solvers/kalker/normal/contact_estimate.hpp"
 #include "treadmark/solvers/kalker/normal/contact_stiffness.hpp"
-#include "treadmark/solvers/kalker/normal/element_box.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
 #include "treadmark/solvers/kalker/normal/virtual_penetration.hpp"
 
@@ -307,6 +309,18 @@ void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solutio
   }
   solution.elements_adhesion = solution.elements_contact;
   solution.force_n = sum * problem.grid.cell_area();
+}
+
+void write(const NormalStart& start, ByteWriter& out) {
+  write(start.grid, out);
+  out.put(start.pressure);
+}
+
+NormalStart read_normal_start(ByteReader& in) {
+  NormalStart start;
+  start.grid = read_grid(in);
+  read_field(in, start.grid, true, start.pressure);
+  return start;
 }
 
 }  // namespace treadmark::kalker

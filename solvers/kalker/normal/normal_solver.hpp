@@ -5,6 +5,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 
 namespace treadmark::kalker {
@@ -50,5 +51,10 @@ class NormalSolver {
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;
 };
+
+void write(const NormalStart& start, ByteWriter& out);
+
+/// Errors: Error(input_data) for bytes that are no start values.
+NormalStart read_normal_start(ByteReader& in);
 
 }  // namespace treadmark::kalker

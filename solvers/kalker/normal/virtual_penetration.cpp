@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+
 #include "treadmark/solvers/kalker/normal/virtual_penetration.hpp"
 
 #include <algorithm>
@@ -8,9 +9,8 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/normal/analyn.hpp"
-#include "treadmark/solvers/kalker/normal/half_space_displacement.hpp"
+#include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/normal/interpenetration.hpp"
-#include "treadmark/solvers/kalker/normal/kpec.hpp"
 
 namespace treadmark::kalker {
 
@@ -59,6 +59,110 @@ void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCach
   const double scale = overlap.depth() / solution.displacement_n[grid.index(overlap.deepest_column(iy), iy)];
   for (double& p : solution.pressure) p *= scale;
   for (double& u : solution.displacement_n) u *= scale;
+}
+
+namespace {
+
+/// Shape of the contact is judged from where the bodies overlap by more than this share of the depth.
+constexpr double kShapeLevel = 0.5;
+
+/// From a to b, where a level lies between the distances at both, as a share of the way; half the way without a
+/// neighbour.
+double share_to_level(double inside, double outside, double level) {
+  return std::isfinite(outside) ? (level - inside) / (outside - inside) : 0.5;
+}
+
+/// A of A x^2 through the deepest element and two at the same distance on both sides, beyond the level.
+double curvature_along(const Interpenetration& overlap, double level) {
+  const int iy = overlap.deepest_row(), ix = overlap.deepest_column(iy);
+  const double least = -overlap.depth();
+  int reach = 1;
+  while (std::max(overlap.distance(ix - reach, iy), overlap.distance(ix + reach, iy)) <= level) ++reach;
+  double behind = overlap.distance(ix - reach, iy), ahead = overlap.distance(ix + reach, iy);
+  if (reach > 1 && !(std::isfinite(behind) && std::isfinite(ahead))) {  // at the border: the last pair inside
+    --reach;
+    behind = overlap.distance(ix - reach, iy);
+    ahead = overlap.distance(ix + reach, iy);
+  }
+  if (!std::isfinite(behind)) behind = ahead;
+  if (!std::isfinite(ahead)) ahead = behind;
+  if (!std::isfinite(ahead)) return kLeastCurvature;
+  const double step = reach * overlap.grid().dx;
+  return std::max(kLeastCurvature, (ahead - 2.0 * least + behind) / (2.0 * step * step));
+}
+
+/// Where the rows' least distance passes a level [m], going outwards from a row (direction -1 or +1).
+double lateral_end(const Interpenetration& overlap, int iy, int direction, double level) {
+  const int ix = overlap.deepest_column(iy);
+  const double share = share_to_level(overlap.distance(ix, iy), overlap.distance(ix, iy + direction), level);
+  return overlap.grid().y(iy) + direction * share * overlap.grid().dy;
+}
+
+/// Share of the depth at which a row is cut, linear in y^2 between what Hertz' ellipse has at its ends along x and y.
+struct CutLevel {
+  double along = 0.0, across = 0.0;  ///< A a^2, B b^2 over the depth
+  double middle = 0.0, b = 0.0;      ///< [m]
+
+  double at(double y) const {
+    const double t = (y - middle) / b;
+    return along - (along - across) * t * t;
+  }
+};
+
+CutLevel cut_level(const Interpenetration& overlap, const CombinedMaterial& material) {
+  const Grid2& grid = overlap.grid();
+  const double depth = overlap.depth(), level = -kShapeLevel * depth;
+  int first = overlap.deepest_row(), last = first;
+  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy)
+    if (overlap.least_distance(iy) < level) {
+      first = std::min(first, iy);
+      last = std::max(last, iy);
+    }
+  const double low = lateral_end(overlap, first, -1, level), high = lateral_end(overlap, last, 1, level);
+  const double half_width = 0.5 * (high - low);
+
+  const double curvature_x = curvature_along(overlap, level);
+  const double curvature_y = std::max(kLeastCurvature, (level + depth) / (half_width * half_width));
+  const HertzShape hertz = hertz_from_curvatures(curvature_x, curvature_y, {false, depth}, material);
+  CutLevel cut;
+  cut.middle = 0.5 * (low + high);
+  // In a very narrow contact the ellipse must still reach the deepest row.
+  cut.b = std::max(hertz.semi_axis_y, 1.1 * std::abs(grid.y(overlap.deepest_row()) - cut.middle));
+  cut.along = curvature_x * hertz.semi_axis_x * hertz.semi_axis_x / depth;
+  cut.across = curvature_y * cut.b * cut.b / depth;
+  return cut;
+}
+
+/// Half ellipse over the elements first .. last of a row, which ends where the distance passes the level.
+void fill_run(const Interpenetration& overlap, int iy, int first, int last, double level,
+              std::vector<double>& distribution) {
+  const Grid2& grid = overlap.grid();
+  const double start =
+      grid.x(first) - grid.dx * share_to_level(overlap.distance(first, iy), overlap.distance(first - 1, iy), level);
+  const double end =
+      grid.x(last) + grid.dx * share_to_level(overlap.distance(last, iy), overlap.distance(last + 1, iy), level);
+  for (int ix = first; ix <= last; ++ix)
+    distribution[grid.index(ix, iy)] = std::sqrt(std::max(0.0, (grid.x(ix) - start) * (end - grid.x(ix))));
+}
+
+}  // namespace
+
+std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material,
+                                      bool reference_quirks) {
+  const Grid2& grid = overlap.grid();
+  const CutLevel cut = cut_level(overlap, material);
+  std::vector<double> distribution(grid.size(), 0.0);
+  for (int iy = overlap.box().y0; iy < overlap.box().y1; ++iy) {
+    const double share = cut.at(grid.y(iy)), level = -(1.0 - std::clamp(share, 0.0, 1.0)) * overlap.depth();
+    const double end_level = reference_quirks ? -(1.0 - share) * overlap.depth() : level;
+    for (int ix = overlap.box().x0; ix < overlap.box().x1; ++ix) {
+      if (overlap.distance(ix, iy) > level) continue;
+      const int first = ix;
+      while (overlap.distance(ix + 1, iy) <= level) ++ix;
+      fill_run(overlap, iy, first, ix, end_level, distribution);
+    }
+  }
+  return distribution;
 }
 
 }  // namespace treadmark::kalker

@@ -2,7 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <vector>
+
+#include "treadmark/model/material.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
+#include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 #include "treadmark/solvers/kalker/normal/normal_operator.hpp"
 
 namespace treadmark::kalker {
@@ -14,5 +18,12 @@ namespace treadmark::kalker {
 /// less than 3 x 3 elements, a gap of another size or not finite.
 void solve_virtual_penetration(const ContactProblem& problem, NormalOperatorCache& operators,
                                ContactSolution& solution);
+
+/// Contact area of KPEC, after Kik & Piotrowski (1996): the interpenetration is cut at a level that varies across the
+/// rows such that an elliptic contact comes out as Hertz' ellipse. In each run of elements of a row the distribution is
+/// a half ellipse as high as the run is half long. Returned: that distribution [m], of the grid's size, to be scaled so
+/// that the half-space's displacement at the deepest element equals the depth. There must be contact.
+std::vector<double> kpec_distribution(const Interpenetration& overlap, const CombinedMaterial& material,
+                                      bool reference_quirks);
 
 }  // namespace treadmark::kalker

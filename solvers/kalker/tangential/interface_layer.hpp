@@ -5,7 +5,7 @@
 #include <span>
 #include <vector>
 
-#include "treadmark/core/material.hpp"
+#include "treadmark/model/material.hpp"
 #include "treadmark/solvers/kalker/tangential/patch.hpp"
 
 namespace treadmark::kalker {

@@ -4,8 +4,8 @@
 
 #include <span>
 
-#include "treadmark/solvers/kalker/tangential/compliance_cache.hpp"
 #include "treadmark/solvers/kalker/tangential/friction_solve.hpp"
+#include "treadmark/solvers/kalker/tangential/patch_solver.hpp"
 
 namespace treadmark::kalker {
 

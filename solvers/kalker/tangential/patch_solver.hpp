@@ -3,15 +3,36 @@
 #pragma once
 
 #include <array>
+#include <list>
 #include <vector>
 
-#include "treadmark/solvers/kalker/tangential/compliance_cache.hpp"
+#include "treadmark/solvers/kalker/tangential/compliance.hpp"
 #include "treadmark/solvers/kalker/tangential/friction_solve.hpp"
 #include "treadmark/solvers/kalker/tangential/interface_layer.hpp"
 #include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
 #include "treadmark/solvers/kalker/tangential/slip_friction.hpp"
 
 namespace treadmark::kalker {
+
+/// The coefficients used last. References stay valid until kCapacity other boxes were asked for.
+class ComplianceCache {
+ public:
+  static constexpr std::size_t kCapacity = 12;
+
+  Compliance& get(const ComplianceKey& key) {
+    for (auto it = boxes_.begin(); it != boxes_.end(); ++it)
+      if (it->key() == key) {
+        boxes_.splice(boxes_.begin(), boxes_, it);
+        return boxes_.front();
+      }
+    boxes_.emplace_front(key);
+    if (boxes_.size() > kCapacity) boxes_.pop_back();
+    return boxes_.front();
+  }
+
+ private:
+  std::list<Compliance> boxes_;
+};
 
 /// What a patch has to go by, per element of the patch.
 struct PatchConditions {

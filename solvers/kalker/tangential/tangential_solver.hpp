@@ -5,6 +5,7 @@
 #include <memory>
 #include <optional>
 
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/solvers/kalker/contact_problem.hpp"
 #include "treadmark/solvers/kalker/history/contact_history.hpp"
 
@@ -63,5 +64,10 @@ class TangentialSolver {
   struct Workspace;
   std::unique_ptr<Workspace> workspace_;
 };
+
+void write(const TangentialStart& start, ByteWriter& out);
+
+/// Errors: Error(input_data) for bytes that are no start values.
+TangentialStart read_tangential_start(ByteReader& in);
 
 }  // namespace treadmark::kalker

@@ -9,7 +9,7 @@
 
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
-#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"

@@ -9,13 +9,13 @@
 #include <fstream>
 #include <nlohmann/json.hpp>
 
-#include "treadmark/app/compare_cases.hpp"
+#include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
-#include "treadmark/io/results/comparison_pictures.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
+#include "treadmark/pictures/comparison_pictures.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 

@@ -5,7 +5,6 @@
 
 #include <nlohmann/json.hpp>
 
-#include "treadmark/app/report/assets.hpp"
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"

@@ -6,7 +6,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/pages/read_report.hpp"
-#include "treadmark/app/report/pages/study_folder.hpp"
+#include "treadmark/app/report/pages/sweep_page.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"

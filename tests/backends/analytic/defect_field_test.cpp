@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/tests/backends/analytic/defect_formulas.hpp"
 

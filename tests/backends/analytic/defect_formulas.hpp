@@ -9,7 +9,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/core/defects.hpp"
+#include "treadmark/model/defects.hpp"
 
 namespace treadmark::testing {
 

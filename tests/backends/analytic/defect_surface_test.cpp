@@ -6,7 +6,7 @@
 #include <cmath>
 #include <vector>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/analytic/brute_force.hpp"

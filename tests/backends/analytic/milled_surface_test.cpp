@@ -6,7 +6,7 @@
 #include <random>
 #include <vector>
 
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/surface.hpp"
 #include "treadmark/tests/backends/analytic/milled_rails.hpp"

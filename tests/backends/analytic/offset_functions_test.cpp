@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/backends/analytic/offset_functions.hpp"
+#include "treadmark/backends/analytic/defects/offset_functions.hpp"
 
 #include <gtest/gtest.h>
 

@@ -10,7 +10,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/analytic/standard_profiles.hpp"
-#include "treadmark/backends/analytic/wheel_ray.hpp"
+#include "treadmark/backends/analytic/wheels/wheel_ray.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::analytic {

@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/backends/analytic/moving_section.hpp"
+#include "treadmark/backends/analytic/defects/moving_section.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
 

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/surface.hpp"
-#include "treadmark/core/triangle_mesh.hpp"
+#include "treadmark/model/triangle_mesh.hpp"
 
 namespace treadmark::mesh::testing {
 

@@ -9,7 +9,7 @@
 #include <random>
 #include <string>
 
-#include "treadmark/backends/offset/metadata.hpp"
+#include "treadmark/backends/offset/file.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/offset/wheel_with_flat.hpp"

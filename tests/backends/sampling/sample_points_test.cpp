@@ -10,8 +10,8 @@
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/natural_view.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/model/natural_view.hpp"
 
 namespace treadmark::sampling {
 namespace {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include "treadmark/backends/spline/fit_profile.hpp"
-#include "treadmark/backends/spline/fit_slices.hpp"
 #include "treadmark/backends/spline/prismatic_surface.hpp"
 #include "treadmark/backends/spline/revolution_surface.hpp"
-#include "treadmark/backends/spline/slice_surface.hpp"
+#include "treadmark/backends/spline/slices/fit_slices.hpp"
+#include "treadmark/backends/spline/slices/slice_surface.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 
 namespace treadmark::spline {

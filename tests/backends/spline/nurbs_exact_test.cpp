@@ -9,8 +9,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/backends/spline/nurbs_fit.hpp"
-#include "treadmark/backends/spline/nurbs_surface.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_planes.hpp"
 

@@ -8,8 +8,7 @@
 #include <numbers>
 
 #include "treadmark/backends/spline/make.hpp"
-#include "treadmark/backends/spline/nurbs_fit.hpp"
-#include "treadmark/backends/spline/nurbs_surface.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_planes.hpp"
 

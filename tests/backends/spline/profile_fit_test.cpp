@@ -8,7 +8,6 @@
 #include <numbers>
 
 #include "treadmark/backends/spline/fit_profile.hpp"
-#include "treadmark/backends/spline/profile_points.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 

@@ -5,8 +5,8 @@
 
 #include <cmath>
 
-#include "treadmark/backends/spline/fit_slices.hpp"
 #include "treadmark/backends/spline/make.hpp"
+#include "treadmark/backends/spline/slices/fit_slices.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 

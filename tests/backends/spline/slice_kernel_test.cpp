@@ -7,9 +7,9 @@
 #include <limits>
 #include <random>
 
-#include "treadmark/backends/spline/column_hits.hpp"
-#include "treadmark/backends/spline/fit_slices.hpp"
-#include "treadmark/backends/spline/slice_section.hpp"
+#include "treadmark/backends/spline/grid_lines.hpp"
+#include "treadmark/backends/spline/slices/fit_slices.hpp"
+#include "treadmark/backends/spline/slices/slice_section.hpp"
 #include "treadmark/core/cpu.hpp"
 #include "treadmark/tests/backends/spline/test_planes.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"

@@ -7,9 +7,9 @@
 #include <limits>
 #include <numbers>
 
-#include "treadmark/backends/spline/bspline_basis.hpp"
-#include "treadmark/backends/spline/fit_slices.hpp"
-#include "treadmark/backends/spline/slice_kinks.hpp"
+#include "treadmark/backends/spline/banded.hpp"
+#include "treadmark/backends/spline/slices/fit_slices.hpp"
+#include "treadmark/backends/spline/slices/slice_net.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/backends/spline/test_shapes.hpp"
 

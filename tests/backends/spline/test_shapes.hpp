@@ -6,9 +6,9 @@
 #include <functional>
 #include <random>
 
-#include "treadmark/core/profile.hpp"
-#include "treadmark/core/slices.hpp"
 #include "treadmark/core/surface.hpp"
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/slices.hpp"
 
 namespace treadmark::spline::testing {
 

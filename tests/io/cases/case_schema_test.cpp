@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,8 +8,6 @@
 #include <nlohmann/json.hpp>
 #include <set>
 #include <sstream>
-
-#include "treadmark/io/cases/case_keys.hpp"
 
 namespace treadmark::io {
 namespace {

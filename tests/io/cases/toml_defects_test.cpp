@@ -6,7 +6,7 @@
 #include <nlohmann/json.hpp>
 #include <numbers>
 
-#include "treadmark/io/cases/case_schema.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 
 namespace treadmark::io {

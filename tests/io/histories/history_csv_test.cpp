@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/histories/history_csv.hpp"
+#include "treadmark/io/histories/history_model.hpp"
 
 #include <gtest/gtest.h>
 

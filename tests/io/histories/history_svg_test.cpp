@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/histories/history_svg.hpp"
+#include "treadmark/pictures/history_svg.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,7 +11,7 @@
 #include <regex>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/results/chart_curve.hpp"
+#include "treadmark/pictures/chart_marks.hpp"
 #include "treadmark/tests/io/histories/sample_history.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 

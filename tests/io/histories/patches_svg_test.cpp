@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/histories/patches_svg.hpp"
+#include "treadmark/pictures/patches_svg.hpp"
 
 #include <gtest/gtest.h>
 
@@ -10,8 +10,6 @@
 #include <sstream>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/histories/contour_lines.hpp"
-#include "treadmark/io/histories/patches_view.hpp"
 #include "treadmark/tests/io/histories/sample_history.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"

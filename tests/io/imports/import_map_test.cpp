@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/imports/import_map.hpp"
+#include "treadmark/pictures/imports/import_map.hpp"
 
 #include <gtest/gtest.h>
 
@@ -8,7 +8,7 @@
 #include <cmath>
 #include <limits>
 
-#include "treadmark/io/imports/import_section.hpp"
+#include "treadmark/pictures/imports/import_section.hpp"
 
 namespace treadmark {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/imports/import_pictures.hpp"
+#include "treadmark/pictures/imports/import_pictures.hpp"
 
 #include <gtest/gtest.h>
 

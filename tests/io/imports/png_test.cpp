@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/imports/png.hpp"
+#include "treadmark/pictures/imports/png.hpp"
 
 #include <gtest/gtest.h>
 

@@ -5,7 +5,7 @@
 #include <gtest/gtest.h>
 
 #include "samples.hpp"
-#include "treadmark/io/files/read_text.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 namespace {

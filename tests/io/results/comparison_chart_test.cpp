@@ -7,11 +7,10 @@
 #include <map>
 #include <regex>
 
-#include "treadmark/io/results/chart_axis.hpp"
-#include "treadmark/io/results/chart_draw.hpp"
-#include "treadmark/io/results/chart_labels.hpp"
-#include "treadmark/io/results/chart_marker.hpp"
-#include "treadmark/io/results/svg_text.hpp"
+#include "treadmark/pictures/chart_axis.hpp"
+#include "treadmark/pictures/chart_draw.hpp"
+#include "treadmark/pictures/chart_marks.hpp"
+#include "treadmark/pictures/svg_text.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 
 namespace treadmark {

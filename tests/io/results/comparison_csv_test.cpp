@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/comparison_csv.hpp"
+#include "treadmark/io/results/comparison_table.hpp"
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/comparison_pictures.hpp"
+#include "treadmark/pictures/comparison_pictures.hpp"
 
 #include <gtest/gtest.h>
 
@@ -9,9 +9,9 @@
 #include <set>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/results/chart_marker.hpp"
-#include "treadmark/io/results/comparison_cases.hpp"
-#include "treadmark/io/results/picture_patch.hpp"
+#include "treadmark/pictures/chart_marks.hpp"
+#include "treadmark/pictures/comparison_cases.hpp"
+#include "treadmark/pictures/picture_patch.hpp"
 #include "treadmark/tests/io/results/comparison_sample.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/results/picture_svg.hpp"
+#include "treadmark/pictures/picture_svg.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -11,9 +11,8 @@
 #include <sstream>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/results/colour_map.hpp"
-#include "treadmark/io/results/outline.hpp"
-#include "treadmark/io/results/picture_patch.hpp"
+#include "treadmark/pictures/outline.hpp"
+#include "treadmark/pictures/picture_patch.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 

@@ -8,9 +8,9 @@
 #include <nlohmann/json.hpp>
 #include <set>
 
-#include "treadmark/io/results/attributes.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 

@@ -2,7 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include "treadmark/io/results/subsurface_block.hpp"
+#include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::testing {
 

@@ -8,8 +8,8 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/results/attributes.hpp"
 #include "treadmark/io/results/summary.hpp"
+#include "treadmark/io/results/write_hdf5.hpp"
 #include "treadmark/io/results/write_json.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
 #include "treadmark/tests/io/results/json_schema.hpp"

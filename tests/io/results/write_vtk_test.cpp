@@ -11,7 +11,7 @@
 #include <stdexcept>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/base64.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/tests/io/results/sample_block.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"

@@ -8,7 +8,7 @@
 #include <toml++/toml.h>
 #include <nlohmann/json.hpp>
 
-#include "treadmark/io/cases/read_text.hpp"
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"

@@ -8,8 +8,8 @@
 #include <thread>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/solvers/kalker/halfspace/aligned_vector.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
+#include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
 namespace treadmark::kalker {
 namespace {

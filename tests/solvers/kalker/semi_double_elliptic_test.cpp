@@ -7,7 +7,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
-#include "treadmark/solvers/kalker/normal/semi_double_elliptic.hpp"
+#include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {

@@ -12,7 +12,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
-#include "treadmark/solvers/vehicle/pair_coordinates.hpp"
+#include "treadmark/solvers/vehicle/multibody.hpp"
 #include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::vehicle {

@@ -1,10 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/wheelrail/material_velocity.hpp"
+#include "treadmark/solvers/wheelrail/kinematics.hpp"
 
 #include <gtest/gtest.h>
-
-#include "treadmark/solvers/wheelrail/kinematics.hpp"
 
 namespace treadmark::wheelrail {
 namespace {

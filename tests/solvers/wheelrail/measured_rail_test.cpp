@@ -7,7 +7,7 @@
 #include <cmath>
 
 #include "standard_pair.hpp"
-#include "treadmark/backends/analytic/defects.hpp"
+#include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/sample.hpp"
 #include "treadmark/backends/spline/make.hpp"
 

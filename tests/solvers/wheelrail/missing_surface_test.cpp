@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/solvers/wheelrail/missing_surface.hpp"
+#include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 #include <gtest/gtest.h>
 

@@ -4,7 +4,7 @@
 
 #include <stdexcept>
 
-#include "treadmark/detection/facing_surfaces.hpp"
+#include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/curved_loads.hpp"
 #include "treadmark/solvers/wheelrail/search_window.hpp"
 #include "treadmark/solvers/wheelrail/surface_slip.hpp"

@@ -7,7 +7,7 @@
 
 #include "solution_bytes.hpp"
 #include "standard_pair.hpp"
-#include "treadmark/solvers/wheelrail/state_archive.hpp"
+#include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "two_crowns.hpp"
 
 namespace treadmark::wheelrail {

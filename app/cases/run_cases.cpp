@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cases/run_cases.hpp"
+
+#include <chrono>
+#include <exception>
+#include <mutex>
+#include <optional>
+#include <vector>
+
+#include "treadmark/app/cases/case_sequence.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point start) { return std::chrono::duration<double>(Clock::now() - start).count(); }
+
+wheelrail::Geometry geometry_of(const io::WheelRailCase& input, SurfaceStore& store, const SampledRegions& regions) {
+  const StoredSurface& rail = store.get(input.rail, Body::rail, profile_radius(input, Body::rail), regions.rail);
+  const StoredSurface& wheel = store.get(input.wheel, Body::wheel, profile_radius(input, Body::wheel), regions.wheel);
+  return {rail.represented.surface, wheel.represented.surface, rail.constant_profile() && !input.roller,
+          wheel.constant_profile()};
+}
+
+}  // namespace
+
+io::RunResult run_cases(const io::CaseFile& file, const Progress& progress) {
+  SurfaceStore store;
+  return run_cases(file, store, progress);
+}
+
+io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Progress& progress) {
+  const auto start = Clock::now();
+  store.begin_run();
+  const SampledRegions regions = sampled_regions(file);
+  // Geometry first: a broken file is found before hours of work.
+  std::vector<std::optional<wheelrail::Geometry>> geometries(file.cases.size());
+  for (std::size_t i = 0; i < file.cases.size(); ++i)
+    if (const auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content))
+      geometries[i] = geometry_of(*input, store, regions);
+
+  std::vector<std::optional<io::CaseResult>> results(file.cases.size());
+  std::vector<std::exception_ptr> errors(file.cases.size());
+  std::mutex progress_mutex;
+  std::size_t finished = 0;
+  PairPool pool;
+  const auto solve_case = [&](std::size_t i, CaseSequence& sequence) {
+    const auto case_start = Clock::now();
+    const io::Case& c = file.cases[i];
+    io::CaseResult result;
+    try {
+      result = sequence.solve(c, geometries[i] ? &*geometries[i] : nullptr);
+    } catch (const Error& e) {
+      if (e.kind() != ErrorKind::numerical) {
+        errors[i] =
+            std::make_exception_ptr(e.where().file.empty() ? Error(e.kind(), e.message(), c.where, e.advice()) : e);
+        return;
+      }
+      result = {};
+      result.status = Status::failed;
+      result.message = e.what();
+    }
+    result.number = c.number;
+    result.shown = c.shown;
+    if (!c.shown) result.patches.clear();
+    result.seconds = seconds_since(case_start);
+    results[i] = std::move(result);
+    if (progress.report) {
+      const std::lock_guard lock(progress_mutex);
+      progress.report(++finished, file.cases.size(), "case " + std::to_string(c.number));
+    }
+  };
+  const auto groups = groups_in_time(file);
+  parallel_for(groups.size(), [&](std::size_t g) {
+    CaseSequence sequence(pool);
+    for (const std::size_t i : groups[g]) {
+      if (progress.stop_requested()) return;
+      solve_case(i, sequence);
+      if (errors[i]) return;
+    }
+  });
+  for (const auto& error : errors)
+    if (error) std::rethrow_exception(error);
+
+  io::RunResult run;
+  run.version = version();
+  run.git = git_revision();
+  run.threads = thread_count();
+  run.input_file = file.path.string();
+  run.input_sha256 = file.sha256;
+  run.geometry_sha256 = store.hashes();
+  run.surfaces = store.uses();
+  run.cases_total = static_cast<int>(file.cases.size());
+  for (auto& result : results)
+    if (result) run.cases.push_back(std::move(*result));
+  run.complete = run.cases.size() == file.cases.size();
+  run.seconds = seconds_since(start);
+  return run;
+}
+
+void check_geometry(const io::CaseFile& file) {
+  SurfaceStore store;
+  const SampledRegions regions = sampled_regions(file);
+  for (const io::Case& c : file.cases)
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) geometry_of(*input, store, regions);
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,237 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/compare/compare_cases.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <cmath>
+#include <optional>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/sampled_surfaces.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/backends/registry.hpp"
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+using Bodies = CompareSettings::Bodies;
+
+/// How wheel and rail are represented; no value = as given.
+struct Choice {
+  std::string name;
+  double resolution = 0.0;
+  std::optional<std::string> wheel, rail;
+};
+
+void require_known(const std::vector<std::string>& backends) {
+  for (const std::string& name : backends) require_backend(name);
+}
+
+/// Which bodies of the file are compared.
+struct Compared {
+  bool wheel = false, rail = false;
+};
+
+Compared compared_bodies(const NaturalSurface& wheel, const NaturalSurface& rail, const CompareSettings& settings) {
+  if (settings.bodies == Bodies::wheel) return {true, false};
+  if (settings.bodies == Bodies::rail) return {false, true};
+  const Compared varying{!wheel.constant_profile(), !rail.constant_profile()};
+  if (settings.bodies == Bodies::both || (!varying.wheel && !varying.rail)) return {true, true};
+  return varying;
+}
+
+std::vector<Choice> choices(const NaturalSurface& wheel, const NaturalSurface& rail, const CompareSettings& settings) {
+  std::vector<Choice> all;
+  if (!settings.wheel_backends.empty() || !settings.rail_backends.empty()) {
+    const std::vector<std::string> as_given{""};
+    for (const std::string& w : settings.wheel_backends.empty() ? as_given : settings.wheel_backends)
+      for (const std::string& r : settings.rail_backends.empty() ? as_given : settings.rail_backends)
+        for (const double resolution : settings.resolutions)
+          all.push_back({fmt::format("{}+{}", w.empty() ? "given" : w, r.empty() ? "given" : r), resolution, w, r});
+    return all;
+  }
+  const Compared compared = compared_bodies(wheel, rail, settings);
+  std::vector<const NaturalSurface*> surfaces;
+  if (compared.wheel) surfaces.push_back(&wheel);
+  if (compared.rail) surfaces.push_back(&rail);
+  for (const auto& [name, resolution] : backend_choices(settings.backends, settings.resolutions, surfaces)) {
+    const auto chosen = [&](bool body) { return body ? std::optional(name) : std::nullopt; };
+    all.push_back({name, resolution, chosen(compared.wheel), chosen(compared.rail)});
+  }
+  return all;
+}
+
+io::CaseFile with(io::CaseFile file, const Choice& choice) {
+  for (io::Case& c : file.cases) {
+    auto* input = std::get_if<io::WheelRailCase>(&c.content);
+    if (input == nullptr) continue;
+    const auto apply = [&](io::SurfaceSource& source, const std::optional<std::string>& backend) {
+      source.backend = backend.value_or("");
+      source.resolution = source.backend.empty() ? 0.0 : choice.resolution;
+    };
+    apply(input->wheel, choice.wheel);
+    apply(input->rail, choice.rail);
+  }
+  return file;
+}
+
+const io::PatchResult* main_patch(const io::CaseResult& result) {
+  const io::PatchResult* main = nullptr;
+  for (const io::PatchResult& patch : result.patches)
+    if (main == nullptr || patch.fn > main->fn) main = &patch;
+  return main;
+}
+
+io::ComparisonRow row_of(const io::CaseResult& result) {
+  io::ComparisonRow row;
+  row.case_number = result.number;
+  row.status = result.status;
+  row.message = result.message;
+  row.patches = static_cast<int>(result.patches.size());
+  row.search_s = result.search_s;
+  row.distance_s = result.distance_s;
+  if (const io::PatchResult* p = main_patch(result)) {
+    row.pmax = p->pmax;
+    row.fn = p->fn;
+    row.fx = p->fx;
+    row.fs = p->fs;
+    row.x_tr = p->x_tr;
+    row.y_tr = p->y_tr;
+    row.approach = p->approach;
+    row.ncon = p->ncon;
+    row.area = p->ncon * p->fields.grid.cell_area();
+  }
+  return row;
+}
+
+double relative(double value, double truth) { return truth == 0.0 ? 0.0 : (value - truth) / truth; }
+
+void compare(io::ComparisonRow& row, const io::CaseResult& result, const io::ComparisonRow& truth,
+             const io::CaseResult& true_result) {
+  const bool solved = result.status == Status::ok || result.status == Status::not_converged;
+  row.comparable = solved && row.patches > 0 && truth.patches > 0;
+  if (!row.comparable) return;
+  row.pmax_error = relative(row.pmax, truth.pmax);
+  row.area_error = relative(row.area, truth.area);
+  row.approach_error = relative(row.approach, truth.approach);
+  row.position_error = std::hypot(row.x_tr - truth.x_tr, row.y_tr - truth.y_tr);
+  row.force_error = (result.force_tr - true_result.force_tr).norm() / true_result.force_tr.norm();
+}
+
+io::RepresentedBody body_of(const std::vector<io::SurfaceUse>& uses, std::string_view body) {
+  io::RepresentedBody out;
+  for (const io::SurfaceUse& use : uses)
+    if (use.body == body) {
+      out = {use.backend, use.resolution, use.build_seconds, use.memory_bytes, use.fit, use.note};
+      break;
+    }
+  return out;
+}
+
+io::ComparisonCandidate candidate_of(const Choice& choice, const io::RunResult& run,
+                                     const io::ComparisonCandidate* truth) {
+  io::ComparisonCandidate c;
+  c.name = choice.name;
+  c.wheel = body_of(run.surfaces, "wheel");
+  c.rail = body_of(run.surfaces, "rail");
+  c.resolution = choice.resolution;
+  c.results = run.cases;
+  for (const io::CaseResult& result : run.cases) c.rows.push_back(row_of(result));
+  if (truth == nullptr) return c;
+  for (std::size_t i = 0; i < std::min(c.rows.size(), truth->rows.size()); ++i)
+    compare(c.rows[i], c.results[i], truth->rows[i], truth->results[i]);
+  return c;
+}
+
+}  // namespace
+
+io::Comparison compare_cases(const io::CaseFile& file, const CompareSettings& settings, const Progress& progress) {
+  const auto start = Clock::now();
+  const io::WheelRailCase* first = first_wheelrail_case(file);
+  if (first == nullptr)
+    throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail to be compared", {file.path.string()});
+  require_known(settings.backends);
+  require_known(settings.wheel_backends);
+  require_known(settings.rail_backends);
+  for (const double resolution : settings.resolutions)
+    if (!(resolution > 0.0) || !std::isfinite(resolution))
+      throw Error(ErrorKind::configuration, "resolutions must be positive");
+
+  SurfaceStore store;
+  const SampledRegions regions = sampled_regions(file);
+  const auto natural = [&](io::SurfaceSource source, Body body, const Region& region) -> const NaturalSurface& {
+    source.backend.clear();
+    source.resolution = 0.0;
+    return *store.get(source, body, profile_radius(*first, body), region).natural;
+  };
+  const NaturalSurface& wheel = natural(first->wheel, Body::wheel, regions.wheel);
+  const NaturalSurface& rail = natural(first->rail, Body::rail, regions.rail);
+
+  io::Comparison out;
+  out.truth = wheel.surface->backend() == rail.surface->backend()
+                  ? std::string(wheel.surface->backend())
+                  : fmt::format("wheel {}, rail {}", wheel.surface->backend(), rail.surface->backend());
+  std::vector<Choice> wanted = choices(wheel, rail, settings);
+  wanted.insert(wanted.begin(), Choice{out.truth, 0.0, {}, {}});
+  const auto is_truth = [&](const Choice& c) {
+    return c.resolution == 0.0 && c.wheel.value_or(std::string(wheel.surface->backend())) == wheel.surface->backend() &&
+           c.rail.value_or(std::string(rail.surface->backend())) == rail.surface->backend();
+  };
+  wanted.erase(std::remove_if(wanted.begin() + 1, wanted.end(), is_truth), wanted.end());
+
+  const std::size_t total = wanted.size() * file.cases.size();
+  std::size_t done = 0;
+  for (const Choice& choice : wanted) {
+    if (progress.stop_requested()) {
+      out.complete = false;
+      break;
+    }
+    const bool is_first = out.candidates.empty();
+    const std::string name =
+        choice.resolution > 0.0 ? fmt::format("{} {:g} mm", choice.name, 1e3 * choice.resolution) : choice.name;
+    Progress inner = progress;
+    if (progress.report)
+      inner.report = [&](std::size_t finished, std::size_t, const std::string& what) {
+        progress.report(done + finished, total, name + ", " + what);
+      };
+    try {
+      const io::RunResult run = run_cases(with(file, choice), store, inner);
+      if (!run.complete) {
+        out.complete = false;
+        break;
+      }
+      out.candidates.push_back(candidate_of(choice, run, is_first ? nullptr : &out.candidates.front()));
+      if (is_first) {
+        out.version = run.version;
+        out.git = run.git;
+        out.threads = run.threads;
+        for (io::ComparisonRow& row : out.candidates.front().rows) row.comparable = row.patches > 0;
+        if (settings.sample_surfaces) {
+          io::ComparisonCandidate& truth = out.candidates.front();
+          truth.surfaces = sample_surfaces(truth.results, used_bodies(with(file, choice), truth.results, store));
+        }
+      }
+    } catch (const Error& e) {
+      if (is_first) throw;
+      io::ComparisonCandidate failed;
+      failed.name = choice.name;
+      failed.resolution = choice.resolution;
+      failed.failure = e.what();
+      out.candidates.push_back(std::move(failed));
+    }
+    done += file.cases.size();
+  }
+  out.input_file = file.path.string();
+  out.input_sha256 = file.sha256;
+  out.geometry_sha256 = store.hashes();
+  out.seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  return out;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,65 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/surfaces/convert_surface.hpp"
+
+#include <chrono>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/io/profiles/write_slices.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Clock = std::chrono::steady_clock;
+
+}  // namespace
+
+Converted convert_surface(const std::filesystem::path& input, const std::filesystem::path& output,
+                          const ConvertSettings& settings) {
+  const std::string extension = io::profiles::lower(output.extension().string());
+  const bool triangles = io::is_mesh_file(output), slices = io::is_slices_file(output),
+             offsets = is_offset_file(output);
+  if (!triangles && !slices && !offsets)
+    throw Error(ErrorKind::configuration, fmt::format("surfaces cannot be written to files '{}'", extension),
+                {output.string()},
+                "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets");
+  Converted out;
+  out.source = named_surface(input, {settings.body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
+  out.body = out.source.spec.body;
+  Representation wanted{triangles ? "mesh"
+                        : slices  ? "spline"
+                                  : "offset",
+                        settings.resolution, part_of(out.body, settings.range_x, settings.range_theta)};
+  // the same data again need a resolution to be sampled anew
+  if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
+  Sampled sampled;
+  const auto start = Clock::now();
+  if (triangles) {
+    out.kind = "triangles";
+    io::write_mesh(output, to_triangles(out.source, wanted, &sampled));
+  } else if (slices) {
+    out.kind = "slices";
+    io::write_slices(output, to_slices(out.source, wanted, &sampled));
+  } else {
+    out.kind = "offsets";
+    write_offsets(output, out.source, wanted, &sampled);
+  }
+  const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
+  // measured on the surface that a reader of the file gets
+  io::SurfaceSource again;
+  again.geometry = io::GeometryFile{output, {}};
+  again.where = {output.string(), 0, 0};
+  const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
+  out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
+  out.fit = fit_error(out.source, out.written);
+  return out;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/surfaces/named_surface.hpp"
+
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+
+namespace treadmark::app {
+namespace {
+
+std::string extension_of(const std::filesystem::path& file) { return io::profiles::lower(file.extension().string()); }
+
+Body body_of(const std::filesystem::path& input, const std::optional<Body>& asked) {
+  if (asked) return *asked;
+  const std::string extension = extension_of(input);
+  for (const char* wheel : {".slcw", ".prw", ".whl"})
+    if (extension == wheel) return Body::wheel;
+  for (const char* rail : {".slcs", ".prr", ".ban"})
+    if (extension == rail) return Body::rail;
+  throw Error(ErrorKind::configuration, "the file does not tell whether it is a wheel or a rail", {input.string()},
+              "say --body wheel or --body rail");
+}
+
+}  // namespace
+
+NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said) {
+  const std::string extension = extension_of(file);
+  io::SurfaceSource source;
+  double radius = said.nominal_radius;
+  const bool is_case = extension == ".toml" || extension == ".inp";
+  const auto refuse = [&](const char* what) {
+    throw Error(ErrorKind::configuration, what, {file.string()}, "leave it out");
+  };
+  if (!is_case && !said.overrides.empty()) refuse("--set changes keys of case files, this is none");
+  if ((is_case || is_offset_file(file)) && said.scale_to_mm != 1.0)
+    refuse("--scale belongs to profiles, slices and triangles");
+  if (is_offset_file(file) && radius > 0.0)
+    refuse("offsets have their own nominal radius, --nominal-radius cannot change it");
+  if (is_case) {
+    const io::CaseFile cases = io::read_any_case(file.string(), said.overrides);
+    const io::WheelRailCase* first = first_wheelrail_case(cases);
+    if (first == nullptr)
+      throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {file.string()});
+    const Body body = body_of(file, said.body);
+    source = body == Body::wheel ? first->wheel : first->rail;
+    source.backend.clear();
+    source.resolution = 0.0;
+    for (io::SurfaceSource& part : source.parts) part.backend.clear(), part.resolution = 0.0;
+    return read_surface(source, body, body == Body::wheel && radius > 0.0 ? radius : profile_radius(*first, body));
+  }
+  if (is_offset_file(file)) {
+    NaturalSurface natural = read_offset_surface(file);
+    if (said.body && *said.body != natural.spec.body)
+      throw Error(ErrorKind::configuration, "the offsets belong to the other body", {file.string()},
+                  "leave out --body");
+    return natural;
+  }
+  const Body body = body_of(file, said.body);
+  if (body == Body::wheel && !(radius > 0.0))
+    throw Error(ErrorKind::configuration, "a wheel needs its nominal radius", {file.string()},
+                "say --nominal-radius in mm");
+  io::GeometryFile geometry{file, {}};
+  geometry.options.scale = said.scale_to_mm;
+  source.geometry = geometry;
+  source.where = {file.string(), 0, 0};
+  return read_surface(source, body, body == Body::wheel ? radius : 0.0);
+}
+
+Region part_of(Body body, const Range& range_x, const Range& range_theta) {
+  if (body == Body::wheel ? range_x.has_value() : range_theta.has_value())
+    throw Error(ErrorKind::configuration, "a range along the track belongs to a rail, one in degrees to a wheel");
+  const Range& range = body == Body::wheel ? range_theta : range_x;
+  Region region;
+  if (!range) return region;
+  if (!(range->first < range->second))
+    throw Error(ErrorKind::configuration, "a range must run from a smaller to a greater number");
+  region.u_min = range->first;
+  region.u_max = range->second;
+  return region;
+}
+
+}  // namespace treadmark::app

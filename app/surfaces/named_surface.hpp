@@ -1,0 +1,35 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "treadmark/backends/create.hpp"
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark::app {
+
+/// What commands say about a wheel or rail that they name by a file.
+struct NamedSurface {
+  std::optional<Body> body;            ///< needed where the file does not tell: cases, triangles, two-column profiles
+  double nominal_radius = 0.0;         ///< of a wheel [m]; 0 = the case's, or that of an offset file
+  double scale_to_mm = 1.0;            ///< of triangle and profile files
+  std::vector<std::string> overrides;  ///< of a case
+};
+
+/// Reads any geometry: profile, slices, triangles, offsets, or the wheel or rail of the first case of a case file.
+/// Errors: those of readers and backends; Error(configuration) if the body is not known or something said does not fit
+/// the file.
+NaturalSurface named_surface(const std::filesystem::path& file, const NamedSurface& said);
+
+using Range = std::optional<std::pair<double, double>>;
+
+/// The part of a surface that is asked for: along the track [m] or round the wheel [rad]; all of it without a range.
+/// Errors: Error(configuration) for the other body's range, or one that runs backwards.
+Region part_of(Body body, const Range& range_x, const Range& range_theta);
+
+}  // namespace treadmark::app

@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/surfaces/read_surface.hpp"
+
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+
+namespace treadmark::app {
+namespace {
+
+NaturalSurface read_offsets(const io::GeometryFile& file, const io::SurfaceSource& source, Body body,
+                            double nominal_radius) {
+  NaturalSurface natural = read_offset_surface(file.file);
+  if (body == Body::rail && nominal_radius != 0.0)
+    throw Error(ErrorKind::configuration, "a file of offsets cannot become a roller", {file.file.string()},
+                "use a profile, slices or triangles");
+  if (natural.spec.body != body)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the offsets belong to a {}", body == Body::rail ? "wheel" : "rail"), {file.file.string()});
+  constexpr double kSameRadius = 1e-9;
+  if (body == Body::wheel && std::fabs(natural.spec.nominal_radius - nominal_radius) > kSameRadius)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the offsets were made for a nominal wheel radius of {:.6g} mm, the case has {:.6g} mm",
+                            1e3 * natural.spec.nominal_radius, 1e3 * nominal_radius),
+                {file.file.string()}, "set wheelset.nominal_radius_mm to the file's radius");
+  if (!source.defects.empty())
+    throw Error(ErrorKind::configuration, "defects cannot be added to a file of offsets", source.where,
+                "add them before the offsets are written");
+  return natural;
+}
+
+SliceSet slices_of(const io::GeometryFile& file, Body body, const SourcePosition& where) {
+  SliceSet slices = io::read_slices(file.file, body, file.options, where);
+  slices.open_seam = file.open_seam;
+  return slices;
+}
+
+NaturalSurface read_parts(const io::SurfaceSource& source, Body body, double radius) {
+  if (!source.defects.empty())
+    throw Error(ErrorKind::configuration, "defects cannot be added to a body of several parts", source.where);
+  std::vector<SurfacePart> parts;
+  for (const io::SurfaceSource& part : source.parts)
+    parts.push_back({std::make_shared<const NaturalSurface>(read_surface(part, body, radius)), part.offset,
+                     part.backend, part.resolution});
+  return join_surfaces(std::move(parts));
+}
+
+}  // namespace
+
+bool is_offset_file(const std::filesystem::path& file) {
+  return io::profiles::lower(file.extension().string()) == ".vdb";
+}
+
+MovingSection motion_of(const io::CrossingInput& c) {
+  MovingSection m;
+  m.x = c.x, m.y = c.y, m.z = c.z;
+  m.rounding = c.rounding;
+  const bool nose = c.part == io::CrossingInput::Part::nose;
+  m.slope_z_before = nose ? -c.slope : 0.0;
+  m.slope_y_after = nose ? 0.0 : c.slope;
+  m.length_before = nose ? c.length : c.rounding;
+  m.length_after = nose ? c.rounding : c.length;
+  return m;
+}
+
+NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double radius) {
+  if (!source.parts.empty()) return read_parts(source, body, radius);
+  SurfaceSpec spec;
+  spec.body = body;
+  (body == Body::wheel ? spec.nominal_radius : spec.roller_radius) = radius;
+  spec.defects = source.defects;
+  if (const auto* file = std::get_if<io::GeometryFile>(&source.geometry)) {
+    if (is_offset_file(file->file)) return read_offsets(*file, source, body, radius);
+    if (io::is_mesh_file(file->file))
+      spec.shape = io::read_mesh(file->file, file->options.scale, source.where);
+    else if (io::is_slices_file(file->file))
+      spec.shape = slices_of(*file, body, source.where);
+    else
+      spec.shape = io::read_profile(file->file, body, file->options, source.where);
+  } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
+    spec.shape = *standard;
+  } else {
+    spec.shape = std::get<ArcChain>(source.geometry);
+  }
+  if (source.crossing.part != io::CrossingInput::Part::none)
+    spec.shape = move_section(spec, motion_of(source.crossing));
+  return create_natural(std::move(spec));
+}
+
+}  // namespace treadmark::app

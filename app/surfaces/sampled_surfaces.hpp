@@ -1,0 +1,45 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <span>
+#include <vector>
+
+#include "treadmark/app/surfaces/sample_body.hpp"
+#include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/backends/sampling/region.hpp"
+#include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/results/result_model.hpp"
+
+namespace treadmark::app {
+
+/// Wheel and rail of a case; surfaces are those of a right-hand pair.
+struct UsedBodies {
+  UsedBody wheel, rail;
+  bool left = false;
+};
+
+/// Every distinct surface once, sampled where the cases have their contacts (see sample_body), as the mirror image for
+/// left-hand pairs; the cases get its name. used: one a case. A surface that cannot be sampled is left out, and so are
+/// cases without poses.
+std::vector<io::SampledSurface> sample_surfaces(std::span<io::CaseResult> cases, std::span<const UsedBodies> used);
+
+/// The bodies of the cases of a file that are in these results. The store must be the one that the cases were solved
+/// with.
+std::vector<UsedBodies> used_bodies(const io::CaseFile& file, std::span<const io::CaseResult> cases,
+                                    SurfaceStore& store);
+
+/// Adds what a report draws to the results of run_cases: run.sampled, and the names in its cases. Takes some 0.1 s a
+/// surface.
+void add_surfaces(io::RunResult& run, const io::CaseFile& file, SurfaceStore& store);
+
+/// The parts of wheel and rail that the cases of a file can bring into contact: what has to be sampled.
+struct SampledRegions {
+  sampling::Region wheel, rail;
+};
+
+/// Wheel: angles round the lowest point of every case, as far as the contact search looks; from half a turn on the
+/// whole wheel. Rail: positions along the track likewise. Without a wheel-rail case everything.
+SampledRegions sampled_regions(const io::CaseFile& file);
+
+}  // namespace treadmark::app

@@ -1,0 +1,171 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/app/surfaces/scan_surface.hpp"
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <numbers>
+#include <string_view>
+
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
+
+namespace treadmark::app {
+
+namespace {
+
+void require_cloud_file(const std::filesystem::path& cloud) {
+  constexpr std::array<std::string_view, 6> kWritten{".ply", ".xyz", ".asc", ".txt", ".csv", ".las"};
+  const std::string extension = io::profiles::lower(cloud.extension().string());
+  if (std::find(kWritten.begin(), kWritten.end(), extension) == kWritten.end())
+    throw Error(ErrorKind::configuration, fmt::format("points cannot be written to files '{}'", extension),
+                {cloud.string()}, "use .ply, .las, .xyz, .asc, .txt or .csv");
+}
+
+std::string vector_text(const Vec3& v, double factor, int digits) {
+  return fmt::format("({:.{}f}, {:.{}f}, {:.{}f})", factor * v.x(), digits, factor * v.y(), digits, factor * v.z(),
+                     digits);
+}
+
+}  // namespace
+
+Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem::path& cloud,
+                     const ScanRequest& request, const Progress& progress) {
+  require_cloud_file(cloud);
+  const NaturalSurface natural = named_surface(surface, request.surface);
+  Scanned out{surface, cloud, request.scanner, request.unit, {}};
+  out.settings.body = natural.spec.body;
+  out.settings.nominal_radius = natural.spec.nominal_radius;
+  const Region part = part_of(natural.spec.body, request.range_x, request.range_theta);
+  out.settings.u_min = part.u_min;
+  out.settings.u_max = part.u_max;
+  const Box3 box = natural.surface->bounds();
+  if (natural.spec.body == Body::rail && !request.range_x && (std::isinf(box.min.x()) || std::isinf(box.max.x())))
+    throw Error(ErrorKind::configuration, "this rail has no ends", {surface.string()},
+                "say which part is scanned: --range-mm FROM,TO");
+  out.scan = scans::scan_surface(*natural.surface, out.settings, progress);
+  io::write_scan(cloud, out.scan.cloud, request.unit);
+  return out;
+}
+
+std::string summary(const Scanned& scanned) {
+  const scans::ScannerTruth& truth = scanned.scan.truth;
+  std::string text = fmt::format("{}: {} points of a {} in {}, {:.4g} mm apart on {:.6g} mm^2, {} {}, seed {}\n",
+                                 scanned.cloud.string(), scanned.scan.cloud.points.size(),
+                                 scanned.settings.body == Body::wheel ? "wheel" : "rail", symbol(scanned.unit),
+                                 kMilli * truth.spacing, kMicro * truth.area, truth.passes.size(),
+                                 truth.passes.size() == 1 ? "pass" : "passes", scanned.settings.seed);
+  text += fmt::format("on the surface {}, outliers {}; lost: {} in holes, {} dropped out, {} too steep\n",
+                      truth.on_surface, truth.outliers, truth.lost_holes, truth.lost_drop_outs, truth.lost_occlusion);
+  const Mat3& R = truth.X_CS.rotation;
+  text += fmt::format("surface in the cloud: origin {} mm, x axis {}, y axis {}, z axis {}\n",
+                      vector_text(truth.X_CS.origin, kMilli, 6), vector_text(R.col(0), 1.0, 9),
+                      vector_text(R.col(1), 1.0, 9), vector_text(R.col(2), 1.0, 9));
+  return text;
+}
+
+namespace {
+
+using Json = nlohmann::ordered_json;
+
+constexpr double kDeg = 180.0 / std::numbers::pi;
+
+/// Twelve digits, so that changes of unit leave no tail of nines; what is not finite is null.
+Json number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return Json::parse(fmt::format("{:.12g}", value));
+}
+
+Json vector(const Vec3& v, double factor) { return {factor * v.x(), factor * v.y(), factor * v.z()}; }
+
+/// In full precision: as three rows of (x axis, y axis, z axis, origin) and one by one.
+Json pose(const Pose& X) {
+  Json rows = Json::array();
+  for (int i = 0; i < 3; ++i)
+    rows.push_back({X.rotation(i, 0), X.rotation(i, 1), X.rotation(i, 2), kMilli * X.origin[i]});
+  return {{"rows_mm", rows},
+          {"origin_mm", vector(X.origin, kMilli)},
+          {"x_axis", vector(X.rotation.col(0), 1.0)},
+          {"y_axis", vector(X.rotation.col(1), 1.0)},
+          {"z_axis", vector(X.rotation.col(2), 1.0)}};
+}
+
+/// null: all there is.
+Json range(double low, double high, double factor) {
+  if (std::isinf(low) && std::isinf(high)) return nullptr;
+  return {number(factor * low), number(factor * high)};
+}
+
+Json settings_json(const scans::ScannerSettings& s, bool wheel) {
+  Json out;
+  out[wheel ? "range_deg" : "range_mm"] = range(s.u_min, s.u_max, wheel ? kDeg : kMilli);
+  out["range_y_mm"] = range(s.y_min, s.y_max, kMilli);
+  if (s.spacing > 0.0)
+    out["spacing_mm"] = number(kMilli * s.spacing);
+  else
+    out["points"] = s.points;
+  out["noise_mm"] = number(kMilli * s.noise);
+  out["noise_lateral_mm"] = number(kMilli * s.noise_lateral);
+  out["outliers"] = number(s.outliers);
+  out["holes"] = number(s.holes);
+  out["hole_size_mm"] = number(kMilli * s.hole_size);
+  out["drop_outs"] = number(s.drop_outs);
+  out["most_incidence_deg"] = number(kDeg * s.most_incidence);
+  out["passes"] = s.passes;
+  out["registration_mm"] = number(kMilli * s.registration);
+  out["frame"] = s.random_frame ? "random" : "identity";
+  return out;
+}
+
+Json passes_json(const scans::ScannerTruth& truth, bool wheel) {
+  Json list = Json::array();
+  for (std::size_t i = 0; i < truth.passes.size(); ++i) {
+    const scans::ScannerPass& pass = truth.passes[i];
+    Json one;
+    one[wheel ? "range_deg" : "range_mm"] = range(pass.u_min, pass.u_max, wheel ? kDeg : kMilli);
+    one["range_y_mm"] = range(pass.y_min, pass.y_max, kMilli);
+    one["lines"] = pass.lines;
+    one["points"] = pass.points;
+    one["middle_mm"] = vector(pass.middle_C, kMilli);
+    one["error"] = pose(truth.X_pass[i]);
+    list.push_back(one);
+  }
+  return list;
+}
+
+}  // namespace
+
+std::string truth_json(const Scanned& scanned) {
+  const scans::ScannerTruth& truth = scanned.scan.truth;
+  const bool wheel = scanned.settings.body == Body::wheel;
+  Json out;
+  out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
+  out["surface"] = {{"file", scanned.surface.string()}, {"body", wheel ? "wheel" : "rail"}};
+  if (wheel) out["surface"]["nominal_radius_mm"] = number(kMilli * scanned.settings.nominal_radius);
+  out["cloud"] = {{"file", scanned.cloud.string()},
+                  {"unit", symbol(scanned.unit)},
+                  {"metres_per_unit", metres_per(scanned.unit)},
+                  {"points", scanned.scan.cloud.points.size()}};
+  out["seed"] = scanned.settings.seed;
+  out["settings"] = settings_json(scanned.settings, wheel);
+  out["surface_in_cloud"] = pose(truth.X_CS);
+  out["counts"] = {{"on_surface", truth.on_surface},
+                   {"outliers", truth.outliers},
+                   {"lost_holes", truth.lost_holes},
+                   {"lost_drop_outs", truth.lost_drop_outs},
+                   {"lost_occlusion", truth.lost_occlusion}};
+  out["spacing_mm"] = number(kMilli * truth.spacing);
+  out["area_mm2"] = number(kMicro * truth.area);
+  out["passes"] = passes_json(truth, wheel);
+  return out.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,93 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/backends/analytic/defects/defect_shapes.hpp"
+
+#include <numbers>
+
+#include "treadmark/backends/analytic/defects/flat_depth.hpp"
+
+namespace treadmark::analytic {
+
+ShapePtr make_corrugation_shape(const Corrugation& c) {
+  WaveSum waves{c.x_start, {}};
+  for (const auto& w : c.waves) waves.waves.push_back({2.0 * std::numbers::pi / w.wavelength, w.amplitude, w.phase});
+  const CosineWindow window{c.x_start, c.x_end, c.ramp};
+  return product_shape(1.0, FunctionProduct<WaveSum, CosineWindow>{std::move(waves), window},
+                       lateral_fading(c.y_center, c.width), faded_support(c.x_start, c.x_end, c.y_center, c.width));
+}
+
+namespace {
+
+class FlatsShape final : public OffsetShape {
+ public:
+  FlatsShape(const std::vector<WheelFlat>& flats, double nominal_radius) : depth_(flats, nominal_radius) {}
+
+  displacement::OffsetJet jet(double theta, double y) const override {
+    const DepthJet d = depth_.jet(theta, y);
+    return {-d.d, -d.d_theta, -d.d_y, -d.d_theta_theta, -d.d_theta_y, -d.d_y_y};
+  }
+
+  void add(std::span<const double> theta, std::span<const double> y, std::span<double> value, std::span<double> d_u,
+           std::span<double> d_y) const override {
+    for (std::size_t i = 0; i < theta.size(); ++i) {
+      const DepthJet d = depth_.jet(theta[i], y[i]);
+      value[i] -= d.d;
+      if (!d_u.empty()) d_u[i] -= d.d_theta;
+      if (!d_y.empty()) d_y[i] -= d.d_y;
+    }
+  }
+
+  displacement::OffsetRange range(const Rectangle& r) const override {
+    const FlatDepth::Range d = depth_.range(0.5 * (r.x_min + r.x_max), 0.5 * (r.x_max - r.x_min), r.y_min, r.y_max);
+    return {-d.high, -d.low, d.max_d_theta, d.max_d_y};
+  }
+
+  std::size_t memory_bytes() const override { return sizeof(*this) + depth_.memory_bytes(); }
+
+ private:
+  FlatDepth depth_;
+};
+
+}  // namespace
+
+ShapePtr make_flats_shape(const std::vector<WheelFlat>& flats, double nominal_radius) {
+  return std::make_unique<FlatsShape>(flats, nominal_radius);
+}
+
+ShapePtr make_gauge_corner_shape(const GaugeCornerCollapse& g) {
+  const CosineBump along{g.x_center, 0.5 * g.length};
+  const CosineStep across{g.y_start, g.gauge_side * g.width};
+  return product_shape(g.depth, along, across,
+                       {along.begin(), along.end(), g.gauge_side < 0 ? -kEverywhere : g.y_start,
+                        g.gauge_side < 0 ? g.y_start : kEverywhere});
+}
+
+ShapePtr make_polygonization_shape(const Polygonization& p) {
+  // whole orders: the sum has the period of theta by itself
+  WaveSum waves;
+  for (const auto& h : p.harmonics) waves.waves.push_back({static_cast<double>(h.order), h.amplitude, h.phase});
+  return product_shape(1.0, std::move(waves), lateral_fading(p.y_center, p.width),
+                       faded_support(-kEverywhere, kEverywhere, p.y_center, p.width));
+}
+
+namespace {
+
+ShapePtr dip(double length, double width, double depth, double x, double y) {
+  const CosineBump along{x, 0.5 * length}, across{y, 0.5 * width};
+  return product_shape(depth, along, across, {along.begin(), along.end(), across.begin(), across.end()});
+}
+
+}  // namespace
+
+std::vector<ShapePtr> make_squat_shapes(const Squat& s) {
+  std::vector<ShapePtr> dips;
+  dips.push_back(dip(s.length, s.width, s.depth, s.x_center, s.y_center));
+  if (s.second_depth > 0.0)
+    dips.push_back(dip(s.second_length > 0.0 ? s.second_length : s.length,
+                       s.second_width > 0.0 ? s.second_width : s.width, s.second_depth, s.x_center - s.second_distance,
+                       s.y_center + s.second_y_offset));
+  return dips;
+}
+
+}  // namespace treadmark::analytic

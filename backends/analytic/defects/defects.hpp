@@ -1,0 +1,49 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <vector>
+
+#include "treadmark/backends/analytic/defects/defect_shapes.hpp"
+#include "treadmark/backends/displacement/offset_field.hpp"
+#include "treadmark/core/surface.hpp"
+#include "treadmark/model/defects.hpp"
+#include "treadmark/model/profile.hpp"
+
+namespace treadmark::analytic {
+
+/// All offsets of the defects but milling, added up. base is asked where a flattened head needs it, and kept.
+/// Errors: Error(configuration) of check_defects: it names the list and the number of the shape.
+std::shared_ptr<const displacement::OffsetField> make_defect_field(const Defects& defects, Body body,
+                                                                   double nominal_radius,
+                                                                   std::shared_ptr<const Surface> base);
+
+/// A base of any backend with all its defects: cut down to flattened heads, displaced by the other shapes, then milled.
+/// Returns base itself without any. The result's backend() is the base's. Cuts are exact in every view; the walls at
+/// the ends of a milling section or path belong to the surface. Errors: as above, and a milling path that is steeper
+/// than 45 degrees between its stations.
+std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, const Defects& defects, Body body,
+                                           double nominal_radius);
+
+/// The part of the surface that the defects change: u (x [m] or theta [rad], of flats across the seam beyond +-pi) and
+/// y, infinite for shapes as wide as the profile; nothing without defects.
+std::optional<Rectangle> defect_region(const Defects& defects, double nominal_radius);
+
+/// Sum of shapes.
+class DefectField final : public displacement::OffsetField {
+ public:
+  explicit DefectField(std::vector<ShapePtr> shapes) : shapes_(std::move(shapes)) {}
+
+  displacement::OffsetJet jet(double u, double y) const override;
+  void evaluate(std::span<const double> u, std::span<const double> y, std::span<double> value, std::span<double> d_u,
+                std::span<double> d_y) const override;
+  displacement::OffsetRange range(const Rectangle& uy) const override;
+  std::size_t memory_bytes() const override;
+
+ private:
+  std::vector<ShapePtr> shapes_;
+};
+
+}  // namespace treadmark::analytic

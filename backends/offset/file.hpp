@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <map>
+#include <string>
+
+#include "treadmark/backends/offset/sparse_offsets.hpp"
+#include "treadmark/model/surface_spec.hpp"
+
+namespace treadmark::offset {
+
+using Metadata = std::map<std::string, std::string>;
+
+/// Units, axes, body, period and base as texts; numbers with all their digits.
+/// Errors: Error(configuration) for a base that is not a constant section, or belongs to the other body.
+Metadata to_metadata(const SparseOffsets& offsets, const SurfaceSpec& base);
+
+/// Fills everything but the grid. Errors: Error(input_data) for an entry that is missing, broken or implausible, naming
+/// it.
+void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec& base, const std::string& file);
+
+}  // namespace treadmark::offset

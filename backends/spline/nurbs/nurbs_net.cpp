@@ -1,0 +1,135 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/backends/spline/nurbs/nurbs_net.hpp"
+
+#include <limits>
+
+#include "treadmark/backends/spline/banded.hpp"
+
+namespace treadmark::spline {
+namespace {
+
+struct Corners {
+  Vec3 min = Vec3::Constant(std::numeric_limits<double>::infinity()), max = -min;
+  void include(const Vec3& p) {
+    min = min.cwiseMin(p);
+    max = max.cwiseMax(p);
+  }
+};
+
+// The 16 control points from the corners; position and direction take them to another frame.
+template <class Position, class Direction>
+BezierPatch from_corners(const NurbsNet::Corner* const (&corners)[2][2], double hu, double hv, const Position& position,
+                         const Direction& direction) {
+  BezierPatch out;
+  out.rational = false;
+  for (int i = 0; i < 2; ++i)
+    for (int j = 0; j < 2; ++j) {
+      const NurbsNet::Corner& c = *corners[i][j];
+      const double su = (i ? -hu : hu) / 3.0, sv = (j ? -hv : hv) / 3.0;
+      const Vec3 p = position(c.p), du = direction(c.p_u) * su, dv = direction(c.p_v) * sv,
+                 duv = direction(c.p_uv) * (su * sv);
+      const int a = 3 * i, b = 3 * j, a1 = i ? 2 : 1, b1 = j ? 2 : 1;
+      const auto set = [&](int m, int n, const Vec3& q) { out.b[m][n] = {q.x(), q.y(), q.z(), 1.0}; };
+      set(a, b, p);
+      set(a1, b, p + du);
+      set(a, b1, p + dv);
+      set(a1, b1, p + du + dv + duv);
+    }
+  return out;
+}
+
+}  // namespace
+
+NurbsNet::NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Quad> points)
+    : u_(std::move(u_breaks)), v_(std::move(v_breaks)), points_(std::move(points)) {
+  build_boxes();
+}
+
+NurbsNet::NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Corner> corners)
+    : u_(std::move(u_breaks)), v_(std::move(v_breaks)), corners_(std::move(corners)) {
+  build_boxes();
+}
+
+void NurbsNet::build_boxes() {
+  const auto box = [](const Corners& c) {
+    constexpr double kUp = 3e-7;  // more than the rounding to single precision of both
+    const Vec3 middle = 0.5 * (c.min + c.max), half = 0.5 * (c.max - c.min);
+    return Box{middle.cast<float>(),
+               (half * (1.0 + kUp) + middle.cwiseAbs() * kUp + Vec3::Constant(1e-30)).cast<float>()};
+  };
+  Level first{patches_u(), patches_v(), {}};
+  first.boxes.reserve(static_cast<std::size_t>(first.nu) * static_cast<std::size_t>(first.nv));
+  for (int iu = 0; iu < first.nu; ++iu)
+    for (int iv = 0; iv < first.nv; ++iv) {
+      const BezierPatch p = patch(iu, iv);
+      Corners corners;
+      for (int i = 0; i < 4; ++i)
+        for (int j = 0; j < 4; ++j) corners.include(p.point(i, j));
+      first.boxes.push_back(box(corners));
+    }
+  levels_.push_back(std::move(first));
+  while (levels_.back().boxes.size() > 1) {
+    const Level& below = levels_.back();
+    Level above{(below.nu + kFanOut - 1) / kFanOut, (below.nv + kFanOut - 1) / kFanOut, {}};
+    for (int iu = 0; iu < above.nu; ++iu)
+      for (int iv = 0; iv < above.nv; ++iv) {
+        Corners corners;
+        for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
+          for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv) {
+            corners.include(below.at(ku, kv).centre() - below.at(ku, kv).half());
+            corners.include(below.at(ku, kv).centre() + below.at(ku, kv).half());
+          }
+        above.boxes.push_back(box(corners));
+      }
+    levels_.push_back(std::move(above));
+  }
+}
+
+std::size_t NurbsNet::memory_bytes() const {
+  std::size_t bytes = points_.capacity() * sizeof(Quad) + corners_.capacity() * sizeof(Corner) +
+                      (u_.capacity() + v_.capacity()) * sizeof(double);
+  for (const Level& level : levels_) bytes += level.boxes.capacity() * sizeof(Box);
+  return bytes;
+}
+
+BezierPatch NurbsNet::patch(int iu, int iv) const { return patch(iu, iv, Pose{}); }
+
+BezierPatch NurbsNet::patch(int iu, int iv, const Pose& X) const {
+  const Mat3 turn = X.rotation.transpose();
+  const auto u = static_cast<std::size_t>(iu), v = static_cast<std::size_t>(iv);
+  if (!corners_.empty()) {
+    const std::size_t row = v_.size(), next = (u + 1) * row < corners_.size() ? u + 1 : 0;
+    const Corner* const corners[2][2] = {{&corners_[u * row + v], &corners_[u * row + v + 1]},
+                                         {&corners_[next * row + v], &corners_[next * row + v + 1]}};
+    return from_corners(
+        corners, u_[u + 1] - u_[u], v_[v + 1] - v_[v], [&](const Vec3& p) { return Vec3(turn * (p - X.origin)); },
+        [&](const Vec3& d) { return Vec3(turn * d); });
+  }
+  BezierPatch out;
+  const std::size_t stride = 3 * (v_.size() - 1) + 1;
+  const Quad* corner = points_.data() + 3 * (u * stride + v);
+  for (std::size_t i = 0; i < 4; ++i)
+    for (std::size_t j = 0; j < 4; ++j) {
+      const Quad& q = corner[i * stride + j];
+      const double w = q.w();
+      const Vec3 p = turn * (Vec3(q.x(), q.y(), q.z()) - w * X.origin);
+      out.b[i][j] = {p.x(), p.y(), p.z(), w};
+    }
+  return out;
+}
+
+Box3 NurbsNet::bounds() const {
+  const Box& box = levels_.back().boxes.front();
+  return {box.centre() - box.half(), box.centre() + box.half()};
+}
+
+NurbsNet::Place NurbsNet::find(double u, double v) const {
+  const int iu = find_span(u_, u, 0, patches_u() - 1), iv = find_span(v_, v, 0, patches_v() - 1);
+  const auto local = [](double x, double low, double high) {
+    return std::clamp((x - low) / (high - low), 0.0, 1.0) - 0.5;
+  };
+  return {iu, iv, local(u, u_break(iu), u_break(iu + 1)), local(v, v_break(iv), v_break(iv + 1))};
+}
+
+}  // namespace treadmark::spline

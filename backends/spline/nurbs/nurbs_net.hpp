@@ -1,0 +1,92 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <vector>
+
+#include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/backends/spline/nurbs/bezier_patch.hpp"
+#include "treadmark/core/surface.hpp"
+
+namespace treadmark::spline {
+
+/// A tensor-product NURBS surface as its bicubic Bezier patches. A rational one is a grid of control points, of which
+/// neighbouring patches share those on their border; a polynomial one is kept by positions and derivatives at the
+/// corners of patches. Boxes of control points form a pyramid above the patches. Immutable, so safe to use from any
+/// number of threads.
+class NurbsNet {
+ public:
+  /// Derivatives by the parameters.
+  struct Corner {
+    Vec3 p, p_u, p_v, p_uv;
+  };
+
+  /// u_breaks, v_breaks: parameters of the patch borders, increasing. points: surface frame, homogeneous, index =
+  /// iv + ((3 patches in v) + 1) iu.
+  NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Quad> points);
+  /// corners: index = iv + (patches in v + 1) iu; for u_breaks that go once round, the last row may be left out.
+  NurbsNet(std::vector<double> u_breaks, std::vector<double> v_breaks, std::vector<Corner> corners);
+
+  int patches_u() const { return static_cast<int>(u_.size()) - 1; }
+  int patches_v() const { return static_cast<int>(v_.size()) - 1; }
+  double u_break(int i) const { return u_[static_cast<std::size_t>(i)]; }
+  double v_break(int i) const { return v_[static_cast<std::size_t>(i)]; }
+  std::size_t memory_bytes() const;
+
+  /// Surface frame.
+  BezierPatch patch(int iu, int iv) const;
+  /// Frame P: homogeneous coordinates there.
+  BezierPatch patch(int iu, int iv, const Pose& X_SP) const;
+  Box3 bounds() const;
+
+  /// Patch and local parameters for (u, v), clamped to the surface.
+  struct Place {
+    int iu, iv;
+    double s, t;  ///< -1/2 .. 1/2
+  };
+  Place find(double u, double v) const;
+
+  /// Calls use(iu, iv, centre, half) for every patch whose box passes wanted(centre, half); so must all boxes above it.
+  template <class Wanted, class Use>
+  void visit(const Wanted& wanted, const Use& use) const {
+    descend(levels_.size() - 1, 0, 0, wanted, use);
+  }
+
+ private:
+  // In single precision, rounded outwards.
+  struct Box {
+    Eigen::Vector3f middle, reach;
+    Vec3 centre() const { return middle.cast<double>(); }
+    Vec3 half() const { return reach.cast<double>(); }
+  };
+  struct Level {
+    int nu, nv;
+    std::vector<Box> boxes;
+    const Box& at(int iu, int iv) const {
+      return boxes[static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv)];
+    }
+  };
+  static constexpr int kFanOut = 4;  // in each direction
+
+  template <class Wanted, class Use>
+  void descend(std::size_t level, int iu, int iv, const Wanted& wanted, const Use& use) const {
+    const Box& box = levels_[level].at(iu, iv);
+    const Vec3 centre = box.centre(), half = box.half();
+    if (!wanted(centre, half)) return;
+    if (level == 0) return use(iu, iv, centre, half);
+    const Level& below = levels_[level - 1];
+    for (int ku = kFanOut * iu; ku < std::min(kFanOut * (iu + 1), below.nu); ++ku)
+      for (int kv = kFanOut * iv; kv < std::min(kFanOut * (iv + 1), below.nv); ++kv)
+        descend(level - 1, ku, kv, wanted, use);
+  }
+
+  void build_boxes();
+
+  std::vector<double> u_, v_;
+  std::vector<Quad> points_;  // one of the two is empty
+  std::vector<Corner> corners_;
+  std::vector<Level> levels_;
+};
+
+}  // namespace treadmark::spline

@@ -1,0 +1,250 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
+
+#include <cmath>
+#include <limits>
+#include <numbers>
+
+#include "treadmark/backends/spline/banded.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
+#include "treadmark/backends/spline/point_batches.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+
+namespace treadmark::spline {
+
+namespace {
+
+// Points of a tile share a view; fixed, so that results do not depend on the number of threads.
+constexpr int kTileX = 64, kTileY = 32;
+
+void write(const HeightsOut& out, std::size_t i, bool found, const NurbsHit& hit) {
+  if (!out.z.empty()) out.z[i] = found ? hit.z : kNaN;
+  if (!out.dzdx.empty()) out.dzdx[i] = found ? hit.dzdx : kNaN;
+  if (!out.dzdy.empty()) out.dzdy[i] = found ? hit.dzdy : kNaN;
+}
+
+// Calls use(point, found, hit) for all points of a list, in parallel.
+template <class Use>
+void for_hits(const NurbsNet& net, const Pose& X_SP, Facing facing, std::span<const Vec2> points_P, bool exact,
+              bool all, const Use& use) {
+  for_listed_points(points_P, true, [&](std::span<const ListedPoint> points) {
+    Interval x = Interval::none(), y = Interval::none();
+    for (const ListedPoint& p : points) {
+      if (!std::isfinite(p.across) || !std::isfinite(p.along)) continue;
+      x.include({p.across, p.across});
+      y.include({p.along, p.along});
+    }
+    NurbsView view(net, X_SP, {x.low, x.high, y.low, y.high}, facing);
+    NurbsHit hit;
+    for (const ListedPoint& p : points) {
+      const bool found = view.hit(p.across, p.along, exact, all, hit);
+      use(p, found, hit);
+    }
+  });
+}
+
+}  // namespace
+
+SurfaceDerivatives NurbsSurface::derivatives_at(const NurbsNet::Place& place) const {
+  const PowerPatch patch(net_.patch(place.iu, place.iv));
+  const PowerPatch::Jet at = patch.jet(place.s, place.t);
+  const PowerPatch::Bend bend = patch.bend(place.s, place.t);
+  // By the parameters themselves.
+  const double per_u = 1.0 / (net_.u_break(place.iu + 1) - net_.u_break(place.iu));
+  const double per_v = 1.0 / (net_.v_break(place.iv + 1) - net_.v_break(place.iv));
+  const auto position = [](const Quad& q) { return Vec3(q.x(), q.y(), q.z()); };
+  const double w = at.value.w(), w_u = at.by_s.w() * per_u, w_v = at.by_t.w() * per_v;
+  SurfaceDerivatives d;
+  d.p = position(at.value) / w;
+  d.pu = (position(at.by_s) * per_u - w_u * d.p) / w;
+  d.pv = (position(at.by_t) * per_v - w_v * d.p) / w;
+  const double uu = per_u * per_u, uv = per_u * per_v, vv = per_v * per_v;
+  d.puu = (position(bend.by_ss) * uu - 2.0 * w_u * d.pu - (bend.by_ss.w() * uu) * d.p) / w;
+  d.puv = (position(bend.by_st) * uv - w_u * d.pv - w_v * d.pu - (bend.by_st.w() * uv) * d.p) / w;
+  d.pvv = (position(bend.by_tt) * vv - 2.0 * w_v * d.pv - (bend.by_tt.w() * vv) * d.p) / w;
+  return d;
+}
+
+SurfaceDerivatives NurbsSurface::derivatives(double u, double v) const { return derivatives_at(net_.find(u, v)); }
+
+void NurbsSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
+  const Grid2& g = plane_grid.grid;
+  const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
+  const int tiles_x = (g.nx + kTileX - 1) / kTileX, tiles_y = (g.ny + kTileY - 1) / kTileY;
+  parallel_for(static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y), [&](std::size_t tile) {
+    const int ix0 = kTileX * static_cast<int>(tile % static_cast<std::size_t>(tiles_x)),
+              ix1 = std::min(g.nx, ix0 + kTileX) - 1;
+    const int iy0 = kTileY * static_cast<int>(tile / static_cast<std::size_t>(tiles_x)),
+              iy1 = std::min(g.ny, iy0 + kTileY) - 1;
+    NurbsView view(net_, plane_grid.X_SP, {g.x(ix0), g.x(ix1), g.y(iy0), g.y(iy1)}, facing());
+    NurbsHit hit;
+    for (int iy = iy0; iy <= iy1; ++iy)
+      for (int ix = ix0; ix <= ix1; ++ix) {
+        const bool found = view.hit(g.x(ix), g.y(iy), slopes, false, hit);
+        write(out, g.index(ix, iy), found, hit);
+      }
+  });
+}
+
+void NurbsSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {
+  const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
+  for_hits(net_, X_SP, facing(), points_P, slopes, false,
+           [&](const ListedPoint& p, bool found, const NurbsHit& hit) { write(out, p.index, found, hit); });
+}
+
+void NurbsSurface::do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const {
+  for_hits(net_, X_SP, facing(), points_P, true, true, [&](const ListedPoint& p, bool found, const NurbsHit& hit) {
+    SurfacePoint& at = out[p.index];
+    at = {};
+    if (!found) return;
+    at.status = hit.hides_others ? LocateStatus::ambiguous : LocateStatus::converged;
+    SurfaceDerivatives d = derivatives_at({hit.iu, hit.iv, hit.s, hit.t});
+    const bool wheel = body_ == Body::wheel;
+    at.u = wheel ? wrap_angle(std::atan2(d.p.x(), d.p.z())) : d.p.x();
+    const double low = net_.v_break(hit.iv), high = net_.v_break(hit.iv + 1);
+    at.v = low + (hit.t + 0.5) * (high - low);
+    // Forward x towards greater y points out of a wheel, into a rail.
+    if (wheel) d.pv = -d.pv, d.puv = -d.puv;
+    set_geometry(d, at);
+  });
+}
+
+HeightBounds NurbsSurface::do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const {
+  const Interval z = hull_.heights_over(X_SP, rectangle_P, facing());
+  if (z.empty()) return {0.0, 0.0, true};
+  return {z.low, z.high, false};
+}
+
+namespace {
+
+// Slopes of interpolating cubic splines with given knots.
+class SplineSlopes {
+ public:
+  /// period = 0: not periodic.
+  SplineSlopes(std::span<const double> knots, double period)
+      : closed_(period > 0.0), size_(static_cast<int>(knots.size())), lu_(size_, closed_ ? 2 : 1), rhs_(knots.size()) {
+    for (int i = 0; i < size_; ++i) {
+      const bool last = i + 1 == size_;
+      if (last && !closed_) break;
+      h_.push_back(last ? period - (knots[static_cast<std::size_t>(i)] - knots[0])
+                        : knots[static_cast<std::size_t>(i) + 1] - knots[static_cast<std::size_t>(i)]);
+    }
+    for (int i = 0; i < size_; ++i) {
+      if (!closed_ && (i == 0 || i + 1 == size_)) continue;
+      const double before = step(i - 1), after = step(i);
+      lu_.at(place(i), place(next(i, -1))) += after;
+      lu_.at(place(i), place(i)) += 2.0 * (before + after);
+      lu_.at(place(i), place(next(i, 1))) += before;
+    }
+    if (!closed_) {
+      lu_.at(0, 0) = step(1);
+      lu_.at(0, 1) = step(0) + step(1);
+      lu_.at(size_ - 1, size_ - 1) = step(size_ - 3);
+      lu_.at(size_ - 1, size_ - 2) = step(size_ - 2) + step(size_ - 3);
+    }
+    lu_.factor();
+  }
+
+  /// values(i) -> value at knot i; set(i, slope).
+  template <class Values, class Set>
+  void solve(const Values& values, const Set& set) {
+    const auto rise = [&](int i) { return (values(next(i, 1)) - values(next(i, 0))) / step(i); };
+    for (int i = 0; i < size_; ++i) {
+      double& b = rhs_[static_cast<std::size_t>(place(i))];
+      if (!closed_ && i == 0)
+        b = end(step(0), step(1), rise(0), rise(1));
+      else if (!closed_ && i + 1 == size_)
+        b = end(step(size_ - 2), step(size_ - 3), rise(size_ - 2), rise(size_ - 3));
+      else
+        b = 3.0 * (step(i) * rise(i - 1) + step(i - 1) * rise(i));
+    }
+    lu_.solve(rhs_);
+    for (int i = 0; i < size_; ++i) set(i, rhs_[static_cast<std::size_t>(place(i))]);
+  }
+
+ private:
+  // Not-a-knot: the cubics of the outer two intervals are one.
+  static double end(double outer, double inner, double outer_rise, double inner_rise) {
+    return ((3.0 * outer + 2.0 * inner) * inner * outer_rise + outer * outer * inner_rise) / (outer + inner);
+  }
+  int next(int i, int by) const { return closed_ ? (i + by + size_) % size_ : i + by; }
+  double step(int i) const { return h_[static_cast<std::size_t>(next(i, 0))]; }
+  // A ring folded flat, so that neighbours stay within two places.
+  int place(int i) const {
+    if (!closed_) return i;
+    return 2 * i < size_ ? 2 * i : 2 * (size_ - i) - 1;
+  }
+
+  bool closed_;
+  int size_;
+  std::vector<double> h_;
+  BandedLu lu_;
+  std::vector<double> rhs_;
+};
+
+void require_points(bool good, const char* message, const char* advice = "") {
+  if (!good) throw Error(ErrorKind::input_data, message, {}, advice);
+}
+
+void check(const sampling::PointGrid& grid) {
+  require_points(grid.u.size() >= 4 && grid.y.size() >= 4, "a surface through points needs at least 4 x 4 of them");
+  require_points(grid.h.size() == grid.u.size() * grid.y.size(),
+                 "a point grid has another number of heights than of points");
+  for (const auto* values : {&grid.u, &grid.y}) {
+    for (const double x : *values) require_points(std::isfinite(x), "a coordinate of a point grid is not finite");
+    for (std::size_t i = 0; i + 1 < values->size(); ++i)
+      require_points((*values)[i] < (*values)[i + 1], "the stations and nodes of a point grid must increase");
+  }
+  require_points(!grid.closed || grid.body == Body::wheel, "only a wheel can be closed");
+  require_points(grid.body == Body::rail || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 + 1e-12),
+                 "the stations of a wheel cover more than one turn");
+  require_points(!grid.closed || grid.u.back() - grid.u.front() < 2.0 * std::numbers::pi * (1.0 - 1e-9),
+                 "the last station of a closed wheel repeats the first");
+  for (const double h : grid.h) {
+    require_points(!std::isnan(h), "a full-parametric spline surface cannot have gaps",
+                   "use another backend, or cut the gaps off");
+    require_points(std::isfinite(h), "a coordinate of a point grid is not finite");
+    require_points(grid.body == Body::rail || h > 0.0, "a wheel's radius must be positive at all points");
+  }
+}
+
+}  // namespace
+
+NurbsNet fit_point_grid(const sampling::PointGrid& grid) {
+  check(grid);
+  const std::size_t nu = grid.u.size(), nv = grid.y.size();
+  std::vector<NurbsNet::Corner> corners(nu * nv);
+  for (std::size_t i = 0; i < nu; ++i)
+    for (std::size_t j = 0; j < nv; ++j) corners[grid.index(i, j)].p = grid.point(i, j);
+  std::vector<double> u = grid.u, v(nv, 0.0);
+  for (std::size_t j = 0; j + 1 < nv; ++j) {
+    double chords = 0.0;
+    for (std::size_t i = 0; i < nu; ++i)
+      chords += (corners[grid.index(i, j + 1)].p - corners[grid.index(i, j)].p).norm();
+    v[j + 1] = v[j] + chords / static_cast<double>(nu);
+  }
+
+  SplineSlopes along_u(u, grid.closed ? 2.0 * std::numbers::pi : 0.0), along_v(v, 0.0);
+  using Corner = NurbsNet::Corner;
+  const auto by_u = [&](Vec3 Corner::*from, Vec3 Corner::*to) {
+    for (std::size_t j = 0; j < nv; ++j)
+      for (int k = 0; k < 3; ++k)
+        along_u.solve(
+            [&](int i) { return (corners[grid.index(static_cast<std::size_t>(i), j)].*from)[k]; },
+            [&](int i, double slope) { (corners[grid.index(static_cast<std::size_t>(i), j)].*to)[k] = slope; });
+  };
+  for (std::size_t i = 0; i < nu; ++i)
+    for (int k = 0; k < 3; ++k)
+      along_v.solve([&](int j) { return corners[grid.index(i, static_cast<std::size_t>(j))].p[k]; },
+                    [&](int j, double slope) { corners[grid.index(i, static_cast<std::size_t>(j))].p_v[k] = slope; });
+  by_u(&Corner::p, &Corner::p_u);
+  by_u(&Corner::p_v, &Corner::p_uv);
+  if (grid.closed) u.push_back(u.front() + 2.0 * std::numbers::pi);
+  return NurbsNet(std::move(u), std::move(v), std::move(corners));
+}
+
+}  // namespace treadmark::spline

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/backends/spline/slices/slice_net.hpp"
+
+#include <limits>
+#include <string>
+#include <utility>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::spline {
+
+SliceNet::SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions)
+    : starts_(std::move(span_starts)),
+      closed_(closed),
+      positions_(positions),
+      stride_((static_cast<std::size_t>(positions) + 3) / 4 * 4 + 4) {
+  cubics_.assign(starts_.size() * 8 * stride_, std::numeric_limits<double>::quiet_NaN());
+  starts_.push_back(u_end);
+}
+
+NetSecond SliceNet::second_at(const Place& place, int cell, double f) const {
+  const double t = place.t, g = 1.0 - f;
+  const double basis[4] = {g * g * g / 6.0, 2.0 / 3.0 - f * f * (1.0 - 0.5 * f), 2.0 / 3.0 - g * g * (1.0 - 0.5 * g),
+                           f * f * f / 6.0};
+  const double basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
+  const double basis_vv[4] = {g, 3.0 * f - 2.0, 3.0 * g - 2.0, f};
+  NetSecond sum;
+  for (int k = 0; k < 4; ++k) {
+    const LineCubic c = line(place.span, cell + k);
+    const NetPair* p = c.power;
+    sum.by_uu = sum.by_uu + basis[k] * (2.0 * p[2] + (6.0 * t) * p[3]);
+    sum.by_uv = sum.by_uv + basis_v[k] * (p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]));
+    sum.by_vv = sum.by_vv + basis_vv[k] * (p[0] + t * (p[1] + t * (p[2] + t * p[3])));
+  }
+  return sum;
+}
+
+bool SliceNet::hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const {
+  y = w = Interval::none();
+  // The constant ends go on beyond their span.
+  u0 = std::clamp(u0, span_start(span), span_end(span));
+  const double h = std::clamp(u1, u0, span_end(span)) - u0, t = u0 - span_start(span);
+  // In v the B-spline hull is loose by the sag of the control polygon, so go over to Bezier points in both directions.
+  NetPair bezier_u[4][4];
+  for (int k = 0; k < 4; ++k) {
+    const LineCubic c = line(span, cell + k);
+    const NetPair* p = c.power;
+    const NetPair c0 = p[0] + t * (p[1] + t * (p[2] + t * p[3]));
+    const NetPair c1 = h * (p[1] + t * (2.0 * p[2] + (3.0 * t) * p[3]));
+    const NetPair c2 = (h * h) * (p[2] + (3.0 * t) * p[3]), c3 = (h * h * h) * p[3];
+    bezier_u[k][0] = c0;
+    bezier_u[k][1] = c0 + (1.0 / 3.0) * c1;
+    bezier_u[k][2] = c0 + (1.0 / 3.0) * (2.0 * c1 + c2);
+    bezier_u[k][3] = c0 + c1 + c2 + c3;
+  }
+  for (int i = 0; i < 4; ++i) {
+    const NetPair c[4] = {bezier_u[0][i], bezier_u[1][i], bezier_u[2][i], bezier_u[3][i]};
+    const NetPair points[4] = {(1.0 / 6.0) * (c[0] + 4.0 * c[1] + c[2]), (1.0 / 3.0) * (2.0 * c[1] + c[2]),
+                               (1.0 / 3.0) * (c[1] + 2.0 * c[2]), (1.0 / 6.0) * (c[1] + 4.0 * c[2] + c[3])};
+    for (const NetPair& point : points) {
+      if (!(point.y == point.y) || !(point.w == point.w)) return false;
+      y.include({point.y, point.y});
+      w.include({point.w, point.w});
+    }
+  }
+  return true;
+}
+
+std::vector<SliceSet> split_at_kinks(const SliceSet& slices) {
+  if (slices.kinks.empty()) return {slices};
+  const int last = slices.features.empty() ? 0 : static_cast<int>(slices.features.front().size()) - 1;
+  std::vector<SliceSet> parts;
+  int from = 0;
+  const auto add_until = [&](int to) {
+    SliceSet part = slices;
+    part.kinks.clear();
+    for (auto& row : part.features) {
+      if (static_cast<int>(row.size()) != last + 1)
+        throw Error(ErrorKind::input_data, "the slices of '" + slices.name + "' have different numbers of features");
+      row = {row.begin() + from, row.begin() + to + 1};
+    }
+    parts.push_back(std::move(part));
+    from = to;
+  };
+  for (const int kink : slices.kinks) {
+    if (kink <= from || kink >= last)
+      throw Error(ErrorKind::input_data, "the kinks of '" + slices.name + "' must be increasing inner features, " +
+                                             std::to_string(kink) + " is not");
+    add_until(kink);
+  }
+  add_until(last);
+  return parts;
+}
+
+}  // namespace treadmark::spline

@@ -1,0 +1,172 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <numbers>
+#include <vector>
+
+#include "treadmark/backends/spline/interval.hpp"
+#include "treadmark/backends/spline/slices/slice_kernels.hpp"
+#include "treadmark/model/profile.hpp"
+#include "treadmark/model/slices.hpp"
+
+namespace treadmark::spline {
+
+/// The two fields of a half-parametric surface: y and z (rail) or y and dr (wheel) [m].
+struct NetPair {
+  double y = 0.0, w = 0.0;
+
+  friend NetPair operator+(const NetPair& a, const NetPair& b) { return {a.y + b.y, a.w + b.w}; }
+  friend NetPair operator-(const NetPair& a, const NetPair& b) { return {a.y - b.y, a.w - b.w}; }
+  friend NetPair operator*(double f, const NetPair& a) { return {f * a.y, f * a.w}; }
+};
+
+/// Fields with their derivatives; u in its own unit, v in cells.
+struct NetValue {
+  NetPair value, by_u, by_v;
+};
+struct NetSecond {
+  NetPair by_uu, by_uv, by_vv;
+};
+
+/// A tensor B-spline surface (y, w)(u, v) with uniform knots in v, stored for evaluation: on every u-span each v-line
+/// of coefficients is a cubic in t = u - start of span; equal numbers of successive lines lie side by side. v runs from
+/// 1 to positions(); cell k holds v in [k + 1, k + 2]. Where a line is missing its numbers are NaN, and so are results
+/// that need it. Immutable after building.
+class SliceNet {
+ public:
+  /// One coefficient line on one u-span: powers of t.
+  struct LineCubic {
+    NetPair power[4];
+  };
+
+  /// span_starts: start of each u-span; the last span ends at u_end. closed: u is an angle, taken into
+  /// [u_end - 2 pi, u_end) first. Otherwise the first and last span go on for ever.
+  SliceNet(std::vector<double> span_starts, double u_end, bool closed, int positions);
+
+  int spans() const { return static_cast<int>(starts_.size()) - 1; }
+  int lines() const { return positions_ + 2; }
+  int positions() const { return positions_; }
+  int cells() const { return positions_ - 1; }
+  bool closed() const { return closed_; }
+  double span_start(int span) const { return starts_[static_cast<std::size_t>(span)]; }
+  double span_end(int span) const { return starts_[static_cast<std::size_t>(span) + 1]; }
+  std::size_t memory_bytes() const { return (cubics_.size() + starts_.size()) * sizeof(double); }
+
+  LineCubic line(int span, int line) const {
+    const double* p = numbers(span, line);
+    LineCubic cubic;
+    for (std::size_t m = 0; m < 4; ++m) cubic.power[m] = {p[2 * m * stride_], p[(2 * m + 1) * stride_]};
+    return cubic;
+  }
+  void set_line(int span, int line, const LineCubic& cubic) {
+    double* p = cubics_.data() + index(span, line);
+    for (std::size_t m = 0; m < 4; ++m)
+      p[2 * m * stride_] = cubic.power[m].y, p[(2 * m + 1) * stride_] = cubic.power[m].w;
+  }
+  NetArrays arrays() const {
+    return {cubics_.data(), starts_.data(), static_cast<long>(8 * stride_), static_cast<long>(stride_), spans()};
+  }
+
+  /// Span and offset for u; hint: the span of a near point.
+  struct Place {
+    int span;
+    double t;
+  };
+  Place find(double u, int hint = 0) const;
+
+  /// At the break v = k + 1, 0 <= k < positions().
+  NetValue at_break(const Place& place, int k) const;
+  /// At v = cell + 1 + f, 0 <= f <= 1.
+  NetValue at(const Place& place, int cell, double f) const;
+  NetSecond second_at(const Place& place, int cell, double f) const;
+
+  /// Ranges of y and w over a cell for u0 <= u <= u1 within one span, from control points; false if there is no
+  /// surface.
+  bool hull(int span, int cell, double u0, double u1, Interval& y, Interval& w) const;
+
+ private:
+  std::size_t index(int span, int line) const {
+    return static_cast<std::size_t>(span) * 8 * stride_ + static_cast<std::size_t>(line);
+  }
+  const double* numbers(int span, int line) const { return cubics_.data() + index(span, line); }
+
+  std::vector<double> starts_;  // of the spans, and the end of the last
+  bool closed_;
+  int positions_;
+  std::size_t stride_;  // from a power to the next: lines and NaN up to where four breaks at a time may read
+  std::vector<double> cubics_;
+};
+
+// Both fields at once in one register (GCC and clang).
+namespace detail {
+typedef double Pair __attribute__((vector_size(16)));
+
+inline Pair both(double x) { return Pair{x, x}; }
+inline NetPair store(const Pair& p) { return {p[0], p[1]}; }
+}  // namespace detail
+
+inline SliceNet::Place SliceNet::find(double u, int hint) const {
+  constexpr double kTurn = 2.0 * std::numbers::pi;
+  const double u_end = starts_.back();
+  if (closed_ && !(u >= u_end - kTurn && u < u_end)) u -= kTurn * std::floor((u - u_end) / kTurn + 1.0);
+  int span = hint;
+  for (int step = 0; step < 4; ++step) {
+    if (u < starts_[static_cast<std::size_t>(span)] && span > 0)
+      --span;
+    else if (span + 1 < spans() && u >= starts_[static_cast<std::size_t>(span) + 1])
+      ++span;
+    else
+      return {span, u - starts_[static_cast<std::size_t>(span)]};
+  }
+  const auto first = starts_.begin() + 1;
+  span = static_cast<int>(std::upper_bound(first, starts_.end() - 1, u) - first);
+  return {span, u - starts_[static_cast<std::size_t>(span)]};
+}
+
+inline NetValue SliceNet::at_break(const Place& place, int k) const {
+  using detail::Pair;
+  const double* c = numbers(place.span, k);
+  const Pair t = detail::both(place.t);
+  // Powers of t at the break first, then one polynomial instead of three.
+  Pair power[4], change[4];
+  for (std::size_t m = 0; m < 4; ++m) {
+    const double *y = c + 2 * m * stride_, *w = y + stride_;
+    const Pair left{y[0], w[0]}, middle{y[1], w[1]}, right{y[2], w[2]};
+    power[m] = detail::both(1.0 / 6.0) * (left + right) + detail::both(2.0 / 3.0) * middle;
+    change[m] = right - left;
+  }
+  return {detail::store(power[0] + t * (power[1] + t * (power[2] + t * power[3]))),
+          detail::store(power[1] + t * (detail::both(2.0) * power[2] + t * (detail::both(3.0) * power[3]))),
+          detail::store(detail::both(0.5) * (change[0] + t * (change[1] + t * (change[2] + t * change[3]))))};
+}
+
+inline NetValue SliceNet::at(const Place& place, int cell, double f) const {
+  using detail::Pair;
+  const double* c = numbers(place.span, cell);
+  const double g = 1.0 - f;
+  const double basis[4] = {g * g * g * (1.0 / 6.0), 2.0 / 3.0 - f * f * (1.0 - 0.5 * f),
+                           2.0 / 3.0 - g * g * (1.0 - 0.5 * g), f * f * f * (1.0 / 6.0)};
+  const double basis_v[4] = {-0.5 * g * g, f * (1.5 * f - 2.0), g * (2.0 - 1.5 * g), 0.5 * f * f};
+  const Pair t = detail::both(place.t), two = detail::both(2.0), t3 = detail::both(3.0 * place.t);
+  Pair value{}, by_u{}, by_v{};
+  for (std::size_t k = 0; k < 4; ++k) {
+    const auto power = [&](std::size_t m) { return Pair{c[2 * m * stride_ + k], c[(2 * m + 1) * stride_ + k]}; };
+    const Pair p1 = power(1), p2 = power(2), p3 = power(3);
+    const Pair at_t = power(0) + t * (p1 + t * (p2 + t * p3));
+    value += detail::both(basis[k]) * at_t;
+    by_v += detail::both(basis_v[k]) * at_t;
+    by_u += detail::both(basis[k]) * (p1 + t * (two * p2 + t3 * p3));
+  }
+  return {detail::store(value), detail::store(by_u), detail::store(by_v)};
+}
+
+/// Slices cut along their kinks: each part of the sections is a surface of its own, so that it may turn sharply where
+/// the next one begins; both have the same edge. Without kinks the slices themselves. Errors: Error(input_data) for a
+/// kink that is not an inner feature, or kinks that do not increase.
+std::vector<SliceSet> split_at_kinks(const SliceSet& slices);
+
+}  // namespace treadmark::spline

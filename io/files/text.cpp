@@ -1,0 +1,113 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/files/text.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <fstream>
+#include <system_error>
+
+namespace treadmark::io::profiles {
+
+namespace fs = std::filesystem;
+
+fs::path portable_path(std::string name) {
+  std::replace(name.begin(), name.end(), '\\', '/');
+  return name;
+}
+
+std::string read_text(const fs::path& file, const std::string& what, const SourcePosition& referenced_from) {
+  const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
+  const auto refuse = [&](const std::string& why, const std::string& advice) {
+    std::string name = file.string();
+    for (char& c : name)
+      if (static_cast<unsigned char>(c) < ' ' || c == '\x7f') c = '?';
+    throw Error(ErrorKind::input_data, fmt::format("the {} file '{}' {}", what, name, why), where, advice);
+  };
+
+  std::error_code code;
+  fs::path actual = file;
+  if (!fs::exists(actual, code)) actual = portable_path(file.string());
+  const fs::file_status status = fs::status(actual, code);
+  if (status.type() == fs::file_type::not_found)
+    refuse("does not exist", "names are relative to the folder of the file that mentions them");
+  if (status.type() == fs::file_type::none) refuse("cannot be looked up: " + code.message(), "check its name");
+  if (!fs::is_regular_file(status)) refuse("is not a regular file", "name a text file");
+  const std::uintmax_t size = fs::file_size(actual, code);
+  if (code) refuse("cannot be read: " + code.message(), "check its permissions");
+  if (size > kMaxBytes) refuse("is larger than 1 GB", "thin out the points");
+
+  std::ifstream stream(actual, std::ios::binary);
+  if (!stream) refuse("cannot be opened", "check its permissions");
+  std::string text(static_cast<std::size_t>(size), '\0');
+  stream.read(text.data(), static_cast<std::streamsize>(size));
+  if (stream.bad()) refuse("cannot be read to its end", "check the disk");
+  text.resize(static_cast<std::size_t>(stream.gcount()));
+  return text;
+}
+
+}  // namespace treadmark::io::profiles
+
+namespace treadmark::io {
+
+std::size_t utf8_length(std::string_view text) {
+  const auto byte = [&](std::size_t i) { return static_cast<unsigned char>(text[i]); };
+  const unsigned first = byte(0);
+  if (first < 0x80) return 1;
+  const std::size_t length = first >= 0xF0 ? 4 : first >= 0xE0 ? 3 : 2;
+  if (first < 0xC2 || first > 0xF4 || text.size() < length) return 0;
+  unsigned code = first & (0x7Fu >> length);
+  for (std::size_t i = 1; i < length; ++i) {
+    if ((byte(i) & 0xC0u) != 0x80u) return 0;
+    code = code << 6 | (byte(i) & 0x3Fu);
+  }
+  const unsigned least = length == 4 ? 0x10000u : length == 3 ? 0x800u : 0x80u;  // no longer than needed
+  const bool surrogate = code >= 0xD800u && code < 0xE000u;
+  return code < least || code > 0x10FFFFu || surrogate ? 0 : length;
+}
+
+double twelve_digits(double value) {
+  char text[32];
+  const int length = std::snprintf(text, sizeof text, "%.12g", value);
+  double rounded = value;
+  std::from_chars(text, text + length, rounded);
+  return rounded;
+}
+
+std::string to_base64(std::span<const std::byte> bytes) {
+  static constexpr char kDigits[] = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
+  std::string text;
+  text.reserve((bytes.size() + 2) / 3 * 4);
+  for (std::size_t i = 0; i < bytes.size(); i += 3) {
+    const std::size_t count = std::min<std::size_t>(3, bytes.size() - i);
+    std::uint32_t group = 0;
+    for (std::size_t k = 0; k < 3; ++k)
+      group = group << 8 | (k < count ? std::to_integer<std::uint32_t>(bytes[i + k]) : 0u);
+    for (std::size_t k = 0; k < 4; ++k) text += k <= count ? kDigits[group >> (18 - 6 * k) & 63u] : '=';
+  }
+  return text;
+}
+
+std::string csv_cell(const std::string& text) {
+  if (text.find_first_of(",\"\r\n") == std::string::npos) return text;
+  std::string out = "\"";
+  for (const char c : text) {
+    if (c == '"') out += '"';
+    out += c;
+  }
+  return out + '"';
+}
+
+std::string csv_number(double value) { return std::isnan(value) ? "nan" : fmt::format("{}", value); }
+
+}  // namespace treadmark::io

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <span>
+#include <string>
+#include <string_view>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::io::profiles {
+
+/// Files beyond this size are refused before anything is allocated.
+inline constexpr std::uintmax_t kMaxBytes = 1'000'000'000;
+
+/// A path as it stands in a file, with '\' taken as '/' too.
+std::filesystem::path portable_path(std::string name);
+
+/// The whole content of a regular file. `what` names its role in messages ("profile", "slices").
+/// Throws Error(input_data) placed at referenced_from, or at the file itself where that is unknown.
+std::string read_text(const std::filesystem::path& file, const std::string& what,
+                      const SourcePosition& referenced_from);
+
+}  // namespace treadmark::io::profiles
+
+namespace treadmark::io {
+
+/// Bytes of the UTF-8 character (RFC 3629) at the start of a text that is not empty; 0 where there is none.
+std::size_t utf8_length(std::string_view text);
+
+/// A finite number rounded to 12 significant digits, as JSON files hold it: changes of unit leave no tail of nines.
+/// Thread-safe.
+double twelve_digits(double value);
+
+/// Base64 text (RFC 4648) of some bytes, padded with '='.
+std::string to_base64(std::span<const std::byte> bytes);
+
+/// A text as a cell of a table with commas (RFC 4180): in quotes where it needs them. Thread-safe.
+std::string csv_cell(const std::string& text);
+
+/// The shortest number that reads back exactly, "nan", "inf" or "-inf". Thread-safe.
+std::string csv_number(double value);
+
+}  // namespace treadmark::io
