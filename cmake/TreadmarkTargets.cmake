@@ -74,13 +74,19 @@ function(treadmark_avx2_flags)
   endforeach()
 endfunction()
 
-# treadmark_library(<folder> [LIGHT] [PUBLIC targets...] [PRIVATE targets...])
-# A static library treadmark::<folder with _> from the .cpp files directly in the current folder. LIGHT: see above.
+# treadmark_library(<folder> [LIGHT] [ROOMS folders...] [PUBLIC targets...] [PRIVATE targets...])
+# A static library treadmark::<folder with _> from the .cpp files in the current folder itself and in those of its folders that
+# ROOMS names. LIGHT: see above.
 function(treadmark_library folder)
-  cmake_parse_arguments(ARG "LIGHT" "" "PUBLIC;PRIVATE" ${ARGN})
+  cmake_parse_arguments(ARG "LIGHT" "" "ROOMS;PUBLIC;PRIVATE" ${ARGN})
   string(REPLACE "/" "_" name "${folder}")
-  file(GLOB sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.cpp")
-  file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/*.hpp")
+  set(sources "")
+  foreach(room IN ITEMS "" LISTS ARG_ROOMS)
+    file(GLOB room_sources CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${room}/*.cpp")
+    file(GLOB headers CONFIGURE_DEPENDS "${CMAKE_CURRENT_SOURCE_DIR}/${room}/*.hpp")
+    list(APPEND sources ${room_sources})
+    install(FILES ${headers} DESTINATION include/treadmark/${folder}/${room})
+  endforeach()
   treadmark_avx2_flags(${sources})
   add_library(treadmark_${name} STATIC ${sources})
   add_library(treadmark::${name} ALIAS treadmark_${name})
@@ -96,7 +102,6 @@ function(treadmark_library folder)
   endif()
   treadmark_share_parsing(treadmark_${name} 8 ${how})
   set_property(GLOBAL APPEND PROPERTY TREADMARK_LIBRARIES treadmark_${name})
-  install(FILES ${headers} DESTINATION include/treadmark/${folder})
 endfunction()
 
 # For tests that join strings: at -O1 GCC 12 sees bounds in std::string that are not there.

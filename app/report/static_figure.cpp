@@ -17,7 +17,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/pictures/chart_draw.hpp"
-#include "treadmark/pictures/history_svg.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/outline.hpp"
 #include "treadmark/pictures/picture_patch.hpp"
 #include "treadmark/pictures/picture_svg.hpp"

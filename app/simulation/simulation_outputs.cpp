@@ -13,7 +13,7 @@
 #include "treadmark/core/pose.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/pictures/history_svg.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/picture_svg.hpp"
 
 namespace treadmark::app {

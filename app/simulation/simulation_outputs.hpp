@@ -7,7 +7,7 @@
 #include <vector>
 
 #include "treadmark/app/simulation/run_simulation.hpp"
-#include "treadmark/pictures/patches_svg.hpp"
+#include "treadmark/pictures/histories/patches_svg.hpp"
 
 namespace treadmark::app {
 

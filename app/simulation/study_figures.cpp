@@ -10,8 +10,8 @@
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
-#include "treadmark/pictures/history_svg.hpp"
-#include "treadmark/pictures/summary_svg.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
+#include "treadmark/pictures/histories/summary_svg.hpp"
 
 namespace treadmark::app {
 namespace {

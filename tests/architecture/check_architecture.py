@@ -17,16 +17,17 @@ ALLOWED = {
     "core": ["core"],
     "model": ["core", "model"],
     "io": ["core", "model", "io"],
+    "pictures": ["core", "model", "io", "pictures"],
     "backends": ["core", "model", "backends"],
     "scans": ["core", "model", "scans"],
     "detection": ["core", "model", "detection"],
     "solvers/kalker": ["core", "model", "solvers/kalker"],
     "solvers/wheelrail": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail"],
     "solvers/vehicle": ["core", "model", "detection", "solvers/kalker", "solvers/wheelrail", "solvers/vehicle"],
-    "app": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app"],
-    "examples": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app"],
-    "bench": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app", "bench"],
-    "tests": ["core", "model", "io", "backends", "scans", "detection", "solvers", "app", "tests"],
+    "app": ["core", "model", "io", "pictures", "backends", "scans", "detection", "solvers", "app"],
+    "examples": ["core", "model", "io", "pictures", "backends", "scans", "detection", "solvers", "app"],
+    "bench": ["core", "model", "io", "pictures", "backends", "scans", "detection", "solvers", "app", "bench"],
+    "tests": ["core", "model", "io", "pictures", "backends", "scans", "detection", "solvers", "app", "tests"],
 }
 
 # Headers that cost compile time or bind to a version: in one .cpp of the whole library ("all") or of each folder, or in any

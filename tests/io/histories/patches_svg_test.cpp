@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/pictures/patches_svg.hpp"
+#include "treadmark/pictures/histories/patches_svg.hpp"
 
 #include <gtest/gtest.h>
 

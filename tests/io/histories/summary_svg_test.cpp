@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/pictures/summary_svg.hpp"
+#include "treadmark/pictures/histories/summary_svg.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/pictures/history_svg.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
 
 #include <fmt/format.h>
 

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/pictures/summary_svg.hpp"
+#include "treadmark/pictures/histories/summary_svg.hpp"
 
 #include <fmt/format.h>
 
@@ -11,7 +11,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/pictures/history_svg.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/svg_text.hpp"
 
 namespace treadmark::io {
