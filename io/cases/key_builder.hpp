@@ -16,7 +16,7 @@ template <class Content, class Id, std::size_t count>
 std::vector<std::pair<std::string, Id>> words_of(const Theory<Id> (&table)[count]) {
   std::vector<std::pair<std::string, Id>> words;
   for (const Theory<Id>& row : table)
-    if (scope_of<Content>() != KeyScope::wheel_rail || !row.limits.patch_only) words.emplace_back(row.word, row.id);
+    if (scope_of<Content, Case>() != KeyScope::wheel_rail || !row.limits.patch_only) words.emplace_back(row.word, row.id);
   return words;
 }
 

@@ -18,7 +18,7 @@ io::CaseFile wheel_flat_example(const std::vector<double>& pitch_deg) {
   std::vector<io::Case> chosen;
   for (const double pitch : pitch_deg) {
     const auto found = std::ranges::find_if(file.cases, [&](io::Case& c) {
-      return std::fabs(wheel_rail(c).wheelset.pitch * 180.0 / std::numbers::pi - pitch) < 1e-9;
+      return std::fabs(wheel_rail(c).state.position.pitch * 180.0 / std::numbers::pi - pitch) < 1e-9;
     });
     if (found == file.cases.end()) throw std::logic_error("examples/wheel-flat.toml has no such pitch angle");
     chosen.push_back(*found);
