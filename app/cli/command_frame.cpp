@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/cli/command_frame.hpp"
 
 #include <fmt/format.h>
 #include <unistd.h>

@@ -6,20 +6,9 @@ namespace treadmark::cli {
 namespace {
 
 constexpr Verb kVerbs[] = {
-    {"run", "Solve the contact problems of one or more case files", add_run},
-    {"compare", "Solve the same cases through several surface representations", add_compare},
-    {"bench", "Cost of heights and contact search in every backend, agreement checked first", add_bench},
-    {"convert", "Write a wheel or rail as triangles, slices or offsets", add_convert},
-    {"import", "From a raw scan to a surface: units, placement, cleaning, fit, with an audit", add_import},
-    {"scan", "Scan a wheel or rail virtually: points with the faults of a laser scanner, and the truth about them",
-     add_scan},
-    {"simulate", "A vehicle on its track in time, with contact at its wheels", add_simulate},
-    {"sweep", "Runs of a simulation or case with varied keys, on all cores; goes on where it was stopped", add_sweep},
-    {"report", "One HTML file of a result folder, to be opened in any browser, offline", add_report},
-    {"plot", "One picture (SVG) of a result folder", add_plot},
-    {"check", "Read and validate case files and their geometry without solving", add_check},
-    {"list", "List what this build offers", add_list},
-    {"schema", "Print the JSON schema of Treadmark's case files", add_schema},
+#define VERB(name, summary) {#name, summary, add_##name},
+#include "treadmark/app/cli/verbs.def"
+#undef VERB
 };
 
 }  // namespace

@@ -33,19 +33,8 @@ struct Verb {
 /// All verbs, in the order in which they are listed.
 std::span<const Verb> verbs();
 
-// Each in <verb>_command.cpp.
-Command add_run(CLI::App& verb);
-Command add_compare(CLI::App& verb);
-Command add_bench(CLI::App& verb);
-Command add_convert(CLI::App& verb);
-Command add_import(CLI::App& verb);
-Command add_scan(CLI::App& verb);
-Command add_simulate(CLI::App& verb);
-Command add_sweep(CLI::App& verb);
-Command add_report(CLI::App& verb);
-Command add_plot(CLI::App& verb);
-Command add_check(CLI::App& verb);
-Command add_list(CLI::App& verb);
-Command add_schema(CLI::App& verb);
+#define VERB(name, summary) Command add_##name(CLI::App& verb);
+#include "treadmark/app/cli/verbs.def"
+#undef VERB
 
 }  // namespace treadmark::cli
