@@ -51,24 +51,27 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
 
 }  // namespace
 
-void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
+std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
   prepare(folder, "result.json");
-  io::write_hdf5(folder / "fields.h5", result);
+  auto notes = write_if_hdf5("fields.h5", [&] { io::write_hdf5(folder / "fields.h5", result); });
   io::write_vtk(folder / "vtk", result);
   io::write_pressure_svg(folder / "pressure.svg", result);
   write_text_tables(folder, result);
   io::write_json(folder / "result.json", result);
+  return notes;
 }
 
-void write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison) {
+std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder,
+                                                 const io::Comparison& comparison) {
   prepare(folder, "compare.json");
   io::write_pressures_svg(folder / "pressures.svg", comparison);
   io::write_error_svg(folder / "errors.svg", comparison);
   io::write_cost_svg(folder / "costs.svg", comparison);
-  io::write_comparison_fields(folder / "fields.h5", comparison);
+  auto notes = write_if_hdf5("fields.h5", [&] { io::write_comparison_fields(folder / "fields.h5", comparison); });
   io::write_text_file(folder / "table.txt", io::comparison_table(comparison));
   io::write_csv(folder / "compare.csv", comparison);
   io::write_json(folder / "compare.json", comparison);
+  return notes;
 }
 
 }  // namespace treadmark::cli
