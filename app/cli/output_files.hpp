@@ -6,19 +6,10 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/core/parts.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::cli {
-
-/// Writes a file of a folder as HDF5, or says in a note that this build leaves it out.
-template <class Write>
-std::vector<std::string> write_if_hdf5(const char* file, Write write) {
-  if (!has_part("hdf5")) return {left_out_message("hdf5", file) + ": " + left_out_advice("hdf5")};
-  write();
-  return {};
-}
 
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
 /// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.
