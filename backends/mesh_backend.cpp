@@ -43,7 +43,9 @@ Backend mesh_row(std::string name, std::string summary, double order, mesh::Refi
     r.add_note(words(repair));
     return surface;
   };
-  return {name, std::move(summary), order, false, resample};
+  Backend row{name, std::move(summary), order, false, resample};
+  row.part = "embree";
+  return row;
 }
 
 }  // namespace

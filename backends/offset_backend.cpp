@@ -65,7 +65,9 @@ std::shared_ptr<const Surface> as_offset(Resampling& r, offset::Interpolation in
 
 Backend offset_row(std::string name, std::string how, double order, offset::Interpolation interpolation) {
   const auto resample = [interpolation, name](Resampling& r) { return as_offset(r, interpolation, name); };
-  return {name, "base plus sparse offsets, interpolated " + how, order, true, resample};
+  Backend row{name, "base plus sparse offsets, interpolated " + how, order, true, resample};
+  row.part = "openvdb";
+  return row;
 }
 
 }  // namespace

@@ -12,6 +12,7 @@
 
 #include "treadmark/backends/builtin.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/model/backend_name.hpp"
 
 namespace treadmark {
@@ -19,6 +20,13 @@ namespace {
 
 [[noreturn]] void refuse_backend(const Backend& backend, std::string_view why, std::string advice) {
   throw Error(ErrorKind::configuration, fmt::format("the backend '{}' {}", backend.name, why), {}, std::move(advice));
+}
+
+bool is_built(const Backend& backend) { return backend.part.empty() || has_part(backend.part); }
+
+const Backend& require_built(const Backend& backend) {
+  if (!is_built(backend)) left_out(backend.part, fmt::format("the backend '{}'", backend.name));
+  return backend;
 }
 
 class Registry {
@@ -42,10 +50,17 @@ class Registry {
     rows_.push_back(std::make_unique<const Backend>(std::move(backend)));
   }
 
+  /// With those that this build leaves out.
   std::vector<const Backend*> all() const {
     const std::shared_lock lock(mutex_);
     std::vector<const Backend*> out;
     for (const auto& row : rows_) out.push_back(row.get());
+    return out;
+  }
+
+  std::vector<const Backend*> those(bool built) const {
+    std::vector<const Backend*> out = all();
+    std::erase_if(out, [built](const Backend* row) { return is_built(*row) != built; });
     return out;
   }
 
@@ -64,20 +79,21 @@ class Registry {
 
 void register_backend(Backend backend) { Registry::the().add(std::move(backend)); }
 
-std::vector<const Backend*> backends() { return Registry::the().all(); }
+std::vector<const Backend*> backends() { return Registry::the().those(true); }
+std::vector<const Backend*> left_out_backends() { return Registry::the().those(false); }
 
 const Backend& backend_of(std::string_view name) {
-  const auto all = backends();
+  const auto all = Registry::the().all();
   const auto found = std::ranges::find(all, name, &Backend::name);
   if (found == all.end())
     throw Error(ErrorKind::configuration, fmt::format("unknown backend '{}'", name), {},
                 fmt::format("available: {}", fmt::join(backend_names(), ", ")));
-  return **found;
+  return require_built(**found);
 }
 
 const Backend& natural_backend(const SurfaceSpec& spec) {
-  for (const Backend* backend : backends())
-    if (backend->natural_for && backend->natural_for(spec)) return *backend;
+  for (const Backend* backend : Registry::the().all())
+    if (backend->natural_for && backend->natural_for(spec)) return require_built(*backend);
   throw Error(ErrorKind::configuration, "no backend takes shapes of this kind as they are");
 }
 

@@ -31,6 +31,9 @@ struct Backend {
   /// repairs are added to the note. Both or neither. Of several backends that say yes the first one registered counts.
   std::function<bool(const SurfaceSpec&)> natural_for{};
   std::function<std::shared_ptr<const Surface>(const SurfaceSpec&, std::string& note)> make_natural{};
+
+  std::string
+      part{};  ///< of parts() (core/parts.hpp) that it needs; a build without that refuses it by name. Empty: none
 };
 
 /// Adds a representation; from then on it is a choice wherever names of backends are read, and last in every list.
@@ -41,11 +44,14 @@ void register_backend(Backend backend);
 
 /// All of them: the built-in ones, then those added, in their order. The rows live as long as the program.
 std::vector<const Backend*> backends();
+/// Those that this build leaves out.
+std::vector<const Backend*> left_out_backends();
 
-/// Errors: Error(configuration) that lists the representations if the name is none of them.
+/// Errors: Error(configuration) that lists the representations if the name is none of them, or says how one that this
+/// build leaves out is put in.
 const Backend& backend_of(std::string_view name);
 
-/// The one that shapes like this are given in. Errors: Error(configuration) if there is none.
+/// The one that shapes like this are given in. Errors: Error(configuration) if there is none, or it is left out.
 const Backend& natural_backend(const SurfaceSpec& spec);
 
 /// A surface without samples. Errors: those of natural_backend and of the backend.

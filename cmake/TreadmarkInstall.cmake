@@ -15,6 +15,11 @@ set(package_folder "${CMAKE_INSTALL_LIBDIR}/cmake/Treadmark")
 install(TARGETS ${libraries} treadmark_umbrella EXPORT TreadmarkTargets ARCHIVE DESTINATION ${CMAKE_INSTALL_LIBDIR})
 install(EXPORT TreadmarkTargets NAMESPACE treadmark:: DESTINATION ${package_folder})
 
+set(TREADMARK_PARTS_IN_CONFIG "")
+foreach(part IN LISTS TREADMARK_PARTS)
+  string(TOUPPER "${part}" part)
+  string(APPEND TREADMARK_PARTS_IN_CONFIG "set(Treadmark_HAVE_${part} ${TREADMARK_HAVE_${part}})\n")
+endforeach()
 configure_package_config_file("${CMAKE_CURRENT_LIST_DIR}/TreadmarkConfig.cmake.in"
   "${PROJECT_BINARY_DIR}/TreadmarkConfig.cmake" INSTALL_DESTINATION ${package_folder})
 write_basic_package_version_file("${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.cmake" COMPATIBILITY SameMinorVersion)

@@ -1,9 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
+include(TreadmarkParts)
 option(TREADMARK_BUILD_TESTS "Build the tests" ${PROJECT_IS_TOP_LEVEL})
 option(TREADMARK_BUILD_BENCH "Build the benchmarks" ${TREADMARK_BUILD_TESTS})
-option(TREADMARK_WITH_FFTW "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)" ON)
-option(TREADMARK_WITH_CGAL "Use CGAL (GPL) for stray points, triangulations and free meshes of scans" ON)
-option(TREADMARK_REPORT_SCRIPTS "Bundle the scripts that make HTML reports live (needs Node.js, npm and a network once)" ON)
 option(TREADMARK_SHARED_PARSING "Compile several sources at a time after precompiled headers" ON)
 option(TREADMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(TREADMARK_SANITIZE "" CACHE STRING "Sanitizers for every target, for example address,undefined")

@@ -7,7 +7,8 @@
 
 namespace treadmark {
 
-/// Limits the one thread pool of the process (oneTBB) while it lives. threads <= 0: all cores.
+/// Limits the one thread pool of the process (oneTBB; a build without it has one thread) while it lives. threads <= 0:
+/// all cores.
 class ThreadLimit {
  public:
   explicit ThreadLimit(int threads);

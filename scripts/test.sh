@@ -1,7 +1,7 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Builds everything with warnings as errors and runs all tests. Exit status 0 when all passed.
+# Builds everything with warnings as errors and runs all tests, then the smallest build and some of its tests. Exit status 0 when all passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -10,3 +10,8 @@ bash scripts/install-packages.sh --tests
 cmake --preset release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
 cmake --build --preset release
 ctest --preset release -j2
+
+# The smallest build, which leaves out all that may be left out: its program, what it says of the rest, and the example of the README.
+cmake --preset smallest -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
+cmake --build --preset smallest --target treadmark_cli core_tests left_out_tests example_first_contact
+ctest --preset smallest -j2 -R '^(Parts|ParallelFor|ThreadLimit|LeftOut|Readme)\.'

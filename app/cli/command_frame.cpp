@@ -6,12 +6,14 @@
 #include <fmt/format.h>
 #include <unistd.h>
 
+#include <algorithm>
 #include <csignal>
 #include <cstdio>
 #include <iostream>
 
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
@@ -29,7 +31,17 @@ void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
 }
 
 void add_report_file(CLI::App& verb, std::string& file) {
-  verb.add_option("--report", file, "Write a report here that opens in any browser, offline")->type_name("FILE.html");
+  verb.add_option("--report", file, "Write a report here that opens in any browser, offline")
+      ->type_name("FILE.html")
+      ->each([](const std::string&) { require_part("report", "--report"); });
+}
+
+Command add_left_out(CLI::App& verb) {
+  verb.description(verb.get_description() + " (left out of this build)");
+  verb.allow_extras();
+  verb.fallthrough(false);
+  const auto row = std::ranges::find(verbs(), verb.get_name(), [](const Verb& v) { return std::string(v.name); });
+  return [row](const CommonOptions&) -> int { left_out(row->part, std::string("treadmark ") + row->name); };
 }
 
 void print_notes(const std::vector<std::string>& notes, bool quiet) {

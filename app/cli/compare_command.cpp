@@ -82,7 +82,7 @@ int compare_command(const CompareOptions& options, const CommonOptions& common) 
   io::Comparison& result = *compared;
   result.settings = echo(options);
   print_notes(file.notes, common.quiet);
-  if (!options.output_folder.empty()) write_comparison_folder(options.output_folder, result);
+  if (!options.output_folder.empty()) print_notes(write_comparison_folder(options.output_folder, result), common.quiet);
   write_report_file(options.report_file, [&] { return app::report::compare_page(compared, io::to_json(result)); });
   const auto json = [&] { return io::to_json(result); };
   print_results(options.json_file, json, [&] { return io::comparison_table(result); });

@@ -7,6 +7,7 @@
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
@@ -44,9 +45,12 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
       with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
   if (!options.report_folder.empty()) {
     io::write_import_report(options.report_folder, report);
-    write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
-      return app::report::import_page(report, io::import_json(report, false), options.report_folder);
-    });
+    for (const auto& [part, file] : {std::pair{"hdf5", "maps.h5"}, std::pair{"report", "report.html"}})
+      if (!has_part(part)) print_notes({left_out_message(part, file) + ": " + left_out_advice(part)}, common.quiet);
+    if (has_part("report"))
+      write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
+        return app::report::import_page(report, io::import_json(report, false), options.report_folder);
+      });
   }
   const auto json = [&] { return io::import_json(report, true); };
   write_json_file(options.json_file, json);
@@ -56,6 +60,8 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
 }
 
 }  // namespace
+
+std::string import_schema() { return io::import_settings_schema(); }
 
 Command add_import(CLI::App& verb) {
   auto options = std::make_shared<ImportOptions>();

@@ -4,22 +4,33 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/backends/create.hpp"
+#include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::cli {
 
 namespace {
 
+void print_left_out(std::string_view name, std::string_view part) {
+  std::cout << name << " - left out of this build: " << left_out_advice(part) << '\n';
+}
+
 int list_command(const std::string& what) {
   if (what == "backends") {
     for (const auto name : backend_names()) std::cout << name << '\n';
+    for (const Backend* backend : left_out_backends()) print_left_out(backend->name, backend->part);
   } else if (what == "profiles") {
     for (const auto name : standard_profile_names()) std::cout << name << '\n';
   } else if (what == "solvers") {
     std::cout << theory_list();
   } else if (what == "verbs") {
-    for (const Verb& verb : verbs()) std::cout << verb.name << '\n';
+    for (const Verb& verb : verbs())
+      if (verb.part == nullptr || has_part(verb.part))
+        std::cout << verb.name << '\n';
+      else
+        print_left_out(verb.name, verb.part);
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
                 "choose backends, profiles, solvers or verbs");

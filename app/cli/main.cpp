@@ -4,9 +4,10 @@
 
 #include <iostream>
 
-#include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 
 namespace {
 
@@ -50,15 +51,14 @@ int main(int argc, char** argv) {
 
   try {
     program.parse(argc, argv);
-  } catch (const CLI::ParseError& e) {
-    return program.exit(e) == 0 ? cli::kOk : cli::kUsage;
-  }
-  common.threads_given = threads->count() > 0;
-
-  try {
+    common.threads_given = threads->count() > 0;
+    if (common.threads > 1 && !has_part("tbb"))
+      cli::print_notes({left_out_message("tbb", "more than one thread") + ": " + left_out_advice("tbb")}, common.quiet);
     for (const auto& [verb, command] : commands)
       if (verb->parsed()) return command(common);
     return cli::kUsage;
+  } catch (const CLI::ParseError& e) {
+    return program.exit(e) == 0 ? cli::kOk : cli::kUsage;
   } catch (const Error& e) {
     std::cerr << "treadmark: " << e.what() << '\n';
     return exit_status(e);

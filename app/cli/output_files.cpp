@@ -3,6 +3,7 @@
 #include "treadmark/app/cli/output_files.hpp"
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
@@ -29,9 +30,18 @@ void prepare(const std::filesystem::path& folder, const char* last_file) {
   std::filesystem::remove(folder / last_file, failure);
 }
 
-}  // namespace
-
-namespace {
+/// Writes fields.h5, or says in a note that this build leaves it out; then none of an earlier run stays there.
+template <class Write>
+std::vector<std::string> write_fields(const std::filesystem::path& folder, Write write) {
+  const std::filesystem::path file = folder / "fields.h5";
+  if (has_part("hdf5")) {
+    write(file);
+    return {};
+  }
+  std::error_code ignored;
+  std::filesystem::remove(file, ignored);
+  return {left_out_message("hdf5", "fields.h5") + ": " + left_out_advice("hdf5")};
+}
 
 /// Text tables for other people's tools, of the cases that ask for them.
 void write_text_tables(const std::filesystem::path& folder, const io::RunResult& result) {
@@ -51,24 +61,27 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
 
 }  // namespace
 
-void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
+std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
   prepare(folder, "result.json");
-  io::write_hdf5(folder / "fields.h5", result);
+  auto notes = write_fields(folder, [&](const auto& file) { io::write_hdf5(file, result); });
   io::write_vtk(folder / "vtk", result);
   io::write_pressure_svg(folder / "pressure.svg", result);
   write_text_tables(folder, result);
   io::write_json(folder / "result.json", result);
+  return notes;
 }
 
-void write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison) {
+std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder,
+                                                 const io::Comparison& comparison) {
   prepare(folder, "compare.json");
   io::write_pressures_svg(folder / "pressures.svg", comparison);
   io::write_error_svg(folder / "errors.svg", comparison);
   io::write_cost_svg(folder / "costs.svg", comparison);
-  io::write_comparison_fields(folder / "fields.h5", comparison);
+  auto notes = write_fields(folder, [&](const auto& file) { io::write_comparison_fields(file, comparison); });
   io::write_text_file(folder / "table.txt", io::comparison_table(comparison));
   io::write_csv(folder / "compare.csv", comparison);
   io::write_json(folder / "compare.json", comparison);
+  return notes;
 }
 
 }  // namespace treadmark::cli

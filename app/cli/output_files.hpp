@@ -3,6 +3,8 @@
 #pragma once
 
 #include <filesystem>
+#include <string>
+#include <vector>
 
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
@@ -10,11 +12,11 @@
 namespace treadmark::cli {
 
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
-/// The JSON file comes last: where it stands the folder is complete.
-void write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);
+/// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.
+std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);
 
 /// Writes everything a comparison has: pressures.svg, errors.svg, costs.svg, fields.h5, table.txt, compare.csv and,
-/// last, compare.json.
-void write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison);
+/// last, compare.json. Returns as above.
+std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder, const io::Comparison& comparison);
 
 }  // namespace treadmark::cli

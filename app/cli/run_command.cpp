@@ -13,10 +13,10 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/results/summary.hpp"
 #include "treadmark/io/results/write_json.hpp"
-#include "treadmark/io/simulations/read_simulation.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -96,7 +96,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!options.output_folder.empty()) {
       std::filesystem::path folder = options.output_folder;
       if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
-      write_result_folder(folder, result);
+      print_notes(write_result_folder(folder, result), common.quiet);
     }
     write_report_file(options.report_file, [&] {
       return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));

@@ -5,7 +5,7 @@
 #include <numbers>
 
 #include "treadmark/app/cli/command_frame.hpp"
-#include "treadmark/app/surfaces/scan_surface.hpp"
+#include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/atomic_file.hpp"

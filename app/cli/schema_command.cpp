@@ -4,8 +4,6 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/io/cases/case_keys.hpp"
-#include "treadmark/io/imports/import_settings.hpp"
-#include "treadmark/io/simulations/simulation_keys.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -14,9 +12,9 @@ struct FileSchema {
   const char* name;
   std::string (*text)();
 };
-constexpr FileSchema kSchemas[] = {
-    {"case", io::case_file_schema},   {"import", io::import_settings_schema},     {"vehicle", io::vehicle_file_schema},
-    {"track", io::track_file_schema}, {"simulation", io::simulation_file_schema}, {"study", io::study_file_schema}};
+constexpr FileSchema kSchemas[] = {{"case", io::case_file_schema},    {"import", import_schema},
+                                   {"vehicle", vehicle_schema},       {"track", track_schema},
+                                   {"simulation", simulation_schema}, {"study", study_schema}};
 
 }  // namespace
 

@@ -13,6 +13,8 @@
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parts.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
@@ -65,6 +67,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   if (options.resume && options.output_folder.empty())
     throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {},
                 "give it with -o FOLDER");
+  if (!options.output_folder.empty()) require_part("hdf5", "folders of simulations");
   if (io::is_study_file(options.file))
     throw Error(ErrorKind::configuration, options.file + " is a study of several simulations", {},
                 "use treadmark sweep");

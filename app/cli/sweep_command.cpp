@@ -9,6 +9,8 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parts.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
 
@@ -38,6 +40,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   if (!io::is_study_file(options.file))
     throw Error(ErrorKind::configuration, options.file + " is not a study: it has no table [study]", {},
                 "treadmark simulate runs one simulation");
+  require_part("hdf5", "folders of studies");
   const app::ProcessPlace place = app::process_place();
   const bool speaks = place.rank == 0 && !common.quiet;
   // Processes that were started together share the cores.

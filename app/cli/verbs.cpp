@@ -6,7 +6,7 @@ namespace treadmark::cli {
 namespace {
 
 constexpr Verb kVerbs[] = {
-#define VERB(name, summary) {#name, summary, add_##name},
+#define VERB(name, summary, part) {#name, summary, add_##name, part},
 #include "treadmark/app/cli/verbs.def"
 #undef VERB
 };

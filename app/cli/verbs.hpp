@@ -4,6 +4,8 @@
 
 #include <functional>
 #include <span>
+#include <string>
+#include <vector>
 
 namespace CLI {
 class App;
@@ -23,18 +25,34 @@ struct CommonOptions {
 /// Does the work of a verb, whose options it holds. Returns an exit status or throws treadmark::Error.
 using Command = std::function<int(const CommonOptions&)>;
 
-/// One verb of the program. add: its options, and the command that they are parsed into.
+/// One verb of the program. add: its options, and the command that they are parsed into. part: of parts()
+/// (core/parts.hpp), without which the verb says so; nullptr: none.
 struct Verb {
   const char* name;
   const char* summary;
   Command (*add)(CLI::App& verb);
+  const char* part = nullptr;
 };
 
 /// All verbs, in the order in which they are listed.
 std::span<const Verb> verbs();
 
-#define VERB(name, summary) Command add_##name(CLI::App& verb);
+#define VERB(name, summary, part) Command add_##name(CLI::App& verb);
 #include "treadmark/app/cli/verbs.def"
 #undef VERB
+
+/// Takes anything, and refuses it by the name of the part that this build leaves out. For without_<part>.cpp.
+Command add_left_out(CLI::App& verb);
+
+/// What treadmark check does with these files: a line about each, or an Error. In check_simulation.cpp.
+void check_study_file(const std::string& name, const std::vector<std::string>& overrides);
+void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides);
+
+// JSON schemas of the files of verbs that a build may leave out.
+std::string import_schema();   // import_command.cpp
+std::string vehicle_schema();  // the rest in check_simulation.cpp
+std::string track_schema();
+std::string simulation_schema();
+std::string study_schema();
 
 }  // namespace treadmark::cli

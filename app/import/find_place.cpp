@@ -9,6 +9,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/model/natural_view.hpp"
@@ -139,8 +140,8 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   clock.begin("stray points");
   if (settings.clean.strays) {
     if (!scans::have_cgal())
-      throw Error(ErrorKind::configuration, "this build cannot look for stray points: it has no CGAL", {},
-                  "configure with -DTREADMARK_WITH_CGAL=ON, or say --set clean.strays=false for a clean scan");
+      throw Error(ErrorKind::configuration, left_out_message("cgal", "the search for stray points"), {},
+                  left_out_advice("cgal") + "; or say --set clean.strays=false for a clean scan");
     scan.keep = keep_without_strays(scan.points, scans::find_elements(scan.points), settings, report);
   }
 

@@ -11,6 +11,7 @@
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -143,9 +144,7 @@ TriangleMesh triangles_of(const FittedScan& fit, const io::ImportSettings& setti
     throw Error(ErrorKind::configuration, "nodes of triangles of measured sections cannot be left out", {},
                 "say fit.decimate_um=0, or fit.sections=fit");
   if (!fit.coverage.whole() || settings.fit.decimate_um > 0.0)
-    throw Error(ErrorKind::configuration,
-                "this build cannot triangulate a band with holes or with fewer nodes: it has no CGAL", {},
-                "configure with -DTREADMARK_WITH_CGAL=ON");
+    left_out("cgal", "the triangulation of a band with holes or with fewer nodes");
   SurfaceSpec spec;
   spec.body = fit.scan.body;
   spec.nominal_radius = radius_of(fit);

@@ -5,7 +5,7 @@ set(styles style.css contact.css scene.css)
 list(TRANSFORM styles PREPEND "${CMAKE_CURRENT_SOURCE_DIR}/")
 set(script "")
 
-if(TREADMARK_REPORT_SCRIPTS)
+if(TREADMARK_HAVE_REPORT_SCRIPTS)
   set(web_source "${CMAKE_CURRENT_SOURCE_DIR}/web")
   set(TREADMARK_WEB_DIR "${CMAKE_CURRENT_BINARY_DIR}/web")
   set(script "${TREADMARK_WEB_DIR}/dist/report.js")

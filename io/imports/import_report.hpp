@@ -145,7 +145,7 @@ void read_import_times(const std::filesystem::path& file, ImportReport& report);
 /// A page of text for people: what was read, removed, placed, fitted, written; warnings first.
 std::string import_summary(const ImportReport& report);
 
-/// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 and the pictures before.svg, removed.svg,
+/// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 (if built with HDF5), before.svg, removed.svg,
 /// fitted.svg, residual.svg into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors:
 /// Error(configuration) if a file cannot be written.
 void write_import_report(const std::string& folder, const ImportReport& report);

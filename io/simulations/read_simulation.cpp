@@ -123,15 +123,6 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
                 place("min_step_us"), "the longest step follows from max_step_us and max_step_elements * dx / V");
 }
 
-bool has_table(const std::filesystem::path& file, std::string_view key, std::string_view without) {
-  std::string extension = file.extension().string();
-  std::transform(extension.begin(), extension.end(), extension.begin(),
-                 [](unsigned char c) { return static_cast<char>(std::tolower(c)); });
-  if (extension != ".toml") return false;
-  const CaseTable document = parse_toml(read_text(file), file.string());
-  return find_entry(document, key) != nullptr && (without.empty() || find_entry(document, without) == nullptr);
-}
-
 }  // namespace
 
 SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name,
@@ -179,8 +170,5 @@ SimulationFile parse_simulation_text(std::string_view text, const std::filesyste
 SimulationFile read_simulation_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
   return parse_simulation_text(read_text(file), file, overrides);
 }
-
-bool is_simulation_file(const std::filesystem::path& file) { return has_table(file, "simulation", "study"); }
-bool is_study_file(const std::filesystem::path& file) { return has_table(file, "study", ""); }
 
 }  // namespace treadmark::io

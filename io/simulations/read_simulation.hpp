@@ -30,11 +30,6 @@ SimulationFile parse_simulation_text(std::string_view text, const std::filesyste
 SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name,
                              std::span<const std::string> overrides = {});
 
-/// Whether a .toml file has a table [simulation] and is no study; whether it has a table [study].
-/// False for other kinds of files, which are not opened. Throws Error(configuration) for TOML that cannot be read.
-bool is_simulation_file(const std::filesystem::path& file);
-bool is_study_file(const std::filesystem::path& file);
-
 /// Parts of the reader of simulation files. Error(configuration) at the place of what is wrong.
 
 /// [simulation] but for its tables.

@@ -7,6 +7,7 @@
 
 #include <algorithm>
 
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/files/sha256.hpp"

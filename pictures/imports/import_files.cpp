@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <filesystem>
 
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/imports/import_maps.hpp"
 #include "treadmark/pictures/imports/import_pictures.hpp"
@@ -14,7 +15,7 @@ void write_import_report(const std::string& folder, const ImportReport& report) 
   write_text_file(place / "removed.svg", import_removed_svg(report));
   write_text_file(place / "fitted.svg", import_fitted_svg(report));
   write_text_file(place / "residual.svg", import_residual_svg(report));
-  write_import_maps(place / "maps.h5", report);
+  if (has_part("hdf5")) write_import_maps(place / "maps.h5", report);
   write_text_file(place / "settings.toml", report.settings_toml);
   write_text_file(place / "summary.txt", import_summary(report));
   write_text_file(place / "times.json", import_times_json(report));

@@ -8,6 +8,7 @@
 
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -40,11 +41,16 @@ TEST(CommandLine, ListsAndSchema) {
   EXPECT_EQ(schema.status, 0);
   EXPECT_THAT(schema.out, HasSubstr("json-schema.org"));
   EXPECT_EQ(run_program({"schema", "case"}).out, schema.out);
-  EXPECT_THAT(run_program({"schema", "import"}).out, HasSubstr("hole_limit_mm"));
-  EXPECT_THAT(run_program({"schema", "simulation"}).out, HasSubstr("max_step_elements"));
+  if (has_part("scans")) EXPECT_THAT(run_program({"schema", "import"}).out, HasSubstr("hole_limit_mm"));
+  if (has_part("vehicle")) EXPECT_THAT(run_program({"schema", "simulation"}).out, HasSubstr("max_step_elements"));
   EXPECT_EQ(run_program({"schema", "wishes"}).status, 2);
-  EXPECT_EQ(run_program({"list", "verbs"}).out,
-            "run\ncompare\nbench\nconvert\nimport\nscan\nsimulate\nsweep\nreport\nplot\ncheck\nlist\nschema\n");
+  const auto verb = [](const std::string& name, const char* part) {
+    return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
+  };
+  EXPECT_EQ(run_program({"list", "verbs"}).out, "run\ncompare\nbench\nconvert\n" + verb("import", "scans") +
+                                                    verb("scan", "scans") + verb("simulate", "vehicle") +
+                                                    verb("sweep", "vehicle") + verb("report", "report") +
+                                                    verb("plot", "report") + "check\nlist\nschema\n");
 }
 
 TEST(CommandLine, CheckReadsWithoutSolving) {
@@ -62,8 +68,10 @@ TEST(CommandLine, RunPrintsASummaryAndWritesEveryFile) {
   const ProgramResult r = run_program({"run", input.inp().string(), "-o", folder.string()});
   ASSERT_EQ(r.status, 0) << r.err;
   EXPECT_THAT(r.out, HasSubstr("MPa"));
-  for (const char* file : {"result.json", "fields.h5", "pressure.svg", "vtk"})
+  for (const char* file : {"result.json", "pressure.svg", "vtk"})
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
+  EXPECT_EQ(std::filesystem::exists(folder / "fields.h5"), has_part("hdf5"));
+  if (!has_part("hdf5")) EXPECT_THAT(r.err, HasSubstr("TREADMARK_WITH_HDF5=ON"));
 }
 
 TEST(CommandLine, BackendByNameMustExist) {

@@ -16,6 +16,7 @@
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -50,6 +51,7 @@ const io::ComparisonCandidate& find(const io::Comparison& comparison, const std:
 }
 
 TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
+  TREADMARK_NEEDS("embree");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", kFlatCase);
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
@@ -90,6 +92,8 @@ TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
 }
 
 TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
+  TREADMARK_NEEDS("embree");
+  TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", kFlatCase);
   const std::vector<std::string> one_case{"wheelset.pitch_deg=0"};
@@ -114,6 +118,7 @@ TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
 }
 
 TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
+  TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
   io::CaseFile file = io::read_any_case(input.inp(), {});
   // the same search for all: the locus, which round wheels get else, finds the lowest point 1e-8 m from the grid's, and
@@ -138,6 +143,9 @@ TEST(CompareCases, MeasuredPointsAreTheTruthWhereThereIsNoFormula) {
 }
 
 TEST(CompareCases, ThreadsChangeNothingButTimes) {
+  TREADMARK_NEEDS("embree");
+  TREADMARK_NEEDS("openvdb");
+  TREADMARK_NEEDS("tbb");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", kFlatCase);
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
@@ -194,6 +202,8 @@ TEST(CompareCases, RefusesWhatMakesNoSense) {
 }
 
 TEST(CompareCommand, WritesTableFilesAndPictures) {
+  TREADMARK_NEEDS("embree");
+  TREADMARK_NEEDS("hdf5");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", kFlatCase);
   const auto folder = input.folder() / "out";

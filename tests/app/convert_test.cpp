@@ -14,6 +14,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -54,6 +55,9 @@ INSTANTIATE_TEST_SUITE_P(
 
 TEST_P(Convert, TheFileGivesTheSameContact) {
   const auto [name, tolerance] = GetParam();
+  if (!name.ends_with(".slcw")) {
+    TREADMARK_NEEDS(name.ends_with(".vdb") ? "openvdb" : "embree");
+  }
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", flat_case(kWheel));
   ConvertSettings settings;
@@ -70,6 +74,8 @@ TEST_P(Convert, TheFileGivesTheSameContact) {
 }
 
 TEST(ConvertSurface, FromTrianglesToSlicesAndOffsets) {
+  TREADMARK_NEEDS("embree");
+  TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
   input.write("flat.toml", flat_case(kWheel));
   ConvertSettings settings;

@@ -10,6 +10,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -47,6 +48,8 @@ std::vector<io::PatchResult> from_left(const io::CaseResult& result) {
 }
 
 TEST(CrossingPassage, BackendsAgreeWhileTheLoadMovesToTheNose) {
+  TREADMARK_NEEDS("embree");
+  TREADMARK_NEEDS("openvdb");
   CompareSettings settings;
   settings.rail_backends = {"mesh", "offset"};
   settings.resolutions = {1e-3};

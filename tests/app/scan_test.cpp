@@ -11,7 +11,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/app/surfaces/scan_surface.hpp"
+#include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/tests/app/program.hpp"

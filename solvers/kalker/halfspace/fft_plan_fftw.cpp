@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#ifdef TREADMARK_HAVE_FFTW
-
 #include <fftw3.h>
 
 #include <new>
@@ -70,5 +68,3 @@ std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows) {
 const char* fft_library() { return "FFTW"; }
 
 }  // namespace treadmark::kalker
-
-#endif  // TREADMARK_HAVE_FFTW

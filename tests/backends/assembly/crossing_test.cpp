@@ -11,6 +11,7 @@
 #include "treadmark/backends/analytic/defects/moving_section.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark {
 namespace {
@@ -86,6 +87,8 @@ TEST(MovingSection, SplinesThroughItsSlicesFollowItExactly) {
 }
 
 TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
+  TREADMARK_NEEDS("embree");
+  TREADMARK_NEEDS("openvdb");
   Region region;
   region.u_min = 0.17;
   region.u_max = 0.23;
@@ -103,6 +106,7 @@ TEST(MovingSection, EveryBackendButTheFormulasCanRepresentIt) {
 }
 
 TEST(MovingSection, OffsetsOfAWingThatMovesFarAsideFollowIt) {
+  TREADMARK_NEEDS("openvdb");
   const NaturalSurface natural = create_natural(moving(wing()));
   Region region;
   region.u_min = 0.0;
@@ -132,6 +136,7 @@ TEST(MovingSection, OffsetsOfAWingThatMovesFarAsideFollowIt) {
 }
 
 TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
+  TREADMARK_NEEDS("openvdb");
   // two heads side by side; the second one ends between x = 0.1 m and 0.11 m
   SliceSet set;
   set.name = "two heads";
@@ -176,6 +181,7 @@ TEST(MovingSection, OffsetsKeepFeaturesThatEndBetweenSlices) {
 }
 
 TEST(Crossing, TheNoseTakesOverFromTheWing) {
+  TREADMARK_NEEDS("embree");
   const auto part = [](const MovingSection& m, const Vec3& offset, const char* backend) {
     return SurfacePart{std::make_shared<const NaturalSurface>(create_natural(moving(m))), offset, backend, 1e-3};
   };

@@ -9,6 +9,7 @@
 
 #include "treadmark/backends/create.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 // Rollers against closed formulas, and against the straight rail that they become.
 
@@ -125,6 +126,7 @@ TEST(Roller, SamplesOfARegionLieOnItAndSaySo) {
 }
 
 TEST(Roller, TrianglesAndSlicesComeBackAsTheSameRoller) {
+  TREADMARK_NEEDS("embree");
   constexpr double kRadius = 0.4;
   const NaturalSurface natural = create_natural(roller(barrel(0.2, 0.15), kRadius));
   Region region;

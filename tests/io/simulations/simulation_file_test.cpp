@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "samples.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/app/surfaces/scan_surface.hpp"
+#include "treadmark/app/import/scan_surface.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

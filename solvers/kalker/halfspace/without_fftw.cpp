@@ -1,7 +1,5 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#ifndef TREADMARK_HAVE_FFTW
-
 #include <kissfft/kissfft.hh>
 #include <map>
 #include <numbers>
@@ -86,5 +84,3 @@ std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows) {
 const char* fft_library() { return "KISS FFT"; }
 
 }  // namespace treadmark::kalker
-
-#endif  // TREADMARK_HAVE_FFTW

@@ -1,0 +1,46 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <iostream>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/io/simulations/simulation_keys.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+void check_run(const std::variant<io::SimulationFile, io::CaseFile>& run, app::SurfaceStore& surfaces) {
+  if (const auto* simulation = std::get_if<io::SimulationFile>(&run))
+    app::check_vehicle(*simulation, surfaces);
+  else
+    app::check_geometry(std::get<io::CaseFile>(run));
+}
+
+}  // namespace
+
+void check_study_file(const std::string& name, const std::vector<std::string>& overrides) {
+  const io::StudyFile study = io::read_study_file(name, overrides);
+  app::check_study_figures(study);
+  app::SurfaceStore surfaces;
+  for (const io::StudyRun& run : study.runs) check_run(io::read_study_run(study, run), surfaces);
+  std::cout << name << ": " << study.runs.size() << (study.runs.size() == 1 ? " run" : " runs") << ", no errors\n";
+}
+
+void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides) {
+  app::SurfaceStore surfaces;
+  const io::SimulationFile file = io::read_simulation_file(name, overrides);
+  check_run(file, surfaces);
+  print_notes(file.notes, false);
+  std::cout << name << ": a simulation, no errors\n";
+}
+
+std::string vehicle_schema() { return io::vehicle_file_schema(); }
+std::string track_schema() { return io::track_file_schema(); }
+std::string simulation_schema() { return io::simulation_file_schema(); }
+std::string study_schema() { return io::study_file_schema(); }
+
+}  // namespace treadmark::cli

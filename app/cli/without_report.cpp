@@ -1,0 +1,36 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/app/report/pages/bench_page.hpp"
+#include "treadmark/app/report/pages/compare_page.hpp"
+#include "treadmark/app/report/pages/import_page.hpp"
+#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/report/pages/run_page.hpp"
+#include "treadmark/app/report/pages/simulation_page.hpp"
+#include "treadmark/app/report/write_page.hpp"
+#include "treadmark/core/parts.hpp"
+
+namespace treadmark::cli {
+
+Command add_report(CLI::App& verb) { return add_left_out(verb); }
+Command add_plot(CLI::App& verb) { return add_left_out(verb); }
+
+}  // namespace treadmark::cli
+
+// Nobody gets as far: --report is refused before.
+namespace treadmark::app::report {
+namespace {
+
+[[noreturn]] void without_report() { left_out("report", "reports"); }
+
+}  // namespace
+
+std::string to_html(const Page&, const PageOptions&) { without_report(); }
+Page read_report(const std::filesystem::path&) { without_report(); }
+Page run_page(std::shared_ptr<const io::RunResult>, std::string) { without_report(); }
+Page compare_page(const std::shared_ptr<const io::Comparison>&, std::string) { without_report(); }
+Page bench_page(const BenchReport&, std::string) { without_report(); }
+Page import_page(const io::ImportReport&, std::string, const std::filesystem::path&) { without_report(); }
+Page simulation_page(std::shared_ptr<const io::SimulationResult>, std::string) { without_report(); }
+
+}  // namespace treadmark::app::report

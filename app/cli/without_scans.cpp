@@ -1,0 +1,13 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/core/parts.hpp"
+
+namespace treadmark::cli {
+
+Command add_import(CLI::App& verb) { return add_left_out(verb); }
+Command add_scan(CLI::App& verb) { return add_left_out(verb); }
+
+std::string import_schema() { left_out("scans", "the schema of import settings"); }
+
+}  // namespace treadmark::cli

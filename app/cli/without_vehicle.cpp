@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/core/parts.hpp"
+
+namespace treadmark::cli {
+
+Command add_simulate(CLI::App& verb) { return add_left_out(verb); }
+Command add_sweep(CLI::App& verb) { return add_left_out(verb); }
+
+void check_study_file(const std::string& name, const std::vector<std::string>&) {
+  left_out("vehicle", "studies such as " + name);
+}
+void check_simulation_file(const std::string& name, const std::vector<std::string>&) {
+  left_out("vehicle", "simulations such as " + name);
+}
+
+std::string vehicle_schema() { left_out("vehicle", "the schema of vehicle files"); }
+std::string track_schema() { left_out("vehicle", "the schema of track files"); }
+std::string simulation_schema() { left_out("vehicle", "the schema of simulation files"); }
+std::string study_schema() { left_out("vehicle", "the schema of study files"); }
+
+}  // namespace treadmark::cli

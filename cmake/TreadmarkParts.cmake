@@ -1,0 +1,69 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+# The parts that a build may leave out, each said once: options, messages about missing packages, what the program says of itself
+# and the package that is installed are made from this table. TREADMARK_HAVE_<PART> says whether a build has it.
+set(TREADMARK_PARTS "")
+
+# treadmark_part(<part> <option> <name> <its Debian packages, or ""> <what the option does> [NEEDS <other part>])
+macro(treadmark_part part option name packages meaning)
+  cmake_parse_arguments(PART "" "NEEDS" "" ${ARGN})
+  option(${option} "${meaning}" ON)
+  string(TOUPPER "${part}" upper)
+  list(APPEND TREADMARK_PARTS ${part})
+  set(TREADMARK_${upper}_OPTION ${option})
+  set(TREADMARK_${upper}_NAME "${name}")
+  set(TREADMARK_${upper}_PACKAGES "${packages}")
+  set(TREADMARK_HAVE_${upper} OFF)
+  if(${option})
+    set(TREADMARK_HAVE_${upper} ON)
+  endif()
+  if(PART_NEEDS)
+    string(TOUPPER "${PART_NEEDS}" other)
+    if(NOT TREADMARK_HAVE_${other})
+      set(TREADMARK_HAVE_${upper} OFF)
+    endif()
+  endif()
+endmacro()
+
+treadmark_part(embree TREADMARK_WITH_EMBREE "Embree" "libembree-dev"
+  "Surfaces of triangles (backends mesh and mesh-flat), with Embree")
+treadmark_part(openvdb TREADMARK_WITH_OPENVDB "OpenVDB" "libopenvdb-dev and libboost-iostreams-dev"
+  "Offsets over a base (backends offset, offset-quadratic and offset-bilinear, .vdb files), with OpenVDB")
+treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")
+treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "More than one thread, with oneTBB")
+treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)")
+treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep)")
+treadmark_part(scans TREADMARK_SCANS "scans" "" "Import of raw scans, virtual scans (import, scan)")
+treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Use CGAL (GPL) for stray points, triangulations and free meshes of scans"
+  NEEDS scans)
+treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports and pictures of result folders (report, plot, --report)")
+treadmark_part(report_scripts TREADMARK_REPORT_SCRIPTS "report scripts" "nodejs and npm"
+  "Bundle the scripts that make HTML reports live (needs Node.js, npm and a network once)" NEEDS report)
+
+# treadmark_missing(<part>): the error of a package that was not found.
+function(treadmark_missing part)
+  string(TOUPPER "${part}" upper)
+  set(option "${TREADMARK_${upper}_OPTION}")
+  message(FATAL_ERROR "${option} is on but ${TREADMARK_${upper}_NAME} was not found: install the Debian package "
+                      "${TREADMARK_${upper}_PACKAGES} or configure with -D${option}=OFF")
+endfunction()
+
+# treadmark_part_sources(<target> <part> <regular expression>): of the target's sources, those that match are the part;
+# without_<part>.cpp takes their place in a build without it.
+function(treadmark_part_sources target part pattern)
+  string(TOUPPER "${part}" upper)
+  get_target_property(sources ${target} SOURCES)
+  set(kept "")
+  foreach(source IN LISTS sources)
+    get_filename_component(name "${source}" NAME)
+    set(in_part ${TREADMARK_HAVE_${upper}})
+    if(name STREQUAL "without_${part}.cpp")
+      if(NOT in_part)
+        list(APPEND kept "${source}")
+      endif()
+    elseif(in_part OR NOT name MATCHES "${pattern}")
+      list(APPEND kept "${source}")
+    endif()
+  endforeach()
+  set_target_properties(${target} PROPERTIES SOURCES "${kept}")
+endfunction()

@@ -1,0 +1,97 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <string>
+#include <vector>
+
+#include "treadmark/core/parts.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+/// A request for a part, and what a build without it calls what it leaves out.
+struct Request {
+  const char* part;
+  const char* what;
+  std::vector<std::string> arguments;
+};
+
+/// A build that has the part gets as far as to the files, which are none; every other one names option and package.
+TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
+  const std::string nowhere = "/nowhere/x.toml";
+  const Request requests[] = {
+      {"vehicle", "treadmark simulate", {"simulate", nowhere, "-o", "/nowhere/out", "--modes"}},
+      {"vehicle", "treadmark sweep", {"sweep", nowhere, "--resume", "-o", "/nowhere/out"}},
+      {"vehicle", "the schema of study files", {"schema", "study"}},
+      {"scans", "treadmark import", {"import", "/nowhere/x.ply", "--unit", "mm"}},
+      {"scans", "treadmark scan", {"scan", nowhere, "-o", "/nowhere/x.ply"}},
+      {"scans", "the schema of import settings", {"schema", "import"}},
+      {"report", "treadmark report", {"report", "/nowhere/x", "--static"}},
+      {"report", "treadmark plot", {"plot", "/nowhere/x", "--what", "pressure"}},
+      {"report", "--report", {"run", nowhere, "--report", "/nowhere/x.html"}},
+      {"report", "--report", {"compare", nowhere, "--report", "/nowhere/x.html"}},
+  };
+  for (const Request& request : requests) {
+    SCOPED_TRACE(request.what);
+    const ProgramResult r = run_program(request.arguments);
+    EXPECT_THAT(r.out, Not(HasSubstr("left out")));
+    if (has_part(request.part)) {
+      EXPECT_THAT(r.err, Not(HasSubstr("leaves out")));
+      EXPECT_EQ(r.status == 0, request.arguments.front() == "schema") << r.err;
+      continue;
+    }
+    EXPECT_EQ(r.status, 2);
+    EXPECT_THAT(r.err, AllOf(HasSubstr(left_out_message(request.part, request.what)),
+                             HasSubstr(left_out_advice(request.part))));
+  }
+}
+
+TEST(LeftOut, BackendsAreRefusedByName) {
+  const SampleInput input;
+  for (const auto& [part, backend] : {std::pair{"embree", "mesh-flat"}, std::pair{"openvdb", "offset"}}) {
+    const ProgramResult list = run_program({"list", "backends"}),
+                        r = run_program({"run", input.inp().string(), "--rail-backend", backend, "--resolution", "2"});
+    const std::string name = backend;
+    EXPECT_THAT(list.out, HasSubstr(has_part(part) ? '\n' + name + '\n'
+                                                   : name + " - left out of this build: " + left_out_advice(part)));
+    EXPECT_EQ(r.status, has_part(part) ? 0 : 2) << r.err;
+    if (!has_part(part))
+      EXPECT_THAT(r.err, AllOf(HasSubstr(left_out_message(part, "the backend '" + name + "'")),
+                               HasSubstr(left_out_advice(part))));
+  }
+}
+
+TEST(LeftOut, SimulationsAreCheckedOrRefused) {
+  const ProgramResult r = run_program({"check", TREADMARK_SOURCE_DIR "/examples/rolling-flat.toml"});
+  EXPECT_EQ(r.status, has_part("vehicle") ? 0 : 2) << r.err;
+  if (!has_part("vehicle")) EXPECT_THAT(r.err, HasSubstr(left_out_advice("vehicle")));
+}
+
+TEST(LeftOut, VersionNamesWhatIsInAndWhatIsNot) {
+  const std::string text = run_program({"--version"}).out;
+  const std::size_t cut = text.find("left out: ");
+  for (const Part& part : parts()) {
+    const std::size_t place = text.find(part.name);
+    ASSERT_NE(place, std::string::npos) << part.name;
+    EXPECT_EQ(place < cut, part.built) << part.name;
+  }
+}
+
+/// One thread does what is asked of several, and says so.
+TEST(LeftOut, ThreadsAreNotPassedOverInSilence) {
+  const SampleInput input;
+  const ProgramResult r = run_program({"check", input.inp().string(), "--threads", "2"});
+  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.err.find("TREADMARK_WITH_TBB") == std::string::npos, has_part("tbb")) << r.err;
+}
+
+}  // namespace
+}  // namespace treadmark::testing

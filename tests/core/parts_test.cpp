@@ -1,0 +1,48 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/core/parts.hpp"
+
+#include <gtest/gtest.h>
+
+#include <set>
+#include <stdexcept>
+#include <string>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark {
+namespace {
+
+TEST(Parts, AreNamedOnceAndHaveAnOption) {
+  std::set<std::string_view> keys, names, options;
+  for (const Part& part : parts()) {
+    EXPECT_TRUE(keys.insert(part.key).second) << part.key;
+    EXPECT_TRUE(names.insert(part.name).second) << part.name;
+    EXPECT_TRUE(options.insert(part.option).second) << part.option;
+    EXPECT_TRUE(part.option.starts_with("TREADMARK_")) << part.option;
+    EXPECT_EQ(has_part(part.key), part.built);
+  }
+  for (const char* key : {"embree", "openvdb", "hdf5", "tbb", "fftw", "cgal", "vehicle", "scans", "report"})
+    EXPECT_TRUE(keys.contains(key)) << key;
+}
+
+TEST(Parts, WhatIsLeftOutNamesOptionAndPackage) {
+  try {
+    left_out("embree", "the backend 'mesh'");
+  } catch (const Error& error) {
+    EXPECT_EQ(error.kind(), ErrorKind::configuration);
+    EXPECT_STREQ(error.what(),
+                 "this build leaves out the backend 'mesh' (Embree) (configure with -DTREADMARK_WITH_EMBREE=ON, Debian "
+                 "package libembree-dev)");
+  }
+  EXPECT_EQ(left_out_advice("vehicle"), "configure with -DTREADMARK_VEHICLE=ON");
+  for (const Part& part : parts())
+    if (part.built)
+      EXPECT_NO_THROW(require_part(part.key, "something"));
+    else
+      EXPECT_THROW(require_part(part.key, "something"), Error);
+  EXPECT_THROW(has_part("imbree"), std::invalid_argument);
+}
+
+}  // namespace
+}  // namespace treadmark
