@@ -3,7 +3,6 @@
 # Installs the libraries as a CMake package: find_package(Treadmark CONFIG) gives treadmark::treadmark, which is all of
 # them, and one target a folder (treadmark::core, treadmark::io_cases, ...).
 include(CMakePackageConfigHelpers)
-include(GNUInstallDirs)
 
 get_property(libraries GLOBAL PROPERTY TREADMARK_LIBRARIES)
 add_library(treadmark_umbrella INTERFACE)

@@ -1,4 +1,5 @@
 # SPDX-License-Identifier: Apache-2.0
+include(GNUInstallDirs)
 # One spelling of includes everywhere: "treadmark/<folder>/<file>.hpp", in the build tree through a link to the sources.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include")
 if(NOT EXISTS "${PROJECT_BINARY_DIR}/include/treadmark")
@@ -126,5 +127,5 @@ function(treadmark_test name)
     set(at_once 1)
   endif()
   treadmark_share_parsing(${name} ${at_once} tests)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300)
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name})
 endfunction()

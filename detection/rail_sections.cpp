@@ -2,10 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/rail_sections.hpp"
-#include "treadmark/detection/rail_sections.hpp"
 
 #include <algorithm>
 #include <cmath>

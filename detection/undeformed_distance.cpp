@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/detection/undeformed_distance.hpp"
-#include "treadmark/detection/undeformed_distance.hpp"
 
 #include <cmath>
 #include <limits>

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/app/import/import_scan.hpp"
-#include "treadmark/app/import/import_scan.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/simulation/history_record.hpp"
-#include "treadmark/app/simulation/history_record.hpp"
 
 #include <algorithm>
 #include <string>

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/simulation/result_head.hpp"
-#include "treadmark/app/simulation/result_head.hpp"
-#include "treadmark/app/simulation/result_head.hpp"
 
 #include <algorithm>
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/backends/offset/file.hpp"
-#include "treadmark/backends/offset/file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/backends/spline/banded.hpp"
-#include "treadmark/backends/spline/banded.hpp"
 
 #include <algorithm>
 #include <cmath>

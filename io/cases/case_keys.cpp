@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/cases/case_keys.hpp"
-#include "treadmark/io/cases/case_keys.hpp"
-#include "treadmark/io/cases/case_keys.hpp"
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

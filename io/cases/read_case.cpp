@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/cases/read_case.hpp"
 
 #include <fmt/format.h>
 

@@ -2,10 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/io/files/text.hpp"
-#include "treadmark/io/files/text.hpp"
-#include "treadmark/io/files/text.hpp"
-#include "treadmark/io/files/text.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/hdf5/hdf5_file.hpp"
-#include "treadmark/io/hdf5/hdf5_file.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/points/fields.hpp"
-#include "treadmark/io/points/fields.hpp"
-#include "treadmark/io/points/fields.hpp"
 
 #include <algorithm>
 #include <cmath>

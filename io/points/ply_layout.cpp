@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/points/ply_layout.hpp"
-#include "treadmark/io/points/ply_layout.hpp"
 
 #include <fmt/format.h>
 

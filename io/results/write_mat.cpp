@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/results/write_mat.hpp"
-#include "treadmark/io/results/write_mat.hpp"
-#include "treadmark/io/results/write_mat.hpp"
 
 #include <fmt/format.h>
 

@@ -2,9 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/io/settings/key_info.hpp"
-#include "treadmark/io/settings/key_info.hpp"
-#include "treadmark/io/settings/key_info.hpp"
-#include "treadmark/io/settings/key_info.hpp"
 
 #include <fmt/format.h>
 

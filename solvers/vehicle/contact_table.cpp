@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/vehicle/contact_table.hpp"
-#include "treadmark/solvers/vehicle/contact_table.hpp"
-#include "treadmark/solvers/vehicle/contact_table.hpp"
 
 #include <fmt/format.h>
 

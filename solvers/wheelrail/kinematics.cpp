@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
-#include "treadmark/solvers/wheelrail/kinematics.hpp"
-#include "treadmark/solvers/wheelrail/kinematics.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/wheelrail/root_search.hpp"
-#include "treadmark/solvers/wheelrail/root_search.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
-#include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/kalker/halfspace/bilinear_elements.hpp"
-#include "treadmark/solvers/kalker/halfspace/bilinear_elements.hpp"
-#include "treadmark/solvers/kalker/halfspace/bilinear_elements.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
-#include "treadmark/solvers/kalker/halfspace/influence.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
-#include "treadmark/solvers/kalker/normal/hertz.hpp"
 
 #include <algorithm>
 #include <cmath>

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/kalker/normal/interpenetration.hpp"
-#include "treadmark/solvers/kalker/normal/interpenetration.hpp"
 
 namespace treadmark::kalker {
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/kalker/tangential/compliance.hpp"
-#include "treadmark/solvers/kalker/tangential/compliance.hpp"
 
 #include <algorithm>
 #include <cmath>

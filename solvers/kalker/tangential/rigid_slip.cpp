@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
-#include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
 
 #include <cmath>
 #include <numbers>

@@ -1,0 +1,58 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <filesystem>
+#include <map>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include "treadmark/backends/offset/sheet_types.hpp"
+
+namespace treadmark::offset {
+
+/// Blocks in an OpenVDB tree; see SheetGrid, whose functions these are.
+class SheetStorage {
+ public:
+  virtual ~SheetStorage() = default;
+  virtual std::size_t insert(const BlockKey& key, const Block& values, float tolerance) = 0;
+  virtual const float* block(const BlockKey& key) const = 0;
+  virtual std::vector<SheetEntry> blocks() const = 0;
+  virtual std::size_t active_count() const = 0;
+  virtual std::size_t memory_bytes() const = 0;
+};
+
+/// What is wrong with a file, for an Error that the caller throws; no message: nothing.
+struct SheetFault {
+  enum class Kind { configuration, input_data };
+  Kind kind = Kind::input_data;
+  std::string message = {};
+};
+
+/// A sheet in a file: voxel (i, j, 0) at (u0 + i du, y0 + j dy).
+struct SheetFrameAndData {
+  double u0 = 0.0, y0 = 0.0, du = 1.0, dy = 1.0;
+  std::map<std::string, std::string> metadata;
+};
+
+/// What OpenVDB does for sheets. It lies in a library of its own, libtreadmark_openvdb, that is loaded where offsets
+/// are first used: the dynamic linker takes longer for OpenVDB than most cases take to be solved. That library knows
+/// nothing else of Treadmark. Functions may be called from several threads.
+struct SheetLibrary {
+  const char* version;  ///< of Treadmark; another one is not used
+  std::unique_ptr<SheetStorage> (*make_storage)();
+  SheetFault (*write)(const std::filesystem::path& file, const std::vector<SheetEntry>& blocks,
+                      const SheetFrameAndData& sheet);
+  SheetFault (*read)(const std::filesystem::path& file, SheetFrameAndData& sheet, std::map<BlockKey, Block>& blocks);
+};
+
+/// Its one symbol, "treadmark_sheet_library".
+extern "C" const SheetLibrary* treadmark_sheet_library();
+
+/// Loads it at the first call. Errors: Error(configuration) naming the places where it was looked for: ../lib/treadmark of the
+/// folder of the program, where it was built, where it was installed, and the program's run path.
+const SheetLibrary& sheet_library();
+
+}  // namespace treadmark::offset

@@ -1,0 +1,30 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <array>
+#include <compare>
+#include <cstdint>
+
+namespace treadmark::offset {
+
+constexpr int kBlockI = 8, kBlockJ = 64;  ///< voxels of a block, one OpenVDB leaf
+
+/// Values of one block, index = (i mod 8) * 64 + (j mod 64).
+using Block = std::array<float, kBlockI * kBlockJ>;
+
+struct BlockKey {
+  std::int32_t bi = 0, bj = 0;  ///< i / 8 and j / 64, rounded down
+  friend auto operator<=>(const BlockKey&, const BlockKey&) = default;
+};
+
+/// A stored block; the values are those of the grid.
+struct SheetEntry {
+  BlockKey key;
+  const float* values;
+};
+
+/// Name of the grid in a file.
+constexpr const char* kGridName = "treadmark_offsets";
+
+}  // namespace treadmark::offset
