@@ -131,7 +131,7 @@ struct Defects {
 
   /// Calls visit(key of case files, body that can have them, list) for every kind; defects may be const.
   template <class Self, class Visit>
-  static void each(Self& defects, const Visit& visit) {
+  static void each(Self&& defects, const Visit& visit) {
     visit("wheel.flats", Body::wheel, defects.flats);
     visit("wheel.polygonizations", Body::wheel, defects.polygonizations);
     visit("rail.squats", Body::rail, defects.squats);

@@ -41,7 +41,7 @@ using Kind = FieldInfo::Kind;
 // Beside the fields of the files.
 constexpr FieldInfo kMadeFields[] = {
     {{20, "adhesion and slip", "", 1.0, Kind::state}, "state", nullptr, no_values},
-    {{30, "traction", "MPa"}, "traction", nullptr, traction},
+    {{30, "traction", "MPa", 1.0, Kind::sequential, FieldInfo::Outside::zero}, "traction", nullptr, traction},
     {{60, "slip", "%"}, "slip", nullptr, slip},
     {{70, "slip distance", "µm"}, "slip_distance", nullptr, slip_distance},
 };

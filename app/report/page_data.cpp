@@ -132,9 +132,11 @@ class Writer {
           });
         });
       });
-      if (used)
-        out.push_back(
-            {{"name", field.name}, {"label", field.label}, {"unit", field.unit}, {"kind", to_text(field.kind)}});
+      if (!used) continue;
+      out.push_back(
+          {{"name", field.name}, {"label", field.label}, {"unit", field.unit}, {"kind", to_text(field.kind)}});
+      if (field.outside != FieldInfo::Outside::nothing)
+        out.back()["outside"] = field.outside == FieldInfo::Outside::zero ? "zero" : "value";
     }
     return out;
   }

@@ -18,21 +18,12 @@ void append(Keys<Element>& keys, Keys<Element> more) {
   for (auto& key : more) keys.push_back(std::move(key));
 }
 
+/// What case files say of one kind of defect.
 template <class Element>
-void add(KeyList& list, std::string doc, Keys<Element> keys, std::vector<Element> Defects::*member) {
-  const Defects none;
-  std::string path;
-  bool wheel = false;
-  Defects::each(none, [&](const char* key, Body body, const auto& elements) {
-    if (static_cast<const void*>(&elements) != &(none.*member)) return;
-    path = key;
-    wheel = body == Body::wheel;
-  });
-  KeyInfo info = key_info(std::move(path), KeyType::table_list, std::move(doc));
-  info.scope = KeyScope::wheel_rail;
-  add_list<Element>(list, std::move(info), std::move(keys),
-                    [member, wheel](W& c, bool) { return &((wheel ? c.wheel : c.rail).defects.*member); });
-}
+struct DefectKeys {
+  const char* doc;
+  Keys<Element> keys;
+};
 
 /// y_center_mm and width_mm of the shapes that fade sideways.
 template <class Element>
@@ -56,7 +47,7 @@ Keys<Element> stretch_keys() {
           element_number<Element>("ramp_mm", kPositive, "length of the run-in and of the run-out", &Element::ramp))};
 }
 
-void add_flats(KeyList& list) {
+DefectKeys<WheelFlat> keys_of(const std::vector<WheelFlat>&) {
   using Shape = WheelFlat::Shape;
   KeyInfo shape = key_info("shape", KeyType::choice,
                            "rounded: cosine dent; fresh: straight chord whose depth follows from the length");
@@ -69,10 +60,10 @@ void add_flats(KeyList& list) {
                                 &WheelFlat::depth)};
   append(keys, element_angle<WheelFlat>("theta_center", "angle of the middle on the wheel", &WheelFlat::theta_center));
   append(keys, band_keys<WheelFlat>("wheel"));
-  add<WheelFlat>(list, "flats worn into the wheel", std::move(keys), &Defects::flats);
+  return {"flats worn into the wheel", std::move(keys)};
 }
 
-void add_polygonizations(KeyList& list) {
+DefectKeys<Polygonization> keys_of(const std::vector<Polygonization>&) {
   using Harmonic = Polygonization::Harmonic;
   constexpr double kHighestOrder = 10000.0;
   KeyInfo order = key_info("order", KeyType::integer, "waves round the circumference");
@@ -87,16 +78,15 @@ void add_polygonizations(KeyList& list) {
   Keys<Polygonization> keys{element_list<Polygonization, Harmonic>("harmonics", "waves that add up",
                                                                    std::move(harmonic), &Polygonization::harmonics)};
   append(keys, band_keys<Polygonization>("wheel"));
-  add<Polygonization>(list, "out-of-roundness of the wheel as waves of its radius", std::move(keys),
-                      &Defects::polygonizations);
+  return {"out-of-roundness of the wheel as waves of its radius", std::move(keys)};
 }
 
-void add_squats(KeyList& list) {
+DefectKeys<Squat> keys_of(const std::vector<Squat>&) {
   const auto number = [](const char* name, KeyLimits limits, const char* doc, double Squat::*member) {
     return element_number<Squat>(name, limits, doc, member);
   };
-  add<Squat>(
-      list, "squats: depressions of the running band with one dip or two",
+  return {
+      "squats: depressions of the running band with one dip or two",
       {required(number("length_mm", kPositive, "length of the first dip", &Squat::length)),
        required(number("width_mm", kPositive, "width of the first dip", &Squat::width)),
        required(number("depth_mm", kPositive, "depth of the first dip", &Squat::depth)),
@@ -115,11 +105,10 @@ void add_squats(KeyList& list) {
                     "0"),
        with_default(
            number("second_y_offset_mm", kAnyNumber, "lateral shift of the second middle", &Squat::second_y_offset),
-           "0")},
-      &Defects::squats);
+           "0")}};
 }
 
-void add_corrugations(KeyList& list) {
+DefectKeys<Corrugation> keys_of(const std::vector<Corrugation>&) {
   using Wave = Corrugation::Wave;
   Keys<Wave> wave{required(element_number<Wave>("wavelength_mm", kPositive, "wavelength", &Wave::wavelength)),
                   required(element_number<Wave>("amplitude_um", kAnyNumber, "half of peak to peak", &Wave::amplitude))};
@@ -129,55 +118,51 @@ void add_corrugations(KeyList& list) {
       element_list<Corrugation, Wave>("waves", "waves that add up", std::move(wave), &Corrugation::waves)};
   append(keys, stretch_keys<Corrugation>());
   append(keys, band_keys<Corrugation>("rail"));
-  add<Corrugation>(list, "corrugated stretches of the rail", std::move(keys), &Defects::corrugations);
+  return {"corrugated stretches of the rail", std::move(keys)};
 }
 
-void add_gauge_corner_collapses(KeyList& list) {
+DefectKeys<GaugeCornerCollapse> keys_of(const std::vector<GaugeCornerCollapse>&) {
   using Collapse = GaugeCornerCollapse;
   KeyInfo towards =
       key_info("towards", KeyType::choice, "side of the corner: \"-y\" is the gauge side, also of a left rail");
   towards.choices = {"-y", "+y"};
   towards.default_text = "\"-y\"";
-  add<Collapse>(
-      list, "stretches where the gauge corner has sunk",
-      {required(
-           element_number<Collapse>("length_mm", kPositive, "length of the trough along the rail", &Collapse::length)),
-       required(element_number<Collapse>("depth_mm", kPositive, "greatest depth", &Collapse::depth)),
-       required(element_number<Collapse>("width_mm", kPositive, "lateral distance over which the depth grows",
-                                         &Collapse::width)),
-       with_default(element_number<Collapse>("x_center_mm", kAnyNumber, "middle along the rail", &Collapse::x_center),
-                    "0"),
-       required(element_number<Collapse>("y_start_mm", kAnyNumber, "where it begins, in rail profile coordinates",
-                                         &Collapse::y_start)),
-       {towards, [](Collapse& g, const CaseValue& v) { g.gauge_side = v.text() == "+y" ? 1 : -1; }}},
-      &Defects::gauge_corner_collapses);
+  return {"stretches where the gauge corner has sunk",
+          {required(element_number<Collapse>("length_mm", kPositive, "length of the trough along the rail",
+                                             &Collapse::length)),
+           required(element_number<Collapse>("depth_mm", kPositive, "greatest depth", &Collapse::depth)),
+           required(element_number<Collapse>("width_mm", kPositive, "lateral distance over which the depth grows",
+                                             &Collapse::width)),
+           with_default(
+               element_number<Collapse>("x_center_mm", kAnyNumber, "middle along the rail", &Collapse::x_center), "0"),
+           required(element_number<Collapse>("y_start_mm", kAnyNumber, "where it begins, in rail profile coordinates",
+                                             &Collapse::y_start)),
+           {towards, [](Collapse& g, const CaseValue& v) { g.gauge_side = v.text() == "+y" ? 1 : -1; }}}};
 }
 
-void add_spalls(KeyList& list) {
+DefectKeys<Spall> keys_of(const std::vector<Spall>&) {
   const auto number = [](const char* name, KeyLimits limits, const char* doc, double Spall::*member) {
     return element_number<Spall>(name, limits, doc, member);
   };
-  add<Spall>(
-      list, "spalls: chips broken out of the running band, pits with a flat floor",
+  return {
+      "spalls: chips broken out of the running band, pits with a flat floor",
       {required(number("length_mm", kPositive, "length over the rims", &Spall::length)),
        required(number("width_mm", kPositive, "width over the rims", &Spall::width)),
        required(number("depth_mm", kPositive, "depth of the floor", &Spall::depth)),
        required(number("edge_mm", kPositive, "width of the edge, over which the floor is reached", &Spall::edge)),
        with_default(number("x_center_mm", kAnyNumber, "middle along the rail", &Spall::x_center), "0"),
-       with_default(number("y_center_mm", kAnyNumber, "middle in rail profile coordinates", &Spall::y_center), "0")},
-      &Defects::spalls);
+       with_default(number("y_center_mm", kAnyNumber, "middle in rail profile coordinates", &Spall::y_center), "0")}};
 }
 
-void add_flattened_heads(KeyList& list) {
+DefectKeys<FlattenedHead> keys_of(const std::vector<FlattenedHead>&) {
   Keys<FlattenedHead> keys = stretch_keys<FlattenedHead>();
   keys.push_back(required(element_number<FlattenedHead>(
       "depth_mm", kPositive, "depth of the plane below the highest point of the rail", &FlattenedHead::depth)));
   append(keys, element_angle<FlattenedHead>("roll", "inclination of the plane about x", &FlattenedHead::roll));
-  add<FlattenedHead>(list, "stretches where the head is worn down to a plane", std::move(keys),
-                     &Defects::flattened_heads);
+  return {"stretches where the head is worn down to a plane", std::move(keys)};
 }
 
-void add_milling_paths(KeyList& list) {
+DefectKeys<MillingPath> keys_of(const std::vector<MillingPath>&) {
   using Station = MillingPath::Station;
   using Segment = MillingPath::Segment;
   Keys<Station> station{
@@ -202,21 +187,30 @@ void add_milling_paths(KeyList& list) {
                    "0")};
   append(keys, element_angle<MillingPath>("start_angle", "inclination atan(dz/dy) where the section starts",
                                           &MillingPath::start_angle));
-  add<MillingPath>(list, "cutters that remove what lies above their section along a path", std::move(keys),
-                   &Defects::milling_paths);
+  return {"cutters that remove what lies above their section along a path", std::move(keys)};
+}
+
+template <class Element>
+std::vector<Element>* list_of(Defects& defects, const std::string& path) {
+  std::vector<Element>* found = nullptr;
+  Defects::each(defects, [&](const char* key, Body, auto& list) {
+    if constexpr (std::is_same_v<decltype(list), std::vector<Element>&>)
+      if (path == key) found = &list;
+  });
+  return found;
 }
 
 }  // namespace
 
 void add_defect_keys(KeyList& list) {
-  add_flats(list);
-  add_polygonizations(list);
-  add_squats(list);
-  add_corrugations(list);
-  add_gauge_corner_collapses(list);
-  add_spalls(list);
-  add_flattened_heads(list);
-  add_milling_paths(list);
+  Defects::each(Defects{}, [&list]<class Element>(const char* path, Body body, const std::vector<Element>& kind) {
+    DefectKeys<Element> keys = keys_of(kind);
+    KeyInfo info = key_info(path, KeyType::table_list, keys.doc);
+    info.scope = KeyScope::wheel_rail;
+    add_list<Element>(list, std::move(info), std::move(keys.keys), [path, body](W& c, bool) {
+      return list_of<Element>(body == Body::wheel ? c.wheel.defects : c.rail.defects, path);
+    });
+  });
 }
 
 }  // namespace treadmark::io

@@ -14,10 +14,12 @@ namespace treadmark::io {
 /// How reports and pictures show a field.
 struct ShownField {
   enum class Kind { sequential, diverging, state };
+  enum class Outside { nothing, zero, value };  ///< what it means in elements outside contact
   int rank = 0;  ///< place in menus, small ones first and kept longest where space is short; 0 = not shown
   std::string_view label = {}, unit = {};
   double factor = 1.0;  ///< from SI
   Kind kind = Kind::sequential;
+  Outside outside = Outside::nothing;
 };
 
 /// A real-valued field of a patch: the name and unit it has in every field file.
@@ -34,15 +36,15 @@ struct FieldColumn {
 // clang-format off
 inline constexpr FieldColumn kFieldColumns[] = {
     {"gap", "m", "m", "undeformed distance, NaN where a surface is missing", &PatchFields::gap,
-     {80, "undeformed distance", "µm", kMicro, ShownField::Kind::diverging}},
+     {80, "undeformed distance", "µm", kMicro, ShownField::Kind::diverging, ShownField::Outside::value}},
     {"pressure", "Pa", "Pa", "normal pressure", &PatchFields::pressure,
-     {10, "pressure", "MPa", kMega}},
+     {10, "pressure", "MPa", kMega, ShownField::Kind::sequential, ShownField::Outside::zero}},
     {"traction_x", "Pa", "Pa", "longitudinal traction on the rail", &PatchFields::traction_x,
-     {40, "longitudinal traction", "MPa", kMega, ShownField::Kind::diverging}},
+     {40, "longitudinal traction", "MPa", kMega, ShownField::Kind::diverging, ShownField::Outside::zero}},
     {"traction_s", "Pa", "Pa", "lateral traction on the rail", &PatchFields::traction_s,
-     {50, "lateral traction", "MPa", kMega, ShownField::Kind::diverging}},
+     {50, "lateral traction", "MPa", kMega, ShownField::Kind::diverging, ShownField::Outside::zero}},
     {"displacement_n", "m", "m", "normal displacement, rail minus wheel", &PatchFields::displacement_n,
-     {90, "normal displacement", "µm", kMicro}},
+     {90, "normal displacement", "µm", kMicro, ShownField::Kind::sequential, ShownField::Outside::value}},
     {"displacement_x", "m", "m", "longitudinal displacement, rail minus wheel", &PatchFields::displacement_x},
     {"displacement_s", "m", "m", "lateral displacement, rail minus wheel", &PatchFields::displacement_s},
     {"slip_x", "1", "m", "longitudinal slip, rail minus wheel, over the rolling speed", &PatchFields::slip_x},
@@ -50,16 +52,16 @@ inline constexpr FieldColumn kFieldColumns[] = {
     {"friction", "1", "1", "coefficient of friction", &PatchFields::friction,
      {100, "coefficient of friction"}},
     {"dissipation", "W/m2", "J/m2", "power (shift: work) of friction that becomes heat", &PatchFields::dissipation,
-     {75, "dissipation by friction", "W/mm²", 1e-6}},
+     {75, "dissipation by friction", "W/mm²", 1e-6, ShownField::Kind::sequential, ShownField::Outside::zero}},
     {"plastic_x", "m", "m", "longitudinal plastic shear of the interface layer", &PatchFields::plastic_x,
      {130, "longitudinal plastic shear", "µm", kMicro, ShownField::Kind::diverging}},
     {"plastic_s", "m", "m", "lateral plastic shear of the interface layer", &PatchFields::plastic_s,
      {140, "lateral plastic shear", "µm", kMicro, ShownField::Kind::diverging}},
     {"yield_stress", "Pa", "Pa", "shear stress at which the interface layer yields", &PatchFields::yield_stress},
     {"temperature_1", "degC", "degC", "surface temperature of the rail", &PatchFields::temperature_1,
-     {110, "temperature of the rail", "°C"}},
+     {110, "temperature of the rail", "°C", 1.0, ShownField::Kind::sequential, ShownField::Outside::value}},
     {"temperature_2", "degC", "degC", "surface temperature of the wheel", &PatchFields::temperature_2,
-     {120, "temperature of the wheel", "°C"}},
+     {120, "temperature of the wheel", "°C", 1.0, ShownField::Kind::sequential, ShownField::Outside::value}},
     {"extra_slip_x", "1", "m", "longitudinal rigid slip beyond the creepages", &PatchFields::extra_slip_x},
     {"extra_slip_s", "1", "m", "lateral rigid slip beyond the creepages", &PatchFields::extra_slip_s},
 };

@@ -60,7 +60,9 @@ ShapePtr dip(double length, double width, double depth, double x, double y) {
   return product_shape(depth, along, across, {along.begin(), along.end(), across.begin(), across.end()});
 }
 
-}  // namespace
+/// What cuts a surface does not displace it.
+void add_shapes(const std::vector<FlattenedHead>&, double, Shapes&) {}
+void add_shapes(const std::vector<MillingPath>&, double, Shapes&) {}
 
 void add_shapes(const std::vector<WheelFlat>& flats, double nominal_radius, Shapes& shapes) {
   if (!flats.empty()) shapes.push_back(std::make_unique<FlatsShape>(flats, nominal_radius));
@@ -113,6 +115,14 @@ void add_shapes(const std::vector<Spall>& spalls, double, Shapes& shapes) {
     const CosineWindow across{s.y_center - 0.5 * s.width, s.y_center + 0.5 * s.width, s.edge};
     shapes.push_back(product_shape(s.depth, along, across, {along.start, along.end, across.start, across.end}));
   }
+}
+
+}  // namespace
+
+Shapes make_shapes(const Defects& defects, double nominal_radius) {
+  Shapes shapes;
+  Defects::each(defects, [&](const char*, Body, const auto& list) { add_shapes(list, nominal_radius, shapes); });
+  return shapes;
 }
 
 }  // namespace treadmark::analytic

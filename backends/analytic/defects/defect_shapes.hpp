@@ -17,17 +17,8 @@ using ShapePtr = std::unique_ptr<const OffsetShape>;
 
 using Shapes = std::vector<ShapePtr>;
 
-/// Append the shapes of one list of a Defects; nominal_radius: of a wheel.
-void add_shapes(const std::vector<WheelFlat>& flats, double nominal_radius, Shapes& shapes);
-void add_shapes(const std::vector<Polygonization>& polygonizations, double nominal_radius, Shapes& shapes);
-void add_shapes(const std::vector<Squat>& squats, double nominal_radius, Shapes& shapes);
-void add_shapes(const std::vector<Corrugation>& corrugations, double nominal_radius, Shapes& shapes);
-void add_shapes(const std::vector<GaugeCornerCollapse>& collapses, double nominal_radius, Shapes& shapes);
-void add_shapes(const std::vector<Spall>& spalls, double nominal_radius, Shapes& shapes);
-/// What cuts a surface does not displace it.
-inline void add_shapes(const std::vector<FlattenedHead>&, double, Shapes&) {}
-inline void add_shapes(const std::vector<MillingPath>&, double, Shapes&) {}
-
+/// One shape or more of every defect that displaces the surface; flattened heads and milling cut it instead.
+Shapes make_shapes(const Defects& defects, double nominal_radius);
 /// max(0, plane - base); asks the base for every value.
 ShapePtr make_flattened_head_shape(const FlattenedHead& head, std::shared_ptr<const Surface> base);
 

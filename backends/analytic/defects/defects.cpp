@@ -25,12 +25,6 @@ void require_base(const std::shared_ptr<const Surface>& base) {
   if (base == nullptr) throw Error(ErrorKind::configuration, "defects need a surface that they belong to");
 }
 
-Shapes make_shapes(const Defects& defects, double nominal_radius) {
-  Shapes shapes;
-  Defects::each(defects, [&](const char*, Body, const auto& list) { add_shapes(list, nominal_radius, shapes); });
-  return shapes;
-}
-
 ArcChain section_chain(const MillingPath& m) {
   ArcChain chain{m.start_y, m.start_z, m.start_angle, {}};
   for (const auto& s : m.section) chain.segments.push_back({s.length, s.curvature});

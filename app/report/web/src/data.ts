@@ -65,6 +65,8 @@ export interface FieldInfo {
   label: string;
   unit: string;
   kind: "sequential" | "diverging" | "state";
+  /** What it is in elements outside contact, where it is anything there. */
+  outside?: "zero" | "value";
 }
 
 export interface FrameSet {

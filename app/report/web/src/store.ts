@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+import { learnFields } from "./contact/fields";
 import type { ReportData } from "./data";
 import { decode } from "./packed";
 
@@ -50,6 +51,7 @@ export class Store {
 
   constructor(data: ReportData) {
     this.data = data;
+    learnFields(data.fields);
   }
 
   get step(): number {

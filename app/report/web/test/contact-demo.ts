@@ -6,14 +6,14 @@ import type { FieldInfo, Frame, FrameSet, Patch, ReportData } from "../src/data"
 import { Packer } from "./pack";
 
 export const contactFields: FieldInfo[] = [
-  { name: "pressure", label: "Pressure", unit: "MPa", kind: "sequential" },
-  { name: "traction", label: "Traction, magnitude", unit: "MPa", kind: "sequential" },
-  { name: "traction_x", label: "Traction, longitudinal", unit: "MPa", kind: "diverging" },
-  { name: "traction_s", label: "Traction, lateral", unit: "MPa", kind: "diverging" },
+  { name: "pressure", label: "Pressure", unit: "MPa", kind: "sequential", outside: "zero" },
+  { name: "traction", label: "Traction, magnitude", unit: "MPa", kind: "sequential", outside: "zero" },
+  { name: "traction_x", label: "Traction, longitudinal", unit: "MPa", kind: "diverging", outside: "zero" },
+  { name: "traction_s", label: "Traction, lateral", unit: "MPa", kind: "diverging", outside: "zero" },
   { name: "slip", label: "Slip, magnitude", unit: "1e-3", kind: "sequential" },
   { name: "friction", label: "Coefficient of friction", unit: "1", kind: "sequential" },
-  { name: "gap", label: "Undeformed distance", unit: "µm", kind: "sequential" },
-  { name: "temperature_1", label: "Temperature of the rail", unit: "°C", kind: "sequential" },
+  { name: "gap", label: "Undeformed distance", unit: "µm", kind: "sequential", outside: "value" },
+  { name: "temperature_1", label: "Temperature of the rail", unit: "°C", kind: "sequential", outside: "value" },
   { name: "state", label: "State", unit: "", kind: "state" },
 ];
 

@@ -5,7 +5,7 @@ import { test } from "node:test";
 
 import { csvOf } from "../src/contact/csv";
 import { difference } from "../src/contact/difference";
-import { contactBox, fieldOf, shownValue, TRACTION } from "../src/contact/fields";
+import { contactBox, fieldOf, learnFields, shownValue, TRACTION } from "../src/contact/fields";
 import { choicesOf, Model } from "../src/contact/model";
 import { elementOf, peakOf } from "../src/contact/pick";
 import { itemsOf, matchedItems, nominalItem, toTrack } from "../src/contact/place";
@@ -13,6 +13,8 @@ import { curvePath, sectionOf } from "../src/contact/section";
 import type { Frame, Patch, ReportData } from "../src/data";
 import { contactFields, contactReport } from "./contact-demo";
 import { Packer } from "./pack";
+
+learnFields(contactFields);
 
 interface Simple {
   name?: string;

@@ -5,12 +5,12 @@ import type { FieldInfo, Frame, Patch, Placed, SurfaceData } from "../src/data";
 import { Packer } from "./pack";
 
 export const demoFields: FieldInfo[] = [
-  { name: "pressure", label: "Pressure", unit: "MPa", kind: "sequential" },
-  { name: "traction", label: "Traction, magnitude", unit: "MPa", kind: "sequential" },
-  { name: "traction_x", label: "Traction, longitudinal", unit: "MPa", kind: "diverging" },
-  { name: "traction_s", label: "Traction, lateral", unit: "MPa", kind: "diverging" },
+  { name: "pressure", label: "Pressure", unit: "MPa", kind: "sequential", outside: "zero" },
+  { name: "traction", label: "Traction, magnitude", unit: "MPa", kind: "sequential", outside: "zero" },
+  { name: "traction_x", label: "Traction, longitudinal", unit: "MPa", kind: "diverging", outside: "zero" },
+  { name: "traction_s", label: "Traction, lateral", unit: "MPa", kind: "diverging", outside: "zero" },
   { name: "slip", label: "Slip velocity, magnitude", unit: "mm/s", kind: "sequential" },
-  { name: "gap", label: "Gap", unit: "µm", kind: "sequential" },
+  { name: "gap", label: "Gap", unit: "µm", kind: "sequential", outside: "value" },
   { name: "state", label: "State", unit: "", kind: "state" },
 ];
 

@@ -172,11 +172,11 @@ export function sceneDemo(size: SceneDemoSize = { stations: 900, points: 120, el
     format: "treadmark report 1", kind: "run", title: "Scene",
     timeline: { label: "case", names: frames.map((f) => f.name), count: steps, frames: frames.map((_, k) => k), axes: [{ label: "case", unit: "", scale: "linear", values: frames.map((_, k) => k) }] },
     fields: [
-      { name: "pressure", label: "pressure", unit: "MPa", kind: "sequential" },
+      { name: "pressure", label: "pressure", unit: "MPa", kind: "sequential", outside: "zero" },
       { name: "state", label: "adhesion and slip", unit: "", kind: "state" },
-      { name: "traction", label: "traction", unit: "MPa", kind: "sequential" },
-      { name: "traction_x", label: "longitudinal traction", unit: "MPa", kind: "diverging" },
-      { name: "traction_s", label: "lateral traction", unit: "MPa", kind: "diverging" },
+      { name: "traction", label: "traction", unit: "MPa", kind: "sequential", outside: "zero" },
+      { name: "traction_x", label: "longitudinal traction", unit: "MPa", kind: "diverging", outside: "zero" },
+      { name: "traction_s", label: "lateral traction", unit: "MPa", kind: "diverging", outside: "zero" },
     ],
     sets: [{ name: "run", nominal: null, frames }], surfaces, views: [{ type: "scene", id: "scene", set: 0 }], blobs, document: null,
   };

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-import type { Patch } from "../data";
+import type { FieldInfo, Patch } from "../data";
 import { decode, type Decoded } from "../packed";
 
 // Fields of a patch: which of them mean something outside contact, and those made of others.
@@ -12,14 +12,22 @@ export type Grid = Pick<Patch, "nx" | "ny" | "x0_mm" | "s0_mm" | "dx_mm" | "ds_m
 export const TRACTION = "traction";
 export const FRICTION_BOUND = "friction_bound";
 
+const outsideOf = new Map<string, FieldInfo["outside"]>();
+
+/** What the page says of its fields; to be told before they are shown. */
+export function learnFields(fields: FieldInfo[]): void {
+  for (const field of fields) outsideOf.set(field.name, field.outside);
+  outsideOf.set(FRICTION_BOUND, "zero");
+}
+
 /** Fields with a meaning in every element, not in contact alone. */
 export function isEverywhere(name: string): boolean {
-  return /^(gap|temperature|displacement|undeformed)/.test(name);
+  return outsideOf.get(name) === "value";
 }
 
 /** Fields that are zero outside contact, so that lines may run to the edge of contact. */
 export function isZeroOutside(name: string): boolean {
-  return name === "pressure" || name.startsWith(TRACTION) || name === FRICTION_BOUND || name === "dissipation";
+  return outsideOf.get(name) === "zero";
 }
 
 const made = new WeakMap<Patch, Map<string, Decoded | null>>();
