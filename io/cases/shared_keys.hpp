@@ -68,7 +68,7 @@ struct ElementKey {
 
 /// place: a member of Element, or Element& -> double&.
 template <class Element, class Place>
-ElementKey<Element> element_number(std::string name, KeyLimits limits, std::string doc, Place place) {
+ElementKey<Element> element_number(const std::string& name, KeyLimits limits, std::string doc, Place place) {
   KeyInfo info = key_info(name, KeyType::number, std::move(doc));
   info.above = limits.above;
   info.at_least = limits.at_least;
@@ -84,8 +84,8 @@ ElementKey<Element> required(ElementKey<Element> key) {
   return key;
 }
 template <class Element>
-ElementKey<Element> with_default(ElementKey<Element> key, std::string text) {
-  key.info.default_text = std::move(text);
+ElementKey<Element> with_default(ElementKey<Element> key, const std::string& text) {
+  key.info.default_text = text;
   return key;
 }
 

@@ -105,7 +105,7 @@ class SettingKeys {
   template <class Content, class Place>
   void angle(const std::string& base, KeyLimits limits_deg, const std::string& doc, Place place) {
     for (const std::string unit : {"deg", "rad"}) {
-      KeyInfo& info = number<Content>(base + '_' + unit, limits_deg, doc, place);
+      KeyInfo& info = number<Content>(fmt::format("{}_{}", base, unit), limits_deg, doc, place);
       const double factor = unit == "rad" ? unit_of_key("x_deg") : 1.0;
       for (auto* limit : {&info.above, &info.at_least, &info.at_most})
         if (*limit) *limit = **limit * factor;
