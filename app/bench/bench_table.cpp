@@ -48,7 +48,7 @@ Line cells(const BenchRow& row) {
   return line;
 }
 
-std::string label(const BenchRow& row) {
+std::string row_label(const BenchRow& row) {
   return fmt::format("{}{}, {}", row.backend, row.resolution > 0.0 ? fmt::format(" {:g} mm", 1e3 * row.resolution) : "",
                      row.body == Body::rail ? "rail" : "wheel");
 }
@@ -62,7 +62,7 @@ std::string origin(const BenchReport& report) {
 std::string remarks(const BenchReport& report, const char* before) {
   std::string out;
   for (const BenchRow& row : report.rows)
-    if (!row.agrees) out += fmt::format("{}{}: does not agree: {}\n", before, label(row), row.reason);
+    if (!row.agrees) out += fmt::format("{}{}: does not agree: {}\n", before, row_label(row), row.reason);
   if (!report.complete) out += fmt::format("{}interrupted: some backends are missing\n", before);
   return out;
 }
