@@ -30,10 +30,7 @@ void check(const SurfaceSpec& spec) {
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
   if (spec.body == Body::wheel && spec.roller_radius != 0.0)
     throw Error(ErrorKind::configuration, "a roller takes the place of a rail, a wheel cannot be one");
-  if (spec.body == Body::rail && spec.defects.on_wheel())
-    throw Error(ErrorKind::configuration, "flats and polygonizations belong to wheels, not to rails");
-  if (spec.body == Body::wheel && spec.defects.on_rail())
-    throw Error(ErrorKind::configuration, "squats, corrugations and other rail defects belong to rails, not to wheels");
+  check_body(spec.defects, spec.body);
   if (const auto* points = std::get_if<Profile>(&spec.shape))
     require_same_body(points->body, spec.body, fmt::format("the profile '{}'", points->name));
   if (const auto* slices = std::get_if<SliceSet>(&spec.shape))

@@ -15,7 +15,7 @@ namespace treadmark {
 /// approach.
 enum class NormalModel { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
 
-enum class TangentialModel { full, fastsim, fastsim_one_flexibility, fastrip };
+enum class TangentialModel { full, fastsim, fastsim_one_flexibility, fastrip, linear };
 
 /// Which tangential problem is solved.
 enum class Regime {

@@ -7,6 +7,7 @@
 #include <initializer_list>
 #include <numbers>
 #include <string>
+#include <utility>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -116,6 +117,14 @@ void check(const GaugeCornerCollapse& g, double, const Shape& shape) {
   shape.gentle(0.5 * g.depth * kPi / g.width, "the collapse is too deep for its width");
 }
 
+void check(const Spall& s, double, const Shape& shape) {
+  shape.finite({s.length, s.width, s.depth, s.edge, s.x_center, s.y_center});
+  shape.require(s.length > 0.0 && s.width > 0.0 && s.depth > 0.0, "length, width and depth must be positive");
+  shape.require(s.edge > 0.0, "the width of the edge must be positive");
+  shape.require(2.0 * s.edge <= std::min(s.length, s.width), "the edges are wider than half the spall");
+  shape.gentle(0.5 * s.depth * kPi / s.edge, "the edge is too narrow for the depth");
+}
+
 void check(const FlattenedHead& h, double, const Shape& shape) {
   check_stretch(h, shape);
   shape.finite({h.depth, h.roll});
@@ -152,32 +161,24 @@ void check(const MillingPath& m, double, const Shape& shape) {
   }
 }
 
-template <class Element>
-void check_all(const std::vector<Element>& elements, const char* list, double nominal_radius) {
-  for (std::size_t i = 0; i < elements.size(); ++i) check(elements[i], nominal_radius, Shape(list, i));
-}
-
 }  // namespace
 
-void check_defects(const Defects& d, Body body, double nominal_radius) {
-  if (body == Body::rail && !d.flats.empty())
-    throw Error(ErrorKind::configuration, "flats belong to wheels, not to rails");
-  if (body == Body::rail && !d.polygonizations.empty())
-    throw Error(ErrorKind::configuration, "polygonizations belong to wheels, not to rails", {},
-                "rails have corrugations");
-  if (body == Body::wheel && d.on_rail())
-    throw Error(
-        ErrorKind::configuration,
-        "squats, corrugations, gauge-corner collapses, flattened heads and milling belong to rails, not to wheels");
-  if (d.on_wheel() && !(nominal_radius > 0.0))
+void check_body(const Defects& defects, Body body) {
+  Defects::each(defects, [body](std::string key, Body owner, const auto& list) {
+    if (list.empty() || owner == body) return;
+    std::replace(key.begin(), key.end(), '_', ' ');
+    const auto [can, cannot] = owner == Body::wheel ? std::pair("wheels", "rails") : std::pair("rails", "wheels");
+    throw Error(ErrorKind::configuration, key.substr(key.find('.') + 1) + " belong to " + can + ", not to " + cannot);
+  });
+}
+
+void check_defects(const Defects& defects, Body body, double nominal_radius) {
+  check_body(defects, body);
+  if (body == Body::wheel && !defects.empty() && !(nominal_radius > 0.0))
     throw Error(ErrorKind::configuration, "a wheel needs a positive nominal radius");
-  check_all(d.flats, "wheel.flats", nominal_radius);
-  check_all(d.polygonizations, "wheel.polygonizations", nominal_radius);
-  check_all(d.squats, "rail.squats", nominal_radius);
-  check_all(d.corrugations, "rail.corrugations", nominal_radius);
-  check_all(d.gauge_corner_collapses, "rail.gauge_corner_collapses", nominal_radius);
-  check_all(d.flattened_heads, "rail.flattened_heads", nominal_radius);
-  check_all(d.milling_paths, "rail.milling_paths", nominal_radius);
+  Defects::each(defects, [nominal_radius](const char* key, Body, const auto& list) {
+    for (std::size_t i = 0; i < list.size(); ++i) check(list[i], nominal_radius, Shape(key, i));
+  });
 }
 
 }  // namespace treadmark

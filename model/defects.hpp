@@ -79,6 +79,15 @@ struct GaugeCornerCollapse {
   friend bool operator==(const GaugeCornerCollapse&, const GaugeCornerCollapse&) = default;
 };
 
+/// A spall: a chip broken out of the running band, a pit with a flat floor: depth w(x) w(y), where w is 1 inside, 0
+/// outside and rises over the width of the edge by 1/2 (1 - cos).
+struct Spall {
+  double length = 0.0, width = 0.0, depth = 0.0;  ///< over the rims; all > 0
+  double edge = 0.0;                              ///< width of the edge, > 0, at most half of length and width
+  double x_center = 0.0, y_center = 0.0;
+  friend bool operator==(const Spall&, const Spall&) = default;
+};
+
 /// A flattened rail head: over the running band the crown is worn down to a plane across the rail. The plane touches
 /// the highest point of the base between x_start and x_end (highest as seen along the plane's own inclination) and
 /// sinks from there to depth below it over ramp, by t^2 (3 - 2 t); what lies above it is gone.
@@ -111,22 +120,38 @@ struct MillingPath {
 
 /// Everything that is wrong with one surface. Depths of several shapes add up; milling comes last.
 struct Defects {
-  std::vector<WheelFlat> flats{};                 ///< wheel only
-  std::vector<Polygonization> polygonizations{};  ///< wheel only
-  std::vector<Squat> squats{};                    ///< the rest: rail only
+  std::vector<WheelFlat> flats{};
+  std::vector<Polygonization> polygonizations{};
+  std::vector<Squat> squats{};
   std::vector<Corrugation> corrugations{};
   std::vector<GaugeCornerCollapse> gauge_corner_collapses{};
+  std::vector<Spall> spalls{};
   std::vector<FlattenedHead> flattened_heads{};
   std::vector<MillingPath> milling_paths{};
 
-  bool on_wheel() const { return !flats.empty() || !polygonizations.empty(); }
-  bool on_rail() const {
-    return !squats.empty() || !corrugations.empty() || !gauge_corner_collapses.empty() || !flattened_heads.empty() ||
-           !milling_paths.empty();
+  /// Calls visit(key of case files, body that can have them, list) for every kind; defects may be const.
+  template <class Self, class Visit>
+  static void each(Self& defects, const Visit& visit) {
+    visit("wheel.flats", Body::wheel, defects.flats);
+    visit("wheel.polygonizations", Body::wheel, defects.polygonizations);
+    visit("rail.squats", Body::rail, defects.squats);
+    visit("rail.corrugations", Body::rail, defects.corrugations);
+    visit("rail.gauge_corner_collapses", Body::rail, defects.gauge_corner_collapses);
+    visit("rail.spalls", Body::rail, defects.spalls);
+    visit("rail.flattened_heads", Body::rail, defects.flattened_heads);
+    visit("rail.milling_paths", Body::rail, defects.milling_paths);
   }
-  bool empty() const { return !on_wheel() && !on_rail(); }
+
+  bool empty() const {
+    bool none = true;
+    each(*this, [&none](const char*, Body, const auto& list) { none &= list.empty(); });
+    return none;
+  }
   friend bool operator==(const Defects&, const Defects&) = default;
 };
+
+/// Throws Error(configuration) where a body cannot have them: "squats belong to rails, not to wheels".
+void check_body(const Defects& defects, Body body);
 
 /// Throws Error(configuration) for parameters that make no sense, naming the list and the number of the shape in it,
 /// counted from 0 as in overrides: "rail.squats[1]: ...". Wheel shapes on a rail and the reverse are refused too.

@@ -77,6 +77,11 @@ inline constexpr Theory<TangentialModel> kTangentialTheories[] = {
      "FaStrip",
      {5, "T = 0, 3; D other than 3, 4", "T = 0, 3"},
      {.steady_only = true}},
+    {TangentialModel::linear,
+     "linear",
+     "linear theory: no friction bound, for creep coefficients",
+     {},
+     {.steady_only = true}},
 };
 
 inline constexpr Theory<Regime> kRegimes[] = {

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/bench/check_surface.hpp"
-#include "treadmark/app/bench/check_surface.hpp"
 
 #include <fmt/format.h>
 

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/bench/machine.hpp"
-#include "treadmark/app/bench/machine.hpp"
 
 #include <fmt/format.h>
 

@@ -37,20 +37,9 @@ struct Verb {
 /// All verbs, in the order in which they are listed.
 std::span<const Verb> verbs();
 
-// Each in <verb>_command.cpp, or in without_<part>.cpp.
-Command add_run(CLI::App& verb);
-Command add_compare(CLI::App& verb);
-Command add_bench(CLI::App& verb);
-Command add_convert(CLI::App& verb);
-Command add_import(CLI::App& verb);
-Command add_scan(CLI::App& verb);
-Command add_simulate(CLI::App& verb);
-Command add_sweep(CLI::App& verb);
-Command add_report(CLI::App& verb);
-Command add_plot(CLI::App& verb);
-Command add_check(CLI::App& verb);
-Command add_list(CLI::App& verb);
-Command add_schema(CLI::App& verb);
+#define VERB(name, summary, part) Command add_##name(CLI::App& verb);
+#include "treadmark/app/cli/verbs.def"
+#undef VERB
 
 /// Takes anything, and refuses it by the name of the part that this build leaves out. For without_<part>.cpp.
 Command add_left_out(CLI::App& verb);

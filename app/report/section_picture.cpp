@@ -19,7 +19,7 @@ namespace treadmark::app::report {
 namespace {
 
 constexpr double kLeft = 70.0, kTop = 44.0, kWidth = 640.0, kBottom = 50.0;  // [px]
-constexpr double kMargin = 0.004;                                            // around what is shown [m]
+constexpr double kSectionMargin = 0.004;                                     // around what is shown [m]
 
 using Line = std::vector<std::array<double, 2>>;
 
@@ -101,7 +101,7 @@ std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurfac
           {kMilli * patch.y_tr, -kMilli * patch.z_tr, 4.5, fmt::format("{:.1f} kN", 1e-3 * patch.fn), ""});
   chart.series.push_back(std::move(references));
   if (!(y_low < y_high)) y_low = -1.0, y_high = 1.0, z_low = -1.0, z_high = 1.0;
-  const double margin = kMilli * kMargin;
+  const double margin = kMilli * kSectionMargin;
   chart.x_range = {y_low - margin, y_high + margin};
   chart.y_range = {z_low - margin, z_high + margin};
   const double height =
@@ -117,7 +117,7 @@ std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurfac
 
 namespace {
 
-constexpr double kMapLeft = 78.0, kMapTop = 44.0, kWidth = 640.0, kHeight = 260.0, kMapBottom = 50.0,
+constexpr double kMapLeft = 78.0, kMapTop = 44.0, kHeight = 260.0, kMapBottom = 50.0,
                  kBar = 14.0;  // [px]
 constexpr int kMostMapColumns = 240, kMostRows = 100, kMapSteps = 20;
 

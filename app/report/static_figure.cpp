@@ -194,7 +194,7 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page) {
 
 namespace {
 
-constexpr double kPanel = 210.0, kGapX = 48.0, kGapY = 56.0, kLeft = 60.0, kTop = 74.0, kBottom = 44.0,
+constexpr double kPanel = 210.0, kGapX = 48.0, kGapY = 56.0, kFieldLeft = 60.0, kFieldTop = 74.0, kFieldBottom = 44.0,
                  kLegend = 150.0;  // [px]
 constexpr int kMostColumns = 6, kSteps = 24;
 constexpr std::size_t kMostFrames = 24;
@@ -349,14 +349,14 @@ std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, 
   const double width = all.width() * scale, height = all.height() * scale;
   const int count = static_cast<int>(panels.size()), columns = std::min(count, kMostColumns),
             rows = (count + columns - 1) / columns;
-  std::string out =
-      io::svg_head(kLeft + columns * width + (columns - 1) * kGapX + kLegend,
-                   kTop + std::max(kPanel, rows * height + (rows - 1) * kGapY) + kBottom, 10, io::kPanelStyle);
-  out += io::svg_text(kLeft, 22.0, title, "start", " class=\"title\"");
+  std::string out = io::svg_head(kFieldLeft + columns * width + (columns - 1) * kGapX + kLegend,
+                                 kFieldTop + std::max(kPanel, rows * height + (rows - 1) * kGapY) + kFieldBottom, 10,
+                                 io::kPanelStyle);
+  out += io::svg_text(kFieldLeft, 22.0, title, "start", " class=\"title\"");
   for (int k = 0; k < count; ++k) {
     const auto& [frame, patches] = panels[static_cast<std::size_t>(k)];
-    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kLeft + (k % columns) * (width + kGapX),
-                       kTop + (k / columns) * (height + kGapY));
+    out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n", kFieldLeft + (k % columns) * (width + kGapX),
+                       kFieldTop + (k / columns) * (height + kGapY));
     out += io::svg_text(0.0, -8.0, frame->name, "start");
     for (const Shown& one : patches) out += cells(one, field, range, panel_scale);
     if (k + columns >= count) out += io::svg_text(0.5 * width, height + 30.0, "x [mm]");
@@ -367,7 +367,7 @@ std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, 
     out += io::draw_panel_axes(panel_scale) + "</g>\n";
   }
   out += fmt::format("<g transform=\"translate({:.1f} {:.1f})\">\n",
-                     kLeft + columns * width + (columns - 1) * kGapX + 32.0, kTop) +
+                     kFieldLeft + columns * width + (columns - 1) * kGapX + 32.0, kFieldTop) +
          legend(field, range) + "</g>\n";
   return out + "</svg>\n";
 }

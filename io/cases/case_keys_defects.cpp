@@ -19,11 +19,17 @@ void append(Keys<Element>& keys, Keys<Element> more) {
 }
 
 template <class Element>
-void add(KeyList& list, const std::string& path, std::string doc, Keys<Element> keys,
-         std::vector<Element> Defects::*member) {
-  KeyInfo info = key_info(path, KeyType::table_list, std::move(doc));
+void add(KeyList& list, std::string doc, Keys<Element> keys, std::vector<Element> Defects::*member) {
+  const Defects none;
+  std::string path;
+  bool wheel = false;
+  Defects::each(none, [&](const char* key, Body body, const auto& elements) {
+    if (static_cast<const void*>(&elements) != &(none.*member)) return;
+    path = key;
+    wheel = body == Body::wheel;
+  });
+  KeyInfo info = key_info(std::move(path), KeyType::table_list, std::move(doc));
   info.scope = KeyScope::wheel_rail;
-  const bool wheel = path.starts_with("wheel.");
   add_list<Element>(list, std::move(info), std::move(keys),
                     [member, wheel](W& c, bool) { return &((wheel ? c.wheel : c.rail).defects.*member); });
 }
@@ -63,7 +69,7 @@ void add_flats(KeyList& list) {
                                 &WheelFlat::depth)};
   append(keys, element_angle<WheelFlat>("theta_center", "angle of the middle on the wheel", &WheelFlat::theta_center));
   append(keys, band_keys<WheelFlat>("wheel"));
-  add<WheelFlat>(list, "wheel.flats", "flats worn into the wheel", std::move(keys), &Defects::flats);
+  add<WheelFlat>(list, "flats worn into the wheel", std::move(keys), &Defects::flats);
 }
 
 void add_polygonizations(KeyList& list) {
@@ -81,8 +87,8 @@ void add_polygonizations(KeyList& list) {
   Keys<Polygonization> keys{element_list<Polygonization, Harmonic>("harmonics", "waves that add up",
                                                                    std::move(harmonic), &Polygonization::harmonics)};
   append(keys, band_keys<Polygonization>("wheel"));
-  add<Polygonization>(list, "wheel.polygonizations", "out-of-roundness of the wheel as waves of its radius",
-                      std::move(keys), &Defects::polygonizations);
+  add<Polygonization>(list, "out-of-roundness of the wheel as waves of its radius", std::move(keys),
+                      &Defects::polygonizations);
 }
 
 void add_squats(KeyList& list) {
@@ -90,7 +96,7 @@ void add_squats(KeyList& list) {
     return element_number<Squat>(name, limits, doc, member);
   };
   add<Squat>(
-      list, "rail.squats", "squats: depressions of the running band with one dip or two",
+      list, "squats: depressions of the running band with one dip or two",
       {required(number("length_mm", kPositive, "length of the first dip", &Squat::length)),
        required(number("width_mm", kPositive, "width of the first dip", &Squat::width)),
        required(number("depth_mm", kPositive, "depth of the first dip", &Squat::depth)),
@@ -123,8 +129,7 @@ void add_corrugations(KeyList& list) {
       element_list<Corrugation, Wave>("waves", "waves that add up", std::move(wave), &Corrugation::waves)};
   append(keys, stretch_keys<Corrugation>());
   append(keys, band_keys<Corrugation>("rail"));
-  add<Corrugation>(list, "rail.corrugations", "corrugated stretches of the rail", std::move(keys),
-                   &Defects::corrugations);
+  add<Corrugation>(list, "corrugated stretches of the rail", std::move(keys), &Defects::corrugations);
 }
 
 void add_gauge_corner_collapses(KeyList& list) {
@@ -134,7 +139,7 @@ void add_gauge_corner_collapses(KeyList& list) {
   towards.choices = {"-y", "+y"};
   towards.default_text = "\"-y\"";
   add<Collapse>(
-      list, "rail.gauge_corner_collapses", "stretches where the gauge corner has sunk",
+      list, "stretches where the gauge corner has sunk",
       {required(
            element_number<Collapse>("length_mm", kPositive, "length of the trough along the rail", &Collapse::length)),
        required(element_number<Collapse>("depth_mm", kPositive, "greatest depth", &Collapse::depth)),
@@ -148,12 +153,27 @@ void add_gauge_corner_collapses(KeyList& list) {
       &Defects::gauge_corner_collapses);
 }
 
+void add_spalls(KeyList& list) {
+  const auto number = [](const char* name, KeyLimits limits, const char* doc, double Spall::*member) {
+    return element_number<Spall>(name, limits, doc, member);
+  };
+  add<Spall>(
+      list, "spalls: chips broken out of the running band, pits with a flat floor",
+      {required(number("length_mm", kPositive, "length over the rims", &Spall::length)),
+       required(number("width_mm", kPositive, "width over the rims", &Spall::width)),
+       required(number("depth_mm", kPositive, "depth of the floor", &Spall::depth)),
+       required(number("edge_mm", kPositive, "width of the edge, over which the floor is reached", &Spall::edge)),
+       with_default(number("x_center_mm", kAnyNumber, "middle along the rail", &Spall::x_center), "0"),
+       with_default(number("y_center_mm", kAnyNumber, "middle in rail profile coordinates", &Spall::y_center), "0")},
+      &Defects::spalls);
+}
+
 void add_flattened_heads(KeyList& list) {
   Keys<FlattenedHead> keys = stretch_keys<FlattenedHead>();
   keys.push_back(required(element_number<FlattenedHead>(
       "depth_mm", kPositive, "depth of the plane below the highest point of the rail", &FlattenedHead::depth)));
   append(keys, element_angle<FlattenedHead>("roll", "inclination of the plane about x", &FlattenedHead::roll));
-  add<FlattenedHead>(list, "rail.flattened_heads", "stretches where the head is worn down to a plane", std::move(keys),
+  add<FlattenedHead>(list, "stretches where the head is worn down to a plane", std::move(keys),
                      &Defects::flattened_heads);
 }
 
@@ -182,8 +202,8 @@ void add_milling_paths(KeyList& list) {
                    "0")};
   append(keys, element_angle<MillingPath>("start_angle", "inclination atan(dz/dy) where the section starts",
                                           &MillingPath::start_angle));
-  add<MillingPath>(list, "rail.milling_paths", "cutters that remove what lies above their section along a path",
-                   std::move(keys), &Defects::milling_paths);
+  add<MillingPath>(list, "cutters that remove what lies above their section along a path", std::move(keys),
+                   &Defects::milling_paths);
 }
 
 }  // namespace
@@ -194,6 +214,7 @@ void add_defect_keys(KeyList& list) {
   add_squats(list);
   add_corrugations(list);
   add_gauge_corner_collapses(list);
+  add_spalls(list);
   add_flattened_heads(list);
   add_milling_paths(list);
 }

@@ -16,15 +16,23 @@ template <class Content, class Id, std::size_t count>
 std::vector<std::pair<std::string, Id>> words_of(const Theory<Id> (&table)[count]) {
   std::vector<std::pair<std::string, Id>> words;
   for (const Theory<Id>& row : table)
-    if (scope_of<Content, Case>() != KeyScope::wheel_rail || !row.limits.patch_only) words.emplace_back(row.word, row.id);
+    if (scope_of<Content, Case>() != KeyScope::wheel_rail || !row.limits.patch_only)
+      words.emplace_back(row.word, row.id);
   return words;
+}
+
+template <class Id, std::size_t count>
+std::string names_of(const Theory<Id> (&table)[count]) {
+  std::string names;
+  for (const Theory<Id>& row : table) names.append(names.empty() ? "" : "; ").append(row.name);
+  return names;
 }
 
 /// tangential_model and the fastsim_... keys under prefix.
 template <class Content>
 void add_simplified_theory(KeyList& list, const std::string& prefix) {
   list.choice<Content>(prefix + "tangential_model", words_of<Content>(kTangentialTheories),
-                       "tractions: exact theory, FASTSIM with three flexibilities or with one, or FaStrip",
+                       "tractions: " + names_of(kTangentialTheories),
                        [](Content& c) -> TangentialModel& { return c.tangential_model; });
   list.number<Content>(prefix + "fastsim_k0", kPositive, "FASTSIM: initial slope reduction",
                        [](Content& c) -> double& { return c.fastsim.k0; });

@@ -15,18 +15,11 @@ namespace treadmark::io {
 /// A key that both kinds of case have in a member of the same name and type.
 template <class Place>
 CaseKey& shared_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc, Place place) {
-  list.number<WheelRailCase>(path, limits, doc, place);
-  CaseKey& key = list.keys.back();
-  key.info.scope = KeyScope::any;
-  const double unit = unit_of_key(path);
-  key.set = [place, unit](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    std::visit([&](auto& content) { place(content) = v.number() * unit; }, c.content);
-  };
-  key.get = [place, unit](const Case& c) {
-    Case copy = c;
-    return std::visit([&](auto& content) -> double { return place(content); }, copy.content) / unit;
-  };
-  return key;
+  WheelRailCase fresh;
+  list.number_at(key_info(path, KeyType::number, doc, limits), place(fresh), [place](Case& c) -> double& {
+    return std::visit([&](auto& content) -> double& { return place(content); }, c.content);
+  });
+  return list.keys.back();
 }
 
 template <class Place>

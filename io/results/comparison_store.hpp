@@ -45,15 +45,15 @@ inline constexpr NamedNumber<SurfaceDifference> kDifferenceNumbers[] = {
 
 /// Of rows: of the patch that carries most of the load, of the case, and, of comparable rows only, errors.
 inline constexpr NamedNumber<ComparisonRow> kRowPatchNumbers[] = {{"pmax_MPa", &ComparisonRow::pmax, kMega},
-                                                               {"fn_N", &ComparisonRow::fn},
-                                                               {"fx_N", &ComparisonRow::fx},
-                                                               {"fs_N", &ComparisonRow::fs},
-                                                               {"x_tr_mm", &ComparisonRow::x_tr, kMilli},
-                                                               {"y_tr_mm", &ComparisonRow::y_tr, kMilli},
-                                                               {"approach_mm", &ComparisonRow::approach, kMilli},
-                                                               {"area_mm2", &ComparisonRow::area, kMicro}};
+                                                                  {"fn_N", &ComparisonRow::fn},
+                                                                  {"fx_N", &ComparisonRow::fx},
+                                                                  {"fs_N", &ComparisonRow::fs},
+                                                                  {"x_tr_mm", &ComparisonRow::x_tr, kMilli},
+                                                                  {"y_tr_mm", &ComparisonRow::y_tr, kMilli},
+                                                                  {"approach_mm", &ComparisonRow::approach, kMilli},
+                                                                  {"area_mm2", &ComparisonRow::area, kMicro}};
 inline constexpr NamedNumber<ComparisonRow> kRowTimes[] = {{"search_s", &ComparisonRow::search_s},
-                                                        {"distance_s", &ComparisonRow::distance_s}};
+                                                           {"distance_s", &ComparisonRow::distance_s}};
 inline constexpr NamedNumber<ComparisonRow> kRowErrors[] = {
     {"pmax_error_percent", &ComparisonRow::pmax_error, 1e2},
     {"area_error_percent", &ComparisonRow::area_error, 1e2},

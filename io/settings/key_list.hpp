@@ -75,17 +75,10 @@ class SettingKeys {
 
   template <class Content = Root, class Place>
   KeyInfo& number(std::string path, KeyLimits limits, std::string doc, Place place) {
-    const double unit = unit_of(path);
-    Content fresh;
     KeyInfo info = key_info(std::move(path), KeyType::number, std::move(doc), limits);
-    info.default_text = fmt::format("{:.10g}", place(fresh) / unit);
-    Key& key = add<Content>(std::move(info));
-    key.set = [place, unit](Root& c, const CaseValue& v, Folder) { place(content_of<Content>(c)) = v.number() * unit; };
-    key.get = [place, unit](const Root& c) {
-      Root copy = c;
-      return place(content_of<Content>(copy)) / unit;
-    };
-    return key.info;
+    info.scope = scope_of<Content, Root>();
+    return number_at(std::move(info), place(fresh<Content>()),
+                     [place](Root& c) -> double& { return place(content_of<Content>(c)); });
   }
 
   template <class Content = Root, class Place>
@@ -123,9 +116,8 @@ class SettingKeys {
 
   template <class Content = Root, class Place>
   KeyInfo& integer(std::string path, double least, double most, std::string doc, Place place) {
-    Content fresh;
     KeyInfo info = key_info(std::move(path), KeyType::integer, std::move(doc), {{}, least, most});
-    info.default_text = std::to_string(place(fresh));
+    info.default_text = std::to_string(place(fresh<Content>()));
     Key& key = add<Content>(std::move(info));
     key.set = [place](Root& c, const CaseValue& v, Folder) {
       place(content_of<Content>(c)) = static_cast<int>(v.integer());
@@ -160,10 +152,9 @@ class SettingKeys {
   template <class Content, class Enum, class Place>
   KeyInfo& choice(std::string path, std::vector<std::pair<std::string, Enum>> choices, std::string doc, Place place) {
     KeyInfo info = key_info(std::move(path), KeyType::choice, std::move(doc));
-    Content fresh;
     for (const auto& [word, value] : choices) {
       info.choices.push_back(word);
-      if (place(fresh) == value) info.default_text = '"' + word + '"';
+      if (place(fresh<Content>()) == value) info.default_text = '"' + word + '"';
     }
     Key& key = add<Content>(std::move(info));
     key.set = [place, choices](Root& c, const CaseValue& v, Folder) {
@@ -173,7 +164,23 @@ class SettingKeys {
     return key.info;
   }
 
+  /// A number that at finds; compiled once, not once a key. fresh: the default in SI units.
+  KeyInfo& number_at(KeyInfo info, double fresh, std::function<double&(Root&)> at) {
+    const double unit = unit_of(info.path);
+    info.default_text = fmt::format("{:.10g}", fresh / unit);
+    Key& key = add(std::move(info));
+    // at only finds the member: reading through it changes nothing.
+    key.get = [at, unit](const Root& c) { return at(const_cast<Root&>(c)) / unit; };
+    key.set = [at = std::move(at), unit](Root& c, const CaseValue& v, Folder) { at(c) = v.number() * unit; };
+    return key.info;
+  }
+
  private:
+  template <class Content>
+  static Content& fresh() {
+    static Content content;
+    return content;
+  }
   template <class Content>
   Key& add(KeyInfo info) {
     info.scope = scope_of<Content, Root>();

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/solvers/vehicle/multibody.hpp"
-#include "treadmark/solvers/vehicle/multibody.hpp"
 
 #include <fmt/format.h>
 
@@ -216,9 +215,9 @@ class Assembly {
                         system_.coordinates[static_cast<std::size_t>(sprung[static_cast<std::size_t>(i)])].name),
             {}, "a spring is missing");
     Vector q = Vector::Zero(n);
-    q(sprung) = borne;
+    for (std::size_t i = 0; i < sprung.size(); ++i) q[sprung[i]] = borne[static_cast<Eigen::Index>(i)];
     system_.weight = weight - system_.stiffness * q;
-    system_.weight(sprung).setZero();
+    for (const Eigen::Index i : sprung) system_.weight[i] = 0.0;
     for (const Multibody::Wheelset& w : system_.wheelsets) {
       const int z = w.coordinate[2];
       if (z < 0) throw Error(ErrorKind::configuration, "a wheelset must be free to move in z");

@@ -33,7 +33,8 @@ constexpr int count(TangentialModel m) {
     case TangentialModel::fastsim:
     case TangentialModel::fastsim_one_flexibility:
     case TangentialModel::fastrip:
-      return 4;
+    case TangentialModel::linear:
+      return 5;
   }
   return 0;
 }

@@ -107,8 +107,8 @@ TEST(CreateSurface, RefusesWheelsWithoutARadius) {
 }
 
 TEST(CreateSurface, RefusesDefectsOfTheOtherBody) {
-  expect_refused(rail_60e1(one_flat()), "flats and polygonizations belong to wheels");
-  expect_refused(rail_60e1(one_polygonization()), "flats and polygonizations belong to wheels");
+  expect_refused(rail_60e1(one_flat()), "flats belong to wheels, not to rails");
+  expect_refused(rail_60e1(one_polygonization()), "polygonizations belong to wheels, not to rails");
   expect_refused(s1002(one_squat()), "belong to rails, not to wheels");
 }
 

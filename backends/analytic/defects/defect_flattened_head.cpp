@@ -87,6 +87,7 @@ class FlattenedHeadShape final : public OffsetShape {
     return {0.0, high, steepest_ramp + kBetween * plane_.steepest_x + kLeast, kBetween * plane_.steepest_y + kLeast};
   }
 
+  Rectangle support() const override { return {plane_.x_start, plane_.x_end, -kEverywhere, kEverywhere}; }
   std::size_t memory_bytes() const override { return sizeof(*this); }
 
  private:

@@ -3,25 +3,22 @@
 
 #include "treadmark/backends/analytic/defects/defect_shapes.hpp"
 
-#include <numbers>
+#include <algorithm>
+#include <cmath>
 
 #include "treadmark/backends/analytic/defects/flat_depth.hpp"
+#include "treadmark/core/constants.hpp"
 
 namespace treadmark::analytic {
-
-ShapePtr make_corrugation_shape(const Corrugation& c) {
-  WaveSum waves{c.x_start, {}};
-  for (const auto& w : c.waves) waves.waves.push_back({2.0 * std::numbers::pi / w.wavelength, w.amplitude, w.phase});
-  const CosineWindow window{c.x_start, c.x_end, c.ramp};
-  return product_shape(1.0, FunctionProduct<WaveSum, CosineWindow>{std::move(waves), window},
-                       lateral_fading(c.y_center, c.width), faded_support(c.x_start, c.x_end, c.y_center, c.width));
-}
 
 namespace {
 
 class FlatsShape final : public OffsetShape {
  public:
-  FlatsShape(const std::vector<WheelFlat>& flats, double nominal_radius) : depth_(flats, nominal_radius) {}
+  FlatsShape(const std::vector<WheelFlat>& flats, double nominal_radius)
+      : depth_(flats, nominal_radius), support_(support_of(flats.front(), nominal_radius)) {
+    for (const WheelFlat& f : flats) support_ = enclosing(support_, support_of(f, nominal_radius));
+  }
 
   displacement::OffsetJet jet(double theta, double y) const override {
     const DepthJet d = depth_.jet(theta, y);
@@ -43,35 +40,20 @@ class FlatsShape final : public OffsetShape {
     return {-d.high, -d.low, d.max_d_theta, d.max_d_y};
   }
 
+  Rectangle support() const override { return support_; }
   std::size_t memory_bytes() const override { return sizeof(*this) + depth_.memory_bytes(); }
 
  private:
+  static Rectangle support_of(const WheelFlat& f, double nominal_radius) {
+    const double half = f.shape == WheelFlat::Shape::fresh ? std::asin(std::min(1.0, 0.5 * f.length / nominal_radius))
+                                                           : 0.5 * f.length / nominal_radius;
+    const double center = wrap_angle(f.theta_center);
+    return faded_support(center - half, center + half, f.y_center, f.width);
+  }
+
   FlatDepth depth_;
+  Rectangle support_;
 };
-
-}  // namespace
-
-ShapePtr make_flats_shape(const std::vector<WheelFlat>& flats, double nominal_radius) {
-  return std::make_unique<FlatsShape>(flats, nominal_radius);
-}
-
-ShapePtr make_gauge_corner_shape(const GaugeCornerCollapse& g) {
-  const CosineBump along{g.x_center, 0.5 * g.length};
-  const CosineStep across{g.y_start, g.gauge_side * g.width};
-  return product_shape(g.depth, along, across,
-                       {along.begin(), along.end(), g.gauge_side < 0 ? -kEverywhere : g.y_start,
-                        g.gauge_side < 0 ? g.y_start : kEverywhere});
-}
-
-ShapePtr make_polygonization_shape(const Polygonization& p) {
-  // whole orders: the sum has the period of theta by itself
-  WaveSum waves;
-  for (const auto& h : p.harmonics) waves.waves.push_back({static_cast<double>(h.order), h.amplitude, h.phase});
-  return product_shape(1.0, std::move(waves), lateral_fading(p.y_center, p.width),
-                       faded_support(-kEverywhere, kEverywhere, p.y_center, p.width));
-}
-
-namespace {
 
 ShapePtr dip(double length, double width, double depth, double x, double y) {
   const CosineBump along{x, 0.5 * length}, across{y, 0.5 * width};
@@ -80,14 +62,57 @@ ShapePtr dip(double length, double width, double depth, double x, double y) {
 
 }  // namespace
 
-std::vector<ShapePtr> make_squat_shapes(const Squat& s) {
-  std::vector<ShapePtr> dips;
-  dips.push_back(dip(s.length, s.width, s.depth, s.x_center, s.y_center));
-  if (s.second_depth > 0.0)
-    dips.push_back(dip(s.second_length > 0.0 ? s.second_length : s.length,
-                       s.second_width > 0.0 ? s.second_width : s.width, s.second_depth, s.x_center - s.second_distance,
-                       s.y_center + s.second_y_offset));
-  return dips;
+void add_shapes(const std::vector<WheelFlat>& flats, double nominal_radius, Shapes& shapes) {
+  if (!flats.empty()) shapes.push_back(std::make_unique<FlatsShape>(flats, nominal_radius));
+}
+
+void add_shapes(const std::vector<Polygonization>& polygonizations, double, Shapes& shapes) {
+  for (const Polygonization& p : polygonizations) {
+    // whole orders: the sum has the period of theta by itself
+    WaveSum waves;
+    for (const auto& h : p.harmonics) waves.waves.push_back({static_cast<double>(h.order), h.amplitude, h.phase});
+    shapes.push_back(product_shape(1.0, std::move(waves), lateral_fading(p.y_center, p.width),
+                                   faded_support(-kEverywhere, kEverywhere, p.y_center, p.width)));
+  }
+}
+
+void add_shapes(const std::vector<Squat>& squats, double, Shapes& shapes) {
+  for (const Squat& s : squats) {
+    shapes.push_back(dip(s.length, s.width, s.depth, s.x_center, s.y_center));
+    if (s.second_depth > 0.0)
+      shapes.push_back(dip(s.second_length > 0.0 ? s.second_length : s.length,
+                           s.second_width > 0.0 ? s.second_width : s.width, s.second_depth,
+                           s.x_center - s.second_distance, s.y_center + s.second_y_offset));
+  }
+}
+
+void add_shapes(const std::vector<Corrugation>& corrugations, double, Shapes& shapes) {
+  for (const Corrugation& c : corrugations) {
+    WaveSum waves{c.x_start, {}};
+    for (const auto& w : c.waves) waves.waves.push_back({2.0 * kPi / w.wavelength, w.amplitude, w.phase});
+    const CosineWindow window{c.x_start, c.x_end, c.ramp};
+    shapes.push_back(product_shape(1.0, FunctionProduct<WaveSum, CosineWindow>{std::move(waves), window},
+                                   lateral_fading(c.y_center, c.width),
+                                   faded_support(c.x_start, c.x_end, c.y_center, c.width)));
+  }
+}
+
+void add_shapes(const std::vector<GaugeCornerCollapse>& collapses, double, Shapes& shapes) {
+  for (const GaugeCornerCollapse& g : collapses) {
+    const CosineBump along{g.x_center, 0.5 * g.length};
+    const CosineStep across{g.y_start, g.gauge_side * g.width};
+    shapes.push_back(product_shape(g.depth, along, across,
+                                   {along.begin(), along.end(), g.gauge_side < 0 ? -kEverywhere : g.y_start,
+                                    g.gauge_side < 0 ? g.y_start : kEverywhere}));
+  }
+}
+
+void add_shapes(const std::vector<Spall>& spalls, double, Shapes& shapes) {
+  for (const Spall& s : spalls) {
+    const CosineWindow along{s.x_center - 0.5 * s.length, s.x_center + 0.5 * s.length, s.edge};
+    const CosineWindow across{s.y_center - 0.5 * s.width, s.y_center + 0.5 * s.width, s.edge};
+    shapes.push_back(product_shape(s.depth, along, across, {along.start, along.end, across.start, across.end}));
+  }
 }
 
 }  // namespace treadmark::analytic

@@ -15,13 +15,19 @@ namespace treadmark::analytic {
 
 using ShapePtr = std::unique_ptr<const OffsetShape>;
 
-/// All flats of a wheel: -D(theta, y) of FlatDepth.
-ShapePtr make_flats_shape(const std::vector<WheelFlat>& flats, double nominal_radius);
-ShapePtr make_polygonization_shape(const Polygonization& polygonization);
-/// One shape a dip.
-std::vector<ShapePtr> make_squat_shapes(const Squat& squat);
-ShapePtr make_corrugation_shape(const Corrugation& corrugation);
-ShapePtr make_gauge_corner_shape(const GaugeCornerCollapse& collapse);
+using Shapes = std::vector<ShapePtr>;
+
+/// Append the shapes of one list of a Defects; nominal_radius: of a wheel.
+void add_shapes(const std::vector<WheelFlat>& flats, double nominal_radius, Shapes& shapes);
+void add_shapes(const std::vector<Polygonization>& polygonizations, double nominal_radius, Shapes& shapes);
+void add_shapes(const std::vector<Squat>& squats, double nominal_radius, Shapes& shapes);
+void add_shapes(const std::vector<Corrugation>& corrugations, double nominal_radius, Shapes& shapes);
+void add_shapes(const std::vector<GaugeCornerCollapse>& collapses, double nominal_radius, Shapes& shapes);
+void add_shapes(const std::vector<Spall>& spalls, double nominal_radius, Shapes& shapes);
+/// What cuts a surface does not displace it.
+inline void add_shapes(const std::vector<FlattenedHead>&, double, Shapes&) {}
+inline void add_shapes(const std::vector<MillingPath>&, double, Shapes&) {}
+
 /// max(0, plane - base); asks the base for every value.
 ShapePtr make_flattened_head_shape(const FlattenedHead& head, std::shared_ptr<const Surface> base);
 

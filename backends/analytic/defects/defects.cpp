@@ -14,6 +14,7 @@
 #include "treadmark/backends/analytic/defects/cut_surface.hpp"
 #include "treadmark/backends/analytic/defects/defect_flattened_head.hpp"
 #include "treadmark/backends/displacement/displaced_surface.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::analytic {
@@ -24,14 +25,9 @@ void require_base(const std::shared_ptr<const Surface>& base) {
   if (base == nullptr) throw Error(ErrorKind::configuration, "defects need a surface that they belong to");
 }
 
-std::vector<ShapePtr> make_shapes(const Defects& d, double nominal_radius) {
-  std::vector<ShapePtr> shapes;
-  if (!d.flats.empty()) shapes.push_back(make_flats_shape(d.flats, nominal_radius));
-  for (const auto& p : d.polygonizations) shapes.push_back(make_polygonization_shape(p));
-  for (const auto& s : d.squats)
-    for (ShapePtr& dip : make_squat_shapes(s)) shapes.push_back(std::move(dip));
-  for (const auto& c : d.corrugations) shapes.push_back(make_corrugation_shape(c));
-  for (const auto& g : d.gauge_corner_collapses) shapes.push_back(make_gauge_corner_shape(g));
+Shapes make_shapes(const Defects& defects, double nominal_radius) {
+  Shapes shapes;
+  Defects::each(defects, [&](const char*, Body, const auto& list) { add_shapes(list, nominal_radius, shapes); });
   return shapes;
 }
 
@@ -71,13 +67,7 @@ Cutter head_cutter(const FlattenedHead& head, const Surface& base, std::size_t n
           "rail.flattened_heads[" + std::to_string(number) + ']'};
 }
 
-void include(std::optional<Rectangle>& all, const Rectangle& one) {
-  if (!all) all = one;
-  all->x_min = std::min(all->x_min, one.x_min);
-  all->x_max = std::max(all->x_max, one.x_max);
-  all->y_min = std::min(all->y_min, one.y_min);
-  all->y_max = std::max(all->y_max, one.y_max);
-}
+void include(std::optional<Rectangle>& all, const Rectangle& one) { all = all ? enclosing(*all, one) : one; }
 
 }  // namespace
 
@@ -85,7 +75,7 @@ std::shared_ptr<const displacement::OffsetField> make_defect_field(const Defects
                                                                    double nominal_radius,
                                                                    std::shared_ptr<const Surface> base) {
   check_defects(defects, body, nominal_radius);
-  std::vector<ShapePtr> shapes = make_shapes(defects, nominal_radius);
+  Shapes shapes = make_shapes(defects, nominal_radius);
   if (!defects.flattened_heads.empty()) require_base(base);
   for (const auto& h : defects.flattened_heads) shapes.push_back(make_flattened_head_shape(h, base));
   return std::make_shared<DefectField>(std::move(shapes));
@@ -101,7 +91,7 @@ std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, 
   for (std::size_t i = 0; i < defects.flattened_heads.size(); ++i)
     cutters.push_back(head_cutter(defects.flattened_heads[i], *base, i));
   if (!cutters.empty()) surface = std::make_shared<CutSurface>(surface, std::move(cutters));
-  std::vector<ShapePtr> shapes = make_shapes(defects, nominal_radius);
+  Shapes shapes = make_shapes(defects, nominal_radius);
   if (!shapes.empty()) {
     std::string name(surface->backend());
     surface = displacement::make_displaced_surface(surface, std::make_shared<DefectField>(std::move(shapes)), body,
@@ -116,27 +106,11 @@ std::shared_ptr<const Surface> add_defects(std::shared_ptr<const Surface> base, 
 
 std::optional<Rectangle> defect_region(const Defects& d, double nominal_radius) {
   std::optional<Rectangle> all;
-  constexpr double kHalfTurn = std::numbers::pi;
-  for (const auto& f : d.flats) {
-    const double half = f.shape == WheelFlat::Shape::fresh ? std::asin(std::min(1.0, 0.5 * f.length / nominal_radius))
-                                                           : 0.5 * f.length / nominal_radius;
-    const double center = wrap_angle(f.theta_center);
-    include(all, faded_support(center - half, center + half, f.y_center, f.width));
+  for (const ShapePtr& shape : make_shapes(d, nominal_radius)) {
+    Rectangle support = shape->support();
+    if (std::isinf(support.x_min)) support.x_min = -kPi, support.x_max = kPi;  // all round a wheel
+    include(all, support);
   }
-  for (const auto& p : d.polygonizations) include(all, faded_support(-kHalfTurn, kHalfTurn, p.y_center, p.width));
-  for (const auto& s : d.squats) {
-    const auto dip = [&](double length, double width, double x, double y) {
-      include(all, {x - 0.5 * length, x + 0.5 * length, y - 0.5 * width, y + 0.5 * width});
-    };
-    dip(s.length, s.width, s.x_center, s.y_center);
-    if (s.second_depth > 0.0)
-      dip(s.second_length > 0.0 ? s.second_length : s.length, s.second_width > 0.0 ? s.second_width : s.width,
-          s.x_center - s.second_distance, s.y_center + s.second_y_offset);
-  }
-  for (const auto& c : d.corrugations) include(all, faded_support(c.x_start, c.x_end, c.y_center, c.width));
-  for (const auto& g : d.gauge_corner_collapses)
-    include(all, {g.x_center - 0.5 * g.length, g.x_center + 0.5 * g.length, g.gauge_side < 0 ? -kEverywhere : g.y_start,
-                  g.gauge_side < 0 ? g.y_start : kEverywhere});
   for (const auto& h : d.flattened_heads) include(all, {h.x_start, h.x_end, -kEverywhere, kEverywhere});
   for (std::size_t i = 0; i < d.milling_paths.size(); ++i) {
     const Cutter cutter = milling_cutter(d.milling_paths[i], i);

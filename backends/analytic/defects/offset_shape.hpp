@@ -25,6 +25,8 @@ class OffsetShape {
                    std::span<double> d_y) const = 0;
   /// Conservative range over a rectangle of (u, y).
   virtual displacement::OffsetRange range(const Rectangle& uy) const = 0;
+  /// Where it is not 0: (u, y), infinite where it has no end.
+  virtual Rectangle support() const = 0;
   virtual std::size_t memory_bytes() const = 0;
 };
 
@@ -74,6 +76,7 @@ class ProductShape final : public OffsetShape {
     return {low, high, std::fabs(scale_) * a.max_d * size(b), std::fabs(scale_) * size(a) * b.max_d};
   }
 
+  Rectangle support() const override { return support_; }
   std::size_t memory_bytes() const override { return sizeof(*this); }
 
  private:
@@ -103,6 +106,12 @@ class ProductShape final : public OffsetShape {
 template <class Along, class Across>
 std::unique_ptr<const OffsetShape> product_shape(double scale, Along along, Across across, const Rectangle& support) {
   return std::make_unique<ProductShape<Along, Across>>(scale, std::move(along), std::move(across), support);
+}
+
+/// The least rectangle round both.
+inline Rectangle enclosing(const Rectangle& a, const Rectangle& b) {
+  return {std::min(a.x_min, b.x_min), std::max(a.x_max, b.x_max), std::min(a.y_min, b.y_min),
+          std::max(a.y_max, b.y_max)};
 }
 
 inline constexpr double kEverywhere = std::numeric_limits<double>::infinity();

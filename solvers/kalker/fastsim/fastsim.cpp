@@ -124,7 +124,7 @@ void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage,
   Vec2 traction = u.cwiseQuotient(flexibility);
   const double bound = mu * solution_.pressure[i], size = traction.norm();
   solution_.state[i] = ElementState::adhesion;
-  if (size > bound) {
+  if (size > bound && problem_.tangential_model != TangentialModel::linear) {
     traction *= bound / size;
     u = traction.cwiseProduct(flexibility);
     solution_.state[i] = ElementState::slip;
@@ -191,6 +191,15 @@ void find_creepage(const ContactProblem& problem, Sweep& sweep, ContactSolution&
   report.message = "no creepage was found for the prescribed tangential force";
 }
 
+/// What friction cannot carry is no force of a contact.
+void check_linear(const ContactProblem& problem, double normal_force, ContactSolution& solution) {
+  const auto sum = [](const std::vector<double>& field) { return std::accumulate(field.begin(), field.end(), 0.0); };
+  const double force = std::hypot(sum(solution.traction_x), sum(solution.traction_y)) * problem.grid.cell_area();
+  if (force <= problem.friction.static_friction() * normal_force) return;
+  solution.tangential.status = solution.status = Status::not_converged;
+  solution.tangential.message = "the linear theory gives more force than friction: the creepage is beyond it";
+}
+
 }  // namespace
 
 void solve_fastsim(const ContactProblem& problem, ContactSolution& solution) {
@@ -202,7 +211,8 @@ void solve_fastsim(const ContactProblem& problem, ContactSolution& solution) {
   if (problem.fx_relative || problem.fy_relative)
     find_creepage(problem, sweep, solution);
   else
-    sweep.run(problem.creepage, true);
+    sweep.run(problem.creepage, problem.tangential_model != TangentialModel::linear);
+  if (problem.tangential_model == TangentialModel::linear) check_linear(problem, sweep.normal_force(), solution);
 }
 
 }  // namespace treadmark::kalker

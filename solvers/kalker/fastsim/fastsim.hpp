@@ -13,8 +13,9 @@ namespace treadmark::kalker {
 ///   creepage;
 /// - fastsim_one_flexibility: FASTSIM with fastsim.flexibility in both directions and for spin;
 /// - fastrip: FaStrip (Sichani, Enblom & Berg 2016): tractions of strip theory where it finds adhesion, the directions
-/// of
-///   FASTSIM elsewhere (strip_theory.hpp).
+///   of FASTSIM elsewhere (strip_theory.hpp);
+/// - linear: the three flexibilities without a friction bound: forces of the linear theory (Kalker 1967), right for
+///   vanishing creepage. All elements adhere. A force beyond friction times the normal force: Status::not_converged.
 /// Thread-safe: no state is kept.
 ///
 /// In: problem.grid, material, friction, creepage or relative forces, rolling, fastsim, hertz (its semi-axes replace

@@ -125,6 +125,12 @@ TEST(DamagedSurface, RefusesWhatMakesNoSense) {
               HasSubstr("finite"));
   EXPECT_THAT(refusal({.gauge_corner_collapses = {{0.3, 1e-3, 0.01, 0.0, 0.0, 0}}}, Body::rail),
               HasSubstr("gauge side"));
+  EXPECT_EQ(refusal({.spalls = {{0.03, 0.02, 1e-3, 2e-3, 0.0, 0.0}}}, Body::rail), "none");
+  EXPECT_THAT(refusal({.spalls = {{0.03, 0.02, 1e-3, 1e-3, 0.0, 0.0}}}, Body::rail),
+              HasSubstr("rail.spalls[0]: the edge is too narrow for the depth"));
+  EXPECT_THAT(refusal({.spalls = {{0.03, 0.02, 1e-3, 0.011, 0.0, 0.0}}}, Body::rail), HasSubstr("wider than half"));
+  EXPECT_THAT(refusal({.spalls = {{0.03, 0.02, 1e-3, 2e-3, 0.0, 0.0}}}, Body::wheel),
+              HasSubstr("spalls belong to rails, not to wheels"));
   MillingPath mill{{{-0.1, 0, 0, 0}, {0.1, 0, 0, 0}}, -0.02, 0.0, 0.0, {{0.04, 0.0}}};
   EXPECT_EQ(refusal({.milling_paths = {mill}}, Body::rail), "none");
   mill.stations[1].z = 0.5;

@@ -67,6 +67,12 @@ depth_mm = 2
 width_mm = 15
 y_start_mm = 15
 towards = "+y"
+[[rail.spalls]]
+length_mm = 30
+width_mm = 20
+depth_mm = 1.2
+edge_mm = 4
+y_center_mm = 5
 [[rail.flattened_heads]]
 x_start_mm = -300
 x_end_mm = 300
@@ -101,6 +107,7 @@ Defects expected_rail() {
               {.length = 20e-3, .width = 20e-3, .depth = 0.1e-3}};
   d.corrugations = {{{{50e-3, 20e-6, 0.0}, {30e-3, 5e-6, 180.0 * kDegree}}, -0.5, 0.5, 0.1, 3e-3, 50e-3}};
   d.gauge_corner_collapses = {{0.4, 2e-3, 15e-3, 20e-3, -15e-3, -1}, {0.4, 2e-3, 15e-3, 0.0, 15e-3, 1}};
+  d.spalls = {{.length = 30e-3, .width = 20e-3, .depth = 1.2e-3, .edge = 4e-3, .y_center = 5e-3}};
   d.flattened_heads = {{-0.3, 0.3, 0.05, 1e-3, -kDegree}};
   d.milling_paths = {{{{0.0, -30e-3, -1e-3, 0.0}, {0.5, -20e-3, 2e-3, 2.0 * kDegree}},
                       -20e-3,
@@ -131,6 +138,7 @@ std::vector<double> numbers(const Defects& d) {
     for (const auto& w : c.waves) put(w.wavelength, w.amplitude, w.phase);
   }
   for (const auto& g : d.gauge_corner_collapses) put(g.length, g.depth, g.width, g.x_center, g.y_start, g.gauge_side);
+  for (const auto& s : d.spalls) put(s.length, s.width, s.depth, s.edge, s.x_center, s.y_center);
   for (const auto& h : d.flattened_heads) put(h.x_start, h.x_end, h.ramp, h.depth, h.roll);
   for (const auto& m : d.milling_paths) {
     put(m.start_y, m.start_z, m.start_angle);

@@ -7,6 +7,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/tests/solvers/kalker/owned_problem.hpp"
 
 namespace treadmark::kalker {
@@ -136,6 +137,35 @@ TEST(SimplifiedTheories, SlipOfEveryElementAddsToCreepage) {
   }
   owned.problem.tangential_model = TangentialModel::fastrip;
   EXPECT_THROW(ContactSolver().solve(owned.problem), Error);
+}
+
+/// F_x = -G a b C11 xi and so on (Kalker 1967), whatever friction can carry as long as it can.
+TEST(SimplifiedTheories, LinearTheoryHasKalkersCoefficients) {
+  constexpr double kA = 8e-3, kB = 4e-3, kForce = 82e3, kSmall = 1e-5, kSpin = 1e-3;
+  const CombinedMaterial material = combine(Material{});
+  const HertzShape shape = hertz_from_semi_axes(kA, kB, {true, kForce}, material);
+  const KalkerCoefficients c = kalker_coefficients(kA, kB, material.poisson);
+  const double unit = material.shear_modulus * kA * kB;
+  const auto solve = [&](const Creepage& creepage) {
+    OwnedProblem owned = hertzian(shape, hertz_grid(shape, 160, 160, 1.1));
+    owned.problem.hertz = shape;
+    owned.problem.normal_model = NormalModel::elliptic;
+    owned.problem.tangential_model = TangentialModel::linear;
+    owned.problem.regime = Regime::steady;
+    owned.problem.creepage = creepage;
+    return ContactSolver().solve(owned.problem);
+  };
+  constexpr double kGrid = 0.01;  // of first order in the elements
+  EXPECT_NEAR(solve({kSmall, 0.0, 0.0}).force_x / (-unit * c.c11 * kSmall), 1.0, kGrid);
+  EXPECT_NEAR(solve({0.0, kSmall, 0.0}).force_y / (-unit * c.c22 * kSmall), 1.0, kGrid);
+  EXPECT_NEAR(solve({0.0, 0.0, kSpin}).force_y / (-unit * std::sqrt(kA * kB) * c.c23 * kSpin), 1.0, 2.0 * kGrid);
+  const ContactSolution once = solve({4e-4, 0.0, 0.0}), twice = solve({8e-4, 0.0, 0.0});
+  EXPECT_EQ(once.status, Status::ok);
+  EXPECT_NEAR(twice.force_x, 2.0 * once.force_x, 1e-9 * kForce);
+  EXPECT_EQ(once.elements_slip, 0);
+  const ContactSolution beyond = solve({5e-3, 0.0, 0.0});
+  EXPECT_EQ(beyond.status, Status::not_converged);
+  EXPECT_NE(beyond.tangential.message.find("beyond"), std::string::npos);
 }
 
 TEST(SimplifiedTheories, HaveTheirTractionsBoundedByFriction) {
