@@ -51,7 +51,7 @@ TEST(CommandLine, ListsAndSchema) {
   const auto verb = [](const std::string& name, const char* part) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
-  EXPECT_EQ(run_program({"list", "verbs"}).out, "run\ncompare\nbench\nconvert\n" + verb("import", "scans") +
+  EXPECT_EQ(run_program({"list", "verbs"}).out, "run\ncompare\ndiff\nbench\nconvert\n" + verb("import", "scans") +
                                                     verb("scan", "scans") + verb("simulate", "vehicle") +
                                                     verb("sweep", "vehicle") + verb("report", "report") +
                                                     verb("plot", "report") + "check\nlist\nschema\n");
