@@ -41,13 +41,17 @@ TEST(CommandLine, ListsAndSchema) {
   EXPECT_EQ(schema.status, 0);
   EXPECT_THAT(schema.out, HasSubstr("json-schema.org"));
   EXPECT_EQ(run_program({"schema", "case"}).out, schema.out);
-  if (has_part("scans")) EXPECT_THAT(run_program({"schema", "import"}).out, HasSubstr("hole_limit_mm"));
-  if (has_part("vehicle")) EXPECT_THAT(run_program({"schema", "simulation"}).out, HasSubstr("max_step_elements"));
+  if (has_part("scans")) {
+    EXPECT_THAT(run_program({"schema", "import"}).out, HasSubstr("hole_limit_mm"));
+  }
+  if (has_part("vehicle")) {
+    EXPECT_THAT(run_program({"schema", "simulation"}).out, HasSubstr("max_step_elements"));
+  }
   EXPECT_EQ(run_program({"schema", "wishes"}).status, 2);
   const auto verb = [](const std::string& name, const char* part) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
-  EXPECT_EQ(run_program({"list", "verbs"}).out, "run\ncompare\nbench\nconvert\n" + verb("import", "scans") +
+  EXPECT_EQ(run_program({"list", "verbs"}).out, "run\ncompare\ndiff\nbench\nconvert\n" + verb("import", "scans") +
                                                     verb("scan", "scans") + verb("simulate", "vehicle") +
                                                     verb("sweep", "vehicle") + verb("report", "report") +
                                                     verb("plot", "report") + "check\nlist\nschema\n");
@@ -71,7 +75,7 @@ TEST(CommandLine, RunPrintsASummaryAndWritesEveryFile) {
   for (const char* file : {"result.json", "pressure.svg", "vtk"})
     EXPECT_TRUE(std::filesystem::exists(folder / file)) << file;
   EXPECT_EQ(std::filesystem::exists(folder / "fields.h5"), has_part("hdf5"));
-  if (!has_part("hdf5")) EXPECT_THAT(r.err, HasSubstr("TREADMARK_WITH_HDF5=ON"));
+  EXPECT_EQ(r.err.find("TREADMARK_WITH_HDF5=ON") == std::string::npos, has_part("hdf5"));
 }
 
 TEST(CommandLine, BackendByNameMustExist) {

@@ -10,6 +10,7 @@
 #include "treadmark/app/compare/result_difference.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -92,6 +93,7 @@ TEST(ResultDifference, WhatOneLacksIsSaid) {
 }
 
 TEST(DiffCommand, TwoRunsOfACase) {
+  TREADMARK_NEEDS("hdf5");
   const SampleInput input;
   const std::string a = (input.folder() / "a").string(), b = (input.folder() / "b").string();
   ASSERT_EQ(run_program({"run", input.inp().string(), "-o", a}).status, 0);

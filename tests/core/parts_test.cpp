@@ -37,10 +37,11 @@ TEST(Parts, WhatIsLeftOutNamesOptionAndPackage) {
   }
   EXPECT_EQ(left_out_advice("vehicle"), "configure with -DTREADMARK_VEHICLE=ON");
   for (const Part& part : parts())
-    if (part.built)
+    if (part.built) {
       EXPECT_NO_THROW(require_part(part.key, "something"));
-    else
+    } else {
       EXPECT_THROW(require_part(part.key, "something"), Error);
+    }
   EXPECT_THROW(has_part("imbree"), std::invalid_argument);
 }
 
