@@ -10,6 +10,7 @@ namespace treadmark {
 /// Limits the one thread pool of the process (oneTBB) while it lives. threads <= 0: all cores.
 class ThreadLimit {
  public:
+  /// Of several limits at a time the least one holds.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

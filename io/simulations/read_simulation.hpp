@@ -30,15 +30,17 @@ SimulationFile parse_simulation_text(std::string_view text, const std::filesyste
 SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name,
                              std::span<const std::string> overrides = {});
 
-/// Whether a .toml file has a table [simulation] and is no study; whether it has a table [study].
+/// Whether a .toml file has a table [simulation] and is no study.
 /// False for other kinds of files, which are not opened. Throws Error(configuration) for TOML that cannot be read.
 bool is_simulation_file(const std::filesystem::path& file);
+/// Whether a .toml file has a table [study]. The rest as above.
 bool is_study_file(const std::filesystem::path& file);
 
 /// Parts of the reader of simulation files. Error(configuration) at the place of what is wrong.
 
 /// [simulation] but for its tables.
 SimulationSettings read_settings(const TableReader& simulation);
+/// [simulation.fields].
 FieldRequests read_fields(const TableReader& simulation);
 /// One entry for every wheel of the vehicle.
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets);
