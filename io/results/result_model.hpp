@@ -119,7 +119,7 @@ struct PatchFields {
 /// row is as long as it is high in the grid, turned by its inclination; the contact reference lies on the plane.
 std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s);
 
-/// One contact patch: numbers on the rail, then its fields. Names are those of the result file's keys.
+/// One contact patch: numbers on the rail, then its fields. Names follow the keys of the result file.
 struct PatchResult {
   bool has_reference = false;                                        ///< wheel-rail cases only
   double x_tr = 0.0, y_tr = 0.0, z_tr = 0.0, angle = 0.0;            ///< contact reference in track axes [m], [rad]
