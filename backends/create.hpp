@@ -32,6 +32,7 @@ void require_backend(std::string_view name);
 std::span<const std::string_view> standard_profile_names();
 
 class NaturalKind;
+/// That of one surface by itself.
 std::shared_ptr<const NaturalKind> plain_kind();
 
 /// A surface in the representation it is given in: formulas stay formulas, points and slices become splines, triangles
@@ -41,6 +42,7 @@ struct NaturalSurface {
   std::shared_ptr<const Surface> surface;
   std::string note;                                        ///< repairs worth knowing; may be empty
   std::shared_ptr<const NaturalKind> kind = plain_kind();  ///< one surface, or made of others; never null
+  /// As Surface::constant_profile().
   bool constant_profile() const { return surface->constant_profile(); }
 };
 
@@ -78,13 +80,14 @@ struct SurfacePart {
 /// and wheels mixed, wheels out of their axle, or different nominal radii.
 NaturalSurface join_surfaces(std::vector<SurfacePart> parts);
 
+/// A surface in a representation that was asked for.
 struct RepresentedSurface {
   std::shared_ptr<const Surface> surface;
-  bool resampled = false;   ///< false: the natural surface itself
-  double resolution = 0.0;  ///< [m] 0 = as given
-  Region region;            ///< where the surface stands for the natural one
-  double build_seconds = 0.0;
-  std::string note;  ///< repairs and limits worth knowing; may be empty
+  bool resampled = false;      ///< false: the natural surface itself
+  double resolution = 0.0;     ///< [m] 0 = as given
+  Region region;               ///< where the surface stands for the natural one
+  double build_seconds = 0.0;  ///< wall clock, sampling included [s]
+  std::string note;            ///< repairs and limits worth knowing; may be empty
 };
 
 /// A rail whose section moves along the track, as slices; section: points, a standard profile or a chain of arcs of a
@@ -108,13 +111,14 @@ struct Sampled {
   std::string note;
 };
 
-/// A surface as data for other programs and for later, sampled as wanted (backend is not looked at): triangles and
-/// slices are written by io, offsets over their base go to a .vdb file. sampled is filled in if not null. Errors: those
-/// of represent; Error(configuration) for a file that cannot be written.
+/// A surface as triangles, for other programs and for later (io/meshes writes them), sampled as wanted, whose backend
+/// is not looked at. sampled is filled in if not null. Errors: those of represent.
 TriangleMesh to_triangles(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
+/// The same as slices (io/profiles writes them).
 SliceSet to_slices(const NaturalSurface& natural, const Representation& wanted, Sampled* sampled = nullptr);
-/// base: below the offsets, a constant section of the same body and radius; null: the section without defects, or the
-/// median one.
+/// The same as offsets over their base in a .vdb file. base: below the offsets, a constant section of the same body and
+/// radius; null: the section without defects, or the median one. notes: for the head of the file. Errors also:
+/// Error(configuration) for a file that cannot be written.
 void write_offsets(const std::filesystem::path& file, const NaturalSurface& natural, const Representation& wanted,
                    Sampled* sampled = nullptr, const SurfaceSpec* base = nullptr, const std::string& notes = {});
 

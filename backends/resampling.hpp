@@ -17,34 +17,40 @@ class Resampling {
   /// Errors: Error(configuration) for a resolution that is negative or not finite.
   Resampling(const NaturalSurface& natural, const Representation& wanted);
 
-  const NaturalSurface& natural() const { return natural_; }
-  const Surface& surface() const { return *natural_.surface; }
-  const SurfaceSpec& spec() const { return natural_.spec; }
-  bool asked() const { return asked_; }  ///< whether a resolution was asked for
+  const NaturalSurface& natural() const { return natural_; }    ///< what is given
+  const Surface& surface() const { return *natural_.surface; }  ///< its surface
+  const SurfaceSpec& spec() const { return natural_.spec; }     ///< what that was made from
+  bool asked() const { return asked_; }                         ///< whether a resolution was asked for
 
   /// Spacing of samples [m]; 0 = put down by a backend that needed none.
   double resolution() const { return resolution_; }
+  /// For a backend whose spacing turned out to be another one [m].
   void set_resolution(double resolution) { resolution_ = resolution; }
 
-  /// What is sampled, and what the result stands for. limit_rail() makes that of a rail finite along the track.
+  /// What is sampled, and what the result stands for.
   const Region& region() const { return region_; }
+  /// Makes the region of a rail finite along the track.
   void limit_rail();
 
   /// For people: sentences, each with a space after it.
   const std::string& note() const { return note_; }
-  void set_note(std::string note) { note_ = std::move(note); }
-  void add_note(const std::string& note) { note_ += note; }
+  void set_note(std::string note) { note_ = std::move(note); }  ///< instead of what was noted
+  void add_note(const std::string& note) { note_ += note; }     ///< one more sentence
 
-  /// Samples of the region at the resolution, in different shapes. points: see sampling::SampleSettings. section: that
-  /// of a surface with one cross-section. triangles: those that are given if nothing else is asked for. Errors: those
-  /// of sampling.
+  /// Samples of the region at the resolution: points on stations times lateral nodes. common: only the lateral range
+  /// that all sections have; staggered: as PointGrid::stagger, for triangles. Errors: those of sampling, here and
+  /// below.
   sampling::PointGrid points(bool common, bool staggered = false);
+  /// That of a surface with one cross-section.
   Profile section() const;
+  /// Cross-sections at stations.
   SliceSet slices();
+  /// Those that are given if nothing else is asked for, else made of points.
   TriangleMesh triangles();
   /// The median section of all the region, for a rail or wheel of unknown origin: undamaged, if most of it is.
   Profile median_section();
 
+  /// What was put down so far.
   Sampled sampled() const { return {resolution_, region_, note_}; }
 
  private:

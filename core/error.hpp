@@ -10,8 +10,8 @@ namespace treadmark {
 /// Place in an input file. line and column count from 1; 0 = unknown.
 struct SourcePosition {
   std::string file;
-  int line = 0;
-  int column = 0;
+  int line = 0;    ///< from 1; 0 = unknown
+  int column = 0;  ///< from 1; 0 = unknown
 
   /// "file:line:column", leaving out what is unknown.
   std::string to_string() const;
@@ -28,12 +28,13 @@ enum class ErrorKind {
 /// what() reads "file:line:column: message (advice)".
 class Error : public std::runtime_error {
  public:
+  /// message: what is wrong, in one clause; advice: what to do instead, may be empty.
   Error(ErrorKind kind, std::string message, SourcePosition where = {}, std::string advice = {});
 
-  ErrorKind kind() const noexcept { return kind_; }
-  const std::string& message() const noexcept { return message_; }
-  const SourcePosition& where() const noexcept { return where_; }
-  const std::string& advice() const noexcept { return advice_; }
+  ErrorKind kind() const noexcept { return kind_; }                 ///< decides the exit status
+  const std::string& message() const noexcept { return message_; }  ///< without place and advice
+  const SourcePosition& where() const noexcept { return where_; }   ///< in the input; may be unknown
+  const std::string& advice() const noexcept { return advice_; }    ///< may be empty
 
  private:
   ErrorKind kind_;

@@ -11,6 +11,7 @@ namespace treadmark {
 /// all cores.
 class ThreadLimit {
  public:
+  /// Of several limits at a time the least one holds.
   explicit ThreadLimit(int threads);
   ~ThreadLimit();
   ThreadLimit(const ThreadLimit&) = delete;

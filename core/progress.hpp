@@ -16,6 +16,7 @@ struct Progress {
   /// Set from outside (for example a signal handler) to stop after the units that are running now.
   const std::atomic<bool>* stop = nullptr;
 
+  /// To be asked between units of work, from any thread.
   bool stop_requested() const { return stop != nullptr && stop->load(std::memory_order_relaxed); }
 };
 

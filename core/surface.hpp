@@ -22,10 +22,11 @@ enum class Facing {
 /// A grid point over which there is no surface gets quiet NaN in every array.
 struct HeightsOut {
   std::span<double> z;     ///< height along the plane normal [m]
-  std::span<double> dzdx;  ///< slopes in the plane frame [-]
-  std::span<double> dzdy;
+  std::span<double> dzdx;  ///< slope along x in the plane frame [-]
+  std::span<double> dzdy;  ///< slope along y [-]
 };
 
+/// Whether inverse evaluation found a point.
 enum class LocateStatus : std::uint8_t {
   converged,
   outside,    ///< no surface over this point
@@ -35,33 +36,39 @@ enum class LocateStatus : std::uint8_t {
 /// What inverse evaluation finds at one point.
 struct SurfacePoint {
   LocateStatus status = LocateStatus::outside;
-  double u = 0.0, v = 0.0;  ///< surface parameters (u longitudinal: x [m] or theta [rad]; v lateral, backend's own)
+  double u = 0.0;  ///< longitudinal parameter: x [m] of a rail, theta [rad] of a wheel
+  double v = 0.0;  ///< lateral parameter, the backend's own
   /// Along the profile of a rail [m], growing with y, zero where the profile's data have it; NaN if it does not tell.
   double arc_length = std::numeric_limits<double>::quiet_NaN();
   Vec3 position_S = Vec3::Zero();  ///< [m], surface frame
   Vec3 normal_S = Vec3::Zero();    ///< unit, out of the material
-  double curvature_1 = 0.0;  ///< principal curvatures [1/m], positive for a convex body; curvature_1 >= curvature_2
-  double curvature_2 = 0.0;
+  double curvature_1 = 0.0;        ///< greater principal curvature [1/m], positive for a convex body
+  double curvature_2 = 0.0;        ///< the lesser one
 };
 
+/// A box along the axes of a frame.
 struct Box3 {
-  Vec3 min = Vec3::Zero(), max = Vec3::Zero();
+  Vec3 min = Vec3::Zero(), max = Vec3::Zero();  ///< [m], may be infinite
 };
 
+/// A rectangle along the axes of a plane, borders included.
 struct Rectangle {
-  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;
+  double x_min = 0.0, x_max = 0.0, y_min = 0.0, y_max = 0.0;  ///< [m]
 };
 
 /// Rectangles of one size in rows and columns; index = ix + nx * iy. They may overlap or leave gaps.
 struct RectangleGrid {
   Rectangle first;
   double step_x = 0.0, step_y = 0.0;  ///< from one to the next [m], > 0
-  int nx = 0, ny = 0;
+  int nx = 0, ny = 0;                 ///< columns and rows
 
+  /// The rectangle in column ix and row iy.
   Rectangle at(int ix, int iy) const {
     return {first.x_min + ix * step_x, first.x_max + ix * step_x, first.y_min + iy * step_y, first.y_max + iy * step_y};
   }
+  /// Number of rectangles.
   std::size_t size() const { return static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny); }
+  /// Where results of a rectangle stand.
   std::size_t index(int ix, int iy) const {
     return static_cast<std::size_t>(ix) + static_cast<std::size_t>(nx) * static_cast<std::size_t>(iy);
   }
@@ -69,7 +76,7 @@ struct RectangleGrid {
 
 /// Conservative: every height over the rectangle lies in [z_min, z_max]. empty: the surface is nowhere over it.
 struct HeightBounds {
-  double z_min = 0.0, z_max = 0.0;
+  double z_min = 0.0, z_max = 0.0;  ///< [m]
   bool empty = false;
 };
 
@@ -83,10 +90,13 @@ class Surface {
  public:
   virtual ~Surface() = default;
 
+  /// Name of the representation, as in the registry of backends.
   virtual std::string_view backend() const = 0;
+  /// Rail-like or wheel-like.
   virtual Facing facing() const = 0;
   /// Box that holds the whole surface [m]; entries may be infinite.
   virtual Box3 bounds() const = 0;
+  /// About what it takes, the surfaces it is made of included.
   virtual std::size_t memory_bytes() const = 0;
   /// Whether the shape is one profile: a rail the same at every x, a wheel the same at every theta. False for a roller.
   virtual bool constant_profile() const { return false; }

@@ -17,6 +17,7 @@ struct ContactFrame {
 /// Contact frame of a patch. Errors: Error(numerical) if the rail has no surface at the contact reference.
 ContactFrame contact_frame(const BodyPair& bodies, const ContactPatch& patch);
 
+/// Elements of a potential contact area.
 struct PotentialContactSettings {
   double dx = 0.0, ds = 0.0;  ///< element sizes [m]
   int max_elements = 20000;   ///< above it dx and ds are doubled in turn; 0: they stay as they are

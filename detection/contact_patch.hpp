@@ -21,8 +21,8 @@ struct ContactPatch {
   PatchExtent extent;        ///< of the interpenetration
   double x = 0.0, y = 0.0;   ///< weighted contact reference [m]
   double inclination = 0.0;  ///< weighted contact angle [rad]
-  double weight = 0.0;
-  double least_gap = 0.0;         ///< [m], negative
+  double weight = 0.0;       ///< integral of the weight of the penetration: what it counts where patches become one
+  double least_gap = 0.0;    ///< [m], negative
   Vec3 deepest_T = Vec3::Zero();  ///< point of least gap, on the rail
   /// Sub-patches that are solved together but influence each other less with growing distance; one = the patch itself.
   std::vector<PatchExtent> parts;

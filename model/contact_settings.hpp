@@ -15,6 +15,7 @@ namespace treadmark {
 /// approach.
 enum class NormalModel { full, elliptic, parabolic, semi_double_elliptic, kpec, analyn };
 
+/// Tractions: solved, or by a simplified theory.
 enum class TangentialModel { full, fastsim, fastsim_one_flexibility, fastrip, linear };
 
 /// Which tangential problem is solved.
@@ -35,21 +36,25 @@ enum class HistoryUse {
 
 /// FASTSIM with slope reduction (Spiryagin et al. 2013).
 struct FastsimSettings {
-  double k0 = 1.0, alpha = 1.0, beta = 1.0;
+  double k0 = 1.0;           ///< what is left of the slope at small creepage [-]
+  double alpha = 1.0;        ///< slope at large creepage over that at small creepage [-]
+  double beta = 1.0;         ///< how fast it falls with creepage [-]
   double flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
 };
 
 /// Where coefficients of influence come from.
 struct InfluenceSettings {
+  /// Of tractions over an element, or where they are taken from.
   enum class Kind { constant, bilinear, angle_corrected, table };
   Kind kind = Kind::constant;
   /// angle_corrected: inclination of the surface [rad] at positions along y [m] (Vollebregt 2018)
   std::vector<double> position, inclination;
-  int variant = 4;
+  int variant = 4;                                  ///< of the angle correction, 1 to 4
   bool linear = true;                               ///< one straight line through the table, else the table row by row
   std::shared_ptr<const NumericalInfluence> table;  ///< table: numerical coefficients
 };
 
+/// Accuracy and limits of the iterations.
 struct SolverSettings {
   /// sweeps: over single elements, slow; an independent check (tangential problem)
   enum class Method { automatic, sweeps };

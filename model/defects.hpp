@@ -15,6 +15,7 @@ namespace treadmark {
 
 /// A flat worn into a wheel.
 struct WheelFlat {
+  /// How the flat ends.
   enum class Shape {
     fresh,    ///< chord: dr(theta) of a straight cut; depth follows from the length
     rounded,  ///< depth/2 (1 + cos(2 pi x / length)) along the circumference
@@ -31,6 +32,7 @@ struct WheelFlat {
 /// An out-of-round wheel: dr(theta) = sum of amplitude cos(order theta - phase), over the lateral band of y_center,
 /// width. Order 1 is an eccentric wheel, order 2 an oval one; polygonal wheels have orders of about 6 to 30.
 struct Polygonization {
+  /// One wave round the circumference.
   struct Harmonic {
     int order = 0;           ///< waves round the circumference, >= 1
     double amplitude = 0.0;  ///< half of peak to peak
@@ -58,6 +60,7 @@ struct Squat {
 /// Rail corrugation: dz(x) = sum of amplitude cos(2 pi (x - x_start)/wavelength - phase) between x_start and x_end,
 /// run in and out over ramp by 1/2 (1 - cos). Positive values lie deeper.
 struct Corrugation {
+  /// One wave along the rail.
   struct Wave {
     double wavelength = 0.0, amplitude = 0.0, phase = 0.0;  ///< amplitude: half of peak to peak
     friend bool operator==(const Wave&, const Wave&) = default;
@@ -72,10 +75,10 @@ struct Corrugation {
 /// to its greatest value at y_start + gauge_side * width, by 1/2 (1 - cos), and stays there. Along x a trough of the
 /// given length, 1/2 (1 + cos(2 pi x/length)).
 struct GaugeCornerCollapse {
-  double length = 0.0, depth = 0.0, width = 0.0;
-  double x_center = 0.0;
-  double y_start = 0.0;
-  int gauge_side = -1;  ///< -1: the corner lies towards -y (a right rail), +1: towards +y
+  double length = 0.0, depth = 0.0, width = 0.0;  ///< along x, down, and across until the depth is whole; all > 0
+  double x_center = 0.0;                          ///< middle of the trough
+  double y_start = 0.0;                           ///< where the corner begins
+  int gauge_side = -1;                            ///< -1: the corner lies towards -y (a right rail), +1: towards +y
   friend bool operator==(const GaugeCornerCollapse&, const GaugeCornerCollapse&) = default;
 };
 
@@ -103,11 +106,13 @@ struct FlattenedHead {
 /// and between the first and the last station. Positions are interpolated between the stations by natural cubic
 /// splines. The section stands perpendicular to the x axis everywhere.
 struct MillingPath {
+  /// A place of the path.
   struct Station {
     double x = 0.0, y = 0.0, z = 0.0;  ///< where the origin of the cutter section passes
     double roll = 0.0;                 ///< of the cutter about x
     friend bool operator==(const Station&, const Station&) = default;
   };
+  /// A part of the cutter's section.
   struct Segment {
     double length = 0.0, curvature = 0.0;  ///< arc length; d(angle)/ds [1/m], as in ArcChain: a concave cutter has < 0
     friend bool operator==(const Segment&, const Segment&) = default;
@@ -142,6 +147,7 @@ struct Defects {
     visit("rail.milling_paths", Body::rail, defects.milling_paths);
   }
 
+  /// Whether there are none.
   bool empty() const {
     bool none = true;
     each(*this, [&none](const char*, Body, const auto& list) { none &= list.empty(); });

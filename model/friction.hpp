@@ -14,9 +14,10 @@ namespace treadmark {
 /// temperature:  mu = reference + change * (T - reference_temperature) / temperature_range, between the two
 /// temperatures; T: surface of body 1
 struct FrictionLaw {
+  /// The formula, see above.
   enum class Kind { coulomb, linear, rational, exponential, temperature };
   Kind kind = Kind::coulomb;
-  double kinetic = 0.3;
+  double kinetic = 0.3;                                 ///< at great slip velocities [-]
   double amplitude_1 = 0.0, amplitude_2 = 0.0;          ///< [-]
   double half_velocity_1 = 0.0, half_velocity_2 = 0.0;  ///< [m/s]
   double memory_distance = 1e-6;                        ///< [m]

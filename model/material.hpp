@@ -16,13 +16,17 @@ struct Material {
   double sheet_flexibility = 0.0;
   /// Standard linear solid: ratio of the delayed to the immediate compliance, 0 = elastic, and relaxation time [s].
   double creep_ratio_1 = 0.0, creep_ratio_2 = 0.0;
-  double relaxation_time_1 = 0.0, relaxation_time_2 = 0.0;
+  double relaxation_time_1 = 0.0, relaxation_time_2 = 0.0;  ///< [s]
 };
 
-/// Heat in the surfaces: bulk temperature [deg C], heat capacity [J/(kg K)], conductivity [W/(m K)], density [kg/m^3].
+/// Heat in the surface of a body.
 struct ThermalProperties {
-  double bulk_temperature = 0.0, heat_capacity = 450.0, conductivity = 50.0, density = 7850.0;
+  double bulk_temperature = 0.0;  ///< [deg C]
+  double heat_capacity = 450.0;   ///< [J/(kg K)]
+  double conductivity = 50.0;     ///< [W/(m K)]
+  double density = 7850.0;        ///< [kg/m^3]
 };
+/// Heat in the surfaces of rail (1) and wheel (2).
 struct Thermal {
   ThermalProperties body_1, body_2;
   double plastic_fraction = 1.0;  ///< of plastic work that becomes heat
@@ -35,6 +39,7 @@ struct CombinedMaterial {
   double poisson = 0.0;        ///< nu [-]
   double difference = 0.0;     ///< K [-], 0 for equal materials: then normal and tangential problem are independent
 };
+/// Of any two bodies.
 CombinedMaterial combine(const Material& material);
 
 }  // namespace treadmark

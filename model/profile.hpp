@@ -7,10 +7,12 @@
 
 namespace treadmark {
 
+/// Which of the two bodies.
 enum class Body { rail, wheel };
 
 /// How profile points are turned into a smooth curve (behaviour of the smoothing methods: Reinsch 1967, de Boor 1978).
 struct SmoothingOptions {
+  /// What is minimised.
   enum class Method {
     spline = 0,            ///< unweighted cubic smoothing spline, strength = lambda [m^3]
     weighted_spline = 1,   ///< weighted cubic smoothing spline, strength = cut-off wavelength [m]

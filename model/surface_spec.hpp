@@ -23,6 +23,7 @@ struct StandardProfile {
 /// curvature > 0 bends towards +z (a rail crown is convex upwards, so its z grows on both sides of the crown: curvature
 /// > 0).
 struct ArcChain {
+  /// A straight line or an arc.
   struct Segment {
     double length = 0.0;     ///< arc length [m]
     double curvature = 0.0;  ///< d(angle)/ds [1/m]; 0 = straight

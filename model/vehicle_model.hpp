@@ -17,12 +17,15 @@ namespace treadmark {
 
 /// Displacements and rotations of a body about its centre of mass, in the order of every array of six here.
 enum class Freedom : int { x, y, z, roll, pitch, yaw };
+/// Number of them.
 inline constexpr int kFreedoms = 6;
+/// One value a freedom.
 using SixValues = std::array<double, kFreedoms>;
 
 /// Name of what does not move (under the track) or moves at the vehicle's speed (elsewhere).
 inline constexpr const char* kGround = "ground";
 
+/// A rigid body.
 struct BodySpec {
   std::string name;
   double mass = 0.0;             ///< [kg]; > 0
@@ -46,18 +49,20 @@ struct SpringSpec {
 /// A force that depends on a relative displacement along one axis, body b against body a; odd.
 struct BumpStopSpec {
   std::string name, body_a, body_b;
-  Vec3 position = Vec3::Zero();    ///< [m]
-  Freedom direction = Freedom::y;  ///< x, y or z
-  std::vector<double> displacement,
-      force;  ///< increasing from >= 0 [m]; [N]; linear between, continued by the last slope
+  Vec3 position = Vec3::Zero();      ///< [m]
+  Freedom direction = Freedom::y;    ///< x, y or z
+  std::vector<double> displacement;  ///< increasing from >= 0 [m]
+  std::vector<double> force;         ///< at them [N]; linear between, continued by the last slope
   SourcePosition where;
 };
 
+/// Which body carries a wheelset.
 struct WheelsetSpec {
   std::string body;             ///< its springs hold the axle boxes, which do not turn with the axle
   double nominal_radius = 0.0;  ///< [m]
 };
 
+/// Bodies above the rails and what connects them.
 struct VehicleModel {
   std::string name;
   std::vector<BodySpec> bodies;

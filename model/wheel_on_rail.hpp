@@ -11,6 +11,7 @@ namespace treadmark {
 /// left-hand pair is described with its own true signs (y to the right); profiles are always given as for the
 /// right-hand side.
 
+/// Side of the track, seen along x.
 enum class Side { left, right };
 
 /// Where the rail lies on the track and how it moves.
@@ -48,6 +49,7 @@ struct Damping {
   double max_rate_normal = 0.0, max_rate_tangential = 0.0;  ///< [N/s]
 };
 
+/// How the wheels of a wheelset are placed on its axle.
 struct WheelsetDimensions {
   double flange_back_distance = 1.360;   ///< [m]
   double flange_back_position = -0.070;  ///< in wheel profile coordinates [m]
@@ -57,9 +59,10 @@ struct WheelsetDimensions {
 
 /// Six positions or six rates in the order of the field: longitudinal, lateral, vertical, roll, yaw, pitch.
 struct SixMotion {
-  double x = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;
+  double x = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;  ///< [m], [rad], or per second
 };
 
+/// Where a wheelset is, in track axes, and how it moves.
 struct WheelsetState {
   SixMotion position;        ///< x = s along the track; z = 0: nominal circle touches the track plane [m], [rad]
   SixMotion velocity;        ///< [m/s], [rad/s]; rolling forward has a negative pitch rate
@@ -74,6 +77,7 @@ enum class ReferenceSurface {
   curved,              ///< conformal contact: a surface between both bodies, curved across the rail
 };
 
+/// How contact is looked for.
 enum class SearchMethod {
   automatic,    ///< locus for constant profiles where refine is on, else pruned grid
   pruned_grid,  ///< heights only where conservative bounds do not rule contact out
@@ -89,10 +93,11 @@ struct ElementGrid {
   double separation = 8e-3, combination = 4e-3;  ///< D_SEP, D_COMB [m]
   std::optional<double> turning;                 ///< D_TURN [m]; default 2 D_SEP - D_COMB
   double near_miss = -1e-3;                      ///< G_MISS [m]
-  int max_elements = 20000;
-  bool linear_weight = false;  ///< weight of the penetration in the contact reference; false: squared
+  int max_elements = 20000;                      ///< of a patch; elements grow where there would be more
+  bool linear_weight = false;                    ///< weight of the penetration in the contact reference; false: squared
 };
 
+/// Elements and how contact is looked for.
 struct Discretisation : ElementGrid {
   bool reference_at_deepest = false;
   /// Size and fineness of the first search grid.

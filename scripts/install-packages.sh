@@ -12,7 +12,7 @@ packages=(
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
 
-[[ ${1:-} != --tests ]] || packages+=(chromium clang-format libkissfft-dev)
+[[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen libkissfft-dev)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

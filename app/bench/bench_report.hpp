@@ -16,22 +16,22 @@ namespace treadmark::app {
 
 /// What one body in one representation costs. Times are NaN where nothing was measured, always so without agreement.
 struct BenchRow {
+  /// Not measured.
   static constexpr double kNone = std::numeric_limits<double>::quiet_NaN();
 
   std::string backend;
   double resolution = 0.0;  ///< of the samples [m]; 0 = as given
   Body body = Body::rail;
-  bool agrees = false;        ///< with every oracle it was held against
-  std::string reason;         ///< why it does not agree; empty if it does
-  double difference = kNone;  ///< largest normal distance from the surface as given, over the measured grids [m]
-  std::size_t memory_bytes = 0;
-  std::size_t points = 0;  ///< of the grid of heights
-  double build = kNone;    ///< [s]
-  // a height each [s]
-  double height = kNone, height_tilted = kNone;
-  double normal = kNone;       ///< height with both slopes, tilted plane
-  double base_height = kNone;  ///< of backends over a base only: the base, level plane
-  // of wheel and rail, both in this representation [s]
+  bool agrees = false;           ///< with every oracle it was held against
+  std::string reason;            ///< why it does not agree; empty if it does
+  double difference = kNone;     ///< largest normal distance from the surface as given, over the measured grids [m]
+  std::size_t memory_bytes = 0;  ///< of the surface
+  std::size_t points = 0;        ///< of the grid of heights
+  double build = kNone;          ///< [s]
+  double height = kNone, height_tilted = kNone;  ///< a height in a level and in a tilted plane [s]
+  double normal = kNone;                         ///< height with both slopes, tilted plane [s]
+  double base_height = kNone;  ///< of backends over a base only: a height of the base, level plane [s]
+  /// Of wheel and rail, both in this representation: first search, after a small move, undeformed distance [s].
   double search_cold = kNone, search_warm = kNone, distance = kNone;
   int patches = -1;  ///< -1: not searched
 };
@@ -40,15 +40,16 @@ struct BenchRow {
 struct BenchReport {
   std::string version, git, date, machine, compiler;
   std::vector<std::pair<std::string, std::string>> libraries;  ///< name, version
-  int threads = 1;
-  double seconds = 0.0;  ///< of the whole run
-  double seconds_per_measure = 0.0;
-  std::string input_file, input_sha256;  ///< empty for the built-in case
+  int threads = 1;                                             ///< that were allowed
+  double seconds = 0.0;                                        ///< of the whole run
+  double seconds_per_measure = 0.0;                            ///< as BenchSettings has it [s]
+  std::string input_file, input_sha256;                        ///< empty for the built-in case
   std::vector<std::string> settings;
   std::string truth;     ///< representation of the surfaces as given
   bool complete = true;  ///< false when interrupted
   std::vector<BenchRow> rows;
 
+  /// Whether all rows do.
   bool agrees() const {
     for (const BenchRow& row : rows)
       if (!row.agrees) return false;

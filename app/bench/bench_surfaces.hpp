@@ -11,10 +11,11 @@
 
 namespace treadmark::app {
 
+/// What is measured, and for how long.
 struct BenchSettings {
   std::vector<std::string> backends;              ///< empty = all that the shapes allow
   std::vector<double> resolutions{1e-3, 0.5e-3};  ///< [m]
-  double seconds_per_measure = 0.2;
+  double seconds_per_measure = 0.2;               ///< [s]; each time is the median of calls for so long
   BenchGrid grid;
 };
 

@@ -15,6 +15,7 @@
 
 namespace treadmark::app {
 
+/// What belongs to a run of a simulation and not to the simulation itself.
 struct SimulationOptions {
   std::vector<std::string> settings;  ///< echo of overrides
   std::vector<std::pair<std::string, std::string>> swept;
@@ -28,7 +29,7 @@ struct SimulationOptions {
 
 /// Time of the computer that a simulation took; not part of its results.
 struct SimulationTimes {
-  double build_s = 0.0, tables_s = 0.0, equilibrium_s = 0.0, modes_s = 0.0, integration_s = 0.0;
+  double build_s = 0.0, tables_s = 0.0, equilibrium_s = 0.0, modes_s = 0.0, integration_s = 0.0;  ///< [s]
   wheelrail::PhaseTimes contact;  ///< of the wheels with full contact, in the integration
 };
 

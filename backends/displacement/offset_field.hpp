@@ -11,15 +11,16 @@ namespace treadmark::displacement {
 
 /// An offset and its derivatives by u and y.
 struct OffsetJet {
-  double value = 0.0;
-  double d_u = 0.0, d_y = 0.0;
-  double d_uu = 0.0, d_uy = 0.0, d_yy = 0.0;
+  double value = 0.0;                         ///< [m]
+  double d_u = 0.0, d_y = 0.0;                ///< per metre or radian of u, per metre of y
+  double d_uu = 0.0, d_uy = 0.0, d_yy = 0.0;  ///< likewise
 };
 
 /// Range of an offset, and Lipschitz constants of it, over some (u, y) rectangle. Conservative.
 struct OffsetRange {
-  double low = 0.0, high = 0.0;
-  double max_d_u = 0.0, max_d_y = 0.0;
+  double low = 0.0, high = 0.0;         ///< [m]
+  double max_d_u = 0.0, max_d_y = 0.0;  ///< of the sizes of the first derivatives
+  /// Whether there is no offset anywhere over the rectangle.
   bool zero() const { return low == 0.0 && high == 0.0; }
 };
 
@@ -30,6 +31,7 @@ class OffsetField {
  public:
   virtual ~OffsetField() = default;
 
+  /// At one point.
   virtual OffsetJet jet(double u, double y) const = 0;
 
   /// Values and first derivatives at many points (neighbours in the list are usually neighbours on the surface).
@@ -40,6 +42,7 @@ class OffsetField {
   /// Conservative range over a rectangle (x = u, y = y of the rectangle).
   virtual OffsetRange range(const Rectangle& uy) const = 0;
 
+  /// Memory taken by the field.
   virtual std::size_t memory_bytes() const = 0;
 };
 

@@ -15,7 +15,9 @@ namespace treadmark::sampling {
 /// The part of a surface that is sampled: u is x [m] of a rail, theta [rad] of a wheel; y [m].
 /// A wheel's range of a whole turn or more, or an infinite one, means the closed wheel.
 struct Region {
+  /// [m] or [rad]
   double u_min = -std::numeric_limits<double>::infinity(), u_max = std::numeric_limits<double>::infinity();
+  /// [m]
   double y_min = -std::numeric_limits<double>::infinity(), y_max = std::numeric_limits<double>::infinity();
 };
 
@@ -29,7 +31,9 @@ struct PointGrid {
   double stagger = 0.0;   ///< added to u at odd lateral nodes: half a step makes nearly equilateral triangles
   bool closed = false;    ///< wheel only: the last station neighbours the first
 
+  /// Where the value of a point stands in h.
   std::size_t index(std::size_t iu, std::size_t iy) const { return iu * y.size() + iy; }
+  /// Whether there is a surface.
   bool present(std::size_t iu, std::size_t iy) const { return !std::isnan(h[index(iu, iy)]); }
   /// In the surface frame.
   Vec3 point(std::size_t iu, std::size_t iy) const {

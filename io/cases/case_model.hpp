@@ -29,10 +29,11 @@ struct ProfileOptions {
   SmoothingOptions smoothing;
   double zigzag_threshold = 2.6179938779914944;  ///< [rad]
   double max_omit = 0.5;                         ///< share of points that cleaning may remove
-  int error_handling = 0;
+  int error_handling = 0;                        ///< CONTACT's option ERRHND
   friend bool operator==(const ProfileOptions&, const ProfileOptions&);
 };
 
+/// A profile, slices, triangles or offsets in a file.
 struct GeometryFile {
   std::filesystem::path file;  ///< already resolved against the folder of the case file
   ProfileOptions options;
@@ -41,15 +42,17 @@ struct GeometryFile {
 
 /// A rail whose one section moves along the track.
 struct CrossingInput {
+  /// What moves: nothing, the nose, the wing rail.
   enum class Part { none, nose, wing } part = Part::none;
-  double x = 0.0, y = 0.0,
-         z = 0.0;         ///< where a nose levels off or a wing starts to move; offset of its section there [m]
-  double slope = 0.1;     ///< of the nose before x (rising), of the wing after it (towards +y)
-  double length = 0.5;    ///< over which it rises or moves [m]
-  double rounding = 0.1;  ///< over which the slope changes [m]
+  double x = 0.0;           ///< where a nose levels off or a wing starts to move [m]
+  double y = 0.0, z = 0.0;  ///< offset of its section there [m]
+  double slope = 0.1;       ///< of the nose before x (rising), of the wing after it (towards +y)
+  double length = 0.5;      ///< over which it rises or moves [m]
+  double rounding = 0.1;    ///< over which the slope changes [m]
   friend bool operator==(const CrossingInput&, const CrossingInput&) = default;
 };
 
+/// The shape of a wheel or rail, and the representation it is wanted in.
 struct SurfaceSource {
   /// A file to be read, or a shape given in the case file itself.
   std::variant<GeometryFile, StandardProfile, ArcChain> geometry;
@@ -63,6 +66,7 @@ struct SurfaceSource {
       parts;  ///< rail only: several surfaces, of which the outermost counts, instead of geometry
 };
 
+/// Elements, and how contact is looked for.
 struct DiscretisationInput : ElementGrid {
   /// 2 automatic (locus for constant profiles), 5 grid, 6 grid for steep slopes, 7 initial contact point.
   int method = 2;
@@ -79,6 +83,7 @@ struct InfluenceInput : InfluenceSettings {
 
 /// Restricts where contact can be.
 struct PlanformInput {
+  /// Of the restriction; see coefficients.
   enum class Kind { free, quadratic, two_rectangles, sub_patches };
   Kind kind = Kind::free;
   /// quadratic: b1 .. b6, no contact where b1 x^2 + b2 xy + b3 y^2 + b4 x + b5 y + b6 >= 0 (SI: [1/m^2], [1/m], [-];
@@ -89,6 +94,7 @@ struct PlanformInput {
 
 /// Points at which stresses below the surface are wanted.
 struct SubsurfaceInput {
+  /// A grid of points.
   struct Block {
     bool at_elements = true;         ///< x, y: element centres, else free points
     std::vector<int> columns, rows;  ///< at_elements: indices from 0; empty = all
@@ -102,6 +108,7 @@ struct SubsurfaceInput {
 
 /// Friction that differs from place to place of a wheel on a rail; between the positions laws are interpolated.
 struct FrictionVariation {
+  /// What friction depends on.
   enum class Kind { none, inclination, along_track };
   Kind kind = Kind::none;
   std::vector<double> positions;  ///< increasing: inclination of the rail's surface [rad], or s along the track [m]
@@ -144,6 +151,7 @@ struct WheelRailCase {
 
 /// Hertzian geometry (IPOTCN < 0): what is given and the grid that follows from it.
 struct HertzInput {
+  /// Which of the numbers below are given.
   enum class Given { curvatures, curvature_and_ratio, semi_axes, line_curvature, line_semi_axis, semi_double_elliptic };
   Given given = Given::curvatures;
   double a1 = 0.0, b1 = 0.0;  ///< curvatures A, B [1/m]
@@ -156,6 +164,7 @@ struct HertzInput {
 
 /// Undeformed distance given by formula (IBASE 1..3) or per element (9).
 struct GapInput {
+  /// The formula.
   enum class Kind { quadratic, circular, sinusoidal, per_element };
   Kind kind = Kind::quadratic;
   /// In SI units:
@@ -184,9 +193,9 @@ struct BasicCase {
   NormalModel normal_model = NormalModel::full;
   TangentialModel tangential_model = TangentialModel::full;
   FastsimSettings fastsim;
-  double chi = 0.0, dq = 0.0, velocity = 0.0;  ///< [rad], [m], [m/s]
-  double spin_offset_factor = 1.0 / 6.0;       ///< FACPHI
-  int mx = 0, my = 0;
+  double chi = 0.0, dq = 0.0, velocity = 0.0;     ///< [rad], [m], [m/s]
+  double spin_offset_factor = 1.0 / 6.0;          ///< FACPHI
+  int mx = 0, my = 0;                             ///< columns and rows of elements
   double x0 = 0.0, y0 = 0.0, dx = 0.0, dy = 0.0;  ///< centre of the first element and steps [m] (IPOTCN > 0)
   std::variant<GapInput, HertzInput> geometry;    ///< HertzInput: grid follows from it
   Material material;
@@ -202,19 +211,21 @@ struct BasicCase {
   SubsurfaceInput subsurface;
 };
 
+/// One case of a file.
 struct Case {
   int number = 0;         ///< counts from 1 in the file
   SourcePosition where;   ///< first line of the case
   int sequence = 0;       ///< cases of one sequence follow each other in time
   bool shown = true;      ///< false: no output is wanted (O = 0)
   int element_table = 0;  ///< .mat text table of elements: 0 none, 1 those in contact, 2 all
-  /// While a file is read: cases in time that one table makes (0: positions are as given), and the time between them
-  /// [s] (0: that of a rolling step).
+  /// While a file is read: cases in time that one table makes (0: positions are as given).
   int steps = 0;
+  /// The time between them [s]; 0: that of a rolling step.
   double time_step = 0.0;
   std::variant<WheelRailCase, BasicCase> content;
 };
 
+/// All cases of a file, in order.
 struct CaseFile {
   std::filesystem::path path;
   std::string sha256;  ///< of the case file itself, hex

@@ -15,26 +15,29 @@ namespace treadmark::io {
 
 /// Results of a simulation in time as plain data in SI units.
 
+/// A quantity of a history.
 struct HistoryColumn {
   std::string name;  ///< with its unit: "t_s", "x_m", "ws1_right.Q_N"
   std::string unit, description;
 };
 
+/// A wheel that loses or regains contact.
 struct HistoryEvent {
   double time = 0.0, position = 0.0;  ///< [s], along the track [m]
   std::string wheel, kind;            ///< "contact lost" or "contact regained"
 };
 
+/// A number that stands for a whole simulation.
 struct NamedValue {
-  std::string name;  ///< with its unit: "q_max_N"
-  double value = 0.0;
+  std::string name;    ///< with its unit: "q_max_N"
+  double value = 0.0;  ///< in the unit
   std::string unit, description;
 };
 
 /// A mode of the linearised system.
 struct ModeRow {
-  double frequency_Hz = 0.0, damping_ratio = 0.0;
-  std::string shape;  ///< in words
+  double frequency_Hz = 0.0, damping_ratio = 0.0;  ///< [Hz], of critical damping [-]
+  std::string shape;                               ///< in words
 };
 
 /// What pictures show of a snapshot beside its fields. Stores have the flags of it only: a simulation finds it anew,
@@ -68,6 +71,7 @@ struct SimulationResult {
   std::vector<std::pair<std::string, std::string>> swept;  ///< (key, value) of the study that the simulation belongs to
   std::vector<std::byte> checkpoint;                       ///< from which it can go on; may be empty
 
+  /// Number of instants.
   std::size_t rows() const { return columns.empty() ? 0 : values.size() / columns.size(); }
 };
 

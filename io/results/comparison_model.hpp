@@ -17,32 +17,32 @@ namespace treadmark::io {
 /// How one body is represented in one candidate.
 struct RepresentedBody {
   std::string backend;
-  double resolution = 0.0;     ///< data spacing [m]; 0 = as given, not sampled again
-  double build_seconds = 0.0;  ///< of this representation, from surface to surface
-  std::size_t memory_bytes = 0;
+  double resolution = 0.0;       ///< data spacing [m]; 0 = as given, not sampled again
+  double build_seconds = 0.0;    ///< of this representation, from surface to surface
+  std::size_t memory_bytes = 0;  ///< of the surface
   SurfaceDifference difference;  ///< from the truth; points = 0 where it was not measured
   std::string note;              ///< repairs, limits; may be empty
 };
 
 /// Number of one case in one candidate; errors are against the truth's same case.
 struct ComparisonRow {
-  int case_number = 0;
+  int case_number = 0;  ///< as CaseResult::number
   Status status = Status::ok;
   std::string message;
-  int patches = 0;
-  // the patch that carries most of the load
+  int patches = 0;  ///< all of them; the numbers down to ncon are those of the one that carries most of the load
   double pmax = 0.0, fn = 0.0, fx = 0.0, fs = 0.0;  ///< [Pa], [N]
   double x_tr = 0.0, y_tr = 0.0;                    ///< contact reference [m]
   double approach = 0.0, area = 0.0;                ///< [m], [m^2]
-  int ncon = 0;
-  double search_s = 0.0, distance_s = 0.0;        ///< [s]
-  bool comparable = false;                        ///< the truth has contact in this case too: the errors below hold
-  double pmax_error = 0.0;                        ///< relative, (p - p_truth)/p_truth
-  double area_error = 0.0, approach_error = 0.0;  ///< relative
-  double force_error = 0.0;                       ///< |F - F_truth|/|F_truth| of all patches together
-  double position_error = 0.0;                    ///< distance of the references in the track's x-y plane [m]
+  int ncon = 0;                                     ///< elements in contact
+  double search_s = 0.0, distance_s = 0.0;          ///< [s]
+  bool comparable = false;                          ///< the truth has contact in this case too: the errors below hold
+  double pmax_error = 0.0;                          ///< relative, (p - p_truth)/p_truth
+  double area_error = 0.0, approach_error = 0.0;    ///< relative
+  double force_error = 0.0;                         ///< |F - F_truth|/|F_truth| of all patches together
+  double position_error = 0.0;                      ///< distance of the references in the track's x-y plane [m]
 };
 
+/// All cases in one representation.
 struct ComparisonCandidate {
   std::string name;         ///< as asked for, for example "mesh"
   double resolution = 0.0;  ///< [m]; 0 = as given
@@ -52,13 +52,15 @@ struct ComparisonCandidate {
   std::vector<CaseResult> results;       ///< with fields, for pictures
   std::vector<SampledSurface> surfaces;  ///< of the truth only, where asked for
 
+  /// False where the surfaces are as given.
   bool has_resolution() const { return std::isfinite(resolution) && resolution > 0.0; }
 };
 
+/// The truth and all candidates, with where they come from.
 struct Comparison {
   std::string version, git;
-  int threads = 1;
-  double seconds = 0.0;
+  int threads = 1;       ///< that the comparison was allowed
+  double seconds = 0.0;  ///< wall clock of it all [s]
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;
   std::vector<std::string> settings;

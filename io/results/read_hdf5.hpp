@@ -22,13 +22,16 @@ namespace treadmark::io {
 /// called from two threads at once.
 RunResult read_hdf5(const std::filesystem::path& path);
 
-/// Its parts, of files that hold such groups. cases(): all groups case_0001 ... below a group. Errors as above.
+/// All groups case_0001 ... below a group, of any file that holds such groups. Errors as above, here and below.
 std::vector<CaseResult> read_cases(const Hdf5GroupReader& parent);
+/// One of them.
 CaseResult read_case(const Hdf5GroupReader& group);
+/// The surfaces below a group.
 std::vector<SampledSurface> read_surfaces(const Hdf5GroupReader& parent);
 
-/// Throws Error(input_data) unless the file says that it holds this, or all surfaces that cases name are there.
+/// Throws Error(input_data) unless the file says that it holds this.
 void require_format(const Hdf5GroupReader& root, const std::string& format);
+/// Throws Error(input_data) unless all surfaces that cases name are there.
 void check_surface_names(const Hdf5GroupReader& where, std::span<const CaseResult> cases,
                          std::span<const SampledSurface> surfaces);
 
@@ -41,6 +44,7 @@ PatchResult read_patch(const Hdf5GroupReader& group);
 /// Loads of a case or patch; none where they are not known. Errors: Error(input_data).
 std::optional<Loads> read_loads(const Hdf5GroupReader& group);
 
+/// One value, or the components of a vector, from the attribute that these rows share. Errors: Error(input_data).
 template <class T>
 void read_rows(const Hdf5GroupReader& group, std::span<const Quantity<T>> rows, T& item) {
   const auto& [get, put, has, whole] = rows.front().access;

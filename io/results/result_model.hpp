@@ -51,7 +51,7 @@ struct SubsurfaceValue {
 
 /// Points in nx columns, ny rows and nz layers: values[ix + nx (iy + ny iz)].
 struct SubsurfaceBlock {
-  int nx = 0, ny = 0, nz = 0;
+  int nx = 0, ny = 0, nz = 0;  ///< points along x, s, n
   std::vector<SubsurfaceValue> values;
 };
 
@@ -59,15 +59,16 @@ struct SubsurfaceBlock {
 /// of a wheel on its axle (x = r sin(theta), z = r cos(theta)), of a rail those of its profile; that of a left-hand
 /// pair already is the mirror image.
 struct SampledSurface {
-  std::string body;  ///< "wheel" or "rail"
-  std::string name;  ///< in the run: "wheel_1"
-  int nu = 0, nv = 0;
+  std::string body;             ///< "wheel" or "rail"
+  std::string name;             ///< in the run: "wheel_1"
+  int nu = 0, nv = 0;           ///< stations, and points in each
   bool closed = false;          ///< the last station joins the first
   std::vector<double> u;        ///< stations: x of a rail [m], angle round a wheel or roller [rad]; increasing
   std::vector<double> x, y, z;  ///< [m], station after station, y increasing in each; NaN = no surface
   std::vector<double>
       deviation;  ///< along the outward normal from the body's mean section [m]; empty: all sections are alike
 
+  /// Where a point stands in x, y, z and deviation.
   std::size_t index(int iu, int iv) const {
     return static_cast<std::size_t>(iu) * static_cast<std::size_t>(nv) + static_cast<std::size_t>(iv);
   }
@@ -84,7 +85,7 @@ int surface_index(std::span<const SampledSurface> surfaces, const std::string& n
 
 /// A force on the rail [N] and its moment [N m].
 struct Load {
-  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();
+  Vec3 force = Vec3::Zero(), moment = Vec3::Zero();  ///< [N], [N m]
 };
 
 /// One load in four systems of axes; moments about the rail marker (track, rail) or the wheel marker (wheelset, wheel).
@@ -92,6 +93,7 @@ struct Loads {
   Load track, rail, wheelset, wheel;
 };
 
+/// What is known of every element of a patch; index = ix + nx * iy. Empty: not asked for, or not there.
 struct PatchFields {
   Grid2 grid;               ///< element centres in contact axes [m]
   Pose X_TC;                ///< pose of the grid's frame (x, s, n) in track axes (identity for a basic case)
@@ -99,13 +101,13 @@ struct PatchFields {
   std::vector<double> pressure, traction_x, traction_s;                ///< [Pa], on the rail
   std::vector<double> displacement_n, displacement_x, displacement_s;  ///< [m]
   std::vector<double> slip_x, slip_s;                                  ///< relative slip [-] (shift: [m])
-  std::vector<double> friction;
+  std::vector<double> friction;                                        ///< coefficient mu [-]
   std::vector<double> dissipation;           ///< power of friction that becomes heat [W/m^2] (shift: work [J/m^2])
   std::vector<std::uint8_t> state;           ///< 0 exterior, 1 adhesion, 2 slip, 3 plastic
   std::vector<double> plastic_x, plastic_s;  ///< plastic shear of the interface layer [m]; empty without
   std::vector<double> yield_stress;          ///< of the interface layer [Pa]; empty without
-  std::vector<double> temperature_1,
-      temperature_2;  ///< of the surfaces of rail and wheel [deg C]; empty unless computed
+  /// Of the surfaces of rail and wheel [deg C]; empty unless computed.
+  std::vector<double> temperature_1, temperature_2;
   /// Rigid slip of the surfaces beyond creepages and spin, relative as slip is (shift: [m]); empty = none.
   std::vector<double> extra_slip_x, extra_slip_s;
   /// Curved reference: inclination of each row against the contact plane [rad]; tractions and slip are in the axes of
@@ -117,6 +119,7 @@ struct PatchFields {
 /// row is as long as it is high in the grid, turned by its inclination; the contact reference lies on the plane.
 std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s);
 
+/// One contact patch: numbers on the rail, then its fields. Names follow the keys of the result file.
 struct PatchResult {
   bool has_reference = false;                                        ///< wheel-rail cases only
   double x_tr = 0.0, y_tr = 0.0, z_tr = 0.0, angle = 0.0;            ///< contact reference in track axes [m], [rad]
@@ -128,42 +131,44 @@ struct PatchResult {
   std::uint64_t id = 0;                  ///< stays with a patch through a sequence in time; 0 = not known
   std::vector<std::uint64_t> came_from;  ///< patches of the previous instant that it continues
   std::optional<Loads> loads;
+  /// Sums of the components of tractions and pressures as they are in the axes of the rows.
   struct LocalForces {
     double fn = 0.0, fx = 0.0, fs = 0.0;  ///< [N]
   };
   std::optional<LocalForces> local;  ///< curved reference: sums of the components in the axes of the rows
   bool has_rolling = false;
-  double chi = 0.0, dq = 0.0, velocity = 0.0;     ///< [rad], [m], [m/s]
-  bool shift = false;                             ///< creepages are lengths, power is work
-  double xi = 0.0, eta = 0.0, phi = 0.0;          ///< [-], [-], [rad/m] (shift: [m], [m], [rad])
-  double fn = 0.0, fx = 0.0, fs = 0.0, mn = 0.0;  ///< on the rail [N], [N m]
-  double fx_relative = 0.0, fs_relative = 0.0;    ///< over mu_static F_n
-  double shear_modulus = 0.0;                     ///< combined G [Pa]
-  double elastic_energy = 0.0;                    ///< [J]
-  double frictional_power = 0.0;                  ///< [W], negative = dissipated; shift: work [J]
-  double approach = 0.0, pmax = 0.0;              ///< [m], [Pa]
-  int npot = 0, ncon = 0, nadh = 0, nslip = 0;
+  double chi = 0.0, dq = 0.0, velocity = 0.0;                  ///< [rad], [m], [m/s]
+  bool shift = false;                                          ///< creepages are lengths, power is work
+  double xi = 0.0, eta = 0.0, phi = 0.0;                       ///< [-], [-], [rad/m] (shift: [m], [m], [rad])
+  double fn = 0.0, fx = 0.0, fs = 0.0, mn = 0.0;               ///< on the rail [N], [N m]
+  double fx_relative = 0.0, fs_relative = 0.0;                 ///< over mu_static F_n
+  double shear_modulus = 0.0;                                  ///< combined G [Pa]
+  double elastic_energy = 0.0;                                 ///< [J]
+  double frictional_power = 0.0;                               ///< [W], negative = dissipated; shift: work [J]
+  double approach = 0.0, pmax = 0.0;                           ///< [m], [Pa]
+  int npot = 0, ncon = 0, nadh = 0, nslip = 0;                 ///< elements in all, in contact, in adhesion, in slip
   std::optional<double> max_temperature_1, max_temperature_2;  ///< in contact, rail and wheel [deg C]
   PatchFields fields;
   std::vector<SubsurfaceBlock> subsurface;             ///< in the axes of the patch
   bool subsurface_table = false, full_tensor = false;  ///< a .subs text file is wanted, with all components of stress
   std::optional<MatFileHead> element_table;            ///< a .mat text file is wanted
   bool all_elements = false;                           ///< in it, also those not in contact
-  /// Derivatives of the forces on the rail, where they were asked for: by the creepages xi, eta [N], phi [N m] (shift:
-  /// [N/m], [N/rad]) of (F_x, F_s), and by the approach of (F_n, F_x, F_s) [N/m].
+  /// Derivatives of the forces on the rail, where they were asked for.
   struct Sensitivities {
+    /// Of (F_x, F_s) by the creepages xi, eta [N], phi [N m] (shift: [N/m], [N/rad]).
     std::array<std::array<double, 2>, 3> by_creepage{};
-    std::array<double, 3> by_approach{};
+    std::array<double, 3> by_approach{};  ///< of (F_n, F_x, F_s) by the approach [N/m]
   };
   std::optional<Sensitivities> sensitivities;
 };
 
+/// What came out of one case.
 struct CaseResult {
-  int number = 0;
+  int number = 0;  ///< of the case in its file, from 1
   Status status = Status::ok;
   std::string message;
-  double seconds = 0.0;
-  bool shown = true;  ///< false: the input asks for no output of this case
+  double seconds = 0.0;  ///< wall clock [s]
+  bool shown = true;     ///< false: the input asks for no output of this case
   bool has_wheelset = false;
   double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;        ///< wheelset [m], [rad]
   double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;  ///< [m/s], [rad/s]
@@ -172,6 +177,7 @@ struct CaseResult {
   Vec3 moment_wheel = Vec3::Zero();     ///< on the rail about the wheel marker, wheelset axes [N m]
   std::optional<Loads> loads;           ///< on the rail, sum over the patches
   std::optional<Vec2> rail_deflection;  ///< of a rail on springs, y and z [m]
+  /// A roller or ring below the wheel.
   struct Roller {
     double nominal_radius = 0.0, pitch_rate = 0.0;  ///< [m], [rad/s]
   };
@@ -184,8 +190,8 @@ struct CaseResult {
   std::optional<Bodies> bodies;
   std::string wheel_surface, rail_surface;  ///< names of sampled surfaces; empty = none
   double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< times [s]
-  int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;
-  std::vector<std::pair<double, double>> force_iterations;  ///< (z_ws [m], F_z [N])
+  int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;    ///< how often each was done
+  std::vector<std::pair<double, double>> force_iterations;                      ///< (z_ws [m], F_z [N])
   std::vector<PatchResult> patches;
 };
 
@@ -193,23 +199,24 @@ struct CaseResult {
 struct SurfaceUse {
   std::string body;  ///< "wheel" or "rail"
   std::string backend;
-  double resolution = 0.0;  ///< spacing of the samples it was built from [m]; 0 = built from the data as given
-  double build_seconds = 0.0;
-  std::size_t memory_bytes = 0;
-  SurfaceDifference fit;  ///< from what it was sampled from; points = 0: not sampled
+  double resolution = 0.0;       ///< spacing of the samples it was built from [m]; 0 = built from the data as given
+  double build_seconds = 0.0;    ///< wall clock [s]
+  std::size_t memory_bytes = 0;  ///< of the surface
+  SurfaceDifference fit;         ///< from what it was sampled from; points = 0: not sampled
   std::string note;
 };
 
+/// All cases of a run, with where they come from.
 struct RunResult {
   std::string version, git;
-  int threads = 1;
-  double seconds = 0.0;
+  int threads = 1;       ///< that the run was allowed
+  double seconds = 0.0;  ///< wall clock of the whole run [s]
   std::string input_file, input_sha256;
   std::vector<std::pair<std::string, std::string>> geometry_sha256;  ///< (file, hash) of every geometry file read
   std::vector<SurfaceUse> surfaces;                                  ///< in the order in which the cases ask for them
   std::vector<std::string> settings;                                 ///< echo of overrides (--set key=value, --backend)
   bool complete = true;  ///< false when interrupted: then fewer cases than asked
-  int cases_total = 0;
+  int cases_total = 0;   ///< asked for
   std::vector<CaseResult> cases;
   std::vector<SampledSurface> sampled;  ///< of what the cases used; empty where nobody asked for them
 };

@@ -31,9 +31,11 @@ void write_case(const Hdf5GroupWriter& group, const CaseResult& result, CaseTime
 /// check_surfaces.
 void write_surfaces(const Hdf5GroupWriter& parent, std::span<const SampledSurface> surfaces);
 
-/// What is written at the group of a run, a case and a patch, besides their parts and fields.
+/// What is written at the group of a run besides its parts.
 std::vector<Attribute> attributes_of(const RunResult& run);
+/// The same of a case.
 std::vector<Attribute> attributes_of(const CaseResult& result);
+/// The same of a patch, besides its fields.
 std::vector<Attribute> attributes_of(const PatchResult& patch);
 
 }  // namespace treadmark::io

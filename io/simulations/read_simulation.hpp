@@ -34,6 +34,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
 
 /// [simulation] but for its tables.
 SimulationSettings read_settings(const TableReader& simulation);
+/// [simulation.fields].
 FieldRequests read_fields(const TableReader& simulation);
 /// One entry for every wheel of the vehicle.
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets);

@@ -20,6 +20,7 @@ enum class ContactModelInput {
   table,  ///< a table of solutions made beforehand
 };
 
+/// One wheel of the vehicle and its contact.
 struct WheelContactInput {
   int wheelset = 0;  ///< from 0, the leading one
   Side side = Side::left;
@@ -34,6 +35,7 @@ struct FieldRequests {
   std::vector<double> position;  ///< distance travelled [m]
 };
 
+/// How far and how exactly a simulation goes.
 struct SimulationSettings {
   double speed = 0.0;              ///< [m/s]; > 0
   double distance = 0.0;           ///< travelled in the whole simulation [m]; > 0
@@ -42,8 +44,8 @@ struct SimulationSettings {
   double tolerance = 1e-7;         ///< local error of displacements in a step [m]
   std::optional<double> max_step;  ///< [s]
   double min_step = 1e-9;          ///< [s]
-  double max_step_elements =
-      2.0;  ///< distance travelled in a step over dx; without a wish 1 with transient rolling, else 2
+  /// Distance travelled in a step over dx; without a wish 1 with transient rolling, else 2.
+  double max_step_elements = 2.0;
   double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
   double checkpoint = 10.0;      ///< time of the computer between two checkpoints [s]
   double output_every = 0.0;     ///< distance between two lines of output [m]; 0 = every step
@@ -58,6 +60,7 @@ struct NamedFile {
   std::string sha256;  ///< hex
 };
 
+/// Everything in a simulation file and in the files that it names.
 struct SimulationFile {
   std::filesystem::path path;
   std::string sha256;  ///< of the simulation file itself, hex

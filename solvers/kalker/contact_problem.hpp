@@ -31,12 +31,14 @@ using treadmark::TangentialModel;
 /// plastic: the interface layer shears plastically without slip
 enum class ElementState : std::uint8_t { exterior = 0, adhesion = 1, slip = 2, plastic = 3 };
 
+/// Relative rigid motion of body 1 against body 2: divided by the rolling speed, or the displacements of a shift.
 struct Creepage {
   double xi = 0.0, eta = 0.0;         ///< [-], shift: [m]
   double phi = 0.0;                   ///< spin [rad/m], shift: [rad]
   double spin_x = 0.0, spin_y = 0.0;  ///< spin centre in the grid's axes [m]
 };
 
+/// Direction, speed and step of rolling.
 struct Rolling {
   double chi = 0.0;                       ///< rolling direction [rad]; steady: 0 or pi
   double velocity = 30.0;                 ///< V [m/s]
@@ -60,6 +62,7 @@ struct SubPatches {
   std::vector<double> coupling;    ///< count x count, symmetric, 1 on the diagonal
 };
 
+/// What is given of one patch. Spans must live until the problem is solved.
 struct ContactProblem {
   Grid2 grid;                   ///< element centres [m]
   std::span<const double> gap;  ///< undeformed distance h [m], size grid.size(); NaN = never in contact
@@ -67,9 +70,9 @@ struct ContactProblem {
   Material material;
   FrictionLaw friction;
 
-  bool force_prescribed = true;  ///< normal: force [N], else approach [m]
-  double normal_force = 0.0;
-  double approach = 0.0;
+  bool force_prescribed = true;  ///< the normal force, else the approach
+  double normal_force = 0.0;     ///< F_n [N]
+  double approach = 0.0;         ///< rigid penetration [m]
 
   Regime regime = Regime::frictionless;
   Creepage creepage;
@@ -101,6 +104,7 @@ struct Sensitivities {
   std::array<double, 3> by_approach{};  ///< of (F_n, F_x, F_y) by the approach [N/m]
 };
 
+/// What is found. Fields have a value for each element, or none where they have no meaning.
 struct ContactSolution {
   Status status = Status::ok;
   Report normal, tangential;

@@ -40,7 +40,9 @@ class ContactSolver {
   /// Everything on which the following solutions depend, to the last bit: opaque, cheap to copy, independent of the
   /// solver.
   class State;
+  /// The state after the last solution.
   std::shared_ptr<const State> save() const;
+  /// Goes on from a state of save(), to the same bits.
   void restore(const std::shared_ptr<const State>& state);
 
   /// The last instant.

@@ -15,8 +15,8 @@ namespace treadmark::vehicle {
 
 /// Motion of a rail's profile origin (rail marker) against its place at rest, track axes [m], [rad], [m/s], [rad/s].
 struct RailMotion {
-  double y = 0.0, z = 0.0, roll = 0.0;
-  double vy = 0.0, vz = 0.0, vroll = 0.0;
+  double y = 0.0, z = 0.0, roll = 0.0;     ///< [m], [rad]
+  double vy = 0.0, vz = 0.0, vroll = 0.0;  ///< [m/s], [rad/s]
 };
 
 /// One wheelset over one rail at one instant. wheelset.x: distance travelled along the track; velocities are whole ones
@@ -48,9 +48,9 @@ struct ContactReaction {
   double max_pressure = 0.0;                ///< [Pa]; 0 where the element does not know
   double area = 0.0;                        ///< of contact [m2]
   double contact_y = 0.0, contact_x = 0.0;  ///< of the most loaded patch, track axes, x from the axle [m]
-  int patches = 0;
-  double elastic_energy = 0.0;    ///< stored in the contact [J]
-  double frictional_power = 0.0;  ///< dissipated, >= 0 [W]
+  int patches = 0;                          ///< in contact
+  double elastic_energy = 0.0;              ///< stored in the contact [J]
+  double frictional_power = 0.0;            ///< dissipated, >= 0 [W]
   std::vector<PatchTangent> tangents;
 };
 

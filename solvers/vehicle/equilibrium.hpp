@@ -7,18 +7,20 @@
 
 namespace treadmark::vehicle {
 
+/// When forces count as balanced.
 struct EquilibriumSettings {
   double tolerance = 1e-6;   ///< of every force over the largest wheelset load
   double acceptable = 1e-4;  ///< where forces jump with the elements in contact and let no state come nearer
-  int max_iterations = 60;
+  int max_iterations = 60;   ///< of Newton's method
 };
 
+/// Steady running as it was found, or why not.
 struct Equilibrium {
   Report report;
   SystemState state;                       ///< v: rates of pitch of wheelsets that roll freely
   std::vector<ContactReaction> reactions;  ///< of the wheels
   double residual = 0.0;                   ///< largest force that is not balanced, over the largest wheelset load
-  int iterations = 0;
+  int iterations = 0;                      ///< of Newton's method
 };
 
 /// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,

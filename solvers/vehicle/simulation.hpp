@@ -7,6 +7,7 @@
 
 namespace treadmark::vehicle {
 
+/// How far and how exactly to integrate.
 struct SimulationSettings {
   double duration = 0.0;                                       ///< [s]
   double position_tolerance = 1e-8;                            ///< what a step may add to the error of a position [m]
@@ -18,8 +19,8 @@ struct SimulationSettings {
 
 /// A wheel that loses contact or regains it.
 struct ContactEvent {
-  double time = 0.0;
-  std::size_t wheel = 0;
+  double time = 0.0;      ///< [s]
+  std::size_t wheel = 0;  ///< index in VehicleOnTrack::wheels
   bool regained = false;
 };
 
@@ -52,20 +53,29 @@ class Simulation {
   /// cannot be solved at the start.
   Simulation(VehicleOnTrack vehicle, const SystemState& start, const SimulationSettings& settings);
 
+  /// Whether the duration is over.
   bool finished() const { return motion_.state.time >= settings_.duration * (1.0 - 1e-12); }
   /// One step. Errors: Error(numerical) where the step becomes too short, with the reason; the simulation stays at the
   /// last good state.
   void advance();
 
+  /// The vehicle as it was given.
   const VehicleOnTrack& vehicle() const { return *vehicle_; }
+  /// After the last step.
   const SystemState& state() const { return motion_.state; }
+  /// Of all wheels after the last step, in the order of VehicleOnTrack::wheels.
   const std::vector<ContactReaction>& reactions() const { return reactions_; }
+  /// Since the start, in the order of time.
   const std::vector<ContactEvent>& events() const { return events_; }
+  /// After the last step.
   const EnergyBalance& energy() const { return energy_; }
+  /// What errors of energy are taken against.
   const EnergyBalance& energy_at_start() const { return energy_at_start_; }
+  /// Work since the start.
   struct Counts {
-    long steps = 0, rejected = 0, evaluations = 0;
+    long steps = 0, rejected = 0, evaluations = 0;  ///< steps accepted and repeated; iterations in all of them
   };
+  /// Work since the start.
   const Counts& counts() const { return counts_; }
 
   /// Everything on which the following steps depend, contact elements included, to the last bit.

@@ -38,7 +38,9 @@ struct VehicleOnTrack {
   /// place, a wheel without element, or a speed that is not positive.
   void connect();
 
+  /// How a wheelset moves over a rail in a state; wheel: index in wheels.
   PairMotion motion(std::size_t wheel, const SystemState& state) const;
+  /// Nominal radius of a wheel [m].
   double radius(std::size_t wheel) const;
   /// Tangent of a wheel's reaction at a motion.
   PairTangent tangent(std::size_t wheel, const ContactReaction& reaction, const PairMotion& motion) const;

@@ -31,9 +31,11 @@ struct Geometry {
   std::shared_ptr<const Surface> rail, wheel;
   bool prismatic_rail = true;  ///< one profile along the track; false: a variable rail, or a roller
   bool round_wheel = true;     ///< one profile all round
+  /// Whether the search may look along circles of the wheel.
   bool constant_profiles() const { return prismatic_rail && round_wheel; }
 };
 
+/// One instant: positions and velocities, or the forces instead of some of them, and what is asked of the contact.
 struct Problem {
   Side side = Side::right;
   Track track;
@@ -57,7 +59,7 @@ struct Problem {
   Material material;
   FrictionLaw friction;
   kalker::SolverSettings solver;
-  int max_force_iterations = 30;
+  int max_force_iterations = 30;                                 ///< on prescribed forces
   kalker::NormalModel normal_model = kalker::NormalModel::full;  ///< full, kpec or analyn
   kalker::TangentialModel tangential_model = kalker::TangentialModel::full;
   kalker::FastsimSettings fastsim;

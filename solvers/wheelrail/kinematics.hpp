@@ -37,6 +37,7 @@ struct MaterialVelocity {
 
   /// rail - wheel at one place [m/s].
   Vec3 difference(const Vec3& place_T) const { return rail.at(place_T) - wheel.at(place_T); }
+  /// rail - wheel [rad/s].
   Vec3 rotation_difference() const { return rail.angular_velocity - wheel.angular_velocity; }
 };
 

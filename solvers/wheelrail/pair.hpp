@@ -46,12 +46,13 @@ struct PatchSolution {
 
 /// Seconds spent, and how often.
 struct PhaseTimes {
-  double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;
-  int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;
+  double search_s = 0.0, distance_s = 0.0, normal_s = 0.0, tangential_s = 0.0;  ///< wall clock [s]
+  int searches = 0, distances = 0, normal_solves = 0, tangential_solves = 0;    ///< how often each was done
 
   PhaseTimes& operator+=(const PhaseTimes& other);
 };
 
+/// Contact of the whole wheel at one instant.
 struct PairSolution {
   Status status = Status::ok;
   std::string message;
@@ -94,7 +95,9 @@ class Pair {
 
   /// Everything on which following solutions depend; cheap to copy, can be restored into any Pair on the same geometry.
   class State;
+  /// The state after the last solution.
   std::shared_ptr<const State> save() const;
+  /// Goes on from a state of save(); null is that of a new pair.
   void restore(const std::shared_ptr<const State>& state);
 
  private:

@@ -11,6 +11,7 @@
 
 namespace treadmark::wheelrail {
 
+/// What Pair::save() keeps.
 class Pair::State {
  public:
   Instant previous, last;  ///< the instant before the last solution, and what it left

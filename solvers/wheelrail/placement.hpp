@@ -17,17 +17,18 @@ struct Placement {
 /// Errors: Error(configuration) if the gauge point cannot be found (profile too low, or gauge height too large).
 Placement place(const Geometry& geometry, const Problem& right_hand_problem);
 
-/// Lateral position of the gauge point and height of the rail top in the rail frame turned to the track's orientation
-/// [m].
+/// Where a rail is held by the gauge: lateral position of the gauge point, height of the rail top.
 struct GaugePoint {
-  double y = 0.0, z_top = 0.0;
+  double y = 0.0, z_top = 0.0;  ///< [m]
 };
+/// In the rail frame turned to the track's orientation; gauge_height [m] below the top. Errors: as place.
 GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height);
 
-/// Lateral range over which a surface is visible along z of frame T, at x_T [m].
+/// From where to where a surface goes across the track.
 struct LateralRange {
-  double y_min = 0.0, y_max = 0.0;
+  double y_min = 0.0, y_max = 0.0;  ///< [m]
 };
+/// Over which the surface is visible along z of frame T, at x_T [m].
 LateralRange visible_range(const Surface& surface, const Pose& X_ST, double x_T);
 
 }  // namespace treadmark::wheelrail

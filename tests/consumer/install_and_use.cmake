@@ -1,6 +1,10 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 # Installs the build to an empty prefix, then configures, builds and runs the project beside this file against it.
+# Every public header is compiled from there.
+include("${CMAKE_CURRENT_LIST_DIR}/../../cmake/TreadmarkPublicHeaders.cmake")
+treadmark_public_headers(public_headers "${CMAKE_CURRENT_LIST_DIR}/../../docs/public-headers.md")
+list(JOIN public_headers "," public_headers)
 file(REMOVE_RECURSE "${WORK}")
 set(sanitize "")
 if(SANITIZE)
@@ -17,7 +21,7 @@ endfunction()
 
 run("${CMAKE_COMMAND}" --install "${BUILD}" --prefix "${WORK}/prefix")
 run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" "-DCMAKE_CXX_COMPILER=${COMPILER}"
-  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" ${sanitize})
+  "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DPUBLIC_HEADERS=${public_headers}" ${sanitize})
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
 

@@ -20,10 +20,12 @@ struct ContactHistory {
   std::vector<double> plastic_x, plastic_y;              ///< plastic shear distance of the layer [m]
   std::vector<double> yield_stress;                      ///< [Pa]
 
+  /// Whether there was no instant before.
   bool empty() const { return grid.nx == 0; }
   friend bool operator==(const ContactHistory&, const ContactHistory&) = default;
 };
 
+/// What a solved instant leaves.
 ContactHistory history_of(const ContactProblem& problem, const ContactSolution& solution);
 
 /// The same on another grid of the same steps, displaced by whole elements: zero (friction: static) outside the old
