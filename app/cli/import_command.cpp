@@ -8,6 +8,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/pictures/imports/import_pictures.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -43,7 +44,7 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   const io::ImportReport report =
       with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
   if (!options.report_folder.empty()) {
-    io::write_import_report(options.report_folder, report);
+    pictures::write_import_report(options.report_folder, report);
     write_report_file(std::filesystem::path(options.report_folder) / "report.html", [&] {
       return app::report::import_page(report, io::import_json(report, false), options.report_folder);
     });

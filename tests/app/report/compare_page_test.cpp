@@ -119,7 +119,7 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
   settings.backends = {"spline", "mesh-flat"};
   settings.resolutions = {2e-3};
   const io::Comparison comparison = compare_cases(io::read_any_case(input.string(), {}), settings);
-  io::write_pressures_svg(folder_.path() / "pressures.svg", comparison);
+  io::write_text_file(folder_.path() / "pressures.svg", pictures::pressures_svg(comparison));
   io::write_comparison_fields(folder_.path() / "fields.h5", comparison);
   const Page page = page_of(comparison);
   EXPECT_EQ(page.kind, "compare");
