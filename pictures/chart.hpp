@@ -19,7 +19,7 @@ namespace treadmark::pictures {
 
 using Curve = std::vector<std::array<double, 2>>;  // (x, y)
 using Pixel = std::array<double, 2>;               // (x, y) in a picture [px]
-using AxisRange = std::array<double, 2>;               // low, high
+using AxisRange = std::array<double, 2>;           // low, high
 
 enum class AxisScale { linear, log };
 
@@ -32,9 +32,10 @@ struct AxisTick {
 /// Round step of an axis with at most six intervals; length > 0.
 double tick_step(double length);
 
-/// AxisRange of an axis around some values, and where a value lies on it. Values that are not finite or beyond 1e+-300 are
-/// passed over. On a logarithmic axis with a floor > 0 values from 0 to the floor are shown at the floor; other values
-/// that are not positive cannot be shown. Without any value to show the range is 0 .. 1 or 0.1 .. 10. Thread-safe.
+/// AxisRange of an axis around some values, and where a value lies on it. Values that are not finite or beyond 1e+-300
+/// are passed over. On a logarithmic axis with a floor > 0 values from 0 to the floor are shown at the floor; other
+/// values that are not positive cannot be shown. Without any value to show the range is 0 .. 1 or 0.1 .. 10.
+/// Thread-safe.
 class ChartAxis {
  public:
   ChartAxis(AxisScale scale, std::span<const double> values, double floor = 0.0);
@@ -93,7 +94,7 @@ std::vector<Pixel> chart_marker_corners(int style, double radius);
 
 struct ChartPoint {
   double x = 0.0, y = 0.0;
-  double radius = 4.5;  ///< of a circle with the marker's area [px]
+  double radius = 4.5;       ///< of a circle with the marker's area [px]
   std::string label = {};    ///< written beside it; may be empty
   std::string details = {};  ///< shown by viewers that show titles; may be empty
 };
@@ -107,16 +108,16 @@ struct ChartShape {
 /// Points that share a look.
 struct ChartSeries {
   std::string name;
-  int style = 0;       ///< colour and marker
-  bool joined = true;  ///< by straight lines, in the order given
-  double width = 1.6;  ///< of the line and of the levels, diameter of the dots [px]
+  int style = 0;            ///< colour and marker
+  bool joined = true;       ///< by straight lines, in the order given
+  double width = 1.6;       ///< of the line and of the levels, diameter of the dots [px]
   std::string dashes = {};  ///< of the line: lengths of strokes and gaps [px]; empty = a full line
   std::vector<ChartPoint> points = {};
   std::vector<double> levels = {};  ///< values of y, drawn as dotted lines across the chart
   Curve curve = {};                 ///< of any number, joined without markers, thinned to what pixels show
   std::string curve_label = {};     ///< written beside the highest place of the curve; may be empty
-  std::string colour = {};     ///< in place of that of the style
-  Curve dots = {};             ///< of any number; those that would cover each other are drawn once
+  std::string colour = {};          ///< in place of that of the style
+  Curve dots = {};                  ///< of any number; those that would cover each other are drawn once
   std::vector<ChartShape> shapes = {};
   std::string shape_look = {};  ///< their attributes
   bool ellipses = false;
@@ -133,17 +134,17 @@ struct ChartImage {
 struct Chart {
   std::string title, x_label, y_label;
   AxisScale x_scale = AxisScale::linear, y_scale = AxisScale::linear;
-  double x_floor = 0.0, y_floor = 0.0;      ///< see ChartAxis; markers at a floor are hollow
-  std::optional<AxisRange> x_range, y_range;    ///< ends of an axis, in place of those around the values
-  bool x_numbers = true, y_numbers = true;  ///< numbers at the ticks
+  double x_floor = 0.0, y_floor = 0.0;        ///< see ChartAxis; markers at a floor are hollow
+  std::optional<AxisRange> x_range, y_range;  ///< ends of an axis, in place of those around the values
+  bool x_numbers = true, y_numbers = true;    ///< numbers at the ticks
   std::vector<ChartSeries> series;
-  int x_ticks = 6, y_ticks = 6;                ///< at most so many intervals of a linear axis
-  bool y_down = false;                         ///< y grows downwards
-  std::vector<std::string> x_names, y_names;   ///< of the places 0, 1, ... in place of numbers; y from the top
-  std::vector<std::string> y_notes = {};       ///< inside the frame, at the same places
-  std::vector<AxisTick> top = {};              ///< a second axis x above the frame
+  int x_ticks = 6, y_ticks = 6;               ///< at most so many intervals of a linear axis
+  bool y_down = false;                        ///< y grows downwards
+  std::vector<std::string> x_names, y_names;  ///< of the places 0, 1, ... in place of numbers; y from the top
+  std::vector<std::string> y_notes = {};      ///< inside the frame, at the same places
+  std::vector<AxisTick> top = {};             ///< a second axis x above the frame
   std::optional<ChartImage> image = {};
-  std::string nothing = "no values";           ///< said in a chart without any
+  std::string nothing = "no values";  ///< said in a chart without any
 };
 
 /// The chart with its frame filling the box; numbers and titles are around it: about 60 px to the left, 40 below and 20
@@ -168,8 +169,8 @@ struct ChartSheet {
   double left = 78.0, top = 44.0, right = 24.0, bottom = 50.0;  ///< around the charts
   double width = 640.0, height = 200.0;                         ///< of a chart
   double gap_x = 0.0, gap_y = 18.0;                             ///< between them
-  Legend legend = Legend::none;         ///< beside the first or each, with at least two names, or below each
-  std::vector<ChartSeries> series = {};  ///< of the common legend
+  Legend legend = Legend::none;             ///< beside the first or each, with at least two names, or below each
+  std::vector<ChartSeries> series = {};     ///< of the common legend
   double legend_x = 24.0, legend_y = 10.0;  ///< of it, from the charts' upper right corner
   double legend_width = 0.0;                ///< of its room, at least
   std::string beside = {};                  ///< elements below the common legend, their origin there

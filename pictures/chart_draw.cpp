@@ -250,13 +250,13 @@ std::string draw_shapes(const ChartSeries& series, const Frame& frame) {
   std::string out;
   for (const ChartShape& shape : series.shapes) {
     const Box box = frame.inside(shape, series.least);
-    out += series.ellipses ? fmt::format("<ellipse cx=\"{:.1f}\" cy=\"{:.1f}\" rx=\"{:.1f}\" ry=\"{:.1f}\" {}/>\n",
-                                         box.middle_x(), box.middle_y(), 0.5 * box.width, 0.5 * box.height,
-                                         series.shape_look)
-                           : with_details(fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
-                                                      "height=\"{:.1f}\" {}",
-                                                      box.x, box.y, box.width, box.height, series.shape_look),
-                                          "rect", shape.details);
+    out += series.ellipses
+               ? fmt::format("<ellipse cx=\"{:.1f}\" cy=\"{:.1f}\" rx=\"{:.1f}\" ry=\"{:.1f}\" {}/>\n", box.middle_x(),
+                             box.middle_y(), 0.5 * box.width, 0.5 * box.height, series.shape_look)
+               : with_details(fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" "
+                                          "height=\"{:.1f}\" {}",
+                                          box.x, box.y, box.width, box.height, series.shape_look),
+                              "rect", shape.details);
   }
   return out;
 }
@@ -321,11 +321,12 @@ std::string draw_chart(const Chart& chart, const Box& box) {
   const Frame frame(chart, box);
   std::string out = "<g class=\"chart\">\n";
   if (chart.image) out += draw_image(*chart.image, box);
-  out += frame.grid(chart);
+  const bool nothing = frame.empty(chart);
+  if (!nothing || chart.x_range || !chart.x_label.empty()) out += frame.grid(chart);
   for (const ChartSeries& series : chart.series) out += draw_lines(series, frame);
   out += svg_box("frame", box) + draw_points(chart, frame) + draw_curve_labels(chart, frame);
   const double middle = box.x + 0.5 * box.width, left = frame.y_label_x(chart), centre = box.y + 0.5 * box.height;
-  if (frame.empty(chart)) out += svg_text(middle, centre, chart.nothing);
+  if (nothing) out += svg_text(middle, centre, chart.nothing);
   out += svg_text(middle, box.y - 8.0, chart.title, "middle", " class=\"title\"");
   out += svg_text(middle, box.y + box.height + 36.0, chart.x_label);
   return out + turned_text(left, centre, chart.y_label) + "</g>\n";
@@ -338,8 +339,8 @@ std::string draw_chart_legend(const std::vector<ChartSeries>& series, double x, 
     const bool line = !item.curve.empty() || (item.joined && !item.points.empty());
     const bool level = !line && item.points.empty() && !item.levels.empty();
     const double sample = line || level || width == 0.0 ? 28.0 : 14.0;
-    const double step = sample + 8.0 + text_width(item.name, kChartFont) + 14.0;
-    if (width > 0.0 && x > left && x + step > left + width + 14.0) x = left, y += kLegendLine;
+    const double gap = width > 0.0 ? 6.0 : 8.0, step = sample + gap + text_width(item.name, kChartFont) + 10.0;
+    if (width > 0.0 && x > left && x + step > left + width + 10.0) x = left, y += kLegendLine;
     if (line || level) out += fmt::format("<path {} d=\"M{:.1f} {:.1f}h28\"/>\n", stroke(item, level), x, y);
     if (!item.points.empty())
       out += marker(item, x + 0.5 * sample, y, item.joined ? item.points.front().radius : ChartPoint{}.radius, false);
@@ -347,9 +348,9 @@ std::string draw_chart_legend(const std::vector<ChartSeries>& series, double x, 
       out += fmt::format("<circle cx=\"{:.1f}\" cy=\"{:.1f}\" r=\"2.5\" fill=\"{}\"/>\n", x + 0.5 * sample, y,
                          colour_of(item));
     else if (!item.shape_look.empty())
-      out += fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"10\" {}/>\n", x, y - 5.0,
-                         item.shape_look);
-    out += svg_text(x + sample + 8.0, y + 4.0, item.name, "start");
+      out +=
+          fmt::format("<rect x=\"{:.1f}\" y=\"{:.1f}\" width=\"14\" height=\"10\" {}/>\n", x, y - 5.0, item.shape_look);
+    out += svg_text(x + sample + gap, y + 4.0, item.name, "start");
     if (width > 0.0)
       x += step;
     else

@@ -44,7 +44,8 @@ double room_below(const ChartSheet& sheet) {
 
 std::vector<ChartSeries> named(const std::vector<ChartSeries>& series) {
   std::vector<ChartSeries> out;
-  std::copy_if(series.begin(), series.end(), std::back_inserter(out), [](const auto& one) { return !one.name.empty(); });
+  std::copy_if(series.begin(), series.end(), std::back_inserter(out),
+               [](const auto& one) { return !one.name.empty(); });
   return out;
 }
 
@@ -88,7 +89,8 @@ std::string draw_sheet(const ChartSheet& sheet) {
     out += svg_text(0.5 * (sheet.left + right), kTitleY, sheet.title, "middle", " class=\"title\"");
   for (std::size_t i = 0; i < sheet.charts.size(); ++i) {
     const Box box{sheet.left + static_cast<double>(i % columns) * (sheet.width + sheet.gap_x),
-                  sheet.top + static_cast<double>(i / columns) * (sheet.height + sheet.gap_y), sheet.width, sheet.height};
+                  sheet.top + static_cast<double>(i / columns) * (sheet.height + sheet.gap_y), sheet.width,
+                  sheet.height};
     out += draw_chart(sheet.charts[i], box);
     if (const auto legend = legend_of(sheet, sheet.charts[i]); legend.empty() || !common.empty())
       continue;

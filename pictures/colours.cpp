@@ -34,8 +34,8 @@ constexpr std::array<std::string_view, 7> kSeries{"#0072b2", "#d55e00", "#009e73
 std::array<std::uint8_t, 4> map_colour(double part, Palette palette) {
   const std::span<const Rgb> anchors = palette == Palette::sequential ? std::span<const Rgb>(kSequential) : kDiverging;
   const double clamped = std::isnan(part) ? 0.5 : std::clamp(part, 0.0, 1.0);
-  const double position = (palette == Palette::from_white ? 0.5 + 0.5 * clamped : clamped) *
-                          static_cast<double>(anchors.size() - 1);
+  const double position =
+      (palette == Palette::from_white ? 0.5 + 0.5 * clamped : clamped) * static_cast<double>(anchors.size() - 1);
   const auto lower = std::min(static_cast<std::size_t>(position), anchors.size() - 2);
   const double mix = position - static_cast<double>(lower);
   std::array<std::uint8_t, 4> out{0, 0, 0, 255};

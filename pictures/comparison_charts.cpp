@@ -59,7 +59,10 @@ std::vector<ChartSeries> over_resolution(const io::Comparison& comparison, const
     if (!std::isfinite(error)) continue;
     ChartSeries& series = styles.series(out, candidate.name);
     if (candidate.has_resolution())
-      series.points.push_back({candidate.resolution * 1e3, error, 4.5, {},
+      series.points.push_back({candidate.resolution * 1e3,
+                               error,
+                               4.5,
+                               {},
                                fmt::format("{}: {:.4g} {}", io::candidate_label(candidate), error, unit)});
     else
       series.levels.push_back(error);
@@ -137,7 +140,8 @@ std::string error_svg(const io::Comparison& comparison) {
     chart.y_floor = kFloor;
   }
   sheet.charts = std::move(charts);
-  sheet.beside = remark(0.0, 8.0, "dotted: data as given") + remark(0.0, 24.0, fmt::format("hollow: {} or less", kFloor));
+  sheet.beside =
+      remark(0.0, 8.0, "dotted: data as given") + remark(0.0, 24.0, fmt::format("hollow: {} or less", kFloor));
   sheet.beside_height = 52.0;
   return draw_sheet(sheet);
 }

@@ -110,9 +110,9 @@ std::optional<Window> window_of(std::span<const PatchPicture> pictures) {
 ColourSteps colour_steps(const ColourScale& scale) {
   ColourSteps out;
   for (std::size_t step = 0; step < kPatchSteps; ++step)
-    out.emplace_back(step == 0 ? -INFINITY
-                               : scale.low + (scale.high - scale.low) * static_cast<double>(step) / kPatchSteps,
-                     step_colour(step, kPatchSteps, scale.palette));
+    out.emplace_back(
+        step == 0 ? -INFINITY : scale.low + (scale.high - scale.low) * static_cast<double>(step) / kPatchSteps,
+        step_colour(step, kPatchSteps, scale.palette));
   return out;
 }
 

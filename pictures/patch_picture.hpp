@@ -73,11 +73,11 @@ struct PatchPanel {
   std::vector<PatchPicture> patches = {};
   std::optional<Window> window = {};  ///< in place of the common one, of the same size
   std::vector<std::string> titles = {};
-  double title_y = -20.0;      ///< of the last line
-  std::string remark = {};     ///< between title and frame
-  std::string words = {};      ///< in the middle: why there is no patch
-  std::string below = {};      ///< the numbers of x
-  std::string over = {};       ///< elements over the patches; all are cut off at the frame then
+  double title_y = -20.0;   ///< of the last line
+  std::string remark = {};  ///< between title and frame
+  std::string words = {};   ///< in the middle: why there is no patch
+  std::string below = {};   ///< the numbers of x
+  std::string over = {};    ///< elements over the patches; all are cut off at the frame then
   std::string x_name = {}, y_name = {};
   bool y_numbers = true;
 };
@@ -89,7 +89,7 @@ std::string draw_patch_panel(const PatchPanel& panel, const PanelScale& scale, c
 /// What is said beside the panels.
 struct PatchLegend {
   struct Line {
-    std::string name;   ///< class of the line; empty: a box or only words
+    std::string name;  ///< class of the line; empty: a box or only words
     std::string words;
     std::string fill = {};  ///< of the box
   };

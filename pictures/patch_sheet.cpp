@@ -51,10 +51,10 @@ struct SheetLayout {
 }  // namespace
 
 PatchLegend pressure_legend(double top_pressure) {
-  return {"pressure [MPa]",
-          ColourScale{0.0, top_pressure * 1e-6},
-          {{"contact", "edge of contact"},
-           {"adhesion", "edge of adhesion", step_colour(kPatchSteps / 2, kPatchSteps)}}};
+  return {
+      "pressure [MPa]",
+      ColourScale{0.0, top_pressure * 1e-6},
+      {{"contact", "edge of contact"}, {"adhesion", "edge of adhesion", step_colour(kPatchSteps / 2, kPatchSteps)}}};
 }
 
 std::string draw_patch_legend(const PatchLegend& legend, double height) {

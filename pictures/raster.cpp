@@ -96,7 +96,7 @@ std::string hole_pattern() {
 namespace {
 
 constexpr std::size_t kMostPixelColumns = 1600, kMostPixelRows = 300;  // pixels of an image
-constexpr std::size_t kMostBytes = 150000;                   // of an image; two of them stay below 500 kB as base64
+constexpr std::size_t kMostBytes = 150000;  // of an image; two of them stay below 500 kB as base64
 
 /// Share of every cell of a line of `cells` in pixel `pixel` of `pixels`: first and last cell, by whole cells.
 struct CellRange {

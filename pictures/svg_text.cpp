@@ -54,8 +54,8 @@ std::string svg_box(const char* name, const Box& box, std::string_view more) {
 }
 
 std::string svg_cell(const Box& box, std::string_view fill) {
-  return fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", box.x,
-                     box.y, box.width, box.height, fill);
+  return fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", box.x, box.y,
+                     box.width, box.height, fill);
 }
 
 std::string svg_group(std::string_view name, double x, double y, const std::string& elements) {

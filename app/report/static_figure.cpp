@@ -180,6 +180,9 @@ void explain(pictures::PatchSheet& sheet, const FieldInfo& field) {
   sheet.legend.parts = 4;
   sheet.legend.lines = pictures::pressure_legend(0.0).lines;
   sheet.steps = pictures::colour_steps(*sheet.legend.bar);
+  if (!diverging) return;
+  sheet.style = ".adhesion{stroke:#1a1a2e;stroke-dasharray:3 2}";  // white is a colour of the values
+  sheet.legend.lines[1].fill.clear();
 }
 
 }  // namespace
@@ -202,9 +205,8 @@ std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, 
   if (!window) throw Error(ErrorKind::configuration, fmt::format("these results have no {}", field.label));
   const double size = std::max(window->width(), window->height()), margin = kMargin * size;
   const double scale = kPanel / (size + 2.0 * margin);
-  sheet.scale = {{window->x_low - margin, window->x_high + margin, window->y_low - margin, window->y_high + margin},
-                 scale,
-                 scale};
+  sheet.scale = {
+      {window->x_low - margin, window->x_high + margin, window->y_low - margin, window->y_high + margin}, scale, scale};
   explain(sheet, field);
   return draw_patch_sheet(std::move(sheet));
 }

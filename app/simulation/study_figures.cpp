@@ -119,8 +119,8 @@ class Figures {
     if (runs.empty()) return;
     const bool multiples =
         std::ranges::any_of(runs, [&](const pictures::HistoryRun& r) { return r.panel != runs.front().panel; });
-    io::write_text_file(folder_ / figure.file, multiples ? pictures::history_multiples_svg(runs, chart)
-                                                         : pictures::history_svg(runs, chart));
+    io::write_text_file(folder_ / figure.file,
+                        multiples ? pictures::history_multiples_svg(runs, chart) : pictures::history_svg(runs, chart));
     io::write_text_file(csv_of(folder_ / figure.file), pictures::history_chart_csv(runs, chart));
   }
 

@@ -240,7 +240,8 @@ Curve cut_curve(const Curve& curve, const Range& x) {
 }
 
 Curve history_curve(const io::SimulationResult& result, const std::string& x, const std::string& y) {
-  const std::size_t of_x = io::column_index(result, x), of_y = io::column_index(result, y), width = result.columns.size();
+  const std::size_t of_x = io::column_index(result, x), of_y = io::column_index(result, y),
+                    width = result.columns.size();
   Curve out;
   out.reserve(result.rows());
   for (std::size_t row = 0; row < result.rows(); ++row)

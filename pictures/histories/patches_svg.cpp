@@ -19,9 +19,9 @@ namespace treadmark::pictures {
 
 namespace {
 
-constexpr double kLongest = 230.0;                        // side of a panel [px]
+constexpr double kLongest = 230.0;                       // side of a panel [px]
 constexpr double kTitleWidth = 116.0, kNameRoom = 10.0;  // of the words above a panel, at least [px]
-constexpr double kNameFont = 13.0;                      // a little more than that of the style: it is bold
+constexpr double kNameFont = 13.0;                       // a little more than that of the style: it is bold
 constexpr int kMostContours = 8;
 constexpr double kTickShare = 0.75;  // steps of an axis this long part the greatest depth into at most kMostContours
 
@@ -46,8 +46,7 @@ std::string draw_depth(const PatchesPanel& panel, double step_mm, const PanelSca
     const double level_mm = i == 0 ? 0.1 * step_mm : i * step_mm;  // the first one: the rim of the defect
     for (const ContourLine& line : contour_lines(panel.depth_grid, panel.depth, level_mm / kMilli)) {
       std::vector<Pixel> pixels;
-      for (const auto& [x, y] : line)
-        pixels.push_back({scale.x(y * kMilli), scale.y((x - panel.x_origin) * kMilli)});
+      for (const auto& [x, y] : line) pixels.push_back({scale.x(y * kMilli), scale.y((x - panel.x_origin) * kMilli)});
       path += curve_path(pixels);
     }
   }
@@ -83,7 +82,7 @@ std::string patches_svg(std::span<const PatchesPanel> panels, const std::string&
     PatchPanel& panel = sheet.panels.emplace_back();
     panel.patches = view.contact[i];
     panel.titles = {panels[i].title.empty() ? pitch_text(result) : panels[i].title};
-    panel.remark = panel.patches.empty()       ? reason_without_patches(result)
+    panel.remark = panel.patches.empty()      ? reason_without_patches(result)
                    : panels[i].remark.empty() ? force_and_pressure(result)
                                               : panels[i].remark;
     panel.over = draw_depth(panels[i], step_mm, sheet.scale) + draw_round_wheel(view.round_wheel[i], sheet.scale);
@@ -174,8 +173,7 @@ PatchesView make_patches_view(std::span<const PatchesPanel> panels) {
                                                         panel.depth.size(), panel.depth_grid.size()));
     view.contact.push_back(turned_pictures(panel.result, panel.x_origin * kMilli));
     view.round_wheel.push_back(turned_pictures(panel.round_wheel, panel.x_origin * kMilli));
-    for (const PatchPicture& one : view.contact.back())
-      view.top_pressure = std::max(view.top_pressure, one.greatest());
+    for (const PatchPicture& one : view.contact.back()) view.top_pressure = std::max(view.top_pressure, one.greatest());
     for (const auto& list : {view.contact.back(), view.round_wheel.back()})
       if (const auto window = window_of(list)) {
         if (all) all->include(*window);

@@ -16,11 +16,11 @@ namespace treadmark::pictures {
 struct PatchesPanel {
   const io::CaseResult* result = nullptr;
   const io::CaseResult* round_wheel = nullptr;  ///< at the same load; may be absent
-  Grid2 depth_grid = {};                    ///< x, y of the track [m]
-  std::vector<double> depth = {};           ///< of the defect at the grid's points [m]; NaN = not known; may be empty
-  double x_origin = 0.0;                    ///< x of the track that is drawn as 0: the wheelset's [m]
-  std::string title = {};                   ///< empty: the pitch angle
-  std::string remark = {};                  ///< below the title; empty: normal force and largest pressure
+  Grid2 depth_grid = {};                        ///< x, y of the track [m]
+  std::vector<double> depth = {};  ///< of the defect at the grid's points [m]; NaN = not known; may be empty
+  double x_origin = 0.0;           ///< x of the track that is drawn as 0: the wheelset's [m]
+  std::string title = {};          ///< empty: the pitch angle
+  std::string remark = {};         ///< below the title; empty: normal force and largest pressure
 };
 
 /// Contact patches at several instants as an SVG picture seen from above: x of the track upwards, the rolling

@@ -64,7 +64,8 @@ SummaryLines make_lines(const io::StudyResult& study, const SummaryChart& spec) 
   SummaryLines out;
   for (const io::SimulationRun* run : table.runs) {
     const std::string* at = io::swept_value(*run, spec.key);
-    const double x = at != nullptr ? number(*at, spec.key, run->number) : NAN, y = io::summary_value(*run, spec.quantity);
+    const double x = at != nullptr ? number(*at, spec.key, run->number) : NAN,
+                 y = io::summary_value(*run, spec.quantity);
     if (!std::isfinite(x) || !std::isfinite(y)) {
       out.missing.push_back(run);
       continue;
@@ -147,7 +148,8 @@ std::string summary_chart_csv(const io::StudyResult& study, const SummaryChart& 
   std::string out = "kind,line,run," + io::csv_cell(spec.key) + ',' + io::csv_cell(spec.quantity) + '\n';
   for (const SummaryLine& line : all.lines)
     for (const SummaryPoint& one : line.points)
-      out += fmt::format("run,{},{},{},{}\n", io::csv_cell(line.name), one.run, io::csv_number(one.x), io::csv_number(one.y));
+      out += fmt::format("run,{},{},{},{}\n", io::csv_cell(line.name), one.run, io::csv_number(one.x),
+                         io::csv_number(one.y));
   for (const SummaryReference& one : spec.references)
     out += fmt::format("reference,{},,{},{}\n", io::csv_cell(one.label), io::csv_number(one.x), io::csv_number(one.y));
   if (spec.level) out += fmt::format("level,{},,,{}\n", io::csv_cell(spec.level_label), io::csv_number(*spec.level));

@@ -79,7 +79,8 @@ Chart distance_chart(Curve curve, const AxisRange& x, const std::string& x_label
 void mark_deepest(Chart& chart, const io::ImportReport& report, const Course& course, double x) {
   const double level = -course.unit.factor * report.damage_threshold;
   if (level < 0.0)
-    chart.series.push_back(line_series("", "#444444", {{(*chart.x_range)[0], level}, {(*chart.x_range)[1], level}}, 0.8, "4 3"));
+    chart.series.push_back(
+        line_series("", "#444444", {{(*chart.x_range)[0], level}, {(*chart.x_range)[1], level}}, 0.8, "4 3"));
   ChartSeries place;
   place.colour = kRemovedColour;
   place.points = {{x, course.points[course.deepest][1], 3.5}};
@@ -115,8 +116,8 @@ ImportPanel near_panel(const io::ImportReport& report, const Course& course) {
 ImportPanel profiles_panel(const io::ImportReport& report) {
   ImportPanel out = section_panel(report, "Section", {kHalf, 190.0, 4e-3});
   out.chart.series = {line_series("fitted", kSectionColour, in_mm(report.section)),
-                      line_series(report.nominal_section.empty() ? "" : "nominal " + io::shortened(report.nominal, 30),
-                                  kNominalColour, in_mm(report.nominal_section), 1.4, "6 3")};
+                      line_series("nominal " + io::shortened(report.nominal, 30), kNominalColour,
+                                  in_mm(report.nominal_section), 1.4, "6 3")};
   out.keys = out.chart.series;
   return out;
 }
@@ -133,7 +134,8 @@ ImportPanel deviation_panel(const io::ImportReport& report, const ImportPanel& s
   const io::LengthUnit unit = io::picture_unit(greatest);
   Curve curve;
   for (const Vec2& p : deviation) curve.push_back({1e3 * p.x(), unit.factor * p.y()});
-  out.chart = distance_chart(std::move(curve), section.chart.x_range.value_or(AxisRange{-50.0, 50.0}), "y [mm]", unit.name);
+  out.chart =
+      distance_chart(std::move(curve), section.chart.x_range.value_or(AxisRange{-50.0, 50.0}), "y [mm]", unit.name);
   return out;
 }
 
@@ -193,24 +195,26 @@ void add_damage_table(ImportPicture& picture, const io::ImportReport& report) {
     if (i == 0)
       rows.push_back({"", report.body == Body::wheel ? "at angle" : "at x", "y", "length \u00d7 width", "deepest",
                       "missing volume"});
-    rows.push_back({std::to_string(i + 1), io::place_text(report, part.u, "\u00b0"),
-                    io::decimals(1e3 * part.y, 1) + " mm",
-                    fmt::format("{} \u00d7 {} mm", io::decimals(1e3 * part.length, 1), io::decimals(1e3 * part.width, 1)),
-                    depth_text(part.depth), io::decimals(1e9 * part.volume, 1) + " mm\u00b3"});
+    rows.push_back(
+        {std::to_string(i + 1), io::place_text(report, part.u, "\u00b0"), io::decimals(1e3 * part.y, 1) + " mm",
+         fmt::format("{} \u00d7 {} mm", io::decimals(1e3 * part.length, 1), io::decimals(1e3 * part.width, 1)),
+         depth_text(part.depth), io::decimals(1e9 * part.volume, 1) + " mm\u00b3"});
   }
   const std::string what =
       report.damage_threshold > 0.0 ? "Damage beyond " + io::length_text(report.damage_threshold, "\u00b5") : "Damage";
   picture.add_table(what + ", largest first", kPlotLeft, {12.0, 120.0, 205.0, 360.0, 460.0, 585.0}, rows,
-                    count == 0 ? "none" : more > 0 ? fmt::format("and {} more in the summary's numbers", more) : "");
+                    count == 0 ? "none"
+                    : more > 0 ? fmt::format("and {} more in the summary's numbers", more)
+                               : "");
 }
 
 }  // namespace
 
 std::string import_fitted_svg(const io::ImportReport& report) {
   ImportPicture picture("Fitted surface");
-  ImportPanel map = map_panel(report, report.fitted, diverging_colours(report.fitted),
-                              "Distance of the fitted surface from its section; above 0: out of the material",
-                              PixelRule::half);
+  ImportPanel map =
+      map_panel(report, report.fitted, diverging_colours(report.fitted),
+                "Distance of the fitted surface from its section; above 0: out of the material", PixelRule::half);
   if (map.chart.image) map.keys = map.chart.series = marks(report);
   const std::optional<Course> course = course_of(report.fitted);
   const ImportPanel below = course_panel(report, course, map), section = profiles_panel(report);

@@ -10,7 +10,7 @@ namespace treadmark::pictures {
 namespace {
 
 constexpr double kPictureWidth = 1000.0, kRow = 19.0;     // [px]
-constexpr double kPerTickX = 64.0, kPerTickY = 28.0;      // least room of a number [px]
+constexpr double kPerTickX = 44.0, kPerTickY = 22.0;      // least room of a number [px]
 constexpr double kBelowFrame = 68.0, kAboveFrame = 12.0;  // axis names, title [px]
 
 }  // namespace
@@ -24,7 +24,9 @@ void ImportPicture::add(ImportPanel panel, double left) {
   begin_ = y_;
   elements_ += svg_text(left, y_, panel.title, "start", " class=\"title\"");
   double y = y_ + kAboveFrame;
-  if (const std::vector<ChartSeries> keys = named(panel.keys); !keys.empty()) {
+  std::vector<ChartSeries> keys = named(panel.keys);
+  std::erase_if(keys, [](const auto& key) { return key.curve.empty() && key.dots.empty() && key.shape_look.empty(); });
+  if (!keys.empty()) {
     elements_ += draw_chart_legend(keys, left, y + 2.0, kFullWidth);
     y += 16.0;
   } else if (!panel.remark.empty()) {
@@ -34,7 +36,7 @@ void ImportPicture::add(ImportPanel panel, double left) {
   if (!panel.chart.top.empty()) y += 14.0;
   panel.chart.x_ticks = std::max(3, static_cast<int>(panel.width / kPerTickX));
   panel.chart.y_ticks = std::max(2, static_cast<int>(panel.height / kPerTickY));
-  elements_ += draw_chart(panel.chart, {left, y, panel.width, panel.height});
+  elements_ += draw_chart(panel.chart, {left + panel.indent, y, panel.width, panel.height});
   end(y + panel.height + (panel.chart.x_label.empty() ? 24.0 : kBelowFrame));
 }
 

@@ -24,6 +24,7 @@ struct ImportPanel {
   double width = kPlotWidth, height = 130.0;  ///< of the frame [px]
   std::vector<ChartSeries> keys = {};         ///< legend in a line; of those with a name
   std::string remark = {};                    ///< in place of a legend
+  double indent = 0.0;                        ///< of the frame: room for names
 };
 
 /// A picture of an import, put together from above to below. One thread.

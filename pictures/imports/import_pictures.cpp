@@ -43,16 +43,18 @@ ImportPanel removed_bars(const io::ImportReport& report) {
     const double points = static_cast<double>(removed.count), row = static_cast<double>(i);
     most = std::max(most, points);
     bars.push_back({1.0, std::max(1.0, points), row - 0.33, row + 0.33, {}, removed.reason + ": " + removed.why});
-    out.chart.y_names.push_back(
-        shortened(removed.reason, 32) + "   " +
-        (removed.count == 0 ? "none"
-                            : fmt::format("{} ({})", grouped(removed.count), io::percent(removed.count, report.points_read))));
+    out.chart.y_names.push_back(shortened(removed.reason, 32) + "   " +
+                                (removed.count == 0 ? "none"
+                                                    : fmt::format("{} ({})", grouped(removed.count),
+                                                                  io::percent(removed.count, report.points_read))));
   }
   out.height = std::max(30.0, 21.0 * static_cast<double>(count));
+  out.indent = 360.0;
   out.chart.x_scale = AxisScale::log;
   out.chart.x_range = {1.0, std::pow(10.0, std::ceil(std::log10(most) - 1e-9))};
   out.chart.x_label = "points removed (logarithmic)";
-  if (count > 0) out.chart.series = {shape_series("", fmt::format("class=\"bar\" fill=\"{}\"", kRemovedColour), bars, 2.0)};
+  if (count > 0)
+    out.chart.series = {shape_series("", fmt::format("class=\"bar\" fill=\"{}\"", kRemovedColour), bars, 2.0)};
   return out;
 }
 
@@ -69,11 +71,10 @@ std::string import_heading(const io::ImportReport& report) {
 
 std::string import_before_svg(const io::ImportReport& report) {
   ImportPicture picture("Scan before cleaning");
-  const std::string nominal = "nominal profile " + shortened(report.nominal, 40);
   picture.add(with_series(section_panel(report, "All points, seen along the axis"),
                           {dot_series("points as read", kRawColour, in_mm(report.raw_section), 1.7),
-                           line_series(report.section.empty() ? "" : "fitted section", kSectionColour, in_mm(report.section)),
-                           line_series(report.nominal_section.empty() ? "" : nominal, kNominalColour,
+                           line_series("fitted section", kSectionColour, in_mm(report.section)),
+                           line_series("nominal profile " + shortened(report.nominal, 40), kNominalColour,
                                        in_mm(report.nominal_section), 1.4, "6 3")},
                           0, "points"));
   picture.add(map_panel(report, report.density, sequential_colours(report.density, "1/mm\u00b2", 1e-6),
@@ -87,14 +88,14 @@ std::string import_removed_svg(const io::ImportReport& report) {
                           {dot_series("all points", kAllColour, in_mm(report.raw_section), 1.5),
                            dot_series("removed", kRemovedColour, in_mm(report.removed_section), 2.2)},
                           1, "removed points"));
-  picture.add(removed_bars(report), 424.0);
+  picture.add(removed_bars(report));
   picture.add(map_panel(report, report.removed_map,
                         sequential_colours(report.removed_map, "1/mm\u00b2", 1e-6, Palette::from_white),
                         "Removed points per mm\u00b2 over the unrolled band", PixelRule::any));
   const std::size_t kept = report.points_used;
-  return picture.finish(report, report.from_map ? ""
-                                                : fmt::format("; {} used ({})", grouped(kept),
-                                                              io::percent(kept, report.points_read)));
+  return picture.finish(
+      report,
+      report.from_map ? "" : fmt::format("; {} used ({})", grouped(kept), io::percent(kept, report.points_read)));
 }
 
 namespace {

@@ -71,12 +71,14 @@ std::string beyond(const ImportPanel& panel, const ChartSeries& series, const st
     const AxisRange &x = *panel.chart.x_range, &y = *panel.chart.y_range;
     return !(p[0] >= x[0] && p[0] <= x[1] && p[1] >= y[0] && p[1] <= y[1]);
   });
-  return outside == 0 ? ""
-                      : fmt::format("{} ({} of {} {} beyond the frame)", panel.title,
-                                    io::grouped(static_cast<std::size_t>(outside)), io::grouped(series.dots.size()), kind);
+  return outside == 0
+             ? ""
+             : fmt::format("{} ({} of {} {} beyond the frame)", panel.title,
+                           io::grouped(static_cast<std::size_t>(outside)), io::grouped(series.dots.size()), kind);
 }
 
-std::vector<Vec2> deviation_from_nominal(const io::SectionPoints& section, const io::SectionPoints& nominal, Body body) {
+std::vector<Vec2> deviation_from_nominal(const io::SectionPoints& section, const io::SectionPoints& nominal,
+                                         Body body) {
   SectionPoints line;
   std::copy_if(nominal.begin(), nominal.end(), std::back_inserter(line), is_finite);
   std::vector<Vec2> out;

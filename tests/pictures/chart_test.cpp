@@ -100,7 +100,8 @@ TEST(ChartMarker, EveryShapeHasTheAreaOfTheCircle) {
 TEST(ChartMarker, StylesDifferInColourAndShape) {
   std::map<std::string, int> seen;
   for (int style = 0; style < 56; ++style)
-    EXPECT_EQ(++seen[std::string(pictures::chart_colour(style)) + pictures::chart_marker_path(style, 0, 0, 4)], 1) << style;
+    EXPECT_EQ(++seen[std::string(pictures::chart_colour(style)) + pictures::chart_marker_path(style, 0, 0, 4)], 1)
+        << style;
   EXPECT_EQ(pictures::chart_colour(56), pictures::chart_colour(0));
 }
 

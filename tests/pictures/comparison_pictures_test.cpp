@@ -224,7 +224,8 @@ TEST(PressuresSvg, PanelsKeepApartAndInsideThePicture) {
 }
 
 TEST(PressuresSvg, NumbersOfYStandWhereNoPanelIsOnTheLeft) {
-  const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(sample_of({"mesh", "spline"}, {1e-3, 0.5e-3})));
+  const testing::XmlElement root =
+      testing::read_xml(pictures::pressures_svg(sample_of({"mesh", "spline"}, {1e-3, 0.5e-3})));
   const auto panels = root.find("g", "class", "block").at(0)->find("g", "class", "panel");
   ASSERT_EQ(panels.size(), 5u);
   std::vector<bool> numbered;
@@ -374,7 +375,8 @@ TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
 
 /// Every picture is well-formed and has no script and no number that is none.
 void expect_sound(const io::Comparison& comparison) {
-  for (const std::string& svg : {pictures::pressures_svg(comparison), pictures::error_svg(comparison), pictures::cost_svg(comparison)}) {
+  for (const std::string& svg :
+       {pictures::pressures_svg(comparison), pictures::error_svg(comparison), pictures::cost_svg(comparison)}) {
     const testing::XmlElement root = testing::read_xml(svg);
     EXPECT_EQ(root.name, "svg");
     EXPECT_TRUE(root.find("script").empty());

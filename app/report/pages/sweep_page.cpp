@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 
 #include "treadmark/app/report/pages/sweep_page.hpp"
-#include "treadmark/app/report/pages/sweep_page.hpp"
 
 #include <fmt/format.h>
 

@@ -14,8 +14,8 @@
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
-#include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/pictures/imports/import_pictures.hpp"
+#include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/io/imports/sample_report.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 

@@ -62,8 +62,8 @@ TEST(ContourLines, SaddlesHolesAndWrongSizes) {
   const Grid2 cell{0, 0, 1, 1, 2, 2};
   EXPECT_EQ(pictures::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.4).size(), 2u);
   EXPECT_EQ(pictures::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.6).size(), 2u);
-  EXPECT_TRUE(
-      pictures::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5).empty());
+  EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5)
+                  .empty());
   EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 1, 1, 1}, 1.0).empty());
   EXPECT_THROW(pictures::contour_lines(cell, std::vector<double>{1, 0, 0}, 0.5), Error);
 }

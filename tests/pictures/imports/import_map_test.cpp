@@ -20,7 +20,8 @@ TEST(ImportMap, RunsToTheRightAndUp) {
   const io::BandMap map{3, 2, 0.0, 0.3, 0.0, 0.1, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, kNan}};
   pictures::ColourScale colours;
   colours.high = 4.0;
-  const pictures::PaletteImage image = pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 100, 100);
+  const pictures::PaletteImage image =
+      pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 100, 100);
   ASSERT_EQ(image.width, 3u);
   ASSERT_EQ(image.height, 2u);
   const std::vector<std::uint8_t> wanted{16, 48, kClear, 0, 32, 63};  // 64 steps from 0 to 4
@@ -34,7 +35,8 @@ TEST(ImportMap, FineMapsAreAveraged) {
   for (int i = 0; i < 35; ++i) map.value.push_back(i % 4 == 1 ? kNan : static_cast<float>(i % 11));
   pictures::ColourScale colours;
   colours.high = 11.0;
-  const pictures::PaletteImage image = pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 3, 2);
+  const pictures::PaletteImage image =
+      pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 3, 2);
   ASSERT_EQ(image.index.size(), 6u);
   const std::size_t rows[4] = {0, 2, 4, 7}, columns[3] = {0, 2, 5};
   for (std::size_t j = 0; j < 2; ++j)
@@ -51,7 +53,8 @@ TEST(ImportMap, FineMapsAreAveraged) {
 TEST(ImportMap, APixelOfTheSurfaceNeedsHalfOfItsCells) {
   const io::BandMap map{4, 1, 0.0, 0.4, 0.0, 0.1, {1.0f, kNan, kNan, kNan}};
   pictures::ColourScale colours;
-  const pictures::PaletteImage two = pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::half, 2, 1);
+  const pictures::PaletteImage two =
+      pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::half, 2, 1);
   EXPECT_EQ(two.index, (std::vector<std::uint8_t>{63, kClear}));
   EXPECT_EQ(pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::half, 1, 1).index[0], kClear);
   EXPECT_EQ(pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 1, 1).index[0], 63);
@@ -81,8 +84,10 @@ TEST(ImportMap, DivergingColoursDarkenEvenlyToBothSides) {
     EXPECT_LT(light(i / 64.0), light((i + 1) / 64.0));
     EXPECT_LT(light(1.0 - i / 64.0), light(1.0 - (i + 1) / 64.0));
   }
-  EXPECT_EQ(pictures::map_colour(0.5, pictures::Palette::diverging), pictures::map_colour(0.0, pictures::Palette::from_white));
-  EXPECT_EQ(pictures::map_colour(std::nan(""), pictures::Palette::diverging), pictures::map_colour(0.5, pictures::Palette::diverging));
+  EXPECT_EQ(pictures::map_colour(0.5, pictures::Palette::diverging),
+            pictures::map_colour(0.0, pictures::Palette::from_white));
+  EXPECT_EQ(pictures::map_colour(std::nan(""), pictures::Palette::diverging),
+            pictures::map_colour(0.5, pictures::Palette::diverging));
 }
 
 TEST(ImportMap, LimitsAreRound) {
@@ -108,7 +113,8 @@ TEST(ImportSection, DeviationIsPositiveOutOfTheMaterial) {
     const std::vector<Vec2> found = pictures::deviation_from_nominal(high, nominal, Body::rail);
     ASSERT_GE(found.size(), 19u);
     for (const Vec2& p : found) EXPECT_NEAR(p.y(), normal, 1e-12);
-    for (const Vec2& p : pictures::deviation_from_nominal(high, nominal, Body::wheel)) EXPECT_NEAR(p.y(), -normal, 1e-12);
+    for (const Vec2& p : pictures::deviation_from_nominal(high, nominal, Body::wheel))
+      EXPECT_NEAR(p.y(), -normal, 1e-12);
   }
   EXPECT_TRUE(pictures::deviation_from_nominal(high, {}, Body::rail).empty());
 }

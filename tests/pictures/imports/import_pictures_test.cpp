@@ -12,9 +12,9 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/tests/pictures/png_reader.hpp"
 #include "treadmark/tests/io/imports/sample_report.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
+#include "treadmark/tests/pictures/png_reader.hpp"
 
 namespace treadmark {
 namespace {
@@ -23,8 +23,8 @@ constexpr std::size_t kLargestFile = 500000;  // bytes
 constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<std::string> all_pictures(const io::ImportReport& report) {
-  return {pictures::import_before_svg(report), pictures::import_removed_svg(report), pictures::import_fitted_svg(report),
-          pictures::import_residual_svg(report)};
+  return {pictures::import_before_svg(report), pictures::import_removed_svg(report),
+          pictures::import_fitted_svg(report), pictures::import_residual_svg(report)};
 }
 
 std::vector<testing::PngImage> images(const testing::XmlElement& root) {
@@ -141,7 +141,7 @@ TEST(ImportPictures, DamageIsWhereTheSurfaceIsDeep) {
     const auto& p = map.pixels.at(static_cast<std::size_t>(j) * map.width + static_cast<std::size_t>(i));
     return p[3] == 0 ? 0 : p[2] - p[0];
   };
-  const auto marks = root.find("rect", "class", "damage");
+  const auto marks = root.find("g", "class", "chart").at(0)->find("rect", "class", "damage");
   ASSERT_EQ(marks.size(), 4u);  // the third one lies across the seam
   const auto middle = [&](std::size_t i) {
     return blue(number(marks[i], "x") + 0.5 * number(marks[i], "width"),
