@@ -45,21 +45,6 @@ class Frame {
     const auto size = [least](double length) { return length > 0.0 ? std::max(least, length) : 0.0; };
     return {x0, std::min(y0, y1), size(x1 - x0), size(std::abs(y1 - y0))};
   }
-  bool empty(const Chart& chart) const {
-    if (chart.image) return false;
-    for (const ChartSeries& series : chart.series) {
-      if (!series.shapes.empty()) return false;
-      for (const ChartPoint& point : series.points)
-        if (x(point.x) && y(point.y)) return false;
-      for (const double level : series.levels)
-        if (y(level)) return false;
-      for (const Curve* curve : {&series.curve, &series.dots})
-        for (const auto& [at, value] : *curve)
-          if (x(at) && y(value)) return false;
-    }
-    return true;
-  }
-
   std::string grid(const Chart& chart) const {
     std::string lines, numbers;
     const auto path = [&](const char* name, double x, double y, char direction, double length) {
@@ -319,13 +304,15 @@ std::string remark(double x, double y, const std::string& words) {
 
 std::string draw_chart(const Chart& chart, const Box& box) {
   const Frame frame(chart, box);
+  std::string lines;
+  for (const ChartSeries& series : chart.series) lines += draw_lines(series, frame);
+  const std::string points = draw_points(chart, frame);
+  const bool nothing = !chart.image && lines.empty() && points.empty();
   std::string out = "<g class=\"chart\">\n";
   if (chart.image) out += draw_image(*chart.image, box);
-  const bool nothing = frame.empty(chart);
   if (!nothing || chart.x_range || !chart.x_label.empty()) out += frame.grid(chart);
-  for (const ChartSeries& series : chart.series) out += draw_lines(series, frame);
-  out += svg_box("frame", box) + draw_points(chart, frame) + draw_curve_labels(chart, frame);
-  const double middle = box.x + 0.5 * box.width, left = frame.y_label_x(chart), centre = box.y + 0.5 * box.height;
+  out += lines + svg_box("frame", box) + points + draw_curve_labels(chart, frame);
+  const double middle = box.middle_x(), left = frame.y_label_x(chart), centre = box.middle_y();
   if (nothing) out += svg_text(middle, centre, chart.nothing);
   out += svg_text(middle, box.y - 8.0, chart.title, "middle", " class=\"title\"");
   out += svg_text(middle, box.y + box.height + 36.0, chart.x_label);

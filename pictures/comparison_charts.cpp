@@ -34,17 +34,13 @@ class Styles {
 
   /// Wide lines and large markers below narrow and small ones, so that equal series show.
   void nest(ChartSeries& series) const {
-    const double part =
-        static_cast<double>(series.style) / std::max<double>(1.0, static_cast<double>(styles_.size()) - 1.0);
-    series.width = std::lerp(kWidest, kNarrowest, part);
-    if (series.style % 2 != 0) series.dashes = kDashes;
+    constexpr double kLargest = 7.0, kSmallest = 3.2;  // [px]
+    set_look(series, static_cast<std::size_t>(series.style), styles_.size());
+    const double part = series.style / std::max(1.0, static_cast<double>(styles_.size()) - 1.0);
     for (ChartPoint& point : series.points) point.radius = std::lerp(kLargest, kSmallest, part);
   }
 
  private:
-  static constexpr double kWidest = 4.0, kNarrowest = 1.2;  // [px]
-  static constexpr double kLargest = 7.0, kSmallest = 3.2;  // [px]
-  static constexpr const char* kDashes = "9 5";
   std::map<std::string, int> styles_;
 };
 

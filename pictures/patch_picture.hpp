@@ -117,6 +117,10 @@ struct PatchSheet {
   std::string style = {};   ///< further rules
 };
 
+/// Gives all panels a window of one size, at one place too if that does not make it much larger, whose longest side has
+/// so many pixels.
+void place_windows(PatchSheet& sheet, double longest);
+
 /// A whole picture.
 std::string draw_patch_sheet(PatchSheet sheet);
 

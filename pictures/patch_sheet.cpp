@@ -14,7 +14,9 @@ namespace {
 constexpr double kSheetLeft = 58.0, kSheetBottom = 44.0, kSheetLegend = 156.0, kTitleBand = 32.0, kSheetTop = 44.0;
 constexpr double kGapX = 44.0, kNarrowGapX = 20.0, kGapY = 64.0;
 constexpr double kLegendGap = 20.0, kLine = 18.0, kTallestBar = 240.0;
-constexpr double kShape = 1.7;  // wished width over height of the picture
+constexpr double kPictureMargin = 0.06;     // of the window, around the contact
+constexpr double kPictureEqualScale = 4.0;  // windows longer than this get their own scale in each direction
+constexpr double kShape = 1.7;              // wished width over height of the picture
 
 /// Rows and columns of panels, and the size of the picture.
 struct SheetLayout {
@@ -49,6 +51,34 @@ struct SheetLayout {
 };
 
 }  // namespace
+
+void place_windows(PatchSheet& sheet, double longest) {
+  std::optional<Window> all;
+  double width = 0.0, height = 0.0;
+  for (PatchPanel& panel : sheet.panels) {
+    panel.window = window_of(panel.patches);
+    if (!panel.window) continue;
+    width = std::max(width, panel.window->width());
+    height = std::max(height, panel.window->height());
+    if (all) all->include(*panel.window);
+    if (!all) all = panel.window;
+  }
+  sheet.scale = {{-5.0, 5.0, -5.0, 5.0}, 0.1 * longest, 0.1 * longest};
+  if (!all) return;
+  const bool common = all->width() * all->height() <= 2.0 * width * height;
+  if (common) width = all->width(), height = all->height();
+  width *= 1.0 + 2.0 * kPictureMargin, height *= 1.0 + 2.0 * kPictureMargin;
+  double scale_x = longest / std::max(width, height), scale_y = scale_x;
+  if (std::max(width, height) > kPictureEqualScale * std::min(width, height))
+    scale_x = longest / width, scale_y = longest / height;
+  const auto around = [&](const Window& target) {
+    const double x = 0.5 * (target.x_low + target.x_high), y = 0.5 * (target.y_low + target.y_high);
+    return Window{x - 0.5 * width, x + 0.5 * width, y - 0.5 * height, y + 0.5 * height};
+  };
+  sheet.scale = {around(*all), scale_x, scale_y};
+  for (PatchPanel& panel : sheet.panels)
+    if (panel.window) panel.window = common ? sheet.scale.window : around(*panel.window);
+}
 
 PatchLegend pressure_legend(double top_pressure) {
   return {

@@ -1,13 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/app/report/section_picture.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/pictures/chart.hpp"
 

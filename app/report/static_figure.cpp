@@ -10,7 +10,6 @@
 #include <cmath>
 
 #include "treadmark/app/report/field_catalogue.hpp"
-#include "treadmark/app/report/section_picture.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/pictures/chart.hpp"
 #include "treadmark/pictures/patch_picture.hpp"
@@ -143,7 +142,7 @@ std::vector<std::string> static_figure(const Figure& figure, const Page& page) {
 
 namespace {
 
-constexpr double kPanel = 210.0, kMargin = 0.06;  // longest side [px], around the contact
+constexpr double kPanel = 210.0;  // longest side [px]
 constexpr std::array<const char*, 3> kStateColours{"#2b6ca3", "#e8a33d", "#8c2d5a"};
 constexpr std::array<const char*, 3> kStateNames{"adhesion", "slip", "plastic shear"};
 
@@ -190,23 +189,17 @@ void explain(pictures::PatchSheet& sheet, const FieldInfo& field) {
 std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, const std::string& title) {
   pictures::PatchSheet sheet;
   sheet.title = title;
-  sheet.y_numbers_everywhere = false;
-  std::vector<pictures::PatchPicture> all;
   for (const Frame& frame : some_of(frames)) {
     pictures::PatchPanel& panel = sheet.panels.emplace_back();
     panel.patches = pictures_of(*frame.result, field);
     panel.titles = {frame.name};
     panel.title_y = -8.0;
     if (panel.patches.empty()) panel.words = pictures::reason_without_patches(*frame.result);
-    all.insert(all.end(), panel.patches.begin(), panel.patches.end());
     sheet.least_step = std::max(sheet.least_step, pictures::text_width(frame.name, pictures::kChartFont));
   }
-  const auto window = pictures::window_of(all);
-  if (!window) throw Error(ErrorKind::configuration, fmt::format("these results have no {}", field.label));
-  const double size = std::max(window->width(), window->height()), margin = kMargin * size;
-  const double scale = kPanel / (size + 2.0 * margin);
-  sheet.scale = {
-      {window->x_low - margin, window->x_high + margin, window->y_low - margin, window->y_high + margin}, scale, scale};
+  if (std::ranges::all_of(sheet.panels, [](const auto& panel) { return panel.patches.empty(); }))
+    throw Error(ErrorKind::configuration, fmt::format("these results have no {}", field.label));
+  place_windows(sheet, kPanel);
   explain(sheet, field);
   return draw_patch_sheet(std::move(sheet));
 }

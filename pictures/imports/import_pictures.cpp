@@ -7,8 +7,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <numbers>
 
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/imports/import_maps.hpp"
 #include "treadmark/io/imports/import_words.hpp"
 #include "treadmark/pictures/imports/import_map.hpp"
 #include "treadmark/pictures/imports/import_section.hpp"
@@ -177,6 +180,19 @@ std::string import_residual_svg(const io::ImportReport& report) {
                      {"residuals of these, rms", length(report.held_out_rms)},
                      {"error of the surface they tell of", length(report.held_out_error)}});
   return picture.finish(report);
+}
+
+void write_import_report(const std::string& folder, const io::ImportReport& report) {
+  const std::filesystem::path place(folder);
+  io::write_text_file(place / "before.svg", import_before_svg(report));
+  io::write_text_file(place / "removed.svg", import_removed_svg(report));
+  io::write_text_file(place / "fitted.svg", import_fitted_svg(report));
+  io::write_text_file(place / "residual.svg", import_residual_svg(report));
+  io::write_import_maps(place / "maps.h5", report);
+  io::write_text_file(place / "settings.toml", report.settings_toml);
+  io::write_text_file(place / "summary.txt", io::import_summary(report));
+  io::write_text_file(place / "times.json", io::import_times_json(report));
+  io::write_text_file(place / "report.json", io::import_json(report, false));
 }
 
 }  // namespace treadmark::pictures

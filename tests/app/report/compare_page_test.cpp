@@ -13,6 +13,7 @@
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/pictures/comparison_pictures.hpp"
