@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/pictures/chart_axis.hpp"
+#include "treadmark/pictures/chart.hpp"
 
 #include <fmt/format.h>
 
@@ -9,9 +9,7 @@
 #include <array>
 #include <cmath>
 
-#include "treadmark/pictures/svg_text.hpp"
-
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 namespace {
 
@@ -48,6 +46,13 @@ std::string power_label(int mantissa, int exponent) {
 }
 
 }  // namespace
+
+double tick_step(double length) {
+  const double rough = length / 6.0, power = std::pow(10.0, std::floor(std::log10(rough)));
+  for (const double factor : {1.0, 2.0, 5.0})
+    if (factor * power >= rough) return factor * power;
+  return 10.0 * power;
+}
 
 ChartAxis::ChartAxis(AxisScale scale, std::span<const double> values, double floor)
     : scale_(scale), floor_(floor), low_(kLargest), high_(-kLargest) {
@@ -93,13 +98,19 @@ std::optional<double> ChartAxis::part(double value) const {
   return std::clamp(at, 0.0, 1.0);
 }
 
-std::vector<AxisTick> ChartAxis::ticks() const { return scale_ == AxisScale::log ? log_ticks() : linear_ticks(); }
+double ChartAxis::nearest(double value) const {
+  return part(std::isnan(value) ? low_ : std::clamp(value, low_, high_)).value_or(0.0);
+}
 
-std::vector<AxisTick> ChartAxis::linear_ticks() const {
+std::vector<AxisTick> ChartAxis::ticks(int most) const {
+  return scale_ == AxisScale::log ? log_ticks() : linear_ticks(most);
+}
+
+std::vector<AxisTick> ChartAxis::linear_ticks(int most) const {
   std::vector<AxisTick> out;
-  const double step = tick_step(high_ - low_);
+  const double step = tick_step((high_ - low_) * 6.0 / most);
   const double first = std::ceil(low_ / step - kRounding), last = std::floor(high_ / step + kRounding);
-  for (double i = first; i <= last && out.size() < 20; ++i)
+  for (double i = first; i <= last && out.size() < 40; ++i)
     if (const auto at = part(i * step)) out.push_back({*at, fmt::format("{:.6g}", i * step + 0.0)});
   return out;
 }
@@ -124,13 +135,13 @@ std::vector<AxisTick> ChartAxis::log_ticks() const {
 
 namespace {
 
-double overlap(const ChartBox& a, const ChartBox& b) {
+double overlap(const Box& a, const Box& b) {
   const double width = std::min(a.x + a.width, b.x + b.width) - std::max(a.x, b.x);
   const double height = std::min(a.y + a.height, b.y + b.height) - std::max(a.y, b.y);
   return width > 0.0 && height > 0.0 ? width * height : 0.0;
 }
 
-double outside(const ChartBox& a, const ChartBox& frame) { return a.width * a.height - overlap(a, frame); }
+double outside(const Box& a, const Box& frame) { return a.width * a.height - overlap(a, frame); }
 
 constexpr double kNothing = 1e-6;  // [px^2], the rounding of areas
 
@@ -154,28 +165,25 @@ constexpr std::array<std::array<double, 2>, 16> kSides{{{1, 0},
 
 }  // namespace
 
-double text_width(const std::string& text, double font_size) {
-  return 0.56 * font_size * static_cast<double>(text.size());
-}
-
-std::vector<LabelPlace> place_labels(std::span<const LabelPoint> points, const ChartBox& box, double font_size) {
-  std::vector<ChartBox> taken;
+std::vector<Pixel> place_labels(std::span<const LabelPoint> points, const Box& box, double font_size) {
+  std::vector<Box> taken;
+  const auto up = [](const LabelPoint& point) { return point.half_height < 0.0 ? point.radius : point.half_height; };
   for (const LabelPoint& point : points)
-    taken.push_back({point.x - point.radius, point.y - point.radius, 2.0 * point.radius, 2.0 * point.radius});
+    taken.push_back({point.x - point.radius, point.y - up(point), 2.0 * point.radius, 2.0 * up(point)});
 
-  std::vector<LabelPlace> places;
+  std::vector<Pixel> places;
   for (const LabelPoint& point : points) {
     const double width = text_width(point.text, font_size), gap = 3.0;
-    ChartBox best;
+    Box best;
     double least = -1.0;
     for (const auto& side : kSides) {
       const double reach_x = side[1] == 0.0 ? point.radius + gap : 0.7 * point.radius;
-      const double reach_y = side[0] == 0.0 ? point.radius + gap : 0.7 * point.radius;
+      const double reach_y = side[0] == 0.0 ? up(point) + gap : 0.7 * up(point);
       const double x = point.x + side[0] * (0.5 * width + reach_x);
       const double y = point.y + side[1] * 0.5 * font_size + (side[1] > 0.0 ? reach_y : side[1] < 0.0 ? -reach_y : 0.0);
-      const ChartBox trial{x - 0.5 * width, y - 0.5 * font_size, width, font_size};
+      const Box trial{x - 0.5 * width, y - 0.5 * font_size, width, font_size};
       double cost = 3.0 * outside(trial, box);
-      for (const ChartBox& other : taken) cost += overlap(trial, other);
+      for (const Box& other : taken) cost += overlap(trial, other);
       if (least >= 0.0 && cost >= least - kNothing) continue;
       least = cost;
       best = trial;
@@ -187,4 +195,4 @@ std::vector<LabelPlace> place_labels(std::span<const LabelPoint> points, const C
   return places;
 }
 
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -1,7 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 
-#include "treadmark/pictures/chart_marks.hpp"
+#include "treadmark/pictures/chart.hpp"
 
 #include <fmt/format.h>
 
@@ -10,7 +10,7 @@
 #include <iterator>
 #include <numbers>
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 namespace {
 
@@ -54,11 +54,9 @@ std::string curve_path(std::span<const Pixel> line) {
 
 namespace {
 
-constexpr std::array<std::string_view, 7> kColours{"#0072b2", "#d55e00", "#009e73", "#cc79a7",
-                                                   "#000000", "#e69f00", "#56b4e9"};
 constexpr int kShapes = 8;
 
-using Corners = std::vector<std::array<double, 2>>;
+using Corners = std::vector<Pixel>;
 
 /// Corners on a circle, from the angle start [turns] on; every second one at the inner radius.
 Corners on_circle(int count, double start, double inner = 1.0) {
@@ -94,8 +92,6 @@ Corners shape(int number) {
 
 }  // namespace
 
-std::string_view chart_colour(int style) { return kColours[static_cast<std::size_t>(style) % kColours.size()]; }
-
 Corners chart_marker_corners(int style, double radius) {
   Corners corners = shape(style % kShapes);
   double area = 0.0;
@@ -116,4 +112,4 @@ std::string chart_marker_path(int style, double x, double y, double radius) {
   return out + 'z';
 }
 
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

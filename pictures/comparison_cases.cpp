@@ -8,15 +8,15 @@
 #include <functional>
 #include <set>
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 namespace {
 
 /// Largest minus smallest error of the candidates; 0 where none can be compared.
-double spread(const Comparison& comparison, int case_number) {
+double spread(const io::Comparison& comparison, int case_number) {
   double low = 0.0, high = 0.0;  // the truth
   for (std::size_t i = 1; i < comparison.candidates.size(); ++i) {
-    const ComparisonRow* row = find_row(comparison.candidates[i], case_number);
+    const io::ComparisonRow* row = find_row(comparison.candidates[i], case_number);
     if (row == nullptr || !row->comparable || !std::isfinite(row->pmax_error)) continue;
     low = std::min(low, row->pmax_error);
     high = std::max(high, row->pmax_error);
@@ -26,10 +26,10 @@ double spread(const Comparison& comparison, int case_number) {
 
 }  // namespace
 
-std::vector<int> telling_cases(const Comparison& comparison, std::size_t count) {
+std::vector<int> telling_cases(const io::Comparison& comparison, std::size_t count) {
   std::vector<int> cases;
-  for (const ComparisonCandidate& candidate : comparison.candidates)
-    for (const ComparisonRow& row : candidate.rows)
+  for (const io::ComparisonCandidate& candidate : comparison.candidates)
+    for (const io::ComparisonRow& row : candidate.rows)
       if (std::find(cases.begin(), cases.end(), row.case_number) == cases.end()) cases.push_back(row.case_number);
   if (cases.size() <= count) return cases;
 
@@ -48,21 +48,21 @@ std::vector<int> telling_cases(const Comparison& comparison, std::size_t count) 
   return chosen;
 }
 
-const ComparisonRow* find_row(const ComparisonCandidate& candidate, int case_number) {
+const io::ComparisonRow* find_row(const io::ComparisonCandidate& candidate, int case_number) {
   const auto row = std::find_if(candidate.rows.begin(), candidate.rows.end(),
-                                [&](const ComparisonRow& r) { return r.case_number == case_number; });
+                                [&](const io::ComparisonRow& r) { return r.case_number == case_number; });
   return row == candidate.rows.end() ? nullptr : &*row;
 }
 
-const CaseResult* find_result(const ComparisonCandidate& candidate, int case_number) {
+const io::CaseResult* find_result(const io::ComparisonCandidate& candidate, int case_number) {
   const auto result = std::find_if(candidate.results.begin(), candidate.results.end(),
-                                   [&](const CaseResult& r) { return r.number == case_number; });
+                                   [&](const io::CaseResult& r) { return r.number == case_number; });
   return result == candidate.results.end() ? nullptr : &*result;
 }
 
-const PatchResult* main_patch(const CaseResult& result) {
-  const PatchResult* best = nullptr;
-  for (const PatchResult& patch : result.patches)
+const io::PatchResult* main_patch(const io::CaseResult& result) {
+  const io::PatchResult* best = nullptr;
+  for (const io::PatchResult& patch : result.patches)
     if (best == nullptr || patch.fn > best->fn) best = &patch;
   return best;
 }
@@ -78,8 +78,8 @@ struct Column {
 
 }  // namespace
 
-ComparisonGrid comparison_grid(const Comparison& comparison, std::size_t most_columns) {
-  const std::vector<ComparisonCandidate>& candidates = comparison.candidates;
+ComparisonGrid comparison_grid(const io::Comparison& comparison, std::size_t most_columns) {
+  const std::vector<io::ComparisonCandidate>& candidates = comparison.candidates;
   ComparisonGrid grid;
   if (candidates.empty()) return grid;
 
@@ -92,7 +92,7 @@ ComparisonGrid comparison_grid(const Comparison& comparison, std::size_t most_co
   std::vector<Column> columns{{nullptr, false, {0}}};
   grid.places.push_back({});
   for (std::size_t i = 1; i < candidates.size(); ++i) {
-    const ComparisonCandidate& candidate = candidates[i];
+    const io::ComparisonCandidate& candidate = candidates[i];
     const bool sampled = candidate.has_resolution();
     const auto row =
         sampled ? std::find(resolutions.begin(), resolutions.end(), candidate.resolution) : resolutions.begin();
@@ -117,4 +117,4 @@ ComparisonGrid comparison_grid(const Comparison& comparison, std::size_t most_co
   return grid;
 }
 
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

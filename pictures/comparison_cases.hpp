@@ -8,19 +8,19 @@
 
 #include "treadmark/io/results/comparison_model.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 /// Numbers of the cases worth a picture: the first, and those in which the errors of the largest pressure differ most
 /// between the candidates (the truth's error is 0); equal ones in the order of the cases. At most count of them, in
 /// the order of the cases. Thread-safe.
-std::vector<int> telling_cases(const Comparison& comparison, std::size_t count);
+std::vector<int> telling_cases(const io::Comparison& comparison, std::size_t count);
 
 /// Row or result of a case; null where the candidate has none.
-const ComparisonRow* find_row(const ComparisonCandidate& candidate, int case_number);
-const CaseResult* find_result(const ComparisonCandidate& candidate, int case_number);
+const io::ComparisonRow* find_row(const io::ComparisonCandidate& candidate, int case_number);
+const io::CaseResult* find_result(const io::ComparisonCandidate& candidate, int case_number);
 
 /// The patch that carries most of the load; null without patches.
-const PatchResult* main_patch(const CaseResult& result);
+const io::PatchResult* main_patch(const io::CaseResult& result);
 
 /// Place of a candidate's panel, counted from 0: bands lie below each other, each with its own rows and columns.
 struct GridPlace {
@@ -38,6 +38,6 @@ struct ComparisonGrid {
 /// first candidate, has a column for itself and stands in its first row. Candidates without a resolution have their own
 /// column beside those of the same backend, and stand in its first row too. A backend that has a resolution twice gets
 /// another column. More than most_columns (at least 1) are spread evenly over bands. Thread-safe.
-ComparisonGrid comparison_grid(const Comparison& comparison, std::size_t most_columns);
+ComparisonGrid comparison_grid(const io::Comparison& comparison, std::size_t most_columns);
 
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

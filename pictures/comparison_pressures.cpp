@@ -4,19 +4,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 #include <numeric>
 
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
-#include "treadmark/io/results/field_table.hpp"
-#include "treadmark/pictures/chart_axis.hpp"
 #include "treadmark/pictures/comparison_cases.hpp"
 #include "treadmark/pictures/comparison_pictures.hpp"
-#include "treadmark/pictures/picture_patch.hpp"
-#include "treadmark/pictures/svg_text.hpp"
+#include "treadmark/pictures/patch_picture.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 namespace {
 
 constexpr std::size_t kMostCases = 3, kMostColumns = 8;
@@ -34,19 +29,11 @@ constexpr double kPanelMargin = 0.06;              // of the window, around the 
 constexpr double kEqualScale = 4.0;                // windows longer than this get their own scale in each direction
 constexpr int kFont = 11;
 constexpr double kTitleFont = 13.0;  // a little more than that of the style: it is bold
-constexpr const char* kTitleClass = " class=\"title\"";
-
-/// What a panel shows: a map, or words why there is none.
-struct Panel {
-  PatchPicture picture;
-  std::string words;  ///< instead of a map
-  std::string below;  ///< largest pressure and its error
-};
 
 /// A case through all candidates.
 struct Block {
   std::string title;
-  std::vector<Panel> panels;
+  std::vector<PatchPanel> panels;
   Window window{0.0, 10.0, 0.0, 10.0};
   double top_pressure = 0.0;
 };
@@ -57,51 +44,47 @@ std::string percent(double value) {
   return (text == "+0.00" || text == "-0.00" ? "0.00" : text) + " %";
 }
 
-Panel make_panel(const ComparisonCandidate& candidate, int case_number, bool truth) {
-  Panel panel;
+PatchPanel make_panel(const io::ComparisonCandidate& candidate, int case_number, bool truth) {
+  PatchPanel panel;
+  panel.title_y = -6.0;
   if (!candidate.failure.empty()) {
     panel.words = "failed";
     return panel;
   }
-  if (const ComparisonRow* row = find_row(candidate, case_number); row != nullptr && row->patches > 0) {
+  if (const io::ComparisonRow* row = find_row(candidate, case_number); row != nullptr && row->patches > 0) {
     if (std::isfinite(row->pmax)) panel.below = three_digits(row->pmax * 1e-6) + " MPa";
     if (!truth && row->comparable && std::isfinite(row->pmax_error))
       panel.below += ", " + percent(row->pmax_error * 1e2);
   }
-  const CaseResult* result = find_result(candidate, case_number);
+  const io::CaseResult* result = find_result(candidate, case_number);
   if (result == nullptr) {
     panel.words = "no fields";
     return panel;
   }
-  int number = 0;
-  for (const PatchResult& patch : result->patches) check_field_sizes(patch.fields, case_number, ++number);
-  if (const PatchResult* patch = main_patch(*result)) panel.picture = make_patch_picture(patch->fields);
-  if (panel.picture.nx > 0) return panel;
-  panel.words = result->status == Status::ok ? "no fields" : std::string(to_string(result->status));
-  std::replace(panel.words.begin(), panel.words.end(), '_', ' ');
+  const std::vector<PatchPicture> pictures = patch_pictures(*result);
+  if (const io::PatchResult* patch = main_patch(*result); patch != nullptr && !pictures.empty())
+    if (PatchPicture picture = make_patch_picture(patch->fields); picture.nx > 0) panel.patches = {std::move(picture)};
+  if (panel.patches.empty()) panel.words = reason_without_patches(*result);
   return panel;
 }
 
-Block make_block(const Comparison& comparison, int case_number) {
+Block make_block(const io::Comparison& comparison, int case_number) {
   Block block;
   block.title = fmt::format("case {}", case_number);
   bool any = false, posed = false;
-  for (const ComparisonCandidate& candidate : comparison.candidates) {
+  for (const io::ComparisonCandidate& candidate : comparison.candidates) {
     block.panels.push_back(make_panel(candidate, case_number, &candidate == comparison.candidates.data()));
-    const CaseResult* result = find_result(candidate, case_number);
+    const io::CaseResult* result = find_result(candidate, case_number);
     if (result != nullptr && result->has_wheelset && !posed) {
-      block.title += fmt::format(", pitch {:.2f}°", result->pitch * 180.0 / std::numbers::pi);
+      block.title += ", " + pitch_text(*result);
       posed = true;
     }
-    const PatchPicture& picture = block.panels.back().picture;
-    if (picture.nx == 0) continue;
-    block.top_pressure =
-        std::max(block.top_pressure, *std::max_element(picture.pressure.begin(), picture.pressure.end()));
-    if (any)
-      block.window.include(picture.extent());
-    else
-      block.window = picture.extent();
-    any = true;
+    for (const PatchPicture& picture : block.panels.back().patches) {
+      block.top_pressure = std::max(block.top_pressure, picture.greatest());
+      if (any) block.window.include(picture.extent());
+      if (!any) block.window = picture.extent();
+      any = true;
+    }
   }
   return block;
 }
@@ -141,9 +124,9 @@ struct Layout {
   std::vector<std::vector<std::string>> titles;
   std::size_t title_count = 1;  ///< lines of the longest
 
-  explicit Layout(const Comparison& comparison) : grid(comparison_grid(comparison, kMostColumns)) {
+  explicit Layout(const io::Comparison& comparison) : grid(comparison_grid(comparison, kMostColumns)) {
     for (std::size_t i = 0; i < comparison.candidates.size(); ++i) {
-      titles.push_back(title_lines(candidate_label(comparison, i)));
+      titles.push_back(title_lines(io::candidate_label(comparison, i)));
       title_count = std::max(title_count, titles.back().size());
     }
   }
@@ -170,55 +153,39 @@ struct Layout {
   double columns() const { return static_cast<double>(std::max<std::size_t>(1, grid.columns)); }
 };
 
-std::string draw_panel(const Panel& panel, const std::vector<std::string>& title, const PanelScale& scale,
-                       double top_pressure, double height, bool leftmost) {
-  std::string out;
-  double y = -6.0 - kTitle * static_cast<double>(title.size() - 1);
-  for (const std::string& line : title) {
-    out += svg_text(0.5 * kPanel, y, line, "middle", kTitleClass);
-    y += kTitle;
-  }
-  out += draw_patch(panel.picture, top_pressure, scale);
-  if (!panel.words.empty()) out += svg_text(0.5 * kPanel, 0.5 * height, panel.words);
-  out += draw_panel_axes(scale, leftmost);
-  return out + svg_text(0.5 * kPanel, height + 29.0, panel.below, "middle", " class=\"below\"");
-}
-
-std::string draw_block(const Block& block, const Layout& layout, double panel_height) {
+std::string draw_block(Block& block, const Layout& layout, double panel_height) {
   const PanelScale scale = panel_scale(block.window, panel_height);
+  const ColourSteps steps = colour_steps({0.0, block.top_pressure});
   std::string out = svg_text(0.0, 8.0, block.title, "start", " class=\"case\"");
   for (std::size_t i = 0; i < block.panels.size(); ++i) {
     const GridPlace& place = layout.grid.places[i];
     const double x = (kPanel + kGap) * static_cast<double>(place.column);
     const double y = kCaption + layout.title_height() + layout.row(place) * layout.row_height(panel_height);
-    out +=
-        fmt::format("<g class=\"panel\" transform=\"translate({:.1f} {:.1f})\">\n", x, y) +
-        draw_panel(block.panels[i], layout.titles[i], scale, block.top_pressure, panel_height, layout.leftmost(place)) +
-        "</g>\n";
+    block.panels[i].titles = layout.titles[i];
+    block.panels[i].y_numbers = layout.leftmost(place);
+    out += svg_group("panel", x, y, draw_patch_panel(block.panels[i], scale, steps));
     if (i == 0)
-      out += svg_text(-46.0, y + 0.5 * panel_height, "y [mm]", "middle",
-                      fmt::format(" transform=\"rotate(-90 -46 {:.1f})\"", y + 0.5 * panel_height).c_str()) +
+      out += turned_text(-46.0, y + 0.5 * panel_height, "y [mm]") +
              svg_text(-14.0, y + panel_height + 14.0, "x [mm]", "end");
   }
+  PatchLegend legend = pressure_legend(block.top_pressure);
+  legend.lines.clear();
   if (block.top_pressure > 0.0)
-    out += fmt::format("<g class=\"bar\" transform=\"translate({:.1f} {:.1f})\">\n", layout.width() + 20.0,
-                       kCaption + layout.title_height()) +
-           svg_text(0.0, -6.0, "pressure [MPa]", "start") + draw_pressure_bar(block.top_pressure, panel_height) +
-           "</g>\n";
+    out += svg_group("bar", layout.width() + 20.0, kCaption + layout.title_height(),
+                     draw_patch_legend(legend, panel_height));
   return out;
 }
 
 }  // namespace
 
-std::string pressures_svg(const Comparison& comparison) {
+std::string pressures_svg(const io::Comparison& comparison) {
   const Layout layout(comparison);
   double y = kPanelTop;
   std::string blocks;
   for (const int number : telling_cases(comparison, kMostCases)) {
-    const Block block = make_block(comparison, number);
+    Block block = make_block(comparison, number);
     const double height = panel_height(block.window);
-    blocks += fmt::format("<g class=\"block\" transform=\"translate({:.1f} {:.1f})\">\n", kPanelLeft, y) +
-              draw_block(block, layout, height) + "</g>\n";
+    blocks += svg_group("block", kPanelLeft, y, draw_block(block, layout, height));
     y += layout.height(height) + kBetween;
   }
   return svg_head(kPanelLeft + layout.width() + kPanelRight, y + kPanelTop, kFont,
@@ -226,8 +193,4 @@ std::string pressures_svg(const Comparison& comparison) {
          blocks + "</svg>\n";
 }
 
-void write_pressures_svg(const std::filesystem::path& path, const Comparison& comparison) {
-  write_text_file(path, pressures_svg(comparison));
-}
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

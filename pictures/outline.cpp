@@ -8,7 +8,7 @@
 #include <cstddef>
 #include <iterator>
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 namespace {
 
 // Directions counterclockwise: +x, +y, -x, -y.
@@ -102,4 +102,4 @@ std::string path_at(const std::vector<Loop>& loops, double x0, double y0, double
   return path;
 }
 
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -5,17 +5,16 @@
 
 #include <fmt/format.h>
 
-#include <algorithm>
 #include <cmath>
 
 #include "treadmark/io/files/text.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 std::string xml_text(std::string_view words) {
   std::string safe;
   while (!words.empty()) {
-    const std::size_t length = utf8_length(words);
+    const std::size_t length = io::utf8_length(words);
     const char c = words.front();
     if (length == 0)
       safe += '?';
@@ -45,11 +44,31 @@ std::string three_digits(double value) {
   return std::abs(value) >= 100.0 ? fmt::format("{:.0f}", value) : fmt::format("{:.3g}", value);
 }
 
-double tick_step(double length) {
-  const double rough = length / 6.0, power = std::pow(10.0, std::floor(std::log10(rough)));
-  for (const double factor : {1.0, 2.0, 5.0})
-    if (factor * power >= rough) return factor * power;
-  return 10.0 * power;
+std::string turned_text(double x, double y, std::string_view words, const char* anchor, int degrees) {
+  return svg_text(x, y, words, anchor, fmt::format(" transform=\"rotate({} {:.1f} {:.1f})\"", degrees, x, y).c_str());
+}
+
+std::string svg_box(const char* name, const Box& box, std::string_view more) {
+  return fmt::format("<rect class=\"{}\" x=\"{:.1f}\" y=\"{:.1f}\" width=\"{:.1f}\" height=\"{:.1f}\"{}/>\n", name,
+                     box.x, box.y, box.width, box.height, more);
+}
+
+std::string svg_cell(const Box& box, std::string_view fill) {
+  return fmt::format("<rect x=\"{:.2f}\" y=\"{:.2f}\" width=\"{:.2f}\" height=\"{:.2f}\" fill=\"{}\"/>\n", box.x, box.y,
+                     box.width, box.height, fill);
+}
+
+std::string svg_group(std::string_view name, double x, double y, const std::string& elements) {
+  const std::string of_class = name.empty() ? "" : fmt::format(" class=\"{}\"", name);
+  return fmt::format("<g{} transform=\"translate({:.1f} {:.1f})\">\n{}</g>\n", of_class, x, y, elements);
+}
+
+std::string with_unit(std::string_view label, std::string_view unit) {
+  return unit.empty() ? std::string(label) : fmt::format("{} [{}]", label, unit);
+}
+
+double text_width(const std::string& text, double font_size) {
+  return 0.56 * font_size * static_cast<double>(text.size());
 }
 
 std::string svg_head(double width, double height, int font_size, std::string_view style) {
@@ -60,51 +79,4 @@ std::string svg_head(double width, double height, int font_size, std::string_vie
       width, height, font_size, style);
 }
 
-std::string draw_panel_axes(const PanelScale& panel, bool numbers_of_y) {
-  const Window& window = panel.window;
-  const double width = window.width() * panel.scale_x, height = window.height() * panel.scale_y;
-  std::string out;
-  const auto ticks = [](double low, double high, auto&& mark) {
-    const double step = tick_step(high - low);
-    for (double i = std::ceil(low / step); i * step <= high; ++i) mark(i * step + 0.0);
-  };
-  ticks(window.x_low, window.x_high, [&](double value) {
-    const double x = (value - window.x_low) * panel.scale_x;
-    out += fmt::format("<path class=\"tick\" d=\"M{:.1f} {:.1f}v4\"/>\n", x, height);
-    out += svg_text(x, height + 14.0, fmt::format("{:.6g}", value));
-  });
-  ticks(window.y_low, window.y_high, [&](double value) {
-    const double y = (window.y_high - value) * panel.scale_y;
-    out += fmt::format("<path class=\"tick\" d=\"M0 {:.1f}h-4\"/>\n", y);
-    if (numbers_of_y) out += svg_text(-6.0, y + 3.5, fmt::format("{:.6g}", value), "end");
-  });
-  return out + fmt::format("<rect class=\"tick\" width=\"{:.1f}\" height=\"{:.1f}\"/>\n", width, height);
-}
-
-std::string force_and_pressure(const CaseResult& result) {
-  double force = 0.0, pressure = 0.0;
-  for (const PatchResult& patch : result.patches) {
-    force += patch.fn;
-    pressure = std::max(pressure, patch.pmax);
-  }
-  return three_digits(force * 1e-3) + " kN, " + three_digits(pressure * 1e-6) + " MPa";
-}
-
-std::string draw_pressure_bar(double top_pressure, double height) {
-  std::string out;
-  const double step_height = height / kPressureSteps;
-  for (int step = 0; step < kPressureSteps; ++step)
-    out += fmt::format("<rect x=\"0\" y=\"{:.2f}\" width=\"{}\" height=\"{:.2f}\" fill=\"{}\"/>\n",
-                       height - (step + 1) * step_height, kPressureBarWidth, step_height + 0.2, step_colour(step));
-  const double top_mpa = top_pressure * 1e-6;
-  if (!(top_mpa > 0.0)) return out;
-  const double step = tick_step(top_mpa);
-  for (double i = 0.0; i * step <= top_mpa; ++i) {
-    const double y = height * (1.0 - i * step / top_mpa);
-    out += fmt::format("<path class=\"tick\" d=\"M{} {:.1f}h4\"/>\n", kPressureBarWidth, y);
-    out += svg_text(kPressureBarWidth + 7.0, y + 3.5, fmt::format("{:.4g}", i * step), "start");
-  }
-  return out;
-}
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

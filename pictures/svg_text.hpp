@@ -5,11 +5,19 @@
 #include <string>
 #include <string_view>
 
-#include "treadmark/pictures/picture_patch.hpp"
-
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 /// Pieces of SVG pictures. All functions are thread-safe.
+
+/// Rectangle in pixels, y downwards.
+struct Box {
+  double x = 0.0, y = 0.0, width = 0.0, height = 0.0;
+
+  double right() const { return x + width; }
+  double bottom() const { return y + height; }
+  double middle_x() const { return x + 0.5 * width; }
+  double middle_y() const { return y + 0.5 * height; }
+};
 
 /// Text for the inside of an element: markup escaped; control characters and bytes that are not UTF-8 become blanks
 /// and question marks.
@@ -18,30 +26,28 @@ std::string xml_text(std::string_view words);
 /// A text element; anchor is "start", "middle" or "end", more are further attributes with a leading blank.
 std::string svg_text(double x, double y, std::string_view words, const char* anchor = "middle", const char* more = "");
 
+/// The same, turned by so many degrees about its place.
+std::string turned_text(double x, double y, std::string_view words, const char* anchor = "middle", int degrees = -90);
+
+/// A rectangle of a class, as an outline; more: as above.
+std::string svg_box(const char* name, const Box& box, std::string_view more = "");
+
+/// A filled rectangle to 0.01 px.
+std::string svg_cell(const Box& box, std::string_view fill);
+
+/// Elements as a group whose origin is moved to (x, y); a class may be empty.
+std::string svg_group(std::string_view name, double x, double y, const std::string& elements);
+
 /// Three significant digits or all before the point.
 std::string three_digits(double value);
 
-/// Round step of an axis with at most six intervals; length > 0.
-double tick_step(double length);
+/// "label [unit]", without a unit the label.
+std::string with_unit(std::string_view label, std::string_view unit);
+
+/// Rough width of a text in the pictures' font.
+double text_width(const std::string& text, double font_size);
 
 /// Opens a picture on white paper: the svg element, then the rules of a style sheet. Close with "</svg>\n".
 std::string svg_head(double width, double height, int font_size, std::string_view style);
 
-/// Rules for the panels of pressure maps.
-inline constexpr std::string_view kPanelStyle =
-    ".title{font-size:12px;font-weight:bold}.tick{fill:none;stroke:#666666;stroke-width:.7}"
-    ".contact{fill:none;stroke:#1a1a2e;stroke-width:1.2}.adhesion{fill:none;stroke:#ffffff;stroke-width:1.2}";
-
-/// Frame, ticks and their numbers [mm] of a panel whose upper left corner is the origin; the numbers of y may be left
-/// out where the panel beside it has the same. Thread-safe.
-std::string draw_panel_axes(const PanelScale& panel, bool numbers_of_y = true);
-
-/// "125 kN, 1320 MPa": sum of the normal forces and largest pressure of a case. Thread-safe.
-std::string force_and_pressure(const CaseResult& result);
-
-/// The colours of pressure from 0 to top_pressure [Pa] as an upright bar with its upper left corner at the origin,
-/// numbers in MPa to the right. Thread-safe.
-std::string draw_pressure_bar(double top_pressure, double height);
-inline constexpr double kPressureBarWidth = 14.0;  // [px]
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -9,6 +9,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/pictures/imports/import_pictures.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -44,7 +45,7 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   const io::ImportReport report =
       with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
   if (!options.report_folder.empty()) {
-    io::write_import_report(options.report_folder, report);
+    pictures::write_import_report(options.report_folder, report);
     for (const auto& [part, file] : {std::pair{"hdf5", "maps.h5"}, std::pair{"report", "report.html"}})
       if (!has_part(part)) print_notes({left_out_message(part, file) + ": " + left_out_advice(part)}, common.quiet);
     if (has_part("report"))

@@ -14,7 +14,7 @@
 #include "treadmark/io/results/write_subs.hpp"
 #include "treadmark/io/results/write_vtk.hpp"
 #include "treadmark/pictures/comparison_pictures.hpp"
-#include "treadmark/pictures/picture_svg.hpp"
+#include "treadmark/pictures/pressure_svg.hpp"
 
 namespace treadmark::cli {
 
@@ -65,7 +65,7 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
   prepare(folder, "result.json");
   auto notes = write_fields(folder, [&](const auto& file) { io::write_hdf5(file, result); });
   io::write_vtk(folder / "vtk", result);
-  io::write_pressure_svg(folder / "pressure.svg", result);
+  io::write_text_file(folder / "pressure.svg", pictures::pressure_svg(result));
   write_text_tables(folder, result);
   io::write_json(folder / "result.json", result);
   return notes;
@@ -74,9 +74,9 @@ std::vector<std::string> write_result_folder(const std::filesystem::path& folder
 std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder,
                                                  const io::Comparison& comparison) {
   prepare(folder, "compare.json");
-  io::write_pressures_svg(folder / "pressures.svg", comparison);
-  io::write_error_svg(folder / "errors.svg", comparison);
-  io::write_cost_svg(folder / "costs.svg", comparison);
+  io::write_text_file(folder / "pressures.svg", pictures::pressures_svg(comparison));
+  io::write_text_file(folder / "errors.svg", pictures::error_svg(comparison));
+  io::write_text_file(folder / "costs.svg", pictures::cost_svg(comparison));
   auto notes = write_fields(folder, [&](const auto& file) { io::write_comparison_fields(file, comparison); });
   io::write_text_file(folder / "table.txt", io::comparison_table(comparison));
   io::write_csv(folder / "compare.csv", comparison);

@@ -13,7 +13,7 @@
 namespace treadmark::app::report {
 
 std::string html_text(std::string_view words) {
-  const std::string safe = io::xml_text(words);
+  const std::string safe = pictures::xml_text(words);
   std::string out;
   for (const char c : safe) {
     if (c == '"')

@@ -22,4 +22,12 @@ std::string chart_svg(const ChartView& view, const Page& page, const std::string
 /// Thread-safe. Errors: Error(configuration) where no patch has the quantity.
 std::string field_svg(const std::vector<Frame>& frames, const FieldInfo& field, const std::string& title);
 
+/// Wheel and rail cut across the track at the contact with the largest normal force, with the contact references: an
+/// SVG picture in track axes with equal scales, seen along the track (y to the right, z downwards). The frame with the
+/// largest normal force is shown. Thread-safe.
+std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurface>& surfaces);
+
+/// A map as an SVG picture, averaged where it is finer than the picture; places without values stay empty. Thread-safe.
+std::string map_svg(const MapView& map, const std::string& title);
+
 }  // namespace treadmark::app::report

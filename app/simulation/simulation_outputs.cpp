@@ -11,10 +11,11 @@
 
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/pose.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
-#include "treadmark/pictures/picture_svg.hpp"
+#include "treadmark/pictures/pressure_svg.hpp"
 
 namespace treadmark::app {
 
@@ -43,8 +44,8 @@ io::SimulationResult wheel_columns(const io::SimulationResult& result) {
   return part;
 }
 
-std::vector<io::PatchesPanel> patches_panels(const io::SimulationResult& result) {
-  std::vector<io::PatchesPanel> panels;
+std::vector<pictures::PatchesPanel> patches_panels(const io::SimulationResult& result) {
+  std::vector<pictures::PatchesPanel> panels;
   const io::CaseResult* round_wheel = nullptr;
   for (std::size_t i = 0; i < result.snapshot_scenes.size(); ++i) {
     const io::SnapshotScene& scene = result.snapshot_scenes[i];
@@ -52,7 +53,7 @@ std::vector<io::PatchesPanel> patches_panels(const io::SimulationResult& result)
     if (scene.nominal) round_wheel = &snapshot;
     if (!scene.drawn) continue;
     constexpr double kDegree = std::numbers::pi / 180.0;
-    io::PatchesPanel panel{&snapshot, round_wheel, scene.depth_grid, scene.depth};
+    pictures::PatchesPanel panel{&snapshot, round_wheel, scene.depth_grid, scene.depth};
     panel.title = fmt::format("{:.1f}°, Q = {:.0f} kN", wrap_angle(snapshot.pitch) / kDegree + 0.0,
                               snapshot.force_tr.z() * 1e-3 + 0.0);
     double pmax = 0.0;
@@ -69,7 +70,7 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
   io::write_modes_csv(folder / "modes.csv", result);
   if (result.rows() > 1) {
     constexpr double kKilo = 1e-3, kMega = 1e-6;
-    io::HistoryChart chart;
+    pictures::HistoryChart chart;
     chart.title = result.title;
     chart.x = {"t_s", "t [s]"};
     chart.y = {{"Q_N", "Q [kN]", kKilo, {result.values[2]}}, {"Ty_N", "T_y [kN]", kKilo}};
@@ -77,13 +78,14 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
       return std::ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end();
     };
     if (has("pmax_Pa")) chart.y.push_back({"pmax_Pa", "p_max [MPa]", kMega});
-    const io::HistoryRun run{&result, result.title};
-    io::write_history_svg(folder / "history.svg", std::span(&run, 1), chart);
+    const pictures::HistoryRun run{&result, result.title};
+    io::write_text_file(folder / "history.svg", pictures::history_svg(std::span(&run, 1), chart));
   }
-  if (!result.snapshots.cases.empty()) io::write_pressure_svg(folder / "pressure.svg", result.snapshots);
-  if (const std::vector<io::PatchesPanel> panels = patches_panels(result); !panels.empty()) {
-    io::write_patches_svg(folder / "patches.svg", panels, result.title);
-    io::write_patches_csv(folder / "patches.csv", panels);
+  if (!result.snapshots.cases.empty())
+    io::write_text_file(folder / "pressure.svg", pictures::pressure_svg(result.snapshots));
+  if (const std::vector<pictures::PatchesPanel> panels = patches_panels(result); !panels.empty()) {
+    io::write_text_file(folder / "patches.svg", pictures::patches_svg(panels, result.title));
+    io::write_text_file(folder / "patches.csv", pictures::patches_csv(panels));
   }
   io::write_simulation(folder / "simulation.h5", result);
 }

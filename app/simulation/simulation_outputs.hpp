@@ -16,7 +16,7 @@ io::SimulationResult wheel_columns(const io::SimulationResult& result);
 
 /// Panels of the snapshots of the watched wheel, with the contact at the start as that of a round wheel. They point
 /// into the result.
-std::vector<io::PatchesPanel> patches_panels(const io::SimulationResult& result);
+std::vector<pictures::PatchesPanel> patches_panels(const io::SimulationResult& result);
 
 /// simulation.h5 (everything), history.csv (forces of the wheels), events.csv, modes.csv, history.svg, and with
 /// snapshots fields as pressure.svg, those of the watched wheel with the depth of its defect as patches.svg and

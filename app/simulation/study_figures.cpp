@@ -9,6 +9,7 @@
 
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/histories/summary_svg.hpp"
@@ -39,7 +40,7 @@ std::string label_of(const std::string& column, const std::string& given) {
   return column.substr(0, unit) + (shown.name.empty() ? "" : " [" + shown.name + "]");
 }
 
-io::HistoryAxis axis(const std::string& column, const std::string& label) {
+pictures::HistoryAxis axis(const std::string& column, const std::string& label) {
   return {column, label_of(column, label), shown_unit(column).factor};
 }
 
@@ -102,13 +103,13 @@ class Figures {
   }
 
   void draw_history(const io::StudyFigure& figure) {
-    io::HistoryChart chart;
+    pictures::HistoryChart chart;
     chart.title = figure.title;
     chart.x = axis(figure.x.empty() ? "t_s" : figure.x, figure.x_label);
     for (const std::string& column : figure.y)
       chart.y.push_back(axis(column, figure.y.size() == 1 ? figure.y_label : ""));
     if (figure.x_range) chart.x_range = {(*figure.x_range)[0], (*figure.x_range)[1]};
-    std::vector<io::HistoryRun> runs;
+    std::vector<pictures::HistoryRun> runs;
     for (const io::SimulationRun& run : study_.runs) {
       if (!is_drawn(figure, run)) continue;
       const io::SimulationResult& result = result_of(run);
@@ -117,12 +118,10 @@ class Figures {
     }
     if (runs.empty()) return;
     const bool multiples =
-        std::ranges::any_of(runs, [&](const io::HistoryRun& r) { return r.panel != runs.front().panel; });
-    if (multiples)
-      io::write_history_multiples_svg(folder_ / figure.file, runs, chart);
-    else
-      io::write_history_svg(folder_ / figure.file, runs, chart);
-    io::write_history_chart_csv(csv_of(folder_ / figure.file), runs, chart);
+        std::ranges::any_of(runs, [&](const pictures::HistoryRun& r) { return r.panel != runs.front().panel; });
+    io::write_text_file(folder_ / figure.file,
+                        multiples ? pictures::history_multiples_svg(runs, chart) : pictures::history_svg(runs, chart));
+    io::write_text_file(csv_of(folder_ / figure.file), pictures::history_chart_csv(runs, chart));
   }
 
   /// Runs that differ in more than the lines' variation stand in panels of their own, where one quantity is drawn.
@@ -138,7 +137,7 @@ class Figures {
   }
 
   void draw_summary(const io::StudyFigure& figure) {
-    io::SummaryChart chart;
+    pictures::SummaryChart chart;
     chart.title = figure.title;
     chart.key = figure.x;
     chart.x_label = figure.x_label.empty() ? figure.x : figure.x_label;
@@ -155,8 +154,8 @@ class Figures {
     }
     io::StudyResult drawn = study_;
     std::erase_if(drawn.runs, [&](const io::SimulationRun& run) { return !is_drawn(figure, run); });
-    io::write_summary_svg(folder_ / figure.file, drawn, chart);
-    io::write_summary_chart_csv(csv_of(folder_ / figure.file), drawn, chart);
+    io::write_text_file(folder_ / figure.file, pictures::summary_svg(drawn, chart));
+    io::write_text_file(csv_of(folder_ / figure.file), pictures::summary_chart_csv(drawn, chart));
   }
 
   const io::StudyFile& file_;

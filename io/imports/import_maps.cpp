@@ -112,4 +112,15 @@ void read_import_maps(const std::filesystem::path& path, ImportReport& report) {
     if (root.has(name.group)) report.*name.map = read_map(path, root.open_group(name.group), name.group);
 }
 
+ImportReport read_import_report(const std::filesystem::path& folder) {
+  ImportReport report = read_import_json(folder / "report.json");
+  const auto is_there = [&](const char* name) {
+    std::error_code code;
+    return std::filesystem::is_regular_file(folder / name, code);
+  };
+  if (is_there("maps.h5")) read_import_maps(folder / "maps.h5", report);
+  if (is_there("times.json")) read_import_times(folder / "times.json", report);
+  return report;
+}
+
 }  // namespace treadmark::io

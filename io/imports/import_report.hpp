@@ -145,13 +145,8 @@ void read_import_times(const std::filesystem::path& file, ImportReport& report);
 /// A page of text for people: what was read, removed, placed, fitted, written; warnings first.
 std::string import_summary(const ImportReport& report);
 
-/// Writes report.json, times.json, summary.txt, settings.toml, maps.h5 (if built with HDF5), before.svg, removed.svg,
-/// fitted.svg, residual.svg into a folder, report.json last. Not to be called from two threads at once (HDF5). Errors:
-/// Error(configuration) if a file cannot be written.
-void write_import_report(const std::string& folder, const ImportReport& report);
-
-/// The report in such a folder: report.json and, where they are there, times.json and maps.h5; pictures and sections
-/// are empty. Errors: as read_import_json; for broken files. Not to be called from two threads at once (HDF5).
+/// The report in the folder of an import: report.json and, where they are there, times.json and maps.h5; pictures and
+/// sections are empty. Errors: as read_import_json; for broken files. Not to be called from two threads at once (HDF5).
 ImportReport read_import_report(const std::filesystem::path& folder);
 
 }  // namespace treadmark::io

@@ -5,6 +5,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
 #include <set>
 
 #include "treadmark/core/error.hpp"
@@ -34,6 +36,25 @@ int surface_index(std::span<const SampledSurface> surfaces, const std::string& n
   for (std::size_t i = 0; i < surfaces.size(); ++i)
     if (surfaces[i].name == name) return static_cast<int>(i);
   return -1;
+}
+
+std::vector<Vec2> row_edges(const PatchFields& fields, double reference_s) {
+  const Grid2& grid = fields.grid;
+  const double first = grid.y0 - 0.5 * grid.dy;
+  std::vector<Vec2> edges;
+  if (fields.row_angle.empty()) {
+    for (int iy = 0; iy <= grid.ny; ++iy) edges.emplace_back(first + iy * grid.dy, 0.0);
+    return edges;
+  }
+  edges.emplace_back(0.0, 0.0);
+  for (const double angle : fields.row_angle)
+    edges.push_back(edges.back() + grid.dy * Vec2(std::cos(angle), std::sin(angle)));
+  // The reference lies between two edges.
+  const double place = std::clamp((reference_s - first) / grid.dy, 0.0, static_cast<double>(grid.ny));
+  const auto below = std::min(static_cast<std::size_t>(place), edges.size() - 2);
+  const Vec2 reference = edges[below] + (place - static_cast<double>(below)) * (edges[below + 1] - edges[below]);
+  for (Vec2& edge : edges) edge += Vec2(reference_s, 0.0) - reference;
+  return edges;
 }
 
 }  // namespace treadmark::io

@@ -10,20 +10,11 @@
 #include <limits>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/pictures/svg_text.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 namespace {
-
-// Sizes in pixels.
-constexpr double kLeft = 78.0, kTop = 56.0, kRight = 24.0, kBottom = 50.0;
-constexpr double kWidth = 640.0, kHeight = 200.0;  // of a panel in a stack
-constexpr double kBetween = 18.0;                  // panels in a stack
-constexpr double kSmall = 400.0, kSmallHeight = 260.0, kSmallGapX = 26.0, kSmallGapY = 64.0;
-constexpr double kLegend = 24.0;  // from the panels
 
 [[noreturn]] void refuse_chart(const std::string& message) {
   throw Error(ErrorKind::configuration, "chart of histories: " + message);
@@ -33,7 +24,7 @@ void check(std::span<const HistoryRun> runs, const HistoryChart& chart) {
   if (chart.y.empty()) refuse_chart("no axis y");
   for (const HistoryRun& run : runs) {
     if (run.result == nullptr) refuse_chart(fmt::format("run \"{}\" has no result", run.label));
-    check_simulation(*run.result);
+    io::check_simulation(*run.result);
   }
   std::vector<HistoryAxis> axes = chart.y;
   axes.push_back(chart.x);
@@ -61,28 +52,22 @@ ChartSeries make_series(const HistoryRun& run, const HistoryAxis& x, const Histo
 
 ChartSeries make_levels(const HistoryAxis& y) {
   ChartSeries series;
-  series.style = 4;  // black
+  series.style = kBlack;
   for (const double level : y.levels) series.levels.push_back(level * y.factor);
   return series;
 }
 
 /// Ends of the shown range: those asked for, else those of the curves.
-std::optional<std::array<double, 2>> shown_x(const std::vector<Chart>& charts, const HistoryChart& spec) {
-  double low = INFINITY, high = -INFINITY;
-  for (const Chart& chart : charts)
-    for (const ChartSeries& series : chart.series)
-      for (const auto& point : series.curve)
-        if (std::isfinite(point[0])) {
-          low = std::min(low, point[0]);
-          high = std::max(high, point[0]);
-        }
-  if (spec.x_range.low) low = *spec.x_range.low * spec.x.factor;
-  if (spec.x_range.high) high = *spec.x_range.high * spec.x.factor;
-  return low < high && std::isfinite(high - low) ? std::optional(std::array{low, high}) : std::nullopt;
+void show_x(std::vector<Chart>& charts, const HistoryChart& spec) {
+  const auto shown = range_of_x(charts);
+  const double low = spec.x_range.low ? *spec.x_range.low * spec.x.factor : shown ? (*shown)[0] : INFINITY;
+  const double high = spec.x_range.high ? *spec.x_range.high * spec.x.factor : shown ? (*shown)[1] : -INFINITY;
+  for (Chart& chart : charts)
+    if (low < high && std::isfinite(high - low)) chart.x_range = {low, high};
 }
 
 /// Round ends around everything in the charts.
-std::array<double, 2> shown_y(const std::vector<Chart>& charts) {
+AxisRange shown_y(const std::vector<Chart>& charts) {
   std::vector<double> values;
   for (const Chart& chart : charts)
     for (const ChartSeries& series : chart.series) {
@@ -94,16 +79,12 @@ std::array<double, 2> shown_y(const std::vector<Chart>& charts) {
 }
 
 /// What the dotted lines are.
-std::string level_remark(const HistoryChart& spec, double bottom) {
+std::vector<std::string> level_remark(const HistoryChart& spec) {
   std::string words;
   for (const HistoryAxis& y : spec.y)
     if (!y.levels.empty() && !y.level_label.empty() && words.find(y.level_label) == std::string::npos)
       words += (words.empty() ? "dotted: " : ", ") + y.level_label;
-  return words.empty() ? "" : svg_text(kLeft, bottom - 14.0, words, "start", " class=\"remark\"");
-}
-
-std::string title(const std::string& words, double middle) {
-  return svg_text(middle, 22.0, words, "middle", " class=\"title\"");
+  return words.empty() ? std::vector<std::string>() : std::vector{words};
 }
 
 std::vector<std::string> panel_names(std::span<const HistoryRun> runs) {
@@ -134,9 +115,12 @@ Chart make_small(std::span<const HistoryRun> runs, const HistoryChart& spec, con
 
 std::string history_svg(std::span<const HistoryRun> runs, const HistoryChart& spec) {
   check(runs, spec);
-  std::vector<Chart> charts;
+  ChartSheet sheet;
+  sheet.title = spec.title;
+  sheet.top = 40.0, sheet.bottom = 66.0;
+  sheet.legend = ChartSheet::Legend::common, sheet.legend_y = 12.0;
   for (const HistoryAxis& y : spec.y) {
-    Chart chart;
+    Chart& chart = sheet.charts.emplace_back();
     chart.y_label = label_of(y);
     chart.x_numbers = &y == &spec.y.back();
     if (chart.x_numbers) chart.x_label = label_of(spec.x);
@@ -144,98 +128,62 @@ std::string history_svg(std::span<const HistoryRun> runs, const HistoryChart& sp
       chart.series.push_back(make_series(run, spec.x, y, spec.x_range));
       set_look(chart.series.back(), chart.series.size() - 1, runs.size());
     }
+    if (&y == &spec.y.front()) sheet.series = chart.series;
     if (!y.levels.empty()) chart.series.push_back(make_levels(y));
-    charts.push_back(std::move(chart));
   }
-  std::vector<ChartSeries> legend = charts.front().series;
-  legend.resize(runs.size() > 1 ? runs.size() : 0);
-  const double count = static_cast<double>(charts.size());
-  const double height = std::max(kTop + count * kHeight + (count - 1.0) * kBetween + kBottom,
-                                 kTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
-  const double beside = legend.empty() ? 0.0 : kLegend + legend_width(legend);
-  std::string out = svg_head(kLeft + kWidth + (legend.empty() ? kRight : beside), height, kChartFont, kChartStyle);
-  out += title(spec.title, kLeft + 0.5 * kWidth) + level_remark(spec, height);
-  const auto range = shown_x(charts, spec);
-  double y = kTop - 16.0;
-  for (Chart& chart : charts) {
-    chart.x_range = range;
-    out += draw_chart(chart, {kLeft, y, kWidth, kHeight});
-    y += kHeight + kBetween;
-  }
-  if (!legend.empty()) out += draw_chart_legend(legend, kLeft + kWidth + kLegend, kTop - 4.0);
-  return out + "</svg>\n";
+  show_x(sheet.charts, spec);
+  sheet.remarks = level_remark(spec);
+  return draw_sheet(sheet);
 }
 
 std::string history_multiples_svg(std::span<const HistoryRun> runs, const HistoryChart& spec) {
   check(runs, spec);
   if (spec.y.size() != 1) refuse_chart(fmt::format("small panels show one axis y, not {}", spec.y.size()));
-  std::vector<Chart> charts;
-  for (const std::string& name : panel_names(runs)) charts.push_back(make_small(runs, spec, name));
-  if (charts.empty()) charts.emplace_back();
-  const std::size_t count = charts.size(), columns = count > 4 ? 3 : std::min<std::size_t>(count, 2);
-  const std::size_t rows = (count + columns - 1) / columns;
-  const double across = static_cast<double>(columns), down = static_cast<double>(rows);
-  const double panel = count == 1 ? kWidth : kSmall, panel_height = count == 1 ? 1.7 * kHeight : kSmallHeight;
-  const double width = across * panel + (across - 1.0) * kSmallGapX;
-  const double height = kTop + down * panel_height + (down - 1.0) * kSmallGapY + kBottom;
-  std::string out = svg_head(kLeft + width + kRight, height, kChartFont, kChartStyle);
-  out += title(spec.title, kLeft + 0.5 * width) + level_remark(spec, height);
-  const auto x_range = shown_x(charts, spec);
-  const std::array<double, 2> y_range = shown_y(charts);
+  ChartSheet sheet;
+  sheet.title = spec.title;
+  for (const std::string& name : panel_names(runs)) sheet.charts.push_back(make_small(runs, spec, name));
+  if (sheet.charts.empty()) sheet.charts.emplace_back();
+  const std::size_t count = sheet.charts.size();
+  sheet.columns = count > 4 ? 3 : std::min<std::size_t>(count, 2);
+  sheet.top = 56.0, sheet.gap_x = 26.0, sheet.gap_y = 64.0;
+  sheet.width = count == 1 ? 640.0 : 400.0, sheet.height = count == 1 ? 340.0 : 260.0;
+  sheet.remarks = level_remark(spec);
+  if (!sheet.remarks.empty()) sheet.bottom = 66.0;
+  show_x(sheet.charts, spec);
+  const AxisRange y_range = shown_y(sheet.charts);
   for (std::size_t i = 0; i < count; ++i) {
-    Chart& chart = charts[i];
-    chart.x_range = x_range;
+    Chart& chart = sheet.charts[i];
     chart.y_range = y_range;
-    chart.y_numbers = i % columns == 0;
+    chart.y_numbers = i % sheet.columns == 0;
     if (chart.y_numbers) chart.y_label = label_of(spec.y.front());
-    if (i + columns >= count) chart.x_label = label_of(spec.x);
-    out +=
-        draw_chart(chart, {kLeft + static_cast<double>(i % columns) * (panel + kSmallGapX),
-                           kTop + static_cast<double>(i / columns) * (panel_height + kSmallGapY), panel, panel_height});
+    if (i + sheet.columns >= count) chart.x_label = label_of(spec.x);
   }
-  return out + "</svg>\n";
+  return draw_sheet(sheet);
 }
 
 std::string history_chart_csv(std::span<const HistoryRun> runs, const HistoryChart& spec) {
   check(runs, spec);
-  std::string out = "run,panel," + csv_cell(spec.x.column);
-  for (const HistoryAxis& y : spec.y) out += ',' + csv_cell(y.column);
+  std::string out = "run,panel," + io::csv_cell(spec.x.column);
+  for (const HistoryAxis& y : spec.y) out += ',' + io::csv_cell(y.column);
   out += '\n';
   for (const HistoryRun& run : runs) {
-    const SimulationResult& result = *run.result;
-    std::vector<std::size_t> indices{column_index(result, spec.x.column)};
-    for (const HistoryAxis& y : spec.y) indices.push_back(column_index(result, y.column));
+    const io::SimulationResult& result = *run.result;
+    std::vector<std::size_t> indices{io::column_index(result, spec.x.column)};
+    for (const HistoryAxis& y : spec.y) indices.push_back(io::column_index(result, y.column));
     for (std::size_t row = 0; row < result.rows(); ++row) {
       const double* values = result.values.data() + row * result.columns.size();
       const double x = values[indices.front()];
       if ((spec.x_range.low && !(x >= *spec.x_range.low)) || (spec.x_range.high && !(x <= *spec.x_range.high)))
         continue;
-      out += csv_cell(run.label) + ',' + csv_cell(run.panel);
-      for (const std::size_t index : indices) out += ',' + csv_number(values[index]);
+      out += io::csv_cell(run.label) + ',' + io::csv_cell(run.panel);
+      for (const std::size_t index : indices) out += ',' + io::csv_number(values[index]);
       out += '\n';
     }
   }
   return out;
 }
 
-void write_history_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart) {
-  write_text_file(path, history_svg(runs, chart));
-}
-
-void write_history_multiples_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs,
-                                 const HistoryChart& chart) {
-  write_text_file(path, history_multiples_svg(runs, chart));
-}
-
-void write_history_chart_csv(const std::filesystem::path& path, std::span<const HistoryRun> runs,
-                             const HistoryChart& chart) {
-  write_text_file(path, history_chart_csv(runs, chart));
-}
-
 namespace {
-
-constexpr double kWidest = 3.0, kNarrowest = 1.3;  // [px]
-constexpr const char* kDashes = "7 3.5";
 
 using Point = std::array<double, 2>;
 
@@ -291,8 +239,9 @@ Curve cut_curve(const Curve& curve, const Range& x) {
   return std::move(parts.out);
 }
 
-Curve history_curve(const SimulationResult& result, const std::string& x, const std::string& y) {
-  const std::size_t of_x = column_index(result, x), of_y = column_index(result, y), width = result.columns.size();
+Curve history_curve(const io::SimulationResult& result, const std::string& x, const std::string& y) {
+  const std::size_t of_x = io::column_index(result, x), of_y = io::column_index(result, y),
+                    width = result.columns.size();
   Curve out;
   out.reserve(result.rows());
   for (std::size_t row = 0; row < result.rows(); ++row)
@@ -300,17 +249,4 @@ Curve history_curve(const SimulationResult& result, const std::string& x, const 
   return out;
 }
 
-void set_look(ChartSeries& series, std::size_t index, std::size_t count) {
-  series.style = static_cast<int>(index);
-  series.width =
-      count < 2 ? 1.6 : std::lerp(kWidest, kNarrowest, static_cast<double>(index) / static_cast<double>(count - 1));
-  if (index % 2 != 0) series.dashes = kDashes;
-}
-
-double legend_width(const std::vector<ChartSeries>& series) {
-  double widest = 0.0;
-  for (const ChartSeries& one : series) widest = std::max(widest, text_width(one.name, kChartFont));
-  return series.empty() ? 0.0 : widest + 46.0;
-}
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

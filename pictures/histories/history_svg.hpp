@@ -2,20 +2,15 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <array>
-#include <cstddef>
-#include <filesystem>
 #include <optional>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "treadmark/io/histories/history_model.hpp"
-#include "treadmark/pictures/chart_draw.hpp"
+#include "treadmark/pictures/chart.hpp"
 
-namespace treadmark::io {
-
-using Curve = std::vector<std::array<double, 2>>;  // (x, y)
+namespace treadmark::pictures {
 
 /// Ends of a range; an absent one is open.
 struct Range {
@@ -27,13 +22,7 @@ struct Range {
 Curve cut_curve(const Curve& curve, const Range& x);
 
 /// Two columns of a history as a curve. Errors: as column_index. Thread-safe.
-Curve history_curve(const SimulationResult& result, const std::string& x, const std::string& y);
-
-/// Colour, width and dashes of curve number index of count: wide below narrow, so that equal curves show.
-void set_look(ChartSeries& series, std::size_t index, std::size_t count);
-
-/// Width of a legend with these names, its lines included [px]; 0 without series.
-double legend_width(const std::vector<ChartSeries>& series);
+Curve history_curve(const io::SimulationResult& result, const std::string& x, const std::string& y);
 
 /// A column of histories as an axis of a chart.
 struct HistoryAxis {
@@ -45,7 +34,7 @@ struct HistoryAxis {
 
 /// A simulation in a chart.
 struct HistoryRun {
-  const SimulationResult* result = nullptr;
+  const io::SimulationResult* result = nullptr;
   std::string label;
   std::string panel = {};  ///< of history_multiples_svg
 };
@@ -72,11 +61,4 @@ std::string history_multiples_svg(std::span<const HistoryRun> runs, const Histor
 /// and of each y within the range of x, exact and in SI units. Errors: as above. Thread-safe.
 std::string history_chart_csv(std::span<const HistoryRun> runs, const HistoryChart& chart);
 
-/// These write files that appear only when complete. Errors: as above, and Error(configuration).
-void write_history_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs, const HistoryChart& chart);
-void write_history_multiples_svg(const std::filesystem::path& path, std::span<const HistoryRun> runs,
-                                 const HistoryChart& chart);
-void write_history_chart_csv(const std::filesystem::path& path, std::span<const HistoryRun> runs,
-                             const HistoryChart& chart);
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -2,27 +2,25 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <array>
-#include <filesystem>
 #include <span>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
 #include "treadmark/io/results/result_model.hpp"
-#include "treadmark/pictures/picture_patch.hpp"
+#include "treadmark/pictures/patch_picture.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 /// An instant as one panel: contact patches, those of a round wheel and the defect of the wheel's surface.
 struct PatchesPanel {
-  const CaseResult* result = nullptr;
-  const CaseResult* round_wheel = nullptr;  ///< at the same load; may be absent
-  Grid2 depth_grid = {};                    ///< x, y of the track [m]
-  std::vector<double> depth = {};           ///< of the defect at the grid's points [m]; NaN = not known; may be empty
-  double x_origin = 0.0;                    ///< x of the track that is drawn as 0: the wheelset's [m]
-  std::string title = {};                   ///< empty: the pitch angle
-  std::string remark = {};                  ///< below the title; empty: normal force and largest pressure
+  const io::CaseResult* result = nullptr;
+  const io::CaseResult* round_wheel = nullptr;  ///< at the same load; may be absent
+  Grid2 depth_grid = {};                        ///< x, y of the track [m]
+  std::vector<double> depth = {};  ///< of the defect at the grid's points [m]; NaN = not known; may be empty
+  double x_origin = 0.0;           ///< x of the track that is drawn as 0: the wheelset's [m]
+  std::string title = {};          ///< empty: the pitch angle
+  std::string remark = {};         ///< below the title; empty: normal force and largest pressure
 };
 
 /// Contact patches at several instants as an SVG picture seen from above: x of the track upwards, the rolling
@@ -36,11 +34,6 @@ std::string patches_svg(std::span<const PatchesPanel> panels, const std::string&
 /// Thread-safe.
 std::string patches_csv(std::span<const PatchesPanel> panels);
 
-/// These write files that appear only when complete. Errors: as above, and Error(configuration).
-void write_patches_svg(const std::filesystem::path& path, std::span<const PatchesPanel> panels,
-                       const std::string& title);
-void write_patches_csv(const std::filesystem::path& path, std::span<const PatchesPanel> panels);
-
 /// What the panels of patches_svg show, in the picture's plane: x to the right is y of the track, y upwards is x of the
 /// track from the panel's origin [mm].
 struct PatchesView {
@@ -52,12 +45,4 @@ struct PatchesView {
 /// Errors: as patches_svg. Thread-safe.
 PatchesView make_patches_view(std::span<const PatchesPanel> panels);
 
-/// A line of equal value; closed when its first point is its last.
-using ContourLine = std::vector<std::array<double, 2>>;
-
-/// Lines where values at the points of a grid, linear along the sides of its cells, reach a level. A saddle is parted
-/// by the mean of its corners. Cells with a corner that is not finite have none. Points in the units of the grid.
-/// Thread-safe. Errors: Error(configuration) unless there is a value a point.
-std::vector<ContourLine> contour_lines(const Grid2& grid, std::span<const double> values, double level);
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -9,20 +9,12 @@
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/files/text.hpp"
-#include "treadmark/pictures/histories/history_svg.hpp"
-#include "treadmark/pictures/svg_text.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 namespace {
 
-// Sizes in pixels.
-constexpr double kStudyLeft = 78.0, kStudyTop = 46.0, kStudyBottom = 56.0, kStudyWidth = 560.0, kStudyHeight = 380.0,
-                 kStudyLegend = 24.0, kStudyRight = 24.0;
-constexpr double kRemarkLine = 15.0;
 constexpr double kStudyMargin = 0.04;  // of x, beyond the values
-constexpr int kBlack = 4;              // style of levels and references
 
 [[noreturn]] void refuse_study(const std::string& message) {
   throw Error(ErrorKind::configuration, "chart of a study: " + message);
@@ -49,30 +41,31 @@ struct SummaryLine {
 
 struct SummaryLines {
   std::vector<SummaryLine> lines;
-  std::vector<const SimulationRun*> missing;
+  std::vector<const io::SimulationRun*> missing;
 };
 
-std::string line_name(const SimulationRun& run, const StudyTable& table, const std::string& key) {
+std::string line_name(const io::SimulationRun& run, const io::StudyTable& table, const std::string& key) {
   std::string name;
   for (const std::string& other : table.keys) {
-    const std::string* value = swept_value(run, other);
+    const std::string* value = io::swept_value(run, other);
     if (other != key && value != nullptr) name += fmt::format("{}{} = {}", name.empty() ? "" : ", ", other, *value);
   }
   return name;
 }
 
-SummaryLines make_lines(const StudyResult& study, const SummaryChart& spec) {
-  const StudyTable table = study_table(study);
+SummaryLines make_lines(const io::StudyResult& study, const SummaryChart& spec) {
+  const io::StudyTable table = io::study_table(study);
   if (!(spec.x_factor > 0.0) || !(spec.y_factor > 0.0)) refuse_study("a factor is not positive");
   if (std::find(table.keys.begin(), table.keys.end(), spec.key) == table.keys.end())
     refuse_study("no run has the swept key " + spec.key);
-  const auto same = [&](const NamedValue& one) { return one.name == spec.quantity; };
+  const auto same = [&](const io::NamedValue& one) { return one.name == spec.quantity; };
   if (std::none_of(table.quantities.begin(), table.quantities.end(), same))
     refuse_study("no run has the quantity " + spec.quantity);
   SummaryLines out;
-  for (const SimulationRun* run : table.runs) {
-    const std::string* at = swept_value(*run, spec.key);
-    const double x = at != nullptr ? number(*at, spec.key, run->number) : NAN, y = summary_value(*run, spec.quantity);
+  for (const io::SimulationRun* run : table.runs) {
+    const std::string* at = io::swept_value(*run, spec.key);
+    const double x = at != nullptr ? number(*at, spec.key, run->number) : NAN,
+                 y = io::summary_value(*run, spec.quantity);
     if (!std::isfinite(x) || !std::isfinite(y)) {
       out.missing.push_back(run);
       continue;
@@ -89,16 +82,12 @@ SummaryLines make_lines(const StudyResult& study, const SummaryChart& spec) {
 }
 
 /// Around the values with a little room, but not below zero where none of them is.
-std::optional<std::array<double, 2>> shown_x(const Chart& chart) {
-  double low = INFINITY, high = -INFINITY;
-  for (const ChartSeries& series : chart.series)
-    for (const ChartPoint& point : series.points) {
-      low = std::min(low, point.x);
-      high = std::max(high, point.x);
-    }
-  if (chart.x_scale == AxisScale::log || !(low < high) || !std::isfinite(high - low)) return {};
+std::optional<AxisRange> with_room(const Chart& chart) {
+  const auto range = chart.x_scale == AxisScale::log ? std::nullopt : range_of_x({chart});
+  if (!range) return {};
+  const auto [low, high] = *range;
   const double room = kStudyMargin * (high - low), begin = low - room;
-  return std::array{low >= 0.0 ? std::max(0.0, begin) : begin, high + room};
+  return AxisRange{low >= 0.0 ? std::max(0.0, begin) : begin, high + room};
 }
 
 Chart make_chart(const SummaryLines& all, const SummaryChart& spec) {
@@ -130,11 +119,11 @@ Chart make_chart(const SummaryLines& all, const SummaryChart& spec) {
   for (const SummaryReference& one : spec.references)
     references.points.push_back({one.x * spec.x_factor, one.y * spec.y_factor, 4.5, one.label, one.label});
   if (!references.points.empty()) chart.series.push_back(std::move(references));
-  chart.x_range = shown_x(chart);
+  chart.x_range = with_room(chart);
   return chart;
 }
 
-std::string not_drawn(const SimulationRun& run) {
+std::string not_drawn(const io::SimulationRun& run) {
   std::string out = fmt::format("not drawn: run {}", run.number);
   if (!run.label.empty()) out += ", " + run.label;
   return out + (run.status.empty() ? "" : " (" + run.status + ")");
@@ -142,45 +131,29 @@ std::string not_drawn(const SimulationRun& run) {
 
 }  // namespace
 
-std::string summary_svg(const StudyResult& study, const SummaryChart& spec) {
+std::string summary_svg(const io::StudyResult& study, const SummaryChart& spec) {
   const SummaryLines all = make_lines(study, spec);
-  const Chart chart = make_chart(all, spec);
-  std::vector<ChartSeries> legend = chart.series;
-  if (legend.size() == 1) legend.clear();
-  const double below = kRemarkLine * static_cast<double>(all.missing.size());
-  const double height = std::max(kStudyTop + kStudyHeight + kStudyBottom + below,
-                                 kStudyTop + kLegendLine * static_cast<double>(legend.size()) + 16.0);
-  const double beside = legend.empty() ? 0.0 : kStudyLegend + legend_width(legend);
-  std::string out =
-      svg_head(kStudyLeft + kStudyWidth + (legend.empty() ? kStudyRight : beside), height, kChartFont, kChartStyle);
-  out += draw_chart(chart, {kStudyLeft, kStudyTop, kStudyWidth, kStudyHeight});
-  if (!legend.empty()) out += draw_chart_legend(legend, kStudyLeft + kStudyWidth + kStudyLegend, kStudyTop + 12.0);
-  double y = kStudyTop + kStudyHeight + kStudyBottom - 4.0;
-  for (const SimulationRun* run : all.missing) {
-    out += svg_text(kStudyLeft, y, not_drawn(*run), "start", " class=\"remark\"");
-    y += kRemarkLine;
-  }
-  return out + "</svg>\n";
+  ChartSheet sheet;
+  sheet.charts = {make_chart(all, spec)};
+  sheet.series = sheet.charts.front().series;
+  sheet.legend = ChartSheet::Legend::common, sheet.legend_y = 12.0;
+  sheet.top = 46.0, sheet.width = 560.0, sheet.height = 380.0;
+  for (const io::SimulationRun* run : all.missing) sheet.remarks.push_back(not_drawn(*run));
+  sheet.bottom = sheet.remarks.empty() ? 56.0 : 62.0;
+  return draw_sheet(sheet);
 }
 
-std::string summary_chart_csv(const StudyResult& study, const SummaryChart& spec) {
+std::string summary_chart_csv(const io::StudyResult& study, const SummaryChart& spec) {
   const SummaryLines all = make_lines(study, spec);
-  std::string out = "kind,line,run," + csv_cell(spec.key) + ',' + csv_cell(spec.quantity) + '\n';
+  std::string out = "kind,line,run," + io::csv_cell(spec.key) + ',' + io::csv_cell(spec.quantity) + '\n';
   for (const SummaryLine& line : all.lines)
     for (const SummaryPoint& one : line.points)
-      out += fmt::format("run,{},{},{},{}\n", csv_cell(line.name), one.run, csv_number(one.x), csv_number(one.y));
+      out += fmt::format("run,{},{},{},{}\n", io::csv_cell(line.name), one.run, io::csv_number(one.x),
+                         io::csv_number(one.y));
   for (const SummaryReference& one : spec.references)
-    out += fmt::format("reference,{},,{},{}\n", csv_cell(one.label), csv_number(one.x), csv_number(one.y));
-  if (spec.level) out += fmt::format("level,{},,,{}\n", csv_cell(spec.level_label), csv_number(*spec.level));
+    out += fmt::format("reference,{},,{},{}\n", io::csv_cell(one.label), io::csv_number(one.x), io::csv_number(one.y));
+  if (spec.level) out += fmt::format("level,{},,,{}\n", io::csv_cell(spec.level_label), io::csv_number(*spec.level));
   return out;
 }
 
-void write_summary_svg(const std::filesystem::path& path, const StudyResult& study, const SummaryChart& chart) {
-  write_text_file(path, summary_svg(study, chart));
-}
-
-void write_summary_chart_csv(const std::filesystem::path& path, const StudyResult& study, const SummaryChart& chart) {
-  write_text_file(path, summary_chart_csv(study, chart));
-}
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -2,15 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
-#include <filesystem>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "treadmark/io/histories/study_model.hpp"
-#include "treadmark/pictures/chart_axis.hpp"
+#include "treadmark/pictures/chart.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 
 /// A value from elsewhere to compare with: in the units of the swept key and of the quantity.
 struct SummaryReference {
@@ -32,14 +31,10 @@ struct SummaryChart {
 /// A quantity of the summaries over one swept key as an SVG picture, a line for each choice of the other swept keys.
 /// Runs without the quantity are named below. Thread-safe. Errors: as study_table; Error(configuration) for a key or
 /// quantity that no run has, values of the key that are no numbers, and factors that are not positive.
-std::string summary_svg(const StudyResult& study, const SummaryChart& chart);
+std::string summary_svg(const io::StudyResult& study, const SummaryChart& chart);
 
 /// The plotted numbers as a table with commas: kind ("run", "reference" or "level"), line, run, x and y in units of the
 /// study. Errors: as above. Thread-safe.
-std::string summary_chart_csv(const StudyResult& study, const SummaryChart& chart);
+std::string summary_chart_csv(const io::StudyResult& study, const SummaryChart& chart);
 
-/// These write files that appear only when complete. Errors: as above, and Error(configuration).
-void write_summary_svg(const std::filesystem::path& path, const StudyResult& study, const SummaryChart& chart);
-void write_summary_chart_csv(const std::filesystem::path& path, const StudyResult& study, const SummaryChart& chart);
-
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -10,10 +10,12 @@
 #include <limits>
 
 #include "treadmark/io/imports/import_words.hpp"
-#include "treadmark/pictures/svg_text.hpp"
+#include "treadmark/pictures/imports/import_map.hpp"
 
-namespace treadmark::io {
+namespace treadmark::pictures {
 namespace {
+
+using io::SectionPoints;
 
 constexpr double kFarthest = 0.01;           // of the points, left out on each side where there is no curve
 constexpr std::size_t kMostCompared = 1500;  // points of the section
@@ -22,7 +24,7 @@ constexpr double kNan = std::numeric_limits<double>::quiet_NaN();
 bool is_finite(const Vec2& p) { return std::isfinite(p.x()) && std::isfinite(p.y()); }
 
 /// Range of a coordinate of the points but for a part on each side.
-PlotRange usual_range(const SectionPoints& points, int axis, double left_out) {
+AxisRange usual_range(const SectionPoints& points, int axis, double left_out) {
   std::vector<double> values;
   for (const Vec2& p : points)
     if (is_finite(p)) values.push_back(p[axis]);
@@ -32,61 +34,51 @@ PlotRange usual_range(const SectionPoints& points, int axis, double left_out) {
   return {values[rank], values[values.size() - 1 - rank]};
 }
 
-PlotRange joined(const PlotRange& a, const PlotRange& b) {
-  if (!std::isfinite(a.low)) return b;
-  if (!std::isfinite(b.low)) return a;
-  return {std::min(a.low, b.low), std::max(a.high, b.high)};
-}
-
 }  // namespace
 
-SectionPanel place_section(const ImportReport& report, double x, double y, double most_width, double most_height,
-                           double margin) {
+ImportPanel section_panel(const io::ImportReport& report, const std::string& title, const SectionSize& size) {
+  ImportPanel out{title, {}, size.width, 60.0};
+  out.chart.nothing = "no points and no section";
   if (report.section.empty() && report.nominal_section.empty() && report.raw_section.empty() &&
       report.removed_section.empty())
-    return {PlotFrame({x, y, most_width, 60.0}, {}, {}), true, y + 78.0};
-  PlotRange ranges[2];
+    return out;
+  AxisRange ranges[2];
   for (int axis = 0; axis < 2; ++axis) {
-    PlotRange& range = ranges[axis];
-    range = joined(usual_range(report.section, axis, 0.0), usual_range(report.nominal_section, axis, 0.0));
-    if (!std::isfinite(range.low)) range = usual_range(report.raw_section, axis, kFarthest);
-    range = {1e3 * (range.low - margin), 1e3 * (range.high + margin)};
-    if (!range.usable()) range = {-50.0, 50.0};
+    AxisRange& range = ranges[axis];
+    const AxisRange nominal = usual_range(report.nominal_section, axis, 0.0);
+    range = usual_range(report.section, axis, 0.0);
+    range = {std::fmin(range[0], nominal[0]), std::fmax(range[1], nominal[1])};
+    if (!std::isfinite(range[0])) range = usual_range(report.raw_section, axis, kFarthest);
+    range = {1e3 * (range[0] - size.margin), 1e3 * (range[1] + size.margin)};
+    if (!is_usable(range)) range = {-50.0, 50.0};
   }
-  const double scale = std::min(most_width / ranges[0].length(), most_height / ranges[1].length());
+  const double length[2] = {ranges[0][1] - ranges[0][0], ranges[1][1] - ranges[1][0]};
+  const double scale = std::min(size.width / length[0], size.most_height / length[1]);
   // The frame has the whole width and height; what the equal scales leave is shown as well.
-  const double width = most_width,
-               height = std::clamp(ranges[1].length() * scale, std::min(120.0, most_height), most_height);
-  const double more[2] = {0.5 * (width / scale - ranges[0].length()), 0.5 * (height / scale - ranges[1].length())};
-  for (int axis = 0; axis < 2; ++axis) ranges[axis] = {ranges[axis].low - more[axis], ranges[axis].high + more[axis]};
-  return {PlotFrame({x, y, width, height}, ranges[0], ranges[1], true), false, y + height + 44.0};
-}
-
-std::string draw_section(const ImportReport& report, const SectionPanel& panel, const std::string& content,
-                         const SectionPoints& counted, const std::string& kind) {
-  const ChartBox& box = panel.frame.box();
-  if (panel.empty)
-    return panel.frame.border() +
-           svg_text(box.x + 0.5 * box.width, box.y + 0.5 * box.height + 4.0, "no points and no section");
-  std::string out = panel.frame.axes("y [mm]", report.body == Body::wheel ? "z = r - R [mm]" : "z [mm]") + content;
-  const auto outside = static_cast<std::size_t>(
-      std::count_if(counted.begin(), counted.end(), [&](const Vec2& p) { return !panel.frame.holds(1e3 * p); }));
-  if (outside > 0)
-    out += svg_text(
-        box.x + box.width, box.y - 9.0,
-        fmt::format("{} of {} {} drawn here lie beyond the frame", grouped(outside), grouped(counted.size()), kind),
-        "end", " class=\"remark\"");
-  return out + panel.frame.border();
-}
-
-std::vector<Vec2> in_mm(const SectionPoints& points) {
-  std::vector<Vec2> out;
-  out.reserve(points.size());
-  for (const Vec2& p : points) out.push_back(1e3 * p);
+  out.height = std::clamp(length[1] * scale, std::min(120.0, size.most_height), size.most_height);
+  const double more[2] = {0.5 * (size.width / scale - length[0]), 0.5 * (out.height / scale - length[1])};
+  out.chart.x_range = {ranges[0][0] - more[0], ranges[0][1] + more[0]};
+  out.chart.y_range = {ranges[1][0] - more[1], ranges[1][1] + more[1]};
+  out.chart.y_down = true;
+  out.chart.x_label = "y [mm]";
+  out.chart.y_label = report.body == Body::wheel ? "z = r - R [mm]" : "z [mm]";
   return out;
 }
 
-std::vector<Vec2> deviation_from_nominal(const SectionPoints& section, const SectionPoints& nominal, Body body) {
+std::string beyond(const ImportPanel& panel, const ChartSeries& series, const std::string& kind) {
+  if (!panel.chart.x_range) return {};
+  const auto outside = std::count_if(series.dots.begin(), series.dots.end(), [&](const auto& p) {
+    const AxisRange &x = *panel.chart.x_range, &y = *panel.chart.y_range;
+    return !(p[0] >= x[0] && p[0] <= x[1] && p[1] >= y[0] && p[1] <= y[1]);
+  });
+  return outside == 0
+             ? ""
+             : fmt::format("{} ({} of {} {} beyond the frame)", panel.title,
+                           io::grouped(static_cast<std::size_t>(outside)), io::grouped(series.dots.size()), kind);
+}
+
+std::vector<Vec2> deviation_from_nominal(const io::SectionPoints& section, const io::SectionPoints& nominal,
+                                         Body body) {
   SectionPoints line;
   std::copy_if(nominal.begin(), nominal.end(), std::back_inserter(line), is_finite);
   std::vector<Vec2> out;
@@ -130,4 +122,4 @@ double s_of_y(const SectionPoints& section, double s_min, double s_max, double y
   return whole > 0.0 ? s_min + (s_max - s_min) * before / whole : kNan;
 }
 
-}  // namespace treadmark::io
+}  // namespace treadmark::pictures

@@ -108,7 +108,7 @@ double mean(const io::ComparisonCandidate& candidate, double io::ComparisonRow::
 Candidate compared_candidate(const io::ComparisonCandidate& data, const std::vector<int>& cases) {
   Candidate out{&data, io::candidate_label(data)};
   if (data.has_resolution()) out.resolution_mm = in_file(kMilli * data.resolution);
-  for (const int number : cases) out.rows.push_back(io::find_row(data, number));
+  for (const int number : cases) out.rows.push_back(pictures::find_row(data, number));
   const io::CandidateDigest all = io::digest(data);
   out.pmax_error_percent = in_file(1e2 * all.pmax_error);
   out.area_error_percent = in_file(1e2 * all.area_error);

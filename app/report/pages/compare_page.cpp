@@ -128,7 +128,7 @@ Timeline numbered(const std::vector<int>& cases) {
 }
 
 io::CaseResult result_of(const io::ComparisonCandidate& candidate, int number) {
-  if (const io::CaseResult* found = io::find_result(candidate, number)) return *found;
+  if (const io::CaseResult* found = pictures::find_result(candidate, number)) return *found;
   io::CaseResult result;
   result.number = number;
   result.status = Status::failed;
@@ -144,7 +144,7 @@ std::vector<FrameSet> sets_of(const std::shared_ptr<const io::Comparison>& compa
     if (!candidate.solved()) continue;
     FrameSet set{candidate.label + (&candidate == all.truth() ? " (truth)" : "")};
     for (std::size_t i = 0; i < names.size(); ++i) {
-      const io::CaseResult* found = io::find_result(*candidate.data, all.cases[i]);
+      const io::CaseResult* found = pictures::find_result(*candidate.data, all.cases[i]);
       set.frames.push_back(
           {names[i], found ? std::shared_ptr<const io::CaseResult>(comparison, found)
                            : std::make_shared<io::CaseResult>(result_of(*candidate.data, all.cases[i]))});

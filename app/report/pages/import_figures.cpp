@@ -36,7 +36,7 @@ double mean(const io::BandMap& map, std::size_t row0, std::size_t row1, std::siz
 /// Greatest size that is shown; infinite where no few values stand far out.
 double limit_of(const io::BandMap& map) {
   constexpr double kFew = 1e-3, kFar = 3.0;
-  const auto extent = io::map_extent(map, kFew);
+  const auto extent = pictures::map_extent(map, kFew);
   if (!extent) return INFINITY;
   const double greatest = std::max(-extent->least, extent->greatest), usual = std::max(-extent->low, extent->high);
   return usual > 0.0 && greatest > kFar * usual ? usual : INFINITY;
@@ -78,7 +78,7 @@ Points rectangle(double a, double s, double length, double width) {
 std::vector<MapView::Mark> import_marks(const io::ImportReport& report) {
   std::vector<MapView::Mark> marks;
   const io::BandMap& map = report.fitted;
-  if (!io::is_drawable(map)) return marks;
+  if (!pictures::is_drawable(map)) return marks;
   const bool wheel = report.body == Body::wheel;
   const double round_mm = wheel && report.closed ? 2.0 * kPi * kMilli * report.nominal_radius : 0.0;
   const auto mm = [](double length) { return in_file(kMilli * length); };
@@ -106,13 +106,13 @@ std::vector<MapView::Mark> import_marks(const io::ImportReport& report) {
 
 std::pair<std::string, double> length_unit_of(const io::BandMap& map) {
   constexpr double kSmall = 0.2e-3;  // [m]
-  const auto extent = io::map_extent(map, 1e-3);
+  const auto extent = pictures::map_extent(map, 1e-3);
   if (extent && std::max(-extent->low, extent->high) >= kSmall) return {"mm", 1e3};
   return {"µm", 1e6};
 }
 
 std::vector<Block> map_figure(const io::BandMap& map, Body body, MapFigure what, std::vector<MapView::Mark> marks) {
-  if (!io::is_drawable(map)) return {};
+  if (!pictures::is_drawable(map)) return {};
   MapView view;
   view.x = {body == Body::wheel ? "along the circumference" : "along the track", "mm"};
   view.y = {"along the section", "mm"};

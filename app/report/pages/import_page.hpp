@@ -10,9 +10,9 @@
 
 namespace treadmark::app::report {
 
-/// Report of an import whose files io::write_import_report wrote to a folder: pictures and the summary are taken from
-/// there as far as they are there. document: the text of report.json. Errors: Error(input_data) for files that cannot
-/// be read.
+/// Report of an import whose files pictures::write_import_report wrote to a folder: pictures and the summary are taken
+/// from there as far as they are there. document: the text of report.json. Errors: Error(input_data) for files that
+/// cannot be read.
 Page import_page(const io::ImportReport& report, std::string document, const std::filesystem::path& folder);
 
 /// The same from the files alone. Errors: as io::read_import_report. Not to be called from two threads at once (HDF5).

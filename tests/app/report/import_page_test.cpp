@@ -14,6 +14,7 @@
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
+#include "treadmark/pictures/imports/import_pictures.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/io/imports/sample_report.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
@@ -42,7 +43,7 @@ using Json = nlohmann::json;
 class ImportPage : public ::testing::Test {
  protected:
   Page page_of(const io::ImportReport& report) {
-    io::write_import_report(folder_.path().string(), report);
+    pictures::write_import_report(folder_.path().string(), report);
     return import_page(folder_.path());
   }
   Json json() const {

@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/pictures/picture_svg.hpp"
+#include "treadmark/pictures/pressure_svg.hpp"
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
@@ -12,7 +12,7 @@
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/pictures/outline.hpp"
-#include "treadmark/pictures/picture_patch.hpp"
+#include "treadmark/pictures/patch_picture.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 
@@ -49,27 +49,27 @@ double path_area(const std::string& path) {
 TEST(Outline, EnclosesExactlyTheCells) {
   std::mt19937 random(20240229);
   for (int trial = 0; trial < 200; ++trial) {
-    io::CellMask mask{1 + trial % 13, 1 + trial % 7, {}};
+    pictures::CellMask mask{1 + trial % 13, 1 + trial % 7, {}};
     int count = 0;
     for (int i = 0; i < mask.nx * mask.ny; ++i) {
       mask.inside.push_back(random() % 3 != 0);  // holes, islands and cells touching at corners
       count += mask.inside.back();
     }
-    EXPECT_EQ(path_area(io::path_in_cells(io::outline(mask))), count);
+    EXPECT_EQ(path_area(pictures::path_in_cells(pictures::outline(mask))), count);
   }
 }
 
 TEST(Outline, ARectangleIsOneLoopOfFourSides) {
-  const auto loops = io::outline({3, 2, std::vector<char>(6, 1)});
-  EXPECT_EQ(io::path_in_cells(loops), "M0 0h3v2h-3z");
-  EXPECT_EQ(io::path_at(loops, 10.0, 20.0, 2.0, -0.5), "M10.0 20.0H16.0V19.0H10.0z");
-  EXPECT_TRUE(io::outline({3, 2, std::vector<char>(6, 0)}).empty());
+  const auto loops = pictures::outline({3, 2, std::vector<char>(6, 1)});
+  EXPECT_EQ(pictures::path_in_cells(loops), "M0 0h3v2h-3z");
+  EXPECT_EQ(pictures::path_at(loops, 10.0, 20.0, 2.0, -0.5), "M10.0 20.0H16.0V19.0H10.0z");
+  EXPECT_TRUE(pictures::outline({3, 2, std::vector<char>(6, 0)}).empty());
 }
 
 TEST(ColourMap, LightnessGrowsEvenly) {
   const auto lightness = [](double value) {  // CIE L* of an sRGB colour
     unsigned red = 0, green = 0, blue = 0;
-    EXPECT_EQ(std::sscanf(io::colour(value).c_str(), "#%2x%2x%2x", &red, &green, &blue), 3);
+    EXPECT_EQ(std::sscanf(pictures::colour(value).c_str(), "#%2x%2x%2x", &red, &green, &blue), 3);
     const auto linear = [](unsigned c) {
       return c <= 10 ? c / 255.0 / 12.92 : std::pow((c / 255.0 + 0.055) / 1.055, 2.4);
     };
@@ -83,19 +83,19 @@ TEST(ColourMap, LightnessGrowsEvenly) {
     EXPECT_GT(step, 0.5 * mean);
     EXPECT_LT(step, 1.6 * mean);
   }
-  EXPECT_EQ(io::colour(-3.0), io::colour(0.0));
-  EXPECT_EQ(io::colour(7.0), io::colour(1.0));
-  EXPECT_EQ(io::colour(std::nan("")), "#999999");
+  EXPECT_EQ(pictures::colour(-3.0), pictures::colour(0.0));
+  EXPECT_EQ(pictures::colour(7.0), pictures::colour(1.0));
+  EXPECT_EQ(pictures::colour(std::nan("")), "#999999");
 }
 
 TEST(PatchPicture, CoarseningKeepsPlaceAreaAndForce) {
   const io::PatchResult patch = testing::ball_patch(500, 400, 1e9);
-  const io::PatchPicture picture = io::make_patch_picture(patch.fields);
+  const pictures::PatchPicture picture = pictures::make_patch_picture(patch.fields);
   EXPECT_LE(picture.nx, 96);
   EXPECT_LE(picture.ny, 96);
   double force = 0.0, area = 0.0;
-  for (std::size_t i = 0; i < picture.pressure.size(); ++i) {
-    force += picture.contact[i] ? picture.pressure[i] * picture.dx * picture.dy * 1e-6 : 0.0;
+  for (std::size_t i = 0; i < picture.values.size(); ++i) {
+    force += picture.contact[i] ? picture.values[i] * picture.dx * picture.dy * 1e-6 : 0.0;
     area += picture.contact[i] ? picture.dx * picture.dy : 0.0;
   }
   const double kBlocks = 0.01;  // blocks at the edge are taken whole or not at all
@@ -106,7 +106,7 @@ TEST(PatchPicture, CoarseningKeepsPlaceAreaAndForce) {
 }
 
 TEST(PressureSvg, OnePanelACaseAndWellFormed) {
-  const std::string svg = io::pressure_svg(testing::sample_run());
+  const std::string svg = pictures::pressure_svg(testing::sample_run());
   const testing::XmlElement root = testing::read_xml(svg);
   EXPECT_EQ(root.name, "svg");
   EXPECT_EQ(root.find("g", "class", "panel").size(), 4u);
@@ -123,23 +123,23 @@ TEST(PressureSvg, WheelsetsThatDifferInTheirPlaceOnlyAreToldApartByIt) {
   run.cases[0].has_wheelset = run.cases[1].has_wheelset = true;
   run.cases[1].s = run.cases[0].s - 30.5e-3;
   const std::string shown = fmt::format(">s {:.4g} mm<", 1e3 * run.cases[1].s);
-  EXPECT_NE(io::pressure_svg(run).find(shown), std::string::npos);
+  EXPECT_NE(pictures::pressure_svg(run).find(shown), std::string::npos);
   run.cases[1].pitch += 0.1;
-  EXPECT_EQ(io::pressure_svg(run).find(shown), std::string::npos);
+  EXPECT_EQ(pictures::pressure_svg(run).find(shown), std::string::npos);
 }
 
 TEST(PressureSvg, TheFilledBaseCoversTheElementsInContact) {
   io::RunResult run;
   run.cases.emplace_back();
   run.cases[0].patches.push_back(testing::ball_patch(40, 36, 1e9));
-  const testing::XmlElement root = testing::read_xml(io::pressure_svg(run));
-  const auto base = root.find("path", "fill", io::step_colour(0));
+  const testing::XmlElement root = testing::read_xml(pictures::pressure_svg(run));
+  const auto base = root.find("path", "fill", pictures::step_colour(0, pictures::kPatchSteps));
   ASSERT_EQ(base.size(), 1u);
   EXPECT_EQ(path_area(base[0]->attributes.at("d")), run.cases[0].patches[0].ncon);
   // Steps of equal pressure, darkest to lightest, each inside the one before.
   double before = run.cases[0].patches[0].ncon + 1.0;
-  for (int step = 0; step < io::kPressureSteps; ++step) {
-    const auto layer = root.find("path", "fill", io::step_colour(step));
+  for (std::size_t step = 0; step < pictures::kPatchSteps; ++step) {
+    const auto layer = root.find("path", "fill", pictures::step_colour(step, pictures::kPatchSteps));
     ASSERT_EQ(layer.size(), 1u);
     const double area = path_area(layer[0]->attributes.at("d"));
     EXPECT_LE(area, before);
@@ -153,21 +153,21 @@ TEST(PressureSvg, ThirteenCasesStaySmall) {
     run.cases.emplace_back();
     run.cases.back().patches.push_back(testing::ball_patch(60 + i, 60, 1e9));
   }
-  EXPECT_LT(io::pressure_svg(run).size(), 300000u);
+  EXPECT_LT(pictures::pressure_svg(run).size(), 300000u);
 }
 
 TEST(PressureSvg, AnEmptyRunAndMissingFieldsStillGiveAPicture) {
-  EXPECT_NO_THROW(testing::read_xml(io::pressure_svg({})));
+  EXPECT_NO_THROW(testing::read_xml(pictures::pressure_svg({})));
   io::RunResult run;
   run.cases.emplace_back();
   run.cases[0].patches.emplace_back();
-  EXPECT_NE(io::pressure_svg(run).find("no fields"), std::string::npos);
+  EXPECT_NE(pictures::pressure_svg(run).find("no fields"), std::string::npos);
 }
 
 TEST(PressureSvg, RefusesFieldsThatDoNotMatchTheirGrid) {
   io::RunResult run = testing::sample_run();
   run.cases[0].patches[0].fields.pressure.pop_back();
-  EXPECT_THROW(io::pressure_svg(run), Error);
+  EXPECT_THROW(pictures::pressure_svg(run), Error);
 }
 
 }  // namespace

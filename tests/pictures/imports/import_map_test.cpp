@@ -14,13 +14,14 @@ namespace treadmark {
 namespace {
 
 constexpr float kNan = std::numeric_limits<float>::quiet_NaN();
-constexpr auto kClear = static_cast<std::uint8_t>(io::kMapColours);
+constexpr auto kClear = static_cast<std::uint8_t>(pictures::kImageSteps);
 
 TEST(ImportMap, RunsToTheRightAndUp) {
   const io::BandMap map{3, 2, 0.0, 0.3, 0.0, 0.1, {0.0f, 1.0f, 2.0f, 3.0f, 4.0f, kNan}};
-  io::MapColours colours;
+  pictures::ColourScale colours;
   colours.high = 4.0;
-  const io::PaletteImage image = io::map_image(map, colours, io::PixelRule::any, 100, 100);
+  const pictures::PaletteImage image =
+      pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 100, 100);
   ASSERT_EQ(image.width, 3u);
   ASSERT_EQ(image.height, 2u);
   const std::vector<std::uint8_t> wanted{16, 48, kClear, 0, 32, 63};  // 64 steps from 0 to 4
@@ -32,9 +33,10 @@ TEST(ImportMap, RunsToTheRightAndUp) {
 TEST(ImportMap, FineMapsAreAveraged) {
   io::BandMap map{7, 5, 0.0, 0.7, 0.0, 0.5, {}};
   for (int i = 0; i < 35; ++i) map.value.push_back(i % 4 == 1 ? kNan : static_cast<float>(i % 11));
-  io::MapColours colours;
+  pictures::ColourScale colours;
   colours.high = 11.0;
-  const io::PaletteImage image = io::map_image(map, colours, io::PixelRule::any, 3, 2);
+  const pictures::PaletteImage image =
+      pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 3, 2);
   ASSERT_EQ(image.index.size(), 6u);
   const std::size_t rows[4] = {0, 2, 4, 7}, columns[3] = {0, 2, 5};
   for (std::size_t j = 0; j < 2; ++j)
@@ -50,23 +52,24 @@ TEST(ImportMap, FineMapsAreAveraged) {
 
 TEST(ImportMap, APixelOfTheSurfaceNeedsHalfOfItsCells) {
   const io::BandMap map{4, 1, 0.0, 0.4, 0.0, 0.1, {1.0f, kNan, kNan, kNan}};
-  io::MapColours colours;
-  const io::PaletteImage two = io::map_image(map, colours, io::PixelRule::half, 2, 1);
+  pictures::ColourScale colours;
+  const pictures::PaletteImage two =
+      pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::half, 2, 1);
   EXPECT_EQ(two.index, (std::vector<std::uint8_t>{63, kClear}));
-  EXPECT_EQ(io::map_image(map, colours, io::PixelRule::half, 1, 1).index[0], kClear);
-  EXPECT_EQ(io::map_image(map, colours, io::PixelRule::any, 1, 1).index[0], 63);
+  EXPECT_EQ(pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::half, 1, 1).index[0], kClear);
+  EXPECT_EQ(pictures::map_image(pictures::raster_of(map), colours, pictures::PixelRule::any, 1, 1).index[0], 63);
 }
 
 TEST(ImportMap, ColoursSayWhatLiesBeyondThem) {
   io::BandMap map{100, 50, 0.0, 1.0, 0.0, 0.1, {}};
   for (int i = 0; i < 5000; ++i) map.value.push_back(static_cast<float>(1e-4 * std::sin(i)));
-  io::MapColours colours = io::diverging_colours(map);
+  pictures::ColourScale colours = pictures::diverging_colours(map);
   EXPECT_EQ(colours.unit, "\u00b5m");
   EXPECT_NEAR(colours.high, 100.0, 1e-9);
   EXPECT_EQ(colours.low, -colours.high);
   EXPECT_FALSE(colours.below || colours.above);
   map.value[7] = -1.0f;  // one spike does not pale all others
-  colours = io::diverging_colours(map);
+  colours = pictures::diverging_colours(map);
   EXPECT_NEAR(colours.high, 100.0, 1e-9);
   EXPECT_TRUE(colours.below);
   EXPECT_FALSE(colours.above);
@@ -74,24 +77,26 @@ TEST(ImportMap, ColoursSayWhatLiesBeyondThem) {
 
 TEST(ImportMap, DivergingColoursDarkenEvenlyToBothSides) {
   const auto light = [](double part) {  // relative luminance without gamma
-    const auto c = io::map_colour(part, io::Palette::diverging);
+    const auto c = pictures::map_colour(part, pictures::Palette::diverging);
     return 0.2126 * c[0] + 0.7152 * c[1] + 0.0722 * c[2];
   };
   for (int i = 0; i < 32; ++i) {
     EXPECT_LT(light(i / 64.0), light((i + 1) / 64.0));
     EXPECT_LT(light(1.0 - i / 64.0), light(1.0 - (i + 1) / 64.0));
   }
-  EXPECT_EQ(io::map_colour(0.5, io::Palette::diverging), io::map_colour(0.0, io::Palette::from_white));
-  EXPECT_EQ(io::map_colour(std::nan(""), io::Palette::diverging), io::map_colour(0.5, io::Palette::diverging));
+  EXPECT_EQ(pictures::map_colour(0.5, pictures::Palette::diverging),
+            pictures::map_colour(0.0, pictures::Palette::from_white));
+  EXPECT_EQ(pictures::map_colour(std::nan(""), pictures::Palette::diverging),
+            pictures::map_colour(0.5, pictures::Palette::diverging));
 }
 
 TEST(ImportMap, LimitsAreRound) {
-  EXPECT_NEAR(io::round_limit(0.85), 1.0, 1e-12);
-  EXPECT_NEAR(io::round_limit(1.0), 1.0, 1e-12);
-  EXPECT_NEAR(io::round_limit(111.0), 120.0, 1e-9);
-  EXPECT_NEAR(io::round_limit(0.0021), 0.0025, 1e-12);
-  EXPECT_EQ(io::round_limit(0.0), 1.0);
-  EXPECT_EQ(io::round_limit(std::nan("")), 1.0);
+  EXPECT_NEAR(pictures::round_limit(0.85), 1.0, 1e-12);
+  EXPECT_NEAR(pictures::round_limit(1.0), 1.0, 1e-12);
+  EXPECT_NEAR(pictures::round_limit(111.0), 120.0, 1e-9);
+  EXPECT_NEAR(pictures::round_limit(0.0021), 0.0025, 1e-12);
+  EXPECT_EQ(pictures::round_limit(0.0), 1.0);
+  EXPECT_EQ(pictures::round_limit(std::nan("")), 1.0);
 }
 
 TEST(ImportSection, DeviationIsPositiveOutOfTheMaterial) {
@@ -105,21 +110,22 @@ TEST(ImportSection, DeviationIsPositiveOutOfTheMaterial) {
   for (const bool turned : {false, true}) {
     io::SectionPoints nominal = rail;
     if (turned) std::reverse(nominal.begin(), nominal.end());
-    const std::vector<Vec2> found = io::deviation_from_nominal(high, nominal, Body::rail);
+    const std::vector<Vec2> found = pictures::deviation_from_nominal(high, nominal, Body::rail);
     ASSERT_GE(found.size(), 19u);
     for (const Vec2& p : found) EXPECT_NEAR(p.y(), normal, 1e-12);
-    for (const Vec2& p : io::deviation_from_nominal(high, nominal, Body::wheel)) EXPECT_NEAR(p.y(), -normal, 1e-12);
+    for (const Vec2& p : pictures::deviation_from_nominal(high, nominal, Body::wheel))
+      EXPECT_NEAR(p.y(), -normal, 1e-12);
   }
-  EXPECT_TRUE(io::deviation_from_nominal(high, {}, Body::rail).empty());
+  EXPECT_TRUE(pictures::deviation_from_nominal(high, {}, Body::rail).empty());
 }
 
 TEST(ImportSection, PlacesAlongTheSectionFollowItsArc) {
   const io::SectionPoints bend{{0.06, 0.0}, {0.02, 0.0}, {0.0, 0.02}};  // runs with decreasing y
   const double bevel = std::sqrt(8.0) * 0.01;
-  EXPECT_NEAR(io::s_of_y(bend, 0.0, 0.04 + bevel, 0.03), 0.03, 1e-15);
-  EXPECT_NEAR(io::s_of_y(bend, 1.0, 1.04 + bevel, 0.01), 1.04 + 0.5 * bevel, 1e-12);
-  EXPECT_TRUE(std::isnan(io::s_of_y(bend, 0.0, 1.0, 0.1)));
-  EXPECT_TRUE(std::isnan(io::s_of_y({}, 0.0, 1.0, 0.0)));
+  EXPECT_NEAR(pictures::s_of_y(bend, 0.0, 0.04 + bevel, 0.03), 0.03, 1e-15);
+  EXPECT_NEAR(pictures::s_of_y(bend, 1.0, 1.04 + bevel, 0.01), 1.04 + 0.5 * bevel, 1e-12);
+  EXPECT_TRUE(std::isnan(pictures::s_of_y(bend, 0.0, 1.0, 0.1)));
+  EXPECT_TRUE(std::isnan(pictures::s_of_y({}, 0.0, 1.0, 0.0)));
 }
 
 }  // namespace

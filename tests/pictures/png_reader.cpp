@@ -1,6 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/tests/io/imports/png_reader.hpp"
+#include "treadmark/tests/pictures/png_reader.hpp"
 
 #include <zlib.h>
 

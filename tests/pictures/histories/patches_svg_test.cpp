@@ -10,6 +10,7 @@
 #include <sstream>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/pictures/outline.hpp"
 #include "treadmark/tests/io/histories/sample_history.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
@@ -29,7 +30,7 @@ struct Field {
 
 TEST(ContourLines, ACircleClosesAndHasItsRadius) {
   const Field cone([](double x, double y) { return std::hypot(x, y); });
-  const auto lines = io::contour_lines(cone.grid, cone.values, 5e-3);
+  const auto lines = pictures::contour_lines(cone.grid, cone.values, 5e-3);
   ASSERT_EQ(lines.size(), 1u);
   EXPECT_EQ(lines[0].front(), lines[0].back());
   double area = 0.0;
@@ -43,7 +44,7 @@ TEST(ContourLines, ACircleClosesAndHasItsRadius) {
 
 TEST(ContourLines, APlaneGivesItsStraightLineFromRimToRim) {
   const Field plane([](double x, double y) { return 2.0 * x + 3.0 * y; });
-  const auto lines = io::contour_lines(plane.grid, plane.values, 1.3e-3);
+  const auto lines = pictures::contour_lines(plane.grid, plane.values, 1.3e-3);
   ASSERT_EQ(lines.size(), 1u);
   for (const auto& [x, y] : lines[0]) EXPECT_NEAR(2.0 * x + 3.0 * y, 1.3e-3, 1e-12);
   const auto on_rim = [&](const std::array<double, 2>& p) {
@@ -59,12 +60,12 @@ TEST(ContourLines, APlaneGivesItsStraightLineFromRimToRim) {
 
 TEST(ContourLines, SaddlesHolesAndWrongSizes) {
   const Grid2 cell{0, 0, 1, 1, 2, 2};
-  EXPECT_EQ(io::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.4).size(), 2u);
-  EXPECT_EQ(io::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.6).size(), 2u);
-  EXPECT_TRUE(
-      io::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5).empty());
-  EXPECT_TRUE(io::contour_lines(cell, std::vector<double>{1, 1, 1, 1}, 1.0).empty());
-  EXPECT_THROW(io::contour_lines(cell, std::vector<double>{1, 0, 0}, 0.5), Error);
+  EXPECT_EQ(pictures::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.4).size(), 2u);
+  EXPECT_EQ(pictures::contour_lines(cell, std::vector<double>{1, 0, 0, 1}, 0.6).size(), 2u);
+  EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 0, std::numeric_limits<double>::quiet_NaN(), 1}, 0.5)
+                  .empty());
+  EXPECT_TRUE(pictures::contour_lines(cell, std::vector<double>{1, 1, 1, 1}, 1.0).empty());
+  EXPECT_THROW(pictures::contour_lines(cell, std::vector<double>{1, 0, 0}, 0.5), Error);
 }
 
 class PatchesSvg : public ::testing::Test {
@@ -95,13 +96,13 @@ class PatchesSvg : public ::testing::Test {
   std::vector<io::CaseResult> cases_;
   Grid2 grid_;
   std::vector<double> depth_;
-  std::vector<io::PatchesPanel> panels_;
+  std::vector<pictures::PatchesPanel> panels_;
 };
 
 TEST_F(PatchesSvg, TheRollingDirectionIsUpwards) {
-  const io::PatchesView view = io::make_patches_view(panels_);
-  const io::PatchPicture plain = io::make_patch_picture(cases_[1].patches[0].fields);
-  const io::PatchPicture& turned = view.contact[1].at(0);
+  const pictures::PatchesView view = pictures::make_patches_view(panels_);
+  const pictures::PatchPicture plain = pictures::make_patch_picture(cases_[1].patches[0].fields);
+  const pictures::PatchPicture& turned = view.contact[1].at(0);
   EXPECT_EQ(turned.nx, plain.ny);
   EXPECT_EQ(turned.ny, plain.nx);
   EXPECT_NEAR(turned.y_low, plain.x_low - 10e3, 1e-9);
@@ -110,17 +111,17 @@ TEST_F(PatchesSvg, TheRollingDirectionIsUpwards) {
     for (int iy = 0; iy < plain.ny; ++iy) {
       const auto from = static_cast<std::size_t>(ix + plain.nx * iy),
                  to = static_cast<std::size_t>(iy + turned.nx * ix);
-      EXPECT_EQ(turned.pressure[to], plain.pressure[from]);
+      EXPECT_EQ(turned.values[to], plain.values[from]);
       EXPECT_EQ(turned.adhesion[to], plain.adhesion[from]);
     }
-  EXPECT_EQ(view.top_pressure, *std::max_element(plain.pressure.begin(), plain.pressure.end()));
+  EXPECT_EQ(view.top_pressure, *std::max_element(plain.values.begin(), plain.values.end()));
   EXPECT_LT(view.window.y_low, -4.0);
   EXPECT_GT(view.window.y_high, 8.0);
 }
 
 TEST_F(PatchesSvg, PanelsHaveTheirPartsAndTitles) {
   panels_[2].title = "at the \"end\" <";
-  const std::string svg = io::patches_svg(panels_, "flat & rail");
+  const std::string svg = pictures::patches_svg(panels_, "flat & rail");
   const testing::XmlElement root = testing::read_xml(svg);
   const auto panels = root.find("g", "class", "panel");
   ASSERT_EQ(panels.size(), 3u);
@@ -155,20 +156,20 @@ std::array<double, 4> extent(const std::string& path) {
 }
 
 TEST_F(PatchesSvg, ContactMovesUpWhileTheRoundWheelStays) {
-  const testing::XmlElement root = testing::read_xml(io::patches_svg(panels_, ""));
+  const testing::XmlElement root = testing::read_xml(pictures::patches_svg(panels_, ""));
   const auto panels = root.find("g", "class", "panel");
   const auto of = [&](std::size_t panel, const char* name) {
     return extent(panels[panel]->find("path", "class", name).at(0)->attributes.at("d"));
   };
   EXPECT_EQ(of(0, "round"), of(2, "round"));
-  const io::PatchesView view = io::make_patches_view(panels_);
+  const pictures::PatchesView view = pictures::make_patches_view(panels_);
   const double scale = 230.0 / std::max(view.window.width(), view.window.height());
   EXPECT_NEAR(of(0, "contact")[2] - of(2, "contact")[2], 4.0 * scale, 0.15);  // 4 mm upwards
   EXPECT_NEAR(of(0, "contact")[0], of(2, "contact")[0], 0.15);
 }
 
 TEST_F(PatchesSvg, TheTableHoldsThePlottedNumbers) {
-  const auto lines = testing::read_lines(io::patches_csv(panels_));
+  const auto lines = testing::read_lines(pictures::patches_csv(panels_));
   EXPECT_EQ(lines[0], "panel,pitch_rad,kind,x_m,y_m,value");
   double force = 0.0, deepest = 0.0;
   for (const std::string& line : lines) {
@@ -185,18 +186,18 @@ TEST_F(PatchesSvg, TheTableHoldsThePlottedNumbers) {
 
 TEST_F(PatchesSvg, RefusesWrongSizesAndShowsEmptyPanels) {
   panels_[1].depth.pop_back();
-  EXPECT_THROW(io::patches_svg(panels_, ""), Error);
-  EXPECT_THROW(io::patches_csv(panels_), Error);
+  EXPECT_THROW(pictures::patches_svg(panels_, ""), Error);
+  EXPECT_THROW(pictures::patches_csv(panels_), Error);
   panels_[1].depth.clear();
-  EXPECT_NO_THROW(testing::read_xml(io::patches_svg(panels_, "")));
+  EXPECT_NO_THROW(testing::read_xml(pictures::patches_svg(panels_, "")));
   cases_[1].patches[0].fields.pressure.pop_back();
-  EXPECT_THROW(io::patches_svg(panels_, ""), Error);
+  EXPECT_THROW(pictures::patches_svg(panels_, ""), Error);
   cases_[1].patches.clear();
   cases_[1].status = Status::no_contact;
-  EXPECT_NE(io::patches_svg(panels_, "").find(">no contact<"), std::string::npos);
+  EXPECT_NE(pictures::patches_svg(panels_, "").find(">no contact<"), std::string::npos);
   panels_[1].result = nullptr;
-  EXPECT_THROW(io::patches_svg(panels_, ""), Error);
-  EXPECT_NO_THROW(testing::read_xml(io::patches_svg({}, "nothing")));
+  EXPECT_THROW(pictures::patches_svg(panels_, ""), Error);
+  EXPECT_NO_THROW(testing::read_xml(pictures::patches_svg({}, "nothing")));
 }
 
 }  // namespace

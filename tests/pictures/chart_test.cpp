@@ -7,9 +7,7 @@
 #include <map>
 #include <regex>
 
-#include "treadmark/pictures/chart_axis.hpp"
-#include "treadmark/pictures/chart_draw.hpp"
-#include "treadmark/pictures/chart_marks.hpp"
+#include "treadmark/pictures/chart.hpp"
 #include "treadmark/pictures/svg_text.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
 
@@ -23,17 +21,17 @@ constexpr double kChartRounding = 1e-9;
 TEST(ChartAxis, EveryTickLiesWhereItsNumberBelongs) {
   const std::vector<std::vector<double>> data{{0.03, 4.2},   {17.0},    {1e-4, 1e4}, {3.0, 3.1},
                                               {1e-30, 1e30}, {-5.0, 8}, {1e6, 3e6},  {0.0}};
-  for (const io::AxisScale scale : {io::AxisScale::linear, io::AxisScale::log})
+  for (const pictures::AxisScale scale : {pictures::AxisScale::linear, pictures::AxisScale::log})
     for (const auto& values : data) {
-      const io::ChartAxis axis(scale, values);
+      const pictures::ChartAxis axis(scale, values);
       int labelled = 0;
-      for (const io::AxisTick& tick : axis.ticks()) {
+      for (const pictures::AxisTick& tick : axis.ticks()) {
         EXPECT_GE(tick.at, 0.0);
         EXPECT_LE(tick.at, 1.0);
         if (tick.label.empty()) continue;
         ++labelled;
         const double value = std::stod(tick.label);
-        const double at = scale == io::AxisScale::log
+        const double at = scale == pictures::AxisScale::log
                               ? std::log(value / axis.low()) / std::log(axis.high() / axis.low())
                               : (value - axis.low()) / (axis.high() - axis.low());
         EXPECT_NEAR(tick.at, at, kChartRounding) << tick.label;
@@ -41,16 +39,16 @@ TEST(ChartAxis, EveryTickLiesWhereItsNumberBelongs) {
       EXPECT_GE(labelled, 2);
       EXPECT_LE(labelled, 12);
       for (const double value : values)
-        EXPECT_EQ(axis.place(value).has_value(), scale == io::AxisScale::linear || value > 0.0) << value;
+        EXPECT_EQ(axis.place(value).has_value(), scale == pictures::AxisScale::linear || value > 0.0) << value;
     }
 }
 
 TEST(ChartAxis, NumbersAreInOrderAndDifferent) {
   for (const double high : {1.2, 3.0, 9.0, 50.0, 4e3, 1e7, 1e40}) {
     const std::vector<double> values{1.0, high};
-    for (const io::AxisScale scale : {io::AxisScale::linear, io::AxisScale::log}) {
+    for (const pictures::AxisScale scale : {pictures::AxisScale::linear, pictures::AxisScale::log}) {
       double before = -1.0;
-      for (const io::AxisTick& tick : io::ChartAxis(scale, values).ticks()) {
+      for (const pictures::AxisTick& tick : pictures::ChartAxis(scale, values).ticks()) {
         EXPECT_GT(tick.at, before);
         before = tick.at;
       }
@@ -60,7 +58,7 @@ TEST(ChartAxis, NumbersAreInOrderAndDifferent) {
 
 TEST(ChartAxis, AFloorHoldsZeroAndSmallValues) {
   const std::vector<double> values{0.0, 1e-9, 5.0};
-  const io::ChartAxis axis(io::AxisScale::log, values, 1e-3);
+  const pictures::ChartAxis axis(pictures::AxisScale::log, values, 1e-3);
   EXPECT_EQ(axis.place(0.0), axis.place(1e-3));
   EXPECT_EQ(axis.place(1e-9), axis.place(1e-3));
   EXPECT_TRUE(axis.at_floor(0.0));
@@ -69,15 +67,15 @@ TEST(ChartAxis, AFloorHoldsZeroAndSmallValues) {
   EXPECT_LT(axis.low(), 1e-3);
   // Ticks below the floor stay where they are.
   std::map<double, int> count;
-  for (const io::AxisTick& tick : axis.ticks()) EXPECT_EQ(++count[tick.at], 1);
+  for (const pictures::AxisTick& tick : axis.ticks()) EXPECT_EQ(++count[tick.at], 1);
 }
 
 TEST(ChartAxis, SurvivesWhatCannotBeShown) {
   const std::vector<std::vector<double>> data{{},          {kChartNan},     {kChartInfinity, -kChartInfinity},
                                               {0.0, -3.0}, {1e308, 1e-320}, {1e300, 1e-300}};
-  for (const io::AxisScale scale : {io::AxisScale::linear, io::AxisScale::log})
+  for (const pictures::AxisScale scale : {pictures::AxisScale::linear, pictures::AxisScale::log})
     for (const auto& values : data) {
-      const io::ChartAxis axis(scale, values);
+      const pictures::ChartAxis axis(scale, values);
       EXPECT_LT(axis.low(), axis.high());
       EXPECT_TRUE(std::isfinite(axis.low()) && std::isfinite(axis.high()));
       EXPECT_LE(axis.ticks().size(), 100u);
@@ -89,7 +87,7 @@ TEST(ChartAxis, SurvivesWhatCannotBeShown) {
 
 TEST(ChartMarker, EveryShapeHasTheAreaOfTheCircle) {
   for (int style = 0; style < 8; ++style) {
-    const auto corners = io::chart_marker_corners(style, 3.0);
+    const auto corners = pictures::chart_marker_corners(style, 3.0);
     double area = 0.0;
     for (std::size_t i = 0; i < corners.size(); ++i) {
       const auto &a = corners[i], &b = corners[(i + 1) % corners.size()];
@@ -102,31 +100,32 @@ TEST(ChartMarker, EveryShapeHasTheAreaOfTheCircle) {
 TEST(ChartMarker, StylesDifferInColourAndShape) {
   std::map<std::string, int> seen;
   for (int style = 0; style < 56; ++style)
-    EXPECT_EQ(++seen[std::string(io::chart_colour(style)) + io::chart_marker_path(style, 0, 0, 4)], 1) << style;
-  EXPECT_EQ(io::chart_colour(56), io::chart_colour(0));
+    EXPECT_EQ(++seen[std::string(pictures::chart_colour(style)) + pictures::chart_marker_path(style, 0, 0, 4)], 1)
+        << style;
+  EXPECT_EQ(pictures::chart_colour(56), pictures::chart_colour(0));
 }
 
 TEST(ChartLabels, AvoidEachOtherAndTheMarkers) {
-  const io::ChartBox box{0, 0, 500, 400};
-  std::vector<io::LabelPoint> points;
+  const pictures::Box box{0, 0, 500, 400};
+  std::vector<pictures::LabelPoint> points;
   for (int i = 0; i < 12; ++i)  // a crowd on a diagonal, and points on the frame
     points.push_back({60.0 + 18.0 * i, 200.0 + 9.0 * i, 5.0, "candidate " + std::to_string(i)});
   points.push_back({500, 0, 5, "corner"});
   points.push_back({0, 400, 5, "corner"});
   const double font = 11.0;
-  const auto places = io::place_labels(points, box, font);
+  const auto places = pictures::place_labels(points, box, font);
   ASSERT_EQ(places.size(), points.size());
   const auto overlap = [](double a_low, double a_high, double b_low, double b_high) {
     return std::min(a_high, b_high) - std::max(a_low, b_low) > 1e-6;
   };
   int hits = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const double x = places[i].x, y = places[i].y, width = io::text_width(points[i].text, font);
+    const double x = places[i][0], y = places[i][1], width = pictures::text_width(points[i].text, font);
     EXPECT_GE(x, -6.0);
     EXPECT_LE(x + width, 506.0);
     for (std::size_t k = 0; k < i; ++k)
-      hits += overlap(x, x + width, places[k].x, places[k].x + io::text_width(points[k].text, font)) &&
-              overlap(y - font, y, places[k].y - font, places[k].y);
+      hits += overlap(x, x + width, places[k][0], places[k][0] + pictures::text_width(points[k].text, font)) &&
+              overlap(y - font, y, places[k][1] - font, places[k][1]);
   }
   EXPECT_EQ(hits, 0);
 }
@@ -139,15 +138,15 @@ double read_axis(const std::map<double, double>& pixel_of_value, double pixel) {
 }
 
 TEST(ChartDraw, MarkersCanBeReadOffTheAxes) {
-  io::Chart chart;
+  pictures::Chart chart;
   chart.title = "a <title> & more";
-  chart.x_scale = chart.y_scale = io::AxisScale::log;
-  io::ChartSeries series;
+  chart.x_scale = chart.y_scale = pictures::AxisScale::log;
+  pictures::ChartSeries series;
   series.name = "one";
   const std::vector<std::pair<double, double>> values{
       {0.25, 0.013}, {0.5, 0.4}, {1.0, kChartNan}, {2.0, 33.0}, {4.0, 41.0}};
   for (const auto& [x, y] : values) {
-    io::ChartPoint point;
+    pictures::ChartPoint point;
     point.x = x;
     point.y = y;
     point.details = "d<";
@@ -155,8 +154,8 @@ TEST(ChartDraw, MarkersCanBeReadOffTheAxes) {
   }
   series.levels = {3.0, -1.0};
   chart.series = {series};
-  const io::ChartBox box{70, 40, 300, 200};
-  const testing::XmlElement root = testing::read_xml("<svg>" + io::draw_chart(chart, box) + "</svg>");
+  const pictures::Box box{70, 40, 300, 200};
+  const testing::XmlElement root = testing::read_xml("<svg>" + pictures::draw_chart(chart, box) + "</svg>");
 
   std::map<double, double> x_axis, y_axis;
   for (const auto* text : root.find("text")) {
@@ -191,17 +190,17 @@ TEST(ChartDraw, MarkersCanBeReadOffTheAxes) {
 }
 
 TEST(ChartDraw, SaysWhenThereIsNothing) {
-  EXPECT_NE(io::draw_chart({}, {0, 0, 100, 100}).find("no values"), std::string::npos);
+  EXPECT_NE(pictures::draw_chart({}, {0, 0, 100, 100}).find("no values"), std::string::npos);
 }
 
 TEST(SvgText, KeepsOnlyWhatXmlAllows) {
-  EXPECT_EQ(io::xml_text("a<b>&c"), "a&lt;b&gt;&amp;c");
-  EXPECT_EQ(io::xml_text("µm € 𝛿"), "µm € 𝛿");
-  EXPECT_EQ(io::xml_text("a\x01\n\x7f"), "a   ");
-  EXPECT_EQ(io::xml_text("caf\xe9"), "caf?");
-  EXPECT_EQ(io::xml_text("\xed\xa0\x80"), "???");  // half of a surrogate pair
-  EXPECT_EQ(io::xml_text("\xc0\xaf"), "??");       // longer than needed
-  EXPECT_EQ(io::xml_text("\xef\xbf\xbf"), "?");    // U+FFFF
+  EXPECT_EQ(pictures::xml_text("a<b>&c"), "a&lt;b&gt;&amp;c");
+  EXPECT_EQ(pictures::xml_text("µm € 𝛿"), "µm € 𝛿");
+  EXPECT_EQ(pictures::xml_text("a\x01\n\x7f"), "a   ");
+  EXPECT_EQ(pictures::xml_text("caf\xe9"), "caf?");
+  EXPECT_EQ(pictures::xml_text("\xed\xa0\x80"), "???");  // half of a surrogate pair
+  EXPECT_EQ(pictures::xml_text("\xc0\xaf"), "??");       // longer than needed
+  EXPECT_EQ(pictures::xml_text("\xef\xbf\xbf"), "?");    // U+FFFF
 }
 
 }  // namespace

@@ -9,9 +9,9 @@
 #include <set>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/pictures/chart_marks.hpp"
+#include "treadmark/pictures/chart.hpp"
 #include "treadmark/pictures/comparison_cases.hpp"
-#include "treadmark/pictures/picture_patch.hpp"
+#include "treadmark/pictures/patch_picture.hpp"
 #include "treadmark/tests/io/results/comparison_sample.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
 #include "treadmark/tests/io/results/xml_reader.hpp"
@@ -37,7 +37,7 @@ bool says(const testing::XmlElement& root, const std::string& words) {
 std::size_t count_marks(const testing::XmlElement& root, int style) {
   std::size_t count = 0;
   for (const auto* mark : root.find("path", "class", "mark"))
-    count += mark->attributes.at("stroke") == io::chart_colour(style);
+    count += mark->attributes.at("stroke") == pictures::chart_colour(style);
   return count;
 }
 
@@ -51,17 +51,17 @@ TEST(TellingCases, TheFirstAndThoseWithTheWidestSpread) {
     comparison.candidates[2].rows.push_back(testing::sample_row(10 + i, second[static_cast<std::size_t>(i)]));
   }
   // Spreads with the truth's zero: 0, 0.3, 0.25, 0, 0.35.
-  EXPECT_EQ(io::telling_cases(comparison, 3), (std::vector<int>{10, 11, 14}));
-  EXPECT_EQ(io::telling_cases(comparison, 4), (std::vector<int>{10, 11, 12, 14}));
-  EXPECT_EQ(io::telling_cases(comparison, 9).size(), 5u);
-  EXPECT_TRUE(io::telling_cases({}, 3).empty());
+  EXPECT_EQ(pictures::telling_cases(comparison, 3), (std::vector<int>{10, 11, 14}));
+  EXPECT_EQ(pictures::telling_cases(comparison, 4), (std::vector<int>{10, 11, 12, 14}));
+  EXPECT_EQ(pictures::telling_cases(comparison, 9).size(), 5u);
+  EXPECT_TRUE(pictures::telling_cases({}, 3).empty());
   for (auto& candidate : comparison.candidates)
     for (auto& row : candidate.rows) row.comparable = false;
-  EXPECT_EQ(io::telling_cases(comparison, 3), (std::vector<int>{10, 11, 12}));  // all equal: the earlier ones
+  EXPECT_EQ(pictures::telling_cases(comparison, 3), (std::vector<int>{10, 11, 12}));  // all equal: the earlier ones
 }
 
 TEST(PressuresSvg, APanelACandidateAndCase) {
-  const testing::XmlElement root = testing::read_xml(io::pressures_svg(testing::sample_comparison()));
+  const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(testing::sample_comparison()));
   EXPECT_EQ(root.find("g", "class", "panel").size(), 15u);  // five candidates, three of the four cases
   for (const char* words : {"analytic (truth)", "mesh 1 mm", "mesh 0.5 mm", "spline", "vdb 1 mm", "failed", "1000 MPa",
                             "1100 MPa, +10.0 %", "960 MPa, -20.0 %", "1200 MPa, 0.00 %"})
@@ -143,7 +143,7 @@ using Table = std::vector<std::vector<std::string>>;
 
 TEST(PressuresSvg, AColumnABackendAndARowAResolutionFromCoarseToFine) {
   const testing::XmlElement root =
-      testing::read_xml(io::pressures_svg(sample_of({"mesh", "spline"}, {0.5e-3, 1e-3, 0.25e-3})));
+      testing::read_xml(pictures::pressures_svg(sample_of({"mesh", "spline"}, {0.5e-3, 1e-3, 0.25e-3})));
   const auto blocks = root.find("g", "class", "block");
   ASSERT_EQ(blocks.size(), 3u);
   for (const auto* block : blocks)
@@ -157,7 +157,7 @@ TEST(PressuresSvg, DataAsGivenStandInTheFirstRow) {
   io::Comparison comparison = testing::sample_comparison();
   comparison.candidates.push_back(comparison.candidates[1]);
   comparison.candidates.back().name = "spline";
-  const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+  const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
   EXPECT_EQ(
       table_of(seen_panels(*root.find("g", "class", "block").at(0))),
       (Table{{"analytic (truth)", "mesh 1 mm", "spline", "vdb 1 mm", "spline 1 mm"}, {"", "mesh 0.5 mm", "", "", ""}}));
@@ -166,14 +166,14 @@ TEST(PressuresSvg, DataAsGivenStandInTheFirstRow) {
 TEST(PressuresSvg, NamesOfTheTruthAndRepetitionsTakeNoOthersPlace) {
   // The truth is itself of a backend that is compared; one candidate appears twice.
   io::Comparison comparison = sample_of({"analytic", "mesh"}, {1e-3, 1e-3});
-  const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+  const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
   EXPECT_EQ(table_of(seen_panels(*root.find("g", "class", "block").at(0))),
             (Table{{"analytic (truth)", "analytic 1 mm", "analytic 1 mm", "mesh 1 mm", "mesh 1 mm"}}));
 }
 
 TEST(PressuresSvg, AllBackendsFitBesideEachOtherAndMoreAreSpreadEvenly) {
   const testing::XmlElement all =
-      testing::read_xml(io::pressures_svg(sample_of(kAllBackends, {1e-3, 0.5e-3, 0.25e-3})));
+      testing::read_xml(pictures::pressures_svg(sample_of(kAllBackends, {1e-3, 0.5e-3, 0.25e-3})));
   for (const auto* block : all.find("g", "class", "block")) {
     const Table table = table_of(seen_panels(*block));
     ASSERT_EQ(table.size(), 3u);
@@ -184,7 +184,7 @@ TEST(PressuresSvg, AllBackendsFitBesideEachOtherAndMoreAreSpreadEvenly) {
   std::vector<std::string> pairs;
   for (const char* wheel : {"mesh", "spline", "offset-quadratic"})
     for (const char* rail : {"mesh", "spline", "offset-quadratic"}) pairs.push_back(std::string(wheel) + "+" + rail);
-  const testing::XmlElement mixed = testing::read_xml(io::pressures_svg(sample_of(pairs, {0.5e-3})));
+  const testing::XmlElement mixed = testing::read_xml(pictures::pressures_svg(sample_of(pairs, {0.5e-3})));
   const Table table = table_of(seen_panels(*mixed.find("g", "class", "block").at(0)));
   EXPECT_EQ(table, (Table{{"analytic (truth)", "mesh+mesh 0.5 mm", "mesh+spline 0.5 mm", "mesh+offset-quadratic 0.5 mm",
                            "spline+mesh 0.5 mm"},
@@ -198,7 +198,7 @@ TEST(PressuresSvg, PanelsKeepApartAndInsideThePicture) {
          std::vector<std::vector<double>>{{1e-3}, {1e-3, 0.5e-3, 0.25e-3, 0.125e-3}}) {
       const io::Comparison comparison =
           sample_of({kAllBackends.begin(), kAllBackends.begin() + static_cast<std::ptrdiff_t>(count)}, resolutions);
-      const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+      const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
       const double width = std::stod(root.attributes.at("width")), height = std::stod(root.attributes.at("height"));
       std::vector<SeenPanel> panels;
       for (const auto* block : root.find("g", "class", "block"))
@@ -224,7 +224,8 @@ TEST(PressuresSvg, PanelsKeepApartAndInsideThePicture) {
 }
 
 TEST(PressuresSvg, NumbersOfYStandWhereNoPanelIsOnTheLeft) {
-  const testing::XmlElement root = testing::read_xml(io::pressures_svg(sample_of({"mesh", "spline"}, {1e-3, 0.5e-3})));
+  const testing::XmlElement root =
+      testing::read_xml(pictures::pressures_svg(sample_of({"mesh", "spline"}, {1e-3, 0.5e-3})));
   const auto panels = root.find("g", "class", "block").at(0)->find("g", "class", "panel");
   ASSERT_EQ(panels.size(), 5u);
   std::vector<bool> numbered;
@@ -241,18 +242,18 @@ TEST(PressuresSvg, ColoursAndWindowAreTheSameInACase) {
   }
   comparison.candidates[1].results[0].patches[0] = testing::ball_patch(20, 16, 0.5e9);  // half of the truth's
   comparison.candidates[1].results[0].patches[0].fields.X_TC.origin.x() = 2e-3;
-  const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+  const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
   const auto panels = root.find("g", "class", "panel");
   ASSERT_EQ(panels.size(), 2u);
   const auto steps = [](const testing::XmlElement& panel) {
-    int count = 0;
-    for (int step = 0; step < io::kPressureSteps; ++step)
-      count += !panel.find("path", "fill", io::step_colour(step)).empty();
+    std::size_t count = 0;
+    for (std::size_t step = 0; step < pictures::kPatchSteps; ++step)
+      count += !panel.find("path", "fill", pictures::step_colour(step, pictures::kPatchSteps)).empty();
     return count;
   };
-  EXPECT_EQ(steps(*panels[0]), io::kPressureSteps);
-  EXPECT_LE(steps(*panels[1]), io::kPressureSteps / 2 + 1);
-  EXPECT_GE(steps(*panels[1]), io::kPressureSteps / 2 - 1);
+  EXPECT_EQ(steps(*panels[0]), pictures::kPatchSteps);
+  EXPECT_LE(steps(*panels[1]), pictures::kPatchSteps / 2 + 1);
+  EXPECT_GE(steps(*panels[1]), pictures::kPatchSteps / 2 - 1);
   // The same ticks at the same places, and the same numbers of x.
   std::vector<std::string> ticks[2], numbers[2];
   for (int i = 0; i < 2; ++i) {
@@ -272,14 +273,14 @@ TEST(PressuresSvg, ShowsThePatchThatCarriesMost) {
   comparison.candidates.resize(1);
   auto& patches = comparison.candidates[0].results[0].patches;
   patches.insert(patches.begin(), testing::ball_patch(10, 10, 1e8));  // 100 cells of which some are in contact
-  const testing::XmlElement root = testing::read_xml(io::pressures_svg(comparison));
+  const testing::XmlElement root = testing::read_xml(pictures::pressures_svg(comparison));
   const testing::XmlElement alone = [] {
     io::Comparison one = testing::sample_comparison();
     one.candidates.resize(1);
-    return testing::read_xml(io::pressures_svg(one));
+    return testing::read_xml(pictures::pressures_svg(one));
   }();
   const auto base = [](const testing::XmlElement& picture) {
-    return picture.find("path", "fill", io::step_colour(0)).at(0)->attributes.at("d");
+    return picture.find("path", "fill", pictures::step_colour(0, pictures::kPatchSteps)).at(0)->attributes.at("d");
   };
   EXPECT_EQ(base(root), base(alone));
 }
@@ -287,11 +288,11 @@ TEST(PressuresSvg, ShowsThePatchThatCarriesMost) {
 TEST(PressuresSvg, RefusesFieldsThatDoNotMatchTheirGrid) {
   io::Comparison comparison = testing::sample_comparison();
   comparison.candidates[1].results[0].patches[0].fields.pressure.pop_back();
-  EXPECT_THROW(io::pressures_svg(comparison), Error);
+  EXPECT_THROW(pictures::pressures_svg(comparison), Error);
 }
 
 TEST(ErrorSvg, APointForEachResolutionAndALevelWithoutOne) {
-  const testing::XmlElement root = testing::read_xml(io::error_svg(testing::sample_comparison()));
+  const testing::XmlElement root = testing::read_xml(pictures::error_svg(testing::sample_comparison()));
   const auto charts = root.find("g", "class", "chart");
   ASSERT_EQ(charts.size(), 2u);
   // Styles go by the order of the names: analytic 0, mesh 1, spline 2, vdb 3. The truth is not shown.
@@ -323,7 +324,7 @@ double path_width(const std::string& path) {
 
 TEST(ErrorSvg, EqualSeriesShowBelowEachOther) {
   const testing::XmlElement root = testing::read_xml(
-      io::error_svg(sample_of({"spline", "nurbs", "mesh"}, {1e-3, 0.5e-3})));  // all with equal errors
+      pictures::error_svg(sample_of({"spline", "nurbs", "mesh"}, {1e-3, 0.5e-3})));  // all with equal errors
   const testing::XmlElement& chart = *root.find("g", "class", "chart").at(0);
   const auto lines = chart.find("path", "class", "line");
   ASSERT_EQ(lines.size(), 3u);
@@ -336,7 +337,7 @@ TEST(ErrorSvg, EqualSeriesShowBelowEachOther) {
   const auto marks = chart.find("path", "class", "mark");  // spline 1 to 3 in two places each
   ASSERT_EQ(marks.size(), 6u);
   const auto area_width = [&](std::size_t i) {
-    const auto corners = io::chart_marker_corners(static_cast<int>(i / 2) + 1, 1.0);
+    const auto corners = pictures::chart_marker_corners(static_cast<int>(i / 2) + 1, 1.0);
     double low = 0.0, high = 0.0;
     for (const auto& corner : corners) {
       low = std::min(low, corner[0]);
@@ -357,7 +358,7 @@ TEST(ErrorSvg, EqualSeriesShowBelowEachOther) {
 TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
   io::Comparison comparison = testing::sample_comparison();
   comparison.candidates[2].wheel.memory_bytes = 15000000;  // 16 MB against 4 MB: twice the width
-  const testing::XmlElement root = testing::read_xml(io::cost_svg(comparison));
+  const testing::XmlElement root = testing::read_xml(pictures::cost_svg(comparison));
   const auto marks = root.find("g", "class", "chart").at(0)->find("path", "class", "mark");
   ASSERT_EQ(marks.size(), 4u);
   for (const char* words :
@@ -374,7 +375,8 @@ TEST(CostSvg, AMarkACandidateAndTheRestInWords) {
 
 /// Every picture is well-formed and has no script and no number that is none.
 void expect_sound(const io::Comparison& comparison) {
-  for (const std::string& svg : {io::pressures_svg(comparison), io::error_svg(comparison), io::cost_svg(comparison)}) {
+  for (const std::string& svg :
+       {pictures::pressures_svg(comparison), pictures::error_svg(comparison), pictures::cost_svg(comparison)}) {
     const testing::XmlElement root = testing::read_xml(svg);
     EXPECT_EQ(root.name, "svg");
     EXPECT_TRUE(root.find("script").empty());
@@ -411,7 +413,7 @@ TEST(ComparisonPictures, AreSoundForEveryContent) {
   io::Comparison bare = sample;  // rows without fields
   for (auto& candidate : bare.candidates) candidate.results.clear();
   expect_sound(bare);
-  EXPECT_NE(io::pressures_svg(bare).find("no fields"), std::string::npos);
+  EXPECT_NE(pictures::pressures_svg(bare).find("no fields"), std::string::npos);
 }
 
 TEST(ComparisonPictures, AreSoundForEveryNumber) {
@@ -427,19 +429,6 @@ TEST(ComparisonPictures, AreSoundForEveryNumber) {
     for (double& pressure : comparison.candidates[1].results[0].patches[0].fields.pressure) pressure = value;
     expect_sound(comparison);
   }
-}
-
-TEST(ComparisonPictures, FilesAppearWhole) {
-  const testing::TemporaryFolder folder;
-  const io::Comparison comparison = testing::sample_comparison();
-  io::write_pressures_svg(folder.path() / "pressures.svg", comparison);
-  io::write_error_svg(folder.path() / "errors.svg", comparison);
-  io::write_cost_svg(folder.path() / "costs.svg", comparison);
-  EXPECT_EQ(folder.count_files(), 3u);
-  EXPECT_EQ(testing::read_text(folder.path() / "pressures.svg"), io::pressures_svg(comparison));
-  EXPECT_EQ(testing::read_text(folder.path() / "errors.svg"), io::error_svg(comparison));
-  EXPECT_EQ(testing::read_text(folder.path() / "costs.svg"), io::cost_svg(comparison));
-  EXPECT_THROW(io::write_cost_svg(folder.path(), comparison), Error);
 }
 
 }  // namespace

@@ -37,11 +37,11 @@ class SummarySvg : public ::testing::Test {
   }
 
   io::StudyResult study_;
-  io::SummaryChart chart_;
+  pictures::SummaryChart chart_;
 };
 
 TEST_F(SummarySvg, ALineForEachChoiceOfTheOtherKeys) {
-  const std::string svg = io::summary_svg(study_, chart_);
+  const std::string svg = pictures::summary_svg(study_, chart_);
   const testing::XmlElement root = testing::read_xml(svg);
   EXPECT_EQ(root.find("g", "class", "chart").at(0)->find("path", "class", "line").size(), 2u);
   EXPECT_EQ(root.find("g", "class", "chart").at(0)->find("path", "class", "level").size(), 1u);
@@ -52,7 +52,7 @@ TEST_F(SummarySvg, ALineForEachChoiceOfTheOtherKeys) {
 }
 
 TEST_F(SummarySvg, TheTableIsSortedByTheKey) {
-  const auto lines = testing::read_lines(io::summary_chart_csv(study_, chart_));
+  const auto lines = testing::read_lines(pictures::summary_chart_csv(study_, chart_));
   ASSERT_EQ(lines.size(), 9u);
   EXPECT_EQ(lines[0], "kind,line,run,vehicle.speed,q_max_N");
   EXPECT_EQ(lines[1], "run,rail.cant = 0,2,20,120002");
@@ -66,15 +66,15 @@ TEST_F(SummarySvg, RunsWithoutAResultAreNamed) {
   study_.runs[1].summary.clear();
   study_.runs[1].status = "failed";
   study_.runs[1].label = "V20";
-  const std::string svg = io::summary_svg(study_, chart_);
+  const std::string svg = pictures::summary_svg(study_, chart_);
   EXPECT_NE(svg.find("not drawn: run 2, V20 (failed)"), std::string::npos);
-  EXPECT_EQ(testing::read_lines(io::summary_chart_csv(study_, chart_)).size(), 8u);
+  EXPECT_EQ(testing::read_lines(pictures::summary_chart_csv(study_, chart_)).size(), 8u);
 }
 
 TEST_F(SummarySvg, RefusesWhatCannotBeDrawn) {
   const auto expect_refused = [&](const std::string& words) {
     try {
-      io::summary_svg(study_, chart_);
+      pictures::summary_svg(study_, chart_);
       FAIL() << words;
     } catch (const Error& error) {
       EXPECT_NE(error.message().find(words), std::string::npos) << error.message();
