@@ -51,8 +51,8 @@ struct SheetLibrary {
 /// Its one symbol, "treadmark_sheet_library".
 extern "C" const SheetLibrary* treadmark_sheet_library();
 
-/// Loads it at the first call. Errors: Error(configuration) naming the places where it was looked for: ../lib/treadmark of the
-/// folder of the program, where it was built, where it was installed, and the program's run path.
+/// Loads it at the first call. Errors: Error(configuration) naming the places where it was looked for: ../lib/treadmark
+/// of the folder of the program, where it was built, where it was installed, and the program's run path.
 const SheetLibrary& sheet_library();
 
 }  // namespace treadmark::offset
