@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Builds everything with warnings as errors and runs all tests, then the smallest build and some of its tests. Exit status 0 when all passed.
+# Builds everything with warnings as errors and runs all tests; then the smallest build and some of its tests, clang-tidy over what changed,
+# and the fast part of the tests under the address and undefined-behaviour sanitizers. Exit status 0 when all passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
@@ -15,3 +16,6 @@ ctest --preset release -j2
 cmake --preset smallest -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
 cmake --build --preset smallest --target treadmark_cli core_tests left_out_tests example_first_contact
 ctest --preset smallest -j2 -R '^(Parts|ParallelFor|ThreadLimit|LeftOut|Readme)\.'
+
+bash scripts/tidy.sh
+bash scripts/sanitize.sh address
