@@ -34,10 +34,10 @@ class Styles {
 
   /// Wide lines and large markers below narrow and small ones, so that equal series show.
   void nest(ChartSeries& series) const {
-    constexpr double kLargest = 7.0, kSmallest = 3.2;  // [px]
+    constexpr double kLargestMark = 7.0, kSmallestMark = 3.2;  // [px]
     set_look(series, static_cast<std::size_t>(series.style), styles_.size());
     const double part = series.style / std::max(1.0, static_cast<double>(styles_.size()) - 1.0);
-    for (ChartPoint& point : series.points) point.radius = std::lerp(kLargest, kSmallest, part);
+    for (ChartPoint& point : series.points) point.radius = std::lerp(kLargestMark, kSmallestMark, part);
   }
 
  private:

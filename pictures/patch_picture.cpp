@@ -55,7 +55,8 @@ PatchPicture make_patch_picture(const io::PatchFields& fields) { return make_pat
 
 PatchPicture make_patch_picture(const io::PatchFields& fields, std::span<const double> values, bool states) {
   PatchPicture picture;
-  if (values.size() != fields.grid.size()) return picture;
+  const std::size_t told = fields.state.empty() ? fields.pressure.size() : fields.state.size();  // of contact
+  if (values.size() != fields.grid.size() || told != values.size()) return picture;
   const Grid2& grid = fields.grid;
   const IndexBox box = contact_box(fields);
   if (box.empty()) return picture;

@@ -193,6 +193,55 @@ TEST(ChartDraw, SaysWhenThereIsNothing) {
   EXPECT_NE(pictures::draw_chart({}, {0, 0, 100, 100}).find("no values"), std::string::npos);
 }
 
+TEST(ChartDraw, NamesStandFromTheTopInPlaceOfNumbers) {
+  pictures::Chart chart;
+  chart.y_names = {"first", "second", "third"};
+  chart.y_notes = {"", "a note"};
+  chart.series = {{"one"}};
+  chart.series[0].points = {{1.0, 0.0}, {2.0, 2.0}};
+  const testing::XmlElement root =
+      testing::read_xml("<svg>" + pictures::draw_chart(chart, {100, 0, 300, 90}) + "</svg>");
+  std::map<std::string, double> y;
+  for (const auto* text : root.find("text")) y[text->text] = std::stod(text->attributes.at("y")) - 4.0;
+  EXPECT_NEAR(y.at("first"), 15.0, 0.1);
+  EXPECT_NEAR(y.at("third"), 75.0, 0.1);
+  EXPECT_NEAR(y.at("a note"), 45.0, 0.1);
+  EXPECT_EQ(root.find("rect", "class", "band").size(), 1u);
+}
+
+TEST(ChartDraw, ShapesAreCutAtTheFrameAndStayVisible) {
+  pictures::Chart chart;
+  chart.x_range = chart.y_range = {0.0, 10.0};
+  chart.series = {{"one"}};
+  chart.series[0].shape_look = "class=\"shape\"";
+  chart.series[0].least = 2.0;
+  chart.series[0].shapes = {{-5.0, 5.0, 2.0, 4.0}, {3.0, 3.01, 5.0, 5.01}, {kChartNan, kChartInfinity, 1.0, 2.0}};
+  const testing::XmlElement root =
+      testing::read_xml("<svg>" + pictures::draw_chart(chart, {100, 50, 200, 100}) + "</svg>");
+  const auto shapes = root.find("rect", "class", "shape");
+  ASSERT_EQ(shapes.size(), 3u);
+  const auto number = [&](std::size_t i, const char* key) { return std::stod(shapes[i]->attributes.at(key)); };
+  EXPECT_EQ(number(0, "x"), 100.0);
+  EXPECT_EQ(number(0, "width"), 100.0);
+  EXPECT_EQ(number(0, "y"), 110.0);
+  EXPECT_EQ(number(0, "height"), 20.0);
+  EXPECT_EQ(number(1, "width"), 2.0);
+  EXPECT_EQ(number(1, "height"), 2.0);
+  EXPECT_EQ(number(2, "width"), 200.0);
+}
+
+TEST(ColourScale, IsNeverEmptyAndSignedOnesPartAtZero) {
+  const pictures::ColourScale sign = pictures::colour_scale(-1.0, 3.0, true);
+  EXPECT_EQ(sign.low, -3.0);
+  EXPECT_EQ(sign.high, 3.0);
+  EXPECT_EQ(pictures::colour(0.5, sign.palette), "#fafafa");
+  const pictures::ColourScale flat = pictures::colour_scale(2.0, 2.0, false);
+  EXPECT_LT(flat.low, flat.high);
+  EXPECT_EQ(flat.step(1.0, 20), 0u);
+  EXPECT_EQ(flat.step(9.0, 20), 19u);
+  EXPECT_EQ(flat.step(kChartNan, 20), 0u);
+}
+
 TEST(SvgText, KeepsOnlyWhatXmlAllows) {
   EXPECT_EQ(pictures::xml_text("a<b>&c"), "a&lt;b&gt;&amp;c");
   EXPECT_EQ(pictures::xml_text("µm € 𝛿"), "µm € 𝛿");
