@@ -3,7 +3,6 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -31,13 +30,6 @@ io::RunResult two_cases() {
     run.cases.push_back(one);
   }
   return run;
-}
-
-const app::QuantityDifference& of(const app::ResultDifference& difference, const std::string& key) {
-  const auto found = std::find_if(difference.quantities.begin(), difference.quantities.end(),
-                                  [&](const auto& q) { return q.key == key; });
-  if (found == difference.quantities.end()) throw std::logic_error("no quantity " + key);
-  return *found;
 }
 
 TEST(ResultDifference, AResultAgreesWithItself) {
