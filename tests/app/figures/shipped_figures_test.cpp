@@ -46,7 +46,7 @@ io::SimulationResult simulated(const std::vector<std::string>& settings, const S
 TEST(ShippedFigures, EightPanelsOverTheFlat) {
   const testing::TemporaryFolder folder;
   const io::SimulationResult result = simulated(kQuick);
-  const std::vector<io::PatchesPanel> panels = patches_panels(result);
+  const std::vector<pictures::PatchesPanel> panels = patches_panels(result);
   ASSERT_EQ(panels.size(), 8u);
   const std::vector<double> wanted{12.0, 7.0, 4.0, 1.0, -2.0, -5.0, -8.0, -16.0};
   for (std::size_t i = 0; i < panels.size(); ++i) {
@@ -103,7 +103,7 @@ TEST(ShippedFigures, AnInterruptedRunDrawsTheSame) {
   options.resume = true;
   const io::SimulationResult resumed = simulated(settings, options);
   ASSERT_EQ(resumed.status, "complete");
-  EXPECT_EQ(io::patches_csv(patches_panels(resumed)), io::patches_csv(patches_panels(undisturbed)));
+  EXPECT_EQ(pictures::patches_csv(patches_panels(resumed)), pictures::patches_csv(patches_panels(undisturbed)));
 }
 
 TEST(ShippedFigures, StudiesAreValid) {
