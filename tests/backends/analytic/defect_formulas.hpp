@@ -99,14 +99,14 @@ inline std::vector<NamedDefects> offset_defects() {
                    -0.035,
                    0.035});
   }
-  Spall spall{.length = 0.04, .width = 0.03, .depth = 0.4e-3, .edge = 8e-3, .x_center = -0.01, .y_center = 0.004};
+  Spall spall{.length = 0.12, .width = 0.06, .depth = 0.4e-3, .edge = 8e-3, .x_center = -0.01, .y_center = 0.004};
   const auto spall_offset = [=](double x, double y) {
     const auto window = [](double e, double half) {
       return std::pow(std::sin(0.5 * kPi * std::clamp((half - std::fabs(e)) / 8e-3, 0.0, 1.0)), 2);
     };
-    return 0.4e-3 * window(x + 0.01, 0.02) * window(y - 0.004, 0.015);
+    return 0.4e-3 * window(x + 0.01, 0.06) * window(y - 0.004, 0.03);
   };
-  all.push_back({"spall", Body::rail, {.spalls = {spall}}, spall_offset, -0.035, 0.015, -0.015, 0.025});
+  all.push_back({"spall", Body::rail, {.spalls = {spall}}, spall_offset, -0.09, 0.07, -0.035, 0.04});
   all.push_back({"squat_on_corrugation",
                  Body::rail,
                  {.squats = {squat}, .corrugations = {waves}},
