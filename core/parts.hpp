@@ -23,8 +23,9 @@ std::span<const Part> parts();
 /// Whether this build has the part. Errors of this and the following: std::invalid_argument for a key that is none.
 bool has_part(std::string_view key);
 
-/// "this build leaves out the backend 'mesh' (Embree)", where what is "the backend 'mesh'"; and how it is put in.
+/// "this build leaves out the backend 'mesh' (Embree)", where what is "the backend 'mesh'".
 std::string left_out_message(std::string_view key, std::string_view what);
+/// How it is put in: option and packages.
 std::string left_out_advice(std::string_view key);
 
 /// Both as Error(configuration).

@@ -87,7 +87,7 @@ struct GaugeCornerCollapse {
 struct Spall {
   double length = 0.0, width = 0.0, depth = 0.0;  ///< over the rims; all > 0
   double edge = 0.0;                              ///< width of the edge, > 0, at most half of length and width
-  double x_center = 0.0, y_center = 0.0;
+  double x_center = 0.0, y_center = 0.0;          ///< middle
   friend bool operator==(const Spall&, const Spall&) = default;
 };
 
