@@ -100,6 +100,7 @@ class Frame {
   }
   static std::vector<AxisTick> categories(const std::vector<std::string>& names) {
     std::vector<AxisTick> out;
+    out.reserve(names.size());
     for (const std::string& name : names)
       out.push_back({(static_cast<double>(out.size()) + 0.5) / static_cast<double>(names.size()), name});
     return out;
