@@ -30,7 +30,7 @@ treadmark_part(embree TREADMARK_WITH_EMBREE "Embree" "libembree-dev"
 treadmark_part(openvdb TREADMARK_WITH_OPENVDB "OpenVDB" "libopenvdb-dev and libboost-iostreams-dev"
   "Offsets over a base (backends offset, offset-quadratic and offset-bilinear, .vdb files), with OpenVDB")
 treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")
-treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "More than one thread, with oneTBB")
+treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "Threads for loops within loops too, with oneTBB")
 treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)")
 treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep)")
 treadmark_part(scans TREADMARK_SCANS "scans" "" "Import of raw scans, virtual scans (import, scan)")

@@ -7,8 +7,8 @@
 
 namespace treadmark {
 
-/// Limits the one thread pool of the process (oneTBB; a build without it has one thread) while it lives. threads <= 0:
-/// all cores.
+/// Limits the threads of parallel_for in the whole process while it lives. threads <= 0: all cores. With oneTBB loops
+/// within loops share them; a build without it shares the outermost loop.
 class ThreadLimit {
  public:
   /// Of several limits at a time the least one holds.

@@ -1,7 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Builds everything with warnings as errors and runs all tests; then the smallest build and some of its tests, and clang-tidy over what changed.
+# Builds everything with warnings as errors and runs all tests; then the smallest build and some of its tests, clang-tidy over what changed,
+# and the readers, splines and solvers under the address sanitizer.
 # Exit status 0 when all passed.
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
@@ -18,3 +19,4 @@ cmake --build --preset smallest --target treadmark_cli core_tests left_out_tests
 ctest --preset smallest -j2 -R '^(Parts|ParallelFor|ThreadLimit|LeftOut|Readme)\.'
 
 bash scripts/tidy.sh
+bash scripts/sanitize.sh address

@@ -4,10 +4,9 @@
 
 #include <iostream>
 
-#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/core/parts.hpp"
 
 namespace {
 
@@ -52,8 +51,6 @@ int main(int argc, char** argv) {
   try {
     program.parse(argc, argv);
     common.threads_given = threads->count() > 0;
-    if (common.threads > 1 && !has_part("tbb"))
-      cli::print_notes({left_out_message("tbb", "more than one thread") + ": " + left_out_advice("tbb")}, common.quiet);
     for (const auto& [verb, command] : commands)
       if (verb->parsed()) return command(common);
     return cli::kUsage;
