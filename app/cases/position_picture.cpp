@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cases/position_picture.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <utility>
@@ -53,8 +54,10 @@ PositionSection position_section(const io::WheelRailCase& input, const wheelrail
   out.rail = section(*geometry.rail, placement.X_TS, x);
   out.wheel = section(*geometry.wheel, placement.X_TA, x);
   if (left)
-    for (auto* points : {&out.rail, &out.wheel})
+    for (auto* points : {&out.rail, &out.wheel}) {
+      std::ranges::reverse(*points);
       for (Vec2& point : *points) point.x() = -point.x();
+    }
   return out;
 }
 

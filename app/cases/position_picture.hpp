@@ -12,7 +12,8 @@ namespace treadmark::app {
 
 /// Wheel over rail at the position of a case, without mechanics: across the track below the wheel's centre.
 struct PositionSection {
-  std::vector<Vec2> rail, wheel;  ///< (y, z) in track axes [m]; z is NaN where a surface is not seen along z
+  std::vector<Vec2> rail,
+      wheel;               ///< (y, z) in track axes [m], y increasing; z is NaN where a surface is not seen along z
   double least_gap = 0.0;  ///< along z [m], negative: they lie in each other; NaN: no wheel lies over the rail. 0 where
                            ///< z follows from a force: the wheel is shown where it touches
 };

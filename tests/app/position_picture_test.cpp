@@ -45,6 +45,7 @@ TEST(PositionPicture, ShowsTheGapThatIsGiven) {
   constexpr double kPictured = 20e-6;
   for (const Side side : {Side::right, Side::left}) {
     c.side = side;
+    c.track.rail_y0 = (side == Side::left ? -1.0 : 1.0) * std::abs(c.track.rail_y0);
     c.vertical_force_prescribed = true;
     c.vertical_force = 1e4;
     const PositionSection touching = position_section(c, cases[0].geometry);

@@ -17,6 +17,7 @@ namespace {
 using ::testing::Contains;
 using ::testing::IsEmpty;
 using ::testing::Not;
+using testing::OwnedProblem;
 
 constexpr double kLimit = 5e9;
 
