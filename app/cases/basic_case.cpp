@@ -10,9 +10,11 @@
 #include <string>
 
 #include "treadmark/app/cases/wheelrail_result.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/kalker/plausibility.hpp"
 
 namespace treadmark::app {
 
@@ -102,6 +104,10 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   if (solution.status == Status::no_contact) {
     result.status = Status::no_contact;
     result.message = "the bodies do not touch";
+    if (p.force_prescribed)
+      result.remarks.push_back({RemarkKind::no_contact_under_load, 0,
+                                "a normal force is prescribed and the bodies do not touch: does it press them "
+                                "together, and may any element touch?"});
     return result;
   }
   result.tangential_solves = p.regime == kalker::Regime::frictionless ? 0 : 1;
@@ -124,6 +130,15 @@ io::CaseResult BasicSequence::solve(const io::BasicCase& input) {
   r.phi = solution.creepage.phi;
   add_dissipation(r);
   add_subsurface(input.subsurface, input.material, p.grid, solution, r);
+  // What is posed without bodies may be dimensionless; of what has the stiffness of a solid, a line contact of 0.1 E'
+  // has a half-width of a fifth of its radius (Johnson 1985, eq. 4.45).
+  constexpr double kSoftestSolid = 0.1e9, kNotSmall = 0.1;
+  const double modulus = kalker::contact_modulus(p.material);
+  kalker::judge({p.grid, p.material, p.friction.static_friction(), rolling, p.regime == Regime::shift,
+                 modulus < kSoftestSolid ? kInfinity : kNotSmall * modulus},
+                solution, 1, result.remarks);
+  if (result.status == Status::ok && p.force_prescribed)
+    kalker::judge_force("normal force", p.normal_force, solution.force_n, result.remarks);
   result.patches.push_back(std::move(r));
   return result;
 }

@@ -106,11 +106,14 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   return run;
 }
 
-void check_geometry(const io::CaseFile& file) {
+std::vector<CaseGeometry> check_geometry(const io::CaseFile& file) {
+  std::vector<CaseGeometry> out;
   SurfaceStore store;
   const SampledRegions regions = sampled_regions(file);
   for (const io::Case& c : file.cases)
-    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content)) geometry_of(*input, store, regions);
+    if (const auto* input = std::get_if<io::WheelRailCase>(&c.content))
+      out.push_back({&c, geometry_of(*input, store, regions)});
+  return out;
 }
 
 }  // namespace treadmark::app

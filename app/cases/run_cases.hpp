@@ -2,10 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <vector>
+
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/io/results/result_model.hpp"
+#include "treadmark/solvers/wheelrail/configuration.hpp"
 
 namespace treadmark::app {
 
@@ -19,7 +22,13 @@ io::RunResult run_cases(const io::CaseFile& file, const Progress& progress = {})
 /// The same with surfaces that were read and built before; the store learns the new ones.
 io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Progress& progress = {});
 
+/// A wheel-rail case with its surfaces.
+struct CaseGeometry {
+  const io::Case* given;  ///< of the file
+  wheelrail::Geometry geometry;
+};
+
 /// Reads all geometry of a file and builds its surfaces, without solving. Errors as run_cases.
-void check_geometry(const io::CaseFile& file);
+std::vector<CaseGeometry> check_geometry(const io::CaseFile& file);
 
 }  // namespace treadmark::app

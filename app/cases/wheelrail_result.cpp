@@ -96,6 +96,7 @@ io::CaseResult to_result(const io::WheelRailCase& input, const wheelrail::PairSo
   io::CaseResult result;
   result.status = s.status;
   result.message = s.message;
+  result.remarks = s.remarks;
   const WheelsetState& w = input.state;
   result.has_wheelset = true;
   result.s = w.position.x;

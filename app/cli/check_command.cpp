@@ -1,11 +1,20 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
+#include <filesystem>
 #include <iostream>
 
+#include <fmt/format.h>
+
+#include "treadmark/app/cases/position_picture.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/pictures/section_picture.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -13,12 +22,36 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> cases;
   std::vector<std::string> overrides;  ///< key=value
+  std::string output_folder;           ///< of pictures; empty = none
 };
 
-void check_case_file(const std::string& name, const std::vector<std::string>& overrides) {
-  const io::CaseFile file = io::read_any_case(name, overrides);
-  app::check_geometry(file);
+std::string position_svg(const app::CaseGeometry& c) {
+  const app::PositionSection section = app::position_section(std::get<io::WheelRailCase>(c.given->content), c.geometry);
+  const auto curve = [](const std::vector<Vec2>& points) {
+    pictures::Curve out;
+    for (const Vec2& p : points) out.push_back({kMilli * p.x(), -kMilli * p.y()});
+    return out;
+  };
+  const double gap = kMilli * section.least_gap;
+  const std::string how = std::isnan(gap) ? "the wheel does not lie over the rail"
+                          : gap > 0.0     ? fmt::format("{:.4g} mm apart", gap)
+                          : gap < 0.0     ? fmt::format("{:.4g} mm in each other", -gap)
+                                          : "touching";
+  return pictures::section_svg(
+      {fmt::format("Case {}: {}", c.given->number, how), curve(section.rail), curve(section.wheel), {}, ""});
+}
+
+void check_case_file(const std::string& name, const CheckOptions& options) {
+  const io::CaseFile file = io::read_any_case(name, options.overrides);
+  const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
   print_notes(file.notes, false);
+  if (!options.output_folder.empty()) {
+    make_folder(options.output_folder);
+    for (const app::CaseGeometry& c : cases)
+      io::write_text_file(
+          std::filesystem::path(options.output_folder) / fmt::format("position_{:04}.svg", c.given->number),
+          position_svg(c));
+  }
   std::cout << name << ": " << file.cases.size() << (file.cases.size() == 1 ? " case" : " cases") << ", no errors\n";
 }
 
@@ -29,7 +62,7 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
     else if (io::is_simulation_file(name))
       check_simulation_file(name, options.overrides);
     else
-      check_case_file(name, options.overrides);
+      check_case_file(name, options);
   return kOk;
 }
 
@@ -38,6 +71,9 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
 Command add_check(CLI::App& verb) {
   auto options = std::make_shared<CheckOptions>();
   add_case_files(verb, options->cases, options->overrides);
+  verb.add_option("-o,--output", options->output_folder,
+                  "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg")
+      ->type_name("FOLDER");
   return command(options, check_command);
 }
 

@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <iostream>
 
+#include <fmt/format.h>
+
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/model/remarks.hpp"
 #include "treadmark/model/theories.hpp"
 
 namespace treadmark::cli {
@@ -31,9 +34,12 @@ int list_command(const std::string& what) {
         std::cout << verb.name << '\n';
       else
         print_left_out(verb.name, verb.part);
+  } else if (what == "remarks") {
+    for (const RemarkRow& row : kRemarkRows)
+      std::cout << fmt::format("{:<24} {:<6} {}\n", row.name, row.grave ? "doubt" : "remark", row.meaning);
   } else {
     throw Error(ErrorKind::configuration, "cannot list '" + what + "'", {},
-                "choose backends, profiles, solvers or verbs");
+                "choose backends, profiles, remarks, solvers or verbs");
   }
   return kOk;
 }
@@ -42,7 +48,7 @@ int list_command(const std::string& what) {
 
 Command add_list(CLI::App& verb) {
   auto what = std::make_shared<std::string>();
-  verb.add_option("WHAT", *what, "backends, profiles, solvers or verbs")->required();
+  verb.add_option("WHAT", *what, "backends, profiles, remarks, solvers or verbs")->required();
   return [what](const CommonOptions&) { return list_command(*what); };
 }
 

@@ -18,15 +18,20 @@
 
 namespace treadmark::cli {
 
+void make_folder(const std::filesystem::path& folder) {
+  std::error_code failure;
+  std::filesystem::create_directories(folder, failure);
+  if (failure)
+    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+}
+
 namespace {
 
 /// Makes the folder. The last file of an earlier run goes first: it must not pass for this one if writing fails half
 /// way.
 void prepare(const std::filesystem::path& folder, const char* last_file) {
+  make_folder(folder);
   std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
   std::filesystem::remove(folder / last_file, failure);
 }
 

@@ -11,6 +11,9 @@
 
 namespace treadmark::cli {
 
+/// Makes a folder for output, and those it lies in. Errors: Error(configuration).
+void make_folder(const std::filesystem::path& folder);
+
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
 /// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);

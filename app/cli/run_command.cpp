@@ -62,7 +62,7 @@ std::vector<std::string> settings_of(const RunOptions& options) {
 int exit_status(const io::RunResult& result) {
   int status = result.complete ? kOk : kFailed;
   for (const io::CaseResult& c : result.cases) {
-    if (c.status == Status::failed) return kFailed;
+    if (c.status == Status::failed || any_grave(c.remarks)) return kFailed;
     if (c.status == Status::not_converged && status == kOk) status = kNotConverged;
   }
   return status;

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
@@ -44,10 +45,7 @@ bool is_finished(const std::filesystem::path& store, const io::SimulationFile& f
 
 /// Nobody else writes into the folder as long as this lives.
 app::FileLock claim(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+  make_folder(folder);
   auto lock = app::FileLock::attempt(folder / "lock");
   if (!lock)
     throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {},

@@ -15,6 +15,7 @@
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -92,7 +93,7 @@ io::ComparisonRow row_of(const io::CaseResult& result) {
   io::ComparisonRow row;
   row.case_number = result.number;
   row.status = result.status;
-  row.message = result.message;
+  row.message = io::words(result);
   row.patches = static_cast<int>(result.patches.size());
   row.search_s = result.search_s;
   row.distance_s = result.distance_s;

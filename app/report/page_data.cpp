@@ -13,6 +13,7 @@
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
+#include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -187,7 +188,7 @@ class Writer {
     Json& frames = out["frames"] = Json::array();
     for (std::size_t i = 0; i < set.frames.size(); ++i) {
       const io::CaseResult& result = *set.frames[i].result;
-      Json frame = {{"name", set.frames[i].name}, {"status", to_string(result.status)}, {"message", result.message}};
+      Json frame = {{"name", set.frames[i].name}, {"status", to_string(result.status)}, {"message", io::words(result)}};
       Json& patches = frame["patches"] = Json::array();
       for (std::size_t k = 0; k < packed[i].patches.size(); ++k)
         patches.push_back(patch(result.patches[k], packed[i].patches[k], k));

@@ -5,16 +5,16 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/pictures/chart.hpp"
+#include "treadmark/pictures/section_picture.hpp"
 
 namespace treadmark::app::report {
 
 namespace {
-
-constexpr double kAround = 4.0;  // what is shown [mm]
 
 /// Where the lines along the body, from station to station, pass x of the track: (y, -z) [mm]. NaN where they do not.
 pictures::Curve cut(const io::SampledSurface& surface, const Pose& X_TB, double x) {
@@ -60,45 +60,26 @@ const io::CaseResult* most_loaded(const FrameSet& set, const io::PatchResult*& m
 std::string section_svg(const FrameSet& set, const std::vector<io::SampledSurface>& surfaces) {
   const io::PatchResult* main = nullptr;
   const io::CaseResult* result = most_loaded(set, main);
-  pictures::ChartSheet sheet;
   if (result == nullptr || !result->bodies) {
+    pictures::ChartSheet sheet;
     sheet.title = "These results hold no surfaces of wheel and rail.";
     return draw_sheet(sheet);
   }
-  pictures::Chart chart;
-  chart.x_label = "y [mm], to the right";
-  chart.y_label = "height, -z [mm]";
-  double y_low = INFINITY, y_high = -INFINITY, z_low = INFINITY, z_high = -INFINITY;
-  const auto add = [&](const char* name, const std::string& surface, const Pose& X, int style) {
+  const auto curve_of = [&](const std::string& surface, const Pose& X) {
     const io::SampledSurface* sampled = find(surfaces, surface);
-    if (sampled == nullptr) return;
-    pictures::ChartSeries series{name, style};
-    series.width = 2.0;
-    series.curve = cut(*sampled, X, main->x_tr);
-    for (const auto& [y, z] : series.curve)
-      if (std::isfinite(y)) {
-        y_low = std::min(y_low, y), y_high = std::max(y_high, y);
-        z_low = std::min(z_low, z), z_high = std::max(z_high, z);
-      }
-    chart.series.push_back(std::move(series));
+    return sampled == nullptr ? pictures::Curve{} : cut(*sampled, X, main->x_tr);
   };
-  add("rail", result->rail_surface, result->bodies->X_TS, 0);
-  add("wheel", result->wheel_surface, result->bodies->X_TA, 1);
-  pictures::ChartSeries references{"contact reference", pictures::kBlack, false};
+  pictures::SectionPicture picture{
+      fmt::format("Wheel and rail at x = {:.1f} mm, case {}", kMilli * main->x_tr, result->number),
+      curve_of(result->rail_surface, result->bodies->X_TS),
+      curve_of(result->wheel_surface, result->bodies->X_TA),
+      {},
+      "contact reference"};
   for (const io::PatchResult& patch : result->patches)
     if (patch.has_reference)
-      references.points.push_back(
+      picture.marks.push_back(
           {kMilli * patch.y_tr, -kMilli * patch.z_tr, 4.5, fmt::format("{:.1f} kN", 1e-3 * patch.fn)});
-  chart.series.push_back(std::move(references));
-  if (!(y_low < y_high)) y_low = -1.0, y_high = 1.0, z_low = -1.0, z_high = 1.0;
-  chart.x_range = {y_low - kAround, y_high + kAround};
-  chart.y_range = {z_low - kAround, z_high + kAround};
-  sheet.title = fmt::format("Wheel and rail at x = {:.1f} mm, case {}", kMilli * main->x_tr, result->number);
-  sheet.legend = pictures::ChartSheet::Legend::each;
-  sheet.height =
-      std::clamp(sheet.width * (z_high - z_low + 2.0 * kAround) / (y_high - y_low + 2.0 * kAround), 80.0, 900.0);
-  sheet.charts = {std::move(chart)};
-  return draw_sheet(sheet);
+  return section_svg(std::move(picture));
 }
 
 std::string map_svg(const MapView& map, const std::string& title) {

@@ -47,6 +47,29 @@ SampledSurface read_surface(const Hdf5GroupReader& group, const std::string& nam
   return s;
 }
 
+std::uint64_t patch_id(const Hdf5GroupReader& group, const std::string& text) {
+  std::uint64_t value = 0;
+  const char* end = text.data() + text.size();
+  const auto [stop, failure] = std::from_chars(text.data(), end, value);
+  if (failure != std::errc() || stop != end)
+    refuse_result(group, fmt::format("has \"{}\" as the number of a patch", text));
+  return value;
+}
+
+std::vector<Remark> read_remarks(const Hdf5GroupReader& group) {
+  const std::vector<std::string> names = group.texts("remarks"), patches = group.texts("remark_patches"),
+                                 texts = group.texts("remark_texts");
+  if (patches.size() != names.size() || texts.size() != names.size())
+    refuse_result(group, "has another number of remarks than of their texts");
+  std::vector<Remark> out;
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    const std::optional<RemarkKind> kind = remark_named(names[i]);
+    if (!kind) refuse_result(group, fmt::format("has a remark \"{}\"", names[i]));
+    out.push_back({*kind, static_cast<int>(patch_id(group, patches[i])), texts[i]});
+  }
+  return out;
+}
+
 }  // namespace
 
 void refuse_result(const Hdf5GroupReader& where, const std::string& what) {
@@ -63,6 +86,7 @@ CaseResult read_case(const Hdf5GroupReader& group) {
   c.number = group.integer("number");
   c.status = status_of(group);
   c.message = group.text("message");
+  if (group.has_attribute("remarks")) c.remarks = read_remarks(group);
   if (group.has_attribute("seconds")) c.seconds = group.number("seconds");
   for (const Block block : {Block::wheelset, Block::deflection, Block::roller}) read_block_if_there(group, block, c);
   c.loads = read_loads(group);
@@ -140,15 +164,6 @@ RunResult read_hdf5(const std::filesystem::path& path) {
 namespace {
 
 constexpr double kMostElements = 1e8;
-
-std::uint64_t patch_id(const Hdf5GroupReader& group, const std::string& text) {
-  std::uint64_t value = 0;
-  const char* end = text.data() + text.size();
-  const auto [stop, failure] = std::from_chars(text.data(), end, value);
-  if (failure != std::errc() || stop != end)
-    refuse_result(group, fmt::format("has \"{}\" as the number of a patch", text));
-  return value;
-}
 
 void read_identity(const Hdf5GroupReader& group, PatchResult& p) {
   p.id = patch_id(group, group.text("id"));

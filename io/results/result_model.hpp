@@ -15,6 +15,7 @@
 #include "treadmark/core/report.hpp"
 #include "treadmark/model/friction.hpp"
 #include "treadmark/model/material.hpp"
+#include "treadmark/model/remarks.hpp"
 #include "treadmark/model/surface_difference.hpp"
 
 namespace treadmark::io {
@@ -166,9 +167,10 @@ struct PatchResult {
 struct CaseResult {
   int number = 0;  ///< of the case in its file, from 1
   Status status = Status::ok;
-  std::string message;
-  double seconds = 0.0;  ///< wall clock [s]
-  bool shown = true;     ///< false: the input asks for no output of this case
+  std::string message;          ///< why the status is not ok
+  std::vector<Remark> remarks;  ///< what is doubtful
+  double seconds = 0.0;         ///< wall clock [s]
+  bool shown = true;            ///< false: the input asks for no output of this case
   bool has_wheelset = false;
   double s = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;        ///< wheelset [m], [rad]
   double vs = 0.0, vy = 0.0, vz = 0.0, vroll = 0.0, vyaw = 0.0, vpitch = 0.0;  ///< [m/s], [rad/s]

@@ -118,7 +118,14 @@ std::string summary(const CaseResult& result) {
   table.line(heading + fmt::format(", {:.3f} s", result.seconds));
   if (result.has_wheelset) add_wheelset(table, result);
   if (!result.patches.empty()) add_patches(table, result.patches);
+  for (const Remark& remark : result.remarks) table.line("  " + to_line(remark));
   return table.take();
+}
+
+std::string words(const CaseResult& result) {
+  std::string text = result.message;
+  for (const Remark& remark : result.remarks) text += (text.empty() ? "" : "; ") + to_line(remark);
+  return text;
 }
 
 std::string summary(const SurfaceUse& use) {

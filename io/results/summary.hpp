@@ -11,6 +11,9 @@ namespace treadmark::io {
 /// One case as an aligned table for people, units shown (mm, N, MPa, ...), ending in a newline. Thread-safe.
 std::string summary(const CaseResult& result);
 
+/// Message and remarks of a case in one line.
+std::string words(const CaseResult& result);
+
 /// One line on a surface that was sampled: how far it lies from what it was sampled from, what it costs.
 std::string summary(const SurfaceUse& use);
 

@@ -189,6 +189,17 @@ std::vector<Attribute> attributes_of(const CaseResult& result) {
   add("number", result.number);
   add("status", std::string(to_string(result.status)));
   add("message", result.message);
+  if (!result.remarks.empty()) {
+    std::vector<std::string> names, patches, texts;
+    for (const Remark& r : result.remarks) {
+      names.emplace_back(r.row().name);
+      patches.push_back(fmt::format("{}", r.patch));
+      texts.push_back(r.text);
+    }
+    add("remarks", names);
+    add("remark_patches", patches);
+    add("remark_texts", texts);
+  }
   add("seconds", result.seconds);
   add_blocks(list, result, {Block::wheelset});
   if (result.loads) add_loads(list, *result.loads);

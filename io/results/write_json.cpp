@@ -103,6 +103,9 @@ Json case_json(const CaseResult& result) {
   out["case"] = result.number;
   out["status"] = std::string(to_string(result.status));
   out["message"] = result.message;
+  out["remarks"] = Json::array();
+  for (const Remark& r : result.remarks)
+    out["remarks"].push_back({{"name", r.row().name}, {"grave", r.grave()}, {"patch", r.patch}, {"text", r.text}});
   out["seconds"] = number(result.seconds);
   add_quantities(out, result, {Block::wheelset});
   if (result.has_wheelset) {

@@ -16,6 +16,7 @@
 #include "treadmark/solvers/wheelrail/mirror.hpp"
 #include "treadmark/solvers/wheelrail/pair_state.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
+#include "treadmark/solvers/wheelrail/plausibility.hpp"
 #include "treadmark/solvers/wheelrail/validate_problem.hpp"
 
 namespace treadmark::wheelrail {
@@ -34,21 +35,6 @@ void require_facing(const std::shared_ptr<const Surface>& surface, Facing facing
   if (!surface) throw Error(ErrorKind::configuration, std::string("a ") + body + " surface is missing");
   if (surface->facing() != facing)
     throw Error(ErrorKind::configuration, std::string("the ") + body + " surface faces the wrong way");
-}
-
-/// A hole within contact makes wrong pressures round it: the case fails. An edge is worth a remark.
-void note_missing_surface(const PatchSolution& patch, PairSolution& solution) {
-  const MissingSurface missing = missing_beside_contact(patch.grid, patch.distance, patch.contact.pressure);
-  if (missing.hole > 0) {
-    solution.status = Status::failed;
-    solution.message = "the wheel or the rail has a hole of " + std::to_string(missing.hole) + " elements (" +
-                       std::to_string(1e6 * missing.hole * patch.grid.cell_area()) +
-                       " mm2) within contact, at y = " + std::to_string(1e3 * patch.frame.X_TC.origin.y()) +
-                       " mm of the track: pressures round it are not to be trusted; fill the hole in the data";
-  } else if (missing.edge > 0 && solution.message.empty()) {
-    solution.message = "contact reaches an edge of the wheel's or rail's surface (" + std::to_string(missing.edge) +
-                       " elements beside contact have no surface): pressures there depend on where the data end";
-  }
 }
 
 /// Material must not pass more than two elements between two instants (Vollebregt's rule dt <= 2 dx / V).
@@ -95,15 +81,10 @@ void note(PairSolution& solution, Status status, const std::string& message) {
   if (solution.message.empty()) solution.message = message;
 }
 
-/// Loads, places and remarks of a solution whose patches are solved.
-void complete(const Problem& p, PairSolution& solution) {
+/// Loads, places and status of a solution whose patches are solved.
+void complete(PairSolution& solution) {
   for (PatchSolution& patch : solution.patches) {
     const kalker::ContactSolution& c = patch.contact;
-    if (patch.grid.cell_area() > 1.5 * p.discretisation.dx * p.discretisation.ds)
-      note(solution, Status::ok,
-           fmt::format("elements were enlarged to keep the potential contact area below {} elements",
-                       p.discretisation.max_elements));
-    note_missing_surface(patch, solution);
     patch.load = loads(solution.placement, patch.frame.X_TC, {patch.force_C, patch.moment_C});
     solution.load += patch.load;
     locate(solution.placement, patch);
@@ -176,7 +157,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
       note(solution, Status::failed, violated + ": take smaller steps or larger elements");
       return solution;
     }
-    note(solution, Status::ok, violated);
+    solution.remarks.push_back({RemarkKind::step_rule, 0, violated});
   }
 
   PairStep step(geometry_, p, next->previous, solvers_, solution.times, wheel_profile_);
@@ -196,7 +177,8 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   if (solution.patches.empty()) note(solution, Status::no_contact, "the bodies do not touch at this position");
   add_damping(p, next->previous, next->last, solution.patches);
   move_down(solution, balance.rail_dz);
-  complete(p, solution);
+  complete(solution);
+  judge(geometry_, p, solution);
   state_ = std::move(next);
   return solution;
 }

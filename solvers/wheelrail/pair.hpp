@@ -11,6 +11,7 @@
 
 #include "treadmark/detection/contact_frame.hpp"
 #include "treadmark/detection/contact_search.hpp"
+#include "treadmark/model/remarks.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/wheelrail/kinematics.hpp"
 #include "treadmark/solvers/wheelrail/loads.hpp"
@@ -55,7 +56,8 @@ struct PhaseTimes {
 /// Contact of the whole wheel at one instant.
 struct PairSolution {
   Status status = Status::ok;
-  std::string message;
+  std::string message;          ///< why the status is not ok
+  std::vector<Remark> remarks;  ///< what is doubtful, also where the status is ok
   Placement placement;
   double z = 0.0;           ///< vertical wheelset position, given or found [m]
   double pitch_rate = 0.0;  ///< of the wheelset, given or found [rad/s]

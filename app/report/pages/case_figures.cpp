@@ -11,6 +11,7 @@
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -186,7 +187,7 @@ Table case_table(const io::RunResult& run) {
                  : Vec3(total(c, &io::PatchResult::fx), total(c, &io::PatchResult::fs), total(c, &io::PatchResult::fn));
     for (int k = 0; k < 3; ++k) row.cells.emplace_back(Number{kKilo * force[k]});
     row.cells.emplace_back(Number{c.seconds, 3});
-    row.cells.emplace_back(c.message);
+    row.cells.emplace_back(io::words(c));
     table.rows.push_back(std::move(row));
   }
   return table;

@@ -37,6 +37,17 @@ void add_banners(const io::RunResult& run, Section& overview) {
   if (const auto [count, numbers] = list(Status::not_converged); count > 0)
     overview.blocks.emplace_back(Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.",
                                         fmt::format("Judge the results with care: case {}.", numbers)});
+  for (const RemarkRow& row : kRemarkRows) {
+    std::size_t count = 0;
+    std::string first;
+    for (const io::CaseResult& c : run.cases)
+      for (const Remark& r : c.remarks)
+        if (r.kind == row.kind && ++count == 1) first = fmt::format("case {}, {}", c.number, to_line(r));
+    if (count > 0)
+      overview.blocks.emplace_back(Banner{
+          row.grave ? Banner::Kind::warning : Banner::Kind::note,
+          row.grave ? "Doubtful:" : "Remark:", count > 1 ? fmt::format("{} (the first of {})", first, count) : first});
+  }
   if (const auto [count, numbers] = list(Status::no_contact); count > 0)
     overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
 }

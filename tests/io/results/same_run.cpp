@@ -141,6 +141,12 @@ void expect_same_case(const io::CaseResult& read, const io::CaseResult& written,
   EXPECT_EQ(read.number, written.number);
   EXPECT_EQ(read.status, written.status);
   EXPECT_EQ(read.message, written.message);
+  ASSERT_EQ(read.remarks.size(), written.remarks.size());
+  for (std::size_t i = 0; i < read.remarks.size(); ++i) {
+    EXPECT_EQ(read.remarks[i].kind, written.remarks[i].kind);
+    EXPECT_EQ(read.remarks[i].patch, written.remarks[i].patch);
+    EXPECT_EQ(read.remarks[i].text, written.remarks[i].text);
+  }
   EXPECT_EQ(read.has_wheelset, written.has_wheelset);
   if (seconds) {
     EXPECT_EQ(read.seconds, written.seconds);

@@ -121,6 +121,7 @@ io::RunResult sample_run() {
   shift.number = 2;
   shift.status = Status::not_converged;
   shift.message = "the outer loop stopped after 100 rounds";
+  shift.remarks = {{RemarkKind::grid_cuts_contact, 1, "3 of 40 elements"}, {RemarkKind::step_rule, 0, "too long"}};
   io::PatchResult patch = ball_patch(19, 17, 4.393e6);
   patch.shift = true;
   patch.xi = 8.155e-6;

@@ -140,7 +140,8 @@ TEST(Sequence, StepsBeyondTheRuleAreARemarkWhereTheyAreAllowed) {
   p.enforce_step_rule = false;
   const PairSolution s = pair.solve(p);
   EXPECT_EQ(s.status, Status::ok);
-  EXPECT_NE(s.message.find("dt <= 2 dx / V"), std::string::npos);
+  ASSERT_EQ(s.remarks.size(), 1u);
+  EXPECT_EQ(s.remarks.front().kind, RemarkKind::step_rule);
 }
 
 TEST(Sequence, LeftIsTheMirrorImageOfRightInTime) {

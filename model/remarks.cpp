@@ -1,0 +1,26 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/model/remarks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+namespace treadmark {
+
+std::optional<RemarkKind> remark_named(std::string_view name) {
+  for (const RemarkRow& row : kRemarkRows)
+    if (row.name == name) return row.kind;
+  return std::nullopt;
+}
+
+bool any_grave(std::span<const Remark> remarks) {
+  return std::ranges::any_of(remarks, [](const Remark& r) { return r.grave(); });
+}
+
+std::string to_line(const Remark& remark) {
+  return fmt::format("{}: {}{}", remark.grave() ? "doubt" : "remark",
+                     remark.patch > 0 ? fmt::format("patch {}: ", remark.patch) : "", remark.text);
+}
+
+}  // namespace treadmark

@@ -1,0 +1,96 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <cstddef>
+#include <cstdint>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+
+namespace treadmark {
+
+/// What can be doubtful about a contact result although it was found. A new kind is an enumerator, a row and the place
+/// that finds it (solvers/kalker/plausibility.hpp for a patch, solvers/wheelrail/plausibility.hpp for a pair).
+enum class RemarkKind : std::uint8_t {
+  grid_cuts_contact,
+  surface_ends_in_contact,
+  hole_in_contact,
+  beyond_half_space,
+  beyond_yield,
+  strongly_curved,
+  curved,
+  reference_far,
+  few_elements,
+  large_creepage,
+  friction_adds_energy,
+  force_not_reached,
+  no_contact_under_load,
+  elements_enlarged,
+  step_rule,
+};
+
+/// A kind of remark. The limits are stated where they are tested.
+struct RemarkRow {
+  RemarkKind kind;
+  std::string_view name;     ///< in result files
+  bool grave;                ///< the numbers may be wrong, not only less exact: the run's exit status says so
+  std::string_view meaning;  ///< for documentation
+};
+
+/// Rows lie in the order of the enumerators.
+inline constexpr RemarkRow kRemarkRows[] = {
+    {RemarkKind::grid_cuts_contact, "grid_cuts_contact", true,
+     "pressure at the border of the potential contact area: the patch goes on beyond it"},
+    {RemarkKind::surface_ends_in_contact, "surface_ends_in_contact", true,
+     "contact reaches the end of a surface's data: pressures there depend on where the data end"},
+    {RemarkKind::hole_in_contact, "hole_in_contact", true,
+     "a surface is missing inside or beside the patch: the case fails"},
+    {RemarkKind::beyond_half_space, "beyond_half_space", true,
+     "largest pressure above 0.05 E', E' = G / (1 - nu) (steel: 5.7 GPa); of a patch without wheel and rail above "
+     "0.1 E', and not judged where E' < 0.1 GPa: the patch is no longer small against the radii of the bodies; a wheel "
+     "on a rail fails above 0.25 E'"},
+    {RemarkKind::beyond_yield, "beyond_yield", false,
+     "largest pressure above 0.03 E' (steel: 3.4 GPa): steel yields, the elastic answer is an upper bound"},
+    {RemarkKind::strongly_curved, "strongly_curved", true,
+     "the rail's surface is inclined by more than 30 degrees against the plane of a planar contact within the patch: "
+     "conformal contact is meant"},
+    {RemarkKind::curved, "curved", false, "the same by more than 15 degrees"},
+    {RemarkKind::reference_far, "reference_far", false,
+     "the contact reference lies outside the patch by more than the patch's length: creepages and the contact angle "
+     "are taken there"},
+    {RemarkKind::few_elements, "few_elements", false,
+     "fewer than 20 elements in contact: the largest pressure is off by several per cent, and with fewer than 5 it is "
+     "an order of magnitude only"},
+    {RemarkKind::large_creepage, "large_creepage", false,
+     "creepage, or spin times the patch's radius, above 0.1 in rolling: motions are taken as small against rolling"},
+    {RemarkKind::friction_adds_energy, "friction_adds_energy", true,
+     "tractions push where the surfaces slip: friction adds more than a hundredth of what it dissipates"},
+    {RemarkKind::force_not_reached, "force_not_reached", true,
+     "a prescribed force differs from the one found by more than 0.2 %"},
+    {RemarkKind::no_contact_under_load, "no_contact_under_load", true,
+     "a normal or vertical force is prescribed and the bodies do not touch"},
+    {RemarkKind::elements_enlarged, "elements_enlarged", false,
+     "elements were enlarged to keep their number below max_elements"},
+    {RemarkKind::step_rule, "step_rule", false, "a step of transient rolling is longer than dt = 2 dx / V"},
+};
+
+/// One remark on one result.
+struct Remark {
+  RemarkKind kind = RemarkKind::few_elements;
+  int patch = 0;     ///< number of the patch, from 1; 0: the whole case
+  std::string text;  ///< what was found, with numbers, and what to do
+
+  const RemarkRow& row() const { return kRemarkRows[static_cast<std::size_t>(kind)]; }
+  bool grave() const { return row().grave; }
+};
+
+/// The kind of this name; none for an unknown one.
+std::optional<RemarkKind> remark_named(std::string_view name);
+/// Whether one of them is grave.
+bool any_grave(std::span<const Remark> remarks);
+/// "doubt: patch 2: ..." or "remark: ...".
+std::string to_line(const Remark& remark);
+
+}  // namespace treadmark

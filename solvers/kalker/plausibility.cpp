@@ -1,0 +1,100 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/kalker/plausibility.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include "treadmark/core/constants.hpp"
+
+namespace treadmark::kalker {
+namespace {
+
+constexpr int kFewElements = 20, kHardlyAny = 5;
+constexpr double kLargeCreepage = 0.1;
+constexpr double kAddedEnergy = 0.01;
+constexpr double kForceTolerance = 2e-3;
+
+/// Elements with pressure at the border of the grid; a direction of one element has no border.
+int pressed_at_border(const Grid2& g, const std::vector<double>& pressure) {
+  int count = 0;
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (int ix = 0; ix < g.nx; ++ix) {
+      const bool border = (g.nx > 1 && (ix == 0 || ix == g.nx - 1)) || (g.ny > 1 && (iy == 0 || iy == g.ny - 1));
+      if (border && pressure[g.index(ix, iy)] > 0.0) ++count;
+    }
+  return count;
+}
+
+/// Power (shift: work) that friction adds and dissipates, per area, both positive.
+struct Exchange {
+  double added = 0.0, dissipated = 0.0;
+};
+
+Exchange exchange(const ContactSolution& s) {
+  Exchange sum;
+  for (std::size_t i = 0; i < std::min(s.slip_x.size(), s.traction_x.size()); ++i) {
+    const double w = s.traction_x[i] * s.slip_x[i] + s.traction_y[i] * s.slip_y[i];
+    (w > 0.0 ? sum.added : sum.dissipated) += std::abs(w);
+  }
+  return sum;
+}
+
+}  // namespace
+
+double contact_modulus(const Material& material) {
+  const CombinedMaterial m = combine(material);
+  return m.shear_modulus / (1.0 - m.poisson);
+}
+
+void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vector<Remark>& remarks) {
+  const auto add = [&](RemarkKind kind, std::string text) { remarks.push_back({kind, patch, std::move(text)}); };
+
+  if (const int count = pressed_at_border(p.grid, s.pressure); count > 0)
+    add(RemarkKind::grid_cuts_contact,
+        fmt::format("{} of {} elements in contact lie at the border of the potential contact area, which cuts the "
+                    "patch: make it larger",
+                    count, s.elements_contact));
+
+  if (s.max_pressure > p.pressure_limit)
+    add(RemarkKind::beyond_half_space,
+        fmt::format("the largest pressure of {:.4g} MPa is {:.2g} E' and means a patch that is not small against the "
+                    "bodies' radii: look for spikes or edges in the surfaces, or a position that is not meant",
+                    kMega * s.max_pressure, s.max_pressure / contact_modulus(p.material)));
+
+  const int most = std::max(p.grid.nx, p.grid.ny);
+  if (s.elements_contact < kFewElements && most > 1 && std::min(p.grid.nx, p.grid.ny) > 1)
+    add(RemarkKind::few_elements,
+        fmt::format("{} elements are in contact{}: take smaller ones", s.elements_contact,
+                    s.elements_contact < kHardlyAny ? ", so that pressures are an order of magnitude only" : ""));
+
+  if (p.rolling) {
+    const double radius = std::sqrt(s.elements_contact * p.grid.cell_area() / kPi);
+    const Creepage& c = s.creepage;
+    const double largest = std::max({std::abs(c.xi), std::abs(c.eta), std::abs(c.phi) * radius});
+    if (largest > kLargeCreepage)
+      add(RemarkKind::large_creepage,
+          fmt::format("a creepage of {:.3g} is not small against rolling (xi {:.3g}, eta {:.3g}, phi {:.3g} rad/mm)",
+                      largest, c.xi, c.eta, 1e-3 * c.phi));
+  }
+
+  const Exchange e = exchange(s);
+  // Slip below a millionth of rolling (shift: of a millimetre) is what rounding leaves.
+  const double noise = 1e-6 * (p.shift ? 1e-3 : 1.0) * p.static_friction * s.force_n / p.grid.cell_area();
+  if (e.added > kAddedEnergy * e.dissipated && e.added > noise)
+    add(RemarkKind::friction_adds_energy,
+        fmt::format("friction adds {:.2g} % of the energy that it dissipates: tractions push where the surfaces slip",
+                    1e2 * e.added / std::max(e.dissipated, noise)));
+}
+
+void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks) {
+  const double scale = std::abs(wanted);
+  if (std::abs(found - wanted) > kForceTolerance * scale)
+    remarks.push_back({RemarkKind::force_not_reached, 0,
+                       fmt::format("a {} of {:.6g} N is prescribed, found are {:.6g} N", name, wanted, found)});
+}
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,31 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <vector>
+
+#include "treadmark/model/remarks.hpp"
+#include "treadmark/solvers/kalker/contact_problem.hpp"
+
+namespace treadmark::kalker {
+
+/// What a patch is judged by besides its solution.
+struct PatchSetting {
+  const Grid2& grid;
+  const Material& material;
+  double static_friction = 0.3;
+  bool rolling = false;       ///< steady or transient
+  bool shift = false;         ///< creepages and slip are lengths
+  double pressure_limit = 0;  ///< beyond_half_space above it [Pa]
+};
+
+/// Appends what is doubtful about the solution of one patch to remarks; patch: its number there. Thread-safe.
+void judge(const PatchSetting& setting, const ContactSolution& solution, int patch, std::vector<Remark>& remarks);
+
+/// E' = G / (1 - nu) of both bodies [Pa].
+double contact_modulus(const Material& material);
+
+/// A force that was asked for and the one that was found [N].
+void judge_force(const char* name, double wanted, double found, std::vector<Remark>& remarks);
+
+}  // namespace treadmark::kalker

@@ -1,0 +1,137 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/wheelrail/plausibility.hpp"
+
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <memory>
+#include <utility>
+#include <vector>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/tests/solvers/wheelrail/round_groove.hpp"
+#include "treadmark/tests/solvers/wheelrail/standard_pair.hpp"
+
+namespace treadmark::wheelrail {
+namespace {
+
+using ::testing::Contains;
+using ::testing::IsEmpty;
+using ::testing::Not;
+
+std::vector<RemarkKind> kinds(const PairSolution& s) {
+  std::vector<RemarkKind> out;
+  for (const Remark& r : s.remarks) out.push_back(r.kind);
+  return out;
+}
+
+PairSolution solved(const Geometry& geometry, const Problem& p) { return Pair(geometry).solve(p); }
+
+TEST(PairPlausibility, StandardProfilesAreWithoutDoubt) {
+  for (const Side side : {Side::right, Side::left}) {
+    Problem p = standard_problem();
+    p.side = side;
+    p.discretisation.dx = p.discretisation.ds = 0.4e-3;
+    const PairSolution s = solved(standard_geometry(), p);
+    EXPECT_EQ(s.status, Status::ok);
+    for (const Remark& r : s.remarks) EXPECT_FALSE(r.grave()) << to_line(r);
+  }
+}
+
+TEST(PairPlausibility, NoContactUnderALoad) {
+  Problem p = standard_problem();
+  p.state.position.y = 0.5;
+  EXPECT_THAT(kinds(solved(standard_geometry(), p)), Contains(RemarkKind::no_contact_under_load));
+  p.vertical_force.reset();
+  p.state.position.y = 0.0;
+  p.state.position.z = -1e-3;
+  const PairSolution lifted = solved(standard_geometry(), p);
+  EXPECT_EQ(lifted.status, Status::no_contact);
+  EXPECT_THAT(lifted.remarks, IsEmpty()) << "it is lifted on purpose";
+}
+
+// A wheel in a groove of nearly its own radius touches over a wide arc, on which a plane cannot lie.
+TEST(PairPlausibility, PlaneOnAStronglyCurvedPatch) {
+  Problem p = testing::groove_problem(60e-6);
+  p.reference_surface = ReferenceSurface::plane;
+  p.discretisation.ds = 0.25e-3;
+  const Geometry groove = testing::round_groove(10.1e-3);
+  EXPECT_THAT(kinds(solved(groove, p)), Contains(RemarkKind::strongly_curved));
+  p.reference_surface = ReferenceSurface::curved;
+  const std::vector<RemarkKind> curved = kinds(solved(groove, p));
+  EXPECT_THAT(curved, Not(Contains(RemarkKind::strongly_curved)));
+  EXPECT_THAT(curved, Not(Contains(RemarkKind::curved)));
+  p.reference_surface = ReferenceSurface::plane;
+  EXPECT_THAT(kinds(solved(testing::round_groove(14e-3), testing::groove_problem(5e-6))),
+              Not(Contains(RemarkKind::strongly_curved)));
+}
+
+TEST(PairPlausibility, EnlargedElements) {
+  Problem p = standard_problem();
+  p.discretisation.max_elements = 100;
+  EXPECT_THAT(kinds(solved(standard_geometry(), p)), Contains(RemarkKind::elements_enlarged));
+}
+
+/// A surface that ends at y_end of its own axes, or has a hole of 1 mm about (x, y) = (0, y_end).
+class Torn final : public Surface {
+ public:
+  Torn(std::shared_ptr<const Surface> whole, double y_end, bool hole)
+      : whole_(std::move(whole)), y_end_(y_end), hole_(hole) {}
+  std::string_view backend() const override { return whole_->backend(); }
+  Facing facing() const override { return whole_->facing(); }
+  Box3 bounds() const override { return whole_->bounds(); }
+  std::size_t memory_bytes() const override { return whole_->memory_bytes(); }
+
+ private:
+  bool missing(const Vec3& p) const { return hole_ ? std::hypot(p.x(), p.y() - y_end_) < 0.7e-3 : p.y() > y_end_; }
+  void do_heights(const PlaneGrid& grid, const HeightsOut& out) const override {
+    std::vector<double> z(grid.grid.size());
+    whole_->heights(grid, {z, out.dzdx, out.dzdy});
+    for (std::size_t i = 0; i < z.size(); ++i) {
+      const int ix = static_cast<int>(i % static_cast<std::size_t>(grid.grid.nx)),
+                iy = static_cast<int>(i / static_cast<std::size_t>(grid.grid.nx));
+      if (!missing(grid.X_SP.apply({grid.grid.x(ix), grid.grid.y(iy), z[i]}))) continue;
+      z[i] = kNaN;
+      if (!out.dzdx.empty()) out.dzdx[i] = kNaN;
+      if (!out.dzdy.empty()) out.dzdy[i] = kNaN;
+    }
+    if (!out.z.empty()) std::ranges::copy(z, out.z.begin());
+  }
+  void do_locate(const Pose& X_SP, std::span<const Vec2> points, std::span<SurfacePoint> out) const override {
+    whole_->locate(X_SP, points, out);
+  }
+  HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& r) const override {
+    return whole_->height_bounds(X_SP, r);
+  }
+  std::shared_ptr<const Surface> whole_;
+  double y_end_;
+  bool hole_;
+};
+
+PairSolution on_torn_rail(double y_of_tear, bool hole) {
+  Geometry g = standard_geometry();
+  g.rail = std::make_shared<Torn>(g.rail, y_of_tear, hole);
+  g.prismatic_rail = false;
+  Problem p = standard_problem();
+  p.discretisation.dx = p.discretisation.ds = 0.4e-3;
+  return solved(g, p);
+}
+
+TEST(PairPlausibility, SurfaceThatEndsInContactAndHoles) {
+  const PairSolution whole = on_torn_rail(1.0, false);
+  ASSERT_EQ(whole.status, Status::ok) << whole.message;
+  EXPECT_THAT(kinds(whole), Not(Contains(RemarkKind::surface_ends_in_contact)));
+  const double y = whole.patches.front().reference_rail.y();
+  EXPECT_THAT(kinds(on_torn_rail(y + 2e-3, false)), Contains(RemarkKind::surface_ends_in_contact));
+  EXPECT_THAT(kinds(on_torn_rail(y + 15e-3, false)), Not(Contains(RemarkKind::surface_ends_in_contact)));
+  const PairSolution torn = on_torn_rail(y, true);
+  EXPECT_THAT(kinds(torn), Contains(RemarkKind::hole_in_contact));
+  EXPECT_EQ(torn.status, Status::failed);
+  EXPECT_FALSE(torn.message.empty());
+}
+
+}  // namespace
+}  // namespace treadmark::wheelrail
