@@ -76,8 +76,10 @@ UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, 
     rows_s.push_back(reference.rows[static_cast<std::size_t>(iy)].y);
     const Grid2 line{centred.x0, rows_s.back(), grid.dx, grid.dy, grid.nx, 1};
     rail_heights(bodies, X_TC, line, {rail.data() + grid.index(0, iy), width});
+    if (!bodies.distance_mesh)
+      bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, line}, {{wheel.data() + grid.index(0, iy), width}, {}, {}});
   }
-  mesh_heights(bodies, X_TC, centred, rows_s, rail, wheel);
+  if (bodies.distance_mesh) mesh_heights(bodies, X_TC, centred, rows_s, rail, wheel);
   for (int iy = 0; iy < grid.ny; ++iy) {
     const double across = std::cos(reference.rows[static_cast<std::size_t>(iy)].angle);
     for (int ix = 0; ix < grid.nx; ++ix) {
