@@ -5,6 +5,7 @@
 #include <oneapi/tbb/global_control.h>
 #include <oneapi/tbb/info.h>
 #include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 namespace treadmark {
 
@@ -24,7 +25,9 @@ void parallel_for(std::size_t count, const std::function<void(std::size_t)>& bod
     for (std::size_t i = 0; i < count; ++i) body(i);
     return;
   }
-  tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); });
+  // A thread that waits for the rest of this loop must not begin a part of another one: what it holds for itself,
+  // buffers and locks, belongs to the work that waits.
+  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
 }
 
 }  // namespace treadmark

@@ -3,6 +3,7 @@
 
 #include "treadmark/detection/undeformed_distance.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 #include <utility>
@@ -12,16 +13,26 @@
 #include "treadmark/detection/wheel_mesh.hpp"
 
 namespace treadmark::detection {
+namespace {
 
-UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C) {
-  std::vector<double> rail_n(grid_C.size()), wheel_n(grid_C.size());
+void rail_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C, std::span<double> rail_n) {
   const bool on_sections = bodies.distance_mesh && bodies.distance_mesh->rail_sections &&
                            !bodies.rail->constant_profile() && section_heights(bodies, X_TC, grid_C, rail_n);
   if (!on_sections) bodies.rail->heights({bodies.X_TR.inverse() * X_TC, grid_C}, {rail_n, {}, {}});
-  if (bodies.distance_mesh)
-    mesh_heights(bodies, X_TC, grid_C, wheel_n);
-  else
+}
+
+}  // namespace
+
+UndeformedDistance undeformed_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid_C) {
+  std::vector<double> rail_n(grid_C.size()), wheel_n(grid_C.size());
+  rail_heights(bodies, X_TC, grid_C, rail_n);
+  if (bodies.distance_mesh) {
+    std::vector<double> rows_s(static_cast<std::size_t>(grid_C.ny));
+    for (int iy = 0; iy < grid_C.ny; ++iy) rows_s[static_cast<std::size_t>(iy)] = grid_C.y(iy);
+    mesh_heights(bodies, X_TC, grid_C, rows_s, rail_n, wheel_n);
+  } else {
     bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, grid_C}, {wheel_n, {}, {}});
+  }
   return undeformed_distance(std::move(rail_n), wheel_n);
 }
 
@@ -58,14 +69,25 @@ FacingSurfaces facing_surfaces(const BodyPair& bodies, const Pose& X_TC, const G
 UndeformedDistance projected_distance(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid,
                                       const ReferenceRows& reference) {
   const auto width = static_cast<std::size_t>(grid.nx);
-  std::vector<double> rail(grid.size()), wheel(grid.size());
+  std::vector<double> rail(grid.size()), wheel(grid.size()), rows_s;
+  Grid2 centred = grid;
+  centred.x0 -= reference.reference_C.x();
   for (int iy = 0; iy < grid.ny; ++iy) {
-    const ReferenceRow& row = reference.rows[static_cast<std::size_t>(iy)];
-    const Grid2 line{grid.x0 - reference.reference_C.x(), row.y, grid.dx, grid.dy, grid.nx, 1};
-    const UndeformedDistance h = undeformed_distance(bodies, X_TC, line);
-    for (std::size_t ix = 0; ix < width; ++ix)
-      rail[grid.index(static_cast<int>(ix), iy)] = std::cos(row.angle) * (h.distance[ix] - h.approach);
+    rows_s.push_back(reference.rows[static_cast<std::size_t>(iy)].y);
+    const Grid2 line{centred.x0, rows_s.back(), grid.dx, grid.dy, grid.nx, 1};
+    rail_heights(bodies, X_TC, line, {rail.data() + grid.index(0, iy), width});
+    if (!bodies.distance_mesh)
+      bodies.wheel->heights({bodies.X_TW.inverse() * X_TC, line}, {{wheel.data() + grid.index(0, iy), width}, {}, {}});
   }
+  if (bodies.distance_mesh) mesh_heights(bodies, X_TC, centred, rows_s, rail, wheel);
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    const double across = std::cos(reference.rows[static_cast<std::size_t>(iy)].angle);
+    for (int ix = 0; ix < grid.nx; ++ix) {
+      const std::size_t i = grid.index(ix, iy);
+      rail[i] = across * (rail[i] - wheel[i]);
+    }
+  }
+  std::ranges::fill(wheel, 0.0);
   return undeformed_distance(std::move(rail), wheel);
 }
 

@@ -29,16 +29,33 @@ struct Reach {
   double x_min, x_max, y_min, y_max, z_min;
 };
 
-Reach reach_of(const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
+/// Elements in the contact plane and, on the rail, how far off it the bodies face each other.
+struct Elements {
+  const Grid2& grid;
+  std::span<const double> rows_s, rail_n;
+};
+
+Reach reach_of(const Pose& X_TU, const Pose& X_TC, const Elements& e) {
   constexpr double kInfinity = std::numeric_limits<double>::infinity(), kMargin = 2.0;
+  const Grid2& g = e.grid;
   Reach r{kInfinity, -kInfinity, kInfinity, -kInfinity, kInfinity};
-  const Vec3 lateral = X_TC.rotation.col(1);
+  const Vec3 lateral = X_TC.rotation.col(1), normal = X_TC.rotation.col(2);
+  const auto [s_min, s_max] = std::ranges::minmax(e.rows_s);
   for (const double x : {g.x0 - 0.5 * g.dx, g.x(g.nx - 1) + 0.5 * g.dx})
-    for (const double s : {g.y0 - 0.5 * g.dy, g.y(g.ny - 1) + 0.5 * g.dy}) {
+    for (const double s : {s_min - 0.5 * g.dy, s_max + 0.5 * g.dy}) {
       const Vec3 p = X_TU.apply_inverse(X_TC.origin + s * lateral + Vec3(x, 0.0, 0.0));
       r.x_min = std::min(r.x_min, p.x()), r.x_max = std::max(r.x_max, p.x());
       r.y_min = std::min(r.y_min, p.y()), r.y_max = std::max(r.y_max, p.y());
       r.z_min = std::min(r.z_min, p.z());
+    }
+  // Far off a steep plane the bodies meet beside the plane's own points.
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (const int ix : {0, g.nx / 2, g.nx - 1}) {
+      const double n = e.rail_n[g.index(ix, iy)];
+      if (std::isnan(n)) continue;
+      const double s = e.rows_s[static_cast<std::size_t>(iy)];
+      const double y = X_TU.apply_inverse(X_TC.origin + s * lateral + n * normal + Vec3(g.x(ix), 0.0, 0.0)).y();
+      r.y_min = std::min(r.y_min, y), r.y_max = std::max(r.y_max, y);
     }
   r.x_min -= kMargin * g.dx, r.x_max += kMargin * g.dx;
   r.y_min -= kMargin * g.dy, r.y_max += kMargin * g.dy;
@@ -77,8 +94,9 @@ std::vector<double> equal_arcs(const Surface& wheel, double angle, const Reach& 
   return nodes;
 }
 
-Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
-  const Reach r = reach_of(X_TU, X_TC, g);
+Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Elements& e) {
+  const Grid2& g = e.grid;
+  const Reach r = reach_of(X_TU, X_TC, e);
   const double angle = lowest_angle(bodies.X_TW);
   // Lines through the origin of the grid, which lies far off where grids line up in time.
   const Vec3 marker = X_TU.apply_inverse(X_TC.origin);
@@ -97,10 +115,11 @@ Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, cons
   return mesh;
 }
 
-Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Grid2& g) {
+Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Elements& e) {
   constexpr double kLateralStep = 0.5e-3;
   constexpr std::size_t kMargin = 3;
-  const Reach r = reach_of(X_TU, X_TC, g);
+  const Grid2& g = e.grid;
+  const Reach r = reach_of(X_TU, X_TC, e);
   const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min),
                to = std::atan(r.x_max / r.z_min);
   int rows = static_cast<int>(std::lround((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
@@ -157,32 +176,68 @@ double bilinear(const Mesh& mesh, const FacetPlace& p) {
   return first + p.v * (second - first);
 }
 
+/// Does a section turn back, seen along the normal of the contact plane?
+bool turns_back(const Mesh& mesh, int k) {
+  bool up = false, down = false;
+  for (int j = 1; j < mesh.columns; ++j) {
+    const double step = mesh.at(k, j).y() - mesh.at(k, j - 1).y();
+    up |= step > 0.0, down |= step < 0.0;
+  }
+  return up && down;
+}
+
+/// Index, not whole, of a section's corners where it has the greatest height at s; NaN where it is not there.
+double foremost(const Mesh& mesh, int k, double s) {
+  double found = kNaN, greatest = -std::numeric_limits<double>::infinity();
+  for (int j = 0; j + 1 < mesh.columns; ++j) {
+    const Vec3 &a = mesh.at(k, j), &b = mesh.at(k, j + 1);
+    if (!((a.y() <= s && s <= b.y()) || (b.y() <= s && s <= a.y())) || a.y() == b.y()) continue;
+    const double share = (s - a.y()) / (b.y() - a.y()), n = a.z() + share * (b.z() - a.z());
+    if (n > greatest) greatest = n, found = j + share;
+  }
+  return found;
+}
+
+int nearest_corner(const Mesh& mesh, int k, double s) {
+  int near = 0;
+  for (int j = 1; j < mesh.columns; ++j)
+    if (std::abs(mesh.at(k, j).y() - s) < std::abs(mesh.at(k, near).y() - s)) near = j;
+  return near;
+}
+
 }  // namespace
 
-void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std::span<double> wheel_n) {
+void mesh_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& g, std::span<const double> rows_s,
+                  std::span<const double> rail_n, std::span<double> wheel_n) {
   const bool round = bodies.wheel->constant_profile();
   const Pose X_TU = bodies.X_TW * Pose{Vec3::Zero(), rotation_y(lowest_angle(bodies.X_TW))};
-  const Mesh mesh = round ? round_mesh(bodies, X_TU, X_TC, g) : slices_mesh(bodies, X_TU, X_TC, g);
+  const Elements elements{g, rows_s, rail_n};
+  const Mesh mesh = round ? round_mesh(bodies, X_TU, X_TC, elements) : slices_mesh(bodies, X_TU, X_TC, elements);
   std::ranges::fill(wheel_n, kNaN);
   if (mesh.rows < 2 || mesh.columns < 2) return;
   const auto corner = [&](int k, int j) -> const Vec3& { return mesh.at(k, j); };
   const int middle = mesh.rows / 2;
+  const bool folded = turns_back(mesh, middle);
+  const double start_a =
+      std::clamp((g.x(0) - corner(0, 0).x()) / (corner(mesh.rows - 1, 0).x() - corner(0, 0).x()), 0.0, 1.0) *
+      (mesh.rows - 1);
   for (int iy = 0; iy < g.ny; ++iy) {
+    const double s = rows_s[static_cast<std::size_t>(iy)];
     // From the corner of the middle section next to the row, then from element to element.
-    double near = 0.0;
-    for (int j = 1; j < mesh.columns; ++j)
-      if (std::abs(corner(middle, j).y() - g.y(iy)) < std::abs(corner(middle, static_cast<int>(near)).y() - g.y(iy)))
-        near = j;
-    const double start_a =
-        std::clamp((g.x(0) - corner(0, 0).x()) / (corner(mesh.rows - 1, 0).x() - corner(0, 0).x()), 0.0, 1.0) *
-        (mesh.rows - 1);
+    const double near = nearest_corner(mesh, middle, s);
     double a = start_a, b = near;
     for (int ix = 0; ix < g.nx; ++ix) {
       FacetPlace place;
+      const double a_again = std::clamp(start_a + ix, 0.0, mesh.rows - 1.0);
+      if (folded) {
+        a = a_again;
+        b = foremost(mesh, static_cast<int>(std::lround(a)), s);
+        if (std::isnan(b)) continue;
+      }
       double a_try = a, b_try = b;
-      if (!find_facet(corner, mesh.rows, mesh.columns, g.x(ix), g.y(iy), a_try, b_try, place)) {
-        a_try = std::clamp(start_a + ix, 0.0, mesh.rows - 1.0), b_try = near;
-        if (!find_facet(corner, mesh.rows, mesh.columns, g.x(ix), g.y(iy), a_try, b_try, place)) continue;
+      if (!find_facet(corner, mesh.rows, mesh.columns, g.x(ix), s, a_try, b_try, place)) {
+        a_try = a_again, b_try = near;
+        if (folded || !find_facet(corner, mesh.rows, mesh.columns, g.x(ix), s, a_try, b_try, place)) continue;
       }
       a = a_try, b = b_try;
       wheel_n[g.index(ix, iy)] = round ? bilinear(mesh, place) : bicubic(mesh, place);

@@ -17,6 +17,7 @@ std::string limits_in_words(const TheoryLimits& limits) {
   add(limits.hertzian, "Hertzian geometry");
   add(limits.given_approach, "a [patch] needs a given approach");
   add(limits.steady_only, "steady rolling only");
+  add(limits.rolling_only, "rolling only");
   add(limits.full_normal, "full normal problem only");
   return words;
 }

@@ -26,6 +26,7 @@ struct TheoryLimits {
   bool hertzian = false;        ///< Hertzian geometry
   bool given_approach = false;  ///< of one patch: a given approach, not a normal force
   bool steady_only = false;     ///< tractions do not depend on the previous instant: no shift, no transient rolling
+  bool rolling_only = false;    ///< steady or transient rolling: no shift
   bool full_normal = false;     ///< the full normal problem
 };
 
@@ -65,13 +66,13 @@ inline constexpr Theory<TangentialModel> kTangentialTheories[] = {
     {TangentialModel::fastsim,
      "fastsim",
      "FASTSIM with three flexibilities",
-     {3, "T = 0, 3; D other than 3, 4", "T = 0, 3"},
-     {.steady_only = true}},
+     {3, "T = 0, 2, 3; D other than 3, 4", "T = 0, 2, 3"},
+     {.rolling_only = true}},
     {TangentialModel::fastsim_one_flexibility,
      "fastsim_one_flexibility",
      "FASTSIM with one flexibility",
-     {2, "T = 0, 3; D other than 3, 4", "T = 0, 3"},
-     {.steady_only = true}},
+     {2, "T = 0, 2, 3; D other than 3, 4", "T = 0, 2, 3"},
+     {.rolling_only = true}},
     {TangentialModel::fastrip,
      "fastrip",
      "FaStrip",

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// How the time of normal and tangential problem grows with the number of elements, on one thread.
+// How the time of normal and tangential problem grows with the number of elements, on one thread, and what more threads
+// bring.
 #include <cmath>
 #include <cstdio>
 #include <cstdlib>
@@ -24,12 +25,13 @@ constexpr int kGrids[] = {70, 142, 281, 557, 785};
 constexpr int kReferenceGrid = 142;  ///< growth is relative to it: smaller problems live in the cache
 constexpr int kRepetitions = 3;
 constexpr const char* kUsage =
-    "usage: bench_solvers [--largest N] [--json FILE]\n"
+    "usage: bench_solvers [--largest N] [--threads N] [--json FILE]\n"
     "       --largest N   grids of at most N x N elements (70, 142, 281, 557, 785)\n"
+    "       --threads N   instead: the largest grid on one thread and on N, in turns\n"
     "       --json FILE   writes checks and times there, too\n";
 
 struct Options {
-  int largest = 785;
+  int largest = 785, threads = 0;
   std::string json;
 };
 
@@ -40,11 +42,12 @@ std::optional<Options> parse(int argc, char** argv) {
     if (i + 1 == argc) return std::nullopt;
     if (name == "--json") {
       out.json = argv[i + 1];
-    } else if (name == "--largest") {
+    } else if (name == "--largest" || name == "--threads") {
+      const bool threads = name == "--threads";
       char* end = nullptr;
       const long n = std::strtol(argv[i + 1], &end, 10);
-      if (*end != '\0' || n < kGrids[0] || n > 100000) return std::nullopt;
-      out.largest = static_cast<int>(n);
+      if (*end != '\0' || n < (threads ? 2 : kGrids[0]) || n > 100000) return std::nullopt;
+      (threads ? out.threads : out.largest) = static_cast<int>(n);
     } else {
       return std::nullopt;
     }
@@ -106,14 +109,46 @@ bool print_times(int largest, nlohmann::json& json) {
   return converged;
 }
 
+/// Whether all answers are the same on any number of threads.
+bool print_gains(int largest, int threads, nlohmann::json& json) {
+  constexpr int kPairs = 7;
+  int n = kGrids[0];
+  for (const int grid : kGrids)
+    if (grid <= largest) n = grid;
+  std::printf("\n%-24s %8s %12s %12s %6s\n", "problem", "contact", "1 thread s",
+              (std::to_string(threads) + " s").c_str(), "gain");
+  bool equal = true;
+  for (const bench::ThreadGain& g : bench::gain_by_threads(n, threads, kPairs)) {
+    equal = equal && g.equal;
+    if (!g.equal) {
+      std::printf("%-24s WRONG: the answer depends on the number of threads\n", g.problem.c_str());
+      continue;
+    }
+    std::printf("%-24s %8d %12.4f %12.4f %6.2f\n", g.problem.c_str(), g.elements, g.one, g.several, g.one / g.several);
+    json["threads"].push_back({{"problem", g.problem},
+                               {"contact_elements", g.elements},
+                               {"threads", threads},
+                               {"wall_one_s", g.one},
+                               {"wall_s", g.several}});
+  }
+  return equal;
+}
+
 int run(const Options& options) {
-  const ThreadLimit one(1);
   nlohmann::json json;
-  if (!print_checks(json)) {
-    std::fputs("bench_solvers: answers disagree, nothing is measured\n", stderr);
+  bool converged = true;
+  {
+    const ThreadLimit one(1);
+    if (!print_checks(json)) {
+      std::fputs("bench_solvers: answers disagree, nothing is measured\n", stderr);
+      return 1;
+    }
+    if (options.threads == 0) converged = print_times(options.largest, json);
+  }
+  if (options.threads > 0 && !print_gains(options.largest, options.threads, json)) {
+    std::fputs("bench_solvers: answers depend on the number of threads\n", stderr);
     return 1;
   }
-  const bool converged = print_times(options.largest, json);
   if (!options.json.empty()) {
     std::ofstream file(options.json);
     file << json.dump(1) << '\n';

@@ -8,6 +8,7 @@
 #include <limits>
 
 #include "treadmark/bench/solvers/solver_cases.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 
 namespace treadmark::bench {
@@ -113,6 +114,52 @@ std::vector<SolverTime> time_solvers(int n, int repetitions) {
   out.push_back(time_transient(c, repetitions, normal));
   out.back().products = out.back().time.cpu / products;
   return out;
+}
+
+namespace {
+
+bool same_bits(const kalker::ContactSolution& a, const kalker::ContactSolution& b) {
+  return a.pressure == b.pressure && a.displacement_n == b.displacement_n && a.traction_x == b.traction_x &&
+         a.traction_y == b.traction_y && a.slip_x == b.slip_x && a.slip_y == b.slip_y && a.state == b.state &&
+         a.force_x == b.force_x && a.force_y == b.force_y && a.approach == b.approach;
+}
+
+template <class Solve>
+ThreadGain gain(const char* problem, int threads, int repetitions, const Solve& solve) {
+  const auto on = [&](int count) {
+    const ThreadLimit limit(count);
+    return solve();
+  };
+  const kalker::ContactSolution one = on(1);
+  ThreadGain out{problem, one.elements_contact, 0.0, 0.0, same_bits(one, on(threads))};
+  if (!out.equal) return out;
+  LeastTime least_one = not_yet(), least_several = not_yet();
+  for (int i = 0; i < repetitions; ++i) {
+    time_once(least_one, 1.0, [&] { on(1); });
+    time_once(least_several, 1.0, [&] { on(threads); });
+  }
+  out.one = least_one.wall;
+  out.several = least_several.wall;
+  return out;
+}
+
+}  // namespace
+
+std::vector<ThreadGain> gain_by_threads(int n, int threads, int repetitions) {
+  HertzCase c(n, creepage_regimes()[1].creepage);
+  const kalker::ContactSolution normal = kalker::ContactSolver().solve_normal(c.problem);
+  const auto tangential = [&](const kalker::ContactProblem& problem) {
+    kalker::ContactSolution s = normal;
+    kalker::ContactSolver().solve_tangential(problem, s);
+    return s;
+  };
+  kalker::ContactProblem shift = c.problem;
+  shift.regime = kalker::Regime::shift;
+  shift.creepage = {2e-6, 1e-6, 0.0};
+  return {gain("normal", threads, repetitions, [&] { return kalker::ContactSolver().solve_normal(c.problem); }),
+          gain("steady, partial slip", threads, repetitions, [&] { return tangential(c.problem); }),
+          gain("shift", threads, repetitions, [&] { return tangential(shift); }),
+          gain("whole steady contact", threads, repetitions, [&] { return kalker::ContactSolver().solve(c.problem); })};
 }
 
 }  // namespace treadmark::bench

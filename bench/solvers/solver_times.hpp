@@ -33,4 +33,13 @@ struct SolverTime {
 /// nothing.
 std::vector<SolverTime> time_solvers(int n, int repetitions);
 
+/// What a number of threads brings, measured in turns with one thread.
+struct ThreadGain {
+  std::string problem;
+  int elements = 0;                 ///< in contact
+  double one = 0.0, several = 0.0;  ///< least wall clock times [s]
+  bool equal = false;               ///< bit by bit the same answer, which is looked at before anything is timed
+};
+std::vector<ThreadGain> gain_by_threads(int n, int threads, int repetitions);
+
 }  // namespace treadmark::bench

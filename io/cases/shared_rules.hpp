@@ -41,9 +41,12 @@ inline bool goes_on(Regime r) { return r == Regime::transient || r == Regime::sh
 template <class Content>
 void simplified_theory(RuleList& rules, const Content& c, bool friction_varies, bool slip_of_elements) {
   if (c.tangential_model == TangentialModel::full) return;
-  rules.refuse_if(
-      theory(c.tangential_model).limits.steady_only && goes_on(c.regime), CaseSetting::material,
-      "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling");
+  const Theory<TangentialModel>& simplified = theory(c.tangential_model);
+  rules.refuse_if(simplified.limits.steady_only && goes_on(c.regime), CaseSetting::material,
+                  fmt::format("the simplified theory ({}) is for steady rolling, not for a shift or transient rolling",
+                              simplified.word));
+  rules.refuse_if(simplified.limits.rolling_only && c.regime == Regime::shift, CaseSetting::material,
+                  fmt::format("the simplified theory ({}) is for rolling, not for a shift", simplified.word));
   rules.refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer,
                   "the simplified theory knows no plasticity of the interface layer");
   rules.refuse_if(friction_varies || c.friction.kind == FrictionLaw::Kind::temperature, CaseSetting::friction,

@@ -113,7 +113,8 @@ void ContactSolver::Workspace::choose_previous(const ContactProblem& problem) {
       break;
     case HistoryUse::normal_only:
       previous = last;
-      for (auto* field : {&previous.traction_x, &previous.traction_y, &previous.plastic_x, &previous.plastic_y})
+      for (auto* field : {&previous.traction_x, &previous.traction_y, &previous.plastic_x, &previous.plastic_y,
+                          &previous.layer_x, &previous.layer_y})
         std::fill(field->begin(), field->end(), 0.0);
       previous.friction.clear();
       previous.yield_stress.clear();
@@ -165,7 +166,7 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
 
 void ContactSolver::Workspace::solve_once(const ContactProblem& problem, ContactSolution& solution) {
   if (problem.tangential_model != TangentialModel::full)
-    solve_fastsim(problem, solution);
+    solve_fastsim(problem, solution, previous);
   else if (tangential.couples(problem))
     solve_in_turns(problem, solution);
   else

@@ -22,7 +22,7 @@ namespace treadmark::wheelrail {
 namespace {
 
 /// Counts up with every change of what is written here or by the solvers below.
-constexpr std::uint32_t kFormat = 1;
+constexpr std::uint32_t kFormat = 2;
 
 void put_all(ByteWriter& out, std::initializer_list<double> values) {
   for (const double value : values) out.put(value);

@@ -75,6 +75,8 @@ kalker::ContactHistory united(const std::vector<kalker::ContactHistory>& histori
     add(sum.traction_y, part.traction_y);
     add(sum.plastic_x, part.plastic_x);
     add(sum.plastic_y, part.plastic_y);
+    add(sum.layer_x, part.layer_x);
+    add(sum.layer_y, part.layer_y);
     const auto take = [&](std::vector<double>& field, const std::vector<double>& from) {
       if (from.empty()) return;
       if (field.empty()) field = from;

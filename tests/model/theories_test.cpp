@@ -87,6 +87,7 @@ TEST(Theories, EveryEnumeratorHasItsRowAndIsListed) {
 TEST(Theories, ListSaysWhereATheoryMayBeUsed) {
   const std::string list = theory_list();
   EXPECT_THAT(list, HasSubstr("FaStrip; steady rolling only\n"));
+  EXPECT_THAT(list, HasSubstr("FASTSIM with three flexibilities; rolling only\n"));
   EXPECT_THAT(list, HasSubstr("elliptic pressure; [patch] only; Hertzian geometry\n"));
   EXPECT_THAT(list, HasSubstr("KPEC; a [patch] needs a given approach\n"));
   EXPECT_EQ(std::ranges::count(list, '\n'), 4 + 6 + 5 + 4 + 4);

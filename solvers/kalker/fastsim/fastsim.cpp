@@ -9,6 +9,7 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
 #include "treadmark/solvers/kalker/fastsim/strip_theory.hpp"
 
@@ -30,7 +31,11 @@ double rolling_sign(const ContactProblem& problem) {
 }
 
 void check(const ContactProblem& problem, const ContactSolution& solution) {
-  if (problem.regime != Regime::steady) refuse("only steady rolling is possible", "use the full tangential model");
+  const bool steady_only = theory(problem.tangential_model).limits.steady_only;
+  if (problem.regime != Regime::steady && (steady_only || problem.regime != Regime::transient))
+    refuse(steady_only ? "only steady rolling is possible" : "only rolling is possible, steady or transient",
+           "use the full tangential model");
+  if (problem.regime == Regime::transient && !(problem.rolling.step > 0.0)) refuse("the rolling step must be positive");
   if (solution.pressure.size() != problem.grid.size()) refuse("there are no pressures on this grid");
   if (!(problem.rolling.velocity > 0.0)) refuse("the rolling velocity must be positive");
   if (!(problem.fastsim.k0 > 0.0) || !(problem.fastsim.alpha > 0.0 && problem.fastsim.alpha <= 1.0) ||
@@ -50,15 +55,19 @@ void check(const ContactProblem& problem, const ContactSolution& solution) {
     refuse("the one flexibility is " + std::to_string(flexibility) + " m/Pa", "it must be positive");
 }
 
-/// Traction row by row, from the leading edge backwards: what the material brings along from the element ahead, changed
-/// by the rigid slip, unless friction bounds it.
+/// Traction row by row, from the leading edge backwards: what the material brings along, changed by the rigid slip,
+/// unless friction bounds it. In steady rolling it comes from the element ahead, else from where it was a step ago.
 class Sweep {
  public:
-  Sweep(const ContactProblem& problem, ContactSolution& solution)
+  Sweep(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous)
       : problem_(problem),
         solution_(solution),
-        sign_(rolling_sign(problem)),
-        dq_(problem.grid.dx),
+        previous_(previous),
+        steady_(problem.regime == Regime::steady),
+        sign_(steady_ ? rolling_sign(problem) : 1.0),
+        dq_(steady_ ? problem.grid.dx : problem.rolling.step),
+        shift_x_(dq_ * (steady_ ? sign_ : std::cos(problem.rolling.chi))),
+        shift_y_(steady_ ? 0.0 : dq_ * std::sin(problem.rolling.chi)),
         equivalent_(equivalent_ellipse(problem.grid, solution.pressure)) {
     normal_force_ = std::accumulate(solution.pressure.begin(), solution.pressure.end(), 0.0) * problem.grid.cell_area();
   }
@@ -69,13 +78,17 @@ class Sweep {
   Vec2 run(const Creepage& creepage, bool blended);
 
  private:
+  void bring_along(const Flexibilities& flex);
   void row(int iy, const Creepage& creepage, double mu, const Flexibilities& flex);
   void element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,
                Vec2& u);
 
   const ContactProblem& problem_;
   ContactSolution& solution_;
-  double sign_, dq_;
+  const ContactHistory& previous_;
+  bool steady_;
+  double sign_, dq_, shift_x_, shift_y_;
+  std::vector<double> before_x_, before_y_;  ///< displacement of the material a step ago [m]; empty: none
   EquivalentEllipse equivalent_;
   double normal_force_ = 0.0;
 };
@@ -90,6 +103,7 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
   solution_.friction.assign(grid.size(), mu);
   solution_.state.assign(grid.size(), ElementState::exterior);
 
+  if (!steady_) bring_along(flex);
   for (int iy = 0; iy < grid.ny; ++iy) row(iy, creepage, mu, flex);
   if (problem_.tangential_model == TangentialModel::fastrip && mu * normal_force_ > 0.0)
     apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_),
@@ -98,12 +112,28 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
   return Vec2(sum(solution_.traction_x), sum(solution_.traction_y)) * grid.cell_area();
 }
 
+void Sweep::bring_along(const Flexibilities& flex) {
+  if (previous_.empty()) return;
+  const Grid2& grid = problem_.grid;
+  const auto moved = [&](const std::vector<double>& displacement, const std::vector<double>& traction, double l) {
+    std::vector<double> u = displacement;
+    if (u.empty()) {
+      u = traction;
+      for (double& value : u) value *= l / flex.slope;
+    }
+    return u.empty() ? u : carried(grid, u, shift_x_, shift_y_, 0.0);
+  };
+  before_x_ = moved(previous_.layer_x, previous_.traction_x, flex.lx);
+  before_y_ = moved(previous_.layer_y, previous_.traction_y, flex.ly);
+}
+
 void Sweep::row(int iy, const Creepage& creepage, double mu, const Flexibilities& flex) {
   const Grid2& grid = problem_.grid;
   Vec2 u = Vec2::Zero();
   for (int step = 0; step < grid.nx; ++step) {
     const int ix = sign_ > 0.0 ? grid.nx - 1 - step : step;
     const std::size_t i = grid.index(ix, iy);
+    if (!steady_) u = before_x_.empty() || before_y_.empty() ? Vec2(0.0, 0.0) : Vec2(before_x_[i], before_y_[i]);
     if (solution_.pressure[i] > 0.0)
       element(i, grid.x(ix), grid.y(iy), creepage, mu, flex, u);
     else
@@ -113,8 +143,8 @@ void Sweep::row(int iy, const Creepage& creepage, double mu, const Flexibilities
 
 void Sweep::element(std::size_t i, double x, double y, const Creepage& creepage, double mu, const Flexibilities& flex,
                     Vec2& u) {
-  const double lever_x = x - creepage.spin_x + sign_ * problem_.rolling.spin_offset_factor * dq_;
-  const double lever_y = y - creepage.spin_y;
+  const double lever_x = x - creepage.spin_x + problem_.rolling.spin_offset_factor * shift_x_;
+  const double lever_y = y - creepage.spin_y + problem_.rolling.spin_offset_factor * shift_y_;
   const auto extra = [i](const auto& slip) { return slip.empty() ? 0.0 : slip[i]; };
   const Vec2 rigid(creepage.xi - flex.spin_x * creepage.phi * lever_y + extra(problem_.extra_slip_x),
                    creepage.eta + flex.spin_y * creepage.phi * lever_x + extra(problem_.extra_slip_y));
@@ -202,12 +232,12 @@ void check_linear(const ContactProblem& problem, double normal_force, ContactSol
 
 }  // namespace
 
-void solve_fastsim(const ContactProblem& problem, ContactSolution& solution) {
+void solve_fastsim(const ContactProblem& problem, ContactSolution& solution, const ContactHistory& previous) {
   check(problem, solution);
   solution.tangential = Report();
-  solution.rolling_step = problem.grid.dx;
+  solution.rolling_step = problem.regime == Regime::steady ? problem.grid.dx : problem.rolling.step;
   solution.creepage = problem.creepage;
-  Sweep sweep(problem, solution);
+  Sweep sweep(problem, solution, previous);
   if (problem.fx_relative || problem.fy_relative)
     find_creepage(problem, sweep, solution);
   else

@@ -10,6 +10,7 @@
 #include <mutex>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
 namespace treadmark::kalker {
@@ -71,7 +72,7 @@ void RealFft2d::forward(std::span<double> real, std::span<std::complex<double>> 
     std::copy(aligned_spectrum.begin(), aligned_spectrum.end(), spectrum.begin());
     return;
   }
-  std::fill(spectrum.begin() + static_cast<std::ptrdiff_t>(rows_size()), spectrum.end(), std::complex<double>());
+  clear(spectrum.subspan(rows_size()));
   plan_->rows_forward(real.data(), spectrum.data());
   plan_->columns_forward(spectrum.data());
 }

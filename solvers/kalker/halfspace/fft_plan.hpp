@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <algorithm>
 #include <complex>
 #include <cstddef>
 #include <memory>
@@ -22,6 +23,13 @@ class FftPlan {
   virtual void columns_forward(std::complex<double>* spectrum) const = 0;
   virtual void columns_inverse(std::complex<double>* spectrum) const = 0;
 };
+
+/// Rows or columns of a large transform are transformed in blocks of this many, on all cores; a small transform is one
+/// block. The same for any number of threads. Blocks begin at cache lines.
+inline int lines_of_fft_block(int lines, int nx, int ny) {
+  constexpr int kLarge = 32768, kBlock = 16;  // complex numbers; lines
+  return (nx / 2 + 1) * ny >= kLarge ? std::min(lines, kBlock) : lines;
+}
 
 /// Defined by the library that is compiled in. Calls are serialised by the caller.
 std::shared_ptr<const FftPlan> make_fft_plan(int nx, int ny, int active_rows);

@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fftw3.h>
 
+#include <memory>
 #include <new>
+#include <type_traits>
 
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
@@ -13,50 +16,91 @@ namespace {
 
 fftw_complex* raw(std::complex<double>* p) { return reinterpret_cast<fftw_complex*>(p); }
 
+/// A plan for a number of lines and one for what is left over where lines are not a multiple of it.
+class BlockPlan {
+ public:
+  BlockPlan() = default;
+  template <class Make>
+  BlockPlan(int lines, int of_block, const Make& make) : lines_(lines), of_block_(of_block) {
+    whole_ = made(make(of_block));
+    if (lines % of_block != 0) rest_ = made(make(lines % of_block));
+  }
+
+  /// execute(plan, first line)
+  template <class Execute>
+  void run(const Execute& execute) const {
+    if (!whole_) return;
+    const auto blocks = static_cast<std::size_t>((lines_ + of_block_ - 1) / of_block_);
+    parallel_for(blocks, [&](std::size_t b) {
+      const int first = static_cast<int>(b) * of_block_;
+      execute((first + of_block_ <= lines_ ? whole_ : rest_).get(), static_cast<std::ptrdiff_t>(first));
+    });
+  }
+
+ private:
+  struct Destroy {
+    void operator()(fftw_plan plan) const { fftw_destroy_plan(plan); }
+  };
+  using Owned = std::unique_ptr<std::remove_pointer_t<fftw_plan>, Destroy>;
+  static Owned made(fftw_plan plan) {
+    if (!plan) throw std::bad_alloc();
+    return Owned(plan);
+  }
+
+  int lines_ = 0, of_block_ = 1;
+  Owned whole_, rest_;
+};
+
 /// FFTW_ESTIMATE chooses algorithms without timing, hence repeatably.
 class FftwPlan final : public FftPlan {
  public:
-  FftwPlan(int nx, int ny, int active_rows) {
-    const int columns = nx / 2 + 1;
+  FftwPlan(int nx, int ny, int active_rows) : nx_(nx), columns_(nx / 2 + 1) {
+    const int columns = columns_;
     AlignedVector<double> real(static_cast<std::size_t>(nx) * static_cast<std::size_t>(active_rows));
     AlignedVector<std::complex<double>> spectrum(static_cast<std::size_t>(columns) * static_cast<std::size_t>(ny));
     constexpr unsigned kFlags = FFTW_ESTIMATE | FFTW_DESTROY_INPUT;
-    rows_forward_ = fftw_plan_many_dft_r2c(1, &nx, active_rows, real.data(), nullptr, 1, nx, raw(spectrum.data()),
-                                           nullptr, 1, columns, kFlags);
-    rows_inverse_ = fftw_plan_many_dft_c2r(1, &nx, active_rows, raw(spectrum.data()), nullptr, 1, columns, real.data(),
-                                           nullptr, 1, nx, kFlags);
-    if (!rows_forward_ || !rows_inverse_) throw std::bad_alloc();
+    const int rows_of_block = lines_of_fft_block(active_rows, nx, ny);
+    rows_forward_ = {active_rows, rows_of_block, [&](int rows) {
+                       return fftw_plan_many_dft_r2c(1, &nx, rows, real.data(), nullptr, 1, nx, raw(spectrum.data()),
+                                                     nullptr, 1, columns, kFlags);
+                     }};
+    rows_inverse_ = {active_rows, rows_of_block, [&](int rows) {
+                       return fftw_plan_many_dft_c2r(1, &nx, rows, raw(spectrum.data()), nullptr, 1, columns,
+                                                     real.data(), nullptr, 1, nx, kFlags);
+                     }};
     if (ny == 1) return;
     const auto column_plan = [&](int sign) {
-      fftw_complex* data = raw(spectrum.data());
-      return fftw_plan_many_dft(1, &ny, columns, data, nullptr, columns, 1, data, nullptr, columns, 1, sign, kFlags);
+      return BlockPlan(columns, lines_of_fft_block(columns, nx, ny), [&](int lines) {
+        fftw_complex* data = raw(spectrum.data());
+        return fftw_plan_many_dft(1, &ny, lines, data, nullptr, columns, 1, data, nullptr, columns, 1, sign, kFlags);
+      });
     };
     columns_forward_ = column_plan(FFTW_FORWARD);
     columns_inverse_ = column_plan(FFTW_BACKWARD);
-    if (!columns_forward_ || !columns_inverse_) throw std::bad_alloc();
   }
-  ~FftwPlan() override {
-    for (fftw_plan plan : {rows_forward_, columns_forward_, rows_inverse_, columns_inverse_})
-      if (plan) fftw_destroy_plan(plan);
-  }
-  FftwPlan(const FftwPlan&) = delete;
-  FftwPlan& operator=(const FftwPlan&) = delete;
 
   void rows_forward(double* real, std::complex<double>* spectrum) const override {
-    fftw_execute_dft_r2c(rows_forward_, real, raw(spectrum));
+    rows_forward_.run([&](fftw_plan plan, std::ptrdiff_t first) {
+      fftw_execute_dft_r2c(plan, real + first * nx_, raw(spectrum + first * columns_));
+    });
   }
   void rows_inverse(std::complex<double>* spectrum, double* real) const override {
-    fftw_execute_dft_c2r(rows_inverse_, raw(spectrum), real);
+    rows_inverse_.run([&](fftw_plan plan, std::ptrdiff_t first) {
+      fftw_execute_dft_c2r(plan, raw(spectrum + first * columns_), real + first * nx_);
+    });
   }
   void columns_forward(std::complex<double>* spectrum) const override { execute(columns_forward_, spectrum); }
   void columns_inverse(std::complex<double>* spectrum) const override { execute(columns_inverse_, spectrum); }
 
  private:
-  static void execute(fftw_plan plan, std::complex<double>* spectrum) {
-    if (plan) fftw_execute_dft(plan, raw(spectrum), raw(spectrum));
+  static void execute(const BlockPlan& plans, std::complex<double>* spectrum) {
+    plans.run([&](fftw_plan plan, std::ptrdiff_t first) {
+      fftw_execute_dft(plan, raw(spectrum + first), raw(spectrum + first));
+    });
   }
 
-  fftw_plan rows_forward_ = nullptr, columns_forward_ = nullptr, rows_inverse_ = nullptr, columns_inverse_ = nullptr;
+  int nx_, columns_;
+  BlockPlan rows_forward_, columns_forward_, rows_inverse_, columns_inverse_;
 };
 
 }  // namespace

@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
@@ -58,11 +60,11 @@ void InfluenceTable::grow(int nx, int ny) {
   const int new_nx = std::max(nx, nx_), new_ny = std::max(ny, ny_);
   if (new_nx == nx_ && new_ny == ny_) return;
   std::vector<double> values;
-  values.reserve(static_cast<std::size_t>(new_nx) * static_cast<std::size_t>(new_ny));
-  for (int iy = 0; iy < new_ny; ++iy)
-    for (int ix = 0; ix < new_nx; ++ix)
-      values.push_back(ix < nx_ && iy < ny_ ? (*this)(ix, iy)
-                                            : influence(component_, ix * dx_, iy * dy_, dx_, dy_, poisson_));
+  const auto width = static_cast<std::size_t>(new_nx);
+  fill_by_blocks(values, width * static_cast<std::size_t>(new_ny), [&](std::size_t i) {
+    const int ix = static_cast<int>(i % width), iy = static_cast<int>(i / width);
+    return ix < nx_ && iy < ny_ ? (*this)(ix, iy) : influence(component_, ix * dx_, iy * dy_, dx_, dy_, poisson_);
+  });
   values_ = std::move(values);
   nx_ = new_nx;
   ny_ = new_ny;

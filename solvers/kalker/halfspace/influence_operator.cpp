@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
 
@@ -42,7 +43,7 @@ const Spectrum& InfluenceOperator::spectrum(Coefficient coefficient) {
 }
 
 void InfluenceOperator::invert(Coefficient first, Coefficient second, std::span<double> result) {
-  std::fill(sum_.begin(), sum_.end(), 0.0);
+  clear(std::span(sum_));
   add_product(sum_, field_1_, spectrum(first));
   if (second) add_product(sum_, field_2_, spectrum(second));
   transform_.inverse(sum_, result);

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
 
@@ -47,26 +48,35 @@ std::span<std::complex<double>> spectrum_field(std::size_t size) {
 void multiply(std::span<std::complex<double>> spectrum, std::span<const std::complex<double>> factor) {
   check_size(factor.size(), spectrum.size());
   // On plain numbers: operator* of std::complex checks for infinities, and whole complex values are copied slowly.
-  double* __restrict a = reinterpret_cast<double*>(spectrum.data());
-  const double* __restrict b = reinterpret_cast<const double*>(factor.data());
-  for (std::size_t k = 0; k < 2 * spectrum.size(); k += 2) {
-    const double real = a[k] * b[k] - a[k + 1] * b[k + 1], imaginary = a[k] * b[k + 1] + a[k + 1] * b[k];
-    a[k] = real;
-    a[k + 1] = imaginary;
-  }
+  double* a = reinterpret_cast<double*>(spectrum.data());
+  const double* b = reinterpret_cast<const double*>(factor.data());
+  for_blocks(spectrum.size(), [=](std::size_t begin, std::size_t end) {
+    double* __restrict to = a;
+    const double* __restrict by = b;
+    for (std::size_t k = 2 * begin; k < 2 * end; k += 2) {
+      const double real = to[k] * by[k] - to[k + 1] * by[k + 1], imaginary = to[k] * by[k + 1] + to[k + 1] * by[k];
+      to[k] = real;
+      to[k + 1] = imaginary;
+    }
+  });
 }
 
 void add_product(std::span<std::complex<double>> sum, std::span<const std::complex<double>> field,
                  std::span<const std::complex<double>> factor, double weight) {
   check_size(field.size(), sum.size());
   check_size(factor.size(), sum.size());
-  double* __restrict s = reinterpret_cast<double*>(sum.data());
-  const double* __restrict a = reinterpret_cast<const double*>(field.data());
-  const double* __restrict b = reinterpret_cast<const double*>(factor.data());
-  for (std::size_t k = 0; k < 2 * sum.size(); k += 2) {
-    s[k] += weight * (a[k] * b[k] - a[k + 1] * b[k + 1]);
-    s[k + 1] += weight * (a[k] * b[k + 1] + a[k + 1] * b[k]);
-  }
+  double* to = reinterpret_cast<double*>(sum.data());
+  const double* of = reinterpret_cast<const double*>(field.data());
+  const double* by = reinterpret_cast<const double*>(factor.data());
+  for_blocks(sum.size(), [=](std::size_t begin, std::size_t end) {
+    double* __restrict s = to;
+    const double* __restrict a = of;
+    const double* __restrict b = by;
+    for (std::size_t k = 2 * begin; k < 2 * end; k += 2) {
+      s[k] += weight * (a[k] * b[k] - a[k + 1] * b[k + 1]);
+      s[k + 1] += weight * (a[k] * b[k + 1] + a[k + 1] * b[k]);
+    }
+  });
 }
 
 ToeplitzTransform::ToeplitzTransform(int nx, int ny)
@@ -75,19 +85,23 @@ ToeplitzTransform::ToeplitzTransform(int nx, int ny)
 /// Transform of a field that fills the padded size: the transform of few active rows is used for one band of rows after
 /// the other, because making another plan would cost more.
 Spectrum ToeplitzTransform::whole_spectrum(std::span<const double> padded) const {
-  const int px = padded_nx(), py = padded_ny(), columns = px / 2 + 1;
+  const int px = padded_nx(), py = padded_ny();
+  const auto width = static_cast<std::size_t>(px / 2 + 1);
   Spectrum sum(spectrum_size()), band(spectrum_size());
   AlignedVector<double> rows(fft_.real_size());
   for (int first = 0; first < py; first += ny_) {
-    const auto begin = padded.begin() + static_cast<std::ptrdiff_t>(product(first, px));
+    const auto source = padded.begin() + static_cast<std::ptrdiff_t>(product(first, px));
     const std::size_t count = std::min(rows.size(), product(py - first, px));
-    std::fill(std::copy(begin, begin + static_cast<std::ptrdiff_t>(count), rows.begin()), rows.end(), 0.0);
+    std::fill(std::copy(source, source + static_cast<std::ptrdiff_t>(count), rows.begin()), rows.end(), 0.0);
     fft_.forward(rows, band);
-    for (int ky = 0; ky < py; ++ky) {
-      const std::complex<double> shift = std::polar(
-          1.0, -2.0 * std::numbers::pi * static_cast<double>(product(ky, first) % static_cast<std::size_t>(py)) / py);
-      for (std::size_t k = product(ky, columns); k < product(ky + 1, columns); ++k) sum[k] += shift * band[k];
-    }
+    const auto add_rows = [&](std::size_t begin, std::size_t end) {
+      for (std::size_t ky = begin; ky < end; ++ky) {
+        const std::size_t turns = ky * static_cast<std::size_t>(first) % static_cast<std::size_t>(py);
+        const std::complex<double> shift = std::polar(1.0, -2.0 * std::numbers::pi * static_cast<double>(turns) / py);
+        for (std::size_t k = ky * width; k < (ky + 1) * width; ++k) sum[k] += shift * band[k];
+      }
+    };
+    for_blocks(static_cast<std::size_t>(py), add_rows, width);
   }
   return sum;
 }
@@ -124,20 +138,24 @@ void ToeplitzTransform::convolve(std::span<const std::complex<double>> kernel_sp
 
 void ToeplitzTransform::pad(std::span<const double> field, std::span<double> real) const {
   check_size(field.size(), size());
-  for (int iy = 0; iy < ny_; ++iy) {
-    const auto row = real.begin() + static_cast<std::ptrdiff_t>(product(iy, padded_nx()));
-    const auto source = field.begin() + static_cast<std::ptrdiff_t>(product(iy, nx_));
-    std::copy(source, source + nx_, row);
-    std::fill(row + nx_, row + padded_nx(), 0.0);
-  }
+  const auto px = static_cast<std::size_t>(padded_nx()), nx = static_cast<std::size_t>(nx_);
+  const auto pad_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t iy = begin; iy < end; ++iy) {
+      double* row = real.data() + iy * px;
+      std::copy_n(field.data() + iy * nx, nx, row);
+      std::fill(row + nx, row + px, 0.0);
+    }
+  };
+  for_blocks(static_cast<std::size_t>(ny_), pad_rows, px);
 }
 
 void ToeplitzTransform::crop(std::span<const double> real, std::span<double> field) const {
   check_size(field.size(), size());
-  for (int iy = 0; iy < ny_; ++iy) {
-    const auto row = real.begin() + static_cast<std::ptrdiff_t>(product(iy, padded_nx()));
-    std::copy(row, row + nx_, field.begin() + static_cast<std::ptrdiff_t>(product(iy, nx_)));
-  }
+  const auto px = static_cast<std::size_t>(padded_nx()), nx = static_cast<std::size_t>(nx_);
+  const auto crop_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t iy = begin; iy < end; ++iy) std::copy_n(real.data() + iy * px, nx, field.data() + iy * nx);
+  };
+  for_blocks(static_cast<std::size_t>(ny_), crop_rows, px);
 }
 
 void ToeplitzTransform::forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const {
@@ -170,9 +188,12 @@ void ToeplitzTransform::forward_columns(std::span<const std::complex<double>> ro
   check_size(rows.size(), rows_size());
   check_size(spectrum.size(), spectrum_size());
   const auto width = static_cast<std::size_t>(padded_nx() / 2 + 1);
-  for (std::size_t iy = 0, k = 0; iy < factor.size(); ++iy)
-    for (const std::size_t end = k + width; k < end; ++k) spectrum[k] = factor[iy] * rows[k];
-  std::fill(spectrum.begin() + static_cast<std::ptrdiff_t>(rows.size()), spectrum.end(), std::complex<double>());
+  const auto multiply_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t iy = begin, k = begin * width; iy < end; ++iy)
+      for (const std::size_t row_end = k + width; k < row_end; ++k) spectrum[k] = factor[iy] * rows[k];
+  };
+  for_blocks(factor.size(), multiply_rows, width);
+  clear(spectrum.subspan(rows.size()));
   fft_.forward_columns(spectrum);
 }
 
@@ -182,8 +203,11 @@ void ToeplitzTransform::add_inverse_columns(std::span<std::complex<double>> spec
   check_size(rows.size(), rows_size());
   fft_.inverse_columns(spectrum);
   const auto width = static_cast<std::size_t>(padded_nx() / 2 + 1);
-  for (std::size_t iy = 0, k = 0; iy < factor.size(); ++iy)
-    for (const std::size_t end = k + width; k < end; ++k) rows[k] += factor[iy] * spectrum[k];
+  const auto add_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t iy = begin, k = begin * width; iy < end; ++iy)
+      for (const std::size_t row_end = k + width; k < row_end; ++k) rows[k] += factor[iy] * spectrum[k];
+  };
+  for_blocks(factor.size(), add_rows, width);
 }
 
 ToeplitzOperator::ToeplitzOperator(int nx, int ny, const OffsetKernel& kernel) : nx_(nx), ny_(ny) {

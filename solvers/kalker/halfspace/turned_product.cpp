@@ -7,6 +7,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
 
@@ -215,12 +216,12 @@ void TurnedProduct::apply(const RowInclination& rows, const TractionFields& p, c
   }
   for (const Axis axis : {kX, kY, kN}) {
     if (wanted[axis].empty()) continue;
-    std::fill(result_.begin(), result_.end(), 0.0);
+    clear(std::span(result_));
     for (std::size_t factor = 0; factor < kRowFactors; ++factor) {
       bool any = false;
       for (const Term& term : terms) {
         if (term.displacement != axis || static_cast<std::size_t>(term.observed) != factor) continue;
-        if (!std::exchange(any, true)) std::fill(sum_.begin(), sum_.end(), 0.0);
+        if (!std::exchange(any, true)) clear(std::span(sum_));
         add_product(sum_, loads_[term.traction][static_cast<std::size_t>(term.loaded)], kernel(term.combination),
                     term.weight);
       }

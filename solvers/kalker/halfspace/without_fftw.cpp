@@ -5,6 +5,7 @@
 #include <numbers>
 #include <vector>
 
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft_plan.hpp"
 
@@ -28,9 +29,30 @@ class KissPlan final : public FftPlan {
   }
 
   void rows_forward(double* real, Complex* spectrum) const override {
+    in_blocks(active_rows_, [&](int begin, int end) { rows_forward(begin, end, real, spectrum); });
+  }
+  void rows_inverse(Complex* spectrum, double* real) const override {
+    in_blocks(active_rows_, [&](int begin, int end) { rows_inverse(begin, end, spectrum, real); });
+  }
+  void columns_forward(Complex* spectrum) const override { transform_columns(spectrum, false); }
+  void columns_inverse(Complex* spectrum) const override { transform_columns(spectrum, true); }
+
+ private:
+  static std::size_t at(int k) { return static_cast<std::size_t>(k); }
+
+  template <class Body>
+  void in_blocks(int lines, const Body& body) const {
+    const int block = lines_of_fft_block(lines, 2 * half_, ny_);
+    parallel_for(at((lines + block - 1) / block), [&](std::size_t b) {
+      const int begin = static_cast<int>(b) * block;
+      body(begin, std::min(lines, begin + block));
+    });
+  }
+
+  void rows_forward(int begin, int end, double* real, Complex* spectrum) const {
     const auto& transform = thread_transform(half_, false);
     std::vector<Complex> packed(static_cast<std::size_t>(half_));
-    for (int iy = 0; iy < active_rows_; ++iy) {
+    for (int iy = begin; iy < end; ++iy) {
       transform.transform(reinterpret_cast<const Complex*>(real) + std::ptrdiff_t{iy} * half_, packed.data());
       Complex* row = spectrum + std::ptrdiff_t{iy} * columns_;
       for (int k = 0; k <= half_; ++k) {
@@ -41,10 +63,10 @@ class KissPlan final : public FftPlan {
     }
   }
 
-  void rows_inverse(Complex* spectrum, double* real) const override {
+  void rows_inverse(int begin, int end, Complex* spectrum, double* real) const {
     const auto& transform = thread_transform(half_, true);
     std::vector<Complex> packed(static_cast<std::size_t>(half_));
-    for (int iy = 0; iy < active_rows_; ++iy) {
+    for (int iy = begin; iy < end; ++iy) {
       const Complex* row = spectrum + std::ptrdiff_t{iy} * columns_;
       for (int k = 0; k < half_; ++k) {
         const Complex s = row[k], mirrored = std::conj(row[half_ - k]);
@@ -54,17 +76,14 @@ class KissPlan final : public FftPlan {
     }
   }
 
-  void columns_forward(Complex* spectrum) const override { transform_columns(spectrum, false); }
-  void columns_inverse(Complex* spectrum) const override { transform_columns(spectrum, true); }
-
- private:
-  static std::size_t at(int k) { return static_cast<std::size_t>(k); }
-
   void transform_columns(Complex* spectrum, bool inverse) const {
     if (ny_ == 1) return;
+    in_blocks(columns_, [&](int begin, int end) { transform_columns(begin, end, spectrum, inverse); });
+  }
+  void transform_columns(int begin, int end, Complex* spectrum, bool inverse) const {
     const auto& transform = thread_transform(ny_, inverse);
     std::vector<Complex> in(at(ny_)), out(at(ny_));
-    for (int k = 0; k < columns_; ++k) {
+    for (int k = begin; k < end; ++k) {
       for (int iy = 0; iy < ny_; ++iy) in[at(iy)] = spectrum[k + std::ptrdiff_t{iy} * columns_];
       transform.transform(in.data(), out.data());
       for (int iy = 0; iy < ny_; ++iy) spectrum[k + std::ptrdiff_t{iy} * columns_] = out[at(iy)];

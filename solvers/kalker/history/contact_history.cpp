@@ -31,6 +31,10 @@ ContactHistory history_of(const ContactProblem& problem, const ContactSolution& 
   out.plastic_x = solution.plastic_x;
   out.plastic_y = solution.plastic_y;
   out.yield_stress = solution.yield_stress;
+  if (problem.tangential_model != TangentialModel::full) {
+    out.layer_x = solution.displacement_x;
+    out.layer_y = solution.displacement_y;
+  }
   return out;
 }
 
@@ -68,6 +72,8 @@ ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double 
   out.plastic_x = moved(history.plastic_x, 0.0);
   out.plastic_y = moved(history.plastic_y, 0.0);
   out.yield_stress = moved(history.yield_stress, first_yield_stress);
+  out.layer_x = moved(history.layer_x, 0.0);
+  out.layer_y = moved(history.layer_y, 0.0);
   return out;
 }
 

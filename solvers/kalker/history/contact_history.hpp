@@ -19,6 +19,7 @@ struct ContactHistory {
   std::vector<double> friction;                          ///< coefficients, static where there was no contact
   std::vector<double> plastic_x, plastic_y;              ///< plastic shear distance of the layer [m]
   std::vector<double> yield_stress;                      ///< [Pa]
+  std::vector<double> layer_x, layer_y;                  ///< simplified theory: displacement of its layer [m]
 
   /// Whether there was no instant before.
   bool empty() const { return grid.nx == 0; }

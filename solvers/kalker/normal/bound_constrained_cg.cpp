@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
@@ -12,16 +14,19 @@ namespace {
 /// Without a threshold rounding could move an element into the contact and out again for ever.
 constexpr double kReleaseShare = 0.01;
 
-/// Sum of term(i) in eight interleaved parts: fast, because the additions do not wait for each other, and repeatable.
+/// Sum of term(i) in eight interleaved parts a block: fast, because the additions do not wait for each other, and
+/// repeatable.
 template <class Term>
 double sum_of(std::size_t count, const Term& term) {
-  constexpr std::size_t kLanes = 8;
-  double lane[kLanes] = {};
-  std::size_t i = 0;
-  for (; i + kLanes <= count; i += kLanes)
-    for (std::size_t k = 0; k < kLanes; ++k) lane[k] += term(i + k);
-  for (; i < count; ++i) lane[0] += term(i);
-  return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+  return sum_of_blocks(count, [&](std::size_t begin, std::size_t end) {
+    constexpr std::size_t kLanes = 8;
+    double lane[kLanes] = {};
+    std::size_t i = begin;
+    for (; i + kLanes <= end; i += kLanes)
+      for (std::size_t k = 0; k < kLanes; ++k) lane[k] += term(i + k);
+    for (; i < end; ++i) lane[0] += term(i);
+    return ((lane[0] + lane[1]) + (lane[2] + lane[3])) + ((lane[4] + lane[5]) + (lane[6] + lane[7]));
+  });
 }
 
 double dot(const AlignedVector<double>& a, const AlignedVector<double>& b) {
@@ -37,7 +42,8 @@ double sum(std::span<const double> field) {
 
 double BoundConstrainedCg::remove_mean(std::span<double> field) const {
   const double mean = sum(field) / count_;
-  for (std::size_t i = 0; i < field.size(); ++i) field[i] = inside_[i] * (field[i] - mean);
+  const double* inside = inside_.data();
+  for_each_element(field.size(), [=, f = field.data()](std::size_t i) { f[i] = inside[i] * (f[i] - mean); });
   return mean;
 }
 
@@ -48,7 +54,7 @@ void BoundConstrainedCg::update_displacement(const BoxProblem& problem) {
 
 void BoundConstrainedCg::scale_to_sum(const BoxProblem& problem) {
   const double factor = problem.pressure_sum / sum(p);
-  for (double& value : p) value *= factor;
+  for_each_element(p.size(), [=, to = p.data()](std::size_t i) { to[i] *= factor; });
 }
 
 void BoundConstrainedCg::start(const BoxProblem& problem) {
@@ -80,7 +86,9 @@ void BoundConstrainedCg::update_residual(const BoxProblem& problem) {
                                  w = u.data()](std::size_t i) { return in[i] * (h[i] + w[i]); }) /
                count_;
   }
-  for (std::size_t i = 0; i < p.size(); ++i) e_[i] = problem.gap[i] - approach + u[i];
+  for_each_element(p.size(), [e = e_.data(), h = problem.gap.data(), w = u.data(), a = approach](std::size_t i) {
+    e[i] = h[i] - a + w[i];
+  });
 }
 
 double BoundConstrainedCg::negligible_overlap(double eps) const {
@@ -89,11 +97,15 @@ double BoundConstrainedCg::negligible_overlap(double eps) const {
 
 void BoundConstrainedCg::release(const BoxProblem& problem) {
   const double threshold = -negligible_overlap(problem.eps);
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (inside_[i] > 0.0 || !(e_[i] < threshold)) continue;
-    inside_[i] = 1.0;
-    count_ += 1.0;
-  }
+  count_ += sum_of_blocks(p.size(), [&](std::size_t begin, std::size_t end) {
+    double more = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (inside_[i] > 0.0 || !(e_[i] < threshold)) continue;
+      inside_[i] = 1.0;
+      more += 1.0;
+    }
+    return more;
+  });
 }
 
 bool BoundConstrainedCg::touches_open_side(const BoxProblem& problem) const {
@@ -107,15 +119,18 @@ bool BoundConstrainedCg::touches_open_side(const BoxProblem& problem) const {
 }
 
 bool BoundConstrainedCg::clip() {
-  int left = 0;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    if (!(p[i] < 0.0)) continue;
-    p[i] = 0.0;
-    inside_[i] = 0.0;
-    ++left;
-  }
+  const double left = sum_of_blocks(p.size(), [&](std::size_t begin, std::size_t end) {
+    double fewer = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      if (!(p[i] < 0.0)) continue;
+      p[i] = 0.0;
+      inside_[i] = 0.0;
+      fewer += 1.0;
+    }
+    return fewer;
+  });
   count_ -= left;
-  return left > 0;
+  return left > 0.0;
 }
 
 BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem) {
@@ -130,11 +145,13 @@ BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem)
     if (touches_open_side(problem)) return Outcome::box_too_small;
 
     // Residual in the contact and, from it, an estimate of the error of p.
-    for (std::size_t i = 0; i < p.size(); ++i) r_[i] = inside_[i] * e_[i];
+    const std::size_t n = p.size();
+    const double* inside = inside_.data();
+    for_each_element(n, [=, r = r_.data(), e = e_.data()](std::size_t i) { r[i] = inside[i] * e[i]; });
     if (problem.sum_prescribed) approach += remove_mean(r_);
     problem.op->precondition(r_, z_);
     ++products;
-    for (std::size_t i = 0; i < p.size(); ++i) z_[i] *= inside_[i];
+    for_each_element(n, [=, z = z_.data()](std::size_t i) { z[i] *= inside[i]; });
     if (problem.sum_prescribed) remove_mean(z_);
     const double p_norm = std::sqrt(dot(p, p));
     residual = p_norm > 0.0 ? std::sqrt(dot(z_, z_)) / p_norm : 1.0;
@@ -144,10 +161,10 @@ BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem)
     // Polak-Ribiere direction, restricted to the elements in contact now.
     const double zr = dot(z_, r_), zr_old = have_direction ? dot(z_, r_previous_) : 0.0;
     const double beta = have_direction && zr_previous > 0.0 ? std::max(0.0, (zr - zr_old) / zr_previous) : 0.0;
-    for (std::size_t i = 0; i < p.size(); ++i) v_[i] = inside_[i] * (z_[i] + beta * v_[i]);
+    for_each_element(n, [=, v = v_.data(), z = z_.data()](std::size_t i) { v[i] = inside[i] * (z[i] + beta * v[i]); });
     if (problem.sum_prescribed) remove_mean(v_);
     zr_previous = zr;
-    r_previous_ = r_;
+    copy_by_blocks(std::span<const double>(r_), std::span<double>(r_previous_));
     have_direction = true;
 
     problem.op->displacement(v_, q_);
@@ -155,10 +172,10 @@ BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem)
     const double curvature = dot(v_, q_);
     if (!(curvature > 0.0)) return Outcome::iteration_limit;
     const double step = dot(r_, v_) / curvature;
-    for (std::size_t i = 0; i < p.size(); ++i) {
-      p[i] -= step * v_[i];
-      u[i] -= step * q_[i];
-    }
+    for_each_element(n, [=, to_p = p.data(), to_u = u.data(), v = v_.data(), q = q_.data()](std::size_t i) {
+      to_p[i] -= step * v[i];
+      to_u[i] -= step * q[i];
+    });
     ++iterations;
 
     clipped = clip();

@@ -8,6 +8,7 @@
 #include <cstdlib>
 #include <numbers>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 #include "treadmark/solvers/kalker/halfspace/influence.hpp"
 
 namespace treadmark::kalker {
@@ -56,19 +57,22 @@ void Compliance::tabulate() {
       const InfluenceBlock b = key_.kernel->at(x, y);
       return {b.xx / g, b.xy / g, b.yx / g, b.yy / g};
     }
-    const auto coefficient = [&](Component c) { return influence(c, x, y, key_.dx, key_.dy, key_.poisson) / g; };
-    const double xy = coefficient(Component::xy);
-    return {coefficient(Component::xx), xy, xy, coefficient(Component::yy)};
+    const UncoupledCoefficients c = influence(x, y, key_.dx, key_.dy, key_.poisson);
+    return {c.xx / g, c.xy / g, c.xy / g, c.yy / g};
   };
   const int first_x = symmetric() ? 0 : 1 - tx, first_y = symmetric() ? 0 : 1 - ty;
-  table_.reserve(product(tx - first_x, ty - first_y));
-  for (int iy = first_y; iy < ty; ++iy)
-    for (int ix = first_x; ix < tx; ++ix) {
-      table_.push_back(entry(ix, iy));
-      if (ix != 0 || iy != 0) continue;
-      table_.back().xx += key_.layer;
-      table_.back().yy += key_.layer;
-    }
+  const auto width = static_cast<std::size_t>(tx - first_x), size = width * static_cast<std::size_t>(ty - first_y);
+  const auto entry_of = [&](std::size_t i) {
+    return entry(first_x + static_cast<int>(i % width), first_y + static_cast<int>(i / width));
+  };
+  if (key_.kernel == nullptr) {
+    fill_by_blocks(table_, size, entry_of);
+  } else {
+    for (std::size_t i = 0; i < size; ++i) table_.push_back(entry_of(i));
+  }
+  Entry& own = table_[static_cast<std::size_t>(-first_y) * width + static_cast<std::size_t>(-first_x)];
+  own.xx += key_.layer;
+  own.yy += key_.layer;
 }
 
 Compliance::Entry Compliance::wide_at(int dix, int diy) const {
@@ -91,19 +95,24 @@ template <class Multiply>
 void Compliance::multiply(Transport transport, const Multiply& at) {
   const std::size_t width = step_.size();
   if (transport == Transport::none) {
-    for (std::size_t k = 0; k < spectrum_x_.size(); ++k) at(k, spectrum_x_[k], spectrum_y_[k]);
+    for_blocks(spectrum_x_.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) at(k, spectrum_x_[k], spectrum_y_[k]);
+    });
     return;
   }
   const double sign = transport == Transport::forward ? 1.0 : -1.0;
-  for (std::size_t row = 0; row < spectrum_x_.size(); row += width)
-    for (std::size_t kx = 0; kx < width; ++kx) {
-      const std::size_t k = row + kx;
-      at(k, spectrum_x_[k], spectrum_y_[k]);
-      const double c = step_[kx].real(), s = sign * step_[kx].imag();
-      const std::complex<double> sx = spectrum_x_[k], sy = spectrum_y_[k];
-      spectrum_x_[k] = {sx.real() * c - sx.imag() * s, sx.real() * s + sx.imag() * c};
-      spectrum_y_[k] = {sy.real() * c - sy.imag() * s, sy.real() * s + sy.imag() * c};
-    }
+  const auto multiply_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t row = begin * width; row < end * width; row += width)
+      for (std::size_t kx = 0; kx < width; ++kx) {
+        const std::size_t k = row + kx;
+        at(k, spectrum_x_[k], spectrum_y_[k]);
+        const double c = step_[kx].real(), s = sign * step_[kx].imag();
+        const std::complex<double> sx = spectrum_x_[k], sy = spectrum_y_[k];
+        spectrum_x_[k] = {sx.real() * c - sx.imag() * s, sx.real() * s + sx.imag() * c};
+        spectrum_y_[k] = {sy.real() * c - sy.imag() * s, sy.real() * s + sy.imag() * c};
+      }
+  };
+  for_blocks(spectrum_x_.size() / width, multiply_rows, width);
 }
 
 void Compliance::apply(Transport transport, std::span<const double> px, std::span<const double> py,
@@ -194,18 +203,21 @@ std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const R
   std::vector<ComplianceBlock> half(ring_size(nx, last + 1)), symbol(fft.spectrum_size());
   // One half-plane: the other one has the complex conjugate transform. Rows on the line between them count half.
   const double scale = 1.0 / (static_cast<double>(nx) * ny);
-  for (int iy = 0; iy <= last; ++iy)
-    for (int ix = 0; ix < nx; ++ix) {
-      ComplianceBlock b = kernel(wrapped(ix, nx), iy);
-      if (2 * ix == nx || 2 * iy == ny) b.xy = 0.0;
-      const double weight = iy == 0 || 2 * iy == ny ? scale : 2.0 * scale;
-      half[ring_size(iy, nx) + static_cast<std::size_t>(ix)] = {weight * b.xx, weight * b.xy, weight * b.yy};
-    }
+  const auto width = static_cast<std::size_t>(nx);
+  fill_by_blocks(half, half.size(), [&](std::size_t i) -> ComplianceBlock {
+    const int ix = static_cast<int>(i % width), iy = static_cast<int>(i / width);
+    ComplianceBlock b = kernel(wrapped(ix, nx), iy);
+    if (2 * ix == nx || 2 * iy == ny) b.xy = 0.0;
+    const double weight = iy == 0 || 2 * iy == ny ? scale : 2.0 * scale;
+    return {weight * b.xx, weight * b.xy, weight * b.yy};
+  });
   for (double ComplianceBlock::*member : {&ComplianceBlock::xx, &ComplianceBlock::xy, &ComplianceBlock::yy}) {
-    std::fill(field.begin(), field.end(), 0.0);
+    clear(std::span(field));
     for (std::size_t i = 0; i < half.size(); ++i) field[i] = half[i].*member;
     fft.forward(field, spectrum);
-    for (std::size_t k = 0; k < symbol.size(); ++k) symbol[k].*member = spectrum[k].real();
+    for_blocks(symbol.size(), [&](std::size_t begin, std::size_t end) {
+      for (std::size_t k = begin; k < end; ++k) symbol[k].*member = spectrum[k].real();
+    });
   }
   return symbol;
 }
@@ -224,33 +236,39 @@ InverseCompliance::InverseCompliance(int nx, int ny, const ComplianceKernel& ker
 }
 
 void InverseCompliance::load(std::span<const double> field, Spectrum& spectrum) {
-  for (int iy = 0; iy < ny_; ++iy) {
-    double* row = ring_.data() + ring_size(iy, fft_.nx());
-    const double* source = field.data() + ring_size(iy, nx_);
-    std::copy(source, source + nx_, row);
-    std::fill(row + nx_, row + fft_.nx(), 0.0);
-  }
+  const auto width = static_cast<std::size_t>(fft_.nx()), nx = static_cast<std::size_t>(nx_);
+  const auto load_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t iy = begin; iy < end; ++iy) {
+      double* row = ring_.data() + iy * width;
+      std::copy_n(field.data() + iy * nx, nx, row);
+      std::fill(row + nx, row + width, 0.0);
+    }
+  };
+  for_blocks(static_cast<std::size_t>(ny_), load_rows, width);
   fft_.forward(ring_, spectrum);
 }
 
 void InverseCompliance::unload(Spectrum& spectrum, std::span<double> field) {
   fft_.inverse(spectrum, ring_);
-  for (int iy = 0; iy < ny_; ++iy) {
-    const double* row = ring_.data() + ring_size(iy, fft_.nx());
-    std::copy(row, row + nx_, field.data() + ring_size(iy, nx_));
-  }
+  const auto width = static_cast<std::size_t>(fft_.nx()), nx = static_cast<std::size_t>(nx_);
+  const auto unload_rows = [&](std::size_t begin, std::size_t end) {
+    for (std::size_t iy = begin; iy < end; ++iy) std::copy_n(ring_.data() + iy * width, nx, field.data() + iy * nx);
+  };
+  for_blocks(static_cast<std::size_t>(ny_), unload_rows, width);
 }
 
 void InverseCompliance::apply(std::span<const double> ux, std::span<const double> uy, std::span<double> px,
                               std::span<double> py) {
   load(ux, spectrum_x_);
   load(uy, spectrum_y_);
-  for (std::size_t k = 0; k < symbol_.size(); ++k) {
-    const std::complex<double> x = spectrum_x_[k], y = spectrum_y_[k];
-    const ComplianceBlock& b = symbol_[k];
-    spectrum_x_[k] = b.xx * x + b.xy * y;
-    spectrum_y_[k] = b.xy * x + b.yy * y;
-  }
+  for_blocks(symbol_.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t k = begin; k < end; ++k) {
+      const std::complex<double> x = spectrum_x_[k], y = spectrum_y_[k];
+      const ComplianceBlock& b = symbol_[k];
+      spectrum_x_[k] = b.xx * x + b.xy * y;
+      spectrum_y_[k] = b.xy * x + b.yy * y;
+    }
+  });
   unload(spectrum_x_, px);
   unload(spectrum_y_, py);
 }

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
@@ -28,13 +30,13 @@ void FrictionNewton::linearise(const FrictionProblem& problem, const FrictionSta
   field_.resize(2 * n);
   image_.resize(2 * n);
   const double diagonal = problem.matrix->diagonal();
-  for (std::size_t i = 0; i < n; ++i) {
+  for_each_element(n, [&](std::size_t i) {
     kind_[i] = !state.slipping[i] ? kAdhesion : problem.bound[i] > 0.0 ? kSlip : kFixed;
     tangent_[i] = -state.direction[n + i];
     tangent_[n + i] = state.direction[i];
     damping_[i] = kind_[i] == kSlip ? state.excess[i] / problem.bound[i] : 0.0;
     stiffness_[i] = damping_[i] * diagonal;
-  }
+  });
 }
 
 GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::span<const double> rhs,
@@ -46,7 +48,7 @@ GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::sp
 
   // Reduced vectors hold the component along the tangent in the x place of slip elements, zero in the y place.
   const auto expand = [&](std::span<const double> v, std::span<double> p) {
-    for (std::size_t i = 0; i < n; ++i) {
+    for_each_element(n, [&](std::size_t i) {
       if (kind_[i] == kAdhesion) {
         p[i] = v[i];
         p[n + i] = v[n + i];
@@ -55,12 +57,12 @@ GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::sp
         p[i] = t * tangent_[i];
         p[n + i] = t * tangent_[n + i];
       }
-    }
+    });
   };
   const auto multiply = [&](std::span<const double> v, std::span<double> out) {
     expand(v, field_);
     matrix.slip(field_, image_);
-    for (std::size_t i = 0; i < n; ++i) {
+    for_each_element(n, [&](std::size_t i) {
       if (kind_[i] == kAdhesion) {
         out[i] = image_[i];
         out[n + i] = image_[n + i];
@@ -69,47 +71,55 @@ GmresResult FrictionNewton::solve_linear(const FrictionProblem& problem, std::sp
             kind_[i] == kSlip ? image_[i] * tangent_[i] + image_[n + i] * tangent_[n + i] + stiffness_[i] * v[i] : 0.0;
         out[n + i] = 0.0;
       }
-    }
+    });
   };
   // Increments along the row by the approximate inverse of B, then tractions by summing them up from the leading edge.
   // Slip elements resist the more, the faster they slip; in the limit each of them stands alone.
   const double own = 1.0 / matrix.diagonal();
   const auto precondition = [&](std::span<const double> v, std::span<double> out) {
     expand(v, field_);
-    for (std::size_t i = 0; i < n; ++i) {
+    for_each_element(n, [&](std::size_t i) {
       const double coupled = 1.0 / (1.0 + damping_[i]);
       field_[i] *= coupled;
       field_[n + i] *= coupled;
-    }
+    });
     matrix.inverse_displacement(field_, image_);
-    double px = 0.0, py = 0.0;
-    for (std::size_t i = 0; i < n; ++i) {
-      if (!rolling || ahead[i] < 0) px = py = 0.0;
-      px += image_[i];
-      py += image_[n + i];
-      if (kind_[i] == kAdhesion) {
-        out[i] = px;
-        out[n + i] = py;
-        continue;
+    // Sums go along rows: blocks begin where nothing is ahead.
+    const auto nothing_ahead = [&](std::size_t i) {
+      while (rolling && i < n && ahead[i] >= 0) ++i;
+      return i;
+    };
+    for_blocks(n, [&](std::size_t begin, std::size_t block_end) {
+      double px = 0.0, py = 0.0;
+      for (std::size_t i = nothing_ahead(begin), end = nothing_ahead(block_end); i < end; ++i) {
+        if (!rolling || ahead[i] < 0) px = py = 0.0;
+        px += image_[i];
+        py += image_[n + i];
+        if (kind_[i] == kAdhesion) {
+          out[i] = px;
+          out[n + i] = py;
+          continue;
+        }
+        const double coupled = 1.0 / (1.0 + damping_[i]);
+        const double t = kind_[i] == kSlip
+                             ? coupled * (px * tangent_[i] + py * tangent_[n + i] + (1.0 - coupled) * own * v[i])
+                             : 0.0;
+        out[i] = t;
+        out[n + i] = 0.0;
+        px = t * tangent_[i];
+        py = t * tangent_[n + i];
       }
-      const double coupled = 1.0 / (1.0 + damping_[i]);
-      const double t =
-          kind_[i] == kSlip ? coupled * (px * tangent_[i] + py * tangent_[n + i] + (1.0 - coupled) * own * v[i]) : 0.0;
-      out[i] = t;
-      out[n + i] = 0.0;
-      px = t * tangent_[i];
-      py = t * tangent_[n + i];
-    }
+    });
   };
   Field2 reduced(2 * n);
-  for (std::size_t i = 0; i < n; ++i) {
+  for_each_element(n, [&](std::size_t i) {
     if (kind_[i] == kAdhesion) {
       reduced[i] = rhs[i];
       reduced[n + i] = rhs[n + i];
     } else if (kind_[i] == kSlip) {
       reduced[i] = rhs[i] * tangent_[i] + rhs[n + i] * tangent_[n + i];
     }
-  }
+  });
   Field2 solution(2 * n);
   const GmresResult result = gmres_.solve(multiply, precondition, reduced, solution, tolerance, max_inner);
   expand(solution, x);
@@ -135,22 +145,25 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
     }
     linearise(problem, state);
     // Slip elements go to the circle; what this does to the slip distance belongs to the right-hand side.
-    bool moved = false;
-    for (std::size_t i = 0; i < n; ++i) {
-      known[i] = known[n + i] = 0.0;
-      if (kind_[i] == kAdhesion) continue;
-      const double along = state.direction[i] * state.traction[i] + state.direction[n + i] * state.traction[n + i];
-      known[i] = (problem.bound[i] - along) * state.direction[i];
-      known[n + i] = (problem.bound[i] - along) * state.direction[n + i];
-      moved = moved || problem.bound[i] - along > 1e-12 * problem.bound[i];
-    }
-    if (moved) {
+    const double moved = sum_of_blocks(n, [&](std::size_t begin, std::size_t end) {
+      double part = 0.0;
+      for (std::size_t i = begin; i < end; ++i) {
+        known[i] = known[n + i] = 0.0;
+        if (kind_[i] == kAdhesion) continue;
+        const double along = state.direction[i] * state.traction[i] + state.direction[n + i] * state.traction[n + i];
+        known[i] = (problem.bound[i] - along) * state.direction[i];
+        known[n + i] = (problem.bound[i] - along) * state.direction[n + i];
+        if (problem.bound[i] - along > 1e-12 * problem.bound[i]) part += 1.0;
+      }
+      return part;
+    });
+    if (moved > 0.0) {
       problem.matrix->slip(known, rhs);
       ++result.products;
     } else {
-      std::fill(rhs.begin(), rhs.end(), 0.0);
+      clear(std::span(rhs));
     }
-    for (std::size_t i = 0; i < n; ++i) {
+    for_each_element(n, [&](std::size_t i) {
       if (kind_[i] == kAdhesion) {
         rhs[i] = -rhs[i] - state.slip[i];
         rhs[n + i] = -rhs[n + i] - state.slip[n + i];
@@ -160,16 +173,15 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
         rhs[i] = -rhs[i] - factor * state.traction[i];
         rhs[n + i] = -rhs[n + i] - factor * state.traction[n + i];
       }
-    }
+    });
     const GmresResult inner = solve_linear(problem, rhs, step, tolerance, settings.max_inner);
     result.products += inner.iterations;
-    for (std::size_t k = 0; k < 2 * n; ++k) step[k] += known[k];
+    for_each_element(2 * n, [&](std::size_t k) { step[k] += known[k]; });
 
     // Backtracking on the violation.
     double length = 1.0;
     for (; length >= kShortestStep; length *= 0.5) {
-      trial.traction = state.traction;
-      for (std::size_t k = 0; k < 2 * n; ++k) trial.traction[k] += length * step[k];
+      fill_by_blocks(trial.traction, 2 * n, [&](std::size_t k) { return state.traction[k] + length * step[k]; });
       limit_to_bound(trial.traction, problem.bound);
       trial.update(problem);
       ++result.products;
@@ -177,7 +189,7 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
     }
     if (length < kShortestStep) break;
 
-    for (std::size_t k = 0; k < 2 * n; ++k) step[k] = trial.traction[k] - state.traction[k];
+    for_each_element(2 * n, [&](std::size_t k) { step[k] = trial.traction[k] - state.traction[k]; });
     const double change = rms(step), ratio = trial.violation / state.violation;
     std::swap(state, trial);
     // What is left to do is about the last change times the reduction it brought.

@@ -4,23 +4,30 @@
 
 #include <cmath>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
+
 namespace treadmark::kalker {
 
 double rms(std::span<const double> values) {
-  double sum = 0.0;
-  for (const double v : values) sum += v * v;
+  const double sum = sum_of_blocks(values.size(), [&](std::size_t begin, std::size_t end) {
+    double part = 0.0;
+    for (std::size_t i = begin; i < end; ++i) part += values[i] * values[i];
+    return part;
+  });
   return values.empty() ? 0.0 : std::sqrt(sum / static_cast<double>(values.size()));
 }
 
 void limit_to_bound(std::span<double> traction, std::span<const double> bound) {
   const std::size_t n = bound.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    const double size = std::hypot(traction[i], traction[n + i]);
-    if (size <= bound[i]) continue;
-    const double factor = bound[i] / size;
-    traction[i] *= factor;
-    traction[n + i] *= factor;
-  }
+  for_blocks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      const double size = std::hypot(traction[i], traction[n + i]);
+      if (size <= bound[i]) continue;
+      const double factor = bound[i] / size;
+      traction[i] *= factor;
+      traction[n + i] *= factor;
+    }
+  });
 }
 
 void FrictionState::update(const FrictionProblem& problem) {
@@ -32,28 +39,31 @@ void FrictionState::update(const FrictionProblem& problem) {
   excess.resize(n);
   problem.matrix->slip(traction, slip);
   const double r = 1.0 / problem.matrix->diagonal();
-  double sum = 0.0;
-  for (std::size_t i = 0; i < n; ++i) {
-    double& sx = slip[i];
-    double& sy = slip[n + i];
-    sx += problem.rigid_slip[i];
-    sy += problem.rigid_slip[n + i];
-    const double zx = traction[i] - r * sx, zy = traction[n + i] - r * sy;
-    const double size = std::sqrt(zx * zx + zy * zy), bound = problem.bound[i];
-    slipping[i] = size > bound;
-    if (slipping[i]) {
-      direction[i] = zx / size;
-      direction[n + i] = zy / size;
-      excess[i] = size - bound;
-      residual[i] = traction[i] - bound * direction[i];
-      residual[n + i] = traction[n + i] - bound * direction[n + i];
-    } else {
-      direction[i] = direction[n + i] = excess[i] = 0.0;
-      residual[i] = r * sx;
-      residual[n + i] = r * sy;
+  const double sum = sum_of_blocks(n, [&](std::size_t begin, std::size_t end) {
+    double part = 0.0;
+    for (std::size_t i = begin; i < end; ++i) {
+      double& sx = slip[i];
+      double& sy = slip[n + i];
+      sx += problem.rigid_slip[i];
+      sy += problem.rigid_slip[n + i];
+      const double zx = traction[i] - r * sx, zy = traction[n + i] - r * sy;
+      const double size = std::sqrt(zx * zx + zy * zy), bound = problem.bound[i];
+      slipping[i] = size > bound;
+      if (slipping[i]) {
+        direction[i] = zx / size;
+        direction[n + i] = zy / size;
+        excess[i] = size - bound;
+        residual[i] = traction[i] - bound * direction[i];
+        residual[n + i] = traction[n + i] - bound * direction[n + i];
+      } else {
+        direction[i] = direction[n + i] = excess[i] = 0.0;
+        residual[i] = r * sx;
+        residual[n + i] = r * sy;
+      }
+      part += residual[i] * residual[i] + residual[n + i] * residual[n + i];
     }
-    sum += residual[i] * residual[i] + residual[n + i] * residual[n + i];
-  }
+    return part;
+  });
   violation = n == 0 ? 0.0 : std::sqrt(sum / static_cast<double>(2 * n));
 }
 

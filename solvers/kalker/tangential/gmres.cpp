@@ -5,26 +5,39 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
 
-/// Four partial sums, so that the loop is not bound by the latency of one addition. Fixed order: repeatable.
+/// Four partial sums a block, so that the loop is not bound by the latency of one addition. Fixed order: repeatable.
 double dot(std::span<const double> a, std::span<const double> b) {
-  double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
-  std::size_t i = 0;
-  for (; i + 4 <= a.size(); i += 4) {
-    s0 += a[i] * b[i];
-    s1 += a[i + 1] * b[i + 1];
-    s2 += a[i + 2] * b[i + 2];
-    s3 += a[i + 3] * b[i + 3];
-  }
-  for (; i < a.size(); ++i) s0 += a[i] * b[i];
-  return (s0 + s1) + (s2 + s3);
+  return sum_of_blocks(a.size(), [&](std::size_t begin, std::size_t end) {
+    double s0 = 0.0, s1 = 0.0, s2 = 0.0, s3 = 0.0;
+    std::size_t i = begin;
+    for (; i + 4 <= end; i += 4) {
+      s0 += a[i] * b[i];
+      s1 += a[i + 1] * b[i + 1];
+      s2 += a[i + 2] * b[i + 2];
+      s3 += a[i + 3] * b[i + 3];
+    }
+    for (; i < end; ++i) s0 += a[i] * b[i];
+    return (s0 + s1) + (s2 + s3);
+  });
 }
 
 void add_scaled(std::span<double> y, double factor, std::span<const double> x) {
-  for (std::size_t i = 0; i < y.size(); ++i) y[i] += factor * x[i];
+  for_blocks(y.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) y[i] += factor * x[i];
+  });
+}
+
+/// y = x / divisor; both may be the same.
+void divide(std::span<const double> x, double divisor, std::span<double> y) {
+  for_blocks(y.size(), [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) y[i] = x[i] / divisor;
+  });
 }
 
 }  // namespace
@@ -44,10 +57,7 @@ GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditione
   std::vector<std::vector<double>> triangle;  // column j has j + 1 entries
   std::vector<double> cosine, sine, projected{b_norm};
   work_.resize(b.size());
-  {
-    std::vector<double>& first = vector_at(0);
-    for (std::size_t i = 0; i < b.size(); ++i) first[i] = b[i] / b_norm;
-  }
+  divide(b, b_norm, vector_at(0));
   std::size_t steps = 0;
   while (static_cast<int>(steps) < max_iterations) {
     // Arnoldi step.
@@ -77,7 +87,7 @@ GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditione
     ++steps;
     result.residual = std::abs(projected[steps]) / b_norm;
     if (result.residual <= tolerance || !(length > 0.0)) break;
-    for (double& value : next) value /= length;
+    divide(next, length, next);
   }
   if (steps == 0) {
     result.residual = 1.0;
@@ -87,7 +97,7 @@ GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditione
     for (std::size_t k = j + 1; k < steps; ++k) projected[j] -= triangle[k][j] * projected[k];
     projected[j] /= triangle[j][j];
   }
-  std::fill(work_.begin(), work_.end(), 0.0);
+  clear(std::span(work_));
   for (std::size_t j = 0; j < steps; ++j) add_scaled(work_, projected[j], basis_[j]);
   preconditioner(work_, x);
   result.iterations = static_cast<int>(steps);

@@ -6,6 +6,8 @@
 #include <cstring>
 #include <utility>
 
+#include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
@@ -64,18 +66,22 @@ PatchOperator::PatchOperator(const Patch& patch, Compliance& compliance, std::op
 
 void PatchOperator::scatter(std::span<const double> field) {
   const std::size_t n = patch_.cell.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    in_x_[patch_.cell[i]] = field[i];
-    in_y_[patch_.cell[i]] = field[n + i];
-  }
+  for_blocks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      in_x_[patch_.cell[i]] = field[i];
+      in_y_[patch_.cell[i]] = field[n + i];
+    }
+  });
 }
 
 void PatchOperator::gather(std::span<const double> x, std::span<const double> y, std::span<double> field) const {
   const std::size_t n = patch_.cell.size();
-  for (std::size_t i = 0; i < n; ++i) {
-    field[i] = x[patch_.cell[i]];
-    field[n + i] = y[patch_.cell[i]];
-  }
+  for_blocks(n, [&](std::size_t begin, std::size_t end) {
+    for (std::size_t i = begin; i < end; ++i) {
+      field[i] = x[patch_.cell[i]];
+      field[n + i] = y[patch_.cell[i]];
+    }
+  });
 }
 
 void PatchOperator::multiply(Transport transport, std::span<const double> p) {
@@ -85,7 +91,7 @@ void PatchOperator::multiply(Transport transport, std::span<const double> p) {
     return;
   scatter(p);
   compliance_.apply(transport, in_x_, in_y_, out_x_, out_y_, rows());
-  last_.assign(p.begin(), p.end());
+  fill_by_blocks(last_, p.size(), [&](std::size_t k) { return p[k]; });
   last_transport_ = transport;
 }
 

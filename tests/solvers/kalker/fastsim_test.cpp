@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
@@ -232,6 +233,110 @@ TEST(Fastsim, EquivalentEllipseOfAnEllipseIsThatEllipse) {
   EXPECT_NEAR(ellipse.b, 4e-3, 0.01 * 4e-3);
 }
 
+/// Solves a step of transient rolling and returns what the next one goes on from.
+ContactHistory step_on(Case& c, const ContactHistory& before) {
+  solve_fastsim(c.problem, c.solution, before);
+  return history_of(c.problem, c.solution);
+}
+
+TEST(Fastsim, FromRestTractionsGrowWithTheDistanceRolled) {
+  // Springs that never slide: each is stretched by the creepage over the way that it has been in contact.
+  Case c = rolling(20);
+  c.problem.regime = Regime::transient;
+  c.problem.tangential_model = TangentialModel::fastsim_one_flexibility;
+  const double l = c.problem.fastsim.flexibility = 2.5e-14, xi = 1e-9, dx = c.problem.grid.dx;
+  c.problem.creepage.xi = xi;
+  c.problem.friction.kinetic = 1e6;
+  c.problem.rolling.step = dx;
+  const Grid2& g = c.problem.grid;
+  ContactHistory before;
+  for (int steps = 1; steps <= 30; ++steps) {
+    before = step_on(c, before);
+    for (int iy = 0; iy < g.ny; ++iy)
+      for (int ix = g.nx - 1, in_contact = 0; ix >= 0; --ix) {
+        const std::size_t i = g.index(ix, iy);
+        in_contact = c.solution.pressure[i] > 0.0 ? in_contact + 1 : 0;
+        const double expected = -xi * dx * std::min(in_contact, steps) / l;
+        ASSERT_NEAR(c.solution.traction_x[i], expected, 1e-12 * std::abs(xi * dx / l) * steps);
+      }
+  }
+  EXPECT_EQ(c.solution.rolling_step, dx);
+}
+
+TEST(Fastsim, TransientRollingEndsInSteadyRolling) {
+  for (const double chi : {0.0, std::acos(-1.0)}) {
+    Case steady = rolling(30);
+    steady.problem.creepage = {8e-4, -4e-4, 0.3, 0.0, 0.0};
+    steady.problem.rolling.chi = chi;
+    solve_fastsim(steady.problem, steady.solution);
+    Case c = rolling(30);
+    c.problem = steady.problem;
+    c.problem.regime = Regime::transient;
+    c.problem.rolling.step = c.problem.grid.dx;
+    ContactHistory before;
+    for (int k = 0; k < 30; ++k) before = step_on(c, before);
+    const double scale = steady.solution.pressure[15 * 30 + 15];
+    int slipping = 0;
+    for (std::size_t i = 0; i < steady.solution.state.size(); ++i) {
+      ASSERT_NEAR(c.solution.traction_x[i], steady.solution.traction_x[i], 1e-9 * scale);
+      ASSERT_NEAR(c.solution.traction_y[i], steady.solution.traction_y[i], 1e-9 * scale);
+      ASSERT_EQ(c.solution.state[i], steady.solution.state[i]);
+      slipping += c.solution.state[i] == ElementState::slip;
+    }
+    EXPECT_GT(slipping, 0);
+    // and steady rolling, or its tractions alone, go on as they are
+    ContactHistory known = history_of(steady.problem, steady.solution);
+    step_on(c, known);
+    EXPECT_NEAR(force(c).x(), force(steady).x(), 1e-9 * force(steady).norm());
+    known.layer_x.clear(), known.layer_y.clear();
+    step_on(c, known);
+    EXPECT_NEAR(force(c).x(), force(steady).x(), 1e-9 * force(steady).norm());
+  }
+}
+
+TEST(Fastsim, StepsOfHalfAnElementCarryLayersOn) {
+  // Of a chain of springs that never slide the sum follows the way rolled, whatever the steps.
+  Case whole = rolling(40), half = rolling(40);
+  for (Case* c : {&whole, &half}) {
+    c->problem.regime = Regime::transient;
+    c->problem.creepage = {1e-9, 0.0, 0.0, 0.0, 0.0};
+    c->problem.friction.kinetic = 1e6;
+    c->problem.rolling.step = c->problem.grid.dx;
+  }
+  half.problem.rolling.step *= 0.5;
+  ContactHistory before, before_half;
+  for (int k = 0; k < 8; ++k) {
+    before = step_on(whole, before);
+    before_half = step_on(half, step_on(half, before_half));
+  }
+  EXPECT_NEAR(force(half).x(), force(whole).x(), 0.02 * std::abs(force(whole).x()));
+}
+
+TEST(Fastsim, RollsInAnyDirectionInTransientSteps) {
+  Case along = rolling(24), across = rolling(24);
+  for (Case* c : {&along, &across}) {
+    c->problem.regime = Regime::transient;
+    c->problem.tangential_model = TangentialModel::fastsim_one_flexibility;
+    c->problem.fastsim.flexibility = 2.5e-14;
+    Grid2& g = c->problem.grid;
+    g = {-6e-3, -6e-3, 0.5e-3, 0.5e-3, 24, 24};
+    c->problem.rolling.step = 0.5e-3;
+    for (int iy = 0; iy < 24; ++iy)
+      for (int ix = 0; ix < 24; ++ix)
+        c->solution.pressure[g.index(ix, iy)] = std::max(0.0, 5e8 * (1.0 - std::hypot(g.x(ix), g.y(iy)) / 5e-3));
+  }
+  along.problem.creepage.xi = 2e-4;
+  across.problem.creepage.eta = 2e-4;
+  across.problem.rolling.chi = 0.5 * std::acos(-1.0);
+  ContactHistory before_along, before_across;
+  for (int k = 0; k < 6; ++k) {
+    before_along = step_on(along, before_along);
+    before_across = step_on(across, before_across);
+  }
+  EXPECT_LT(force(along).x(), 0.0);
+  EXPECT_NEAR(force(across).y(), force(along).x(), 1e-9 * force(along).norm());
+}
+
 TEST(Fastsim, RefusesWhatItCannotDo) {
   Case c = rolling(10);
   c.problem.regime = Regime::shift;
@@ -240,6 +345,13 @@ TEST(Fastsim, RefusesWhatItCannotDo) {
   c.problem.rolling.chi = 0.3;
   EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
   c.problem.rolling.chi = 0.0;
+  c.problem.regime = Regime::transient;
+  c.problem.rolling.step = 0.0;
+  EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
+  c.problem.rolling.step = 1e-3;
+  c.problem.tangential_model = TangentialModel::fastrip;
+  EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
+  c.problem.tangential_model = TangentialModel::fastsim;
   c.solution.pressure.pop_back();
   EXPECT_THROW(solve_fastsim(c.problem, c.solution), Error);
 }
