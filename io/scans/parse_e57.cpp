@@ -257,7 +257,12 @@ Scan parse_e57(ByteBlocks& bytes, const ScanReadOptions& options) {
   std::string format = fmt::format("E57, {} scan{}", scans.size(), scans.size() == 1 ? "" : "s");
   if (normals) format += ", normals";
   if (builder.keep_different_passes()) format += ", pass from the scan";
-  return builder.finish(std::move(format), LengthUnit::metre);
+  Scan scan = builder.finish(std::move(format), LengthUnit::metre);
+  constexpr std::size_t kLongest = 80;
+  scan.reference = layout.reference.substr(0, kLongest);
+  for (char& c : scan.reference)
+    if (c < ' ' || c > '~') c = '?';
+  return scan;
 }
 
 }  // namespace treadmark::io::scans

@@ -31,7 +31,11 @@ Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options) {
   }
   std::string format = fmt::format("LAS 1.{}, point data format {}", header.minor, header.format);
   if (builder.keep_different_passes()) format += ", pass from the point source ID";
-  return builder.finish(std::move(format), header.unit);
+  if (!header.reference.empty()) format += ", coordinate system " + header.reference;
+  Scan scan = builder.finish(std::move(format), header.unit);
+  scan.usual_unit = LengthUnit::metre;
+  scan.reference = header.reference;
+  return scan;
 }
 
 }  // namespace treadmark::io::scans

@@ -296,7 +296,7 @@ Scan parse_pcd(ByteBlocks& bytes, const ScanReadOptions& options) {
   if (header.pass && builder.keep_different_passes()) {
     const auto pass = std::find_if(header.fields.begin(), header.fields.end(),
                                    [](const PcdField& f) { return f.value == ColumnLayout::kPass; });
-    format += ", pass from the field " + profiles::printable(pass->name);
+    format += ", pass from the field " + profiles::lower(pass->name);
   }
   if (header.moved) format += ", viewpoint ignored";
   return builder.finish(std::move(format), header.unit.unit());

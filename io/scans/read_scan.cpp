@@ -35,12 +35,10 @@ Parser parser_of(const std::filesystem::path& file) {
 /// What makes a file readable that is not.
 std::string way_out(const std::filesystem::path& file) {
   const std::string extension = profiles::lower(file.extension().string());
-  const std::string name = profiles::printable(file.filename().string()),
-                    stem = profiles::printable(file.stem().string());
+  const std::string name = file.filename().string(), stem = file.stem().string();
   if (extension == ".laz")
-    return fmt::format(
-        "decompress it first: 'pdal translate {} {}.las' (Debian package pdal), or 'laszip -i {} -o {}.las'", name,
-        stem, name, stem);
+    return fmt::format("decompress it first: 'laszip -i {} -o {}.las', or 'pdal translate {} {}.las'", name, stem, name,
+                       stem);
   if (extension == ".xyzi" || extension == ".neu" || extension == ".dat")
     return "if it has a point a line, rename it to .xyz; known are " + scan_extensions();
   return "known are " + scan_extensions();

@@ -22,10 +22,12 @@ struct Scan {
   std::string format;  ///< in words: "PLY, binary little endian", "columns x y z pass, separated by ','"
   std::optional<LengthUnit>
       unit;  ///< only where the file itself says it (a comment or a header of a column), and no other
-  std::size_t points_in_file = 0;  ///< = points of the cloud + not_finite + withheld
-  std::size_t not_finite = 0;      ///< left out: lost points, for which scanners write NaN or infinite coordinates,
-                                   ///< 0 0 0 (PTX) or a mark (E57)
-  std::size_t withheld = 0;        ///< left out: points that a LAS file marks as withheld, that is deleted
+  std::optional<LengthUnit> usual_unit;  ///< of files of this kind that do not say it (LAS: metres)
+  std::string reference;                 ///< coordinate system of the Earth that the file names; empty: none
+  std::size_t points_in_file = 0;        ///< = points of the cloud + not_finite + withheld
+  std::size_t not_finite = 0;  ///< left out: lost points, for which scanners write NaN or infinite coordinates,
+                               ///< 0 0 0 (PTX) or a mark (E57)
+  std::size_t withheld = 0;    ///< left out: points that a LAS file marks as withheld, that is deleted
 };
 
 struct ScanReadOptions {
@@ -47,7 +49,7 @@ bool is_scan_file(const std::filesystem::path& file);
 ///   .stl  ASCII and binary. .obj: normals only where each vertex has its own. .off: text (normals with NOFF) and
 ///   binary. .las  1.0 to 1.4 without compression, formats 0 to 10; pass: the point source ID, unless it is the same
 ///   everywhere.
-///         Points marked as withheld are left out.
+///         Points marked as withheld are left out; longitudes and latitudes are refused.
 ///   .pcd  0.5 to 0.7: ASCII, binary, binary_compressed; pass as for .ply. The viewpoint is ignored.
 ///   .ptx  stations one after the other, each with its matrix applied; pass: the station where there are several.
 ///   .e57  1.0: scans with Cartesian or spherical coordinates, each with its pose applied; the check sum of every page
