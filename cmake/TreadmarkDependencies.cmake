@@ -39,6 +39,7 @@ list(APPEND CMAKE_MODULE_PATH "/usr/lib/${CMAKE_LIBRARY_ARCHITECTURE}/cmake/Open
 treadmark_part_package(openvdb OpenVDB)
 set(CGAL_DO_NOT_WARN_ABOUT_CMAKE_BUILD_TYPE TRUE)
 treadmark_part_package(cgal CGAL 5.5)
+treadmark_part_package(e57 EXPAT 2.4)
 
 if(TREADMARK_HAVE_FFTW)
   find_path(FFTW3_INCLUDE_DIR fftw3.h)

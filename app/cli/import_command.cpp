@@ -9,6 +9,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/pictures/imports/import_pictures.hpp"
 
 namespace treadmark::cli {
@@ -67,8 +68,8 @@ std::string import_schema() { return io::import_settings_schema(); }
 Command add_import(CLI::App& verb) {
   auto options = std::make_shared<ImportOptions>();
   verb.add_option("SCAN", options->scans,
-                  "Points (.ply .stl .obj .off .las .xyz .asc .txt .csv), several files = several passes; or a gridded "
-                  "map of deviations (.csv .asc)");
+                  "Points (" + io::scan_extensions() +
+                      "), several files = several passes; or a gridded map of deviations (.csv .asc)");
   verb.add_option(
           "-o,--output", options->outputs,
           "Surface file: .slcs .slcw (spline), .ply .stl .obj .off (mesh), .vdb (offset); may be given several times")

@@ -36,7 +36,17 @@ scans::Section nominal_section(Body body, const std::vector<Vec2>& nominal) {
 /// Marks strays among thinned points; connects lines of a scanner that are far apart before it gives up on clusters.
 std::vector<std::uint8_t> keep_without_strays(const std::vector<Vec3>& points, const scans::SurfaceElements& elements,
                                               const io::ImportSettings& settings, io::ImportReport& report) {
-  const scans::ThinnedPoints thinned = scans::thin(points, elements.centre, elements.size);
+  // where only large cubes show a surface they are too few to judge their neighbours by
+  constexpr std::size_t kFewest = 100;
+  constexpr int kHalvings = 10;
+  scans::ThinnedPoints thinned = scans::thin(points, elements.centre, elements.size);
+  for (int k = 1; k <= kHalvings && thinned.position.size() < kFewest; ++k)
+    thinned = scans::thin(points, elements.centre, std::ldexp(elements.size, -k));
+  if (thinned.position.size() < kFewest) {
+    report.warnings.push_back(
+        fmt::format("the points lie at {} places only: none was judged to be stray", thinned.position.size()));
+    return std::vector<std::uint8_t>(points.size(), 1);
+  }
   scans::StraySettings how;
   how.outlier_distance = settings.clean.stray_distance * elements.size;
   how.least_cluster = settings.clean.stray_cluster;
@@ -125,8 +135,55 @@ void read_nominal(const ImportRequest& request, PlacedScan& scan) {
   scan.nominal_spec = spec;
 }
 
+namespace {
+
+/// The unit that was given, that of the file, that of such files, or that which makes the size that of the body.
+LengthUnit find_unit(const Clouds& clouds, const io::ImportSettings& settings, Body body,
+                     const scans::RoughPlace& rough, io::ImportReport& report) {
+  const char* const what = body == Body::wheel ? "wheel" : "rail";
+  if (settings.scan.unit != "auto") {
+    report.unit_from = "given";
+    return *length_unit(settings.scan.unit);
+  }
+  if (clouds.unit) {
+    report.unit_from = "the file";
+    return *clouds.unit;
+  }
+  if (clouds.usual_unit) {
+    report.unit_from = "what is usual in such files";
+    try {
+      scans::check_unit(body, rough.size, *clouds.usual_unit);
+    } catch (const Error& error) {
+      throw Error(error.kind(), error.message(), {},
+                  fmt::format("files of this kind are in {}: is it one {} alone, cut out of all around it? if its "
+                              "numbers are in another unit, say it with --unit",
+                              symbol(*clouds.usual_unit), what));
+    }
+    return *clouds.usual_unit;
+  }
+  report.unit_from = fmt::format("the size of the {}", what);
+  const LengthUnit unit = scans::unit_by_size(body, rough.size);
+  // no scanner that writes fractions of a metre stands so far away
+  constexpr double kFarthest = 100.0;
+  const double away = rough.elements.centre.norm() * metres_per(unit);
+  if (unit != LengthUnit::metre && away > kFarthest)
+    throw Error(ErrorKind::input_data,
+                fmt::format("in {} the size would be that of a {}, but it lies {:.4g} m from the origin: are these "
+                            "coordinates of a map?",
+                            symbol(unit), what, away),
+                {}, fmt::format("if it is one {} alone, say the unit with --unit; else cut it out", what));
+  return unit;
+}
+
+}  // namespace
+
 PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportReport& report, StepClock& clock) {
   const io::ImportSettings& settings = request.settings;
+  if (settings.scan.unit == "auto" && !clouds.reference.empty())
+    throw Error(ErrorKind::input_data,
+                "the coordinates are those of a map: the file names the coordinate system " + clouds.reference, {},
+                "if the points are those of one wheel or rail alone, say the unit of the map with --unit; else cut it "
+                "out and export it in the scanner's own coordinates");
   PlacedScan scan;
   scan.body = body_of(request);
   read_nominal(request, scan);
@@ -148,17 +205,7 @@ PlacedScan find_place(Clouds clouds, const ImportRequest& request, io::ImportRep
   clock.begin("placement");
   scans::RoughPlace rough = scans::find_roughly(scan.points, scan.keep, scan.body);
   report.spacing = rough.elements.spacing;
-  LengthUnit unit = LengthUnit::millimetre;
-  if (settings.scan.unit != "auto") {
-    unit = *length_unit(settings.scan.unit);
-    report.unit_from = "given";
-  } else if (clouds.unit) {
-    unit = *clouds.unit;
-    report.unit_from = "the file";
-  } else {
-    unit = scans::unit_by_size(scan.body, rough.size);
-    report.unit_from = fmt::format("the size of the {}", scan.body == Body::wheel ? "wheel" : "rail");
-  }
+  const LengthUnit unit = find_unit(clouds, settings, scan.body, rough, report);
   scans::check_unit(scan.body, rough.size, unit);
   report.unit = symbol(unit);
   const double factor = metres_per(unit);

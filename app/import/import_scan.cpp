@@ -235,7 +235,10 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   const FittedScan whole{scan, fitted, projection.points, coverage, noise.typical, kept ? &*kept : nullptr};
   for (const auto& file : request.outputs) check_holes(file, whole);
   const std::vector<std::string> summary = summary_lines(report);
-  for (const auto& file : request.outputs) report.outputs.push_back(write_output(file, whole, settings, summary));
+  StagedOutputs staged;
+  for (const auto& file : request.outputs)
+    report.outputs.push_back(write_output(file, staged.place(file), whole, settings, summary));
+  staged.commit();
   clock.end();
   return report;
 }

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <optional>
+#include <string>
 #include <vector>
 
 #include "treadmark/app/import/import_scan.hpp"
@@ -14,11 +15,14 @@
 namespace treadmark::app {
 
 struct Clouds {
-  PointCloud cloud;                ///< of all files, in their unit; passes filled where there are several
-  std::optional<LengthUnit> unit;  ///< if the files say it, all the same
+  PointCloud cloud;                      ///< of all files, in their unit; passes filled where there are several
+  std::optional<LengthUnit> unit;        ///< if the files say it, all the same
+  std::optional<LengthUnit> usual_unit;  ///< that of such files, if they do not
+  std::string reference;                 ///< coordinate system of the Earth that a file names; empty: none
 };
 
-/// Reads all files into one cloud. Fills inputs, points_read and what was not finite into the report.
+/// Reads all files into one cloud, without points that stand for "no data" (a value like -9999 that many share, far
+/// from all others). Fills inputs, points_read and what was not finite into the report.
 /// Errors: those of the readers; Error(input_data) for files in different units.
 Clouds read_clouds(const ImportRequest& request, io::ImportReport& report, const Progress& progress);
 

@@ -2,8 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/import/write_outputs.hpp"
 
+#include <unistd.h>
+
 #include <algorithm>
 #include <cmath>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -270,27 +273,72 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit) {
   if (is_offset_file(file)) refuse_holes(fit, file, "offsets");
 }
 
-io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit,
-                                      const io::ImportSettings& settings, const std::vector<std::string>& summary) {
+StagedOutputs::~StagedOutputs() {
+  std::error_code ignored;
+  for (const Output& output : outputs_) std::filesystem::remove_all(output.folder, ignored);
+  for (const auto& folder : made_) std::filesystem::remove(folder, ignored);  // only empty ones go
+}
+
+std::filesystem::path StagedOutputs::place(const std::filesystem::path& file) {
+  Output output{file, file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), ::getpid())};
+  std::error_code code;
+  for (auto parent = file.parent_path(); !parent.empty() && !std::filesystem::exists(parent, code);
+       parent = parent.parent_path())
+    made_.push_back(parent);
+  std::filesystem::create_directories(output.folder, code);
+  if (code)
+    throw Error(ErrorKind::configuration, "cannot be written: " + code.message(), {file.string()},
+                "check the folder and its permissions");
+  outputs_.push_back(output);
+  return output.folder / file.filename();
+}
+
+void StagedOutputs::commit() {
+  namespace fs = std::filesystem;
+  for (const Output& output : outputs_) {
+    try {
+      // slices have a folder with files of their own, where others may lie already
+      const fs::path parts = output.folder / output.file.stem();
+      if (fs::is_directory(parts)) {
+        fs::create_directories(output.file.parent_path() / output.file.stem());
+        for (const auto& part : fs::directory_iterator(parts))
+          fs::rename(part.path(), output.file.parent_path() / output.file.stem() / part.path().filename());
+      }
+      fs::rename(output.folder / output.file.filename(), output.file);
+    } catch (const fs::filesystem_error& error) {
+      throw Error(ErrorKind::configuration, "cannot be written: " + error.code().message(), {output.file.string()},
+                  "check the folder and its permissions");
+    }
+  }
+}
+
+io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,
+                                      const FittedScan& fit, const io::ImportSettings& settings,
+                                      const std::vector<std::string>& summary) {
   check_holes(file, fit);
   io::ImportReport::Output out;
   out.file = file.filename().string();
-  if (io::is_slices_file(file)) {
-    out.kind = "slices";
-    const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings);
-    out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
-    io::write_slices(file, slices, summary);
-  } else if (io::is_mesh_file(file)) {
-    out.kind = "triangles";
-    const TriangleMesh mesh = triangles_of(fit, settings);
-    out.details = fmt::format("{} triangles over {} vertices", mesh.triangles.size(), mesh.vertices.size());
-    io::write_mesh(file, mesh, summary);
-  } else {
-    out.kind = "offsets";
-    out.details = fmt::format("over the {} section", settings.fit.base);
-    write_offset_file(file, fit, settings, summary);
+  try {
+    if (io::is_slices_file(file)) {
+      out.kind = "slices";
+      const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings);
+      out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
+      io::write_slices(place, slices, summary);
+    } else if (io::is_mesh_file(file)) {
+      out.kind = "triangles";
+      const TriangleMesh mesh = triangles_of(fit, settings);
+      out.details = fmt::format("{} triangles over {} vertices", mesh.triangles.size(), mesh.vertices.size());
+      io::write_mesh(place, mesh, summary);
+    } else {
+      out.kind = "offsets";
+      out.details = fmt::format("over the {} section", settings.fit.base);
+      write_offset_file(place, fit, settings, summary);
+    }
+  } catch (const Error& error) {
+    if (error.where().file != place.string()) throw;
+    throw Error(error.kind(), error.message(), {file.string()}, error.advice());  // nobody knows the place
   }
-  describe_file(file, out);
+  describe_file(place, out);
   std::optional<NaturalSurface> sections;
   if (fit.sections != nullptr) {
     SurfaceSpec spec;
@@ -299,7 +347,16 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const F
     spec.shape = out.kind == "slices" ? *fit.sections : smoothed_sections(*fit.sections, settings);
     sections = create_natural(std::move(spec));
   }
-  compare(file, fit, sections, out);
+  try {
+    compare(place, fit, sections, out);
+  } catch (const Error& error) {
+    throw Error(ErrorKind::input_data, "the surface that was made could not be read again: " + error.message(),
+                {file.string()},
+                fit.sections != nullptr ? "say fit.sections=fit"
+                : settings.clean.hole_limit_mm > 0.0
+                    ? "what fills a large hole may fold: lower clean.hole_limit_mm, or write triangles (.ply)"
+                    : "raise fit.significance or fit.resolution_mm, or write triangles (.ply)");
+  }
   return out;
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <filesystem>
 #include <string>
 #include <vector>
 
@@ -27,9 +28,33 @@ void check_outputs(const ImportRequest& request);
 /// Refuses slices and offsets of a surface with holes that stay open. Errors: Error(configuration).
 void check_holes(const std::filesystem::path& file, const FittedScan& fit);
 
-/// Writes one surface, reads it back and compares it with the fitted one. summary: lines that go into the file.
-/// Errors: those of check_holes, writers and CGAL.
-io::ImportReport::Output write_output(const std::filesystem::path& file, const FittedScan& fit,
-                                      const io::ImportSettings& settings, const std::vector<std::string>& summary);
+/// Surfaces on the way to their names: written into folders beside them, which are gone with this object. One thread.
+class StagedOutputs {
+ public:
+  StagedOutputs() = default;
+  StagedOutputs(const StagedOutputs&) = delete;
+  StagedOutputs& operator=(const StagedOutputs&) = delete;
+  ~StagedOutputs();
+
+  /// Where to write what shall become `file`. Errors: Error(configuration) where no folder can be made.
+  std::filesystem::path place(const std::filesystem::path& file);
+
+  /// Gives all of them their names. Errors: Error(configuration) naming the file.
+  void commit();
+
+ private:
+  struct Output {
+    std::filesystem::path file, folder;
+  };
+  std::vector<Output> outputs_;
+  std::vector<std::filesystem::path> made_;  ///< folders that were not there, the inner ones first
+};
+
+/// Writes one surface to `place` that shall become `file`, reads it back and compares it with the fitted one. summary:
+/// lines that go into the file. Errors: those of check_holes, writers and CGAL; Error(input_data) for a surface that
+/// would not be read again.
+io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,
+                                      const FittedScan& fit, const io::ImportSettings& settings,
+                                      const std::vector<std::string>& summary);
 
 }  // namespace treadmark::app

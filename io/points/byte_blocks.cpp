@@ -37,7 +37,9 @@ ByteBlocks::ByteBlocks(const fs::path& file, const SourcePosition& asked_by, con
   stream->rdbuf()->pubsetbuf(nullptr, 0);  // the blocks are the buffer
   stream->open(file, std::ios::binary);
   if (!*stream) refuse("cannot be opened", "check its permissions");
-  read_ = [stream](char* to, std::size_t bytes) {
+  read_ = [stream, at = std::uint64_t{0}](std::uint64_t from, char* to, std::size_t bytes) mutable {
+    if (from != at) stream->seekg(static_cast<std::streamoff>(from));
+    at = from + bytes;
     stream->read(to, static_cast<std::streamsize>(bytes));
     return static_cast<std::size_t>(stream->gcount());
   };
@@ -49,11 +51,10 @@ ByteBlocks::ByteBlocks(std::string_view bytes, std::string name, std::size_t blo
       progress_(progress),
       size_(bytes.size()),
       block_(std::max<std::size_t>(block, 1)) {
-  read_ = [bytes](char* to, std::size_t count) mutable {
-    count = std::min(count, bytes.size());
-    std::memcpy(to, bytes.data(), count);
-    bytes.remove_prefix(count);
-    return count;
+  read_ = [bytes](std::uint64_t from, char* to, std::size_t count) {
+    const std::string_view rest = bytes.substr(static_cast<std::size_t>(from), count);
+    std::memcpy(to, rest.data(), rest.size());
+    return rest.size();
   };
 }
 
@@ -69,7 +70,7 @@ void ByteBlocks::fill(std::size_t bytes) {
   const auto room =
       static_cast<std::size_t>(std::min<std::uint64_t>(carried + unread, std::max(bytes, carried + block_)));
   if (buffer_.size() < room) buffer_.resize(room);
-  const std::size_t got = read_(buffer_.data() + end_, room - end_);
+  const std::size_t got = read_(start_of_buffer_ + end_, buffer_.data() + end_, room - end_);
   end_ += got;
   if (end_ < room) fail("the file ends before its size says so", "was it changed while it was read?");
   if (progress_.report) progress_.report(static_cast<std::size_t>(offset()), static_cast<std::size_t>(size_), what_);
@@ -87,6 +88,16 @@ void ByteBlocks::skip(std::uint64_t bytes) {
     consume(step);
     bytes -= step;
   }
+}
+
+void ByteBlocks::seek(std::uint64_t to) {
+  if (to > size_) ends();
+  if (to >= start_of_buffer_ && to <= start_of_buffer_ + end_) {
+    begin_ = static_cast<std::size_t>(to - start_of_buffer_);
+    return;
+  }
+  start_of_buffer_ = to;
+  begin_ = end_ = 0;
 }
 
 void ByteBlocks::fail(const std::string& message, const std::string& advice) const {

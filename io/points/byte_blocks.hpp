@@ -50,6 +50,9 @@ class ByteBlocks {
   /// Passes over bytes, in the window or not. Error(input_data) where the file ends before.
   void skip(std::uint64_t bytes);
 
+  /// Goes to a byte of the file, forwards or back. Error(input_data) behind its end.
+  void seek(std::uint64_t to);
+
   [[noreturn]] void fail(const std::string& message, const std::string& advice = {}) const;
 
   /// Tells that all has been read, also where the end of a file did not matter.
@@ -64,7 +67,7 @@ class ByteBlocks {
   Progress progress_;
   std::uint64_t size_ = 0;
   std::size_t block_ = kBlock;
-  std::function<std::size_t(char*, std::size_t)> read_;
+  std::function<std::size_t(std::uint64_t from, char* to, std::size_t bytes)> read_;
   std::vector<char> buffer_;
   std::uint64_t start_of_buffer_ = 0;
   std::size_t begin_ = 0, end_ = 0;

@@ -6,6 +6,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <utility>
 
 namespace treadmark::io::scans {
@@ -21,12 +22,22 @@ CloudBuilder::CloudBuilder(const ByteBlocks& bytes, const ScanReadOptions& optio
 void CloudBuilder::expect(std::uint64_t count) {
   if (count > bytes_.left() / least_bytes_ + 1)
     fail_(fmt::format("{} points are promised, more than the file can hold", count), "is it truncated?");
+  reserve(count);
+}
+
+void CloudBuilder::reserve(std::uint64_t count) {
   if (count > most_points_)
     fail_(fmt::format("{} points, more than the {} allowed", count, most_points_), "thin out the points");
   PointCloud& cloud = scan_.cloud;
-  cloud.points.reserve(cloud.points.size() + static_cast<std::size_t>(count));
-  if (normals_) cloud.normals.reserve(cloud.points.capacity());
-  if (passes_) cloud.passes.reserve(cloud.points.capacity());
+  const std::size_t have = cloud.points.size();
+  std::size_t room = have + static_cast<std::size_t>(count);
+  if (room <= cloud.points.capacity()) return;
+  // many small parts one after the other must not move all points each time
+  const std::size_t rest = static_cast<std::size_t>(bytes_.left() / least_bytes_) + 1;
+  if (have > 0) room = std::max(room, have + std::min(have / 2, rest));
+  cloud.points.reserve(room);
+  if (normals_) cloud.normals.reserve(room);
+  if (passes_) cloud.passes.reserve(room);
 }
 
 void CloudBuilder::grow() {
@@ -61,6 +72,13 @@ void CloudBuilder::bad_pass(double number) const {
   fail_(fmt::format("the pass {:g} is not a whole number from 0 to 65535", number),
         "number the passes so, or remove or rename this column");
   throw Error(ErrorKind::input_data, "wrong pass", {bytes_.file(), 0, 0});  // fail_ has thrown
+}
+
+bool CloudBuilder::keep_different_passes() {
+  std::vector<std::uint16_t>& passes = scan_.cloud.passes;
+  if (std::adjacent_find(passes.begin(), passes.end(), std::not_equal_to<>()) != passes.end()) return true;
+  drop_passes();
+  return false;
 }
 
 Scan CloudBuilder::finish(std::string format, std::optional<LengthUnit> unit) {

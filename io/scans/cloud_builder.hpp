@@ -33,6 +33,9 @@ class CloudBuilder {
   /// Makes room for points that the file promises from here on; refuses what it cannot hold or what is too many.
   void expect(std::uint64_t count);
 
+  /// Makes room for points whose data are there already; refuses what is too many.
+  void reserve(std::uint64_t count);
+
   /// The normal is made a unit vector, or zero where it says nothing.
   void add(const Vec3& point, const Eigen::Vector3f& normal = Eigen::Vector3f::Zero(), std::uint16_t pass = 0) {
     ++scan_.points_in_file;
@@ -44,6 +47,12 @@ class CloudBuilder {
     scan_.cloud.points.push_back(point);
     if (normals_) scan_.cloud.normals.push_back(unit_or_zero(normal));
     if (passes_) scan_.cloud.passes.push_back(pass);
+  }
+
+  /// A place without a point: the file says that the scanner got no echo there.
+  void add_lost() {
+    ++scan_.points_in_file;
+    ++scan_.not_finite;
   }
 
   void add_withheld() {
@@ -59,6 +68,9 @@ class CloudBuilder {
   }
 
   Scan& scan() { return scan_; }
+
+  /// Forgets passes that are the same everywhere. Whether there are several.
+  bool keep_different_passes();
 
   /// The result; Error(input_data) where there is no finite point.
   Scan finish(std::string format, std::optional<LengthUnit> unit);

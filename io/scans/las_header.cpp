@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "treadmark/io/points/binary_values.hpp"
@@ -15,6 +16,97 @@ namespace {
 
 /// Least lengths of records of the point data formats 0 to 10.
 constexpr std::size_t kRecord[] = {20, 28, 26, 34, 57, 63, 30, 36, 38, 59, 67};
+
+/// What the records about the coordinate system say: keys of GeoTIFF 1.0 or well-known text (OGC 01-009, ISO 19162).
+class Reference {
+ public:
+  void take(unsigned record, std::string_view content) {
+    constexpr unsigned kText = 2112, kDirectory = 34735, kWords = 34737;
+    if (record == kText) take_text(content.substr(0, content.find('\0')));
+    if (record == kWords) words_ = content;
+    if (record == kDirectory) directory_ = content;
+  }
+
+  void put_into(LasHeader& header) {
+    constexpr std::size_t kLongest = 80;
+    take_directory();
+    if (!map_) return;
+    header.reference = name_.empty() ? "without a name" : name_.substr(0, kLongest);
+    for (char& c : header.reference)
+      if (c < ' ' || c > '~') c = '?';
+    header.degrees = degrees_;
+  }
+
+ private:
+  void take_text(std::string_view text) {
+    const std::string_view kind = text.substr(0, text.find_first_of("[("));
+    const std::size_t from = text.find('"'), to = from == text.npos ? text.npos : text.find('"', from + 1);
+    // drawings and machines have coordinate systems of their own (LOCAL_CS, ENGCRS), which say nothing here
+    for (const std::string_view known : {"PROJCS", "PROJCRS", "PROJECTEDCRS", "COMPD_CS", "COMPOUNDCRS", "GEOCCS",
+                                         "GEOGCS", "GEOGCRS", "GEODCRS", "GEODETICCRS", "BOUNDCRS"})
+      if (kind == known) map_ = true;
+    degrees_ = kind == "GEOGCS" || kind == "GEOGCRS";
+    if (map_ && to != text.npos) name_ = text.substr(from + 1, to - from - 1);
+  }
+
+  void take_directory() {
+    constexpr std::size_t kEntry = 8;
+    constexpr unsigned kModel = 1024, kCitation = 1026, kGeographic = 2048, kProjected = 3072, kOther = 32767;
+    std::optional<unsigned> code;
+    for (std::size_t at = kEntry; at + kEntry <= directory_.size(); at += kEntry) {
+      const auto value = [&](std::size_t k) { return unsigned{load<std::uint16_t>(&directory_[at + 2 * k])}; };
+      const unsigned key = value(0);
+      if (key == kModel && value(1) == 0) {
+        constexpr unsigned kLongitudes = 2, kMostModels = 3;
+        map_ |= value(3) >= 1 && value(3) <= kMostModels;
+        degrees_ |= value(3) == kLongitudes;
+      }
+      if ((key == kProjected || (key == kGeographic && !code)) && value(1) == 0 && value(3) < kOther) code = value(3);
+      if (key == kCitation && name_.empty() && value(3) < words_.size()) name_ = words_.substr(value(3), value(2));
+    }
+    while (!name_.empty() && (name_.back() == '|' || name_.back() == '\0')) name_.pop_back();
+    if (code && name_.empty()) name_ = fmt::format("EPSG {}", *code);
+  }
+
+  std::string directory_, words_, name_;
+  bool map_ = false, degrees_ = false;
+};
+
+/// Looks at the variable records, and in LAS 1.4 at those behind the points. Broken ones end the search.
+void read_reference(ByteBlocks& bytes, std::size_t header_size, LasHeader& header) {
+  constexpr std::uint64_t kMostContent = 100'000;
+  const std::string_view head = bytes.window();
+  const std::uint32_t records = load<std::uint32_t>(&head[las::kRecords]);
+  std::uint64_t late_at = 0;
+  std::uint32_t late = 0;
+  if (header.minor == 4) {
+    late_at = load<std::uint64_t>(&head[las::kLateRecords]);
+    late = load<std::uint32_t>(&head[las::kLateRecords + 8]);
+  }
+  Reference reference;
+  const auto look = [&](std::uint64_t at, std::uint64_t end, std::uint32_t count, std::size_t size) {
+    for (; count > 0 && at <= end && end - at >= size; --count) {
+      bytes.seek(at);
+      const std::string_view record(bytes.need(size), size);
+      const std::string_view user = record.substr(2, 16);
+      const unsigned id = load<std::uint16_t>(&record[18]);
+      const std::uint64_t length =
+          size == las::kRecordHead ? load<std::uint16_t>(&record[20]) : load<std::uint64_t>(&record[20]);
+      const bool wanted = user.substr(0, user.find('\0')) == "LASF_Projection";
+      at += size;
+      if (length > end - at) return;
+      if (wanted && length <= kMostContent) {
+        const auto bytes_of = static_cast<std::size_t>(length);
+        const char* const from = bytes.need(size + bytes_of) + size;
+        reference.take(id, {from, bytes_of});
+      }
+      at += length;
+    }
+  };
+  look(header_size, std::min(header.data_offset, bytes.size()), records, las::kRecordHead);
+  if (late_at >= header_size && late_at < bytes.size()) look(late_at, bytes.size(), late, las::kLateRecordHead);
+  reference.put_into(header);
+}
 
 }  // namespace
 
@@ -48,7 +140,7 @@ LasHeader read_las_header(ByteBlocks& bytes) {
   const int format = load<std::uint8_t>(&head[las::kFormat]);
   if ((format & 0xc0) != 0)
     fail_at(las::kFormat, "the points are compressed (LAZ)",
-            "decompress the file to .las first, for example with laszip");
+            "decompress the file first: 'laszip -i in.laz -o out.las', or 'pdal translate in.laz out.las'");
   if (format >= static_cast<int>(std::size(kRecord)))
     fail_at(las::kFormat, fmt::format("the point data format {} is not known", format), "0 to 10 are read");
   header.format = format;
@@ -86,7 +178,11 @@ LasHeader read_las_header(ByteBlocks& bytes) {
         fmt::format("{} points are promised, the file holds {}", header.count,
                     header.data_offset > bytes.size() ? 0 : (bytes.size() - header.data_offset) / header.record_length),
         "is it truncated?");
-  bytes.skip(header.data_offset);
+  read_reference(bytes, size, header);
+  if (header.degrees)
+    fail_at(0, "the coordinates are longitudes and latitudes (" + header.reference + ")",
+            "export the points in metres, in the scanner's own coordinates if possible");
+  bytes.seek(header.data_offset);
   return header;
 }
 

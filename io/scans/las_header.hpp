@@ -5,6 +5,7 @@
 #include <array>
 #include <cstdint>
 #include <optional>
+#include <string>
 
 #include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/model/length_unit.hpp"
@@ -17,7 +18,8 @@ using namespace points;
 namespace las {
 inline constexpr std::size_t kSystemId = 26, kSoftware = 58, kTextLength = 32, kHeaderSize = 94, kDataOffset = 96,
                              kFormat = 104, kRecordLength = 105, kCount = 107, kReturns = 111, kScale = 131,
-                             kOrigin = 155, kBounds = 179, kSize12 = 227, kCount14 = 247, kSize14 = 375;
+                             kOrigin = 155, kBounds = 179, kSize12 = 227, kRecords = 100, kLateRecords = 235,
+                             kCount14 = 247, kSize14 = 375, kRecordHead = 54, kLateRecordHead = 60;
 }  // namespace las
 
 /// What of the header tells where the points are.
@@ -28,6 +30,8 @@ struct LasHeader {
   std::uint64_t data_offset = 0, count = 0;
   std::array<double, 3> scale{}, origin{};
   std::optional<LengthUnit> unit;
+  std::string reference;  ///< coordinate system of the Earth that a record names, in words
+  bool degrees = false;   ///< whether it is one of longitudes and latitudes
 
   /// Byte of the point source ID within a record; LAS 1.0 has none.
   std::optional<std::size_t> source_id() const;

@@ -107,6 +107,8 @@ Scan parse_columns(ByteBlocks& bytes, const ScanReadOptions& options) {
   if (builder.scan().points_in_file < promised)
     lines.fail(fmt::format("{} points are promised, the file ends after {}", promised, builder.scan().points_in_file),
                0, "is it truncated?");
+  if (promised > 0 && builder.scan().points_in_file > promised)
+    layout.in_words += fmt::format(", {} points promised and {} found", promised, builder.scan().points_in_file);
   return builder.finish(layout.in_words, layout.unit);
 }
 

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include <algorithm>
-
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/las_header.hpp"
@@ -32,12 +30,12 @@ Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options) {
     bytes.consume(header.record_length);
   }
   std::string format = fmt::format("LAS 1.{}, point data format {}", header.minor, header.format);
-  std::vector<std::uint16_t>& passes = builder.scan().cloud.passes;
-  if (std::adjacent_find(passes.begin(), passes.end(), std::not_equal_to<>()) == passes.end())
-    passes = {};
-  else
-    format += ", pass from the point source ID";
-  return builder.finish(std::move(format), header.unit);
+  if (builder.keep_different_passes()) format += ", pass from the point source ID";
+  if (!header.reference.empty()) format += ", coordinate system " + header.reference;
+  Scan scan = builder.finish(std::move(format), header.unit);
+  scan.usual_unit = LengthUnit::metre;
+  scan.reference = header.reference;
+  return scan;
 }
 
 }  // namespace treadmark::io::scans

@@ -16,6 +16,10 @@ Scan parse_obj(ByteBlocks& bytes, const ScanReadOptions& options);
 Scan parse_off(ByteBlocks& bytes, const ScanReadOptions& options);
 Scan parse_columns(ByteBlocks& bytes, const ScanReadOptions& options);
 Scan parse_las(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_pcd(ByteBlocks& bytes, const ScanReadOptions& options);
+Scan parse_ptx(ByteBlocks& bytes, const ScanReadOptions& options);
+/// Error(configuration) in a build without Expat.
+Scan parse_e57(ByteBlocks& bytes, const ScanReadOptions& options);
 
 /// The readers behind read_deviation_map.
 OffsetMap parse_map_matrix(ByteBlocks& bytes, const MapReadOptions& options);

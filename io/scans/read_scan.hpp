@@ -22,9 +22,12 @@ struct Scan {
   std::string format;  ///< in words: "PLY, binary little endian", "columns x y z pass, separated by ','"
   std::optional<LengthUnit>
       unit;  ///< only where the file itself says it (a comment or a header of a column), and no other
-  std::size_t points_in_file = 0;  ///< = points of the cloud + not_finite + withheld
-  std::size_t not_finite = 0;      ///< left out: NaN or infinite coordinates (scanners write them for lost points)
-  std::size_t withheld = 0;        ///< left out: points that a LAS file marks as withheld, that is deleted
+  std::optional<LengthUnit> usual_unit;  ///< of files of this kind that do not say it (LAS: metres)
+  std::string reference;                 ///< coordinate system of the Earth that the file names; empty: none
+  std::size_t points_in_file = 0;        ///< = points of the cloud + not_finite + withheld
+  std::size_t not_finite = 0;  ///< left out: lost points, for which scanners write NaN or infinite coordinates,
+                               ///< 0 0 0 (PTX) or a mark (E57)
+  std::size_t withheld = 0;    ///< left out: points that a LAS file marks as withheld, that is deleted
 };
 
 struct ScanReadOptions {
@@ -32,7 +35,10 @@ struct ScanReadOptions {
   std::size_t most_points = 200'000'000;  ///< a file that says it has more is refused
 };
 
-/// Whether the name ends like a scan: .ply .stl .obj .off .xyz .asc .txt .csv .las (any case).
+/// The ends of the names of scans that are read: ".ply .stl .obj ...".
+std::string scan_extensions();
+
+/// Whether the name ends so (any case).
 bool is_scan_file(const std::filesystem::path& file);
 
 /// Reads the points (vertices; each once where triangles of an STL file repeat them bit by bit) of a scan, with normals
@@ -43,9 +49,13 @@ bool is_scan_file(const std::filesystem::path& file);
 ///   .stl  ASCII and binary. .obj: normals only where each vertex has its own. .off: text (normals with NOFF) and
 ///   binary. .las  1.0 to 1.4 without compression, formats 0 to 10; pass: the point source ID, unless it is the same
 ///   everywhere.
-///         Points marked as withheld are left out.
-///   .xyz .asc .txt .csv  columns of text. Separators: blanks, tabs, ',' or ';'; decimal commas where something else
-///   separates
+///         Points marked as withheld are left out; longitudes and latitudes are refused.
+///   .pcd  0.5 to 0.7: ASCII, binary, binary_compressed; pass as for .ply. The viewpoint is ignored.
+///   .ptx  stations one after the other, each with its matrix applied; pass: the station where there are several.
+///   .e57  1.0: scans with Cartesian or spherical coordinates, each with its pose applied; the check sum of every page
+///         that is read is tested; unit: metre; pass: the scan where there are several. Needs Expat.
+///   .xyz .xyzrgb .xyzn .pts .asc .txt .csv  columns of text. Separators: blanks, tabs, ',' or ';'; decimal commas
+///   where something else separates
 ///         and there is no decimal point. Comments: # ! % // at the start of a line or behind the numbers, ';' before
 ///         words. A leading number of points may stand there. Columns by a line of names (also in a comment: x, y, z,
 ///         nx, ny, nz, pass, scan id, line id ..., "X [mm]"), else by their number: 3 = x y z, 6 = x y z nx ny nz where

@@ -17,6 +17,7 @@ namespace {
 
 constexpr std::size_t kFewestPoints = 100;
 constexpr double kWantedPerVoxel = 30.0;
+constexpr double kFewestPerVoxel = 1.5;  // 27 cubes of which a plane meets 9 or more
 constexpr std::size_t kMostVoxels = 250'000;
 constexpr std::size_t kFewestInSurroundings = 8;
 constexpr double kFlatElement = 0.03;  // least to middle eigenvalue
@@ -142,12 +143,22 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
     if (factor > 0.7 && factor < 1.4) break;
   }
   SurfaceElements best;
-  for (; size < extent.radius / 3.0; size *= 1.6) {
-    SurfaceElements found = elements_of(points, Voxels(points, extent.centre, size, keep), extent);
-    // larger cubes blur the normals: only for a clear gain
+  const auto try_size = [&](const Voxels& voxels) {
+    SurfaceElements found = elements_of(points, voxels, extent);
+    // another size only for a clear gain: larger cubes blur the normals, smaller ones follow the noise
     if (found.flat_part > best.flat_part + kClearGain) best = std::move(found);
-    if (best.flat_part > kEnoughFlat) break;
+    return best.flat_part > kEnoughFlat;
+  };
+  constexpr double kStep = 1.6;
+  bool enough = try_size(Voxels(points, extent.centre, size, keep));
+  // a surface that turns within its surroundings shows in smaller ones, as long as they hold points
+  for (double s = size / kStep; !enough && s > size * std::sqrt(kFewestPerVoxel / kWantedPerVoxel); s /= kStep) {
+    const Voxels voxels(points, extent.centre, s, keep);
+    if (voxels.count() > kMostVoxels) break;
+    enough = try_size(voxels);
   }
+  for (double s = kStep * size; !enough && s < extent.radius / 3.0; s *= kStep)
+    enough = try_size(Voxels(points, extent.centre, s, keep));
   if (best.flat_part < kLeastFlat || best.position.size() < 20)
     throw Error(ErrorKind::input_data,
                 fmt::format("the points do not form a surface: only {:.0f} % of them lie in flat surroundings",
