@@ -17,6 +17,7 @@ enum class RemarkKind : std::uint8_t {
   grid_cuts_contact,
   surface_ends_in_contact,
   hole_in_contact,
+  contact_hidden,
   beyond_half_space,
   beyond_yield,
   strongly_curved,
@@ -47,6 +48,9 @@ inline constexpr RemarkRow kRemarkRows[] = {
      "contact reaches the end of a surface's data: pressures there depend on where the data end"},
     {RemarkKind::hole_in_contact, "hole_in_contact", true,
      "a surface is missing inside or beside the patch: the case fails"},
+    {RemarkKind::contact_hidden, "contact_hidden", true,
+     "along the normal of a contact another part of the wheel's or rail's section comes first, as at a guard rail: the "
+     "case fails"},
     {RemarkKind::beyond_half_space, "beyond_half_space", true,
      "largest pressure above 0.05 E', E' = G / (1 - nu) (steel: 5.7 GPa); of a patch without wheel and rail above "
      "0.1 E', and not judged where E' < 0.1 GPa: the patch is no longer small against the radii of the bodies; a wheel "

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <filesystem>
 #include <iostream>
 #include <optional>
@@ -33,7 +34,14 @@ struct SimulateOptions {
   std::string report_file;  ///< HTML; empty = none
 };
 
-int exit_status(const io::SimulationResult& result) { return result.status == "complete" ? kOk : kFailed; }
+double doubtful_steps(const io::SimulationResult& result) {
+  const auto found = std::ranges::find(result.summary, "doubtful_steps", &io::NamedValue::name);
+  return found == result.summary.end() ? 0.0 : found->value;
+}
+
+int exit_status(const io::SimulationResult& result) {
+  return result.status == "complete" && doubtful_steps(result) == 0.0 ? kOk : kFailed;
+}
 
 /// Whether a finished result lies there. Errors: Error(configuration) where it belongs to another simulation.
 bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,
@@ -123,6 +131,11 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
+  if (const double steps = doubtful_steps(result); steps > 0.0)
+    std::cerr << fmt::format(
+        "doubt: the contact is doubtful in {:.0f} steps (column doubts of the history); keep contact fields there to "
+        "see why\n",
+        steps);
   return exit_status(result);
 }
 

@@ -51,6 +51,8 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   add(prefix + "x_cp_m", "m", "contact reference ahead of the axle" + of, [=] { return reaction().contact_x; });
   add(prefix + "y_cp_m", "m", "contact reference in track axes" + of, [=] { return reaction().contact_y; });
   add(prefix + "patches", "1", "contact patches" + of, [=] { return static_cast<double>(reaction().patches); });
+  add(prefix + "doubts", "1", "grave remarks on the contact (docs/results.md)" + of,
+      [=] { return static_cast<double>(reaction().doubts); });
   add(prefix + "friction_W", "W", "power dissipated by friction" + of, [=] { return reaction().frictional_power; });
   const auto motion = [this, wheel] { return simulation_.vehicle().motion(wheel, simulation_.state()); };
   add(prefix + "pitch_rad", "rad", "pitch of the wheelset" + of, [=] { return motion().wheelset.pitch; });
@@ -113,6 +115,7 @@ void HistorySummary::note() {
   larger(ty_max_, r.lateral_creep_force);
   smaller(ty_min_, r.lateral_creep_force);
   larger(pmax_, r.max_pressure);
+  if (r.doubts > 0) ++doubtful_;
   if (!begun_) at_rest_ = q;
   begun_ = true;
 }
@@ -132,6 +135,8 @@ std::vector<io::NamedValue> HistorySummary::values() const {
   add("ty_max_N", ty_max_.value, "N", "largest lateral creep force");
   add("ty_min_N", ty_min_.value, "N", "least lateral creep force");
   if (has_pressure_) add("pmax_Pa", pmax_.value, "Pa", "largest contact pressure");
+  if (has_pressure_)
+    add("doubtful_steps", static_cast<double>(doubtful_), "1", "steps with a grave remark on the contact");
   add("contact_lost",
       static_cast<double>(std::ranges::count(simulation_.events(), false, &vehicle::ContactEvent::regained)), "1",
       "how often a wheel lost contact");
@@ -149,12 +154,14 @@ std::vector<io::NamedValue> HistorySummary::values() const {
 void HistorySummary::save(ByteWriter& out) const {
   out.put(begun_);
   out.put(at_rest_);
+  out.put(doubtful_);
   for (const Extreme* e : {&highest_, &lowest_, &ty_max_, &ty_min_, &pmax_}) out.put(e->value), out.put(e->time);
 }
 
 void HistorySummary::restore(ByteReader& in) {
   in.get(begun_);
   in.get(at_rest_);
+  in.get(doubtful_);
   for (Extreme* e : {&highest_, &lowest_, &ty_max_, &ty_min_, &pmax_}) in.get(e->value), in.get(e->time);
 }
 

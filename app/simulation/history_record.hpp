@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
 #include <functional>
 #include <vector>
 
@@ -60,7 +61,8 @@ class HistorySummary {
   const vehicle::Simulation& simulation_;
   std::size_t watched_;
   bool has_pressure_, begun_ = false;
-  double at_rest_ = 0.0;  ///< vertical force [N]
+  double at_rest_ = 0.0;       ///< vertical force [N]
+  std::int64_t doubtful_ = 0;  ///< instants with a grave remark
   Extreme highest_, lowest_, ty_max_, ty_min_, pmax_;
 };
 

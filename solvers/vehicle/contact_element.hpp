@@ -49,6 +49,7 @@ struct ContactReaction {
   double area = 0.0;                        ///< of contact [m2]
   double contact_y = 0.0, contact_x = 0.0;  ///< of the most loaded patch, track axes, x from the axle [m]
   int patches = 0;                          ///< in contact
+  int doubts = 0;                           ///< grave remarks (model/remarks.hpp)
   double elastic_energy = 0.0;              ///< stored in the contact [J]
   double frictional_power = 0.0;            ///< dissipated, >= 0 [W]
   std::vector<PatchTangent> tangents;

@@ -122,6 +122,7 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
   ContactReaction out;
   out.status = solution.status;
   out.message = solution.message;
+  out.doubts = static_cast<int>(std::ranges::count_if(solution.remarks, &Remark::grave));
   out.least_gap = solution.least_gap;
   out.on_rail = solution.load.track;
   double most_loaded = 0.0;

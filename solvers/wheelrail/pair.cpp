@@ -166,6 +166,7 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
   solution.z = balance.z + balance.rail_dz;
   solution.pitch_rate = balance.pitch_rate;
   solution.least_gap = step.closest();
+  solution.hidden_patches = step.hidden_patches();
   solution.rail_deflection_y = balance.rail_dy;
   solution.rail_deflection_z = balance.rail_dz;
   solution.force_iterations = std::move(balance.iterations);

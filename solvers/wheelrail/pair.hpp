@@ -65,6 +65,7 @@ struct PairSolution {
   /// negative: greatest penetration. It falls by what the wheel comes down, so that the loss of contact is a simple
   /// root of it. NaN where no wheel lies over the rail.
   double least_gap = std::numeric_limits<double>::quiet_NaN();
+  int hidden_patches = 0;  ///< found, but left out: along their normal another part of a section comes first
   double rail_deflection_y = 0.0, rail_deflection_z = 0.0;  ///< of a rail on springs [m]
   std::vector<PatchSolution> patches;                       ///< field side first
   Wrenches load;                                            ///< sum over the patches

@@ -32,6 +32,9 @@ PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Insta
       times_(times),
       tangential_share_(previous.shares) {}
 
+/// What is deeper lies beyond all contact mechanics [m].
+double PairStep::deepest() const { return kDeepestOfRadius * problem_.wheelset.nominal_radius; }
+
 bool PairStep::aligned() const {
   return problem_.regime == kalker::Regime::shift || problem_.regime == kalker::Regime::transient;
 }
@@ -152,8 +155,8 @@ void PairStep::evaluate(double z) {
   }
   least_gap_ = found.least_gap;
   closest_ = found.closest;
-  const double deepest = kDeepestOfRadius * problem_.wheelset.nominal_radius;
-  too_deep_ = -found.least_gap > deepest ? -found.least_gap : 0.0;
+  hidden_ = 0;
+  too_deep_ = -found.least_gap > deepest() ? -found.least_gap : 0.0;
   if (too_deep_ > 0.0) return;
 
   const detection::BodyPair bodies = search_->bodies_at(dz);
@@ -165,7 +168,10 @@ void PairStep::evaluate(double z) {
       describe(region, bodies, patch);
     }
     // Interpenetration between the element centres only: no contact on this grid.
-    if (!(patch.solution.approach > 0.0)) continue;
+    if (!(patch.solution.approach > 0.0)) {
+      if (patch.part_hidden) ++hidden_;
+      continue;
+    }
     move(patch);
     {
       const Stopwatch watch(times_.normal_s);

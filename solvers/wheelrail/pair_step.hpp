@@ -43,6 +43,9 @@ class PairStep {
   Vec3 force_T() const;
   double longitudinal_force() const { return (placement_.X_TWs.rotation.transpose() * force_T()).x(); }
   double normal_force() const;
+  /// Patches of the last evaluate() that were found but cannot be measured: along their normal another part of a
+  /// section comes first.
+  int hidden_patches() const { return hidden_; }
   double least_gap() const { return least_gap_; }
   /// Likewise, between the points of the search grids as well; NaN before evaluate().
   double closest() const { return closest_; }
@@ -63,6 +66,7 @@ class PairStep {
     /// Where the rigid slip is that of the surfaces: what elements lie on, and the surfaces over them.
     std::optional<detection::ReferenceRows> reference;
     detection::FacingSurfaces surfaces;
+    bool part_hidden = false;  ///< elements were left out because another part of a section lies over them
     kalker::ContactSolution normal;
     Vec3 normal_force_C = Vec3::Zero();  ///< resultant of the pressures
     Vec3 predicted_force_C = Vec3::Zero();
@@ -73,6 +77,7 @@ class PairStep {
   void describe(const detection::ContactPatch& region, const detection::BodyPair& bodies, Patch& patch);
   void link(const Rectangle& box, Patch& patch) const;
   void measure_distance(const detection::BodyPair& bodies, const Rectangle& own, Patch& patch) const;
+  double deepest() const;
   void move(Patch& patch) const;
   kalker::ContactProblem contact_problem(const Patch& patch) const;
   kalker::ContactSolver& solver(std::size_t i, const Patch& patch);
@@ -91,6 +96,7 @@ class PairStep {
   std::optional<detection::ContactSearch> search_;
   std::vector<Patch> patches_;
   std::vector<TangentialShare> tangential_share_;
+  int hidden_ = 0;
   std::vector<char> warm_;  ///< solvers that have started from the previous instant
 };
 

@@ -7,6 +7,7 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/wheelrail/pair_step.hpp"
 
@@ -35,6 +36,22 @@ double profile_arc_length(const Surface& rail, const Pose& X_TR, const Vec3& poi
 }
 
 Rectangle extent_of(const Grid2& g) { return {g.x0, g.x(g.nx - 1), g.y0, g.y(g.ny - 1)}; }
+
+/// The normal of a steep plane can meet another part of a section before the one that touches: bodies then seem to lie
+/// deeper in each other than they can. Such elements have no distance. Returns whether there are any.
+bool leave_out_other_parts(double deepest, detection::UndeformedDistance& u) {
+  if (!(u.approach > deepest)) return false;
+  double least = kInfinity;
+  for (double& h : u.distance) {
+    if (u.approach - h > deepest)
+      h = kNaN;
+    else if (h < least)
+      least = h;
+  }
+  for (double& h : u.distance) h -= least;
+  u.approach -= least;
+  return true;
+}
 
 bool inside(const Rectangle& r, double x, double y, double margin_x, double margin_y) {
   return x >= r.x_min - margin_x && x <= r.x_max + margin_x && y >= r.y_min - margin_y && y <= r.y_max + margin_y;
@@ -108,6 +125,7 @@ void PairStep::measure_distance(const detection::BodyPair& bodies, const Rectang
     }
     if (curved) s.row_angle = patch.reference->angles();
   }
+  patch.part_hidden = leave_out_other_parts(deepest(), undeformed);
   s.distance = std::move(undeformed.distance);
   s.approach = undeformed.approach;
   patch.gap = s.distance;

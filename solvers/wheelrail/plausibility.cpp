@@ -131,6 +131,13 @@ void judge_patch(const Geometry& geometry, const Problem& p, int number, PairSol
 
 void judge(const Geometry& geometry, const Problem& p, PairSolution& solution) {
   for (std::size_t i = 0; i < solution.patches.size(); ++i) judge_patch(geometry, p, static_cast<int>(i) + 1, solution);
+  if (solution.hidden_patches > 0) {
+    solution.status = Status::failed;
+    solution.message =
+        "wheel and rail touch where, along the normal of the contact, another part of a section comes first, as at a "
+        "guard rail: leave out the part of the section that is not meant to touch";
+    solution.remarks.push_back({RemarkKind::contact_hidden, 0, solution.message});
+  }
   if (solution.patches.empty()) {
     if (p.vertical_force && solution.status == Status::no_contact)
       solution.remarks.push_back({RemarkKind::no_contact_under_load, 0,
