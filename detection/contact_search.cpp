@@ -75,7 +75,8 @@ ContactSearch::ContactSearch(const BodyPair& bodies, const SearchSettings& setti
                 "the contact search would need " + std::to_string(g.nx) + " x " + std::to_string(g.ny) + " points", {},
                 "use larger element sizes dx, ds");
   const bool one_profile = !settings.mesh && ContactLocus::applies(bodies);
-  if ((settings.method == SearchMethod::locus || settings.locus_rows) && !one_profile)
+  if ((settings.method == SearchMethod::locus && !settings.locus_rows && !one_profile) ||
+      (settings.locus_rows && !bodies.wheel->constant_profile()))
     throw Error(ErrorKind::configuration, "the contact locus needs a prismatic rail along the track and a round wheel",
                 {}, "use the grid method");
   if (settings.locus_rows) {

@@ -28,9 +28,16 @@ ReferenceLocus::ReferenceLocus(const BodyPair& bodies, const LocusRows& rows)
   std::vector<double> y(n);
   for (int i = 0; i < rows.count; ++i) y[static_cast<std::size_t>(i)] = rows.y(i);
   rail_z_.resize(n), inclination_.resize(n), x_.resize(n), gap_.resize(n);
-  bodies.rail->heights({bodies.X_TR.inverse(), {bodies.X_TW.origin.x(), rows.first, 1.0, rows.step, 1, rows.count}},
+  const bool prismatic = ContactLocus::applies(bodies);
+  const double x_section = prismatic ? bodies.X_TW.origin.x() : 0.0;
+  bodies.rail->heights({bodies.X_TR.inverse(), {x_section, rows.first, 1.0, rows.step, 1, rows.count}},
                        {rail_z_, {}, inclination_});
   const std::vector<Vec2> wheel = WheelLocus(bodies, rows.nominal_radius).over(y);
+  if (!prismatic) {
+    std::vector<Vec2> below(n);
+    for (std::size_t i = 0; i < n; ++i) below[i] = {std::isnan(wheel[i].x()) ? x_section : wheel[i].x(), y[i]};
+    bodies.rail->heights_at(bodies.X_TR.inverse(), below, {rail_z_, {}, {}});
+  }
   for (std::size_t i = 0; i < n; ++i) {
     inclination_[i] = std::atan(inclination_[i]);
     x_[i] = wheel[i].x();
@@ -93,7 +100,7 @@ ContactPatch ReferenceLocus::near_miss(int row, double wheel_dz) const {
 
 ContactPatch ReferenceLocus::patch(int first, int last, int deepest, double wheel_dz, PenetrationWeight weight,
                                    bool at_deepest) const {
-  const double kappa = 0.5 / rows_.nominal_radius;
+  const double kappa = 0.5 / rows_.nominal_radius + (rows_.roller_radius != 0.0 ? 0.5 / rows_.roller_radius : 0.0);
   ContactPatch p;
   p.extent.box = {kInfinity, -kInfinity, 0.0, 0.0};
   double sum = 0.0, sum_x = 0.0, sum_y = 0.0, sum_a = 0.0;

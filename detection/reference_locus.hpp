@@ -15,13 +15,15 @@ struct LocusRows {
   double first = 0.0, step = 0.0;  ///< y in T [m]; step > 0
   int count = 0;
   double nominal_radius = 0.0;  ///< of the wheel [m]
+  double roller_radius = 0.0;   ///< of a roller in place of the rail [m], negative: a ring; 0: none
   double y(int i) const { return first + i * step; }
 };
 
 /// The contact locus as that program has it: one point per lateral datum of the wheel's profile, a natural spline
 /// through them, a gap on rows of one step, and along x a parabola of the nominal radius for every row (Vollebregt 2022
-/// on 3D wheel and rail surfaces). Between its rows roughness goes unseen. Only for agreement with its results;
-/// ContactLocus is Treadmark's own. Needs constant profiles (ContactLocus::applies). Immutable, so at() is thread-safe.
+/// on 3D wheel and rail surfaces). On rails that change along the track, and on rollers, the inclination is that of the
+/// section at x = 0 nevertheless. Between its rows roughness goes unseen. Only for agreement with its results;
+/// ContactLocus is Treadmark's own. Needs a round wheel. Immutable, so at() is thread-safe.
 class ReferenceLocus {
  public:
   ReferenceLocus(const BodyPair& bodies, const LocusRows& rows);

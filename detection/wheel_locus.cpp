@@ -6,9 +6,11 @@
 #include <cmath>
 #include <limits>
 #include <numbers>
+#include <span>
 #include <utility>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 #include "treadmark/detection/rail_sections.hpp"
 
@@ -23,6 +25,66 @@ struct Line {
   std::vector<Vec3> points;
 };
 
+/// Points of circles, in the frame of the axle without pitch, where wheel and rail have one slope along x of T: of each
+/// circle the one that a bracketed Newton method finds from x. slope: dr/dy.
+class CommonSlope {
+ public:
+  CommonSlope(const BodyPair& bodies, const Pose& X_TU, std::span<const double> y, std::span<const double> radius,
+              std::span<const double> slope)
+      : bodies_(bodies), X_TU_(X_TU), y_(y), radius_(radius), slope_(slope) {}
+
+  void find(std::vector<double>& x, double farthest) {
+    constexpr int kMost = 150;
+    constexpr double kClose = 1e-6;  // [m]
+    std::vector<double> low(x.size(), -farthest), high(x.size(), farthest), x_last = x, rail_last = rail_slope(x);
+    for (int step = 0; step < kMost; ++step) {
+      const std::vector<double> rail = rail_slope(x);
+      double most = 0.0;
+      for (std::size_t i = 0; i < x.size(); ++i) {
+        if (std::isnan(radius_[i]) || std::isnan(slope_[i])) continue;
+        const double next = better(i, x[i], rail[i], x_last[i], rail_last[i], low[i], high[i]);
+        most = std::max(most, std::abs(next - x[i]));
+        x_last[i] = std::exchange(x[i], next);
+      }
+      rail_last = rail;
+      if (most < kClose) return;
+    }
+  }
+
+ private:
+  /// Of the rail below [-]; level where there is none.
+  std::vector<double> rail_slope(const std::vector<double>& x) const {
+    std::vector<Vec2> below(x.size());
+    for (std::size_t i = 0; i < x.size(); ++i) {
+      const Vec3 p = X_TU_.apply({x[i], y_[i], std::sqrt(std::max(0.0, radius_[i] * radius_[i] - x[i] * x[i]))});
+      below[i] = std::isnan(p.z()) ? Vec2(0.0, 0.0) : Vec2(p.x(), p.y());
+    }
+    std::vector<double> z(x.size()), dzdx(x.size());
+    bodies_.rail->heights_at(bodies_.X_TR.inverse(), below, {z, dzdx, {}});
+    for (double& s : dzdx)
+      if (std::isnan(s)) s = 0.0;
+    return dzdx;
+  }
+
+  double better(std::size_t i, double x, double rail, double x_last, double rail_last, double& low,
+                double& high) const {
+    const Mat3& M = X_TU_.rotation;
+    const double across = radius_[i] * slope_[i], down = std::sqrt(std::max(0.0, radius_[i] * radius_[i] - x * x));
+    // The wheel's normal in T is (along, ., up): along + up * slope of the rail vanishes.
+    const double up = x * M(2, 0) - across * M(2, 1) + down * M(2, 2);
+    const double mismatch = x * M(0, 0) - across * M(0, 1) + down * M(0, 2) + up * rail;
+    (mismatch > 0.0 ? high : low) = x;
+    const double limit = 0.5 / up;  // a rail as strongly bent as that is an edge
+    const double bend = x != x_last ? std::clamp((rail - rail_last) / (x - x_last), -limit, limit) : 0.0;
+    const double next = x - mismatch / (M(0, 0) + up * bend);
+    return next > low && next < high ? next : 0.5 * (low + high);
+  }
+
+  const BodyPair& bodies_;
+  const Pose& X_TU_;
+  std::span<const double> y_, radius_, slope_;
+};
+
 Line line_of(const BodyPair& bodies, double nominal_radius) {
   constexpr double kLateralStep = 0.5e-3;  // where the wheel tells no data
   const double lowest = lowest_angle(bodies.X_TW);
@@ -35,13 +97,16 @@ Line line_of(const BodyPair& bodies, double nominal_radius) {
   const Pose X_TU = bodies.X_TW * Pose{Vec3::Zero(), rotation_y(lowest)};
   const Mat3& M = X_TU.rotation;
   const double farthest = 0.5 * nominal_radius;
+  std::vector<double> x(y.size(), 0.0);
+  for (std::size_t i = 0; i < y.size(); ++i)
+    if (!std::isnan(radius[i]) && !std::isnan(slope[i]))
+      x[i] = std::clamp((radius[i] * slope[i] * M(0, 1) - nominal_radius * M(0, 2)) / M(0, 0), -farthest, farthest);
+  if (bodies.rail && !ContactLocus::applies(bodies)) CommonSlope(bodies, X_TU, y, radius, slope).find(x, farthest);
   Line line;
   for (std::size_t i = 0; i < y.size(); ++i) {
     if (std::isnan(radius[i]) || std::isnan(slope[i])) continue;
-    const double x =
-        std::clamp((radius[i] * slope[i] * M(0, 1) - nominal_radius * M(0, 2)) / M(0, 0), -farthest, farthest);
     line.profile.emplace_back(y[i], radius[i]);
-    line.points.push_back(X_TU.apply({x, y[i], std::sqrt(radius[i] * radius[i] - x * x)}));
+    line.points.push_back(X_TU.apply({x[i], y[i], std::sqrt(radius[i] * radius[i] - x[i] * x[i])}));
   }
   return line;
 }

@@ -60,7 +60,7 @@ BenchScene make_bench_scene(const io::CaseFile& file, const BenchGrid& grid) {
 
   const wheelrail::Geometry geometry{s.rail->surface, s.wheel->surface, s.rail->constant_profile(),
                                      s.wheel->constant_profile()};
-  wheelrail::Problem problem = to_problem(*input, geometry.constant_profiles());
+  wheelrail::Problem problem = to_problem(*input, geometry.round_wheel);
   if (problem.side == wheelrail::Side::left) problem = wheelrail::mirrored(problem);
   const wheelrail::PairSolution solution = wheelrail::Pair(geometry).solve(problem);
   if (solution.patches.empty())

@@ -9,11 +9,11 @@ namespace {
 
 constexpr int kGrid = 5, kSteepGrid = 6;  // of DiscretisationInput::method
 
-Discretisation::SearchGrid search_grid(const io::DiscretisationInput& d, bool constant_profiles) {
+Discretisation::SearchGrid search_grid(const io::DiscretisationInput& d, bool round_wheel) {
   using Grid = Discretisation::SearchGrid;
   if (!d.reference_search_mesh) return Grid::refined;
   if (d.method == kSteepGrid) return Grid::reference_steep;
-  if (d.method == kGrid || !constant_profiles) return Grid::reference_mesh;
+  if (d.method == kGrid || !round_wheel) return Grid::reference_mesh;
   return d.prune ? Grid::reference_locus : Grid::refined;
 }
 
@@ -24,7 +24,7 @@ SearchMethod search_method(const io::DiscretisationInput& d) {
 
 }  // namespace
 
-wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_profiles) {
+wheelrail::Problem to_problem(const io::WheelRailCase& input, bool round_wheel) {
   wheelrail::Problem p;
   p.side = input.side;
   p.track = input.track;
@@ -44,7 +44,7 @@ wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_prof
   constexpr int kInitialContactPoint = 7;
   static_cast<ElementGrid&>(p.discretisation) = d;
   p.discretisation.reference_at_deepest = d.method == kInitialContactPoint;
-  p.discretisation.search = search_grid(d, constant_profiles);
+  p.discretisation.search = search_grid(d, round_wheel);
   p.discretisation.search_method = search_method(d);
   p.discretisation.distance_on_mesh = d.reference_search_mesh;
 

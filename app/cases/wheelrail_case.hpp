@@ -8,8 +8,8 @@
 
 namespace treadmark::app {
 
-/// The solver's view of a wheel-rail case. constant_profiles: prismatic rail and round wheel.
-wheelrail::Problem to_problem(const io::WheelRailCase& input, bool constant_profiles);
+/// The solver's view of a wheel-rail case. round_wheel: one profile all round.
+wheelrail::Problem to_problem(const io::WheelRailCase& input, bool round_wheel);
 
 /// Radius of a surface of revolution where its profile has z = 0 [m]: wheel, roller (negative: ring); 0 for a rail.
 double profile_radius(const io::WheelRailCase& input, Body body);

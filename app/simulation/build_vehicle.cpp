@@ -124,7 +124,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       const wheelrail::Geometry geometry = builder.full_geometry(wheel);
       io::WheelRailCase input = file.contact;
       input.side = wheel.side;
-      const wheelrail::Problem problem = to_problem(input, geometry.constant_profiles());
+      const wheelrail::Problem problem = to_problem(input, geometry.round_wheel);
       on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
       built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem));
       built.bodies.push_back(bodies_of(geometry, file, wheel.side));
@@ -158,7 +158,7 @@ void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry();
     io::WheelRailCase input = file.contact;
     input.side = wheel.side;
-    vehicle::rail_marker_at_rest(geometry, to_problem(input, geometry.constant_profiles()));
+    vehicle::rail_marker_at_rest(geometry, to_problem(input, geometry.round_wheel));
   }
 }
 

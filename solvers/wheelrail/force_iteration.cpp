@@ -117,7 +117,9 @@ class Iteration {
     double z = balance.first(step_.touching_z());
     ForceBalance::State state = ForceBalance::State::search;
     bool tangential_done = false;
-    for (int i = 0; i < p_.max_force_iterations; ++i) {
+    // Where a flange carries load, tractions turn the force: heights and tractions come to terms in rounds, each with
+    // iterations of its own.
+    for (int i = 0, round = 0; i < p_.max_force_iterations && round < p_.max_force_iterations; ++i) {
       if (state == ForceBalance::State::search) {
         step_.evaluate(z);
         tangential_done = false;
@@ -134,6 +136,7 @@ class Iteration {
         if (!solve_tangential()) return false;
         tangential_done = true;
         balance.restart();
+        i = -1, ++round;
         continue;
       }
       z = balance.next();

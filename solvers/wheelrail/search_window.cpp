@@ -72,7 +72,8 @@ std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRa
   constexpr double kMostRows = 1e5;
   const double step = 0.3 * p.discretisation.ds, rows = std::ceil((rail.y_max - rail.y_min) / step) + 1.0;
   if (!(rows < kMostRows)) return std::nullopt;
-  return detection::LocusRows{rail.y_min, step, static_cast<int>(rows), p.wheelset.nominal_radius};
+  return detection::LocusRows{rail.y_min, step, static_cast<int>(rows), p.wheelset.nominal_radius,
+                              p.roller ? p.roller->nominal_radius : 0.0};
 }
 
 }  // namespace

@@ -182,7 +182,79 @@ TEST(ReferenceLocus, AnswersThreadsAlike) {
     EXPECT_EQ(difference({found.patches, found.least_gap}, {one.patches, one.least_gap}, 0.0), "");
 }
 
-TEST(ReferenceLocus, NeedsConstantProfilesAndIsNaNBesideTheRail) {
+Profile crown() {
+  constexpr double kRadius = 0.3;
+  Profile profile;
+  profile.body = Body::rail;
+  for (int i = -60; i <= 60; ++i) {
+    const double y = 0.5e-3 * i;
+    profile.y.push_back(y);
+    profile.z.push_back(kRadius - std::sqrt(kRadius * kRadius - y * y));
+  }
+  return profile;
+}
+
+TEST(ReferenceLocus, OfAStraightRailToldInSlicesIsThatOfTheRail) {
+  const StandardPair p;
+  SliceSet slices;
+  slices.body = Body::rail;
+  for (int k = -6; k <= 6; ++k) {
+    slices.u.push_back(0.02 * k);
+    slices.profiles.push_back(crown());
+  }
+  const auto rail = create_surface({Body::rail, 0.0, crown(), {}}, "spline"),
+             sliced = create_surface({Body::rail, 0.0, slices, {}}, "spline");
+  ASSERT_FALSE(sliced->constant_profile());
+  constexpr LocusRows rows{-0.02, 0.06e-3, 667, kLocusRadius};
+  for (const double y : {-0.004, 0.0, 0.003})
+    for (const double yaw : {0.0, 0.006, -0.01}) {
+      auto pair = p.placed(y, yaw);
+      pair.rail = rail.get();
+      const ReferenceLocus prismatic(pair, rows);
+      pair.rail = sliced.get();
+      const ReferenceLocus variable(pair, rows);
+      ASSERT_NEAR(variable.least(), prismatic.least(), 5e-7);
+      const auto a = prismatic.at(prismatic.least() + 8e-5, -1.0, PenetrationWeight::squared, false),
+                 b = variable.at(prismatic.least() + 8e-5, -1.0, PenetrationWeight::squared, false);
+      ASSERT_EQ(a.patches.size(), b.patches.size());
+      ASSERT_FALSE(a.patches.empty());
+      for (std::size_t i = 0; i < a.patches.size(); ++i) {
+        EXPECT_NEAR(a.patches[i].x, b.patches[i].x, 0.1e-3);
+        EXPECT_NEAR(a.patches[i].y, b.patches[i].y, 0.2e-3);
+        EXPECT_NEAR(a.patches[i].inclination, b.patches[i].inclination, 1e-3);
+      }
+    }
+}
+
+TEST(ReferenceLocus, OnARollerMeetsTheWheelWhereTheSearchOnAGridDoes) {
+  // Two bodies of revolution: contact of a yawed wheel lies nearer to the axle than on a rail, by the roller's share.
+  const StandardPair p;
+  constexpr double kRoller = 0.5;
+  SurfaceSpec spec{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  spec.roller_radius = kRoller;
+  const auto roller = create_surface(spec, "spline");
+  for (const double yaw : {0.0, 0.01, -0.02}) {
+    auto pair = p.placed(0.003, yaw);
+    pair.rail = roller.get();
+    pair.X_TR = Pose{};
+    SearchSettings s = settings();
+    ContactSearch grid(pair, s);
+    s.locus_rows = kRows;
+    s.locus_rows->roller_radius = kRoller;
+    ContactSearch locus(pair, s);
+    ASSERT_EQ(locus.method(), SearchMethod::locus);
+    const double depth = grid.least_gap() + 8e-5;
+    const auto a = grid.at(depth), b = locus.at(depth);
+    ASSERT_EQ(a.patches.size(), b.patches.size());
+    for (std::size_t i = 0; i < a.patches.size(); ++i) {
+      EXPECT_NEAR(a.patches[i].x, b.patches[i].x, 0.2e-3) << yaw;
+      EXPECT_NEAR(a.patches[i].y, b.patches[i].y, 0.2e-3) << yaw;
+      EXPECT_NEAR(a.patches[i].extent.box.x_max, b.patches[i].extent.box.x_max, 0.4e-3) << yaw;
+    }
+  }
+}
+
+TEST(ReferenceLocus, NeedsARoundWheelAndIsNaNBesideTheRail) {
   const StandardPair p;
   SearchSettings s = settings();
   s.locus_rows = kRows;
