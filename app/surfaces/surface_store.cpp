@@ -9,6 +9,7 @@
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -68,7 +69,7 @@ void SurfaceStore::note_hashes(const io::SurfaceSource& source) {
   const std::string file = geometry->file.string();
   const bool known =
       std::any_of(hashes_.begin(), hashes_.end(), [&](const auto& entry) { return entry.first == file; });
-  if (!known) hashes_.emplace_back(file, io::sha256_file(file));
+  if (!known) hashes_.emplace_back(file, io::sha256_file(io::profile_file(file)));
 }
 
 std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSource& source, Body body, double radius) {

@@ -52,6 +52,69 @@ std::string read_text(const fs::path& file, const std::string& what, const Sourc
   return text;
 }
 
+namespace {
+
+enum class Utf16 { no, little, big };
+
+/// Without a mark: of a text in Latin letters every second byte is zero.
+Utf16 utf16_order(std::string_view bytes) {
+  if (bytes.starts_with("\xFF\xFE")) return Utf16::little;
+  if (bytes.starts_with("\xFE\xFF")) return Utf16::big;
+  constexpr std::size_t kLooked = 64, kLeast = 4;
+  const std::size_t looked = std::min(bytes.size(), kLooked) / 2 * 2;
+  if (looked < kLeast) return Utf16::no;
+  std::size_t zeros[2] = {0, 0};
+  for (std::size_t i = 0; i < looked; ++i)
+    if (bytes[i] == '\0') ++zeros[i % 2];
+  if (zeros[0] == 0 && zeros[1] == looked / 2) return Utf16::little;
+  if (zeros[1] == 0 && zeros[0] == looked / 2) return Utf16::big;
+  return Utf16::no;
+}
+
+void append_utf8(std::string& text, unsigned code) {
+  const auto put = [&](unsigned byte) { text += static_cast<char>(byte); };
+  if (code < 0x80) return put(code);
+  if (code < 0x800) {
+    put(0xC0u | code >> 6);
+  } else {
+    if (code < 0x10000) {
+      put(0xE0u | code >> 12);
+    } else {
+      put(0xF0u | code >> 18);
+      put(0x80u | (code >> 12 & 0x3Fu));
+    }
+    put(0x80u | (code >> 6 & 0x3Fu));
+  }
+  put(0x80u | (code & 0x3Fu));
+}
+
+}  // namespace
+
+std::string from_utf16(std::string_view bytes) {
+  const Utf16 order = utf16_order(bytes);
+  if (order == Utf16::no) return {};
+  constexpr unsigned kReplacement = 0xFFFD, kMark = 0xFEFF;
+  const std::size_t low = order == Utf16::little ? 0 : 1;
+  const auto unit = [&](std::size_t i) {
+    return static_cast<unsigned>(static_cast<unsigned char>(bytes[i + low])) |
+           static_cast<unsigned>(static_cast<unsigned char>(bytes[i + 1 - low])) << 8;
+  };
+  std::string text;
+  text.reserve(bytes.size() / 2);
+  for (std::size_t i = 0; i + 1 < bytes.size(); i += 2) {
+    unsigned code = unit(i);
+    const bool high = code >= 0xD800 && code < 0xDC00;
+    if (high && i + 3 < bytes.size() && unit(i + 2) >= 0xDC00 && unit(i + 2) < 0xE000) {
+      code = 0x10000u + ((code - 0xD800u) << 10) + (unit(i + 2) - 0xDC00u);
+      i += 2;
+    } else if (code >= 0xD800 && code < 0xE000) {
+      code = kReplacement;
+    }
+    if (i > 0 || code != kMark) append_utf8(text, code);
+  }
+  return text;
+}
+
 }  // namespace treadmark::io::profiles
 
 namespace treadmark::io {

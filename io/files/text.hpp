@@ -23,6 +23,10 @@ std::filesystem::path portable_path(std::string name);
 std::string read_text(const std::filesystem::path& file, const std::string& what,
                       const SourcePosition& referenced_from);
 
+/// The UTF-8 of a text in UTF-16 (RFC 2781), with a byte order mark or recognised by its zero bytes; empty for any
+/// other text. What is no character becomes U+FFFD.
+std::string from_utf16(std::string_view bytes);
+
 }  // namespace treadmark::io::profiles
 
 namespace treadmark::io {

@@ -69,8 +69,7 @@ std::vector<Field> fields_of(std::string_view line, char separator) {
   return fields;
 }
 
-FieldStyle find_style(const std::vector<std::string>& lines) {
-  constexpr std::size_t kPoint = 3;
+FieldStyle find_style(const std::vector<std::string>& lines, std::size_t coordinates) {
   if (all_contain(lines, ';')) return {';', commas_are_decimal(lines, ';', 1)};
   if (all_contain(lines, '\t')) {
     const bool decimal = commas_are_decimal(lines, ' ', 1);
@@ -78,7 +77,7 @@ FieldStyle find_style(const std::vector<std::string>& lines) {
     return {',', false};
   }
   if (any_contains(lines, ',')) {
-    if (commas_are_decimal(lines, ' ', kPoint)) return {' ', true};
+    if (commas_are_decimal(lines, ' ', coordinates)) return {' ', true};
     return {',', false};
   }
   return {' ', false};

@@ -61,8 +61,9 @@ class FieldScanner {
 std::vector<Field> fields_of(std::string_view line, char separator);
 
 /// The style that all of these lines of numbers share. Commas are decimal commas where something else separates the
-/// numbers, every one has digits on both sides, and nowhere is a decimal point.
-FieldStyle find_style(const std::vector<std::string>& lines);
+/// numbers, every one has digits on both sides, and nowhere is a decimal point. coordinates: numbers that a point
+/// needs.
+FieldStyle find_style(const std::vector<std::string>& lines, std::size_t coordinates = 3);
 
 /// The number that a whole word says: exponents e, E, d and D, a leading '+', nan and infinities in the spellings of C,
 /// and of Windows ("-1.#IND"); a decimal comma where asked for. Out of range counts as infinite. False for anything

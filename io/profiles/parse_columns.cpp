@@ -1,110 +1,88 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <array>
+#include <fmt/format.h>
+
+#include <algorithm>
 #include <optional>
 
-#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/points/text_lines.hpp"
+#include "treadmark/io/points/unit_words.hpp"
+#include "treadmark/io/profiles/column_table.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
 
 namespace treadmark::io::profiles {
 namespace {
 
-constexpr std::string_view kCommentCharacters = "!\"%#";
-
-void drop_comment(LineScanner& scanner) {
-  const std::size_t start = scanner.line().find_first_of(kCommentCharacters);
-  if (start != std::string_view::npos) scanner.cut(start);
+bool is_letter(char c) {
+  return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || static_cast<unsigned char>(c) >= 0x80;
 }
 
-/// Which columns (from 0) hold y and z.
-struct Columns {
-  int y = 0, z = 1;
-};
-
-void add_row(LineScanner& scanner, const Word& first, const Columns& columns, bool numbers_only, RawPoints& points) {
-  std::optional<double> y, z;
-  std::optional<Word> word = first;
-  for (int column = 0; word; ++column, word = scanner.next_word()) {
-    if (column == columns.y)
-      y = to_number(scanner, *word);
-    else if (column == columns.z)
-      z = to_number(scanner, *word);
-    else if (numbers_only && !looks_numeric(word->text))
-      to_number(scanner, *word);
-  }
-  if (!y || !z)
-    scanner.fail("a point needs a lateral and a vertical position, the line has too few numbers", first.column,
-                 "is the file truncated?");
-  points.add(*y, *z, scanner.number());
-}
-
-/// "X,Y,A,C,N,K": X lateral, Y vertical; what else stands there is skipped.
-Columns column_definition(const LineScanner& scanner, std::string_view list, int where) {
-  Columns columns{-1, -1};
-  for (int column = 0;; ++column) {
-    const std::size_t comma = list.find(',');
-    std::string name = lower(list.substr(0, comma));
-    std::erase_if(name, is_blank);
-    int* const target = name == "x" ? &columns.y : name == "y" ? &columns.z : nullptr;
-    if (target != nullptr) {
-      if (*target >= 0) scanner.fail("ColumnDef names " + name + " twice", where);
-      *target = column;
-    }
-    if (comma == std::string_view::npos) break;
-    list.remove_prefix(comma + 1);
-  }
-  if (columns.y < 0 || columns.z < 0)
-    scanner.fail("ColumnDef must name the columns X and Y", where, "for example ColumnDef=X,Y,A,C,N");
-  return columns;
+/// A line of words before the points: names of columns, a title, or something that was to be a number.
+void check_title(const LineScanner& scanner, std::string_view line) {
+  const std::size_t start = line.find_first_not_of(" \t\v\f");
+  if (lower(line).find("vampire") != std::string::npos)
+    scanner.fail("profiles of VAMPIRE are not read: their format is not published", 1,
+                 "export the points as two columns y z in mm");
+  const Word word{line.substr(start, line.find_first_of(" \t\v\f,;", start) - start), static_cast<int>(start + 1)};
+  // no title: a number that went wrong
+  if (!is_letter(line[start]) && line[start] != '[' && line[start] != '(') to_number(scanner, word);
 }
 
 }  // namespace
 
-ColumnContent parse_miniprof(std::string_view text, const std::string& file) {
+ColumnContent parse_plain_columns(std::string_view text, const std::string& file) {
   LineScanner scanner(text, file);
   ColumnContent content;
-  content.points.file = file;
-  Columns columns;
-  bool in_header = true;
-  bool header_seen = false;
+  ColumnTable table(file);
+  std::vector<KeptLine> words, comments;
+  points::UnitFinder unit;
   while (scanner.next_line()) {
-    const bool empty_line = scanner.line().find_first_not_of(" \t") == std::string_view::npos;
-    if (in_header && header_seen && empty_line) in_header = false;
-    drop_comment(scanner);
-    const std::optional<Word> first = scanner.next_word();
-    if (!first) continue;
-    if (looks_numeric(first->text)) in_header = false;
-    if (!in_header) {
-      add_row(scanner, *first, columns, false, content.points);
+    const std::string line = plain_line(scanner.line());
+    const points::LineKind kind = points::kind_of_line(line);
+    if (kind == points::LineKind::numbers) {
+      table.add(scanner.number(), line);
       continue;
     }
-    const std::size_t sign = scanner.line().find('=');
-    if (sign == std::string_view::npos)
-      scanner.fail("'Key=value' or numbers are expected, this is " + printable(first->text), first->column);
-    header_seen = true;
-    const auto start = static_cast<std::size_t>(first->column - 1);
-    std::string key = lower(scanner.line().substr(start, sign - start));
-    std::erase_if(key, is_blank);
-    scanner.set_offset(sign + 1);
-    if (key == "columndef") {
-      columns = column_definition(scanner, scanner.line().substr(sign + 1), static_cast<int>(sign + 2));
-    } else if (key == "xoffset" || key == "yoffset") {
-      const std::optional<Word> word = scanner.next_word();
-      if (!word) continue;
-      (key == "xoffset" ? content.offset_y : content.offset_z) = to_number(scanner, *word);
+    const bool empty = scanner.line().find_first_not_of(" \t\v\f") == std::string_view::npos;
+    if (kind != points::LineKind::words) {
+      if (empty || !table.empty()) continue;
+      const std::string_view comment = points::comment_text(scanner.line());
+      unit.look_at(comment);
+      comments.emplace_back(file, scanner.number(), std::string(comment));
+      continue;
     }
+    if (!table.empty()) {
+      const std::size_t start = line.find_first_not_of(" \t\v\f");
+      scanner.fail("a number is expected, this is " + printable(std::string_view(line).substr(start)),
+                   static_cast<int>(start + 1), "does a second profile begin here? keep one in a file");
+    }
+    check_title(scanner, line);
+    words.emplace_back(file, scanner.number(), line);
   }
-  return content;
-}
-
-ColumnContent parse_two_column(std::string_view text, const std::string& file) {
-  LineScanner scanner(text, file);
-  ColumnContent content;
+  ProfileSource& source = content.source;
   content.points.file = file;
-  while (scanner.next_line()) {
-    drop_comment(scanner);
-    if (const std::optional<Word> first = scanner.next_word()) add_row(scanner, *first, {}, true, content.points);
+  source.kind = "columns y z";
+  if (table.empty()) {
+    if (!words.empty())
+      words.front().fail("numbers are expected, this is " + printable(words.front().line()), 1, "is it a profile?");
+    return content;
   }
+  const points::FieldStyle style = table.style();
+  std::optional<ColumnRoles> roles;
+  const KeptLine* names = nullptr;
+  for (const std::vector<KeptLine>* lines : {&words, &comments})
+    for (auto line = lines->rbegin(); line != lines->rend() && !roles; ++line) {
+      roles = roles_in(*line, line->line(), style.separator, table.columns(style.separator));
+      if (roles) names = &*line;
+    }
+  for (const KeptLine& line : words)
+    if (&line != names)
+      source.notes.push_back(fmt::format("line {} holds no point: {}", line.number(), printable(line.line())));
+  if (!roles) roles = table.assume_roles(style, source.notes);
+  if (!roles->in_words.empty()) source.notes.push_back("columns not used: " + roles->in_words);
+  source.unit = roles->unit ? roles->unit : unit.unit();
+  source.kind = fmt::format("columns y z {}, {}", roles->named ? "by their names" : "without names", style.in_words());
+  content.points = table.points(*roles, style, !roles->named);
   return content;
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "treadmark/io/profiles/profile_source.hpp"
 #include "treadmark/io/profiles/raw_points.hpp"
 #include "treadmark/model/profile.hpp"
 
@@ -22,16 +23,22 @@ struct SimpackContent {
   double units_per_metre = 1.0;  ///< 1000 for points in mm
 };
 
-/// Content of a MiniProf or two-column file.
+/// Content of a MiniProf file or of a file of columns.
 struct ColumnContent {
   RawPoints points;  ///< file units
   double offset_y = 0.0, offset_z = 0.0;
+  ProfileSource source;
 };
+
+/// Whether the text begins like a Simpack or a MiniProf file, whatever its name.
+bool begins_like_simpack(std::string_view text);
+bool begins_like_miniprof(std::string_view text);
 
 /// The parsers throw Error(input_data) with the line and column of what they cannot accept, and need no more memory
 /// than a fixed multiple of the text. `file` is only used in messages.
 SimpackContent parse_simpack(std::string_view text, const std::string& file, Body body);
-ColumnContent parse_miniprof(std::string_view text, const std::string& file);
-ColumnContent parse_two_column(std::string_view text, const std::string& file);
+/// section: of a file of several profiles the one with this number; 0: the one that was measured.
+ColumnContent parse_miniprof(std::string_view text, const std::string& file, Body body, int section);
+ColumnContent parse_plain_columns(std::string_view text, const std::string& file);
 
 }  // namespace treadmark::io::profiles

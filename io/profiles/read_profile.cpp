@@ -7,10 +7,12 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <system_error>
 
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/clean_points.hpp"
+#include "treadmark/io/profiles/faults.hpp"
 #include "treadmark/io/profiles/parse_points.hpp"
 
 namespace treadmark::io {
@@ -23,6 +25,7 @@ constexpr double kSmallestScale = 1e-6;
 constexpr double kSmallestZigzagThreshold = 0.7853981633974483;  // 45 degrees
 constexpr double kShortest_mm = 5.0;
 constexpr double kLongest_mm = 500.0;
+constexpr double kSameScale = 1e-3;
 
 void check_options(const ProfileOptions& options, const std::string& file) {
   const auto refuse = [&](const std::string& message) { throw Error(ErrorKind::configuration, message, {file, 0, 0}); };
@@ -59,11 +62,15 @@ void check_count(const RawPoints& points) {
                 {points.file, 0, 0}, "is the file truncated or its extension wrong?");
 }
 
-void filter(RawPoints& points, double near_distance, const ProfileOptions& options) {
+void filter(RawPoints& points, double near_distance, const ProfileOptions& options, std::vector<std::string>& notes) {
   check_count(points);
   const std::size_t count = points.size();
   profiles::remove_near_points(points, near_distance);
+  const std::size_t apart = points.size();
+  if (apart < count) notes.push_back(fmt::format("{} points were removed that repeat the one before", count - apart));
   profiles::remove_zigzags(points, std::max(kSmallestZigzagThreshold, options.zigzag_threshold));
+  if (points.size() < apart)
+    notes.push_back(fmt::format("{} pairs of points that zigzag became one point each", apart - points.size()));
   const auto removed = static_cast<double>(count - points.size());
   if (removed > options.max_omit * static_cast<double>(count))
     throw Error(ErrorKind::input_data,
@@ -72,14 +79,16 @@ void filter(RawPoints& points, double near_distance, const ProfileOptions& optio
                 {points.file, 0, 0}, "check the points and the unit of length, or allow a larger share");
 }
 
-void check_length(const RawPoints& points, Body body) {
+void check_length(const RawPoints& points, Body body, double asked_scale) {
   const double length = profiles::total_length(points);
   if (length >= kShortest_mm && length <= kLongest_mm) return;
   const auto plausible = [](double l) { return l >= kShortest_mm && l <= kLongest_mm; };
   std::string advice = "check the points and the scale, which leads to mm";
   if (plausible(1e3 * length)) advice = "is the file in metres? use a scale of 1000";
   if (plausible(25.4 * length) && !plausible(1e3 * length)) advice = "is the file in inches? use a scale of 25.4";
-  if (plausible(1e-3 * length)) advice = "is a file in mm scaled like one in metres? use a scale of 1";
+  if (plausible(1e-3 * length))
+    advice = asked_scale == 1.0 ? "is the file in micrometres? use a scale of 0.001"
+                                : "is a file in mm scaled like one in metres? use a scale of 1";
   throw Error(ErrorKind::input_data,
               fmt::format("the {} profile is {:.4g} mm long, outside {:g} to {:g} mm",
                           body == Body::rail ? "rail" : "wheel", length, kShortest_mm, kLongest_mm),
@@ -88,12 +97,14 @@ void check_length(const RawPoints& points, Body body) {
 
 void check_direction(const RawPoints& points, Body body) {
   const double change = points.y.back() - points.y.front();
-  if (body == Body::rail && !(change > 0.0))
-    throw Error(ErrorKind::input_data, "the points of a rail profile must run with increasing y", {points.file, 0, 0},
-                "check the mirror options and the order of the points");
-  if (body == Body::wheel && !(change < 0.0))
-    throw Error(ErrorKind::input_data, "the points of a wheel profile must run with decreasing y", {points.file, 0, 0},
-                "check the mirror options and the order of the points");
+  if (body == Body::rail ? change > 0.0 : change < 0.0) return;
+  throw Error(ErrorKind::input_data,
+              body == Body::rail ? "the points of a rail profile must run with increasing y"
+                                 : "the points of a wheel profile must run with decreasing y",
+              {points.file, 0, 0},
+              profiles::seem_exchanged(points.y, points.z)
+                  ? "are y and z exchanged? exchange the columns, or name them in a line before"
+                  : "check the mirror options and the order of the points");
 }
 
 void check_crossing(const RawPoints& points) {
@@ -106,55 +117,94 @@ void check_crossing(const RawPoints& points) {
 }
 
 /// From points in mm to a profile in metres.
-Profile finish(RawPoints&& points, Body body, bool inverted, const ProfileOptions& options) {
+SourcedProfile finish(RawPoints&& points, Body body, bool inverted, const ProfileOptions& options,
+                      ProfileSource&& source) {
   check_count(points);
-  check_length(points, body);
-  if (inverted || profiles::order_is_wrong(points, body)) reverse(points);
+  check_length(points, body, options.scale);
+  profiles::refuse_faults(points);
+  source.reversed = inverted || profiles::order_is_wrong(points, body);
+  if (source.reversed) reverse(points);
   check_direction(points, body);
   check_crossing(points);
   scale(points, 1e-3);
-  Profile profile;
-  profile.body = body;
-  profile.y = std::move(points.y);
-  profile.z = std::move(points.z);
-  profile.name = points.file;
-  profile.smoothing = options.smoothing;
-  return profile;
+  SourcedProfile out;
+  out.profile.body = body;
+  out.profile.y = std::move(points.y);
+  out.profile.z = std::move(points.z);
+  out.profile.name = points.file;
+  out.profile.smoothing = options.smoothing;
+  source.lines = std::move(points.line);
+  out.source = std::move(source);
+  return out;
 }
 
-Profile simpack_profile(std::string_view text, const std::string& file, Body body, const ProfileOptions& options) {
+SourcedProfile simpack_profile(std::string_view text, const std::string& file, Body body,
+                               const ProfileOptions& options) {
   profiles::SimpackContent content = profiles::parse_simpack(text, file, body);
   RawPoints& points = content.points;
-  filter(points, content.near_distance, options);
+  ProfileSource source;
+  source.kind = "Simpack";
+  source.points_in_file = points.size();
+  profiles::remove_drop_outs(points, source.notes);
+  filter(points, content.near_distance, options, source.notes);
   shift(points.y, content.shift_y);
   shift(points.z, content.shift_z);
   profiles::delete_outside_y(points, content.y_min, content.y_max);
   profiles::clip_z(points, content.z_min, content.z_max);
-  if (int{content.mirror_y} + options.mirror_y == 1) negate(points.y);
-  if (int{content.mirror_z} + options.mirror_z == 1) negate(points.z);
-  scale(points, options.scale * 1000.0 / content.units_per_metre);
-  return finish(std::move(points), body, content.inversion, options);
+  source.mirrored_y = int{content.mirror_y} + options.mirror_y == 1;
+  source.mirrored_z = int{content.mirror_z} + options.mirror_z == 1;
+  if (source.mirrored_y) negate(points.y);
+  if (source.mirrored_z) negate(points.z);
+  source.scale_to_mm = options.scale * 1000.0 / content.units_per_metre;
+  scale(points, source.scale_to_mm);
+  return finish(std::move(points), body, content.inversion, options, std::move(source));
 }
 
-RawPoints column_points(profiles::ColumnContent&& content, const ProfileOptions& options) {
+/// To mm: the scale that is asked for, else the unit that the file states.
+double scale_of(const ProfileSource& source, const ProfileOptions& options) {
+  if (options.scale != 1.0 || !source.unit || *source.unit == LengthUnit::millimetre) return options.scale;
+  return 1e3 * metres_per(*source.unit);
+}
+
+RawPoints column_points(profiles::ColumnContent& content, const ProfileOptions& options) {
   RawPoints points = std::move(content.points);
-  filter(points, kNearDistance_mm / options.scale, options);
+  ProfileSource& source = content.source;
+  source.points_in_file = points.size();
+  source.scale_to_mm = scale_of(source, options);
+  profiles::remove_drop_outs(points, source.notes);
+  filter(points, kNearDistance_mm / source.scale_to_mm, options, source.notes);
   shift(points.y, content.offset_y);
   shift(points.z, content.offset_z);
-  if (options.mirror_y == 1) negate(points.y);
+  source.mirrored_y = options.mirror_y == 1;
+  if (source.mirrored_y) negate(points.y);
   return points;
 }
 
-Profile column_profile(profiles::ColumnContent&& content, Body body, const ProfileOptions& options) {
-  RawPoints points = column_points(std::move(content), options);
-  if (options.mirror_z == 1 || (options.mirror_z == 0 && profiles::z_points_up(points, body))) negate(points.z);
-  scale(points, options.scale);
-  return finish(std::move(points), body, false, options);
+SourcedProfile column_profile(profiles::ColumnContent&& content, Body body, const ProfileOptions& options) {
+  RawPoints points = column_points(content, options);
+  ProfileSource& source = content.source;
+  if (source.unit && options.scale != 1.0 &&
+      std::abs(1e3 * metres_per(*source.unit) / options.scale - 1.0) > kSameScale)
+    source.notes.push_back(fmt::format("the file says that its unit is {}, the scale of {:g} to mm is used instead",
+                                       symbol(*source.unit), options.scale));
+  source.mirrored_z = options.mirror_z == 1 || (options.mirror_z == 0 && profiles::z_points_up(points, body));
+  if (source.mirrored_z) negate(points.z);
+  scale(points, source.scale_to_mm);
+  return finish(std::move(points), body, false, options, std::move(source));
+}
+
+/// Wheel profiles of GENSYS: y to the middle of the track, z down.
+SourcedProfile gensys_profile(std::string_view text, const std::string& file, ProfileOptions options) {
+  profiles::ColumnContent content = profiles::parse_plain_columns(text, file);
+  content.source.kind = "GENSYS, " + content.source.kind;
+  options.mirror_y = options.mirror_y == 1 ? 0 : 1;
+  if (options.mirror_z == 0) options.mirror_z = -1;
+  return column_profile(std::move(content), Body::wheel, options);
 }
 
 std::optional<Body> body_of(const std::string& extension) {
   if (extension == ".prr" || extension == ".ban") return Body::rail;
-  if (extension == ".prw" || extension == ".whl") return Body::wheel;
+  if (extension == ".prw" || extension == ".whl" || extension == ".wheel") return Body::wheel;
   return std::nullopt;
 }
 
@@ -164,6 +214,11 @@ void check_file(const std::filesystem::path& file, Body body, const SourcePositi
   if (extension == ".slcs" || extension == ".slcw")
     throw Error(ErrorKind::configuration,
                 fmt::format("a single profile is expected, '{}' is a set of slices", file.string()), where);
+  if (extension == ".rail")
+    throw Error(ErrorKind::configuration,
+                fmt::format("'{}': rail profiles of GENSYS are not read, which way their y points is not published",
+                            file.string()),
+                where, "rename it to .txt, and set mirror_y if its y points to the middle of the track");
   if (const std::optional<Body> named = body_of(extension); named && *named != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the extension of '{}' stands for a {}, a {} profile is expected", file.string(),
@@ -171,46 +226,101 @@ void check_file(const std::filesystem::path& file, Body body, const SourcePositi
                 where, "exchange the files");
 }
 
-}  // namespace
+/// A name like 'a.mpt#2' for the second profile of a file.
+struct NamedSection {
+  std::filesystem::path file;
+  int section = 0;
+};
 
-ProfileFormat profile_format(const std::filesystem::path& file) {
-  const std::string extension = profiles::lower(file.extension().string());
-  if (extension == ".prr" || extension == ".prw") return ProfileFormat::simpack;
-  if (extension == ".ban" || extension == ".whl") return ProfileFormat::miniprof;
-  return ProfileFormat::two_column;
+NamedSection section_of(const std::filesystem::path& file) {
+  std::error_code ignored;
+  if (std::filesystem::exists(file, ignored)) return {file, 0};
+  constexpr std::size_t kMostDigits = 4;
+  const std::string name = file.string();
+  const std::size_t sign = name.rfind('#');
+  if (sign == std::string::npos || sign + 1 == name.size() || name.size() - sign - 1 > kMostDigits ||
+      name.find_first_not_of("0123456789", sign + 1) != std::string::npos)
+    return {file, 0};
+  return {name.substr(0, sign), std::stoi(name.substr(sign + 1))};
 }
 
-Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,
-                      const ProfileOptions& options) {
+/// What the text is, whatever its name says.
+ProfileFormat format_of(std::string_view text, ProfileFormat named) {
+  if (named == ProfileFormat::simpack || profiles::begins_like_simpack(text)) return ProfileFormat::simpack;
+  if (named == ProfileFormat::two_column && profiles::begins_like_miniprof(text)) return ProfileFormat::miniprof;
+  return named;
+}
+
+SourcedProfile parse_text(std::string_view text, const std::string& file, ProfileFormat named, Body body,
+                          const ProfileOptions& options, int section) {
   check_options(options, file);
+  const std::string converted = profiles::from_utf16(text);
+  if (!converted.empty()) text = converted;
+  const ProfileFormat format = format_of(text, named);
+  if (section > 0 && format != ProfileFormat::miniprof)
+    throw Error(ErrorKind::configuration, "only files of MiniProf hold several profiles", {file, 0, 0},
+                "leave out the number behind '#'");
   switch (format) {
     case ProfileFormat::simpack:
       return simpack_profile(text, file, body, options);
     case ProfileFormat::miniprof:
-      return column_profile(profiles::parse_miniprof(text, file), body, options);
+      return column_profile(profiles::parse_miniprof(text, file, body, section), body, options);
+    case ProfileFormat::gensys:
+      return gensys_profile(text, file, options);
     case ProfileFormat::two_column:
       break;
   }
-  return column_profile(profiles::parse_two_column(text, file), body, options);
+  return column_profile(profiles::parse_plain_columns(text, file), body, options);
+}
+
+}  // namespace
+
+ProfileFormat profile_format(const std::filesystem::path& file) {
+  const std::string extension = profiles::lower(section_of(file).file.extension().string());
+  if (extension == ".prr" || extension == ".prw") return ProfileFormat::simpack;
+  if (extension == ".ban" || extension == ".whl" || extension == ".mpt") return ProfileFormat::miniprof;
+  if (extension == ".wheel") return ProfileFormat::gensys;
+  return ProfileFormat::two_column;
+}
+
+std::filesystem::path profile_file(const std::filesystem::path& name) { return section_of(name).file; }
+
+std::optional<Body> profile_body(const std::filesystem::path& file) {
+  return body_of(profiles::lower(section_of(file).file.extension().string()));
+}
+
+Profile parse_profile(std::string_view text, const std::string& file, ProfileFormat format, Body body,
+                      const ProfileOptions& options) {
+  return parse_text(text, file, format, body, options, 0).profile;
 }
 
 std::optional<bool> looks_upside_down(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                                       const SourcePosition& referenced_from) {
-  check_file(file, body, referenced_from);
+  const NamedSection named = section_of(file);
+  check_file(named.file, body, referenced_from);
   check_options(options, file.string());
-  const ProfileFormat format = profile_format(file);
-  if (format == ProfileFormat::simpack) return std::nullopt;
-  const std::string text = profiles::read_text(file, "profile", referenced_from);
-  profiles::ColumnContent content = format == ProfileFormat::miniprof ? profiles::parse_miniprof(text, file.string())
-                                                                      : profiles::parse_two_column(text, file.string());
-  return profiles::z_points_up(column_points(std::move(content), options), body);
+  const std::string bytes = profiles::read_text(named.file, "profile", referenced_from);
+  const std::string converted = profiles::from_utf16(bytes);
+  const std::string& text = converted.empty() ? bytes : converted;
+  const ProfileFormat format = format_of(text, profile_format(file));
+  if (format == ProfileFormat::simpack || format == ProfileFormat::gensys) return std::nullopt;
+  profiles::ColumnContent content = format == ProfileFormat::miniprof
+                                        ? profiles::parse_miniprof(text, named.file.string(), body, named.section)
+                                        : profiles::parse_plain_columns(text, named.file.string());
+  return profiles::z_points_up(column_points(content, options), body);
+}
+
+SourcedProfile read_sourced_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,
+                                    const SourcePosition& referenced_from) {
+  const NamedSection named = section_of(file);
+  check_file(named.file, body, referenced_from);
+  return parse_text(profiles::read_text(named.file, "profile", referenced_from), named.file.string(),
+                    profile_format(file), body, options, named.section);
 }
 
 Profile read_profile(const std::filesystem::path& file, Body body, const ProfileOptions& options,
                      const SourcePosition& referenced_from) {
-  check_file(file, body, referenced_from);
-  return parse_profile(profiles::read_text(file, "profile", referenced_from), file.string(), profile_format(file), body,
-                       options);
+  return read_sourced_profile(file, body, options, referenced_from).profile;
 }
 
 }  // namespace treadmark::io

@@ -10,7 +10,7 @@
 
 #include "treadmark/io/points/fields.hpp"
 #include "treadmark/io/points/line_blocks.hpp"
-#include "treadmark/io/scans/unit_words.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 
 namespace treadmark::io::scans {
 
@@ -35,15 +35,6 @@ struct Head {
 bool is_count(std::string_view line) {
   const std::vector<Field> fields = fields_of(line, ' ');
   return fields.size() == 1 && fields[0].text.find_first_not_of("0123456789") == std::string_view::npos;
-}
-
-/// Comments may stand behind the numbers; a word with such a sign within ("1.#QNAN") is none.
-std::string_view without_comment(std::string_view line) {
-  for (std::size_t k = 1; k < line.size(); ++k) {
-    const bool sign = line[k] == '#' || line[k] == '!' || line[k] == '%' || line.substr(k).starts_with("//");
-    if (sign && std::string_view(" \t,;").find(line[k - 1]) != std::string_view::npos) return line.substr(0, k);
-  }
-  return line;
 }
 
 Head look(ByteBlocks& bytes) {
@@ -177,28 +168,6 @@ std::optional<ColumnNames> names_of(const Head& head, char separator, std::size_
 
 }  // namespace
 
-LineKind kind_of_line(std::string_view line) {
-  const std::size_t start = line.find_first_not_of(" \t\v\f");
-  if (start == std::string_view::npos) return LineKind::empty;
-  line.remove_prefix(start);
-  if (line.find_first_of("#!%") == 0 || line.starts_with("//")) return LineKind::comment;
-  const std::size_t end = line.find_first_of(" \t\v\f;,");
-  if (end == 0) {
-    // an empty first field; ';' before words is a comment
-    const std::size_t next = line.find_first_not_of(" \t\v\f;,");
-    if (next == std::string_view::npos || line[0] != ';') return LineKind::numbers;
-    return kind_of_line(line.substr(next)) == LineKind::numbers ? LineKind::numbers : LineKind::comment;
-  }
-  double value = 0.0;
-  return parse_number(line.substr(0, end), false, value) ? LineKind::numbers : LineKind::words;
-}
-
-std::string_view comment_text(std::string_view line) {
-  line.remove_prefix(std::min(line.find_first_not_of(" \t\v\f"), line.size()));
-  line.remove_prefix(std::min(line.find_first_not_of("#!%/;"), line.size()));
-  return line;
-}
-
 ColumnLayout find_layout(ByteBlocks& bytes) {
   const Head head = look(bytes);
   const std::string& file = bytes.file();
@@ -327,23 +296,6 @@ ColumnNames find_names(const std::vector<std::string>& names) {
   result.unit = unit.unit();
   result.units_differ = unit.differ();
   return result;
-}
-
-std::vector<std::string> names_in(std::string_view line, char separator) {
-  std::vector<std::string> names;
-  bool open = false;
-  for (const Field& field : fields_of(line, separator)) {
-    std::string_view text = field.text;
-    if (text.size() >= 2 && text.front() == '"' && text.back() == '"') text = text.substr(1, text.size() - 2);
-    const bool goes_on = separator == ' ' && !names.empty() && (open || text.starts_with('[') || text.starts_with('('));
-    if (goes_on)
-      names.back().append(" ").append(text);
-    else
-      names.emplace_back(text);
-    open = (open || text.find_first_of("[(") != std::string_view::npos) &&
-           text.find_first_of("])") == std::string_view::npos;
-  }
-  return names;
 }
 
 }  // namespace treadmark::io::scans

@@ -10,18 +10,12 @@
 
 #include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/points/fields.hpp"
+#include "treadmark/io/points/text_lines.hpp"
 #include "treadmark/model/length_unit.hpp"
 
 namespace treadmark::io::scans {
 
 using namespace points;
-
-/// What a line of a text of numbers is.
-enum class LineKind { empty, comment, words, numbers };
-LineKind kind_of_line(std::string_view line);
-
-/// The text of a comment without the signs before it.
-std::string_view comment_text(std::string_view line);
 
 /// Which column (from 0) of a list of points holds what.
 struct ColumnLayout {
@@ -47,9 +41,6 @@ struct ColumnNames {
   bool has_xyz = false, has_normals = false, twice = false;
 };
 ColumnNames find_names(const std::vector<std::string>& names);
-
-/// The names in a header line. In a header separated by blanks a unit in brackets belongs to the name before it.
-std::vector<std::string> names_in(std::string_view line, char separator);
 
 /// Looks at the first lines. Error(input_data) at the line that makes no sense.
 ColumnLayout find_layout(ByteBlocks& bytes);

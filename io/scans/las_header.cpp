@@ -8,7 +8,7 @@
 #include <cmath>
 
 #include "treadmark/io/points/binary_values.hpp"
-#include "treadmark/io/scans/unit_words.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 
 namespace treadmark::io::scans {
 

@@ -10,9 +10,9 @@
 #include "treadmark/core/grid.hpp"
 #include "treadmark/io/points/byte_blocks.hpp"
 #include "treadmark/io/points/line_blocks.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
-#include "treadmark/io/scans/unit_words.hpp"
 
 namespace treadmark::io::scans {
 

@@ -6,9 +6,9 @@
 #include "treadmark/io/points/parse_off.hpp"
 #include "treadmark/io/points/parse_ply.hpp"
 #include "treadmark/io/points/parse_stl.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
-#include "treadmark/io/scans/unit_words.hpp"
 
 namespace treadmark::io::scans {
 

@@ -1,13 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include "treadmark/io/scans/unit_words.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 
 #include <string>
 #include <vector>
 
 #include "treadmark/io/files/line_scanner.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 namespace {
 
@@ -115,4 +115,4 @@ std::optional<LengthUnit> take_unit(std::string_view& name) {
   return unit;
 }
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

@@ -7,7 +7,7 @@
 
 #include "treadmark/model/length_unit.hpp"
 
-namespace treadmark::io::scans {
+namespace treadmark::io::points {
 
 /// The unit that a word names: a symbol ("mm", "um") or a name in English, British or American, any case.
 std::optional<LengthUnit> unit_of_word(std::string_view word);
@@ -36,4 +36,4 @@ class UnitFinder {
   bool differ_ = false;
 };
 
-}  // namespace treadmark::io::scans
+}  // namespace treadmark::io::points

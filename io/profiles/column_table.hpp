@@ -1,0 +1,76 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/points/fields.hpp"
+#include "treadmark/io/profiles/profile_source.hpp"
+#include "treadmark/io/profiles/raw_points.hpp"
+
+namespace treadmark::io::profiles {
+
+/// A line that is kept, with its number, for messages.
+class KeptLine : public TextLine {
+ public:
+  KeptLine(const std::string& file, int number, std::string text) : TextLine(file, number), text_(std::move(text)) {
+    line_ = text_;
+  }
+  KeptLine(const KeptLine& other) : TextLine(other), text_(other.text_) { line_ = text_; }
+  KeptLine& operator=(const KeptLine&) = delete;
+
+ private:
+  std::string text_;
+};
+
+/// What stands in front of the numbers of a line: quotes round numbers and comments are gone.
+std::string plain_line(std::string_view line);
+
+/// Which columns (from 0) hold y and z, and what the others are.
+struct ColumnRoles {
+  int y = 0, z = 1;
+  bool named = false;
+  std::optional<LengthUnit> unit;
+  std::string in_words;  ///< of those that are not used
+};
+
+/// The roles of names such as "y", "z [mm]", "x". Nothing where two coordinates are not among them.
+/// Error(input_data) for one that is named twice, or for different units.
+std::optional<ColumnRoles> roles_of(const std::vector<std::string>& names, const TextLine& line);
+
+/// The names in a line of words or in a comment that has `columns` of them.
+std::optional<ColumnRoles> roles_in(const TextLine& line, std::string_view text, char separator, std::size_t columns);
+
+/// Lines of numbers that belong to one profile.
+class ColumnTable {
+ public:
+  explicit ColumnTable(std::string file) : file_(std::move(file)) {}
+
+  void add(int line, std::string text) { rows_.push_back({line, std::move(text)}); }
+  bool empty() const { return rows_.empty(); }
+  std::size_t size() const { return rows_.size(); }
+
+  /// How numbers are told apart, judged by the first lines.
+  points::FieldStyle style() const;
+  std::size_t columns(char separator) const;  ///< of the first line
+
+  /// The points. numbers_only: nothing but numbers may stand in the other columns.
+  RawPoints points(const ColumnRoles& roles, const points::FieldStyle& style, bool numbers_only) const;
+
+  /// Columns without names: y and z unless the first one counts the lines. Error(input_data) where it seems to.
+  ColumnRoles assume_roles(const points::FieldStyle& style, std::vector<std::string>& notes) const;
+
+ private:
+  struct Row {
+    int line;
+    std::string text;
+  };
+  std::string file_;
+  std::vector<Row> rows_;
+};
+
+}  // namespace treadmark::io::profiles
