@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <iostream>
 
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 
@@ -13,18 +16,43 @@ namespace {
 struct CheckOptions {
   std::vector<std::string> cases;
   std::vector<std::string> overrides;  ///< key=value
+  std::string body;                    ///< of profiles: "wheel", "rail" or empty
 };
+
+/// What was understood of a profile, one fact a line.
+void print_profile(const app::CheckedProfile& profile) {
+  std::size_t width = 0;
+  for (const auto& [name, value] : profile.judgement.facts) width = std::max(width, name.size());
+  const auto line = [&](const std::string& name, const std::string& value) {
+    std::cout << "  " << name << std::string(width + 2 - std::min(width, name.size()), ' ') << value << '\n';
+  };
+  std::cout << profile.name << '\n';
+  for (const auto& [name, value] : profile.judgement.facts) line(name, value);
+  for (const std::string& note : profile.judgement.notes) line("note", note);
+  for (const io::ProfileRemark& remark : profile.judgement.remarks) line("doubt", remark.name + ": " + remark.text);
+}
+
+void check_profile_file(const CheckOptions& options, const std::string& name) {
+  if (!options.overrides.empty())
+    throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {name}, "leave it out");
+  std::optional<Body> body;
+  if (!options.body.empty()) body = options.body == "wheel" ? Body::wheel : Body::rail;
+  print_profile(app::check_profile(name, body));
+}
 
 void check_case_file(const std::string& name, const std::vector<std::string>& overrides) {
   const io::CaseFile file = io::read_any_case(name, overrides);
   app::check_geometry(file);
   print_notes(file.notes, false);
+  for (const app::CheckedProfile& profile : app::check_profiles(file)) print_profile(profile);
   std::cout << name << ": " << file.cases.size() << (file.cases.size() == 1 ? " case" : " cases") << ", no errors\n";
 }
 
 int check_command(const CheckOptions& options, const CommonOptions&) {
   for (const std::string& name : options.cases)
-    if (io::is_study_file(name))
+    if (app::is_profile_file(name))
+      check_profile_file(options, name);
+    else if (io::is_study_file(name))
       check_study_file(name, options.overrides);
     else if (io::is_simulation_file(name))
       check_simulation_file(name, options.overrides);
@@ -38,6 +66,8 @@ int check_command(const CheckOptions& options, const CommonOptions&) {
 Command add_check(CLI::App& verb) {
   auto options = std::make_shared<CheckOptions>();
   add_case_files(verb, options->cases, options->overrides);
+  verb.add_option("--body", options->body, "Of profiles: wheel or rail, where the file does not tell")
+      ->check(CLI::IsMember({"wheel", "rail"}));
   return command(options, check_command);
 }
 
