@@ -128,7 +128,8 @@ CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Bo
     try {
       (b == Body::rail ? rail : wheel) = io::read_sourced_profile(file, b, {}, {});
     } catch (const Error& error) {
-      if (!trouble) trouble = error;
+      // a file that names its body tells more when it is read as that
+      if (!trouble || trouble->message().find("profile is expected") != std::string::npos) trouble = error;
     }
   }
   if (!rail && !wheel) throw *trouble;
