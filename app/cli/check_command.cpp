@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <iostream>
@@ -10,7 +11,9 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/files/atomic_file.hpp"
@@ -23,6 +26,7 @@ struct CheckOptions {
   std::vector<std::string> cases;
   std::vector<std::string> overrides;  ///< key=value
   std::string output_folder;           ///< of pictures; empty = none
+  std::string body;                    ///< of profiles: "wheel", "rail" or empty
 };
 
 std::string position_svg(const app::CaseGeometry& c) {
@@ -41,6 +45,27 @@ std::string position_svg(const app::CaseGeometry& c) {
       {fmt::format("Case {}: {}", c.given->number, how), curve(section.rail), curve(section.wheel), {}, ""});
 }
 
+/// What was understood of a profile, one fact a line.
+void print_profile(const app::CheckedProfile& profile) {
+  std::size_t width = 0;
+  for (const auto& [name, value] : profile.judgement.facts) width = std::max(width, name.size());
+  const auto line = [&](const std::string& name, const std::string& value) {
+    std::cout << "  " << name << std::string(width + 2 - std::min(width, name.size()), ' ') << value << '\n';
+  };
+  std::cout << profile.name << '\n';
+  for (const auto& [name, value] : profile.judgement.facts) line(name, value);
+  for (const std::string& note : profile.judgement.notes) line("note", note);
+  for (const io::ProfileRemark& remark : profile.judgement.remarks) line("doubt", remark.name + ": " + remark.text);
+}
+
+void check_profile_file(const CheckOptions& options, const std::string& name) {
+  if (!options.overrides.empty())
+    throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {name}, "leave it out");
+  std::optional<Body> body;
+  if (!options.body.empty()) body = options.body == "wheel" ? Body::wheel : Body::rail;
+  print_profile(app::check_profile(name, body));
+}
+
 void check_case_file(const std::string& name, const CheckOptions& options) {
   const io::CaseFile file = io::read_any_case(name, options.overrides);
   const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
@@ -52,12 +77,15 @@ void check_case_file(const std::string& name, const CheckOptions& options) {
           std::filesystem::path(options.output_folder) / fmt::format("position_{:04}.svg", c.given->number),
           position_svg(c));
   }
+  for (const app::CheckedProfile& profile : app::check_profiles(file)) print_profile(profile);
   std::cout << name << ": " << file.cases.size() << (file.cases.size() == 1 ? " case" : " cases") << ", no errors\n";
 }
 
 int check_command(const CheckOptions& options, const CommonOptions&) {
   for (const std::string& name : options.cases)
-    if (io::is_study_file(name))
+    if (app::is_profile_file(name))
+      check_profile_file(options, name);
+    else if (io::is_study_file(name))
       check_study_file(name, options.overrides);
     else if (io::is_simulation_file(name))
       check_simulation_file(name, options.overrides);
@@ -74,6 +102,8 @@ Command add_check(CLI::App& verb) {
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg")
       ->type_name("FOLDER");
+  verb.add_option("--body", options->body, "Of profiles: wheel or rail, where the file does not tell")
+      ->check(CLI::IsMember({"wheel", "rail"}));
   return command(options, check_command);
 }
 

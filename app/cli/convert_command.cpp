@@ -4,8 +4,11 @@
 #include <numbers>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 
 namespace treadmark::cli {
@@ -19,6 +22,7 @@ struct ConvertOptions {
   double scale_to_mm = 1.0;
   std::vector<double> range_mm, range_deg;  ///< along the track, round the wheel: two numbers or none
   std::vector<std::string> overrides;
+  app::ProfileConversion profile;  ///< where a profile is written
 };
 
 int convert_command(const ConvertOptions& options, const CommonOptions& common) {
@@ -34,6 +38,14 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
   if (!options.range_deg.empty())
     settings.range_theta = {kDegree * options.range_deg[0], kDegree * options.range_deg[1]};
 
+  if (io::is_writable_profile(options.output)) {
+    std::cout << options.output << ": "
+              << app::convert_profile(options.input, options.output, settings, options.profile) << '\n';
+    return kOk;
+  }
+  if (options.profile.derivatives || options.profile.lambda_mm3 > 0.0 || options.profile.wavelength_mm > 0.0)
+    throw Error(ErrorKind::configuration, "--smooth, --wavelength and --derivatives belong to profiles",
+                {options.output}, "leave them out, or write .prr .prw .ban .whl or .csv");
   const app::Converted result = app::convert_surface(options.input, options.output, settings);
   const bool wheel = result.body == Body::wheel;
   const io::SurfaceUse use{
@@ -51,7 +63,9 @@ Command add_convert(CLI::App& verb) {
   verb.add_option("IN", options->input,
                   "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
       ->required();
-  verb.add_option("OUT", options->output, ".ply .stl .obj .off, .slcs .slcw, or .vdb")->required();
+  verb.add_option("OUT", options->output,
+                  ".ply .stl .obj .off, .slcs .slcw, .vdb, or a profile: .prr .prw .ban .whl .csv")
+      ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
   verb.add_option("--resolution", options->resolution_mm, "Spacing of the samples [mm]")
@@ -66,6 +80,17 @@ Command add_convert(CLI::App& verb) {
       ->delimiter(',')
       ->expected(2);
   verb.add_option("--range-deg", options->range_deg, "Part of a wheel: from, to round it")->delimiter(',')->expected(2);
+  CLI::Option* lambda = verb.add_option("--smooth", options->profile.lambda_mm3,
+                                        "Profile: smoothed with this parameter [mm3], as shape.smoothing_lambda_mm3")
+                            ->check(CLI::PositiveNumber)
+                            ->type_name("MM3");
+  verb.add_option("--wavelength", options->profile.wavelength_mm,
+                  "Profile: smoothed with this cut-off wavelength, as shape.smoothing_wavelength_mm")
+      ->check(CLI::PositiveNumber)
+      ->excludes(lambda)
+      ->type_name("MM");
+  verb.add_flag("--derivatives", options->profile.derivatives,
+                "Profile as .csv, .ban or .whl: columns of arc length, inclination and curvature too");
   add_overrides(verb, options->overrides);
   return command(options, convert_command);
 }

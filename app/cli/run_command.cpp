@@ -10,6 +10,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -89,6 +90,7 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     result.settings = settings_of(options);
 
     print_notes(file.notes, common.quiet);
+    print_notes(app::profile_doubts(file), common.quiet);
     if (!common.quiet)
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';

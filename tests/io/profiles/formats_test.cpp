@@ -277,7 +277,7 @@ TEST(RealFieldProfiles, AreReadOrRefusedAsStated) {
   TREADMARK_REQUIRE_SHARED();
   const std::filesystem::path folder = *shared / "data/real/profiles";
   const Outcome outcomes[] = {
-      // z points up in the first five; the back of the MiniProf wheel's flange is at y = 0
+      // z points up in all but the first, whose flange has its back at y = 0
       {"Car7422_0001r.whl", Body::wheel, 644, -0.107, 131.382, 28.5935, nullptr},
       {"RUIC519A.dat", Body::wheel, 1001, -70.0, 65.0, 28.0, nullptr},
       {"SUIC519A.dat", Body::rail, 1001, -32.5, 39.0, -0.492, nullptr},

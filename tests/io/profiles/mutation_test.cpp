@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <random>
 
 #include "samples.hpp"
+#include "treadmark/io/profiles/judge_profile.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
 
 namespace treadmark::io {
@@ -80,6 +82,8 @@ void expect_sound(const Profile& p, Body body) {
     EXPECT_TRUE(std::isfinite(step));
     length += step;
   }
+  for (const auto& [name, value] : judge_profile({p, {}}, {-0.07, 0.46}).facts)
+    EXPECT_EQ(value.find("nan"), std::string::npos) << name << ' ' << value;
   EXPECT_GE(length, 0.0049999);
   EXPECT_LE(length, 0.5000001);
 }
@@ -101,6 +105,48 @@ TEST(MutatedFiles, MiniProf) {
 TEST(MutatedFiles, TwoColumns) {
   survive(columns(rail_points()),
           [](const std::string& t) { expect_sound(testing::parse(t, Body::rail), Body::rail); });
+}
+
+TEST(MutatedFiles, MiniProfHeaderOfText) {
+  const std::string text = "#MINIWHEELPROF\nCar7.whl\nMINIPROF 2020\nStock.......:\n32.58 37.11 14.71\n(Sd/Sh/qR)\n\n" +
+                           columns(wheel_points());
+  survive(text, [](const std::string& t) {
+    expect_sound(testing::parse(t, Body::wheel, {}, ProfileFormat::miniprof), Body::wheel);
+  });
+}
+
+TEST(MutatedFiles, MiniProfSections) {
+  const std::string text =
+      "[FileInfo]\nProgramName=MiniProf\n\n[Profile1Info]\nProgramName=AutoCAD\nColumnDef=X,Y\nXYPoints=65\n\n"
+      "[Profile1Points]\n" +
+      columns(wheel_points()) + "\n[Profile2Info]\nDiameterTaperline=920\nGauge=1435\n\n[Profile2Points]\n" +
+      columns(wheel_points());
+  survive(text, [](const std::string& t) {
+    expect_sound(testing::parse(t, Body::wheel, {}, ProfileFormat::miniprof), Body::wheel);
+  });
+}
+
+TEST(MutatedFiles, Csv) {
+  std::string text = "\"n\";\"y [mm]\";\"z [mm]\"\r\n";
+  int n = 0;
+  for (const testing::Point& p : rail_points()) {
+    std::string line = std::to_string(++n) + ";\"" + std::to_string(p.y) + "\";" + std::to_string(p.z) + "\r\n";
+    std::replace(line.begin(), line.end(), '.', ',');
+    text += line;
+  }
+  survive(text, [](const std::string& t) { expect_sound(testing::parse(t, Body::rail), Body::rail); });
+}
+
+TEST(MutatedFiles, Utf16) {
+  std::string text = "\xFF\xFE";
+  for (const char c : "y,z\n" + columns(rail_points())) {
+    text += c == ' ' ? ',' : c;
+    text += '\0';
+  }
+  std::string single;  // one comma between two numbers
+  for (std::size_t i = 0; i < text.size(); i += 2)
+    if (text[i] != ',' || i < 2 || text[i - 2] != ',') single += text.substr(i, 2);
+  survive(single, [](const std::string& t) { expect_sound(testing::parse(t, Body::rail), Body::rail); });
 }
 
 TEST(MutatedFiles, Slices) {

@@ -1,0 +1,70 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/surfaces/convert_profile.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/backends/spline/fit_profile.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/profiles/write_profile.hpp"
+
+namespace treadmark::app {
+namespace {
+
+Profile input_profile(const std::filesystem::path& input, const std::filesystem::path& output,
+                      const ConvertSettings& settings) {
+  const auto refuse = [&](const char* what, const char* advice) {
+    throw Error(ErrorKind::configuration, what, {input.string()}, advice);
+  };
+  if (settings.range_x || settings.range_theta || settings.resolution > 0.0)
+    refuse("ranges and resolutions belong to surfaces, a profile is written", "leave them out");
+  if (is_profile_file(input)) {
+    if (!settings.overrides.empty()) refuse("--set changes keys of case files, this is none", "leave it out");
+    std::optional<Body> body = settings.body ? settings.body : io::profile_body(input);
+    if (!body) body = io::profile_body(output);
+    if (!body) refuse("the file does not tell whether it is a wheel or a rail", "say --body wheel or --body rail");
+    io::ProfileOptions options;
+    options.scale = settings.scale_to_mm;
+    return io::read_profile(input, *body, options, {});
+  }
+  const std::optional<Body> body = settings.body ? settings.body : io::profile_body(output);
+  const NaturalSurface natural =
+      named_surface(input, {body, settings.nominal_radius, settings.scale_to_mm, settings.overrides});
+  const auto* profile = std::get_if<Profile>(&natural.spec.shape);
+  if (profile == nullptr || !natural.constant_profile())
+    refuse("a profile can be written of a profile only", "write triangles, slices or offsets");
+  return *profile;
+}
+
+}  // namespace
+
+std::string convert_profile(const std::filesystem::path& input, const std::filesystem::path& output,
+                            const ConvertSettings& settings, const ProfileConversion& how) {
+  Profile profile = input_profile(input, output, settings);
+  using Method = SmoothingOptions::Method;
+  if (how.lambda_mm3 > 0.0) profile.smoothing = {Method::spline, 1e-9 * how.lambda_mm3};
+  if (how.wavelength_mm > 0.0) profile.smoothing = {Method::weighted_spline, 1e-3 * how.wavelength_mm};
+  const bool smoothed = profile.smoothing.strength > 0.0;
+  io::ProfileDerivatives derivatives;
+  if (smoothed || how.derivatives) {
+    const std::vector<double> s = spline::arc_length(profile);
+    const spline::ProfileSpline curve = spline::fit_profile(profile);
+    for (std::size_t i = 0; i < s.size(); ++i) {
+      const Vec2 d = curve.derivative(s[i]), dd = curve.second_derivative(s[i]);
+      const double length = std::hypot(d[0], d[1]);
+      derivatives.inclination.push_back(std::atan2(d[1], d[0]));
+      derivatives.curvature.push_back((d[0] * dd[1] - d[1] * dd[0]) / (length * length * length));
+      if (smoothed) profile.y[i] = curve.position(s[i])[0], profile.z[i] = curve.position(s[i])[1];
+    }
+    derivatives.s = s;
+  }
+  io::write_profile(output, profile, how.derivatives ? &derivatives : nullptr);
+  return fmt::format("{} profile, {} points{}", profile.body == Body::wheel ? "wheel" : "rail", profile.y.size(),
+                     smoothed ? ", smoothed" : "");
+}
+
+}  // namespace treadmark::app

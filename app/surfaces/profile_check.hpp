@@ -1,0 +1,33 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/io/profiles/judge_profile.hpp"
+
+namespace treadmark::app {
+
+struct CheckedProfile {
+  std::string name;  ///< "wheel profile FILE"
+  io::ProfileJudgement judgement;
+};
+
+/// Whether the name is that of a profile file, not of a case.
+bool is_profile_file(const std::filesystem::path& file);
+
+/// Reads and judges one file. Without a body it is judged by extension, then by shape. Errors as read_profile;
+/// Error(configuration) where the file could be either.
+CheckedProfile check_profile(const std::filesystem::path& file, std::optional<Body> body);
+
+/// The same for every profile file that the cases of a file use, each once. Errors as read_profile.
+std::vector<CheckedProfile> check_profiles(const io::CaseFile& file);
+
+/// The doubts of check_profiles as notes of a run.
+std::vector<std::string> profile_doubts(const io::CaseFile& file);
+
+}  // namespace treadmark::app

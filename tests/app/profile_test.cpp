@@ -1,0 +1,121 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <fstream>
+#include <sstream>
+
+#include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/shared_data.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+using ::testing::Not;
+
+TEST(CheckProfiles, ShowsWhatWasUnderstoodOfACase) {
+  SampleInput input;
+  ProgramResult r = run_program({"check", input.inp().string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out,
+              HasSubstr("rail profile " + (input.folder() / "rail.prr").string() + "\n  kind         Simpack\n"));
+  EXPECT_THAT(r.out, HasSubstr("  y            -70.00 to 60.00 mm, to the right\n"));
+  EXPECT_THAT(r.out, HasSubstr("from S1002"));
+  EXPECT_THAT(r.out, HasSubstr("from 60E1"));
+  EXPECT_THAT(r.out, Not(HasSubstr("doubt")));
+  // the wheel of the left side
+  input.edit("case.inp", "'wheel.txt'   0 ", "'wheel.txt'   1 ");
+  r = run_program({"check", input.inp().string()});
+  EXPECT_THAT(r.out, HasSubstr("doubt        flange_side: the flange is on the side of great y (tip at 70 mm)"));
+  EXPECT_THAT(run_program({"run", input.inp().string()}).err, HasSubstr("flange_side"));
+}
+
+TEST(CheckProfiles, TakesAProfileByItself) {
+  SampleInput input;
+  const std::string wheel = (input.folder() / "wheel.txt").string();
+  const ProgramResult judged = run_program({"check", wheel});
+  ASSERT_EQ(judged.status, 0) << judged.err;
+  EXPECT_THAT(judged.out, HasSubstr("wheel profile"));
+  EXPECT_THAT(judged.out, HasSubstr("taken for a wheel by its shape"));
+  EXPECT_THAT(run_program({"check", wheel, "--body", "wheel"}).out, Not(HasSubstr("taken for")));
+  EXPECT_THAT(run_program({"check", (input.folder() / "rail.prr").string()}).out, HasSubstr("gauge point"));
+  EXPECT_EQ(run_program({"check", wheel, "--set", "wheelset.y_mm=1"}).status, 2);
+  EXPECT_EQ(run_program({"check", (input.folder() / "none.csv").string()}).status, 3);
+}
+
+TEST(ConvertProfile, PointsStayWhereTheyAre) {
+  SampleInput input;
+  const auto in = [&](const char* name) { return (input.folder() / name).string(); };
+  const Profile rail = io::read_profile(in("rail.prr"), Body::rail, {});
+  for (const char* out : {"a.prr", "a.ban", "a.csv"}) {
+    const ProgramResult r = run_program({"convert", in("rail.prr"), in(out)});
+    ASSERT_EQ(r.status, 0) << r.err;
+    EXPECT_EQ(io::read_profile(in(out), Body::rail, {}).z, rail.z) << out;
+  }
+  const Profile wheel = io::read_profile(in("wheel.txt"), Body::wheel, {});
+  ASSERT_EQ(run_program({"convert", in("case.inp"), in("b.prw")}).status, 0);
+  EXPECT_EQ(io::read_profile(in("b.prw"), Body::wheel, {}).y, wheel.y);
+  EXPECT_EQ(run_program({"convert", in("wheel.txt"), in("b.csv")}).status, 2);  // a wheel or a rail?
+  EXPECT_EQ(run_program({"convert", in("rail.prr"), in("b.whl")}).status, 2);
+  EXPECT_FALSE(std::filesystem::exists(in("b.whl")));
+}
+
+TEST(ConvertProfile, DerivativesAreThoseOfTheCircle) {
+  SampleInput input;
+  const auto in = [&](const char* name) { return (input.folder() / name).string(); };
+  const ProgramResult r = run_program({"convert", in("rail.prr"), in("a.csv"), "--derivatives"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  std::istringstream lines(input.read("a.csv"));
+  std::string line;
+  std::getline(lines, line);
+  int middle = 0;
+  while (std::getline(lines, line)) {
+    double y = 0.0, z = 0.0, s = 0.0, inclination = 0.0, curvature = 0.0;
+    ASSERT_EQ(std::sscanf(line.c_str(), "%lf,%lf,%lf,%lf,%lf", &y, &z, &s, &inclination, &curvature), 5);
+    if (std::fabs(y) > 20.0) continue;
+    ++middle;
+    EXPECT_NEAR(inclination, std::asin(y / 300.0), 1e-4);
+    EXPECT_NEAR(s, 300.0 * std::asin(y / 300.0), 1e-2);
+    EXPECT_NEAR(curvature, 1.0 / 0.3, 0.1);  // the points of the file have six digits
+  }
+  EXPECT_GT(middle, 50);
+}
+
+TEST(ConvertProfile, SmoothingTakesNoiseAway) {
+  SampleInput input;
+  const auto in = [&](const char* name) { return (input.folder() / name).string(); };
+  std::string text;
+  for (int i = -60; i <= 60; ++i) {
+    const double y = 0.6 * i, z = 300.0 - std::sqrt(9e4 - y * y);
+    text += std::to_string(y) + " " + std::to_string(z + (i % 2 == 0 ? 0.02 : -0.02)) + "\n";
+  }
+  input.write("noisy.txt", text);
+  const ProgramResult r = run_program({"convert", in("noisy.txt"), in("a.prr"), "--smooth", "20"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("rail profile, 121 points, smoothed"));
+  const Profile p = io::read_profile(in("a.prr"), Body::rail, {});
+  for (std::size_t i = 10; i + 10 < p.y.size(); ++i)
+    EXPECT_NEAR(p.z[i], 0.3 - std::sqrt(0.09 - p.y[i] * p.y[i]), 4e-6) << i;
+  EXPECT_EQ(run_program({"convert", in("noisy.txt"), in("a.ply"), "--body", "rail", "--smooth", "20"}).status, 2);
+}
+
+TEST(CheckProfiles, AMiniProfWheelAndItsFlangeBack) {
+  TREADMARK_REQUIRE_SHARED();
+  SampleInput input;
+  std::filesystem::copy(*shared / "data/real/profiles/Car7422_0001r.whl", input.folder() / "car.whl");
+  input.edit("case.inp", "'wheel.txt'   0   1.0   0.0   -1", "'car.whl'     0   1.0   0.0   0");
+  ProgramResult r = run_program({"check", input.inp().string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, HasSubstr("flange_back: the back of the flange is at y = -0."));
+  input.edit("case.inp", "-70.0   460.0", "  0.0   460.0");
+  r = run_program({"check", input.inp().string()});
+  EXPECT_THAT(r.out, Not(HasSubstr("doubt")));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
