@@ -43,7 +43,8 @@ void simplified_theory(RuleList& rules, const Content& c, bool friction_varies, 
   if (c.tangential_model == TangentialModel::full) return;
   rules.refuse_if(
       theory(c.tangential_model).limits.steady_only && goes_on(c.regime), CaseSetting::material,
-      "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling");
+      "the simplified theory (FASTSIM, FaStrip) is for steady rolling, not for a shift or transient rolling",
+      "use T = 3 or M = 0 in .inp, case.regime = \"steady\" or tangential_model = \"full\" in .toml");
   rules.refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer,
                   "the simplified theory knows no plasticity of the interface layer");
   rules.refuse_if(friction_varies || c.friction.kind == FrictionLaw::Kind::temperature, CaseSetting::friction,
