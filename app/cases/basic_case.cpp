@@ -15,6 +15,7 @@
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
 #include "treadmark/solvers/kalker/plausibility.hpp"
+#include "treadmark/solvers/kalker/tangential/rigid_slip.hpp"
 
 namespace treadmark::app {
 
@@ -47,11 +48,34 @@ double timed(const auto& work) {
   return std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
 }
 
-/// The problem of a case; the gap is kept beside it.
+/// The problem of a case; gap and slip are kept beside it.
 struct PosedProblem {
   kalker::ContactProblem problem;
-  std::vector<double> gap;
+  std::vector<double> gap, slip_x, slip_y;
 };
+
+/// Takes the slip by spin out of one direction, as an extra rigid slip that is its opposite.
+void remove_spin_slip(const io::BasicCase& input, PosedProblem& posed) {
+  kalker::ContactProblem& p = posed.problem;
+  if (input.spin_slip == io::SpinSlip::both || input.phi == 0.0 || p.regime == Regime::frictionless) return;
+  const bool lateral = input.spin_slip == io::SpinSlip::longitudinal;
+  const kalker::RollingStep step = kalker::rolling_step(p);
+  const double ahead_x = p.rolling.spin_offset_factor * step.shift_x,
+               ahead_y = p.rolling.spin_offset_factor * step.shift_y;
+  posed.slip_x.assign(input.extra_slip_x.begin(), input.extra_slip_x.end());
+  posed.slip_y.assign(input.extra_slip_y.begin(), input.extra_slip_y.end());
+  for (auto* slip : {&posed.slip_x, &posed.slip_y}) slip->resize(p.grid.size(), 0.0);
+  for (int iy = 0; iy < p.grid.ny; ++iy)
+    for (int ix = 0; ix < p.grid.nx; ++ix) {
+      const std::size_t i = p.grid.index(ix, iy);
+      if (lateral)
+        posed.slip_y[i] -= input.phi * (p.grid.x(ix) - input.spin_x + ahead_x);
+      else
+        posed.slip_x[i] += input.phi * (p.grid.y(iy) - input.spin_y + ahead_y);
+    }
+  p.extra_slip_x = posed.slip_x;
+  p.extra_slip_y = posed.slip_y;
+}
 
 PosedProblem pose(const io::BasicCase& input) {
   PosedProblem out;
@@ -85,6 +109,7 @@ PosedProblem pose(const io::BasicCase& input) {
   p.friction_of_row = input.friction_of_row;
   p.extra_slip_x = input.extra_slip_x;
   p.extra_slip_y = input.extra_slip_y;
+  remove_spin_slip(input, out);
   p.thermal = input.thermal;
   p.sensitivities = input.sensitivities;
   return out;

@@ -22,19 +22,25 @@ void add_switch(KeyList& list, const std::string& section, const std::string& wh
       key_info(section + ".active", KeyType::flag, what + "; any other key of [" + section + "] asks for it too");
   info.scope = KeyScope::wheel_rail;
   info.default_text = "false";
-  list.add(info).set = [part](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& key = list.add(info);
+  key.set = [part](Case& c, const CaseValue& v, const std::filesystem::path&) {
     auto& place = content_of<W>(c).*part;
     if (v.flag())
       made(place);
     else
       place.reset();
   };
+  key.text = [part](const Case& c) { return std::string(std::get<W>(c.content).*part ? "true" : "false"); };
 }
 
 template <class Part>
 void add_number(KeyList& list, const std::string& path, KeyLimits limits, const std::string& doc,
                 std::optional<Part> W::*part, double Part::*member) {
   list.number<W>(path, limits, doc, [part, member](W& c) -> double& { return made(c.*part).*member; });
+  CaseKey& key = list.keys.back();
+  key.written = [part, written = key.written](const Case& c, const std::filesystem::path& folder) {
+    return std::get<W>(c.content).*part ? written(c, folder) : std::string();
+  };
 }
 
 void add_roller(KeyList& list) {

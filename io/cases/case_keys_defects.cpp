@@ -54,7 +54,10 @@ DefectKeys<WheelFlat> keys_of(const std::vector<WheelFlat>&) {
   shape.choices = {"rounded", "fresh"};
   shape.default_text = "\"rounded\"";
   Keys<WheelFlat> keys{
-      {shape, [](WheelFlat& f, const CaseValue& v) { f.shape = v.text() == "fresh" ? Shape::fresh : Shape::rounded; }},
+      {shape,
+       [](WheelFlat& f, const CaseValue& v) { f.shape = v.text() == "fresh" ? Shape::fresh : Shape::rounded; },
+       {},
+       [](const WheelFlat& f) { return toml_text(f.shape == Shape::fresh ? "fresh" : "rounded"); }},
       required(element_number<WheelFlat>("length_mm", kPositive, "length along the circumference", &WheelFlat::length)),
       element_number<WheelFlat>("depth_mm", kPositive, "greatest radial depth; required for rounded flats only",
                                 &WheelFlat::depth)};
@@ -71,7 +74,10 @@ DefectKeys<Polygonization> keys_of(const std::vector<Polygonization>&) {
   order.at_least = 1.0;
   order.at_most = kHighestOrder;
   Keys<Harmonic> harmonic{
-      {order, [](Harmonic& h, const CaseValue& v) { h.order = static_cast<int>(v.integer()); }},
+      {order,
+       [](Harmonic& h, const CaseValue& v) { h.order = static_cast<int>(v.integer()); },
+       {},
+       [](const Harmonic& h) { return std::to_string(h.order); }},
       required(element_number<Harmonic>("amplitude_um", kAnyNumber, "half of peak to peak, of the radius",
                                         &Harmonic::amplitude))};
   append(harmonic, element_angle<Harmonic>("phase", "the radius is greatest at theta = phase/order", &Harmonic::phase));
@@ -137,7 +143,10 @@ DefectKeys<GaugeCornerCollapse> keys_of(const std::vector<GaugeCornerCollapse>&)
                element_number<Collapse>("x_center_mm", kAnyNumber, "middle along the rail", &Collapse::x_center), "0"),
            required(element_number<Collapse>("y_start_mm", kAnyNumber, "where it begins, in rail profile coordinates",
                                              &Collapse::y_start)),
-           {towards, [](Collapse& g, const CaseValue& v) { g.gauge_side = v.text() == "+y" ? 1 : -1; }}}};
+           {towards,
+            [](Collapse& g, const CaseValue& v) { g.gauge_side = v.text() == "+y" ? 1 : -1; },
+            {},
+            [](const Collapse& g) { return toml_text(g.gauge_side > 0 ? "+y" : "-y"); }}}};
 }
 
 DefectKeys<Spall> keys_of(const std::vector<Spall>&) {

@@ -50,9 +50,16 @@ std::vector<ElementKey<Element>> law_keys(Law law) {
   KeyInfo kind = key_info("law", KeyType::choice, "as friction.law");
   for (const auto& one : kLaws) kind.choices.push_back(one.first);
   kind.default_text = "\"coulomb\"";
-  std::vector<ElementKey<Element>> keys{{kind, [law](Element& e, const CaseValue& v) {
+  std::vector<ElementKey<Element>> keys{{kind,
+                                         [law](Element& e, const CaseValue& v) {
                                            for (const auto& [word, value] : kLaws)
                                              if (word == v.text()) law(e).kind = value;
+                                         },
+                                         {},
+                                         [law](const Element& e) {
+                                           for (const auto& [word, value] : kLaws)
+                                             if (law(const_cast<Element&>(e)).kind == value) return toml_text(word);
+                                           return std::string();
                                          }}};
   const auto add = [&](const std::string& name, KeyLimits limits, double FrictionLaw::*member) {
     const auto place = [law, member](Element& e) -> double& { return law(e).*member; };
@@ -125,6 +132,10 @@ void add_variation(KeyList& list, const std::string& name, FrictionVariation::Ki
     if (content.friction_variation.kind == kind) sets = sets_of(content.friction_variation);
     change_element(keys, &sets, path, index, entries, where);
     put_sets(content, kind, sets);
+  };
+  added.written = [keys, kind](const Case& c, const std::filesystem::path&) {
+    const FrictionVariation& v = std::get<WheelRailCase>(c.content).friction_variation;
+    return v.kind == kind ? written_elements(keys, sets_of(v)) : std::string();
   };
 }
 

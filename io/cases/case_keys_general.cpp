@@ -35,17 +35,23 @@ void add_case(KeyList& list) {
   sequence.at_least = 0.0;
   sequence.at_most = kMostSequences;
   sequence.default_text = std::string("0");  // a plain literal sets off a false alarm of GCC 12
-  list.add(sequence).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& number = list.add(sequence);
+  number.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     c.sequence = static_cast<int>(v.integer());
   };
+  number.text = [](const Case& c) { return std::to_string(c.sequence); };
 
   KeyInfo table = key_info("case.element_table", KeyType::choice,
                            "text table of the elements of each patch (.mat): none, those in contact or all");
   table.choices = {"none", "contact", "all"};
   table.default_text = "\"none\"";
-  list.add(table).set = [choices = table.choices](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& elements = list.add(table);
+  elements.set = [choices = table.choices](Case& c, const CaseValue& v, const std::filesystem::path&) {
     for (std::size_t i = 0; i < choices.size(); ++i)
       if (choices[i] == v.text()) c.element_table = static_cast<int>(i);
+  };
+  elements.text = [choices = table.choices](const Case& c) {
+    return toml_text(choices.at(static_cast<std::size_t>(c.element_table)));
   };
 
   shared_flag(list, "case.sensitivities",
@@ -125,7 +131,8 @@ ElementKey<Block> element_indices(const std::string& name, std::string doc, std:
   info.at_most = kMost;
   info.group = "subsurface points";
   info.alternative = "elements";
-  return {info, [name, member](Block& b, const CaseValue& v) {
+  return {info,
+          [name, member](Block& b, const CaseValue& v) {
             std::vector<int> list;
             for (const CaseValue& one : v.list()) {
               if (one.number() != std::floor(one.number()))
@@ -133,6 +140,11 @@ ElementKey<Block> element_indices(const std::string& name, std::string doc, std:
               list.push_back(static_cast<int>(one.number()));
             }
             b.*member = std::move(list);
+          },
+          {},
+          [member](const Block& b) {
+            return !b.at_elements || (b.*member).empty() ? std::string()
+                                                         : fmt::format("[{}]", fmt::join(b.*member, ", "));
           }};
 }
 
@@ -143,9 +155,14 @@ ElementKey<Block> element_lengths(const std::string& name, std::string doc, std:
     info.group = "subsurface points";
     info.alternative = "free";
   }
-  return {info, [member, free, unit = unit_of_key(name)](Block& b, const CaseValue& v) {
+  return {info,
+          [member, free, unit = unit_of_key(name)](Block& b, const CaseValue& v) {
             b.*member = numbers_of(v, unit);
             if (free) b.at_elements = false;
+          },
+          {},
+          [member, free, unit = unit_of_key(name)](const Block& b) {
+            return free && b.at_elements ? std::string() : exact_list(b.*member, unit);
           }};
 }
 
@@ -171,10 +188,15 @@ void add_subsurface_keys(KeyList& list) {
                            "text table of them (.subs): none, stress invariants, or all stresses too");
   table.choices = {"none", "invariants", "tensor"};
   table.default_text = "\"none\"";
-  list.add(table).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& wanted = list.add(table);
+  wanted.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     SubsurfaceInput& s = subsurface(c);
     s.text_table = v.text() != "none";
     s.full_tensor = v.text() == "tensor";
+  };
+  wanted.text = [](const Case& c) {
+    const SubsurfaceInput& s = subsurface(const_cast<Case&>(c));
+    return toml_text(!s.text_table ? "none" : s.full_tensor ? "tensor" : "invariants");
   };
 }
 

@@ -9,6 +9,9 @@ namespace {
 
 using B = BasicCase;
 
+/// Keys of both bodies at once: files are written body by body.
+std::string only_one_by_one(const Case&, const std::filesystem::path&) { return {}; }
+
 void add_elastic(KeyList& list) {
   constexpr KeyLimits kPoisson{{}, 0.0, 0.5};
   const auto both = [&](const std::string& path, KeyLimits limits, const std::string& doc, auto first, auto second) {
@@ -17,6 +20,7 @@ void add_elastic(KeyList& list) {
     key.set = [first, second, unit](Case& c, const CaseValue& v, const std::filesystem::path&) {
       std::visit([&](auto& content) { first(content) = second(content) = v.number() * unit; }, c.content);
     };
+    key.written = only_one_by_one;
   };
   const auto g1 = [](auto& c) -> double& { return c.material.shear_modulus_1; };
   const auto g2 = [](auto& c) -> double& { return c.material.shear_modulus_2; };
@@ -49,10 +53,11 @@ void add_beyond_elastic(KeyList& list) {
     const auto place = [](double Material::*member) {
       return [member](auto& c) -> double& { return c.material.*member; };
     };
-    shared_number(list, "material." + name, kNotNegative, doc + " of both bodies", place(rail)).set =
-        [rail, wheel](Case& c, const CaseValue& v, const std::filesystem::path&) {
-          std::visit([&](auto& content) { content.material.*rail = content.material.*wheel = v.number(); }, c.content);
-        };
+    CaseKey& key = shared_number(list, "material." + name, kNotNegative, doc + " of both bodies", place(rail));
+    key.set = [rail, wheel](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      std::visit([&](auto& content) { content.material.*rail = content.material.*wheel = v.number(); }, c.content);
+    };
+    key.written = only_one_by_one;
     shared_number(list, "material.rail_" + name, kNotNegative, doc + " of body 1", place(rail));
     shared_number(list, "material.wheel_" + name, kNotNegative, doc + " of body 2", place(wheel));
   };
@@ -91,8 +96,12 @@ void add_influence(KeyList& list) {
   KeyInfo file = key_info("influence.file", KeyType::path,
                           "table: file of numerical influence coefficients, relative to the case file");
   file.scope = KeyScope::patch;
-  list.add(file).set = [](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+  CaseKey& table = list.add(file);
+  table.set = [](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
     content_of<B>(c).influence.file = (folder / v.text()).lexically_normal();
+  };
+  table.written = [](const Case& c, const std::filesystem::path& folder) {
+    return written_path(std::get<B>(c.content).influence.file, folder);
   };
 }
 
@@ -112,6 +121,40 @@ Thermal& heat(Content& c) {
   return *c.thermal;
 }
 
+bool has_heat(const Case& c) {
+  return std::visit([](const auto& content) { return content.thermal.has_value(); }, c.content);
+}
+
+/// Reading a number of thermal data makes them: only where there are some.
+void written_with_heat(CaseKey& key) {
+  key.written = [written = key.written](const Case& c, const std::filesystem::path& folder) {
+    return has_heat(c) ? written(c, folder) : std::string();
+  };
+}
+
+/// Behind the keys of heat, for it changes what they have made.
+void add_reference_ways(KeyList& list) {
+  KeyInfo info = key_info("case.reference_ways", KeyType::flag,
+                          "details as the reference program (CONTACT) has them, as in its input files: spin moments of "
+                          "grids that are aligned in time, transient steps of more than two elements, temperatures");
+  info.default_text = "false";
+  CaseKey& key = list.add(info);
+  key.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    std::visit(
+        [&](auto& content) {
+          if (content.thermal) content.thermal->reference_quirks = v.flag();
+        },
+        c.content);
+    if (auto* rail = std::get_if<WheelRailCase>(&c.content))
+      rail->moments_about_grid_origin = rail->long_steps = v.flag();
+  };
+  key.text = [](const Case& c) {
+    const auto* rail = std::get_if<WheelRailCase>(&c.content);
+    const bool heat = std::visit([](auto& one) { return one.thermal && one.thermal->reference_quirks; }, c.content);
+    return std::string((rail != nullptr && rail->long_steps) || heat ? "true" : "false");
+  };
+}
+
 }  // namespace
 
 void add_heat_keys(KeyList& list) {
@@ -122,6 +165,7 @@ void add_heat_keys(KeyList& list) {
       shared_number(list, fmt::format("heat.{}_{}", rail ? "rail" : "wheel", name), limits,
                     fmt::format("{} of body {}", doc, rail ? 1 : 2),
                     [body, member](auto& c) -> double& { return heat(c).*body.*member; });
+      written_with_heat(list.keys.back());
     };
     property("bulk_temperature_C", kAnyNumber, "temperature far from the contact",
              &ThermalProperties::bulk_temperature);
@@ -133,11 +177,13 @@ void add_heat_keys(KeyList& list) {
   shared_number(list, "heat.plastic_fraction", kShare,
                 "share of the plastic work of the interface layer that becomes heat",
                 [](auto& c) -> double& { return heat(c).plastic_fraction; });
+  written_with_heat(list.keys.back());
 
   KeyInfo compute = key_info("heat.compute", KeyType::flag,
                              "surface temperatures (steady rolling only); any other key of [heat] asks for them too");
   compute.default_text = "false";
-  list.add(compute).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& wanted = list.add(compute);
+  wanted.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::visit(
         [&](auto& content) {
           if (v.flag())
@@ -147,6 +193,8 @@ void add_heat_keys(KeyList& list) {
         },
         c.content);
   };
+  wanted.text = [](const Case& c) { return std::string(has_heat(c) ? "true" : "false"); };
+  add_reference_ways(list);
 }
 
 }  // namespace treadmark::io

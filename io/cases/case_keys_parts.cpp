@@ -19,6 +19,10 @@ Part crossing_part(const CaseValue& v) {
   return v.text() == "nose" ? Part::nose : v.text() == "wing" ? Part::wing : Part::none;
 }
 
+std::string crossing_text(const SurfaceSource& s) {
+  return s.crossing.part == Part::nose ? "\"nose\"" : s.crossing.part == Part::wing ? "\"wing\"" : "\"none\"";
+}
+
 KeyInfo crossing_key(std::string path) {
   KeyInfo info = key_info(std::move(path), KeyType::choice,
                           "the section moves along the track: \"nose\" rises and levels off, \"wing\" moves aside, see "
@@ -51,9 +55,11 @@ const CrossingNumber kCrossingNumbers[] = {
 void add_crossing_keys(KeyList& list) {
   KeyInfo crossing = crossing_key("rail.shape.crossing");
   crossing.scope = KeyScope::wheel_rail;
-  list.add(std::move(crossing)).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& moving = list.add(std::move(crossing));
+  moving.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).rail.crossing.part = crossing_part(v);
   };
+  moving.text = [](const Case& c) { return crossing_text(std::get<W>(c.content).rail); };
   for (const CrossingNumber& n : kCrossingNumbers)
     list.number<W>(fmt::format("rail.shape.{}", n.name), n.limits, n.doc,
                    [m = n.member](W& c) -> double& { return c.rail.crossing.*m; });
@@ -89,6 +95,10 @@ Key arcs_key() {
     change_element(keys, chain == nullptr ? nullptr : &chain->segments, shared.path, place.index,
                    {{place.key, entry.key_where, entry.value}}, entry.key_where);
   };
+  arcs.written = [keys](const SurfaceSource& s) {
+    const auto* chain = std::get_if<ArcChain>(&s.geometry);
+    return chain == nullptr ? std::string() : written_elements(keys, chain->segments);
+  };
   return arcs;
 }
 
@@ -109,6 +119,15 @@ std::vector<Key> geometry_keys() {
     s.geometry = StandardProfile{v.text()};
     s.where = v.where;
   };
+  // The list of parts knows the folder that files count from.
+  file.written = [](const SurfaceSource& s) {
+    const auto* given = std::get_if<GeometryFile>(&s.geometry);
+    return given == nullptr || given->file.empty() ? std::string() : toml_text(given->file.generic_string());
+  };
+  standard.written = [](const SurfaceSource& s) {
+    const auto* given = std::get_if<StandardProfile>(&s.geometry);
+    return given == nullptr ? std::string() : toml_text(given->name);
+  };
   keys = {file, standard, arcs_key()};
   const auto start = [&](const char* name, const char* doc, double ArcChain::*member) {
     keys.push_back(with_default(
@@ -120,20 +139,35 @@ std::vector<Key> geometry_keys() {
         throw Error(ErrorKind::configuration, fmt::format("{} belongs to a part given by arcs", name), v.where);
       chain->*member = v.number() * unit;
     };
+    keys.back().written = [member, unit = unit_of_key(name)](const SurfaceSource& s) {
+      const auto* chain = std::get_if<ArcChain>(&s.geometry);
+      return chain == nullptr || chain->*member == 0.0 ? std::string() : exact_text(chain->*member, unit);
+    };
   };
   start("start_y_mm", "y where the chain of arcs starts", &ArcChain::start_y);
   start("start_z_mm", "z where the chain of arcs starts", &ArcChain::start_z);
   start("start_angle_deg", "inclination atan(dz/dy) where the chain of arcs starts", &ArcChain::start_angle);
   KeyInfo mirror = key_info("mirror_y", KeyType::flag, "negate y of the file");
   mirror.default_text = "false";
-  keys.push_back({mirror, [](SurfaceSource& s, const CaseValue& v) {
-                    file_of(s, v, "mirror_y").options.mirror_y = v.flag() ? 1 : 0;
-                  }});
+  keys.push_back(
+      {mirror,
+       [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "mirror_y").options.mirror_y = v.flag() ? 1 : 0; },
+       {},
+       [](const SurfaceSource& s) {
+         const auto* given = std::get_if<GeometryFile>(&s.geometry);
+         return std::string(given != nullptr && given->options.mirror_y == 1 ? "true" : "");
+       }});
   KeyInfo scale = key_info("scale_to_mm", KeyType::number, "factor from file units to mm (1000 for a file in m)");
   scale.at_least = 1e-6;
   scale.default_text = "1";
-  keys.push_back(
-      {scale, [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "scale_to_mm").options.scale = v.number(); }});
+  keys.push_back({scale,
+                  [](SurfaceSource& s, const CaseValue& v) { file_of(s, v, "scale_to_mm").options.scale = v.number(); },
+                  {},
+                  [](const SurfaceSource& s) {
+                    const auto* given = std::get_if<GeometryFile>(&s.geometry);
+                    return given == nullptr || given->options.scale == 1.0 ? std::string()
+                                                                           : exact_text(given->options.scale, 1.0);
+                  }});
   return keys;
 }
 
@@ -149,12 +183,17 @@ std::vector<Key> part_keys() {
       key_info("backend", KeyType::text, "surface representation of this part; without it that of the rail");
   backend.pattern = kBackendPattern;
   backend.matches = is_backend_name;
-  keys.push_back({backend, [](SurfaceSource& s, const CaseValue& v) { s.backend = v.text(); }});
+  keys.push_back({backend,
+                  [](SurfaceSource& s, const CaseValue& v) { s.backend = v.text(); },
+                  {},
+                  [](const SurfaceSource& s) { return s.backend.empty() ? s.backend : toml_text(s.backend); }});
   keys.push_back(element_number<SurfaceSource>("resolution_mm", kPositive,
                                                "spacing of samples of this part; without it that of the rail",
                                                &SurfaceSource::resolution));
-  keys.push_back(
-      {crossing_key("crossing"), [](SurfaceSource& s, const CaseValue& v) { s.crossing.part = crossing_part(v); }});
+  keys.push_back({crossing_key("crossing"),
+                  [](SurfaceSource& s, const CaseValue& v) { s.crossing.part = crossing_part(v); },
+                  {},
+                  crossing_text});
   const CrossingInput fresh;
   for (const CrossingNumber& n : kCrossingNumbers)
     keys.push_back(with_default(
@@ -176,6 +215,13 @@ void add_parts(KeyList& list) {
     for (SurfaceSource& part : content_of<W>(c).rail.parts)
       if (auto* file = std::get_if<GeometryFile>(&part.geometry); file != nullptr && !file->file.empty())
         file->file = (folder / file->file).lexically_normal();
+  };
+  added.written = [written = added.written](const Case& c, const std::filesystem::path& folder) {
+    Case relative = c;
+    for (SurfaceSource& part : std::get<W>(relative.content).rail.parts)
+      if (auto* file = std::get_if<GeometryFile>(&part.geometry); file != nullptr && !file->file.empty())
+        file->file = relative_to(file->file, folder);
+    return written(relative, folder);
   };
   added.set_element = [set = added.set_element](Case& c, std::size_t index, const CaseTable& entries,
                                                 const SourcePosition& where) {

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <cmath>
 
 #include "treadmark/io/cases/key_builder.hpp"
 
@@ -8,6 +9,13 @@ namespace treadmark::io {
 namespace {
 
 using B = BasicCase;
+
+/// Of keys that say the same for a shift and for rolling, one is written.
+void written_in_regime(CaseKey& key, bool shift) {
+  key.written = [shift, written = key.written](const Case& c, const std::filesystem::path& folder) {
+    return (std::get<B>(c.content).regime == Regime::shift) == shift ? written(c, folder) : std::string();
+  };
+}
 
 void add_load(KeyList& list) {
   const auto vertical = [&](const std::string& name, KeyLimits limits, const std::string& doc, double B::*member,
@@ -20,6 +28,9 @@ void add_load(KeyList& list) {
     key.set = [member, force, unit = unit_of_key(name)](Case& c, const CaseValue& v, const std::filesystem::path&) {
       content_of<B>(c).*member = v.number() * unit;
       content_of<B>(c).normal_force_prescribed = force;
+    };
+    key.written = [force, written = key.written](const Case& c, const std::filesystem::path& folder) {
+      return std::get<B>(c.content).normal_force_prescribed == force ? written(c, folder) : std::string();
     };
   };
   vertical("normal_force_N", kPositive, "normal force (one of this and approach_mm is required)", &B::normal_force,
@@ -37,6 +48,11 @@ void add_load(KeyList& list) {
       content_of<B>(c).*member = v.number() * unit;
       (content_of<B>(c).*force).reset();
     };
+    key.written = [force, shift = name.starts_with("shift"), written = key.written](
+                      const Case& c, const std::filesystem::path& folder) {
+      const B& patch = std::get<B>(c.content);
+      return patch.*force || (patch.regime == Regime::shift) != shift ? std::string() : written(c, folder);
+    };
   };
   const auto forced = [&](const std::string& name, const std::string& doc, const std::string& direction,
                           double B::*member, std::optional<double> B::*force) {
@@ -46,9 +62,14 @@ void add_load(KeyList& list) {
     info.group = "patch " + direction;
     info.alternative = name;
     info.scope = KeyScope::patch;
-    list.add(info).set = [member, force](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    CaseKey& key = list.add(info);
+    key.set = [member, force](Case& c, const CaseValue& v, const std::filesystem::path&) {
       content_of<B>(c).*force = v.number();
       content_of<B>(c).*member = 0.0;
+    };
+    key.written = [force](const Case& c, const std::filesystem::path&) {
+      const auto& value = std::get<B>(c.content).*force;
+      return value ? exact_text(*value, 1.0) : std::string();
     };
   };
   driven("creepage_x", "longitudinal creepage (rail - wheel)/V", "x", &B::xi, &B::fx_relative);
@@ -64,11 +85,17 @@ void add_load(KeyList& list) {
     KeyInfo& info = list.number<B>("patch." + name, kAnyNumber, doc, [](B& c) -> double& { return c.phi; });
     info.group = "patch rotation";
     info.alternative = name;
+    written_in_regime(list.keys.back(), name.starts_with("shift"));
   }
   list.number<B>("patch.spin_center_x_mm", kAnyNumber, "x of the point about which the spin acts",
                  [](B& c) -> double& { return c.spin_x; });
   list.number<B>("patch.spin_center_y_mm", kAnyNumber, "y of the point about which the spin acts",
                  [](B& c) -> double& { return c.spin_y; });
+  list.choice<B, SpinSlip>(
+      "patch.spin_slip",
+      {{"both", SpinSlip::both}, {"longitudinal", SpinSlip::longitudinal}, {"lateral", SpinSlip::lateral}},
+      "rigid slip that the spin makes: in both directions, or in one only",
+      [](B& c) -> SpinSlip& { return c.spin_slip; });
 }
 
 void add_rolling(KeyList& list) {
@@ -95,6 +122,7 @@ void add_extra_slip(KeyList& list) {
         list.number_list<B>("patch." + name, doc, [member](B& c) -> std::vector<double>& { return c.*member; });
     info.group = "patch extra " + axis;
     info.alternative = name;
+    written_in_regime(list.keys.back(), name.starts_with("extra_shift"));
   };
   component("extra_slip_x", "x", "rigid slip in x added to every element (x fastest), relative to the rolling velocity",
             &B::extra_slip_x);
@@ -124,6 +152,14 @@ GapInput& gap(B& c) {
   return std::get<GapInput>(c.geometry);
 }
 
+/// Looking for the one would make it out of the other.
+template <class Geometry>
+void written_with(CaseKey& key) {
+  key.written = [written = key.written](const Case& c, const std::filesystem::path& folder) {
+    return std::holds_alternative<Geometry>(std::get<B>(c.content).geometry) ? written(c, folder) : std::string();
+  };
+}
+
 /// Full matrix with 1 on the diagonal from what stands above it, row by row; a list that fills no triangle stays as it
 /// is.
 std::vector<double> symmetric(const std::vector<double>& above) {
@@ -135,6 +171,14 @@ std::vector<double> symmetric(const std::vector<double>& above) {
   for (std::size_t i = 0; i < size; ++i)
     for (std::size_t j = i + 1; j < size; ++j) full[i * size + j] = full[j * size + i] = above[next++];
   return full;
+}
+
+std::vector<double> above_diagonal(const std::vector<double>& full) {
+  const auto size = static_cast<std::size_t>(std::lround(std::sqrt(static_cast<double>(full.size()))));
+  std::vector<double> above;
+  for (std::size_t i = 0; i < size; ++i)
+    for (std::size_t j = i + 1; j < size; ++j) above.push_back(full.at(i * size + j));
+  return above;
 }
 
 void add_geometry(KeyList& list) {
@@ -160,10 +204,17 @@ void add_geometry(KeyList& list) {
                          {"semi_double_elliptic", Given::semi_double_elliptic}},
                         "Hertzian contact: what describes it (the grid follows from it, mx, my and scale)",
                         [](B& c) -> Given& { return hertz(c).given; });
+  written_with<HertzInput>(list.keys.back());
   const auto hertz_number = [&](const std::string& name, const std::string& doc, double HertzInput::*member) {
     KeyInfo& info =
         list.number<B>("patch.hertz." + name, kPositive, doc, [member](B& c) -> double& { return hertz(c).*member; });
     if (info.default_text == "0") info.default_text.clear();
+    written_with<HertzInput>(list.keys.back());
+    list.keys.back().written = [written = list.keys.back().written](const Case& c,
+                                                                    const std::filesystem::path& folder) {
+      const std::string text = written(c, folder);
+      return text == "0" ? std::string() : text;  // not given
+    };
   };
   hertz_number("curvature_x_per_m", "A = 1/(2 R_x), all but semi-axes cases", &HertzInput::a1);
   hertz_number("curvature_y_per_m", "B = 1/(2 R_y), \"curvatures\"", &HertzInput::b1);
@@ -191,8 +242,10 @@ void add_geometry(KeyList& list) {
                         {"per_element", Kind::per_element}},
                        "undeformed distance by formula or for every element",
                        [](B& c) -> Kind& { return gap(c).kind; });
+  written_with<GapInput>(list.keys.back());
   list.number_list<B>("patch.gap.coefficients_si", "coefficients of the undeformed distance in SI units, see below",
                       [](B& c) -> std::vector<double>& { return gap(c).coefficients; });
+  written_with<GapInput>(list.keys.back());
 }
 
 void add_planform(KeyList& list) {
@@ -213,14 +266,25 @@ void add_planform(KeyList& list) {
                                         [](B& c) -> std::vector<double>& { return c.planform.coefficients; });
     info.group = "patch planform";
     info.alternative = name;
+    CaseKey& key = list.keys.back();
+    key.written = [quadratic = name == "coefficients_si", written = key.written](const Case& c,
+                                                                                 const std::filesystem::path& folder) {
+      const bool is_quadratic = std::get<B>(c.content).planform.kind == Kind::quadratic;
+      return is_quadratic == quadratic ? written(c, folder) : std::string();
+    };
   }
   KeyInfo coupling = key_info("patch.planform.coupling", KeyType::number_list,
                               "sub_patches: factor on the influence between each two of them: 1-2, 1-3, ..., 2-3, ...");
   coupling.scope = KeyScope::patch;
   coupling.at_least = 0.0;
   coupling.at_most = 1.0;
-  list.add(coupling).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& factors = list.add(coupling);
+  factors.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<B>(c).planform.coupling = symmetric(numbers_of(v, 1.0));
+  };
+  factors.written = [](const Case& c, const std::filesystem::path&) {
+    const std::vector<double> above = above_diagonal(std::get<B>(c.content).planform.coupling);
+    return above.empty() ? std::string() : exact_list(above, 1.0);
   };
 }
 

@@ -1,8 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
+#include <cmath>
 #include <utility>
 
+#include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/shared_keys.hpp"
 
 namespace treadmark::io {
@@ -32,8 +34,13 @@ class ShapeKeys {
     backend.pattern = kBackendPattern;
     backend.matches = is_backend_name;
     backend.scope = KeyScope::wheel_rail;
-    list_.add(backend).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    CaseKey& representation = list_.add(backend);
+    representation.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       (content_of<W>(c).*surface).backend = v.text();
+    };
+    representation.written = [surface = surface_](const Case& c, const std::filesystem::path&) {
+      const std::string& name = (std::get<W>(c.content).*surface).backend;
+      return name.empty() ? name : toml_text(name);
     };
     list_
         .number<W>(fmt::format("{}.resolution_mm", body_), kPositive,
@@ -53,7 +60,12 @@ class ShapeKeys {
     KeyInfo file = info("file", KeyType::path, "profile or slices file, relative to the folder of the case file");
     file.group = prefix_;
     file.alternative = "file";
-    list_.add(file).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
+    CaseKey& named = list_.add(file);
+    named.written = [surface = surface_](const Case& c, const std::filesystem::path& folder) {
+      const auto* given = std::get_if<GeometryFile>(&(std::get<W>(c.content).*surface).geometry);
+      return given == nullptr ? std::string() : written_path(given->file, folder);
+    };
+    named.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path& folder) {
       SurfaceSource& s = content_of<W>(c).*surface;
       if (!std::holds_alternative<GeometryFile>(s.geometry)) s.geometry = GeometryFile{};
       std::string name = v.text();
@@ -66,7 +78,12 @@ class ShapeKeys {
     standard.choices = {standard_};
     standard.group = prefix_;
     standard.alternative = "standard";
-    list_.add(standard).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    CaseKey& published = list_.add(standard);
+    published.written = [surface = surface_](const Case& c, const std::filesystem::path&) {
+      const auto* given = std::get_if<StandardProfile>(&(std::get<W>(c.content).*surface).geometry);
+      return given == nullptr ? std::string() : toml_text(given->name);
+    };
+    published.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       SurfaceSource& s = content_of<W>(c).*surface;
       s.geometry = StandardProfile{v.text()};
       s.where = v.where;
@@ -94,6 +111,11 @@ class ShapeKeys {
           throw Error(ErrorKind::configuration, name + " belongs to a shape given by arcs", v.where);
         chain->*member = v.number() * unit;
       };
+      added.written = [surface = surface_, member, unit = unit_of_key(name)](const Case& c,
+                                                                             const std::filesystem::path&) {
+        const auto* chain = std::get_if<ArcChain>(&(std::get<W>(c.content).*surface).geometry);
+        return chain == nullptr || chain->*member == 0.0 ? std::string() : exact_text(chain->*member, unit);
+      };
       return added.info;
     };
     start("start_y_mm", "y where the chain of arcs starts", &ArcChain::start_y);
@@ -106,12 +128,17 @@ class ShapeKeys {
     }
   }
 
-  /// change: ProfileOptions&, const CaseValue&.
-  template <class Change>
-  void option(KeyInfo key, Change change) {
+  /// change: ProfileOptions&, const CaseValue&; written: const ProfileOptions& -> TOML, empty where the default is
+  /// meant.
+  template <class Change, class Written>
+  void option(KeyInfo key, Change change, Written written) {
     const std::string path = key.path;
-    list_.add(std::move(key)).set = [surface = surface_, change, path](Case& c, const CaseValue& v,
-                                                                       const std::filesystem::path&) {
+    CaseKey& added = list_.add(std::move(key));
+    added.written = [surface = surface_, written](const Case& c, const std::filesystem::path&) {
+      const auto* file = std::get_if<GeometryFile>(&(std::get<W>(c.content).*surface).geometry);
+      return file == nullptr ? std::string() : std::string(written(file->options));
+    };
+    added.set = [surface = surface_, change, path](Case& c, const CaseValue& v, const std::filesystem::path&) {
       GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
       if (file == nullptr) throw Error(ErrorKind::configuration, path + " belongs to a shape given by a file", v.where);
       change(file->options, v);
@@ -123,7 +150,12 @@ class ShapeKeys {
         info("open_seam", KeyType::flag,
              "slices all round: constant between the last and the first one, instead of smooth over the seam");
     seam.default_text = "false";
-    list_.add(seam).set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
+    CaseKey& open = list_.add(seam);
+    open.text = [surface = surface_](const Case& c) {
+      const auto* file = std::get_if<GeometryFile>(&(std::get<W>(c.content).*surface).geometry);
+      return std::string(file != nullptr && file->open_seam ? "true" : "false");
+    };
+    open.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {
       GeometryFile* file = std::get_if<GeometryFile>(&(content_of<W>(c).*surface).geometry);
       if (file == nullptr)
         throw Error(ErrorKind::configuration, "wheel.shape.open_seam belongs to a shape given by a file", v.where);
@@ -136,17 +168,26 @@ class ShapeKeys {
     const ProfileOptions fresh;
     KeyInfo mirror_y = info("mirror_y", KeyType::flag, "negate y of the file");
     mirror_y.default_text = "false";
-    option(mirror_y, [](ProfileOptions& o, const CaseValue& v) { o.mirror_y = v.flag() ? 1 : 0; });
+    option(
+        mirror_y, [](ProfileOptions& o, const CaseValue& v) { o.mirror_y = v.flag() ? 1 : 0; },
+        [](const ProfileOptions& o) { return o.mirror_y == 1 ? "true" : ""; });
     KeyInfo mirror_z = info("mirror_z", KeyType::choice, "negate z of the file; automatic: decide from the data");
     mirror_z.choices = {"automatic", "yes", "no"};
     mirror_z.default_text = "\"automatic\"";
-    option(mirror_z, [](ProfileOptions& o, const CaseValue& v) {
-      o.mirror_z = v.text() == "yes" ? 1 : v.text() == "no" ? -1 : 0;
-    });
+    option(
+        mirror_z,
+        [](ProfileOptions& o, const CaseValue& v) { o.mirror_z = v.text() == "yes"  ? 1
+                                                                 : v.text() == "no" ? -1
+                                                                                    : 0; },
+        [](const ProfileOptions& o) { return o.mirror_z > 0   ? "\"yes\""
+                                             : o.mirror_z < 0 ? "\"no\""
+                                                              : ""; });
     KeyInfo scale = info("scale_to_mm", KeyType::number, "factor from file units to mm (1000 for a file in m)");
     scale.at_least = 1e-6;
     scale.default_text = "1";
-    option(scale, [](ProfileOptions& o, const CaseValue& v) { o.scale = v.number(); });
+    option(
+        scale, [](ProfileOptions& o, const CaseValue& v) { o.scale = v.number(); },
+        [](const ProfileOptions& o) { return o.scale == 1.0 ? std::string() : exact_text(o.scale, 1.0); });
 
     KeyInfo lambda = info("smoothing_lambda_mm3", KeyType::number,
                           "smoothing parameter of an unweighted smoothing spline; 0 = interpolate");
@@ -158,52 +199,101 @@ class ShapeKeys {
       key->alternative = key->path;
     }
     lambda.default_text = "0";
-    option(lambda, [](ProfileOptions& o, const CaseValue& v) {
-      o.smoothing.method = Method::spline;
-      o.smoothing.strength = v.number() * unit_of_key("lambda_mm3");
-    });
-    option(wavelength, [](ProfileOptions& o, const CaseValue& v) {
-      if (o.smoothing.method == Method::spline) o.smoothing.method = Method::weighted_spline;
-      o.smoothing.strength = v.number() * unit_of_key("wavelength_mm");
-    });
+    option(
+        lambda,
+        [](ProfileOptions& o, const CaseValue& v) {
+          o.smoothing.method = Method::spline;
+          o.smoothing.strength = v.number() * unit_of_key("lambda_mm3");
+        },
+        [](const ProfileOptions& o) {
+          return o.smoothing.method != Method::spline || o.smoothing.strength == 0.0
+                     ? std::string()
+                     : exact_text(o.smoothing.strength, unit_of_key("lambda_mm3"));
+        });
+    option(
+        wavelength,
+        [](ProfileOptions& o, const CaseValue& v) {
+          if (o.smoothing.method == Method::spline) o.smoothing.method = Method::weighted_spline;
+          o.smoothing.strength = v.number() * unit_of_key("wavelength_mm");
+        },
+        [](const ProfileOptions& o) {
+          return o.smoothing.method == Method::spline ? std::string()
+                                                      : exact_text(o.smoothing.strength, unit_of_key("wavelength_mm"));
+        });
     KeyInfo method =
         info("smoothing_method", KeyType::choice, "with smoothing_wavelength_mm: kind of weighted smoothing spline");
     method.choices = {"weighted_spline", "weighted_bspline"};
     method.default_text = "\"weighted_spline\"";
-    option(method, [](ProfileOptions& o, const CaseValue& v) {
-      if (o.smoothing.method == Method::spline)
-        throw Error(ErrorKind::configuration, "smoothing_method needs smoothing_wavelength_mm", v.where);
-      o.smoothing.method = v.text() == "weighted_bspline" ? Method::weighted_bspline : Method::weighted_spline;
-    });
+    option(
+        method,
+        [](ProfileOptions& o, const CaseValue& v) {
+          if (o.smoothing.method == Method::spline)
+            throw Error(ErrorKind::configuration, "smoothing_method needs smoothing_wavelength_mm", v.where);
+          o.smoothing.method = v.text() == "weighted_bspline" ? Method::weighted_bspline : Method::weighted_spline;
+        },
+        [](const ProfileOptions& o) {
+          return o.smoothing.method == Method::weighted_bspline ? "\"weighted_bspline\"" : "";
+        });
 
-    const auto angle = [&](const std::string& name, const std::string& doc, double initial, double least, auto change) {
+    // written: of the options, NaN where nothing is to be said.
+    const auto angle = [&](const std::string& name, const std::string& doc, double initial, double least, auto change,
+                           auto written) {
       KeyInfo key = info(name, KeyType::number, doc);
       key.at_least = least;
       key.at_most = 180.0;
       key.default_text = fmt::format("{:.10g}", initial / unit_of_key("x_deg"));
-      option(key, [change](ProfileOptions& o, const CaseValue& v) { change(o, v.number() * unit_of_key("x_deg")); });
+      option(
+          key, [change](ProfileOptions& o, const CaseValue& v) { change(o, v.number() * unit_of_key("x_deg")); },
+          [written](const ProfileOptions& o) {
+            const double value = written(o);
+            return std::isnan(value) ? std::string() : exact_text(value, unit_of_key("x_deg"));
+          });
     };
     constexpr double kLeastKink = 0.01, kLeastZigzag = 45.0;
-    angle("kink_high_deg", "turning angle above which a point may be a kink; sets kink_low_deg to a fifth",
-          fresh.smoothing.kink_high, kLeastKink, [](ProfileOptions& o, double value) {
-            o.smoothing.kink_high = value;
-            o.smoothing.kink_low = value / 5.0;
-          });
-    angle("kink_low_deg", "turning angle below which the neighbours of a kink must stay", fresh.smoothing.kink_low,
-          kLeastKink / 5.0, [](ProfileOptions& o, double value) { o.smoothing.kink_low = value; });
+    angle(
+        "kink_high_deg", "turning angle above which a point may be a kink; sets kink_low_deg to a fifth",
+        fresh.smoothing.kink_high, kLeastKink,
+        [](ProfileOptions& o, double value) {
+          o.smoothing.kink_high = value;
+          o.smoothing.kink_low = value / 5.0;
+        },
+        [fresh](const ProfileOptions& o) {
+          return o.smoothing.kink_high == fresh.smoothing.kink_high ? kNaN : o.smoothing.kink_high;
+        });
+    angle(
+        "kink_low_deg", "turning angle below which the neighbours of a kink must stay", fresh.smoothing.kink_low,
+        kLeastKink / 5.0, [](ProfileOptions& o, double value) { o.smoothing.kink_low = value; },
+        [fresh](const ProfileOptions& o) {
+          const bool usual =
+              o.smoothing.kink_low == fresh.smoothing.kink_low && o.smoothing.kink_high == fresh.smoothing.kink_high;
+          return usual ? kNaN : o.smoothing.kink_low;
+        });
     KeyInfo width =
         info("kink_width_mm", KeyType::number, "arc length on both sides of a kink in which neighbours are looked at");
-    width.above = 0.0;
+    width.at_least = 0.0;
     width.default_text = fmt::format("{:.10g}", fresh.smoothing.kink_width / unit_of_key("x_mm"));
-    option(width,
-           [](ProfileOptions& o, const CaseValue& v) { o.smoothing.kink_width = v.number() * unit_of_key("x_mm"); });
-    angle("zigzag_threshold_deg", "two successive turns sharper than this are a zig-zag and averaged",
-          fresh.zigzag_threshold, kLeastZigzag, [](ProfileOptions& o, double value) { o.zigzag_threshold = value; });
+    option(
+        width, [](ProfileOptions& o, const CaseValue& v) { o.smoothing.kink_width = v.number() * unit_of_key("x_mm"); },
+        [fresh](const ProfileOptions& o) {
+          return o.smoothing.kink_width == fresh.smoothing.kink_width
+                     ? std::string()
+                     : exact_text(o.smoothing.kink_width, unit_of_key("x_mm"));
+        });
+    angle(
+        "zigzag_threshold_deg", "two successive turns sharper than this are a zig-zag and averaged",
+        fresh.zigzag_threshold, kLeastZigzag, [](ProfileOptions& o, double value) { o.zigzag_threshold = value; },
+        [fresh](const ProfileOptions& o) {
+          return o.zigzag_threshold == fresh.zigzag_threshold ? kNaN : o.zigzag_threshold;
+        });
     KeyInfo omit = info("max_omit", KeyType::number, "share of points that cleaning may remove");
     omit.at_least = 0.0;
     omit.at_most = 1.0;
     omit.default_text = fmt::format("{:.10g}", fresh.max_omit);
-    option(omit, [](ProfileOptions& o, const CaseValue& v) { o.max_omit = v.number(); });
+    option(
+        omit, [](ProfileOptions& o, const CaseValue& v) { o.max_omit = v.number(); },
+        [fresh](const ProfileOptions& o) {
+          return o.max_omit == fresh.max_omit ? std::string() : exact_text(o.max_omit, 1.0);
+        });
   }
 
   KeyList& list_;

@@ -35,6 +35,10 @@ void add_track(KeyList& list) {
     t.gauge_width = v.number() * unit_of_key("gauge_mm");
     t.gauge_based = true;
   };
+  gauge.written = [](const Case& c, const std::filesystem::path&) {
+    const Track& t = std::get<W>(c.content).track;
+    return t.gauge_based ? exact_text(t.gauge_width, unit_of_key("gauge_mm")) : std::string();
+  };
   list.number<W>("track.gauge_height_mm", kPositive, "depth below the rail top at which the gauge is measured",
                  [](W& c) -> double& { return c.track.gauge_height; });
   const auto absolute = [&](const std::string& name, const std::string& doc, double Track::*member) {
@@ -46,6 +50,10 @@ void add_track(KeyList& list) {
       Track& t = content_of<W>(c).track;
       t.*member = v.number() * unit_of_key("y_mm");
       t.gauge_based = false;
+    };
+    key.written = [member](const Case& c, const std::filesystem::path&) {
+      const Track& t = std::get<W>(c.content).track;
+      return t.gauge_based ? std::string() : exact_text(t.*member, unit_of_key("y_mm"));
     };
   };
   absolute("rail_y_mm", "rail profile origin placed at this y instead of by the gauge", &Track::rail_y0);
@@ -96,8 +104,13 @@ void add_wheelset(KeyList& list) {
   KeyInfo tape = key_info("wheelset.tape_line_y_mm", KeyType::number,
                           "y of the tape line in wheel profile coordinates; without it the profile's z = 0 counts");
   tape.scope = KeyScope::wheel_rail;
-  list.add(tape).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& line = list.add(tape);
+  line.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).wheelset.tape_line = v.number() * unit_of_key("y_mm");
+  };
+  line.written = [](const Case& c, const std::filesystem::path&) {
+    const auto& y = std::get<W>(c.content).wheelset.tape_line;
+    return y ? exact_text(*y, unit_of_key("y_mm")) : std::string();
   };
   list.number<W>("wheelset.s_mm", kAnyNumber, "position along the track",
                  [](W& c) -> double& { return c.state.position.x; });
@@ -113,6 +126,9 @@ void add_wheelset(KeyList& list) {
       W& content = content_of<W>(c);
       place(content) = v.number() * unit;
       content.vertical_force_prescribed = force;
+    };
+    key.written = [force, written = key.written](const Case& c, const std::filesystem::path& folder) {
+      return std::get<W>(c.content).vertical_force_prescribed == force ? written(c, folder) : std::string();
     };
   };
   vertical(
@@ -144,14 +160,22 @@ void add_wheelset(KeyList& list) {
     content_of<W>(c).state.velocity.pitch = v.number();
     content_of<W>(c).longitudinal_force.reset();
   };
+  rate.written = [written = rate.written](const Case& c, const std::filesystem::path& folder) {
+    return std::get<W>(c.content).longitudinal_force ? std::string() : written(c, folder);
+  };
   KeyInfo force = key_info(
       "wheelset.longitudinal_force_N", KeyType::number,
       "longitudinal force on the rail in wheelset axes; the pitch rate is then sought (positive: the wheel brakes)");
   force.scope = KeyScope::wheel_rail;
   force.group = "wheelset pitch rate";
   force.alternative = "force";
-  list.add(force).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& longitudinal = list.add(force);
+  longitudinal.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).longitudinal_force = v.number();
+  };
+  longitudinal.written = [](const Case& c, const std::filesystem::path&) {
+    const auto& fx = std::get<W>(c.content).longitudinal_force;
+    return fx ? exact_text(*fx, 1.0) : std::string();
   };
 }
 
@@ -198,8 +222,13 @@ void add_discretisation(KeyList& list) {
   KeyInfo turning = key_info("discretisation.turning_mm", KeyType::number,
                              "patches nearer than this get similar contact angles; default 2 separation - combination");
   turning.scope = KeyScope::wheel_rail;
-  list.add(turning).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& turned = list.add(turning);
+  turned.set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
     content_of<W>(c).discretisation.turning = v.number() * unit_of_key("turning_mm");
+  };
+  turned.written = [](const Case& c, const std::filesystem::path&) {
+    const auto& distance = std::get<W>(c.content).discretisation.turning;
+    return distance ? exact_text(*distance, unit_of_key("turning_mm")) : std::string();
   };
   list.number<W>("discretisation.near_miss_mm", kAnyNumber,
                  "near misses with a smaller gap extend a patch; negative = off",
@@ -220,16 +249,21 @@ void add_discretisation(KeyList& list) {
                "locus of constant profiles too");
   prune.scope = KeyScope::wheel_rail;
   prune.default_text = "true";
-  list.add(prune).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    content_of<W>(c).discretisation.prune = v.flag();
+  const auto add_flag = [&](const KeyInfo& info, bool DiscretisationInput::*member) {
+    CaseKey& key = list.add(info);
+    key.set = [member](Case& c, const CaseValue& v, const std::filesystem::path&) {
+      content_of<W>(c).discretisation.*member = v.flag();
+    };
+    key.text = [member](const Case& c) {
+      return std::string(std::get<W>(c.content).discretisation.*member ? "true" : "false");
+    };
   };
+  add_flag(prune, &DiscretisationInput::prune);
   KeyInfo mesh = key_info("discretisation.reference_search_mesh", KeyType::flag,
                           "search on the coarse mesh of the reference program (for comparison)");
   mesh.scope = KeyScope::wheel_rail;
   mesh.default_text = "false";
-  list.add(mesh).set = [](Case& c, const CaseValue& v, const std::filesystem::path&) {
-    content_of<W>(c).discretisation.reference_search_mesh = v.flag();
-  };
+  add_flag(mesh, &DiscretisationInput::reference_search_mesh);
 }
 
 }  // namespace

@@ -180,14 +180,18 @@ struct GapInput {
   std::vector<double> coefficients;
 };
 
+/// In which direction the spin of a patch makes its surfaces slide.
+enum class SpinSlip { both, longitudinal, lateral };
+
 /// One patch with given geometry (module 3).
 struct BasicCase {
   bool normal_force_prescribed = true;
-  double normal_force = 0.0;                       ///< [N]
-  double approach = 0.0;                           ///< [m]
-  double xi = 0.0, eta = 0.0;                      ///< creepage [-]; shift: [m]
-  double phi = 0.0;                                ///< [rad/m]; shift: [rad]
-  double spin_x = 0.0, spin_y = 0.0;               ///< [m]
+  double normal_force = 0.0;          ///< [N]
+  double approach = 0.0;              ///< [m]
+  double xi = 0.0, eta = 0.0;         ///< creepage [-]; shift: [m]
+  double phi = 0.0;                   ///< [rad/m]; shift: [rad]
+  double spin_x = 0.0, spin_y = 0.0;  ///< [m]
+  SpinSlip spin_slip = SpinSlip::both;
   std::optional<double> fx_relative, fy_relative;  ///< prescribed forces over mu F_n
   Regime regime = Regime::frictionless;
   NormalModel normal_model = NormalModel::full;

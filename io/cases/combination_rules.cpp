@@ -66,7 +66,8 @@ class Rules {
   }
 
   void tangential_model(const BasicCase& c) {
-    simplified_theory(found_, c, !c.friction_of_row.empty(), !c.extra_slip_x.empty());
+    simplified_theory(found_, c, !c.friction_of_row.empty(),
+                      !c.extra_slip_x.empty() || (c.spin_slip != SpinSlip::both && c.phi != 0.0));
     refuse_if(c.tangential_model == TangentialModel::fastsim_one_flexibility && !(c.fastsim.flexibility > 0.0),
               CaseSetting::material, "FASTSIM with one flexibility needs that flexibility",
               "FLX in .inp, patch.fastsim_flexibility_mm_per_MPa in .toml");

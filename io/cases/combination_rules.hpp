@@ -50,6 +50,8 @@ struct RolledStep {
   /// What does not fit, in words; empty if all is well or nothing moves.
   std::string complaint() const;
 };
+/// What a case takes over from the one before it is not quite what was there, in words; empty if all is well.
+std::string doubt_about_history(const Case& previous, const Case& next);
 /// None unless next is transient rolling of a wheel on a rail that goes on from previous.
 std::optional<RolledStep> rolled_step(const Case& previous, const Case& next);
 

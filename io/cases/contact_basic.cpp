@@ -50,6 +50,7 @@ void read_extra_slip(ContactReader& r) {
   if (digit == 1) return;
   kept.extra_slip_x.clear();
   kept.extra_slip_y.clear();
+  kept.spin_slip = digit == 2 ? SpinSlip::longitudinal : digit == 3 ? SpinSlip::lateral : SpinSlip::both;
   if (digit != 9) return;
   r.text.begin_record("the extra rigid slip");
   for (long i = 0; i < elements(kept.basic); ++i) {
@@ -61,6 +62,7 @@ void read_extra_slip(ContactReader& r) {
 void put_extra_slip(const ContactReader& r, BasicCase& b) {
   b.extra_slip_x = r.kept.extra_slip_x;
   b.extra_slip_y = r.kept.extra_slip_y;
+  b.spin_slip = r.kept.spin_slip;
   if (!b.extra_slip_x.empty() && static_cast<long>(b.extra_slip_x.size()) != elements(b))
     r.fail_at(*r.model, "EXRHS",
               "keeps the extra rigid slip of every element although the number of elements has changed", "use E = 9");
@@ -133,8 +135,8 @@ BasicCase read_basic(ContactReader& r) {
   if (r.kept.potential_contact == 0)
     r.fail_at(model, "DISCNS", "keeps the potential contact, but no earlier case has given it",
               "use D = 2 in the first case");
-  if (model["FRCLAW"] != 1 && by_row) r.read_friction(r.kept.basic.my);
   if (r.kept.potential_contact > 0 && model["RZNORM"] == 2) read_gap(r);
+  if (model["FRCLAW"] != 1 && by_row) r.read_friction(r.kept.basic.my);
   read_extra_slip(r);
   r.read_subsurface();
 

@@ -69,6 +69,7 @@ struct ContactSequence {
   long gap_elements = 0;  ///< elements that a per-element gap belongs to
   /// Extra rigid slip as written: [-], with a shift [mm].
   std::vector<double> extra_slip_x, extra_slip_y;
+  SpinSlip spin_slip = SpinSlip::both;
 };
 
 /// One case while it is read: the digits, the kept values and what turned out to be unsupported.

@@ -64,13 +64,14 @@ void ContactReader::read_control_words() {
       if (d.support == DigitSupport::no)
         refuse(word->where(keyword),
                fmt::format("{} ({}) = {}, {}, is not supported", d.letter, d.keyword, (*word)[keyword], d.meaning),
-               keyword == "EXRHS" ? "give the extra rigid slip of every element with E = 9" : "");
+               d.condition.empty() ? "" : fmt::format("use {}", d.condition));
     }
   if (module == 3 && damping >= 2)
     refuse(damping_where,
-           fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported in module 3", damping));
+           fmt::format("M2 (second integer of the line VLDCMZE) = {}, damping, is not supported in module 3", damping),
+           "use M2 = 0, or module 1");
   if (module == 3 && damping == 1 && kept.damping)
-    refuse(damping_where, "M2 = 1, keep damping, is not supported in module 3");
+    refuse(damping_where, "M2 = 1, keep damping, is not supported in module 3", "use M2 = 0, or module 1");
 
   if (!kept.started && (*problem)["PVTIME"] != 2)
     note(fmt::format("P (PVTIME) = {} of the first case at {} is taken as 2: there is nothing to continue",

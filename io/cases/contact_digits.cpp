@@ -33,6 +33,7 @@ constexpr DigitValue kDigits[] = {
     {1, 'N', "NORM", 1, yes, "vertical force given"},
     {1, 'F', "FORCE", 0, yes, "pitch rate given"},
     {1, 'F', "FORCE", 1, maybe, "longitudinal force given", "T = 1 ... 3"},
+    {1, 'F', "FORCE", 2, no, "moment about the axle given", "F = 1 with a force, or F = 0"},
     {1, 'F', "FORCE", 3, maybe, "massless rail", "KYRAIL > 0; with N = 0 KZRAIL > 0"},
     {1, 'S', "STRESS", 0, yes, "no subsurface stresses"},
     {1, 'S', "STRESS", 1, maybe, "subsurface stresses, stored points", "after a case with S = 3"},
@@ -46,6 +47,7 @@ constexpr DigitValue kDigits[] = {
     {1, 'L', "FRCLAW", 2, yes, "linear falling friction"},
     {1, 'L', "FRCLAW", 3, yes, "rational falling friction"},
     {1, 'L', "FRCLAW", 4, yes, "exponential falling friction"},
+    {1, 'L', "FRCLAW", 5, yes, "Polach's falling friction: FSTAT A B"},
     {1, 'L', "FRCLAW", 6, maybe, "temperature-dependent friction", "needs H = 1 or 3"},
     {1, 'D', "DISCNS", 0, yes, "keep the discretisation"},
     {1, 'D', "DISCNS", 1, yes, "keep the discretisation"},
@@ -55,16 +57,16 @@ constexpr DigitValue kDigits[] = {
     {1, 'D', "DISCNS", 5, yes, "contact search on a grid"},
     {1, 'D', "DISCNS", 6, yes, "contact search on a grid, steep slopes"},
     {1, 'D', "DISCNS", 7, yes, "reference at the initial contact point"},
-    {1, 'D', "DISCNS", 8, no, "oblique contact search"},
-    {1, 'D', "DISCNS", 9, no, "oblique contact search"},
+    {1, 'D', "DISCNS", 8, no, "oblique contact search", "D = 6, a grid for steep slopes"},
+    {1, 'D', "DISCNS", 9, no, "oblique contact search", "D = 6, a grid for steep slopes"},
     {1, 'C', "INFLCF", 0, yes, "keep material and influence coefficients"},
     {1, 'C', "INFLCF", 1, yes, "keep material and influence coefficients"},
-    {1, 'C', "INFLCF", 9, no, "numerical influence coefficients"},
+    {1, 'C', "INFLCF", 9, no, "numerical influence coefficients", "C = 4 with D = 4, or module 3"},
     {1, 'M', "MATER", 0, yes, "elastic"},
     {1, 'M', "MATER", 1, maybe, "viscoelastic", "T = 0, 3, rolling forward; C = 2, K = 0"},
     {1, 'M', "MATER", 4, maybe, "elastic with interface layer", "rolling with a layer that yields: DQREL = 1"},
-    {1, 'M', "MATER", 6, no, "undocumented material"},
-    {1, 'M', "MATER", 7, no, "undocumented material"},
+    {1, 'M', "MATER", 6, no, "a forerunner of FaStrip", "M = 5, FaStrip"},
+    {1, 'M', "MATER", 7, no, "a forerunner of FaStrip", "M = 5, FaStrip"},
     {1, 'Z', "ZTRACK", 0, yes, "keep the track"},
     {1, 'Z', "ZTRACK", 1, yes, "read track dimensions and rail profile"},
     {1, 'Z', "ZTRACK", 2, yes, "read track deviations"},
@@ -99,6 +101,7 @@ constexpr DigitValue kDigits[] = {
     {3, 'L', "FRCLAW", 2, yes, "linear falling friction"},
     {3, 'L', "FRCLAW", 3, yes, "rational falling friction"},
     {3, 'L', "FRCLAW", 4, yes, "exponential falling friction"},
+    {3, 'L', "FRCLAW", 5, yes, "Polach's falling friction: FSTAT A B"},
     {3, 'L', "FRCLAW", 6, maybe, "temperature-dependent friction", "needs H = 1 or 3"},
     {3, 'D', "DISCNS", 0, yes, "keep the potential contact"},
     {3, 'D', "DISCNS", 1, yes, "recompute the potential contact"},
@@ -109,15 +112,15 @@ constexpr DigitValue kDigits[] = {
     {3, 'M', "MATER", 1, maybe, "viscoelastic", "T = 0, 3 with CHI = 0, C = 2, K = 0"},
     {3, 'M', "MATER", 4, maybe, "elastic with interface layer",
      "rolling with a layer that yields: DQ = DX, CHI = 0 or 180d"},
-    {3, 'M', "MATER", 6, no, "undocumented material"},
-    {3, 'M', "MATER", 7, no, "undocumented material"},
+    {3, 'M', "MATER", 6, no, "a forerunner of FaStrip", "M = 5, FaStrip"},
+    {3, 'M', "MATER", 7, no, "a forerunner of FaStrip", "M = 5, FaStrip"},
     {3, 'Z', "RZNORM", 0, yes, "keep the undeformed distance"},
     {3, 'Z', "RZNORM", 1, yes, "recompute the undeformed distance"},
     {3, 'Z', "RZNORM", 2, yes, "read the undeformed distance"},
     {3, 'E', "EXRHS", 0, yes, "no extra rigid slip"},
     {3, 'E', "EXRHS", 1, yes, "keep the extra rigid slip"},
-    {3, 'E', "EXRHS", 2, no, "spin removed from the lateral rigid slip"},
-    {3, 'E', "EXRHS", 3, no, "spin removed from the longitudinal rigid slip"},
+    {3, 'E', "EXRHS", 2, maybe, "spin removed from the lateral rigid slip", "M = 0, 1, 4"},
+    {3, 'E', "EXRHS", 3, maybe, "spin removed from the longitudinal rigid slip", "M = 0, 1, 4"},
     {3, 'E', "EXRHS", 9, yes, "extra rigid slip of every element"},
     {3, 'H', "HEAT", 1, maybe, "surface temperatures, kept data", "T = 3 only"},
     {3, 'H', "HEAT", 3, maybe, "surface temperatures", "T = 3 only"},
@@ -172,6 +175,15 @@ const DigitValue* find_digit(int module, std::string_view keyword, int value) {
   return nullptr;
 }
 
+/// Advice: what may stand there instead.
+std::string values_that_exist(int module, std::string_view keyword) {
+  std::string text;
+  for (const DigitValue& d : contact_digits())
+    if ((d.module == module || d.module == 0) && d.keyword == keyword && d.value >= 0 && d.support != no)
+      text += fmt::format("{}{} {}", text.empty() ? "there are " : ", ", d.value, d.meaning);
+  return text;
+}
+
 }  // namespace
 
 std::span<const DigitValue> contact_digits() {
@@ -203,7 +215,7 @@ std::string contact_digit_table() {
     }
     const std::string value = d.value < 0 ? "any" : std::to_string(d.value);
     std::string support(kSupport[static_cast<int>(d.support)]);
-    if (!d.condition.empty()) support += fmt::format(": {}", d.condition);
+    if (!d.condition.empty()) support += fmt::format(": {}{}", d.support == no ? "use " : "", d.condition);
     text += fmt::format("| {} ({}) | {} | {} | {} |\n", d.letter, d.keyword, value, d.meaning, support);
   }
   return text;
@@ -233,7 +245,7 @@ ControlWord::ControlWord(ContactText& text, int module, std::string_view letters
     if (found == nullptr)
       throw Error(ErrorKind::configuration,
                   fmt::format("{} ({}) = {} does not exist in module {}", letters[i], keywords_[i], value, module),
-                  where);
+                  where, values_that_exist(module, keywords_[i]));
     values_.push_back(value);
     positions_.push_back(where);
     described_.push_back(found);

@@ -27,7 +27,7 @@ struct DigitValue {
   int value = 0;
   DigitSupport support = DigitSupport::no;
   std::string_view meaning;
-  std::string_view condition{};
+  std::string_view condition{};  ///< of a value that is not supported: what to use instead
 };
 
 /// All values of all digits, in the order of the control words.

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <numbers>
 #include <utility>
 
 #include <fmt/format.h>
@@ -45,6 +46,21 @@ FrictionLaw read_falling(ContactText& text, int law) {
   return f;
 }
 
+/// Polach (2005): mu0 [A + (1 - A) exp(-B w)] is exponential falling friction.
+FrictionLaw read_polach(ContactText& text) {
+  FrictionLaw f;
+  f.kind = FrictionLaw::Kind::exponential;
+  const double rest = coefficient(text, "FSTAT"), share = text.real("A"), rate = text.real("B");
+  if (share < 0.0 || share > 1.0) text.fail(fmt::format("A = {} of Polach's friction lies outside 0 ... 1", share));
+  if (!(rate > 0.0)) text.fail("B of Polach's friction [s/mm] must be positive", "L = 0 is constant friction");
+  f.kinetic = share * rest;
+  if (f.kinetic < kSmallestFriction)
+    text.fail(fmt::format("A FSTAT = {} of Polach's friction must be at least {}", f.kinetic, kSmallestFriction));
+  f.amplitude_1 = rest - f.kinetic;
+  f.half_velocity_1 = std::numbers::ln2 / rate * kMillimetre;
+  return f;
+}
+
 FrictionLaw read_temperature_dependent(ContactText& text) {
   FrictionLaw f;
   f.kind = FrictionLaw::Kind::temperature;
@@ -76,10 +92,11 @@ void ContactReader::read_friction(long sets) {
       f.positions.push_back(position);
     }
     f.laws.push_back(law == 0   ? read_coulomb(text)
+                     : law == 5 ? read_polach(text)
                      : law == 6 ? read_temperature_dependent(text)
                                 : read_falling(text, law));
   }
-  if (law != 0) {
+  if (law != 0 && law != 5) {
     text.begin_record("the friction memory line");
     const double distance = text.real("MEMDST") * kMillimetre;
     if (distance < 0.0) text.fail("MEMDST must not be negative");

@@ -258,7 +258,7 @@ SurfaceSource read_profile(ContactReader& r, std::string_view body) {
     if (!(smoothing.kink_high > 0.0) || !(smoothing.kink_low > 0.0) || smoothing.kink_low > smoothing.kink_high)
       text.fail("the kink thresholds must satisfy 0 < KINKLOW <= KINKHIGH");
     smoothing.kink_width = text.real("KINKWID") * kMillimetre;
-    if (!(smoothing.kink_width > 0.0)) text.fail("KINKWID must be positive");
+    if (smoothing.kink_width < 0.0) text.fail("KINKWID must not be negative");
   }
   if (further == 2) {
     text.begin_record("the profile option line ERRHND");

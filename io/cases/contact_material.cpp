@@ -129,8 +129,7 @@ void ContactReader::read_material() {
   } else if (kind == 4) {
     kept.layer = read_layer(text);
   } else if (kind >= 6) {
-    throw refusals.empty() ? Error(ErrorKind::configuration, "unknown material", model->where("MATER"))
-                           : refusals.front();
+    throw refusals.front();
   }
 }
 

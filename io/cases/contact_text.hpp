@@ -5,6 +5,8 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
+#include <vector>
 
 #include "treadmark/core/error.hpp"
 
@@ -12,8 +14,8 @@ namespace treadmark::io {
 
 /// Words and records of the input language of the reference program (CONTACT).
 ///
-/// '%' starts a comment, blank lines are skipped, words are separated by blanks. A record starts on a new line
-/// and may span several lines until its required values are there; optional values must stand on the line where
+/// '%' starts a comment, blank lines are skipped, words are separated by blanks or one comma. A record starts on a new
+/// line and may span several lines until its required values are there; optional values must stand on the line where
 /// the required ones end; whatever follows on that line is ignored. Not thread-safe; the text must outlive the reader.
 /// Every reading function throws Error (configuration) with file:line:column and the name of the value.
 class ContactText {
@@ -27,6 +29,7 @@ class ContactText {
   /// Starts a record: drops the rest of the line of the previous one. name is used in messages about a missing record.
   void begin_record(std::string_view name);
 
+  /// Also a real without fraction (0.0, 1.).
   long integer(std::string_view name);
   double real(std::string_view name);
   /// Radians; suffix d = degrees, r = radians (the default).
@@ -38,9 +41,17 @@ class ContactText {
 
   /// Position of the value read last; of the next word before the first one.
   const SourcePosition& where() const { return where_; }
-  /// Characters of the word read last, as written.
+  /// Characters of the word read last, as written; of an integer that is written as a real those before the point.
   int length_of_last_word() const { return last_length_; }
   [[noreturn]] void fail(std::string_view message, std::string advice = {}) const;
+
+  /// A comment "%treadmark key = value".
+  struct OwnSetting {
+    std::string text;  ///< behind the word
+    SourcePosition where;
+  };
+  /// Those of the lines that have been read since the last call.
+  std::vector<OwnSetting> take_own_settings() { return std::exchange(own_settings_, {}); }
 
  private:
   struct Word {
@@ -51,6 +62,7 @@ class ContactText {
   bool next_line();
   std::optional<Word> peek_on_line();
   Word required(std::string_view name, std::string_view kind);
+  void consume(const Word& word);
   [[noreturn]] void wrong_word(std::string_view name, std::string_view kind, const Word& word) const;
 
   std::string_view rest_;  ///< text behind the current line
@@ -63,6 +75,7 @@ class ContactText {
   int last_length_ = 0;
   SourcePosition where_;
   std::string record_;
+  std::vector<OwnSetting> own_settings_;
 };
 
 }  // namespace treadmark::io

@@ -52,7 +52,7 @@ void put_discretisation(ContactReader& r, WheelRailCase& c) {
   const int method = r.kept.discretisation_method;
   if (model["DISCNS"] < 2 && method >= kOblique)
     r.refuse(model.where("DISCNS"),
-             fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method));
+             fmt::format("D (DISCNS) = {} keeps D = {}, which is not supported", model["DISCNS"], method), "use D = 6");
   using Reference = ReferenceSurface;
   c.reference_surface = method == kSurfaceSlip ? Reference::plane_surface_slip
                         : method == kConformal ? Reference::curved

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/cases/combination_rules.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
 #include "treadmark/io/cases/read_case.hpp"
@@ -88,10 +89,24 @@ void refuse_contradictions(ContactReader& r, const Case& c, const std::vector<Ca
   if (previous == read.rend()) return;
   for (const Contradiction& one : contradictions(*previous, c))
     r.refuse(where_of(r, one.setting), one.message, one.advice);
-  const auto step = rolled_step(*previous, c);
-  if (step && !r.kept.step_noted && !step->complaint().empty()) {
+  if (const std::string doubt = doubt_about_history(*previous, c); !doubt.empty() && !r.kept.step_noted) {
     r.kept.step_noted = true;
-    r.note(fmt::format("{}: {}", c.where.to_string(), step->complaint()));
+    r.note(fmt::format("{}: {}", c.where.to_string(), doubt));
+  }
+}
+
+/// Lines "%treadmark key = value", with the keys of case files.
+void apply_own_settings(ContactText& text, Case& c, const std::filesystem::path& folder) {
+  for (const ContactText::OwnSetting& one : text.take_own_settings()) {
+    try {
+      CaseOverride setting = parse_override(one.text);
+      setting.value.where = one.where;
+      if (setting.path == "case.steps" || setting.path == "case.time_step_s")
+        throw Error(ErrorKind::configuration, setting.path + " makes cases while a .toml file is read", one.where);
+      apply_assignment(c, setting, folder);
+    } catch (const Error& e) {
+      throw Error(e.kind(), e.message(), one.where, e.advice());
+    }
   }
 }
 
@@ -146,6 +161,7 @@ CaseFile parse_contact_input(std::string_view content, const std::filesystem::pa
     else
       next.content = read_basic(reader);
     kept.started = true;
+    apply_own_settings(text, next, folder);
 
     const int ending = (*reader.run)["RETURN"];
     if (ending <= 1) {

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <algorithm>
 #include <functional>
 #include <string>
 #include <utility>
@@ -31,6 +32,9 @@ void shared_integer(KeyList& list, const std::string& path, const std::string& d
   key.set = [place](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::visit([&](auto& content) { place(content) = static_cast<int>(v.integer()); }, c.content);
   };
+  key.written = [place](const Case& c, const std::filesystem::path&) {
+    return std::visit([&](auto& content) { return std::to_string(place(content)); }, const_cast<Case&>(c).content);
+  };
 }
 
 template <class Enum, class Place>
@@ -43,6 +47,12 @@ CaseKey& shared_choice(KeyList& list, const std::string& path, std::vector<std::
     for (const auto& one : choices)
       if (one.first == v.text()) std::visit([&](auto& content) { place(content) = one.second; }, c.content);
   };
+  key.written = [place, choices](const Case& c, const std::filesystem::path&) {
+    const Enum value = std::visit([&](auto& content) { return place(content); }, const_cast<Case&>(c).content);
+    for (const auto& one : choices)
+      if (one.second == value) return toml_text(one.first);
+    return std::string();
+  };
   return key;
 }
 
@@ -52,8 +62,13 @@ void shared_flag(KeyList& list, const std::string& path, const std::string& doc,
   KeyInfo info = key_info(path, KeyType::flag, doc);
   WheelRailCase fresh;
   info.default_text = place(fresh) ? "true" : "false";
-  list.add(info).set = [place](Case& c, const CaseValue& v, const std::filesystem::path&) {
+  CaseKey& key = list.add(info);
+  key.set = [place](Case& c, const CaseValue& v, const std::filesystem::path&) {
     std::visit([&](auto& content) { place(content) = v.flag(); }, c.content);
+  };
+  key.text = [place](const Case& c) {
+    return std::visit([&](auto& content) { return std::string(place(content) ? "true" : "false"); },
+                      const_cast<Case&>(c).content);
   };
 }
 
@@ -64,7 +79,44 @@ struct ElementKey {
   std::function<void(Element&, const CaseValue&)> set;
   /// table_list only: changes one key of one of its tables; rest is "number.key".
   std::function<void(Element&, std::string_view rest, const CaseEntry&)> set_nested = {};
+  /// As SettingKey::written.
+  std::function<std::string(const Element&)> written = {};
 };
+
+/// One table of a list as TOML, inline; of several ways to say the same the shortest one. What is as in a fresh element
+/// is left out.
+template <class Element>
+std::string written_element(const std::vector<ElementKey<Element>>& keys, const Element& e) {
+  struct Said {
+    const KeyInfo* key;
+    std::string text;
+  };
+  std::vector<Said> all;
+  const Element fresh{};
+  for (const auto& key : keys) {
+    const std::string value = key.written ? key.written(e) : "";
+    if (value.empty() || (!key.info.required && key.written(fresh) == value)) continue;
+    const std::string text = key.info.path + " = " + value;
+    const auto other = std::ranges::find_if(all, [&](const Said& s) {
+      return !key.info.group.empty() && s.key->group == key.info.group && s.key->alternative != key.info.alternative;
+    });
+    if (other == all.end())
+      all.push_back({&key.info, text});
+    else if (text.size() < other->text.size())
+      *other = {&key.info, text};
+  }
+  std::string text;
+  for (const Said& said : all) text += (text.empty() ? "{ " : ", ") + said.text;
+  return text.empty() ? "{}" : text + " }";
+}
+
+/// A list of tables as TOML; empty text for none.
+template <class Element>
+std::string written_elements(const std::vector<ElementKey<Element>>& keys, const std::vector<Element>& elements) {
+  std::string text;
+  for (const Element& e : elements) text += (text.empty() ? "[\n  " : ",\n  ") + written_element(keys, e);
+  return text.empty() ? text : text + "\n]";
+}
 
 /// place: a member of Element, or Element& -> double&.
 template <class Element, class Place>
@@ -75,7 +127,9 @@ ElementKey<Element> element_number(const std::string& name, KeyLimits limits, st
   info.at_most = limits.at_most;
   const double unit = unit_of_key(name);
   return {std::move(info),
-          [place, unit](Element& e, const CaseValue& v) { std::invoke(place, e) = v.number() * unit; }};
+          [place, unit](Element& e, const CaseValue& v) { std::invoke(place, e) = v.number() * unit; },
+          {},
+          [place, unit](const Element& e) { return exact_text(std::invoke(place, const_cast<Element&>(e)), unit); }};
 }
 
 template <class Element>
@@ -146,7 +200,8 @@ ElementKey<Element> element_list(std::string name, std::string doc, std::vector<
             const ElementPath place = split_element_path(shared, rest, entry.key_where);
             change_element(keys, &(e.*member), shared.path, place.index, {{place.key, entry.key_where, entry.value}},
                            entry.key_where);
-          }};
+          },
+          [keys, member](const Element& e) { return written_elements(keys, e.*member); }};
 }
 
 /// Adds a key for a list of tables; elements(c, create) is the vector in the case or nullptr, made ready for a new list
@@ -163,6 +218,10 @@ void add_list(KeyList& list, KeyInfo info, std::vector<ElementKey<Element>> keys
   added.set_element = [keys, elements, path](Case& c, std::size_t index, const CaseTable& entries,
                                              const SourcePosition& where) {
     change_element(keys, elements(content_of<Content>(c), false), path, index, entries, where);
+  };
+  added.written = [keys, elements](const Case& c, const std::filesystem::path&) {
+    const std::vector<Element>* all = elements(content_of<Content>(const_cast<Case&>(c)), false);
+    return all == nullptr ? std::string() : written_elements(keys, *all);
   };
 }
 

@@ -44,9 +44,11 @@ void simplified_theory(RuleList& rules, const Content& c, bool friction_varies, 
   const Theory<TangentialModel>& simplified = theory(c.tangential_model);
   rules.refuse_if(simplified.limits.steady_only && goes_on(c.regime), CaseSetting::material,
                   fmt::format("the simplified theory ({}) is for steady rolling, not for a shift or transient rolling",
-                              simplified.word));
+                              simplified.word),
+                  "use T = 3 or M = 0 in .inp, case.regime = \"steady\" or tangential_model = \"full\" in .toml");
   rules.refuse_if(simplified.limits.rolling_only && c.regime == Regime::shift, CaseSetting::material,
-                  fmt::format("the simplified theory ({}) is for rolling, not for a shift", simplified.word));
+                  fmt::format("the simplified theory ({}) is for rolling, not for a shift", simplified.word),
+                  "use M = 0 in .inp, tangential_model = \"full\" in .toml");
   rules.refuse_if(c.material.layer_yield > 0.0, CaseSetting::layer,
                   "the simplified theory knows no plasticity of the interface layer");
   rules.refuse_if(friction_varies || c.friction.kind == FrictionLaw::Kind::temperature, CaseSetting::friction,

@@ -205,8 +205,9 @@ void settle_sequences(std::vector<Case>& cases, std::vector<std::string>* notes)
     } else {
       check.none(contradictions(*previous->second, c));
       const auto step = rolled_step(*previous->second, c);
-      const std::string complaint = step && notes != nullptr ? step->complaint() : std::string();
-      check.require(complaint.empty() || !step->too_long(), complaint,
+      const std::string complaint = notes != nullptr ? doubt_about_history(*previous->second, c) : std::string();
+      const auto* rail = std::get_if<WheelRailCase>(&c.content);
+      check.require(complaint.empty() || !step || !step->too_long() || (rail != nullptr && rail->long_steps), complaint,
                     "more and shorter steps (case.steps, case.time_step_s)");
       if (!complaint.empty() && !std::exchange(told, true))
         notes->push_back(fmt::format("case {}: {}", c.number, complaint));

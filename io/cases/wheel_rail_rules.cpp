@@ -131,9 +131,6 @@ bool keeps_grid(const Case& previous, const Case& next) {
 
 std::vector<Contradiction> contradictions(const Case& previous, const Case& next) {
   RuleList rules;
-  rules.refuse_if(!keeps_grid<BasicCase>(previous, next), CaseSetting::grid,
-                  "a case that continues the previous one needs elements of the same size, moved by whole elements",
-                  "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
   rules.refuse_if(!keeps_grid<WheelRailCase>(previous, next), CaseSetting::grid,
                   "a case that continues the previous one needs elements of the same size",
                   "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
@@ -146,6 +143,14 @@ std::vector<Contradiction> contradictions(const Case& previous, const Case& next
                     "with the same kind of reference surface",
                     "start anew (P = 2 in .inp, case.history = \"start\" in .toml)");
   return std::move(rules.found);
+}
+
+std::string doubt_about_history(const Case& previous, const Case& next) {
+  if (!keeps_grid<BasicCase>(previous, next))
+    return "the elements are not those of the case before, moved by whole elements: tractions that it left are "
+           "averaged over each new element";
+  const auto step = rolled_step(previous, next);
+  return step ? step->complaint() : "";
 }
 
 std::optional<RolledStep> rolled_step(const Case& previous, const Case& next) {

@@ -13,6 +13,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/io/settings/exact_text.hpp"
 #include "treadmark/io/settings/key_info.hpp"
 
 namespace treadmark::io {
@@ -30,6 +31,9 @@ struct SettingKey {
   std::function<void(Root&, std::size_t index, const CaseTable& entries, const SourcePosition& where)> set_element = {};
   /// The value as TOML, for flags, texts and directions.
   std::function<std::string(const Root&)> text = {};
+  /// The value as a file writes it, as TOML, from which the reader makes this value; empty text where the key
+  /// says nothing of this Root. Relative paths count from folder. Without it text is written.
+  std::function<std::string(const Root&, const std::filesystem::path& folder)> written = {};
 };
 
 template <class Root>
@@ -37,6 +41,25 @@ std::vector<KeyInfo> infos_of(std::span<const SettingKey<Root>> keys) {
   std::vector<KeyInfo> infos;
   for (const SettingKey<Root>& key : keys) infos.push_back(key.info);
   return infos;
+}
+
+/// Numbers as a TOML list, in the unit given.
+inline std::string exact_list(const std::vector<double>& values, double unit) {
+  std::string text;
+  for (const double value : values) text += (text.empty() ? "" : ", ") + exact_text(value, unit);
+  return '[' + text + ']';
+}
+
+/// A file as seen from a folder.
+inline std::filesystem::path relative_to(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  const auto whole = [](const std::filesystem::path& p) {
+    return (p.empty() ? std::filesystem::current_path() : std::filesystem::absolute(p)).lexically_normal();
+  };
+  return whole(file).lexically_proximate(whole(folder));
+}
+/// The same as TOML; empty text for none.
+inline std::string written_path(const std::filesystem::path& file, const std::filesystem::path& folder) {
+  return file.empty() ? std::string() : toml_text(relative_to(file, folder).generic_string());
 }
 
 /// The part of a Root that keys of one scope live in: the Root itself, or one alternative of its member `content`.
@@ -89,6 +112,10 @@ class SettingKeys {
     key.set = [place, unit](Root& c, const CaseValue& v, Folder) {
       place(content_of<Content>(c)) = numbers_of(v, unit);
     };
+    key.written = [place, unit](const Root& c, Folder) {
+      const std::vector<double>& values = place(content_of<Content>(const_cast<Root&>(c)));
+      return values.empty() ? std::string() : exact_list(values, unit);
+    };
     return key.info;
   }
 
@@ -121,6 +148,9 @@ class SettingKeys {
     Key& key = add<Content>(std::move(info));
     key.set = [place](Root& c, const CaseValue& v, Folder) {
       place(content_of<Content>(c)) = static_cast<int>(v.integer());
+    };
+    key.written = [place](const Root& c, Folder) {
+      return std::to_string(place(content_of<Content>(const_cast<Root&>(c))));
     };
     return key.info;
   }
@@ -161,6 +191,11 @@ class SettingKeys {
       for (const auto& [word, value] : choices)
         if (word == v.text()) place(content_of<Content>(c)) = value;
     };
+    key.written = [place, choices](const Root& c, Folder) {
+      for (const auto& [word, value] : choices)
+        if (place(content_of<Content>(const_cast<Root&>(c))) == value) return toml_text(word);
+      return std::string();
+    };
     return key.info;
   }
 
@@ -171,6 +206,7 @@ class SettingKeys {
     Key& key = add(std::move(info));
     // at only finds the member: reading through it changes nothing.
     key.get = [at, unit](const Root& c) { return at(const_cast<Root&>(c)) / unit; };
+    key.written = [at, unit](const Root& c, Folder) { return exact_text(at(const_cast<Root&>(c)), unit); };
     key.set = [at = std::move(at), unit](Root& c, const CaseValue& v, Folder) { at(c) = v.number() * unit; };
     return key.info;
   }

@@ -123,7 +123,7 @@ void ContactSolver::Workspace::choose_previous(const ContactProblem& problem) {
       break;
   }
   if (problem.regime == Regime::shift || problem.regime == Regime::transient)
-    previous = on_grid(previous, problem.grid, problem.friction.static_friction(), problem.material.layer_yield);
+    previous = averaged_on(previous, problem.grid, problem.friction.static_friction(), problem.material.layer_yield);
 }
 
 /// The tangential tractions push the surfaces apart or together, the pressures move them tangentially.

@@ -18,6 +18,31 @@ std::vector<double> filled(const std::vector<double>& field, std::size_t size, d
   return field.empty() ? std::vector<double>(size, value) : field;
 }
 
+/// What an element of a new grid takes of those of the old one, in one direction.
+struct Shares {
+  long first = 0;
+  std::vector<double> share;  ///< of first, first + 1, ...; 1 in all
+};
+
+/// offset: of the first new element's middle from that of the first old one; ratio: new over old step. In old steps.
+std::vector<Shares> shares_of(double offset, double ratio, int count) {
+  if (std::fabs(ratio - 1.0) < kLinedUp) ratio = 1.0;
+  const bool whole = ratio == 1.0 && std::fabs(offset - std::round(offset)) < kLinedUp;
+  std::vector<Shares> all(static_cast<std::size_t>(count));
+  for (int i = 0; i < count; ++i) {
+    Shares& s = all[static_cast<std::size_t>(i)];
+    if (whole) {
+      s = {std::lround(offset) + i, {1.0}};
+      continue;
+    }
+    const double low = offset + ratio * (i - 0.5) + 0.5, high = low + ratio;  // in old elements, from the first edge
+    s.first = static_cast<long>(std::floor(low));
+    for (long j = s.first; static_cast<double>(j) < high; ++j)
+      s.share.push_back((std::fmin(high, static_cast<double>(j + 1)) - std::fmax(low, static_cast<double>(j))) / ratio);
+  }
+  return all;
+}
+
 }  // namespace
 
 ContactHistory history_of(const ContactProblem& problem, const ContactSolution& solution) {
@@ -51,16 +76,32 @@ ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double 
     throw Error(ErrorKind::configuration,
                 "a history cannot be carried to a grid that is not displaced by whole elements", {},
                 "move the grid by multiples of dx and dy, or start without history");
-  const long sx = std::lround(ox), sy = std::lround(oy);
+  return averaged_on(history, grid, static_friction, first_yield_stress);
+}
+
+ContactHistory averaged_on(const ContactHistory& history, const Grid2& grid, double static_friction,
+                           double first_yield_stress) {
+  if (history.empty() || history.grid == grid) return history;
+  const Grid2& from = history.grid;
+  const std::vector<Shares> columns = shares_of((grid.x0 - from.x0) / from.dx, grid.dx / from.dx, grid.nx),
+                            rows = shares_of((grid.y0 - from.y0) / from.dy, grid.dy / from.dy, grid.ny);
   const auto moved = [&](const std::vector<double>& field, double outside) {
     if (field.empty()) return field;
-    std::vector<double> out(grid.size(), outside);
+    const auto mean = [&](const Shares& in_x, const Shares& in_y) {
+      double sum = 0.0;
+      for (std::size_t ky = 0; ky < in_y.share.size(); ++ky)
+        for (std::size_t kx = 0; kx < in_x.share.size(); ++kx) {
+          const long jx = in_x.first + static_cast<long>(kx), jy = in_y.first + static_cast<long>(ky);
+          const bool inside = jx >= 0 && jy >= 0 && jx < from.nx && jy < from.ny;
+          sum += in_x.share[kx] * in_y.share[ky] *
+                 (inside ? field[from.index(static_cast<int>(jx), static_cast<int>(jy))] : outside);
+        }
+      return sum;
+    };
+    std::vector<double> out(grid.size());
     for (int iy = 0; iy < grid.ny; ++iy)
-      for (int ix = 0; ix < grid.nx; ++ix) {
-        const long jx = ix + sx, jy = iy + sy;
-        if (jx < 0 || jy < 0 || jx >= from.nx || jy >= from.ny) continue;
-        out[grid.index(ix, iy)] = field[from.index(static_cast<int>(jx), static_cast<int>(jy))];
-      }
+      for (int ix = 0; ix < grid.nx; ++ix)
+        out[grid.index(ix, iy)] = mean(columns[static_cast<std::size_t>(ix)], rows[static_cast<std::size_t>(iy)]);
     return out;
   };
   ContactHistory out;

@@ -29,8 +29,13 @@ struct ContactHistory {
 /// What a solved instant leaves.
 ContactHistory history_of(const ContactProblem& problem, const ContactSolution& solution);
 
-/// The same on another grid of the same steps, displaced by whole elements: zero (friction: static) outside the old
-/// one. Errors: Error(configuration) for grids that do not line up.
+/// The same on any other grid: the mean over the area of each new element, so that forces stay what they were; zero
+/// (friction: static) outside the old grid.
+ContactHistory averaged_on(const ContactHistory& history, const Grid2& grid, double static_friction,
+                           double first_yield_stress);
+
+/// The same on another grid of the same steps, displaced by whole elements. Errors: Error(configuration) for grids that
+/// do not line up.
 ContactHistory on_grid(const ContactHistory& history, const Grid2& grid, double static_friction,
                        double first_yield_stress);
 

@@ -3,6 +3,7 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <cmath>
 #include <numbers>
 
 #include "treadmark/io/cases/read_inp.hpp"
@@ -161,6 +162,25 @@ TEST(ContactFriction, LawOfEachRow) {
   EXPECT_EQ(falling.friction_of_row[0].kind, FrictionLaw::Kind::exponential);
   EXPECT_DOUBLE_EQ(falling.friction_of_row[1].half_velocity_2, 0.2);
   EXPECT_DOUBLE_EQ(falling.friction_of_row[1].memory_distance, 3e-6);  // one memory line for all sets
+}
+
+TEST(ContactFriction, PolachsFormula) {
+  const FrictionLaw f = only(basic().set("FRCLAW", 5).line("friction", "0.3 0.4 6e-4")).friction;
+  for (const double w : {0.0, 0.5, 3.0})  // Polach 2005: mu0 [A + (1 - A) exp(-B w)]
+    EXPECT_NEAR(f.at(w), 0.3 * (0.4 + 0.6 * std::exp(-0.6 * w)), 1e-15);
+  EXPECT_DOUBLE_EQ(f.static_friction(), 0.3);
+  for (const char* wrong : {"0.3 1.5 6e-4", "0.3 0.4 0.", "0.3 0. 6e-4", "0. 0.4 6e-4"})
+    EXPECT_THROW(only(basic().set("FRCLAW", 5).line("friction", wrong)), Error) << wrong;
+}
+
+TEST(ContactExtraSlip, SpinInOneDirection) {
+  const std::string first = basic().set("EXRHS", 2).str();
+  const CaseFile f = parse(first + keeping().set("EXRHS", 1).str() + keeping().set("EXRHS", 3).str() + keeping().str());
+  const SpinSlip expected[] = {SpinSlip::longitudinal, SpinSlip::longitudinal, SpinSlip::lateral, SpinSlip::both};
+  for (std::size_t i = 0; i < 4; ++i) {
+    EXPECT_EQ(at(f, i).spin_slip, expected[i]) << i;
+    EXPECT_THAT(at(f, i).extra_slip_x, IsEmpty());
+  }
 }
 
 TEST(ContactHeat, ThermalDataAndFriction) {

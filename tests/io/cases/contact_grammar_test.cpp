@@ -100,6 +100,12 @@ TEST(ContactInputModule1, ConvertsEveryValueToSi) {
   EXPECT_GT(c.wheel.where.line, c.rail.where.line);
 }
 
+TEST(ContactInputModule1, KinksMayNeedNoStraightNeighbours) {
+  const CaseFile f =
+      parse(ContactWriter(1).line("rail", "'rail.prr' 0 1. 0. 0. 1.0\n 0 100d 20d 5d 0.0").str() + "0 MODULE\n");
+  EXPECT_EQ(std::get<GeometryFile>(rail_case(f, 0).rail.geometry).options.smoothing.kink_width, 0.0);
+}
+
 TEST(ContactInputModule1, KeepsValuesThatLaterCasesDoNotGive) {
   ContactWriter later(1);
   for (const auto* digit : {"FRCLAW", "DISCNS", "INFLCF"}) later.set(digit, 1);

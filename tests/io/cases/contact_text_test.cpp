@@ -41,6 +41,61 @@ TEST(ContactText, RealsKnowFortranExponents) {
     EXPECT_DOUBLE_EQ(text.real("R"), expected);
 }
 
+TEST(ContactText, ExponentsNeedNoLetter) {
+  ContactText text(".1-07 1.5+3 -2.5-3 1-5 6.-2 1.5-3d", "a.inp");
+  text.begin_record("reals");
+  for (const double expected : {1e-8, 1500.0, -2.5e-3, 1e-5, 0.06}) EXPECT_DOUBLE_EQ(text.real("R"), expected);
+  EXPECT_DOUBLE_EQ(text.angle("A"), 1.5e-3 * std::numbers::pi / 180.0);
+  ContactText wrong("1-5-3", "a.inp");
+  wrong.begin_record("reals");
+  EXPECT_THROW(wrong.real("R"), Error);
+}
+
+TEST(ContactText, IntegersMayBeWholeReals) {
+  ContactText text("0.0 1. -3.0 2e2\n 1 2.0", "a.inp");
+  text.begin_record("integers");
+  for (const long expected : {0, 1, -3, 200}) EXPECT_EQ(text.integer("I"), expected);
+  EXPECT_EQ(text.integer("I"), 1);
+  EXPECT_EQ(text.optional_integer(), 2);
+  for (const char* wrong : {"0.5", "1e30", "1.5 2"}) {
+    ContactText half(wrong, "a.inp");
+    half.begin_record("integers");
+    EXPECT_THROW(half.integer("I"), Error) << wrong;
+  }
+  ContactText behind("1 0.5", "a.inp");
+  behind.begin_record("integers");
+  behind.integer("I");
+  EXPECT_THROW(behind.optional_integer(), Error);  // a value that would be lost
+}
+
+TEST(ContactText, CommasSeparate) {
+  ContactText text("1,2 , 3,\n 4, 'a,b', .5,6.\n", "a.inp");
+  text.begin_record("values");
+  for (const long expected : {1, 2, 3, 4}) EXPECT_EQ(text.integer("I"), expected);
+  EXPECT_EQ(text.quoted("Q"), "a,b");
+  EXPECT_DOUBLE_EQ(text.real("R"), 0.5);
+  EXPECT_DOUBLE_EQ(text.real("R"), 6.0);
+  EXPECT_TRUE(text.at_end());
+}
+
+TEST(ContactText, CommasThatMayMeanSomethingElseAreRefused) {
+  const auto error_of = [](const char* text) {
+    ContactText input(text, "a.inp");
+    input.begin_record("values");
+    try {
+      for (int i = 0; i < 4; ++i) input.real("R");
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string("no error");
+  };
+  EXPECT_NE(error_of("0.28 0,28 82000 82000").find("a.inp:1:6: '0,28' may be two values"), std::string::npos);
+  EXPECT_NE(error_of("1,,2 3 4").find("nothing between two commas"), std::string::npos);
+  EXPECT_EQ(error_of("1,2,3,4"), "no error");
+  EXPECT_EQ(error_of("1,2, 3, 4 R1, R2"), "no error");
+  EXPECT_EQ(error_of("0.28,0.28 82000. 82000."), "no error");
+}
+
 TEST(ContactText, AnglesHaveSuffixes) {
   ContactText text("90d -25.0d 180.d 0.5r 0.5 90D", "a.inp");
   text.begin_record("angles");
@@ -91,7 +146,7 @@ INSTANTIATE_TEST_SUITE_P(
                       WrongWord{"\n 1.5 1", "a.inp:2:2: expected MX (an integer)"},
                       WrongWord{"1 nan", "a.inp:1:3: expected DX (a number)"}, WrongWord{"1 inf", "expected DX"},
                       WrongWord{"1 0x10", "expected DX"}, WrongWord{"1 1e999", "expected DX"},
-                      WrongWord{"1 1,5", "expected DX"}, WrongWord{"1 '2'", "expected DX"},
+                      WrongWord{"1 1,5", "'1,5' may be two values"}, WrongWord{"1 '2'", "expected DX"},
                       WrongWord{"99999999999999999999 1", "expected MX"},
                       WrongWord{"1 2 name", "expected NAME (text in single quotes)"},
                       WrongWord{"1 2 'open", "expected NAME"},

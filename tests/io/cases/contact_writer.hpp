@@ -95,9 +95,12 @@ class ContactWriter {
     const int law = digit("FRCLAW");
     for (int i = 0; i < sets; ++i) {
       const std::string position = table ? (std::to_string(10 * i - 20) + (digit("VARFRC") == 1 ? "d " : " ")) : "";
-      add("friction", position + (law == 0 ? "0.3 0.3" : law == 6 ? "0.3 20. -0.1 100." : "0.2 0.1 100. 0.05 200."));
+      add("friction", position + (law == 0   ? "0.3 0.3"
+                                  : law == 5 ? "0.3 0.4 6e-4"
+                                  : law == 6 ? "0.3 20. -0.1 100."
+                                             : "0.2 0.1 100. 0.05 200."));
     }
-    if (law != 0) add("memory", "0.003 1.0");
+    if (law != 0 && law != 5) add("memory", "0.003 1.0");
   }
 
   template <class Add>
@@ -132,11 +135,11 @@ class ContactWriter {
       add("ipotcn", "1");
       add("potcon", "3 2 -1.5 -1.0 1.0 1.0");
     }
-    if (digit("FRCLAW") != 1 && digit("VARFRC") == 3) friction(add, 2);
     if (digit("RZNORM") == 2 && !lines_.contains("hertz")) {
       add("ibase", "1 1");
       add("gap", "0.001 0.0 0.002 0.0 0.0 0.0");
     }
+    if (digit("FRCLAW") != 1 && digit("VARFRC") == 3) friction(add, 2);
     if (digit("EXRHS") == 9) add("slip", "1 2 1 2 1 2\n 1 2 1 2 1 2");
   }
 

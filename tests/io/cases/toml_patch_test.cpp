@@ -245,9 +245,6 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{kSteady + kGap + "[friction]\nlaw = \"temperature\"\n", "needs the thermal data of the bodies"},
         Wrong{kGap + "[friction]\nrows = [{ coefficient = 0.2 }]\n", "friction is given for 1 rows, but there are 2"},
         Wrong{kGap + "[friction]\nrows = [{ amplitude_1 = 0.2 }]\n", "coefficient of friction.rows is missing"},
-        Wrong{
-            "case.regime = \"shift\"\ncase.history = \"continue\"\n" + kGap + "[[cases]]\n[[cases]]\npatch.dx_mm = 2\n",
-            "case 2: a case that continues"},
         Wrong{kGap + "extra_slip_x = [1]\n", "the extra rigid slip has 1 values in x and 0 in y for 6 elements"},
         Wrong{kGap + "extra_slip_x = [1]\nextra_shift_x_mm = [1]\n", "exclude each other"},
         Wrong{kGap + "[influence]\nkind = \"angle_corrected\"\n", "have 0 positions and 0 inclinations"},

@@ -1,0 +1,23 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <string>
+
+#include "treadmark/io/cases/case_model.hpp"
+
+namespace treadmark::io {
+
+/// The cases as a Treadmark case file (.toml) that reads as the same cases, from the table of its keys. What is as it
+/// is without a key is left out; sections that all cases share stand at the top. Names of files count from folder.
+/// Errors: Error(configuration) at a case that such a file cannot hold: one of both kinds in a file. Thread-safe.
+std::string case_file_text(const CaseFile& file, const std::filesystem::path& folder);
+
+/// The cases as input of the reference program (CONTACT, .inp) that reads as the same cases: every case gives all it
+/// needs, none keeps values. Settings that are Treadmark's own and no part of the problem (representation, search,
+/// details) stand in lines that the reference program takes for comments, "%treadmark key = value".
+/// Errors: Error(configuration) at a case with what such a file cannot say, by the name of its setting. Thread-safe.
+std::string contact_input_text(const CaseFile& file, const std::filesystem::path& folder);
+
+}  // namespace treadmark::io
