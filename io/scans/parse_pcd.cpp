@@ -5,11 +5,11 @@
 #include <algorithm>
 
 #include "treadmark/io/points/binary_values.hpp"
+#include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/lzf.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
-#include "treadmark/io/scans/unit_words.hpp"
 
 namespace treadmark::io::scans {
 

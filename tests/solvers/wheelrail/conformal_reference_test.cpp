@@ -7,6 +7,7 @@
 
 #include "treadmark/backends/spline/make.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
 #include "treadmark/tests/solvers/wheelrail/patch_on_reference.hpp"
 #include "treadmark/tests/support/shared_data.hpp"
 
@@ -145,6 +146,65 @@ TEST(ConformalReference, FlangeRootWithFrictionAlongTheTrack) {
   Problem p;
   p.friction.kinetic = 0.27;  // between 0.2 and 0.3 at 70 of 100 m
   expect_flange_root(*shared, 7, p);
+}
+
+/// A worn wheel in the gauge corner of a worn rail: three parts, 60 mm apart along the rail's section, on one curve
+/// whose plane leans by 66 degrees. The reference gives 1820 MPa and 1600 elements.
+struct WornPair {
+  Geometry geometry;
+  Problem problem;
+
+  explicit WornPair(const std::filesystem::path& shared) {
+    const auto profiles = shared / "data" / "contact_testbank" / "profiles";
+    constexpr double kRadius = 0.444, kDegree = M_PI / 180.0;
+    geometry = {read(profiles / "site_b_hr.prr", Body::rail, 0.0),
+                read(profiles / "worn_high_mileage.prw", Body::wheel, kRadius), true, true};
+    Problem& p = problem;
+    p.track.gauge_height = 15.875e-3;
+    p.track.gauge_width = 1.4351;
+    p.wheelset = {1.3474, 0.0, kRadius, std::nullopt};
+    p.state.position = {0.0, 14.85e-3, 1.17e-3, -0.0013, 0.005, 0.0};
+    p.state.velocity.x = 15.0;
+    p.state.velocity.pitch = -32.1;
+    p.discretisation.dx = p.discretisation.ds = 0.4e-3;
+    p.discretisation.angle_separation = 0.5 * M_PI;
+    p.discretisation.separation = 30e-3;
+    p.discretisation.combination = 20e-3;
+    p.discretisation.turning = 40e-3;
+    p.discretisation.search = Discretisation::SearchGrid::reference_locus;
+    p.discretisation.distance_on_mesh = true;
+    p.solver.eps = 1e-6;
+    p.solver.reference_quirks = true;
+    FrictionLaw low, high;
+    low.kinetic = 0.2;
+    high.kinetic = 0.35;
+    p.friction_inclination = {-30.0 * kDegree, -20.0 * kDegree};
+    p.friction_laws = {low, high};
+    p.reference_surface = ReferenceSurface::curved;
+  }
+};
+
+TEST(ConformalReference, WornPairWithThreePartsOnASteepPlane) {
+  TREADMARK_REQUIRE_SHARED();
+  const WornPair pair(*shared);
+  const PairSolution solution = Pair(pair.geometry).solve(pair.problem);
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  EXPECT_EQ(solution.message, "");
+  ASSERT_EQ(solution.patches.size(), 1u);
+  const PatchSolution& patch = solution.patches[0];
+  EXPECT_NEAR(1e-6 * patch.contact.max_pressure, 1820.0, 0.01 * 1820.0);
+  EXPECT_NEAR(patch.contact.elements_contact, 1600, 0.02 * 1600);
+}
+
+TEST(ConformalReference, WornPairFindsItsHeightThoughTractionsTurnTheForce) {
+  // The flange carries most: every change of the tractions moves the wheel, round by round.
+  TREADMARK_REQUIRE_SHARED();
+  WornPair pair(*shared);
+  pair.problem.vertical_force = 94e3;
+  const PairSolution solution = Pair(pair.geometry).solve(pair.problem);
+  ASSERT_EQ(solution.status, Status::ok) << solution.message;
+  EXPECT_NEAR(solution.load.track.force.z(), 94e3, 1e-5 * 94e3);
+  EXPECT_GT(solution.force_iterations.size(), 30u);
 }
 
 }  // namespace
