@@ -1,13 +1,27 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <cctype>
+#include <filesystem>
 #include <iostream>
 #include <numbers>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/cases/writing/write_cases.hpp"
+#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 
@@ -15,17 +29,63 @@ namespace treadmark::cli {
 namespace {
 
 struct ConvertOptions {
-  std::string input, output;  ///< geometry or case file; surface file
+  std::string input, output;  ///< geometry or case file; surface or case file
   std::string body;           ///< "wheel", "rail" or empty
   double resolution_mm = 0.0;
   double nominal_radius_mm = 0.0;
   double scale_to_mm = 1.0;
   std::vector<double> range_mm, range_deg;  ///< along the track, round the wheel: two numbers or none
+  std::optional<double> at;                 ///< of the results of a simulation [s]
+  std::string simulation;                   ///< its file; empty: to be looked for
   std::vector<std::string> overrides;
   app::ProfileConversion profile;  ///< where a profile is written
 };
 
+std::string lower_extension(const std::filesystem::path& file) {
+  std::string extension = file.extension().string();
+  std::ranges::transform(extension, extension.begin(), [](unsigned char c) { return std::tolower(c); });
+  return extension;
+}
+
+io::CaseFile read_cases(const ConvertOptions& options) {
+  const bool results = lower_extension(options.input) == ".h5";
+  if (options.at) {
+    if (!results)
+      throw Error(ErrorKind::configuration, "--at needs the results of a simulation", {options.input},
+                  "give its simulation.h5");
+    return cases_of_instant(options.input, options.simulation, *options.at, options.overrides);
+  }
+  if (results)
+    throw Error(ErrorKind::configuration, "which instant of these results is meant is not said", {options.input},
+                "give its time in seconds, --at TIME");
+  if (io::is_simulation_file(options.input))
+    throw Error(ErrorKind::configuration, "a simulation is no case, but an instant of its results is", {options.input},
+                "treadmark convert simulation.h5 OUT --at TIME");
+  return io::read_any_case(options.input, options.overrides);
+}
+
+/// Case files into each other, and instants of simulations into case files.
+int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
+  const std::filesystem::path output = options.output;
+  const io::CaseFile file = read_cases(options);
+  print_notes(file.notes, common.quiet);
+  std::string text;
+  if (lower_extension(output) == ".inp") {
+    text = io::contact_input_text(file, output.parent_path());
+    io::parse_contact_input(text, output);  // nothing that cannot be read is written
+  } else {
+    text = io::case_file_text(file, output.parent_path());
+    io::parse_case_text(text, output);
+  }
+  io::write_text_file(output, text);
+  std::cout << fmt::format("{}: {} {}\n", options.output, file.cases.size(), file.cases.size() == 1 ? "case" : "cases");
+  return kOk;
+}
+
 int convert_command(const ConvertOptions& options, const CommonOptions& common) {
+  if (const std::string kind = lower_extension(options.output); kind == ".inp" || kind == ".toml")
+    return convert_cases(options, common);
+  if (options.at) throw Error(ErrorKind::configuration, "an instant is written as .toml or .inp", {options.output});
   const ThreadLimit limit(common.threads);
   app::ConvertSettings settings;
   if (!options.body.empty()) settings.body = options.body == "wheel" ? Body::wheel : Body::rail;
@@ -61,10 +121,12 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
 Command add_convert(CLI::App& verb) {
   auto options = std::make_shared<ConvertOptions>();
   verb.add_option("IN", options->input,
-                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), or a case file")
+                  "Profile, slices, triangles (.ply .stl .obj .off), offsets (.vdb), a case file, or with --at the "
+                  "simulation.h5 of a simulation")
       ->required();
-  verb.add_option("OUT", options->output,
-                  ".ply .stl .obj .off, .slcs .slcw, .vdb, or a profile: .prr .prw .ban .whl .csv")
+  verb.add_option("OUT,-o,--output", options->output,
+                  ".ply .stl .obj .off, .slcs .slcw, .vdb, or a profile: .prr .prw .ban .whl .csv; of a case file also "
+                  ".inp (CONTACT) or .toml: its cases")
       ->required();
   verb.add_option("--body", options->body, "wheel or rail, where the input does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
@@ -91,6 +153,10 @@ Command add_convert(CLI::App& verb) {
       ->type_name("MM");
   verb.add_flag("--derivatives", options->profile.derivatives,
                 "Profile as .csv, .ban or .whl: columns of arc length, inclination and curvature too");
+  verb.add_option("--at", options->at, "Time of an instant of a simulation [s]: its contacts become cases")
+      ->type_name("SECONDS");
+  verb.add_option("--simulation", options->simulation,
+                  "With --at: the simulation file, where it is not beside the results or their folder");
   add_overrides(verb, options->overrides);
   return command(options, convert_command);
 }

@@ -11,6 +11,10 @@ namespace CLI {
 class App;
 }
 
+namespace treadmark::io {
+struct CaseFile;
+}
+
 namespace treadmark::cli {
 
 /// Exit statuses of the program.
@@ -47,6 +51,11 @@ Command add_left_out(CLI::App& verb);
 /// What treadmark check does with these files: a line about each, or an Error. In check_simulation.cpp.
 void check_study_file(const std::string& name, const std::vector<std::string>& overrides);
 void check_simulation_file(const std::string& name, const std::vector<std::string>& overrides);
+
+/// The contacts at an instant [s] of the results of a simulation as cases; simulation: its file, empty where it is to
+/// be looked for. In instant_file.cpp.
+io::CaseFile cases_of_instant(const std::string& store, const std::string& simulation, double time,
+                              const std::vector<std::string>& overrides);
 
 // JSON schemas of the files of verbs that a build may leave out.
 std::string import_schema();   // import_command.cpp

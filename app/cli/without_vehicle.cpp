@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/core/parts.hpp"
+#include "treadmark/io/cases/case_model.hpp"
 
 namespace treadmark::cli {
 
@@ -13,6 +14,10 @@ void check_study_file(const std::string& name, const std::vector<std::string>&) 
 }
 void check_simulation_file(const std::string& name, const std::vector<std::string>&) {
   left_out("vehicle", "simulations such as " + name);
+}
+
+io::CaseFile cases_of_instant(const std::string& store, const std::string&, double, const std::vector<std::string>&) {
+  left_out("vehicle", "results of simulations such as " + store);
 }
 
 std::string vehicle_schema() { left_out("vehicle", "the schema of vehicle files"); }

@@ -30,6 +30,18 @@ io::SurfaceSource round_wheel(const io::SimulationFile& file) {
   return source;
 }
 
+}  // namespace
+
+io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
+  if (wheel.defects) return file.contact.wheel;
+  io::SurfaceSource source = round_wheel(file);
+  source.backend = file.contact.wheel.backend;
+  source.resolution = file.contact.wheel.resolution;
+  return source;
+}
+
+namespace {
+
 class Builder {
  public:
   Builder(const io::SimulationFile& file, SurfaceStore& store) : file_(file), store_(store) {
@@ -38,9 +50,7 @@ class Builder {
   }
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
-    const io::SurfaceSource wheel_source =
-        wheel.defects ? file_.contact.wheel : represented_as_wheel(round_wheel(file_));
-    return geometry(wheel_source, file_.contact.rail);
+    return geometry(wheel_source(file_, wheel), file_.contact.rail);
   }
 
   /// As the wheels are given, whatever represents them in the analysis.
@@ -81,12 +91,6 @@ class Builder {
   }
 
  private:
-  io::SurfaceSource represented_as_wheel(io::SurfaceSource source) const {
-    source.backend = file_.contact.wheel.backend;
-    source.resolution = file_.contact.wheel.resolution;
-    return source;
-  }
-
   wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source) {
     const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, rail_region_);
     const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, file_.contact.wheelset.nominal_radius, Region{});

@@ -32,6 +32,9 @@ struct BuiltVehicle {
 /// "ws1_right"
 std::string wheel_name(const io::WheelContactInput& wheel);
 
+/// The shape of a wheel with full contact.
+io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelContactInput& wheel);
+
 /// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without
 /// defects. Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot
 /// have.

@@ -12,9 +12,46 @@ namespace {
 
 using vehicle::ContactReaction;
 
+using Motion = vehicle::PairMotion;
+constexpr MotionColumn kMotion[] = {
+    {"pitch_rad", "rad", "pitch of the wheelset", [](Motion& m) -> double& { return m.wheelset.pitch; }},
+    {"rail_y_m", "m", "lateral displacement of the rail", [](Motion& m) -> double& { return m.rail.y; }},
+    {"rail_z_m", "m", "vertical displacement of the rail", [](Motion& m) -> double& { return m.rail.z; }},
+    {"rail_roll_rad", "rad", "roll of the rail", [](Motion& m) -> double& { return m.rail.roll; }},
+    {"rail_vy_m_s", "m/s", "lateral velocity of the rail", [](Motion& m) -> double& { return m.rail.vy; }},
+    {"rail_vz_m_s", "m/s", "vertical velocity of the rail", [](Motion& m) -> double& { return m.rail.vz; }},
+    {"rail_vroll_rad_s", "rad/s", "roll rate of the rail", [](Motion& m) -> double& { return m.rail.vroll; }},
+    {"wheelset_x_m", "m", "place of the wheelset along the track", [](Motion& m) -> double& { return m.wheelset.x; }},
+    {"wheelset_y_m", "m", "lateral place of the wheelset", [](Motion& m) -> double& { return m.wheelset.y; }},
+    {"wheelset_z_m", "m", "height of the wheelset, positive down", [](Motion& m) -> double& { return m.wheelset.z; }},
+    {"wheelset_roll_rad", "rad", "roll of the wheelset", [](Motion& m) -> double& { return m.wheelset.roll; }},
+    {"wheelset_yaw_rad", "rad", "yaw of the wheelset", [](Motion& m) -> double& { return m.wheelset.yaw; }},
+    {"wheelset_vx_m_s", "m/s", "forward velocity of the wheelset",
+     [](Motion& m) -> double& { return m.wheelset_velocity.x; }},
+    {"wheelset_vy_m_s", "m/s", "lateral velocity of the wheelset",
+     [](Motion& m) -> double& { return m.wheelset_velocity.y; }},
+    {"wheelset_vz_m_s", "m/s", "vertical velocity of the wheelset",
+     [](Motion& m) -> double& { return m.wheelset_velocity.z; }},
+    {"wheelset_vroll_rad_s", "rad/s", "roll rate of the wheelset",
+     [](Motion& m) -> double& { return m.wheelset_velocity.roll; }},
+    {"wheelset_vyaw_rad_s", "rad/s", "yaw rate of the wheelset",
+     [](Motion& m) -> double& { return m.wheelset_velocity.yaw; }},
+    {"wheelset_vpitch_rad_s", "rad/s", "pitch rate of the wheelset",
+     [](Motion& m) -> double& { return m.wheelset_velocity.pitch; }},
+};
+
 const char* unit_of(const vehicle::Coordinate& c) { return static_cast<int>(c.freedom) < 3 ? "m" : "rad"; }
 
 }  // namespace
+
+std::span<const MotionColumn> motion_columns() { return kMotion; }
+
+std::string column_prefix(const io::SimulationFile& file, std::size_t wheel) {
+  const auto is_full = [](const io::WheelContactInput& w) { return w.model == io::ContactModelInput::full; };
+  const auto first = std::ranges::find_if(file.wheels, is_full);
+  const auto watched = first == file.wheels.end() ? 0u : static_cast<std::size_t>(first - file.wheels.begin());
+  return wheel == watched ? "" : wheel_name(file.wheels.at(wheel)) + '.';
+}
 
 HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation)
     : simulation_(simulation) {
@@ -55,10 +92,11 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
       [=] { return static_cast<double>(reaction().doubts); });
   add(prefix + "friction_W", "W", "power dissipated by friction" + of, [=] { return reaction().frictional_power; });
   const auto motion = [this, wheel] { return simulation_.vehicle().motion(wheel, simulation_.state()); };
-  add(prefix + "pitch_rad", "rad", "pitch of the wheelset" + of, [=] { return motion().wheelset.pitch; });
-  add(prefix + "rail_y_m", "m", "lateral displacement of the rail" + of, [=] { return motion().rail.y; });
-  add(prefix + "rail_z_m", "m", "vertical displacement of the rail" + of, [=] { return motion().rail.z; });
-  add(prefix + "rail_roll_rad", "rad", "roll of the rail" + of, [=] { return motion().rail.roll; });
+  for (const MotionColumn& column : kMotion)
+    add(prefix + column.name, column.unit, column.description + of, [motion, place = column.place] {
+      Motion m = motion();
+      return place(m);
+    });
 }
 
 void HistoryRecord::add_energies() {

@@ -4,6 +4,8 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
+#include <string>
 #include <vector>
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
@@ -11,6 +13,15 @@
 #include "treadmark/io/histories/history_model.hpp"
 
 namespace treadmark::app {
+
+/// A column that holds a part of the motion of a wheel with full contact and its rail; together all of it.
+struct MotionColumn {
+  const char *name, *unit, *description;
+  double& (*place)(vehicle::PairMotion&);
+};
+std::span<const MotionColumn> motion_columns();
+/// What stands before the name of a wheel's column.
+std::string column_prefix(const io::SimulationFile& file, std::size_t wheel);
 
 /// What is written down of a simulation at every instant: time and place, forces of the wheels (of those with full
 /// contact also what their patches are like), motions of all bodies, energies. The columns of the watched wheel have no

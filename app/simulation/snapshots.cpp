@@ -20,17 +20,6 @@ bool passed(double before, double now, double angle) {
   return was > 0.0 && was < kNear && is <= 0.0 && is > -kNear;
 }
 
-io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, const vehicle::PairMotion& m) {
-  io::WheelRailCase input = file.contact;
-  input.side = file.wheels[wheel].side;
-  input.state.position = m.wheelset;
-  input.state.velocity = m.wheelset_velocity;
-  Track& t = input.track;
-  t.dy = m.rail.y, t.dz = m.rail.z, t.roll = m.rail.roll, t.vy = m.rail.vy, t.vz = m.rail.vz, t.vroll = m.rail.vroll;
-  input.vertical_force_prescribed = false;
-  return input;
-}
-
 /// Where the depth of defects is looked for, about the most loaded patch.
 Grid2 depth_window(const wheelrail::PairSolution& s) {
   constexpr double kStep = 1e-3;           // [m]
@@ -42,6 +31,17 @@ Grid2 depth_window(const wheelrail::PairSolution& s) {
 }
 
 }  // namespace
+
+io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, const vehicle::PairMotion& m) {
+  io::WheelRailCase input = file.contact;
+  input.side = file.wheels[wheel].side;
+  input.state.position = m.wheelset;
+  input.state.velocity = m.wheelset_velocity;
+  Track& t = input.track;
+  t.dy = m.rail.y, t.dz = m.rail.z, t.roll = m.rail.roll, t.vy = m.rail.vy, t.vz = m.rail.vz, t.vroll = m.rail.vroll;
+  input.vertical_force_prescribed = false;
+  return input;
+}
 
 void Snapshots::take_start() {
   if (!wanted()) return;

@@ -9,6 +9,9 @@
 
 namespace treadmark::app {
 
+/// A wheel and its rail at an instant as a case that stands alone: steady rolling at the height of the wheelset.
+io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, const vehicle::PairMotion& motion);
+
 /// Contact fields at chosen instants of the wheels with full contact: kept as what it takes to solve the instant again.
 class Snapshots {
  public:

@@ -1,0 +1,116 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <span>
+#include <string>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/cases/read_inp.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/sample_input.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+io::RunResult solved(const fs::path& file) { return app::run_cases(io::read_any_case(file)); }
+
+void expect_same_results(const io::RunResult& a, const io::RunResult& b) {
+  ASSERT_EQ(a.cases.size(), b.cases.size());
+  for (std::size_t i = 0; i < a.cases.size(); ++i) {
+    SCOPED_TRACE(i);
+    EXPECT_EQ(a.cases[i].status, b.cases[i].status);
+    ASSERT_EQ(a.cases[i].patches.size(), b.cases[i].patches.size());
+    for (std::size_t k = 0; k < a.cases[i].patches.size(); ++k) {
+      const io::PatchResult &p = a.cases[i].patches[k], &q = b.cases[i].patches[k];
+      for (double io::PatchResult::*number :
+           {&io::PatchResult::fn, &io::PatchResult::fx, &io::PatchResult::fs, &io::PatchResult::pmax,
+            &io::PatchResult::approach, &io::PatchResult::xi, &io::PatchResult::eta, &io::PatchResult::phi})
+        EXPECT_EQ(p.*number, q.*number);
+    }
+  }
+}
+
+TEST(ConvertedCases, InputOfContactRunsToTheSameNumbers) {
+  SampleInput input;
+  const fs::path toml = input.folder() / "written" / "case.toml", inp = input.folder() / "again.inp";
+  const ProgramResult first = run_program({"convert", input.inp().string(), "-o", toml.string()});
+  ASSERT_EQ(first.status, 0) << first.err;
+  ASSERT_EQ(run_program({"convert", toml.string(), inp.string()}).status, 0);
+  const io::RunResult expected = solved(input.inp());
+  ASSERT_FALSE(expected.cases.at(0).patches.empty());
+  expect_same_results(expected, solved(toml));
+  expect_same_results(expected, solved(inp));
+}
+
+TEST(ConvertedCases, ACaseFileRunsToTheSameNumbersAsInputOfContact) {
+  SampleInput input;
+  input.write("case.toml", R"(
+[rail]
+shape.file = "rail.prr"
+[wheel]
+shape.file = "wheel.txt"
+shape.mirror_z = "no"
+[track]
+rail_y_mm = 750
+rail_z_mm = 0
+cant_rad = 0.025
+[wheelset]
+vertical_force_N = 9e4
+velocity_m_s = 20
+vpitch_rad_s = -43.5
+[discretisation]
+dx_mm = 0.7
+ds_mm = 0.7
+)");
+  const fs::path toml = input.folder() / "case.toml", inp = input.folder() / "out.inp";
+  const ProgramResult r = run_program({"convert", toml.string(), inp.string(), "--set", "friction.coefficient=0.25"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string override = "friction.coefficient=0.25";
+  expect_same_results(app::run_cases(io::read_any_case(toml, std::span(&override, 1))), solved(inp));
+}
+
+TEST(ConvertedCases, APatchRunsToTheSameNumbers) {
+  SampleInput input;
+  const fs::path inp = input.folder() / "onset.inp";
+  const char* example = TREADMARK_SOURCE_DIR "/examples/onset-of-rolling.toml";
+  const ProgramResult r = run_program({"convert", example, inp.string()});
+  ASSERT_EQ(r.status, 0) << r.err;
+  expect_same_results(solved(example), solved(inp));
+}
+
+TEST(ConvertedCases, RefusedOnesLeaveNothing) {
+  SampleInput input;
+  const fs::path out = input.folder() / "out.inp";
+  const ProgramResult r = run_program({"convert", TREADMARK_SOURCE_DIR "/examples/wheel-flat.toml", out.string()});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("cannot be written as input of CONTACT (.inp)"));
+  EXPECT_FALSE(fs::exists(out));
+}
+
+/// A ball on a plane that rolls with spin; digit: E.
+double lateral_force(int digit) {
+  const std::string text = " 3 MODULE\n 203100\n 002202" + std::to_string(digit) +
+                           "\n 0000011\n 999 100 30 1 1e-7\n 1000. 0. 0. 1e-6\n 0.3 0.3\n 0. 0.1 1000.\n"
+                           " 0.28 0.28 82000. 82000.\n -1\n 40 40 0.001 0.001 1.1\n 0\n";
+  const io::RunResult run = app::run_cases(io::parse_contact_input(text, "spin.inp"));
+  return run.cases.at(0).patches.at(0).fs;
+}
+
+TEST(ConvertedCases, SpinInOneDirectionOnly) {
+  // At small spin forces add up (Kalker's linear theory), and nearly all of the lateral one is from slip across.
+  const double both = lateral_force(0), lengthwise = lateral_force(2), across = lateral_force(3);
+  EXPECT_GT(std::abs(both), 0.0);
+  EXPECT_NEAR(lengthwise + across, both, 0.02 * std::abs(both));
+  EXPECT_GT(std::abs(across - lengthwise), 0.2 * std::abs(both));
+}
+
+}  // namespace
+}  // namespace treadmark::testing

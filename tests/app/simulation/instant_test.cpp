@@ -1,0 +1,85 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/simulation/sample_simulation.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+constexpr double kSolver = 1e-5;  // its tolerance: in a simulation it starts from the solution of the instant before
+
+class Instant : public ::testing::Test {
+ protected:
+  void SetUp() override {
+    input.edit("simulation.toml", "\"transient\"", "\"steady\"");
+    const ProgramResult r = run_program({"simulate", input.path("simulation.toml"), "-o", input.path("out")});
+    ASSERT_EQ(r.status, 0) << r.err;
+  }
+  ProgramResult convert(std::vector<std::string> options) const {
+    options.insert(options.begin(), {"convert", input.path("out/simulation.h5")});
+    return run_program(options);
+  }
+  SampleSimulation input;
+};
+
+TEST_F(Instant, RunsToTheNumbersOfTheHistory) {
+  const io::SimulationResult history = io::read_simulation(input.path("out/simulation.h5"));
+  const auto column = [&](const std::string& name) { return column_values(history, column_index(history, name)); };
+  const std::size_t rows = history.rows();
+  ASSERT_GT(rows, 4u);
+  for (const std::size_t row : {std::size_t{0}, rows / 2, rows - 1}) {
+    SCOPED_TRACE(row);
+    const ProgramResult r = convert({"-o", input.path("case.toml"), "--at", std::to_string(column("t_s").at(row))});
+    ASSERT_EQ(r.status, 0) << r.err;
+    const io::RunResult run = app::run_cases(io::read_any_case(input.path("case.toml")));
+    ASSERT_FALSE(run.cases.empty());
+    for (std::size_t i = 0; i < run.cases.size(); ++i) {
+      SCOPED_TRACE(i);
+      const std::string prefix = i == 0 ? "" : "ws1_right.";
+      const io::CaseResult& c = run.cases[i];
+      double pmax = 0.0, fn = 0.0;
+      for (const io::PatchResult& p : c.patches) {
+        pmax = std::max(pmax, p.pmax);
+        fn += p.fn;
+      }
+      EXPECT_EQ(static_cast<double>(c.patches.size()), column(prefix + "patches").at(row));
+      EXPECT_NEAR(pmax, column(prefix + "pmax_Pa").at(row), kSolver * pmax);
+      EXPECT_NEAR(fn, column(prefix + "Fn_N").at(row), kSolver * fn);
+    }
+  }
+}
+
+TEST_F(Instant, WhatCannotBeIsRefused) {
+  const auto error = [&](std::vector<std::string> options) {
+    const ProgramResult r = convert(std::move(options));
+    EXPECT_EQ(r.status, 2) << r.out;
+    return r.err;
+  };
+  const std::string toml = input.path("case.toml");
+  EXPECT_THAT(error({"-o", toml}), HasSubstr("--at TIME"));
+  EXPECT_THAT(error({"-o", toml, "--at", "99"}), HasSubstr("outside the history"));
+  EXPECT_THAT(error({"-o", input.path("case.inp"), "--at", "0"}), HasSubstr("cannot be written as input of CONTACT"));
+  EXPECT_THAT(error({"-o", toml, "--at", "0", "--simulation", input.path("vehicle.toml")}), HasSubstr("vehicle.toml"));
+  EXPECT_THAT(error({"-o", toml, "--at", "0", "--set", "case.regime=transient"}), HasSubstr("in transient rolling"));
+  input.edit("simulation.toml", "dx_mm = 2", "dx_mm = 2.0");
+  EXPECT_THAT(error({"-o", toml, "--at", "0"}), HasSubstr("has changed since"));
+  EXPECT_FALSE(std::filesystem::exists(toml));
+  EXPECT_FALSE(std::filesystem::exists(input.path("case.inp")));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
