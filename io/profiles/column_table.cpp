@@ -104,8 +104,14 @@ points::FieldStyle ColumnTable::style() const {
   points::FieldStyle style = points::find_style(sample, 2);
   // tabs are blanks here: no column of a profile is empty
   if (style.separator == '\t') style.separator = ' ';
-  if (style.separator != ',') return style;
+  return style;
+}
+
+void ColumnTable::refuse_ambiguous_commas(const points::FieldStyle& style) const {
+  if (style.separator != ',') return;
   // 1,5,2,5 may be two numbers or four
+  std::vector<std::string> sample;
+  for (std::size_t k = 0; k < std::min(rows_.size(), kSampleRows); ++k) sample.push_back(rows_[k].text);
   const bool decimal_points =
       std::any_of(sample.begin(), sample.end(), [](const std::string& s) { return s.find('.') != std::string::npos; });
   for (std::size_t k = 0; k < sample.size(); ++k) {
@@ -115,7 +121,6 @@ points::FieldStyle ColumnTable::style() const {
         .fail("the commas may separate numbers or stand for decimal points", 1,
               "separate numbers with decimal commas by ';' or blanks, or write decimal points");
   }
-  return style;
 }
 
 std::size_t ColumnTable::columns(char separator) const {
@@ -149,6 +154,7 @@ RawPoints ColumnTable::points(const ColumnRoles& roles, const points::FieldStyle
 }
 
 ColumnRoles ColumnTable::assume_roles(const points::FieldStyle& style, std::vector<std::string>& notes) const {
+  refuse_ambiguous_commas(style);
   constexpr std::size_t kFewest = 20;    // lines in which nobody counts by chance
   constexpr std::size_t kWidest = 300;   // mm: no profile is wider
   constexpr double kLeastHeight = 0.02;  // of a third column against the second, else it is a weight or constant

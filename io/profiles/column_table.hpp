@@ -61,6 +61,9 @@ class ColumnTable {
   /// The points. numbers_only: nothing but numbers may stand in the other columns.
   RawPoints points(const ColumnRoles& roles, const points::FieldStyle& style, bool numbers_only) const;
 
+  /// Error(input_data) where commas may separate numbers or be decimal, which names of the columns would tell.
+  void refuse_ambiguous_commas(const points::FieldStyle& style) const;
+
   /// Columns without names: y and z unless the first one counts the lines. Error(input_data) where it seems to.
   ColumnRoles assume_roles(const points::FieldStyle& style, std::vector<std::string>& notes) const;
 

@@ -31,7 +31,7 @@ TEST(CheckProfiles, ShowsWhatWasUnderstoodOfACase) {
   // the wheel of the left side
   input.edit("case.inp", "'wheel.txt'   0 ", "'wheel.txt'   1 ");
   r = run_program({"check", input.inp().string()});
-  EXPECT_THAT(r.out, HasSubstr("doubt        flange_side: the flange is on the side of great y (tip at 70 mm)"));
+  EXPECT_THAT(r.out, HasSubstr("doubt     flange_side: the flange is on the side of great y (tip at 70 mm)"));
   EXPECT_THAT(run_program({"run", input.inp().string()}).err, HasSubstr("flange_side"));
 }
 

@@ -97,6 +97,7 @@ TEST(ProfileText, ColumnsGoByTheirNames) {
     three += "12.5 " + std::to_string(p.y) + " " + std::to_string(p.z) + "\n";
   }
   EXPECT_EQ(parse(numbered, Body::rail).z, expected.z);
+  EXPECT_EQ(parse("n,y,z\n1,-10,1\n2,0,0\n3,10,1\n", Body::rail).y.size(), 3u);  // whole numbers
   EXPECT_EQ(parse(three, Body::rail).y, expected.y);
 }
 
