@@ -123,7 +123,7 @@ TEST(ScanErrors, FilesThatCannotBeRead) {
   expect(folder.path() / "dir.ply", "is a folder");
   expect("/dev/null/a.ply", "");
   expect(folder.write("empty.xyz", ""), "is empty");
-  expect(folder.write("a.laz", "LASF"), "decompress it to .las first");
+  expect(folder.write("a.laz", "LASF"), "decompress it first: 'laszip -i a.laz -o a.las'");
   expect(folder.write("a.docx", "x"), "of no known kind");
   EXPECT_EQ(error_of([&] { read_scan(folder.path() / "none.ply"); }).where().file,
             (folder.path() / "none.ply").string());

@@ -30,6 +30,65 @@ TEST(Las, AllVersionsAndFormats) {
       }
 }
 
+/// Keys of GeoTIFF: four numbers each.
+std::string geo_keys(const std::vector<std::array<std::uint16_t, 4>>& keys) {
+  std::string out;
+  for (const std::size_t n : {std::size_t{1}, std::size_t{1}, std::size_t{0}, keys.size()})
+    put_bytes(out, static_cast<std::uint16_t>(n));
+  for (const auto& key : keys)
+    for (const std::uint16_t n : key) put_bytes(out, n);
+  return out;
+}
+
+TEST(Las, CoordinateSystemsOfTheEarthAreNamed) {
+  const std::string utm = geo_keys({{1024, 0, 1, 1}, {1026, 34737, 22, 0}, {3072, 0, 1, 32617}});
+  LasFile las;
+  las.gap = 20;
+  las.records = {{34735, utm}, {34737, "WGS 84 / UTM zone 17N|WGS 84|"}};
+  Scan scan = parse_in_all_blocks(parse_las, las.bytes());
+  EXPECT_EQ(scan.reference, "WGS 84 / UTM zone 17N");
+  EXPECT_EQ(scan.usual_unit, LengthUnit::metre);
+  EXPECT_FALSE(scan.unit);
+  EXPECT_EQ(scan.cloud.points.size(), 3u);
+  EXPECT_EQ(scan.cloud.points[1], las.expected(1));
+  EXPECT_NE(scan.format.find("coordinate system WGS 84 / UTM zone 17N"), std::string::npos) << scan.format;
+
+  las.records = {{34735, geo_keys({{1024, 0, 1, 1}, {3072, 0, 1, 25832}})}};
+  EXPECT_EQ(parse(parse_las, las.bytes()).reference, "EPSG 25832");
+  las.records = {{2112, "PROJCS[\"NAD83 / Texas\",GEOGCS[\"NAD83\"]]"}};
+  EXPECT_EQ(parse(parse_las, las.bytes()).reference, "NAD83 / Texas");
+  las.records = {{2112, "LOCAL_CS[\"a machine\"]"}, {34735, geo_keys({{1025, 0, 1, 1}})}};
+  EXPECT_EQ(parse(parse_las, las.bytes()).reference, "");
+  las.records = {};
+  EXPECT_EQ(parse(parse_las, las.bytes()).reference, "");
+
+  las.minor = 4;
+  las.format = 6;
+  las.late = {{2112, std::string("COMPD_CS[\"both\"]") + '\0'}};
+  scan = parse_in_all_blocks(parse_las, las.bytes());
+  EXPECT_EQ(scan.reference, "both");
+  EXPECT_EQ(scan.cloud.points[1], las.expected(1));
+}
+
+TEST(Las, LongitudesAndLatitudesAreRefused) {
+  LasFile las;
+  las.records = {{34735, geo_keys({{1024, 0, 1, 2}, {2048, 0, 1, 4326}})}};
+  expect_error(parse_las, las.bytes(), "the coordinates are longitudes and latitudes (EPSG 4326)");
+  las.records = {{2112, "GEOGCS[\"WGS 84\"]"}};
+  expect_error(parse_las, las.bytes(), "longitudes and latitudes (WGS 84)");
+}
+
+TEST(Las, BrokenRecordsAboutTheCoordinateSystemDoNotMatter) {
+  LasFile las;
+  las.records = {{34735, "abc"}, {34737, ""}, {2112, "\"["}};
+  std::string bytes = las.bytes();
+  EXPECT_EQ(parse_in_all_blocks(parse_las, bytes).cloud.points.size(), 3u);
+  set_bytes(bytes, 100, std::uint32_t{4'000'000'000});
+  EXPECT_EQ(parse_in_all_blocks(parse_las, bytes).cloud.points.size(), 3u);
+  set_bytes(bytes, 227 + 20, std::uint16_t{65535});
+  EXPECT_EQ(parse_in_all_blocks(parse_las, bytes).cloud.points.size(), 3u);
+}
+
 TEST(Las, EqualSourcesAreNoPasses) {
   LasFile las;
   las.sources = {7, 7, 7};
@@ -79,8 +138,7 @@ TEST(Las, Errors) {
   expect_error(parse_las, with(25, std::uint8_t{5}), "at byte 24: LAS version 1.5 is not known");
   expect_error(parse_las, with(25, std::uint8_t{4}), "at byte 94: a header of 227 bytes, version 1.4 has at least 375");
   expect_error(parse_las, with(94, std::uint16_t{100}), "at byte 94: a header of 100 bytes");
-  expect_error(parse_las, with(104, std::uint8_t{0x80}),
-               "(decompress the file to .las first, for example with laszip)");
+  expect_error(parse_las, with(104, std::uint8_t{0x80}), "(decompress the file first: 'laszip -i in.laz -o out.las'");
   expect_error(parse_las, with(104, std::uint8_t{0x43}), "at byte 104: the points are compressed");
   expect_error(parse_las, with(104, std::uint8_t{11}), "at byte 104: the point data format 11 is not known");
   expect_error(parse_las, with(105, std::uint16_t{19}),

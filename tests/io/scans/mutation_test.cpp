@@ -3,6 +3,7 @@
 #include <random>
 
 #include "sample_files.hpp"
+#include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -142,6 +143,7 @@ TEST(MutatedScans, Las) {
     las.minor = format == 6 ? 4 : 2;
     las.format = format;
     las.extra = 3;
+    las.records = {{2112, "PROJCS[\"a map\"]"}};
     survive(scans::parse_las, las.bytes());
     survive_truncation(scans::parse_las, las.bytes());
   }
@@ -153,6 +155,33 @@ TEST(MutatedScans, Columns) {
     survive(scans::parse_columns, text);
     survive_truncation(scans::parse_columns, text);
   }
+}
+
+/// An E57 file from its content: with the check sums made after the mutation, so that what is behind them is reached.
+Scan parse_e57_content(ByteBlocks& bytes, const ScanReadOptions& options) {
+  const auto size = static_cast<std::size_t>(bytes.size());
+  const std::string file = E57File::paged({bytes.need(size), size});
+  ByteBlocks pages(file, bytes.file(), 100);
+  return scans::parse_e57(pages, options);
+}
+
+TEST(MutatedScans, Pcd) {
+  for (const std::string& valid : {ascii_pcd(), binary_pcd(), compressed_pcd()}) {
+    survive(scans::parse_pcd, valid);
+    survive_truncation(scans::parse_pcd, valid);
+  }
+}
+TEST(MutatedScans, Ptx) {
+  survive(scans::parse_ptx, ptx());
+  survive_truncation(scans::parse_ptx, ptx());
+}
+TEST(MutatedScans, E57) {
+  TREADMARK_NEEDS("e57");
+  survive(parse_e57_content, e57().content());
+  survive_truncation(parse_e57_content, e57().content());
+  const std::string whole = e57().bytes();
+  for (std::size_t size = 1; size < whole.size(); size += 7)
+    EXPECT_THROW(parse(scans::parse_e57, whole.substr(0, size)), Error) << size;
 }
 
 TEST(MutatedScans, Truncated) {
