@@ -5,10 +5,10 @@
 #include <Eigen/SVD>
 #include <cmath>
 
+#include "treadmark/io/points/unit_words.hpp"
 #include "treadmark/io/scans/cloud_builder.hpp"
 #include "treadmark/io/scans/column_layout.hpp"
 #include "treadmark/io/scans/parse_scan.hpp"
-#include "treadmark/io/points/unit_words.hpp"
 
 namespace treadmark::io::scans {
 
