@@ -23,6 +23,7 @@ constexpr std::size_t kFewestInSurroundings = 8;
 constexpr double kFlatElement = 0.03;  // least to middle eigenvalue
 constexpr double kBroad = 0.05;        // middle to greatest eigenvalue: no line
 constexpr double kEnoughFlat = 0.85;
+constexpr double kMostlyFlat = 0.5;
 constexpr double kLeastFlat = 0.25;
 constexpr double kClearGain = 0.08;
 constexpr std::size_t kFewestElements = 20;
@@ -155,7 +156,7 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
   for (double s = kStep * size; !enough && s < extent.radius / 3.0; s *= kStep)
     enough = try_size(Voxels(points, extent.centre, s, keep));
   // a surface that turns within all of these shows in smaller ones, as long as they hold points
-  enough = enough || (best.flat_part >= kLeastFlat && best.position.size() >= kFewestElements);
+  enough = enough || (best.flat_part >= kMostlyFlat && best.position.size() >= kFewestElements);
   for (double s = size / kStep; !enough && s > size * std::sqrt(kFewestPerVoxel / kWantedPerVoxel); s /= kStep) {
     const Voxels voxels(points, extent.centre, s, keep);
     if (voxels.count() > kMostVoxels) break;
