@@ -23,8 +23,10 @@ constexpr std::size_t kFewestInSurroundings = 8;
 constexpr double kFlatElement = 0.03;  // least to middle eigenvalue
 constexpr double kBroad = 0.05;        // middle to greatest eigenvalue: no line
 constexpr double kEnoughFlat = 0.85;
+constexpr double kMostlyFlat = 0.5;
 constexpr double kLeastFlat = 0.25;
 constexpr double kClearGain = 0.08;
+constexpr std::size_t kFewestElements = 20;
 
 struct Extent {
   Vec3 centre;
@@ -151,15 +153,16 @@ SurfaceElements find_elements(std::span<const Vec3> points, std::span<const std:
   };
   constexpr double kStep = 1.6;
   bool enough = try_size(Voxels(points, extent.centre, size, keep));
-  // a surface that turns within its surroundings shows in smaller ones, as long as they hold points
+  for (double s = kStep * size; !enough && s < extent.radius / 3.0; s *= kStep)
+    enough = try_size(Voxels(points, extent.centre, s, keep));
+  // a surface that turns within all of these shows in smaller ones, as long as they hold points
+  enough = enough || (best.flat_part >= kMostlyFlat && best.position.size() >= kFewestElements);
   for (double s = size / kStep; !enough && s > size * std::sqrt(kFewestPerVoxel / kWantedPerVoxel); s /= kStep) {
     const Voxels voxels(points, extent.centre, s, keep);
     if (voxels.count() > kMostVoxels) break;
     enough = try_size(voxels);
   }
-  for (double s = kStep * size; !enough && s < extent.radius / 3.0; s *= kStep)
-    enough = try_size(Voxels(points, extent.centre, s, keep));
-  if (best.flat_part < kLeastFlat || best.position.size() < 20)
+  if (best.flat_part < kLeastFlat || best.position.size() < kFewestElements)
     throw Error(ErrorKind::input_data,
                 fmt::format("the points do not form a surface: only {:.0f} % of them lie in flat surroundings",
                             100.0 * best.flat_part),

@@ -119,6 +119,41 @@ TEST(Elements, AreTheSameInEveryUnit) {
   }
 }
 
+/// A bar of 70 mm by 40 mm and corners of 13 mm, points at random: what a rail's head is to planes.
+std::vector<Vec3> round_bar(double spacing, double length) {
+  constexpr double kHalfWidth = 35e-3, kHalfHeight = 20e-3, kCorner = 13e-3;
+  const double width = 2.0 * (kHalfWidth - kCorner), height = 2.0 * (kHalfHeight - kCorner), arc = 0.5 * kPi * kCorner,
+               girth = 2.0 * (width + height) + 4.0 * arc;
+  Random random(11);
+  std::vector<Vec3> points;
+  const auto count = static_cast<int>(girth * length / (spacing * spacing));
+  for (int k = 0; k < count; ++k) {
+    // a quarter of the outline, mirrored
+    double s = 0.25 * girth * random.uniform();
+    Vec2 p;
+    if (s < 0.5 * width)
+      p = Vec2(s, kHalfHeight);
+    else if ((s -= 0.5 * width) < arc)
+      p = Vec2(0.5 * width, 0.5 * height) + kCorner * Vec2(std::sin(s / kCorner), std::cos(s / kCorner));
+    else
+      p = Vec2(kHalfWidth, 0.5 * height - (s - arc));
+    if (random.uniform() < 0.5) p.x() = -p.x();
+    if (random.uniform() < 0.5) p.y() = -p.y();
+    points.emplace_back(length * random.uniform(), p.x(), p.y());
+  }
+  return points;
+}
+
+TEST(Elements, AreAsSmallAsTheSurfaceTurns) {
+  for (const double spacing : {2.9e-3, 2e-3, 1e-3, 0.5e-3}) {
+    const SurfaceElements elements = find_elements(round_bar(spacing, 0.5));
+    EXPECT_GT(elements.flat_part, 0.6) << spacing;
+    EXPECT_LT(elements.size, 10e-3) << spacing;
+    const RoughAxis sweep = rough_sweep(elements);
+    EXPECT_GT(std::fabs(sweep.axis.direction.x()), 0.9999) << spacing;
+  }
+}
+
 TEST(Elements, RefuseWhatIsNoSurface) {
   const auto few = tests::error_of([] { find_elements(cylinder(99, 0.0, 0.0, 1)); });
   ASSERT_TRUE(few);
