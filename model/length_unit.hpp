@@ -44,6 +44,7 @@ constexpr std::string_view symbol(LengthUnit unit) {
   return "m";
 }
 
+/// The unit of this symbol; none for another text.
 constexpr std::optional<LengthUnit> length_unit(std::string_view symbol_or_nothing) {
   for (const LengthUnit unit : kLengthUnits)
     if (symbol(unit) == symbol_or_nothing) return unit;

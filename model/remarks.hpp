@@ -43,7 +43,7 @@ struct RemarkRow {
 /// Rows lie in the order of the enumerators.
 inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::grid_cuts_contact, "grid_cuts_contact", true,
-     "pressure at the border of the potential contact area: the patch goes on beyond it"},
+     "more pressure at the border of the potential contact area than at the edge of a patch: it goes on beyond"},
     {RemarkKind::surface_ends_in_contact, "surface_ends_in_contact", true,
      "contact reaches the end of a surface's data: pressures there depend on where the data end"},
     {RemarkKind::hole_in_contact, "hole_in_contact", true,

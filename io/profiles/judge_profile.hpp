@@ -33,8 +33,8 @@ struct ExpectedWheel {
 
 /// A known profile to compare with: points (y, z), y increasing [m].
 struct StandardOutline {
-  std::string name;
-  std::vector<double> y, z;
+  std::string name;          ///< "S1002"
+  std::vector<double> y, z;  ///< [m]
 };
 
 /// Facts and doubts about a profile that has been read. standards: of the same body. Never throws; thread-safe.

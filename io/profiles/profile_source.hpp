@@ -18,8 +18,8 @@ struct ProfileSource {
   std::optional<double> nominal_radius;  ///< of a wheel [m]: half the diameter at the tape line
   std::vector<std::pair<std::string, std::string>> said;  ///< names and values in the file that the points do not show
   std::vector<std::string> notes;                         ///< repairs, and what was not used
-  std::size_t points_in_file = 0;
-  double scale_to_mm = 1.0;  ///< from numbers of the file to mm
+  std::size_t points_in_file = 0;                         ///< before repairs
+  double scale_to_mm = 1.0;                               ///< from numbers of the file to mm
   bool mirrored_y = false, mirrored_z = false;
   bool reversed = false;   ///< the order of the points
   std::vector<int> lines;  ///< where in the file each point of the profile stands

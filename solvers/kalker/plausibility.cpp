@@ -18,13 +18,26 @@ constexpr double kLargeCreepage = 0.1;
 constexpr double kAddedEnergy = 0.01;
 constexpr double kForceTolerance = 2e-3;
 
-/// Elements with pressure at the border of the grid; a direction of one element has no border.
-int pressed_at_border(const Grid2& g, const std::vector<double>& pressure) {
+/// Elements at the border of the grid with more pressure than at the edge of a patch that ends within them; a direction
+/// of one element has no border. Hertz: within half an element h of its edge, a patch of half-width b has at most
+/// p_max sqrt(h / b).
+int cut_at_border(const Grid2& g, const ContactSolution& s) {
+  int first_x = g.nx, last_x = -1, first_y = g.ny, last_y = -1;
+  for (int iy = 0; iy < g.ny; ++iy)
+    for (int ix = 0; ix < g.nx; ++ix)
+      if (s.pressure[g.index(ix, iy)] > 0.0) {
+        first_x = std::min(first_x, ix), last_x = std::max(last_x, ix);
+        first_y = std::min(first_y, iy), last_y = std::max(last_y, iy);
+      }
+  const double edge_x = s.max_pressure * std::sqrt(2.0 / (last_x - first_x + 1)),
+               edge_y = s.max_pressure * std::sqrt(2.0 / (last_y - first_y + 1));
   int count = 0;
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix) {
-      const bool border = (g.nx > 1 && (ix == 0 || ix == g.nx - 1)) || (g.ny > 1 && (iy == 0 || iy == g.ny - 1));
-      if (border && pressure[g.index(ix, iy)] > 0.0) ++count;
+      const double p = s.pressure[g.index(ix, iy)];
+      const bool cut_x = g.nx > 1 && (ix == 0 || ix == g.nx - 1) && p > edge_x,
+                 cut_y = g.ny > 1 && (iy == 0 || iy == g.ny - 1) && p > edge_y;
+      if (cut_x || cut_y) ++count;
     }
   return count;
 }
@@ -53,9 +66,9 @@ double contact_modulus(const Material& material) {
 void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vector<Remark>& remarks) {
   const auto add = [&](RemarkKind kind, std::string text) { remarks.push_back({kind, patch, std::move(text)}); };
 
-  if (const int count = pressed_at_border(p.grid, s.pressure); count > 0)
+  if (const int count = cut_at_border(p.grid, s); count > 0)
     add(RemarkKind::grid_cuts_contact,
-        fmt::format("{} of {} elements in contact lie at the border of the potential contact area, which cuts the "
+        fmt::format("{} of {} elements in contact press at the border of the potential contact area, which cuts the "
                     "patch: make it larger",
                     count, s.elements_contact));
 

@@ -122,8 +122,9 @@ TEST_F(BadInput, WheelOffTheRailIsAStatusNotAnError) {
   input.edit("case.inp", "  0.0  0.0  60000.", "  0.0  300.0  60000.");
   const auto json = input.folder() / "result.json";
   const ProgramResult r = run_program({"run", input.inp().string(), "--json", json.string()});
-  EXPECT_EQ(r.status, 0) << r.err;
+  EXPECT_EQ(r.status, 1) << "no contact under a prescribed load is a doubt: " << r.err;
   EXPECT_THAT(input.read("result.json"), HasSubstr("\"no_contact\""));
+  EXPECT_THAT(input.read("result.json"), HasSubstr("\"no_contact_under_load\""));
 }
 
 TEST_F(BadInput, OutputFolderThatCannotBeMade) {

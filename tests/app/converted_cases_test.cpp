@@ -98,7 +98,7 @@ TEST(ConvertedCases, RefusedOnesLeaveNothing) {
 /// A ball on a plane that rolls with spin; digit: E.
 double lateral_force(int digit) {
   const std::string text = " 3 MODULE\n 203100\n 002202" + std::to_string(digit) +
-                           "\n 0000011\n 999 100 30 1 1e-7\n 1000. 0. 0. 1e-6\n 0.3 0.3\n 0. 0.1 1000.\n"
+                           "\n 0000111\n 999 100 30 1 1e-7\n 1000. 0. 0. 1e-6\n 0.3 0.3\n 0. 0.1 1000.\n"
                            " 0.28 0.28 82000. 82000.\n -1\n 40 40 0.001 0.001 1.1\n 0\n";
   const io::RunResult run = app::run_cases(io::parse_contact_input(text, "spin.inp"));
   return run.cases.at(0).patches.at(0).fs;

@@ -37,6 +37,8 @@ void add_banners(const io::RunResult& run, Section& overview) {
   if (const auto [count, numbers] = list(Status::not_converged); count > 0)
     overview.blocks.emplace_back(Banner{Banner::Kind::warning, counted(count, "case") + " did not converge.",
                                         fmt::format("Judge the results with care: case {}.", numbers)});
+  if (const auto [count, numbers] = list(Status::no_contact); count > 0)
+    overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
   for (const RemarkRow& row : kRemarkRows) {
     std::size_t count = 0;
     std::string first;
@@ -48,8 +50,6 @@ void add_banners(const io::RunResult& run, Section& overview) {
           row.grave ? Banner::Kind::warning : Banner::Kind::note,
           row.grave ? "Doubtful:" : "Remark:", count > 1 ? fmt::format("{} (the first of {})", first, count) : first});
   }
-  if (const auto [count, numbers] = list(Status::no_contact); count > 0)
-    overview.blocks.emplace_back(Banner{Banner::Kind::note, counted(count, "case") + " without contact:", numbers});
 }
 
 Cards::Card extreme(const io::RunResult& run, const char* label, const char* unit, double factor,

@@ -69,16 +69,17 @@ TEST_F(Instant, WhatCannotBeIsRefused) {
     EXPECT_EQ(r.status, 2) << r.out;
     return r.err;
   };
-  const std::string toml = input.path("case.toml");
+  const std::string toml = input.path("instant.toml");
   EXPECT_THAT(error({"-o", toml}), HasSubstr("--at TIME"));
   EXPECT_THAT(error({"-o", toml, "--at", "99"}), HasSubstr("outside the history"));
-  EXPECT_THAT(error({"-o", input.path("case.inp"), "--at", "0"}), HasSubstr("cannot be written as input of CONTACT"));
+  EXPECT_THAT(error({"-o", input.path("instant.inp"), "--at", "0"}),
+              HasSubstr("cannot be written as input of CONTACT"));
   EXPECT_THAT(error({"-o", toml, "--at", "0", "--simulation", input.path("vehicle.toml")}), HasSubstr("vehicle.toml"));
   EXPECT_THAT(error({"-o", toml, "--at", "0", "--set", "case.regime=transient"}), HasSubstr("in transient rolling"));
   input.edit("simulation.toml", "dx_mm = 2", "dx_mm = 2.0");
   EXPECT_THAT(error({"-o", toml, "--at", "0"}), HasSubstr("has changed since"));
   EXPECT_FALSE(std::filesystem::exists(toml));
-  EXPECT_FALSE(std::filesystem::exists(input.path("case.inp")));
+  EXPECT_FALSE(std::filesystem::exists(input.path("instant.inp")));
 }
 
 }  // namespace

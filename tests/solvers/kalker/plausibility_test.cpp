@@ -60,6 +60,16 @@ TEST(Plausibility, GridThatCutsThePatch) {
   EXPECT_THAT(judged(plain_patch(0.8).problem), Contains(RemarkKind::grid_cuts_contact));
 }
 
+// The outermost rows end beyond the patch, and their middle lies in it.
+TEST(Plausibility, PatchThatEndsWithinTheOutermostElements) {
+  EXPECT_THAT(judged(plain_patch(1.1, 80e3, 10).problem), Not(Contains(RemarkKind::grid_cuts_contact)));
+}
+
+TEST(Plausibility, EveryElementInContact) {
+  OwnedProblem patch = plain_patch(0.5, 80e3, 11);
+  EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::grid_cuts_contact));
+}
+
 TEST(Plausibility, DirectionOfOneElementHasNoBorder) {
   OwnedProblem strip = plain_patch();
   strip.problem.grid.ny = 1;
