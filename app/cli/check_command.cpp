@@ -11,6 +11,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/report/pages/check_page.hpp"
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
@@ -26,6 +27,7 @@ struct CheckOptions {
   std::vector<std::string> cases;
   std::vector<std::string> overrides;  ///< key=value
   std::string output_folder;           ///< of pictures; empty = none
+  std::string report_file;             ///< HTML; empty = none
   std::string body;                    ///< of profiles: "wheel", "rail" or empty
 };
 
@@ -58,39 +60,57 @@ void print_profile(const app::CheckedProfile& profile) {
   for (const io::ProfileRemark& remark : profile.judgement.remarks) line("doubt", remark.name + ": " + remark.text);
 }
 
-void check_profile_file(const CheckOptions& options, const std::string& name) {
-  if (!options.overrides.empty())
-    throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {name}, "leave it out");
-  std::optional<Body> body;
-  if (!options.body.empty()) body = options.body == "wheel" ? Body::wheel : Body::rail;
-  print_profile(app::check_profile(name, body));
+using app::report::CheckedInput;
+
+void add_profile(const app::CheckedProfile& profile, CheckedInput& to) {
+  print_profile(profile);
+  to.profiles.emplace_back(profile.name, profile.judgement);
 }
 
-void check_case_file(const std::string& name, const CheckOptions& options) {
-  const io::CaseFile file = io::read_any_case(name, options.overrides);
+void check_profile_file(const CheckOptions& options, CheckedInput& input) {
+  if (!options.overrides.empty())
+    throw Error(ErrorKind::configuration, "--set changes keys of case files, this is none", {input.file},
+                "leave it out");
+  std::optional<Body> body;
+  if (!options.body.empty()) body = options.body == "wheel" ? Body::wheel : Body::rail;
+  add_profile(app::check_profile(input.file, body), input);
+}
+
+void check_case_file(const CheckOptions& options, CheckedInput& input) {
+  const io::CaseFile file = io::read_any_case(input.file, options.overrides);
   const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
   print_notes(file.notes, false);
+  input.notes = file.notes;
+  if (!options.output_folder.empty() || !options.report_file.empty())
+    for (const app::CaseGeometry& c : cases)
+      input.positions.emplace_back(fmt::format("Case {}", c.given->number), position_svg(c));
   if (!options.output_folder.empty()) {
     make_folder(options.output_folder);
-    for (const app::CaseGeometry& c : cases)
+    for (std::size_t k = 0; k < cases.size(); ++k)
       io::write_text_file(
-          std::filesystem::path(options.output_folder) / fmt::format("position_{:04}.svg", c.given->number),
-          position_svg(c));
+          std::filesystem::path(options.output_folder) / fmt::format("position_{:04}.svg", cases[k].given->number),
+          input.positions[k].second);
   }
-  for (const app::CheckedProfile& profile : app::check_profiles(file)) print_profile(profile);
-  std::cout << name << ": " << file.cases.size() << (file.cases.size() == 1 ? " case" : " cases") << ", no errors\n";
+  for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
+  input.outcome = fmt::format("{}{}, no errors", file.cases.size(), file.cases.size() == 1 ? " case" : " cases");
+  std::cout << input.file << ": " << input.outcome << '\n';
 }
 
 int check_command(const CheckOptions& options, const CommonOptions&) {
-  for (const std::string& name : options.cases)
+  std::vector<CheckedInput> inputs;
+  for (const std::string& name : options.cases) {
+    CheckedInput& input = inputs.emplace_back();
+    input.file = name;
     if (app::is_profile_file(name))
-      check_profile_file(options, name);
+      check_profile_file(options, input);
     else if (io::is_study_file(name))
       check_study_file(name, options.overrides);
     else if (io::is_simulation_file(name))
       check_simulation_file(name, options.overrides);
     else
-      check_case_file(name, options);
+      check_case_file(options, input);
+  }
+  write_report_file(options.report_file, [&] { return app::report::check_page(inputs); });
   return kOk;
 }
 
@@ -102,6 +122,7 @@ Command add_check(CLI::App& verb) {
   verb.add_option("-o,--output", options->output_folder,
                   "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg")
       ->type_name("FOLDER");
+  add_report_file(verb, options->report_file);
   verb.add_option("--body", options->body, "Of profiles: wheel or rail, where the file does not tell")
       ->check(CLI::IsMember({"wheel", "rail"}));
   return command(options, check_command);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
+#include "treadmark/app/report/pages/check_page.hpp"
 #include "treadmark/app/report/pages/compare_page.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
@@ -28,6 +29,7 @@ namespace {
 std::string to_html(const Page&, const PageOptions&) { without_report(); }
 Page read_report(const std::filesystem::path&) { without_report(); }
 Page run_page(std::shared_ptr<const io::RunResult>, std::string) { without_report(); }
+Page check_page(const std::vector<CheckedInput>&) { without_report(); }
 Page compare_page(const std::shared_ptr<const io::Comparison>&, std::string) { without_report(); }
 Page bench_page(const BenchReport&, std::string) { without_report(); }
 Page import_page(const io::ImportReport&, std::string, const std::filesystem::path&) { without_report(); }

@@ -171,7 +171,7 @@ struct Timeline {
 };
 
 struct Page {
-  std::string kind;  ///< "run", "compare", "bench", "import", "simulation" or "sweep"
+  std::string kind;  ///< "run", "check", "compare", "bench", "import", "simulation" or "sweep"
   std::string title, lead;
   std::vector<Section> sections = {};
   std::optional<Timeline> timeline = {};

@@ -35,6 +35,22 @@ TEST(CheckProfiles, ShowsWhatWasUnderstoodOfACase) {
   EXPECT_THAT(run_program({"run", input.inp().string()}).err, HasSubstr("flange_side"));
 }
 
+TEST(CheckProfiles, ReportHasFactsDoubtsAndPositions) {
+  SampleInput input;
+  input.edit("case.inp", "'wheel.txt'   0 ", "'wheel.txt'   1 ");
+  const std::string html = (input.folder() / "check.html").string(), pictures = (input.folder() / "pictures").string();
+  const ProgramResult r = run_program(
+      {"check", input.inp().string(), (input.folder() / "rail.prr").string(), "--report", html, "-o", pictures});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const std::string page = input.read("check.html");
+  EXPECT_THAT(page, HasSubstr("flange_side: the flange is on the side of great y"));
+  EXPECT_THAT(page, HasSubstr("70.00 to 60.00 mm, to the right"));
+  EXPECT_THAT(page, HasSubstr("id=\"position-1-1\""));
+  EXPECT_THAT(page, HasSubstr("1 case, no errors"));
+  EXPECT_THAT(page, HasSubstr("id=\"input-2\""));
+  EXPECT_THAT(input.read("pictures/position_0001.svg"), HasSubstr("<svg"));
+}
+
 TEST(CheckProfiles, TakesAProfileByItself) {
   SampleInput input;
   const std::string wheel = (input.folder() / "wheel.txt").string();
