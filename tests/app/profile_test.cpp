@@ -44,9 +44,9 @@ TEST(CheckProfiles, ReportHasFactsDoubtsAndPositions) {
   ASSERT_EQ(r.status, 0) << r.err;
   const std::string page = input.read("check.html");
   EXPECT_THAT(page, HasSubstr("flange_side: the flange is on the side of great y"));
-  EXPECT_THAT(page, HasSubstr("70.00 to 60.00 mm, to the right"));
+  EXPECT_THAT(page, HasSubstr("-60.00 to 70.00 mm, to the right"));
   EXPECT_THAT(page, HasSubstr("id=\"position-1-1\""));
-  EXPECT_THAT(page, HasSubstr("1 case, no errors"));
+  EXPECT_THAT(page, HasSubstr("2 cases, no errors"));
   EXPECT_THAT(page, HasSubstr("id=\"input-2\""));
   EXPECT_THAT(input.read("pictures/position_0001.svg"), HasSubstr("<svg"));
 }
