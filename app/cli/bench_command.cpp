@@ -10,10 +10,10 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 namespace {

@@ -15,9 +15,9 @@
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/pictures/section_picture.hpp"
 
 namespace treadmark::cli {
@@ -87,7 +87,7 @@ void check_case_file(const CheckOptions& options, CheckedInput& input) {
   if (!options.output_folder.empty()) {
     make_folder(options.output_folder);
     for (std::size_t k = 0; k < cases.size(); ++k)
-      io::write_text_file(
+      write_file(
           std::filesystem::path(options.output_folder) / fmt::format("position_{:04}.svg", cases[k].given->number),
           input.positions[k].second);
   }

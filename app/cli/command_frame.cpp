@@ -13,8 +13,8 @@
 
 #include "treadmark/app/report/write_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 
@@ -55,7 +55,7 @@ void print_results(const std::string& json_file, const std::function<std::string
 }
 
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json) {
-  if (!json_file.empty() && json_file != "-") io::write_text_file(json_file, json());
+  if (!json_file.empty() && json_file != "-") write_file(json_file, json());
 }
 
 void check_output() {
@@ -64,7 +64,7 @@ void check_output() {
 }
 
 void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page) {
-  if (!file.empty()) io::write_text_file(file, app::report::to_html(page()));
+  if (!file.empty()) write_file(file, app::report::to_html(page()));
 }
 
 namespace {

@@ -15,13 +15,13 @@
 #include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 
@@ -77,7 +77,7 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
     text = io::case_file_text(file, output.parent_path());
     io::parse_case_text(text, output);
   }
-  io::write_text_file(output, text);
+  write_file(output, text);
   std::cout << fmt::format("{}: {} {}\n", options.output, file.cases.size(), file.cases.size() == 1 ? "case" : "cases");
   return kOk;
 }

@@ -6,9 +6,9 @@
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/pictures/imports/import_pictures.hpp"
 

@@ -7,8 +7,8 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 namespace {

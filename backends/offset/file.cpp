@@ -16,6 +16,7 @@
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 
 namespace treadmark::offset {
 
@@ -50,15 +51,25 @@ std::vector<char> read_all(const fs::path& file) {
   return data;
 }
 
-void append_trailer(const fs::path& file) {
-  const std::vector<char> data = read_all(file);
-  const std::uint64_t size = data.size(), sum = sum_of(data.data(), data.size());
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out.write(kMark.data(), kMark.size());
-  out.write(reinterpret_cast<const char*>(&size), sizeof(size));
-  out.write(reinterpret_cast<const char*>(&sum), sizeof(sum));
-  out.close();
-  if (!out) throw Error(ErrorKind::configuration, "cannot write the offsets", {file.string()});
+/// Bytes 22 to 57 of a VDB file are a random number as text, so that no two files
+/// are alike. Here it follows from the content: equal offsets give equal files.
+void name_by_content(std::string& bytes) {
+  constexpr std::size_t kAt = 22, kLength = 36;
+  if (bytes.size() < kAt + kLength) return;
+  bytes.replace(kAt, kLength, kLength, '0');
+  const std::uint64_t first = sum_of(bytes.data(), bytes.size());
+  const std::uint64_t second = sum_of(reinterpret_cast<const char*>(&first), sizeof(first));
+  const std::string digits = fmt::format("{:016x}{:016x}", first, second);
+  bytes.replace(kAt, kLength,
+                fmt::format("{}-{}-{}-{}-{}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(12, 4),
+                            digits.substr(16, 4), digits.substr(20)));
+}
+
+void append_trailer(std::string& bytes) {
+  const std::uint64_t size = bytes.size(), sum = sum_of(bytes.data(), bytes.size());
+  bytes.append(kMark.data(), kMark.size());
+  bytes.append(reinterpret_cast<const char*>(&size), sizeof(size));
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
 }
 
 void require_sound(const fs::path& file) {
@@ -89,8 +100,10 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
   sheet.u0 = f.u0, sheet.y0 = f.y0, sheet.du = f.du, sheet.dy = f.dy;
   sheet.metadata = to_metadata(*content.offsets, content.base);
   if (!content.notes.empty()) sheet.metadata["notes"] = content.notes;
-  write_sheet(file, content.offsets->grid, sheet);
-  append_trailer(file);
+  std::string bytes = sheet_bytes(content.offsets->grid, sheet);
+  name_by_content(bytes);
+  append_trailer(bytes);
+  write_file(file, bytes);
 }
 
 OffsetFile read_vdb(const fs::path& file) {

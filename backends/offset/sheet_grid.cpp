@@ -32,9 +32,11 @@ std::vector<SheetGrid::Entry> SheetGrid::blocks() const { return storage_->block
 std::size_t SheetGrid::active_count() const { return storage_->active_count(); }
 std::size_t SheetGrid::memory_bytes() const { return storage_->memory_bytes(); }
 
-void write_sheet(const std::filesystem::path& file, const SheetGrid& grid, const SheetFile& frame) {
-  throw_fault(sheet_library().write(file, grid.blocks(), {frame.u0, frame.y0, frame.du, frame.dy, frame.metadata}),
-              file);
+std::string sheet_bytes(const SheetGrid& grid, const SheetFile& frame) {
+  std::string bytes;
+  throw_fault(sheet_library().write(bytes, grid.blocks(), {frame.u0, frame.y0, frame.du, frame.dy, frame.metadata}),
+              {});
+  return bytes;
 }
 
 SheetFile read_sheet(const std::filesystem::path& file) {

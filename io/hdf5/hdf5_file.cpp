@@ -15,6 +15,7 @@
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 
@@ -141,11 +142,19 @@ void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* 
   AttributeWriter{dataset.get(), "meaning"}(what.meaning);
 }
 
-/// The oldest format with check sums, so that damage does not mislead the library.
-Hdf5Id open_to_write(const std::filesystem::path& file, const std::string& name) {
+/// Before the library is first used: nothing is left to be done at the end of a process, and where a damaged file keeps
+/// the library from closing its objects it would say so on the terminal.
+void quiet_end() { [[maybe_unused]] static const herr_t once = H5dont_atexit(); }
+
+/// A file in memory: writing to a disk that is full would leave the library in a state that it does not survive. The
+/// oldest format with check sums, so that damage does not mislead the library.
+Hdf5Id open_in_memory(const std::string& name) {
+  constexpr std::size_t kIncrement = std::size_t{1} << 20;
   const Hdf5Id creation = timeless(H5P_FILE_CREATE, name), access = written(H5Pcreate(H5P_FILE_ACCESS), name);
-  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0) cannot_write(name);
-  return written(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
+      H5Pset_fapl_core(access.get(), kIncrement, false) < 0)
+    cannot_write(name);
+  return written(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
 }
 
 Hdf5Id open_to_read(const std::filesystem::path& file) {
@@ -240,6 +249,7 @@ Hdf5Id::~Hdf5Id() {
 }
 
 Hdf5Silence::Hdf5Silence() {
+  quiet_end();
   H5E_auto2_t function = nullptr;
   H5Eget_auto2(H5E_DEFAULT, &function, &data_);
   function_ = reinterpret_cast<void*>(function);
@@ -277,17 +287,24 @@ void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::str
 void Hdf5GroupWriter::copy_file(const std::filesystem::path& source, const std::string& name) const {
   check_name(name);
   const Hdf5Id file = open_to_read(source);
-  if (H5Ocopy(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) cannot_write(name);
+  if (H5Ocopy(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    cannot_read(source.string(), "the file: it is damaged");
 }
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::string name)
-    : name_(std::move(name)),
-      file_(open_to_write(file, name_)),
-      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), name_)) {}
+Hdf5Writer::Hdf5Writer(std::filesystem::path file)
+    : target_(std::move(file)),
+      file_(open_in_memory(target_.string())),
+      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), target_.string())) {}
 
-void Hdf5Writer::close() {
+void Hdf5Writer::commit() {
   root_ = Hdf5GroupWriter(Hdf5Id());
-  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 || H5Fclose(file_.release()) < 0) cannot_write(name_);
+  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0) cannot_write(target_.string());
+  const ssize_t size = H5Fget_file_image(file_.get(), nullptr, 0);
+  if (size < 0) cannot_write(target_.string());
+  std::string image(static_cast<std::size_t>(size), '\0');
+  if (H5Fget_file_image(file_.get(), image.data(), image.size()) != size || H5Fclose(file_.release()) < 0)
+    cannot_write(target_.string());
+  write_file(target_, image);
 }
 
 bool Hdf5GroupReader::has(const std::string& name) const { return H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT) > 0; }

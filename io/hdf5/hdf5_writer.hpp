@@ -43,20 +43,21 @@ class Hdf5GroupWriter {
   Hdf5Id id_;
 };
 
-/// An HDF5 file being written, readable by the HDF5 library from version 1.8 on.
+/// An HDF5 file being written, readable by the HDF5 library from version 1.8 on. It is made in memory, where it takes
+/// as much as on the disk; nothing of it stands on the disk before commit().
 class Hdf5Writer {
  public:
-  /// file is replaced; name stands for it in errors.
-  Hdf5Writer(const std::filesystem::path& file, std::string name);
+  explicit Hdf5Writer(std::filesystem::path file);
 
   const Hdf5GroupWriter& root() const { return root_; }
 
-  /// Closes the file. Errors: Error(configuration) where not everything could be written. No group is used afterwards.
-  void close();
+  /// Writes the file, replacing what was there (core/output_file.hpp). Errors: Error(configuration). No group is used
+  /// afterwards.
+  void commit();
 
  private:
   Hdf5Silence silence_;
-  std::string name_;
+  std::filesystem::path target_;
   Hdf5Id file_;
   Hdf5GroupWriter root_;
 };

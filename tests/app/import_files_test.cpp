@@ -142,8 +142,8 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
     std::ifstream in(file);
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
-  write(path("a/own.txt"), "own");
-  write(path("a/slice_00001.txt"), "old");
+  const std::string index = "  0.0 'a.slcs-0123456789ab/slice_00001.txt'", slice = "slice_00001.txt";
+  write(path("a.slcs-ffffffffffff") / slice, "old");
   const std::vector<std::string> before = names();
   {
     StagedOutputs staged;
@@ -154,17 +154,16 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
     StagedOutputs staged;
     const fs::path place = staged.place(path("a.slcs"));
     EXPECT_EQ(place.filename(), "a.slcs");
-    write(place, "index");
-    write(place.parent_path() / "a" / "slice_00001.txt", "new");
+    write(place, index);
+    write(place.parent_path() / "a.slcs-0123456789ab" / slice, "new");
     write(staged.place(path("b.ply")), "ply");
     EXPECT_FALSE(fs::exists(path("a.slcs")));
     staged.commit();
   }
-  EXPECT_EQ(text_of(path("a.slcs")), "index");
-  EXPECT_EQ(text_of(path("a/slice_00001.txt")), "new");
-  EXPECT_EQ(text_of(path("a/own.txt")), "own");
+  EXPECT_EQ(text_of(path("a.slcs")), index);
+  EXPECT_EQ(text_of(path("a.slcs-0123456789ab") / slice), "new");
+  EXPECT_FALSE(fs::exists(path("a.slcs-ffffffffffff"))) << "those of the surface that is replaced";
   EXPECT_EQ(text_of(path("b.ply")), "ply");
-  EXPECT_EQ(names().size(), before.size() + 2);
 }
 
 /// Scans of others that are no wheel or rail, or no part of one that can be placed: what `import` says of them.

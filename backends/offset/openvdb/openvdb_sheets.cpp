@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <sstream>
 
 #include <openvdb/io/File.h>
+#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 #include "treadmark/backends/offset/openvdb/sheet_library.hpp"
@@ -66,8 +68,7 @@ std::unique_ptr<SheetStorage> make_storage() {
   return std::make_unique<Storage>();
 }
 
-SheetFault write_sheet(const std::filesystem::path& file, const std::vector<SheetEntry>& blocks,
-                       const SheetFrameAndData& frame) {
+SheetFault write_sheet(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& frame) {
   start_openvdb();
   const auto sheet = openvdb::FloatGrid::create(0.0f);
   sheet->setName(kGridName);
@@ -90,10 +91,11 @@ SheetFault write_sheet(const std::filesystem::path& file, const std::vector<Shee
       if (b.values[k] != 0.0f)
         to.setValue({b.key.bi * kBlockI + (k >> 6), b.key.bj * kBlockJ + (k & 63), 0}, b.values[k]);
   try {
-    openvdb::io::File out(file.string());
+    std::ostringstream text(std::ios::binary);
+    openvdb::io::Stream out(text);
     out.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);
     out.write({sheet});
-    out.close();
+    bytes = std::move(text).str();
   } catch (const std::exception& e) {
     return {SheetFault::Kind::configuration, std::string("cannot write the offsets: ") + e.what()};
   }
