@@ -52,8 +52,24 @@ std::string advice_of(int error) {
   }
 }
 
+/// Whether a name is ".TARGET.partPID-NUMBER".
+bool is_hidden_name(const std::string& name) {
+  const std::size_t part = name.rfind(kPart);
+  if (name.size() < 2 || name[0] != '.' || part == std::string::npos || part < 2) return false;
+  const std::string rest = name.substr(part + 5);
+  return rest.find_first_not_of("0123456789-") == std::string::npos && rest.find('-') != std::string::npos;
+}
+
+/// Users know a file by the name that it is to have.
+fs::path shown(const fs::path& path) {
+  fs::path out;
+  for (const fs::path& part : path)
+    if (!is_hidden_name(part.string())) out /= part;
+  return out;
+}
+
 [[noreturn]] void cannot_write(const fs::path& path, const std::string& why, const std::string& advice) {
-  throw Error(ErrorKind::configuration, "cannot write " + path.string() + ": " + why, {}, advice);
+  throw Error(ErrorKind::configuration, "cannot write " + shown(path).string() + ": " + why, {}, advice);
 }
 
 [[noreturn]] void cannot_write(const fs::path& path, int error) {
@@ -146,14 +162,6 @@ bool same_file(int descriptor, const fs::path& path) {
   }, named{};
   return ::fstat(descriptor, &open_one) == 0 && ::lstat(path.c_str(), &named) == 0 && open_one.st_dev == named.st_dev &&
          open_one.st_ino == named.st_ino;
-}
-
-/// Whether a name is ".TARGET.partPID-NUMBER".
-bool is_hidden_name(const std::string& name) {
-  const std::size_t part = name.rfind(kPart);
-  if (name.size() < 2 || name[0] != '.' || part == std::string::npos || part < 2) return false;
-  const std::string rest = name.substr(part + 5);
-  return rest.find_first_not_of("0123456789-") == std::string::npos && rest.find('-') != std::string::npos;
 }
 
 /// Writers hold a lock on what they write, which ends with them.

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,6 +45,14 @@ class Hdf5GroupWriter {
   Hdf5Id id_;
 };
 
+/// The bytes of a file that was made in memory.
+struct Hdf5Image {
+  struct Free {
+    void operator()(char* memory) const { std::free(memory); }
+  };
+  std::unique_ptr<char, Free> bytes;
+};
+
 /// An HDF5 file being written, readable by the HDF5 library from version 1.8 on. It is made in memory, where it takes
 /// as much as on the disk; nothing of it stands on the disk before commit().
 class Hdf5Writer {
@@ -58,6 +68,7 @@ class Hdf5Writer {
  private:
   Hdf5Silence silence_;
   std::filesystem::path target_;
+  Hdf5Image image_;
   Hdf5Id file_;
   Hdf5GroupWriter root_;
 };

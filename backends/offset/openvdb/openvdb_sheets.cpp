@@ -5,8 +5,8 @@
 #include <mutex>
 #include <sstream>
 
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
-#include <openvdb/io/Stream.h>
 #include <openvdb/openvdb.h>
 
 #include "treadmark/backends/offset/openvdb/sheet_library.hpp"
@@ -68,6 +68,11 @@ std::unique_ptr<SheetStorage> make_storage() {
   return std::make_unique<Storage>();
 }
 
+/// What openvdb::io::File writes, into a stream.
+struct InMemory : openvdb::io::Archive {
+  void write(std::ostream& to, const openvdb::GridCPtrVec& grids) const { Archive::write(to, grids, true); }
+};
+
 SheetFault write_sheet(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& frame) {
   start_openvdb();
   const auto sheet = openvdb::FloatGrid::create(0.0f);
@@ -92,9 +97,9 @@ SheetFault write_sheet(std::string& bytes, const std::vector<SheetEntry>& blocks
         to.setValue({b.key.bi * kBlockI + (k >> 6), b.key.bj * kBlockJ + (k & 63), 0}, b.values[k]);
   try {
     std::ostringstream text(std::ios::binary);
-    openvdb::io::Stream out(text);
+    InMemory out;
     out.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);
-    out.write({sheet});
+    out.write(text, {sheet});
     bytes = std::move(text).str();
   } catch (const std::exception& e) {
     return {SheetFault::Kind::configuration, std::string("cannot write the offsets: ") + e.what()};

@@ -42,7 +42,9 @@ class WriteSlices : public ::testing::Test {
  protected:
   fs::path path(const std::string& name) const { return folder_.path() / name; }
   double z_of(const std::string& name, Body body = Body::wheel) const {
-    return read_slices(path(name), body, {}).profiles.front().z.front();
+    ProfileOptions as_written;
+    as_written.mirror_z = -1;
+    return std::ranges::min(read_slices(path(name), body, as_written).profiles.front().z);
   }
   std::vector<fs::path> folders() const {
     std::vector<fs::path> all;
