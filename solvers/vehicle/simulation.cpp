@@ -178,7 +178,7 @@ void Simulation::advance() {
     ++counts_.rejected;
     const double factor =
         step.converged ? std::min(0.8, step_factor(step.position_error, settings_.position_tolerance)) : 0.3;
-    if (h * factor < settings_.min_step)
+    if (!(h * factor >= settings_.min_step && h * factor > 0.0))  // no number either
       throw Error(ErrorKind::numerical,
                   fmt::format("the step became shorter than {:.3g} s at t = {:.9g} s: {}", settings_.min_step,
                               motion_.state.time,

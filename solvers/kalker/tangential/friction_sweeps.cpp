@@ -130,7 +130,7 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
       }
     }
     for (std::size_t k = 0; k < 2 * n; ++k) total += p[k] * p[k];
-    if (std::sqrt(change) <= eps * std::sqrt(total)) break;
+    if (!(std::sqrt(change) > eps * std::sqrt(total))) break;  // also where they are no numbers
   }
   return sweeps;
 }
