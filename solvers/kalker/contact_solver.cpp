@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/model/magnitudes.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
@@ -158,6 +159,7 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
   std::vector<double> gap;
   double change = 0.0;
   for (int round = 1;; ++round) {
+    check_cancelled();
     const ContactSolution before = solution;
     if (round > 1) {
       const std::vector<double> by_traction = tangential.normal_displacement(problem, solution);
@@ -214,6 +216,7 @@ void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, Contact
   std::vector<double> temperature(problem.grid.size(), problem.thermal->body_1.bulk_temperature);
   double relaxation = 1.0, last_change = 0.0;
   for (int round = 1;; ++round) {
+    check_cancelled();
     solution.temperature_1 = temperature;
     solve_once(problem, solution);
     if (solution.status == Status::no_contact || solution.tangential.status != Status::ok) return;

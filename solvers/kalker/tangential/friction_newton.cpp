@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
@@ -142,6 +143,7 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
   const double tractions = rms(state.traction) + r * rms(problem.rigid_slip);
   const double floor = kRoundOff * std::min(rms(problem.bound), kIdleBound * tractions);
   for (; result.steps < settings.max_steps; ++result.steps) {
+    check_cancelled();
     if (state.violation <= floor) {
       result.converged = true;
       break;
