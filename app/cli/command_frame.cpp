@@ -12,6 +12,7 @@
 #include <iostream>
 
 #include "treadmark/app/report/write_page.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
@@ -78,6 +79,15 @@ extern "C" void on_interrupt(int signal_number) {
 }
 
 }  // namespace
+
+int unless_interrupted(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const Cancelled& e) {
+    std::cerr << "interrupted: " << e.what() << " before there was anything to write\n";
+    return kFailed;
+  }
+}
 
 const std::atomic<bool>& interrupted() { return interrupt_flag; }
 void catch_interrupt() {

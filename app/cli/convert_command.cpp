@@ -14,6 +14,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -87,6 +88,8 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
     return convert_cases(options, common);
   if (options.at) throw Error(ErrorKind::configuration, "an instant is written as .toml or .inp", {options.output});
   const ThreadLimit limit(common.threads);
+  catch_interrupt();
+  const CancellationScope scope(&interrupted());
   app::ConvertSettings settings;
   if (!options.body.empty()) settings.body = options.body == "wheel" ? Body::wheel : Body::rail;
   settings.resolution = 1e-3 * options.resolution_mm;

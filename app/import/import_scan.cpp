@@ -15,6 +15,7 @@
 #include "treadmark/app/import/read_map.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
@@ -147,6 +148,7 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   report.version = version();
   report.settings_toml = io::import_settings_toml(settings);
   StepClock clock(report, progress);
+  const CancellationScope scope(progress.stop);
   clock.begin("reading");
   PlacedScan scan;
   try {

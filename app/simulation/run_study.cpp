@@ -21,6 +21,7 @@
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -137,6 +138,8 @@ class Workers {
     if (const auto* simulation = std::get_if<io::SimulationFile>(&input)) {
       try {
         result = run_simulation(*simulation, surfaces, wanted, inner);
+      } catch (const Cancelled&) {
+        return true;
       } catch (const Error& e) {
         if (e.kind() != ErrorKind::numerical) throw;
         result = result_head(*simulation, wanted);

@@ -7,6 +7,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -22,8 +23,8 @@ double not_negative(ContactText& text, std::string_view name) {
   if (value < 0.0) text.fail(fmt::format("{} must not be negative", name));
   return value;
 }
-double positive(ContactText& text, std::string_view name) {
-  const double value = text.real(name);
+double positive(ContactText& text, std::string_view name, double greatest = kInfinity) {
+  const double value = text.real(name, greatest);
   if (!(value > 0.0)) text.fail(fmt::format("{} must be positive", name));
   return value;
 }
@@ -49,8 +50,8 @@ void ContactReader::read_rolling() {
   text.begin_record("the rolling line CHI");
   BasicCase& b = kept.basic;
   b.chi = text.angle("CHI");
-  b.dq = positive(text, "DQ") * kMillimetre;
-  b.velocity = positive(text, "VELOC") * kMillimetre;
+  b.dq = positive(text, "DQ", kMostStep / kMillimetre) * kMillimetre;
+  b.velocity = positive(text, "VELOC", kMostSpeed / kMillimetre) * kMillimetre;
   const auto factor = text.optional_real();
   b.spin_offset_factor = factor ? *factor : 1.0 / 6.0;
   kept.has_rolling = true;
