@@ -45,7 +45,6 @@ struct SheetLibrary {
   std::unique_ptr<SheetStorage> (*make_storage)();
   SheetFault (*write)(const std::filesystem::path& file, const std::vector<SheetEntry>& blocks,
                       const SheetFrameAndData& sheet);
-  SheetFault (*read)(const std::filesystem::path& file, SheetFrameAndData& sheet, std::map<BlockKey, Block>& blocks);
 };
 
 /// Its one symbol, "treadmark_sheet_library".
