@@ -59,11 +59,6 @@ void write_json_file(const std::string& json_file, const std::function<std::stri
   if (!json_file.empty() && json_file != "-") write_file(json_file, json());
 }
 
-void check_output() {
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
-}
-
 void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page) {
   if (!file.empty()) write_file(file, app::report::to_html(page()));
 }

@@ -83,8 +83,6 @@ void print_results(const std::string& json_file, const std::function<std::string
                    const std::function<std::string()>& text);
 /// The JSON file, if one was asked for and is not standard output.
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json);
-/// Errors: Error(numerical) if standard output did not take everything.
-void check_output();
 
 /// Makes the page and writes it as a live report; an empty name: does nothing.
 void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page);

@@ -2,6 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/output_files.hpp"
 
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
@@ -23,6 +28,46 @@ void make_folder(const std::filesystem::path& folder) {
   std::filesystem::create_directories(folder, failure);
   if (failure)
     throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
+}
+
+std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
+                                                  const std::vector<std::string>& inputs) {
+  if (inputs.size() == 1) return {folder};
+  std::vector<std::filesystem::path> folders;
+  std::map<std::string, std::string> taken;
+  for (const std::string& input : inputs) {
+    const std::string name = std::filesystem::path(input).stem().string();
+    if (name.empty() || name == "." || name == "..")
+      throw Error(ErrorKind::configuration, fmt::format("no folder can have the name of {}", input), {},
+                  "rename the file");
+    folders.push_back(folder / name);
+    if (const auto [other, is_new] = taken.emplace(name, input); !is_new)
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("the results of {} and {} would both go to {}", other->second, input, folders.back().string()),
+          {}, "rename one of them, or give each a folder in a command of its own");
+  }
+  return folders;
+}
+
+void require_different(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  namespace fs = std::filesystem;
+  const auto place = [](const std::string& name) {
+    std::error_code failed;
+    const fs::path whole = fs::absolute(name, failed).lexically_normal();
+    const fs::path found = fs::weakly_canonical(whole, failed);
+    return failed ? whole : found;
+  };
+  std::map<fs::path, std::string> taken;
+  for (const std::string& input : inputs)
+    if (!input.empty()) taken.emplace(place(input), input);
+  for (const std::string& output : outputs) {
+    std::error_code unknown;
+    if (output.empty() || output == "-" || fs::is_other(output, unknown)) continue;
+    if (const auto [other, is_new] = taken.emplace(place(output), output); !is_new)
+      throw Error(ErrorKind::configuration, fmt::format("{} would overwrite {}", output, other->second), {},
+                  "give every output a name of its own");
+  }
 }
 
 namespace {

@@ -66,10 +66,10 @@ void print_summary(const std::string& json_file, const std::string& json, const 
   print_results(
       json_file, [&] { return json; }, [&] { return text; });
   write_json_file(json_file, [&] { return json; });
-  check_output();
 }
 
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
+  require_different({options.file}, {options.json_file, options.report_file});
   if (options.resume && options.output_folder.empty())
     throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {},
                 "give it with -o FOLDER");

@@ -11,6 +11,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/backends/offset/make.hpp"
@@ -24,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What follows the VDB data, ignored by other programs: a mark, the number of bytes before it and their sum. OpenVDB
-/// trusts what it reads, so a damaged file must be known before.
+/// What follows the VDB data, ignored by other programs: a mark, the number of bytes before it and their sum, by which
+/// damage is known. It guards against nobody who means harm.
 constexpr std::array<char, 8> kMark = {'T', 'M', 'K', 'S', 'U', 'M', '0', '1'};
 constexpr std::size_t kTrailer = 24;
 constexpr std::array<char, 8> kVdbMagic = {' ', 'B', 'D', 'V', 0, 0, 0, 0};
@@ -72,8 +73,8 @@ void append_trailer(std::string& bytes) {
   bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
 }
 
-void require_sound(const fs::path& file) {
-  const std::vector<char> data = read_all(file);
+/// The VDB data in the content of a file.
+std::string_view require_sound(const std::vector<char>& data, const fs::path& file) {
   const auto refuse = [&](const char* why, const char* advice) {
     throw Error(ErrorKind::input_data, why, {file.string()}, advice);
   };
@@ -89,6 +90,7 @@ void require_sound(const fs::path& file) {
   std::memcpy(&sum, trailer + 16, sizeof(sum));
   if (size != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
     refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
+  return {data.data(), data.size() - kTrailer};
 }
 
 }  // namespace
@@ -108,8 +110,8 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
 
 OffsetFile read_vdb(const fs::path& file) {
   constexpr float kAbsurd = 1.0f;  // [m]
-  require_sound(file);
-  SheetFile sheet = read_sheet(file);
+  const std::vector<char> data = read_all(file);
+  SheetFile sheet = read_sheet(require_sound(data, file), file);
   const auto offsets = std::make_shared<SparseOffsets>();
   OffsetFile result;
   from_metadata(sheet.metadata, *offsets, result.base, file.string());
@@ -138,6 +140,12 @@ constexpr const char* kFormat = "treadmark offsets 1";
 std::string number(double v) { return fmt::format("{:.17g}", v); }
 std::string list(const std::vector<double>& v) { return fmt::format("{:.17g}", fmt::join(v, " ")); }
 
+/// The beginning of an entry, which may be long, for a message.
+std::string shown(const std::string& entry) {
+  constexpr std::size_t kMost = 40;
+  return entry.size() > kMost ? entry.substr(0, kMost) + "..." : entry;
+}
+
 /// Reads entries, with errors that name them.
 class Reader {
  public:
@@ -152,7 +160,7 @@ class Reader {
   }
   void require(const std::string& name, const std::string& wanted) const {
     if (text(name) != wanted)
-      refuse(fmt::format("the entry '{}' of the VDB file is '{}', wanted is '{}'", name, text(name), wanted));
+      refuse(fmt::format("the entry '{}' of the VDB file is '{}', wanted is '{}'", name, shown(text(name)), wanted));
   }
   std::vector<double> numbers(const std::string& name) const {
     std::vector<double> all;
@@ -283,7 +291,7 @@ void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec
   else if (kind == "arcs")
     base.shape = read_arcs(in);
   else
-    in.refuse(fmt::format("the base '{}' in the VDB file is not known", kind));
+    in.refuse(fmt::format("the base '{}' in the VDB file is not known", shown(kind)));
 }
 
 }  // namespace treadmark::offset

@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/offset/sheet_grid.hpp"
 
-#include <utility>
-
 #include "treadmark/backends/offset/openvdb/sheet_library.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -37,17 +35,6 @@ std::string sheet_bytes(const SheetGrid& grid, const SheetFile& frame) {
   throw_fault(sheet_library().write(bytes, grid.blocks(), {frame.u0, frame.y0, frame.du, frame.dy, frame.metadata}),
               {});
   return bytes;
-}
-
-SheetFile read_sheet(const std::filesystem::path& file) {
-  SheetFrameAndData sheet;
-  std::map<BlockKey, Block> blocks;
-  throw_fault(sheet_library().read(file, sheet, blocks), file);
-  SheetFile result;
-  result.u0 = sheet.u0, result.y0 = sheet.y0, result.du = sheet.du, result.dy = sheet.dy;
-  result.metadata = std::move(sheet.metadata);
-  for (const auto& [key, values] : blocks) result.grid.insert(key, values, 0.0f);
-  return result;
 }
 
 }  // namespace treadmark::offset

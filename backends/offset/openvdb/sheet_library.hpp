@@ -44,7 +44,6 @@ struct SheetLibrary {
   const char* version;  ///< of Treadmark; another one is not used
   std::unique_ptr<SheetStorage> (*make_storage)();
   SheetFault (*write)(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& sheet);
-  SheetFault (*read)(const std::filesystem::path& file, SheetFrameAndData& sheet, std::map<BlockKey, Block>& blocks);
 };
 
 /// Its one symbol, "treadmark_sheet_library".
