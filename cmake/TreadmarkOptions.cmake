@@ -5,6 +5,7 @@ option(TREADMARK_BUILD_BENCH "Build the benchmarks" ${TREADMARK_BUILD_TESTS})
 option(TREADMARK_SHARED_PARSING "Compile several sources at a time after precompiled headers" ON)
 option(TREADMARK_WARNINGS_AS_ERRORS "Treat compiler warnings as errors" OFF)
 set(TREADMARK_SANITIZE "" CACHE STRING "Sanitizers for every target, for example address,undefined")
+option(TREADMARK_TRAPS "Floating-point division by zero and overflow end a test where they happen" OFF)
 
 if(PROJECT_IS_TOP_LEVEL AND NOT CMAKE_BUILD_TYPE)
   set(CMAKE_BUILD_TYPE Release CACHE STRING "" FORCE)

@@ -1,8 +1,8 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# usage: install-packages.sh [--tests]
-# Installs what building needs on Debian 12, with --tests also what only tests need. Does nothing where all of it is installed already.
+# usage: install-packages.sh [--tests|--fuzz]
+# Installs what building needs on Debian 12, with --tests also what only tests need, with --fuzz also what libFuzzer needs. Does nothing where all of it is installed already.
 set -euo pipefail
 
 packages=(
@@ -13,6 +13,7 @@ packages=(
 )
 
 [[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen libkissfft-dev)
+[[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev libkissfft-dev)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)
 command -v npm >/dev/null || packages+=(npm)

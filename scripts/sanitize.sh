@@ -1,28 +1,62 @@
 #!/usr/bin/env bash
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-# Builds a part of the tests with sanitizers and runs it. usage: sanitize.sh [address|thread]
-#   address  address and undefined behaviour: readers of files, splines, Kalker's solvers
-#   thread   data races; without oneTBB and OpenVDB, in which the sanitizer does not see how threads wait for each other
+# Builds a part of the tests with sanitizers and runs it. usage: sanitize.sh [address|replay [SECONDS]|thread|trap|memcheck]
+#   address   address and undefined behaviour: readers of files, splines, Kalker's solvers; and replay beside them
+#   replay    the same build of the readers under the corpus of tests/fuzz, then under mutants of it for some seconds (60)
+#   thread    data races; without oneTBB and OpenVDB, in which the sanitizer does not see how threads wait for each other
+#   trap      signed overflow (-ftrapv) and floating-point division by zero and overflow end a test where they happen: Kalker's
+#             solvers, in which neither is meant. Invalid operations do not: a missing surface is a quiet NaN, and to compare one is
+#             such an operation. Surfaces are left out: where an arc ends upright its slope is meant to be infinite
+#   memcheck  valgrind over the release program: values that nobody set, in small cases of both kinds
 set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
-case "${1:-address}" in
+kind=${1:-address}
+programs=()
+case "$kind" in
   address)
     preset=asan
     programs=(core/core_tests model/model_tests io/json/io_json_tests io/profiles/io_profiles_tests io/meshes/io_meshes_tests
       io/cases/io_cases_tests io/scans/io_scans_tests backends/spline/backends_spline_tests solvers/kalker/solvers_kalker_tests)
     ;;
+  replay) preset=asan ;;
   thread)
     preset=tsan
     programs=(core/core_tests search/search_tests backends/spline/backends_spline_tests backends/mesh/backends_mesh_tests
       solvers/kalker/solvers_kalker_tests)
     ;;
-  *) sed -n '4,7s/^# //p' "$0" >&2; exit 2 ;;
+  trap)
+    preset=trap
+    programs=(core/core_tests model/model_tests solvers/kalker/solvers_kalker_tests solvers/tangential/solvers_tangential_tests)
+    ;;
+  memcheck)
+    program=build/release/app/treadmark
+    [[ -x $program ]] || { echo "memcheck runs $program: build it first (cmake --build --preset release)" >&2; exit 2; }
+    for file in tests/fuzz/corpus/fuzz_contact_run/*.inp tests/fuzz/corpus/fuzz_case_run/*.toml; do
+      valgrind --quiet --error-exitcode=9 --leak-check=no "$program" --threads 1 --quiet run "$file" >/dev/null
+      echo "memcheck: no finding in $file"
+    done
+    exit 0
+    ;;
+  *) sed -n '4,13s/^# //p' "$0" >&2; exit 2 ;;
 esac
 
-cmake --preset $preset -DTREADMARK_WITH_CGAL=OFF -DTREADMARK_REPORT=OFF -DTREADMARK_VEHICLE=OFF -DTREADMARK_BUILD_BENCH=OFF
-cmake --build --preset $preset --target "${programs[@]##*/}"
+# Targets of readers whose tests are built here anyway, and of what reads TOML.
+cmake --preset $preset -DTREADMARK_WITH_CGAL=OFF -DTREADMARK_REPORT=OFF -DTREADMARK_BUILD_BENCH=OFF \
+  "-DTREADMARK_REPLAYED=cases;json;meshes;profiles;scans;simulations"
 export UBSAN_OPTIONS=print_stacktrace=1 LSAN_OPTIONS="suppressions=$PWD/tests/lsan.supp"
-printf "build/$preset/tests/%s\0" "${programs[@]}" | xargs -0 -n 1 -P 2 bash -c '"$0" --gtest_brief=1 || exit 255'
-echo "sanitize: no finding in ${#programs[@]} test programs"
+targets=("${programs[@]##*/}")
+[[ $preset != asan ]] || targets+=(fuzz_replay)
+cmake --build --preset $preset --target "${targets[@]}"
+
+replay=""
+if [[ $preset == asan ]]; then
+  build/asan/tests/fuzz/fuzz_replay --seconds "${2:-60}" &
+  replay=$!
+fi
+if ((${#programs[@]} > 0)); then
+  printf "build/$preset/tests/%s\0" "${programs[@]}" | xargs -0 -n 1 -P 2 bash -c '"$0" --gtest_brief=1 || exit 255'
+fi
+[[ -z $replay ]] || wait $replay
+echo "sanitize: no finding in ${#targets[@]} programs"

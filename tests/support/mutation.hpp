@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdlib>
+#include <iterator>
 #include <random>
 #include <string>
 #include <vector>
@@ -74,6 +75,40 @@ inline std::string with_other_lines(const std::string& valid, std::mt19937& rand
   std::string text;
   for (const std::string& line : lines) text += line + '\n';
   return text;
+}
+
+/// Any bytes: changes some, inserts or repeats pieces, drops pieces or the end.
+inline std::string with_other_bytes(const std::string& valid, std::mt19937& random) {
+  static const std::string kPieces[] = {
+      "\n", "-", "1e308", "nan", "99999999999", "\xff\xff\xff\xff", std::string(4, '\0'), "\x7f\xff\xff\xff", "[[", "]",
+      "{",  "=", "'",     "."};
+  constexpr std::size_t kLongest = 60;
+  std::string bytes = valid;
+  const unsigned changes = 1 + random() % 6;
+  for (unsigned k = 0; k < changes && !bytes.empty(); ++k) {
+    const std::size_t at = random() % bytes.size();
+    switch (random() % 6) {
+      case 0:
+        bytes[at] = static_cast<char>(random() % 256);
+        break;
+      case 1:
+        bytes[at] = static_cast<char>(bytes[at] ^ (1u << (random() % 8)));
+        break;
+      case 2:
+        bytes.insert(at, kPieces[random() % std::size(kPieces)]);
+        break;
+      case 3:
+        bytes.erase(at, 1 + random() % kLongest);
+        break;
+      case 4:
+        bytes.insert(at, bytes.substr(random() % bytes.size(), random() % kLongest));
+        break;
+      default:
+        if (random() % 3 == 0) bytes.resize(at);
+        break;
+    }
+  }
+  return bytes;
 }
 
 }  // namespace treadmark::testing

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "fuzz_mesh.hpp"
+#include "treadmark/tests/fuzz/fuzz_target.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TREADMARK_FUZZ_TARGET(fuzz_off) {
   treadmark::fuzz::parse_mesh(data, size, treadmark::io::meshes::parse_off);
   return 0;
 }

@@ -6,18 +6,17 @@
 
 #include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
 #include <sstream>
 
-#include "temporary_file.hpp"
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/tests/fuzz/fuzz_target.hpp"
+#include "treadmark/tests/fuzz/temporary_file.hpp"
 
 namespace {
 
@@ -103,8 +102,8 @@ void require_sound(const treadmark::offset::OffsetFile& file) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  static const treadmark::fuzz::TemporaryFile file("fuzz_vdb_content");
+TREADMARK_FUZZ_TARGET(fuzz_vdb_content) {
+  static const treadmark::fuzz::TemporaryFile file("fuzz_vdb_content", ".vdb");
   openvdb::initialize();
   try {
     const auto grid = grid_of(std::string(reinterpret_cast<const char*>(data), size));

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <cstddef>
-#include <cstdint>
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
+#include "treadmark/tests/fuzz/fuzz_target.hpp"
 
 namespace {
 
@@ -24,8 +23,8 @@ treadmark::SliceSet parse(std::string_view text, treadmark::Body body) {
 
 }  // namespace
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+TREADMARK_FUZZ_TARGET(fuzz_slices) {
+  const std::string_view text = treadmark::fuzz::as_text(data, size);
   for (const treadmark::Body body : {treadmark::Body::rail, treadmark::Body::wheel}) {
     try {
       parse(text, body);

@@ -1,8 +1,9 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "fuzz_profile.hpp"
+#include "treadmark/tests/fuzz/fuzz_target.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TREADMARK_FUZZ_TARGET(fuzz_two_column) {
   treadmark::fuzz::read_both_bodies(data, size, treadmark::io::ProfileFormat::two_column);
   return 0;
 }

@@ -3,10 +3,11 @@
 #include <cmath>
 
 #include "fuzz_scan.hpp"
+#include "treadmark/tests/fuzz/fuzz_target.hpp"
 
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TREADMARK_FUZZ_TARGET(fuzz_deviation_map) {
   using namespace treadmark;
-  const std::string_view text(reinterpret_cast<const char*>(data), size);
+  const std::string_view text = fuzz::as_text(data, size);
   for (const std::size_t block : {std::size_t{13}, io::scans::ByteBlocks::kBlock})
     for (const auto parser : {io::scans::parse_map_matrix, io::scans::parse_esri_grid}) {
       try {

@@ -4,9 +4,10 @@
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/points/binary_values.hpp"
 #include "treadmark/io/scans/e57_pages.hpp"
+#include "treadmark/tests/fuzz/fuzz_target.hpp"
 
 /// The input is the content without check sums, which are made here: random ones would end every run at the first page.
-extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size) {
+TREADMARK_FUZZ_TARGET(fuzz_scan_e57) {
   using namespace treadmark;
   if (!has_part("e57")) return 0;
   constexpr std::size_t kContent = io::scans::E57Pages::kContent;

@@ -4,19 +4,20 @@
 
 #include <unistd.h>
 
-#include <cstdlib>
 #include <filesystem>
+#include <fstream>
 #include <string>
+#include <string_view>
 
 namespace treadmark::fuzz {
 
-/// The path of a file of this process, removed at its end. In memory where the system has such a folder.
+/// A file of this process, removed at its end. In memory where the system has such a folder.
 class TemporaryFile {
  public:
-  explicit TemporaryFile(const std::string& name) {
+  TemporaryFile(const std::string& name, const std::string& extension) {
     const std::filesystem::path memory = "/dev/shm";
     const auto folder = std::filesystem::is_directory(memory) ? memory : std::filesystem::temp_directory_path();
-    path_ = folder / (name + "-" + std::to_string(::getpid()) + ".vdb");
+    path_ = folder / (name + "-" + std::to_string(::getpid()) + extension);
   }
   ~TemporaryFile() {
     std::error_code ignored;
@@ -25,6 +26,11 @@ class TemporaryFile {
   TemporaryFile(const TemporaryFile&) = delete;
   TemporaryFile& operator=(const TemporaryFile&) = delete;
   const std::filesystem::path& path() const { return path_; }
+  /// Its whole content from now on.
+  const std::filesystem::path& hold(std::string_view content) const {
+    std::ofstream(path_, std::ios::binary).write(content.data(), static_cast<std::streamsize>(content.size()));
+    return path_;
+  }
 
  private:
   std::filesystem::path path_;
