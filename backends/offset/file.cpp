@@ -143,7 +143,7 @@ std::string list(const std::vector<double>& v) { return fmt::format("{:.17g}", f
 /// The beginning of an entry, which may be long, for a message.
 std::string shown(const std::string& entry) {
   constexpr std::size_t kMost = 40;
-  return entry.size() > kMost ? entry.substr(0, kMost) + "..." : entry;
+  return entry.size() > kMost ? fmt::format("{}...", std::string_view(entry).substr(0, kMost)) : entry;
 }
 
 /// Reads entries, with errors that name them.
