@@ -8,16 +8,6 @@
 namespace treadmark::testing {
 namespace {
 
-/// Without what differs between two files of the same content: OpenVDB's identity of a file and the sum over it.
-std::string without_identity(const std::string& name, std::string content) {
-  constexpr std::size_t kIdentity = 22, kLength = 36, kSum = 8;
-  if (name.ends_with(".vdb") && content.size() > kIdentity + kLength + kSum) {
-    content.replace(kIdentity, kLength, kLength, '0');
-    content.replace(content.size() - kSum, kSum, kSum, '0');
-  }
-  return content;
-}
-
 const std::string* content_of(const FileTree& tree, const std::string& path) {
   const auto found = tree.find(path);
   return found == tree.end() ? nullptr : &found->second;
@@ -27,6 +17,22 @@ bool is_index(const std::string& path) { return path.ends_with(".slcw") || path.
 
 /// In a folder that belongs to one index alone: judged through it.
 bool is_of_set(const std::string& path) { return path.find(".slcw-") != path.npos || path.find(".slcs-") != path.npos; }
+
+/// Written last and removed first: where it stands, the other files of its folder are of the same making.
+bool is_last(const std::string& path) {
+  const std::string name = path.substr(path.rfind('/') + 1);
+  return path.size() > name.size() && (name == "result.json" || name == "compare.json" || name == "bench.json");
+}
+
+/// The first of the files of its folder in `whole` that `now` does not hold.
+std::string missing_companion(const FileTree& now, const FileTree& whole, const std::string& last) {
+  const std::string folder = last.substr(0, last.rfind('/') + 1);
+  for (const auto& [path, content] : visible(whole)) {
+    const std::string* own = content_of(now, path);
+    if (path.starts_with(folder) && (own == nullptr || *own != content)) return path;
+  }
+  return {};
+}
 
 /// The first of the slices of an index in `whole` that `now` does not hold.
 std::string missing_slice(const FileTree& now, const FileTree& whole, const std::string& index) {
@@ -49,7 +55,7 @@ FileTree tree_of(const std::filesystem::path& folder) {
     if (!entry.is_regular_file()) continue;
     std::ifstream in(entry.path(), std::ios::binary);
     const std::string path = entry.path().lexically_relative(folder).string();
-    tree[path] = without_identity(path, {std::istreambuf_iterator<char>(in), {}});
+    tree[path] = {std::istreambuf_iterator<char>(in), {}};
   }
   return tree;
 }
@@ -81,12 +87,16 @@ std::string neither_old_nor_new(const FileTree& now, const FileTree& before, con
     const bool is_old = old != nullptr && *old == content, is_new = fresh != nullptr && *fresh == content;
     if (!is_old && !is_new)
       return path + " is neither the old nor the new one (" + std::to_string(content.size()) + " bytes)";
-    if (!is_index(path) || (is_old && is_new)) continue;
-    const std::string missing = missing_slice(now, is_old ? before : after, path);
+    if (is_old && is_new) continue;
+    const FileTree& whole = is_old ? before : after;
+    const std::string missing = is_index(path)  ? missing_slice(now, whole, path)
+                                : is_last(path) ? missing_companion(now, whole, path)
+                                                : std::string();
     if (!missing.empty()) return path + (is_old ? " is old" : " is new") + ", its " + missing + " is not";
   }
   for (const auto& [path, content] : visible(before))
-    if (content_of(after, path) != nullptr && content_of(now, path) == nullptr) return path + " is gone";
+    if (!is_last(path) && content_of(after, path) != nullptr && content_of(now, path) == nullptr)
+      return path + " is gone";
   return {};
 }
 

@@ -21,7 +21,8 @@ bool is_hidden(const std::string& path);
 FileTree visible(const FileTree& tree);
 
 /// What is wrong with a folder in which `before` was being replaced by `after`: a visible file that is none of the two,
-/// one that is gone, an index whose slices are not its own. Empty where all are old or new.
+/// one that is gone, an index whose slices are not its own, the last file of a result folder beside others that are not
+/// of its making. Empty where all are old or new.
 std::string neither_old_nor_new(const FileTree& now, const FileTree& before, const FileTree& after);
 
 }  // namespace treadmark::testing

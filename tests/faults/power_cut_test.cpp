@@ -68,6 +68,14 @@ TEST(PowerCut, AnIndexStandsWithItsSlices) {
   EXPECT_EQ(neither_old_nor_new(mixed, before, after), "");
 }
 
+TEST(PowerCut, TheLastFileStandsForItsFolder) {
+  const FileTree before{{"o/a", "1"}, {"o/result.json", "1"}}, after{{"o/a", "2"}, {"o/result.json", "2"}};
+  EXPECT_EQ(neither_old_nor_new({{"o/a", "2"}}, before, after), "");
+  EXPECT_NE(neither_old_nor_new({{"o/a", "2"}, {"o/result.json", "1"}}, before, after), "");
+  EXPECT_NE(neither_old_nor_new({{"o/a", "1"}, {"o/result.json", "2"}}, before, after), "");
+  EXPECT_NE(neither_old_nor_new({{"o/result.json", "2"}}, before, after), "");
+}
+
 class PowerCuts : public ::testing::TestWithParam<OutputRow> {};
 
 TEST_P(PowerCuts, LeaveTheOldFilesOrTheNewOnes) {
@@ -84,18 +92,12 @@ TEST_P(PowerCuts, LeaveTheOldFilesOrTheNewOnes) {
     const ProgramResult end = program.wait();
     ASSERT_EQ(end.status, 0) << end.err;
     const std::vector<Operation> done = read_log(log, scene.out());
-    FileTree after = tree_of(scene.out());
+    const FileTree after = tree_of(scene.out());
     operations += done.size();
     // the log has the bytes as they were written
     Disk disk(before);
     for (const Operation& operation : done) disk.apply(operation);
-    FileTree replayed = disk.after_cut({});
-    ASSERT_EQ(replayed.size(), after.size()) << "the log misses something";
-    for (auto& [path, content] : replayed) {
-      ASSERT_EQ(content.size(), after[path].size()) << path;
-      if (path.ends_with(".vdb")) after[path] = content;
-    }
-    ASSERT_EQ(replayed, after) << "the log misses something";
+    ASSERT_EQ(disk.after_cut({}), after) << "the log misses something";
     EXPECT_EQ(worst_of(before, after, done, states), "") << command;
   };
   if (row.older != nullptr) run(row.older);

@@ -13,6 +13,7 @@
 
 #include "treadmark/core/parts.hpp"
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/faults/file_tree.hpp"
 #include "treadmark/tests/faults/output_rows.hpp"
 
@@ -123,7 +124,7 @@ TEST_P(Targets, AReaderOfAPipeGetsAll) {
   const ProgramResult end = run();
   EXPECT_EQ(end.status, 0) << end.err;
   EXPECT_TRUE(fs::is_fifo(target));
-  if (!fs::is_fifo(target)) reader.send(SIGKILL);
+  if (!fs::is_fifo(target)) reader.send(SIGTERM);
   const std::string content = reader.wait().out;
   expect_content(content, expected.begin()->second, name);
   EXPECT_EQ(std::distance(fs::directory_iterator(scene.out()), {}), 1);
