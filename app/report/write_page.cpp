@@ -11,6 +11,7 @@
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/static_figure.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::app::report {
@@ -133,11 +134,13 @@ std::string html(const Section& section, const Page& page, bool live) {
 constexpr const char* kHead =
     "<!doctype html>\n<html lang=\"en\">\n<head>\n<meta charset=\"utf-8\">\n"
     "<meta name=\"viewport\" content=\"width=device-width, initial-scale=1\">\n"
-    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src 'unsafe-inline'; script-src "
-    "'unsafe-inline'; "
-    "img-src data: blob:\">\n"
+    "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; style-src {}; script-src {}; "
+    "img-src data: blob:; base-uri 'none'; form-action 'none'\">\n"
     "<meta name=\"generator\" content=\"Treadmark {}\">\n<meta name=\"color-scheme\" content=\"light "
-    "dark\">\n<title>{}</title>\n<style>\n";
+    "dark\">\n<title>{}</title>\n";
+
+/// The one text that the policy lets in for scripts, or for styles.
+std::string source_of(const std::string& text) { return fmt::format("'sha256-{}'", io::sha256_base64(text)); }
 
 constexpr const char* kWithoutScript =
     "<noscript><div class=\"banner warning\"><strong>Scripts are switched off.</strong> Tables are complete; pictures "
@@ -150,8 +153,10 @@ constexpr const char* kStatic =
 
 std::string to_html(const Page& page, const PageOptions& options) {
   const bool live = options.live && !page_script().empty();
-  std::string out = fmt::format(kHead, version(), html_text(page.title));
-  out += page_style();
+  const std::string style = "\n" + page_style(), script = "\n" + page_script() + "\n";
+  std::string out =
+      fmt::format(kHead, source_of(style), live ? source_of(script) : "'none'", version(), html_text(page.title));
+  out += "<style>" + style;
   out += fmt::format(
       "</style>\n</head>\n<body data-kind=\"{}\">\n<header class=\"page-head\"><h1>{}</h1><p "
       "class=\"lead\">{}</p>\n<nav "
@@ -172,9 +177,7 @@ std::string to_html(const Page& page, const PageOptions& options) {
                      html_text(git_revision()));
   if (live) {
     out += "<script type=\"application/json\" id=\"treadmark-data\">" + page_data(page, options.field_budget) +
-           "</script>\n<script>\n";
-    out += page_script();
-    out += "\n</script>\n";
+           "</script>\n<script>" + script + "</script>\n";
   }
   return out + "</body>\n</html>\n";
 }

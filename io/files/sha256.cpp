@@ -4,12 +4,14 @@
 
 #include <array>
 #include <bit>
+#include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -38,7 +40,7 @@ class Sha256 {
     }
   }
 
-  std::string finish() {
+  std::array<std::byte, 32> finish() {
     const std::uint64_t bits = 8 * length_;
     block_[filled_++] = 0x80;
     if (filled_ > 56) {
@@ -48,10 +50,10 @@ class Sha256 {
     std::memset(block_.data() + filled_, 0, 56 - filled_);
     for (std::size_t i = 0; i < 8; ++i) block_[56 + i] = static_cast<unsigned char>(bits >> (56 - 8 * i));
     absorb();
-    std::string hex;
-    for (const std::uint32_t word : state_)
-      for (int shift = 28; shift >= 0; shift -= 4) hex += "0123456789abcdef"[(word >> shift) & 15u];
-    return hex;
+    std::array<std::byte, 32> digest;
+    for (std::size_t i = 0; i < digest.size(); ++i)
+      digest[i] = static_cast<std::byte>(state_[i / 4] >> (24 - 8 * (i % 4)));
+    return digest;
   }
 
  private:
@@ -85,13 +87,24 @@ class Sha256 {
   std::uint64_t length_ = 0;
 };
 
-}  // namespace
-
-std::string sha256_hex(std::string_view bytes) {
+std::array<std::byte, 32> digest_of(std::string_view bytes) {
   Sha256 hash;
   hash.add(bytes);
   return hash.finish();
 }
+
+std::string hex(const std::array<std::byte, 32>& digest) {
+  std::string text;
+  for (const std::byte byte : digest)
+    for (const int shift : {4, 0}) text += "0123456789abcdef"[(std::to_integer<unsigned>(byte) >> shift) & 15u];
+  return text;
+}
+
+}  // namespace
+
+std::string sha256_hex(std::string_view bytes) { return hex(digest_of(bytes)); }
+
+std::string sha256_base64(std::string_view bytes) { return to_base64(digest_of(bytes)); }
 
 std::string sha256_file(const std::filesystem::path& file) {
   std::error_code code;
@@ -107,7 +120,7 @@ std::string sha256_file(const std::filesystem::path& file) {
     hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
   } while (stream);
   if (!stream.eof()) throw Error(ErrorKind::input_data, "the file cannot be read to its end", {file.string(), 0, 0});
-  return hash.finish();
+  return hex(hash.finish());
 }
 
 }  // namespace treadmark::io

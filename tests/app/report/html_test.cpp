@@ -4,10 +4,12 @@
 #include <gtest/gtest.h>
 
 #include <nlohmann/json.hpp>
+#include <string>
 
 #include "treadmark/app/report/html_text.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
+#include "treadmark/io/files/sha256.hpp"
 
 namespace treadmark::app::report {
 namespace {
@@ -70,6 +72,42 @@ TEST(Html, RefersToNothingOutside) {
     for (const char* reference : {"src=\"http", "href=\"http", "url(http", "@import", "src=\"//"})
       EXPECT_THAT(page, Not(HasSubstr(reference)));
     EXPECT_THAT(html, HasSubstr("default-src 'none'"));
+  }
+}
+
+/// What stands between the first such tags, from there on.
+std::string element(const std::string& html, const std::string& tag, std::size_t from = 0) {
+  const std::size_t begin = html.find('<' + tag + '>', from) + tag.size() + 2;
+  return html.substr(begin, html.find("</" + tag + '>', begin) - begin);
+}
+
+/// The tags of a text, without the values of their attributes.
+std::string tags(const std::string& html) {
+  std::string out;
+  bool inside = false, quoted = false;
+  for (const char c : html) {
+    if (c == '<') inside = true;
+    if (inside && c == '"') quoted = !quoted;
+    if (inside && !quoted) out += c;
+    if (c == '>' && !quoted) inside = false;
+  }
+  return out;
+}
+
+TEST(Html, NoOtherScriptAndNoOtherStyleTakesEffect) {
+  for (const bool live : {true, false}) {
+    const std::string html = to_html(nasty_page(), {live});
+    EXPECT_THAT(html.substr(0, html.find("<style>")), Not(HasSubstr("unsafe")));
+    EXPECT_THAT(html, HasSubstr("style-src 'sha256-" + io::sha256_base64(element(html, "style")) + "'"));
+    if (live && !page_script().empty()) {
+      const std::string script = element(html, "script", html.size() - page_script().size() - 100);
+      EXPECT_THAT(html, HasSubstr("script-src 'sha256-" + io::sha256_base64(script) + "'"));
+    } else {
+      EXPECT_THAT(html, HasSubstr("script-src 'none'"));
+    }
+    // Attributes with styles and handlers would need more than hashes.
+    const std::string body = html.substr(html.find("<body"), html.rfind("<footer>") - html.find("<body"));
+    for (const char* attribute : {" style=", " on"}) EXPECT_THAT(tags(body), Not(HasSubstr(attribute)));
   }
 }
 

@@ -24,6 +24,11 @@ TEST(Sha256, AgreesWithThePublishedExamples) {
             "cdc76e5c9914fb9281a1c7e284d73e67f1809a48a497200e046d39ccc7112cd0");
 }
 
+TEST(Sha256, Base64IsOfTheSameDigest) {
+  EXPECT_EQ(sha256_base64(""), "47DEQpj8HBSa+/TImW+5JCeuQeRkm5NMpJWZG3hSuFU=");
+  EXPECT_EQ(sha256_base64("abc"), "ungWv48Bz+pBQUDeXa4iI7ADYaOWF3qctBD/YfIAFa0=");
+}
+
 TEST(Sha256, FileInPiecesEqualsTextAtOnce) {
   const testing::TemporaryFolder folder;
   for (const std::size_t size : {0u, 55u, 56u, 63u, 64u, 65u, 65536u, 200'003u}) {

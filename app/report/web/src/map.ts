@@ -165,7 +165,7 @@ class MapPlot {
     const box = { x: left, y: top, width: plotWidth, height: plotHeight };
     svg.replaceChildren(
       el("rect", { class: "nothing-there", ...box }),
-      el("image", { ...box, href: this.picture, preserveAspectRatio: "none", style: "image-rendering:pixelated" }),
+      el("image", { ...box, href: this.picture, preserveAspectRatio: "none", "image-rendering": "pixelated" }),
     );
     this.drawMarks(left, right);
     svg.append(el("rect", { class: "frame", ...box }));

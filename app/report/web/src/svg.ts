@@ -12,7 +12,9 @@ export function el<K extends keyof SVGElementTagNameMap>(
   ...children: (Node | string)[]
 ): SVGElementTagNameMap[K] {
   const element = document.createElementNS(namespace, name);
-  for (const [key, value] of Object.entries(attributes)) element.setAttribute(key, String(value));
+  for (const [key, value] of Object.entries(attributes))
+    if (key === "style") element.style.cssText = String(value); // as an attribute it would be against the policy of the page
+    else element.setAttribute(key, String(value));
   element.append(...children);
   return element;
 }
@@ -23,14 +25,14 @@ const inlined = [
   "paint-order", "shape-rendering", "image-rendering", "visibility",
 ];
 
-function inlineStyles(from: Element, to: Element): void {
+function inlineStyles(from: Element, to: ElementCSSInlineStyle & Element): void {
   const computed = getComputedStyle(from);
   const style = inlined
     .map((property) => [property, computed.getPropertyValue(property)] as const)
     .filter(([, value]) => value !== "")
     .map(([property, value]) => `${property}:${value}`)
     .join(";");
-  to.setAttribute("style", style);
+  to.style.cssText = style;
   to.removeAttribute("class");
 }
 
@@ -55,7 +57,7 @@ export function standaloneSvg(svg: SVGSVGElement): string {
   return inLightColours(() => {
     const copy = svg.cloneNode(true) as SVGSVGElement;
     const from = [...svg.querySelectorAll("*")];
-    const to = [...copy.querySelectorAll("*")];
+    const to = [...copy.querySelectorAll<SVGElement>("*")];
     inlineStyles(svg, copy);
     from.forEach((element, i) => {
       const twin = to[i];

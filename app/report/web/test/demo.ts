@@ -1,6 +1,8 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 // A report with made-up numbers, for work on the views without the program.
+import { createHash } from "node:crypto";
+
 import type { ChartView, Frame, MapView, Numbers, ReportData, View } from "../src/data";
 import { demoFields, demoFrame, demoSurfaces } from "./demo-contact";
 import { Packer } from "./pack";
@@ -251,7 +253,8 @@ export function demoPage(kind: "run" | "simulation", style: string, script: stri
     ["Checksum", "9f2c6b1e0a7d4c5a8812f0b3d7e6a94410c3f2b7"],
   ].map(([a, b]) => `<div><dt>${a}</dt><dd>${b}</dd></div>`).join("");
   const section = (id: string, title: string, body: string): string => `<section id="${id}" aria-labelledby="${id}-title"><h2 id="${id}-title">${title}</h2>\n${body}\n</section>`;
-  const csp = "default-src 'none'; style-src 'unsafe-inline'; script-src 'unsafe-inline'; img-src data: blob:";
+  const hash = (text: string): string => `'sha256-${createHash("sha256").update(text).digest("base64")}'`;
+  const csp = `default-src 'none'; style-src ${hash(`\n${style}`)}; script-src ${hash(`\n${script}\n`)}; img-src data: blob:; base-uri 'none'; form-action 'none'`;
   return `<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><meta name="viewport" content="width=device-width, initial-scale=1">
 <meta http-equiv="Content-Security-Policy" content="${csp}"><meta name="color-scheme" content="light dark">

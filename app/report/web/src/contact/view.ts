@@ -401,7 +401,7 @@ export class ContactFigure {
             width,
             height,
             preserveAspectRatio: "none",
-            style: "image-rendering:pixelated",
+            "image-rendering": "pixelated",
             href: this.painter.toDataUrl(one),
           });
           slot.append(image);
