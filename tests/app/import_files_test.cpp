@@ -197,5 +197,21 @@ TEST_F(ImportFiles, ScansOfOthersAreRefusedForWhatTheyAre) {
   }
 }
 
+/// Failures of whatever comes after reading: few points, which get past one step after the other.
+TEST_F(ImportFiles, FailuresNameTheScan) {
+  TREADMARK_NEEDS("cgal");
+  input.write("rail.toml",
+              "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n");
+  for (const char* points : {"50", "100", "400", "700", "1000"}) {
+    const std::string scan = path("few.ply");
+    const auto made =
+        run_program({"scan", path("rail.toml"), "--body", "rail", "-o", scan, "--points", points, "--range-mm=-60,60"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const auto r = import({scan, "-o", path("x.slcs"), "--quiet"});
+    EXPECT_EQ(r.status, 3) << points << r.err;
+    EXPECT_THAT(r.err, HasSubstr("treadmark: " + scan + ": ")) << points;
+  }
+}
+
 }  // namespace
 }  // namespace treadmark::app

@@ -41,7 +41,8 @@ class OutputPlaces : public ::testing::Test {
 };
 
 TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
-  const std::string inp = input_.inp().string(), rail = path("rail.prr"), out = path("out");
+  write_case("y.toml");
+  const std::string inp = input_.inp().string(), toml = path("y.toml"), rail = path("rail.prr"), out = path("out");
   ASSERT_EQ(run_program({"run", inp, "-o", out}).status, 0);
   struct Use {
     std::vector<std::string> arguments;
@@ -49,9 +50,9 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
   };
   const std::map<std::string, Use> uses{
       {"run", {{inp}}},
-      {"compare", {{inp, "--backends", "spline", "--resolutions", "4"}}},
+      {"compare", {{toml, "--backends", "spline", "--resolutions", "4"}}},
       {"diff", {{out, out}, "hdf5"}},
-      {"bench", {{inp, "--backends", "spline", "--resolutions", "4", "--seconds-per-measure", "0.001"}}},
+      {"bench", {{toml, "--backends", "spline", "--resolutions", "4", "--seconds-per-measure", "0.001"}}},
       {"convert", {{rail, path("rail.csv")}}},
       {"import", {{"--list-settings"}, "scans"}},
       {"scan", {{rail, "-o", path("rail.xyz"), "--points", "100", "--range-mm=0,10"}, "scans"}},
@@ -123,7 +124,6 @@ TEST_F(OutputPlaces, OutputsAreNotWrittenOverInputsOrEachOther) {
   }
   if (has_part("report")) {
     EXPECT_EQ(run_program({"run", file, "--json", path("one"), "--report", path("one")}).status, 2);
-    EXPECT_EQ(run_program({"run", file, "--json", "/dev/null", "--report", path("r.html")}).status, 0);
   }
 }
 
