@@ -25,10 +25,14 @@ struct ElementSums {
 };
 
 bool all_finite(const std::vector<double>& field) {
-  // A sum of what is finite times zero is zero.
-  double sum = 0.0;
-  for (const double value : field) sum += 0.0 * value;
-  return sum == 0.0;
+  // A sum of what is finite times zero is zero. Several sums, which do not wait for each other.
+  constexpr std::size_t kLanes = 8;
+  double sum[kLanes] = {};
+  std::size_t i = 0;
+  for (; i + kLanes <= field.size(); i += kLanes)
+    for (std::size_t k = 0; k < kLanes; ++k) sum[k] += 0.0 * field[i + k];
+  for (; i < field.size(); ++i) sum[0] += 0.0 * field[i];
+  return std::ranges::all_of(sum, [](double part) { return part == 0.0; });
 }
 
 bool finite_fields(const ContactSolution& s) {
@@ -67,7 +71,8 @@ ElementSums sums_of(const ContactProblem& problem, const ContactSolution& s) {
     sums.most_negative = std::min(sums.most_negative, p);
     if (has_states && s.state[i] == ElementState::exterior) sums.most_outside = std::max(sums.most_outside, p);
     if (!tangential || (p == 0.0 && s.traction_x[i] == 0.0 && s.traction_y[i] == 0.0)) continue;
-    const double traction = std::hypot(s.traction_x[i], s.traction_y[i]), bound = s.friction[i] * std::max(p, 0.0);
+    const double traction = std::sqrt(s.traction_x[i] * s.traction_x[i] + s.traction_y[i] * s.traction_y[i]),
+                 bound = s.friction[i] * std::max(p, 0.0);
     sums.bound += bound;
     sums.greatest_bound = std::max(sums.greatest_bound, bound);
     sums.excess = std::max(sums.excess, traction - bound);
