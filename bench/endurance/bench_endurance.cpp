@@ -1,15 +1,17 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-// Calls wheelrail::Pair very often with inputs in any order, from two threads with a pair each on the same surfaces.
-// Memory must not grow once every kind of input has been met, and a problem that comes back must have the same answer
-// to the last bit.
+// Calls wheelrail::Pair very often with inputs in any order, from two threads with a pair each on the same surfaces;
+// every so often a thread makes surfaces anew, with other defects. Memory must not grow once every kind of input has
+// been met, and a problem that comes back must have the same answer to the last bit.
 #include <unistd.h>
 #include <algorithm>
 #include <atomic>
+#include <chrono>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
 #include <fstream>
+#include <limits>
 #include <string>
 #include <thread>
 
@@ -77,55 +79,100 @@ Problem any_problem(Random& random) {
 }
 
 struct Work {
-  std::atomic<long> calls{0}, failed{0}, refused{0};
-  std::atomic<bool> wrong{false};
+  std::atomic<long> calls{0}, failed{0}, refused{0}, surfaces{0};
+  std::atomic<bool> wrong{false}, over{false};
 };
+
+/// The same rail with a wheel of another flat each time.
+wheelrail::Geometry other_geometry(Random& random) {
+  WheelFlat flat;
+  flat.length = 0.02 + 0.06 * random.uniform();
+  flat.depth = 1e-4 + 1e-3 * random.uniform();
+  flat.width = 0.05;
+  return {analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
+          analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius, {flat}), true, false};
+}
+
+void solve_any(Pair& pair, Random& random, Work& work) {
+  try {
+    if (pair.solve(any_problem(random)).status != Status::ok) ++work.failed;
+  } catch (const Error&) {
+    ++work.refused;
+  }
+}
 
 void call_often(const wheelrail::Geometry& geometry, std::uint64_t seed, long calls, Work& work) {
   Pair pair(geometry);
   Random random(seed);
   const PairSolution expected = Pair(geometry).solve(fixed_problem());
-  constexpr long kCheckEvery = 500;
-  for (long i = 0; i < calls && !work.wrong; ++i, ++work.calls) {
+  constexpr long kCheckEvery = 500, kOtherEvery = 1000, kOnOther = 5;
+  for (long i = 0; i < calls && !work.wrong && !work.over; ++i, ++work.calls) {
+    if (i % kOtherEvery == kOtherEvery - 1) {
+      Pair other(other_geometry(random));
+      ++work.surfaces;
+      for (long k = 0; k < kOnOther; ++k) solve_any(other, random, work);
+    }
     if (i % kCheckEvery == 0) {
       const PairSolution again = pair.solve(fixed_problem());
       if (again.z != expected.z || again.patches.at(0).contact.traction_x != expected.patches.at(0).contact.traction_x)
         work.wrong = true;
       continue;
     }
-    try {
-      if (pair.solve(any_problem(random)).status != Status::ok) ++work.failed;
-    } catch (const Error&) {
-      ++work.refused;
-    }
+    solve_any(pair, random, work);
   }
 }
 
-int run(long calls) {
+/// Resident memory by calls, once every kind of input has been met: least squares.
+class Growth {
+ public:
+  void add(double calls, double mib) { n_ += 1.0, x_ += calls, y_ += mib, xx_ += calls * calls, xy_ += calls * mib; }
+  double per_call() const {
+    const double spread = n_ * xx_ - x_ * x_;
+    return spread > 0.0 ? (n_ * xy_ - x_ * y_) / spread : 0.0;
+  }
+
+ private:
+  double n_ = 0.0, x_ = 0.0, y_ = 0.0, xx_ = 0.0, xy_ = 0.0;
+};
+
+/// Until there were so many calls, or for so long [s], whichever is given.
+int run(long calls, double seconds) {
   const wheelrail::Geometry geometry{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
                                      analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
   Work work;
   std::thread first([&] { call_often(geometry, 1, calls / 2, work); }),
       second([&] { call_often(geometry, 2, calls - calls / 2, work); });
+  const auto start = std::chrono::steady_clock::now();
   double early = 0.0, largest = 0.0;
+  Growth growth;
   long printed = 0;
   while (work.calls < calls && !work.wrong) {
     std::this_thread::sleep_for(std::chrono::milliseconds(100));
     const double now = resident_mib();
-    if (10 * work.calls < 3 * calls) early = std::max(early, now);
+    const double passed = std::chrono::duration<double>(std::chrono::steady_clock::now() - start).count();
+    const double share =
+        seconds > 0.0 ? passed / seconds : static_cast<double>(work.calls) / static_cast<double>(calls);
+    if (share < 0.3)
+      early = std::max(early, now);
+    else
+      growth.add(static_cast<double>(work.calls), now);
     largest = std::max(largest, now);
-    if (10 * work.calls / calls > printed) {
-      printed = 10 * work.calls / calls;
-      std::printf("%8ld calls  %8.1f MiB\n", work.calls.load(), now);
+    if (static_cast<long>(10.0 * share) > printed) {
+      printed = static_cast<long>(10.0 * share);
+      std::printf("%8ld calls  %6ld surfaces  %8.1f MiB\n", work.calls.load(), work.surfaces.load(), now);
       std::fflush(stdout);
     }
+    if (seconds > 0.0 && share >= 1.0) work.over = true;
+    if (work.over) break;
   }
   first.join();
   second.join();
+  constexpr double kMany = 1e7;
   std::printf(
       "%ld calls, of which %ld with another status than ok and %ld refused; memory %.1f MiB in the first 30 %%, %.1f "
-      "MiB at most\n",
-      work.calls.load(), work.failed.load(), work.refused.load(), early, largest);
+      "MiB at most, by its trend %.0f MiB after 1e7 calls\n",
+      work.calls.load(), work.failed.load(), work.refused.load(), early, largest,
+      largest + std::max(0.0, growth.per_call()) * kMany);
   if (work.wrong) std::printf("a problem that came back has another answer\n");
   constexpr double kRoom = 1.1, kRoomMib = 8.0;
   const bool grown = largest > kRoom * early + kRoomMib;
@@ -137,14 +184,19 @@ int run(long calls) {
 
 int main(int argc, char** argv) {
   long calls = 100000;
-  for (int i = 1; i + 1 < argc; i += 2)
-    if (std::string(argv[i]) == "--calls") calls = std::atol(argv[i + 1]);
-  if (argc % 2 == 0 || calls < 100) {
-    std::fprintf(stderr, "usage: bench_endurance [--calls N], N >= 100\n");
+  double hours = 0.0;
+  for (int i = 1; i + 1 < argc; i += 2) {
+    const std::string option = argv[i];
+    if (option == "--calls") calls = std::atol(argv[i + 1]);
+    if (option == "--hours") hours = std::atof(argv[i + 1]);
+  }
+  if (argc % 2 == 0 || calls < 100 || hours < 0.0) {
+    std::fprintf(stderr, "usage: bench_endurance [--calls N | --hours H], N >= 100\n");
     return 2;
   }
+  if (hours > 0.0) calls = std::numeric_limits<long>::max();
   try {
-    return run(calls);
+    return run(calls, 3600.0 * hours);
   } catch (const std::exception& e) {
     std::fprintf(stderr, "%s\n", e.what());
     return 1;

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <map>
 #include <mutex>
+#include <utility>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
@@ -17,14 +18,45 @@ namespace treadmark::kalker {
 
 namespace {
 
-/// Making plans costs milliseconds, so that every size is planned once per process.
+/// Held while a plan is made or destroyed: libraries let only transforms run in parallel.
+std::mutex planning;
+
+struct KeptPlan {
+  std::shared_ptr<const FftPlan> plan;
+  std::uint64_t asked = 0;  ///< when for the last time
+};
+
+std::map<std::array<int, 3>, KeptPlan>& kept_plans() {
+  static std::map<std::array<int, 3>, KeptPlan> plans;
+  return plans;
+}
+
+/// Whoever lets go of it last, it is destroyed under the lock.
+std::shared_ptr<const FftPlan> destroyed_alone(std::shared_ptr<const FftPlan> plan) {
+  const FftPlan* where = plan.get();
+  return {where, [plan = std::move(plan)](const FftPlan*) mutable {
+            const std::lock_guard lock(planning);
+            plan.reset();
+          }};
+}
+
+/// Making plans costs milliseconds: the sizes asked for last are kept for the whole process.
 std::shared_ptr<const FftPlan> shared_plan(int nx, int ny, int active_rows) {
-  static std::mutex mutex;
-  static std::map<std::array<int, 3>, std::shared_ptr<const FftPlan>> plans;
-  const std::lock_guard lock(mutex);
-  auto& plan = plans[{nx, ny, active_rows}];
-  if (!plan) plan = make_fft_plan(nx, ny, active_rows);
-  return plan;
+  static std::uint64_t asked = 0;
+  std::shared_ptr<const FftPlan> dropped;  // outlives the lock
+  const std::lock_guard lock(planning);
+  auto& plans = kept_plans();
+  KeptPlan& kept = plans[{nx, ny, active_rows}];
+  kept.asked = ++asked;
+  if (!kept.plan) kept.plan = destroyed_alone(make_fft_plan(nx, ny, active_rows));
+  if (plans.size() > kMostFftPlans) {
+    const auto oldest = std::min_element(plans.begin(), plans.end(), [](const auto& one, const auto& other) {
+      return one.second.asked < other.second.asked;
+    });
+    dropped = std::move(oldest->second.plan);
+    plans.erase(oldest);
+  }
+  return kept.plan;
 }
 
 bool is_aligned(const void* memory) {
@@ -38,6 +70,11 @@ bool has_only_small_factors(int n) {
 }
 
 }  // namespace
+
+std::size_t fft_plans() {
+  const std::lock_guard lock(planning);
+  return kept_plans().size();
+}
 
 RealFft2d::RealFft2d(int nx, int ny) : RealFft2d(nx, ny, ny) {}
 

@@ -13,8 +13,9 @@ class FftPlan;
 
 /// Unnormalised discrete Fourier transform of real fields with ny rows of nx values: inverse(forward(x)) = nx * ny * x.
 /// Only the first active_rows rows of the field exist; the others are taken as zero by forward and not computed by
-/// inverse. Plans are shared by the whole process. All members may be called from any number of threads at the same
-/// time. Results do not depend on threads or alignment; arrays of AlignedVector spare a copy.
+/// inverse. Plans are shared by the whole process, which keeps those of the sizes asked for last. All members may be
+/// called from any number of threads at the same time. Results do not depend on threads or alignment; arrays of
+/// AlignedVector spare a copy.
 class RealFft2d {
  public:
   /// nx must be even. Errors: Error(configuration) for odd or non-positive sizes, or active_rows outside 1..ny.
@@ -48,6 +49,11 @@ class RealFft2d {
   int nx_, ny_, active_rows_;
   std::shared_ptr<const FftPlan> plan_;
 };
+
+/// How many plans the process keeps, and how many it keeps now. What is in use lives on without being kept.
+/// Thread-safe.
+inline constexpr std::size_t kMostFftPlans = 256;
+std::size_t fft_plans();
 
 /// A size >= n for which transforms are fast: the smallest even number without prime factors above 7, or a power of two
 /// if that is at most a fifth larger.

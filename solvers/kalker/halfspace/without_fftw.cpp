@@ -15,9 +15,10 @@ namespace {
 
 using Complex = std::complex<double>;
 
-/// kissfft objects carry scratch space, so that every thread needs its own.
+/// kissfft objects carry scratch space, so that every thread needs its own. Valid until the next call.
 const kissfft<double>& thread_transform(int n, bool inverse) {
   thread_local std::map<std::pair<int, bool>, kissfft<double>> transforms;
+  if (transforms.size() >= kMostFftPlans && !transforms.contains({n, inverse})) transforms.clear();
   return transforms.try_emplace({n, inverse}, static_cast<std::size_t>(n), inverse).first->second;
 }
 

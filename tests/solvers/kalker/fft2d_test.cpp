@@ -6,6 +6,7 @@
 #include <numbers>
 #include <random>
 #include <thread>
+#include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/halfspace/fft2d.hpp"
@@ -110,6 +111,27 @@ TEST(Fft2d, RejectsOddSizesAndWrongArrays) {
   AlignedVector<double> field(fft.real_size());
   AlignedVector<Complex> spectrum(fft.spectrum_size() - 1);
   EXPECT_THROW(fft.forward(field, spectrum), Error);
+}
+
+TEST(RealFft2d, KeepsNoMorePlansThanItSays) {
+  const AlignedVector<double> field = random_field(16 * 5, 3);
+  const auto spectrum_of = [&](const RealFft2d& fft) {
+    AlignedVector<double> real = field;
+    AlignedVector<Complex> spectrum(fft.spectrum_size());
+    fft.forward(real, spectrum);
+    return spectrum;
+  };
+  const RealFft2d first(16, 8, 5);
+  const auto before = spectrum_of(first);
+  std::vector<std::thread> threads;
+  for (int thread = 0; thread < 2; ++thread)
+    threads.emplace_back([] {
+      for (int ny = 1; ny <= 2 * static_cast<int>(kMostFftPlans); ++ny) RealFft2d(4, ny, 1);
+    });
+  for (std::thread& thread : threads) thread.join();
+  EXPECT_EQ(fft_plans(), kMostFftPlans);
+  EXPECT_EQ(spectrum_of(first), before) << "whose plan is no longer kept";
+  EXPECT_EQ(spectrum_of(RealFft2d(16, 8, 5)), before) << "whose plan is made again";
 }
 
 }  // namespace
