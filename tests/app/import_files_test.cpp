@@ -143,7 +143,7 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
   const std::string index = "  0.0 'a.slcs-0123456789ab/slice_00001.txt'", slice = "slice_00001.txt";
-  write(path("a.slcs-ffffffffffff") / slice, "old");
+  write(path("a.slcs-ffffffffffff/" + slice), "old");
   const std::vector<std::string> before = names();
   {
     StagedOutputs staged;
@@ -161,7 +161,7 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
     staged.commit();
   }
   EXPECT_EQ(text_of(path("a.slcs")), index);
-  EXPECT_EQ(text_of(path("a.slcs-0123456789ab") / slice), "new");
+  EXPECT_EQ(text_of(path("a.slcs-0123456789ab/" + slice)), "new");
   EXPECT_FALSE(fs::exists(path("a.slcs-ffffffffffff"))) << "those of the surface that is replaced";
   EXPECT_EQ(text_of(path("b.ply")), "ply");
 }

@@ -135,7 +135,7 @@ TEST_P(AgainstPair, ElasticForcesAndPlacesOfContact) {
   TableContact element(table, Side::right);
   for (const double y_mm : {-10.1, -6.1, -3.1, -1.1, 0.1, 1.1, 2.1, 3.1, 6.1, 9.1})
     for (const double load : {2e4, 5e4, 1e5, 1.5e5}) {
-      SCOPED_TRACE(testing::Message() << "y = " << y_mm << " mm, " << 1e-3 * load << " kN");
+      SCOPED_TRACE(::testing::Message() << "y = " << y_mm << " mm, " << 1e-3 * load << " kN");
       const wheelrail::PairSolution s = solve(1e-3 * y_mm, load, false);
       ASSERT_EQ(s.status, Status::ok) << s.message;
       PairMotion m;
@@ -159,7 +159,7 @@ TEST_P(AgainstPair, LateralCreepForces) {
   TableContact element(table, Side::right);
   for (const double y_mm : {-6.1, -3.1, 3.1})
     for (const double eta : {-1e-2, -2e-3, -6e-4, 1.2e-3, 3e-3}) {
-      SCOPED_TRACE(testing::Message() << "y = " << y_mm << " mm, eta = " << eta);
+      SCOPED_TRACE(::testing::Message() << "y = " << y_mm << " mm, eta = " << eta);
       PairMotion m = pressed(*table, 1e-3 * y_mm, 1e-4);
       // Rolling without longitudinal creepage.
       const double radius = rolling_radius(element.evaluate(m), m);
