@@ -24,7 +24,8 @@ enum class ErrorKind {
   numerical,      ///< a computation that has no meaningful result (exit 1)
 };
 
-/// The one exception type of the library: what happened, where in the input, and what to do about it.
+/// The one exception type of the library for what is wrong (work that was cancelled ends with Cancelled,
+/// core/cancellation.hpp): what happened, where in the input, and what to do about it.
 /// what() reads "file:line:column: message (advice)".
 class Error : public std::runtime_error {
  public:

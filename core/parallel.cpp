@@ -7,6 +7,8 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include "treadmark/core/cancellation.hpp"
+
 namespace treadmark {
 
 using tbb::global_control;
@@ -22,12 +24,22 @@ int thread_count() { return static_cast<int>(global_control::active_value(global
 
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   if (count == 1 || thread_count() == 1) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      check_cancelled();
+      body(i);
+    }
     return;
   }
+  const CancellationToken* token = current_cancellation();
   // A thread that waits for the rest of this loop must not begin a part of another one: what it holds for itself,
   // buffers and locks, belongs to the work that waits.
-  tbb::this_task_arena::isolate([&] { tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) { body(i); }); });
+  tbb::this_task_arena::isolate([&] {
+    tbb::parallel_for(std::size_t{0}, count, [&](std::size_t i) {
+      const CancellationScope scope(token);
+      check_cancelled();
+      body(i);
+    });
+  });
 }
 
 }  // namespace treadmark

@@ -26,6 +26,7 @@ int thread_count();
 
 /// Calls body(i) once for every i in [0, count), in any order, on any thread. Each call must write only its own
 /// results, so that the outcome does not depend on the number of threads. The first exception of a body is rethrown.
+/// Before each call is a check point (core/cancellation.hpp), for what holds where the loop was begun.
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body);
 
 }  // namespace treadmark

@@ -13,7 +13,8 @@ namespace treadmark {
 struct Progress {
   /// (finished, total, what) after every finished unit; may be called from any thread, one call at a time.
   std::function<void(std::size_t, std::size_t, const std::string&)> report;
-  /// Set from outside (for example a signal handler) to stop after the units that are running now.
+  /// Set from outside (for example a signal handler) to stop at the next check point (core/cancellation.hpp), also in
+  /// the middle of a unit, whose work is lost then.
   const std::atomic<bool>* stop = nullptr;
 
   /// To be asked between units of work, from any thread.

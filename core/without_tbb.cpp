@@ -8,6 +8,7 @@
 #include <thread>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
 
 // Threads of the standard library for the outermost loop; loops within it run on the thread that meets them. The thread
@@ -62,16 +63,24 @@ int thread_count() {
 void parallel_for(std::size_t count, const std::function<void(std::size_t)>& body) {
   const std::size_t threads = std::min(count, static_cast<std::size_t>(thread_count()));
   if (threads <= 1) {
-    for (std::size_t i = 0; i < count; ++i) body(i);
+    for (std::size_t i = 0; i < count; ++i) {
+      check_cancelled();
+      body(i);
+    }
     return;
   }
+  const CancellationToken* token = current_cancellation();
   std::atomic<std::size_t> next = 0;
   std::exception_ptr first;
   std::once_flag failed;
   const auto work = [&] {
     const Within within;
+    const CancellationScope scope(token);
     try {
-      for (std::size_t i = next++; i < count; i = next++) body(i);
+      for (std::size_t i = next++; i < count; i = next++) {
+        check_cancelled();
+        body(i);
+      }
     } catch (...) {
       next = count;
       std::call_once(failed, [&] { first = std::current_exception(); });

@@ -6,6 +6,8 @@
 #include <limits>
 #include <utility>
 
+#include "treadmark/core/cancellation.hpp"
+
 namespace treadmark::detection {
 namespace {
 
@@ -53,7 +55,9 @@ double closest_about(const BodyPair& bodies, const GapField& field, int ix, int 
   const Grid2& g = field.grid();
   Grid2 fine = g;
   double x = g.x(ix), y = g.y(iy), least = vertex(field, ix, iy);
-  while (std::fmax(fine.dx, fine.dy) > kFinest) {
+  constexpr int kMostGrids = 60;  // each is four times as fine
+  for (int left = kMostGrids; left > 0 && std::fmax(fine.dx, fine.dy) > kFinest; --left) {
+    check_cancelled();
     const double step_x = 2.0 * fine.dx / (kPoints - 1), step_y = 2.0 * fine.dy / (kPoints - 1);
     fine = {x - fine.dx, y - fine.dy, step_x, step_y, kPoints, kPoints};
     const GapField closer = gap_field(bodies, fine);

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/detection/closest_gap.hpp"
 
@@ -290,6 +291,7 @@ ContactLocus::Found ContactLocus::at(double wheel_dz, double look_below, double 
   // Where the bodies do not touch, all rows are looked at closely that may hold the least gap between them.
   const double may_be_closest = std::max(look_below, outline_.least - wheel_dz + look_below);
   for (int i = 0; i < rows.count; ++i) {
+    check_cancelled();
     if (!(gap(i) < may_be_closest)) continue;
     // A run of rows below zero, or a local minimum above it.
     const int first = i;

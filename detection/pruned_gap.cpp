@@ -6,6 +6,7 @@
 #include <cmath>
 #include <limits>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -120,6 +121,7 @@ void PrunedGap::reveal(double below) {
   std::vector<Node> nodes, to_fill;
   const auto open = [&] { return !frontier_.empty() && frontier_.front().bounds.low < below; };
   while (open()) {
+    check_cancelled();
     nodes.clear();
     while (open()) {
       const Node node = pop();
@@ -147,6 +149,7 @@ double PrunedGap::least() {
   if (std::isinf(least_known_) && open()) dive(pop());
   const std::size_t most = std::clamp<std::size_t>(field_.tiles().size() / 64, 4, 64);
   for (std::size_t group = 4; open(); group = std::min(most, 2 * group)) {
+    check_cancelled();
     nodes.clear();
     to_fill.clear();
     while (nodes.size() < group && open()) nodes.push_back(pop());

@@ -13,6 +13,7 @@
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -43,9 +44,13 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   const SampledRegions regions = sampled_regions(file);
   // Geometry first: a broken file is found before hours of work.
   std::vector<std::optional<wheelrail::Geometry>> geometries(file.cases.size());
-  for (std::size_t i = 0; i < file.cases.size(); ++i)
-    if (const auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content))
-      geometries[i] = geometry_of(*input, store, regions);
+  const auto build_all = [&] {
+    for (std::size_t i = 0; i < file.cases.size(); ++i) {
+      check_cancelled();
+      if (const auto* input = std::get_if<io::WheelRailCase>(&file.cases[i].content))
+        geometries[i] = geometry_of(*input, store, regions);
+    }
+  };
 
   std::vector<std::optional<io::CaseResult>> results(file.cases.size());
   std::vector<std::exception_ptr> errors(file.cases.size());
@@ -79,14 +84,19 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
     }
   };
   const auto groups = groups_in_time(file);
-  parallel_for(groups.size(), [&](std::size_t g) {
-    CaseSequence sequence(pool);
-    for (const std::size_t i : groups[g]) {
-      if (progress.stop_requested()) return;
-      solve_case(i, sequence);
-      if (errors[i]) return;
-    }
-  });
+  try {
+    const CancellationScope scope(progress.stop);
+    build_all();
+    parallel_for(groups.size(), [&](std::size_t g) {
+      CaseSequence sequence(pool);
+      for (const std::size_t i : groups[g]) {
+        if (progress.stop_requested()) return;
+        solve_case(i, sequence);
+        if (errors[i]) return;
+      }
+    });
+  } catch (const Cancelled&) {  // what is finished is whole
+  }
   for (const auto& error : errors)
     if (error) std::rethrow_exception(error);
 

@@ -14,9 +14,9 @@ namespace treadmark::app {
 
 /// Solves every case of a file on the threads of the pool. Cases that go on from the one before them in their sequence
 /// are solved in order, all others do not influence each other, so that results are the same for any number of threads.
-/// A case that fails numerically gets Status::failed and its message; the others go on. After a stop request the result
-/// holds the finished cases, in order, and complete = false. Errors: Error for input that cannot be solved at all
-/// (configuration, input data).
+/// A case that fails numerically gets Status::failed and its message; the others go on. A stop request
+/// is heard within cases too (core/cancellation.hpp): the result holds the finished ones, in order, and complete =
+/// false. Errors: Error for input that cannot be solved at all (configuration, input data).
 io::RunResult run_cases(const io::CaseFile& file, const Progress& progress = {});
 
 /// The same with surfaces that were read and built before; the store learns the new ones.

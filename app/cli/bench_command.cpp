@@ -8,12 +8,13 @@
 #include "treadmark/app/bench/bench_report.hpp"
 #include "treadmark/app/bench/bench_surfaces.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -56,6 +57,7 @@ io::CaseFile case_of(const BenchOptions& options) {
 }
 
 int bench_command(const BenchOptions& options, const CommonOptions& common) {
+  require_different({options.case_file}, {options.json_file, options.report_file});
   const ThreadLimit limit(common.threads_given ? common.threads : 1);
   catch_interrupt();
   const io::CaseFile file = case_of(options);
@@ -70,7 +72,6 @@ int bench_command(const BenchOptions& options, const CommonOptions& common) {
   write_json_file(options.json_file, json);
   print_results(options.json_file, json,
                 [&] { return options.markdown ? app::bench_markdown(report) : app::bench_table(report); });
-  check_output();
   if (!report.complete) std::cerr << "interrupted: " << report.rows.size() << " rows finished\n";
   return report.complete && report.agrees() ? kOk : kFailed;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <filesystem>
 #include <iostream>
+#include <iterator>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -15,9 +17,9 @@
 #include "treadmark/app/surfaces/profile_check.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/pictures/section_picture.hpp"
 
 namespace treadmark::cli {
@@ -76,39 +78,67 @@ void check_profile_file(const CheckOptions& options, CheckedInput& input) {
   add_profile(app::check_profile(input.file, body), input);
 }
 
-void check_case_file(const CheckOptions& options, CheckedInput& input) {
+/// pictures: the folder for them; empty: none.
+void check_case_file(const CheckOptions& options, const std::filesystem::path& pictures, CheckedInput& input) {
   const io::CaseFile file = io::read_any_case(input.file, options.overrides);
   const std::vector<app::CaseGeometry> cases = app::check_geometry(file);
   print_notes(file.notes, false);
   input.notes = file.notes;
-  if (!options.output_folder.empty() || !options.report_file.empty())
+  if (!pictures.empty() || !options.report_file.empty())
     for (const app::CaseGeometry& c : cases)
       input.positions.emplace_back(fmt::format("Case {}", c.given->number), position_svg(c));
-  if (!options.output_folder.empty()) {
-    make_folder(options.output_folder);
+  if (!pictures.empty()) {
+    make_folder(pictures);
     for (std::size_t k = 0; k < cases.size(); ++k)
-      io::write_text_file(
-          std::filesystem::path(options.output_folder) / fmt::format("position_{:04}.svg", cases[k].given->number),
-          input.positions[k].second);
+      write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number),
+                          input.positions[k].second);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
   input.outcome = fmt::format("{}{}, no errors", file.cases.size(), file.cases.size() == 1 ? " case" : " cases");
   std::cout << input.file << ": " << input.outcome << '\n';
 }
 
+enum class InputKind { profile, study, simulation, cases };
+
+InputKind kind_of(const std::string& name) {
+  if (app::is_profile_file(name)) return InputKind::profile;
+  if (io::is_study_file(name)) return InputKind::study;
+  return io::is_simulation_file(name) ? InputKind::simulation : InputKind::cases;
+}
+
+/// By the names of the case files.
+std::map<std::string, std::filesystem::path> picture_folders(const CheckOptions& options) {
+  if (options.output_folder.empty()) return {};
+  std::vector<std::string> names;
+  std::ranges::copy_if(options.cases, std::back_inserter(names),
+                       [](const std::string& name) { return kind_of(name) == InputKind::cases; });
+  const std::vector<std::filesystem::path> folders = output_folders(options.output_folder, names);
+  std::map<std::string, std::filesystem::path> by_name;
+  for (std::size_t k = 0; k < names.size(); ++k) by_name[names[k]] = folders[k];
+  return by_name;
+}
+
 int check_command(const CheckOptions& options, const CommonOptions&) {
+  require_different(options.cases, {options.report_file});
+  std::map<std::string, std::filesystem::path> pictures = picture_folders(options);
   std::vector<CheckedInput> inputs;
   for (const std::string& name : options.cases) {
     CheckedInput& input = inputs.emplace_back();
     input.file = name;
-    if (app::is_profile_file(name))
-      check_profile_file(options, input);
-    else if (io::is_study_file(name))
-      check_study_file(name, options.overrides);
-    else if (io::is_simulation_file(name))
-      check_simulation_file(name, options.overrides);
-    else
-      check_case_file(options, input);
+    switch (kind_of(name)) {
+      case InputKind::profile:
+        check_profile_file(options, input);
+        break;
+      case InputKind::study:
+        check_study_file(name, options.overrides);
+        break;
+      case InputKind::simulation:
+        check_simulation_file(name, options.overrides);
+        break;
+      case InputKind::cases:
+        check_case_file(options, pictures[name], input);
+        break;
+    }
   }
   write_report_file(options.report_file, [&] { return app::report::check_page(inputs); });
   return kOk;
@@ -120,7 +150,8 @@ Command add_check(CLI::App& verb) {
   auto options = std::make_shared<CheckOptions>();
   add_case_files(verb, options->cases, options->overrides);
   verb.add_option("-o,--output", options->output_folder,
-                  "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg")
+                  "Folder for a picture of wheel over rail for each case, at its position: position_0001.svg; of "
+                  "several case files for one with the name of each")
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   verb.add_option("--body", options->body, "Of profiles: wheel or rail, where the file does not tell")

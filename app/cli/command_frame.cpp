@@ -12,9 +12,10 @@
 #include <iostream>
 
 #include "treadmark/app/report/write_page.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 
@@ -55,16 +56,11 @@ void print_results(const std::string& json_file, const std::function<std::string
 }
 
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json) {
-  if (!json_file.empty() && json_file != "-") io::write_text_file(json_file, json());
-}
-
-void check_output() {
-  std::cout.flush();
-  if (!std::cout) throw Error(ErrorKind::numerical, "the results could not be written to standard output");
+  if (!json_file.empty() && json_file != "-") write_file(json_file, json());
 }
 
 void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page) {
-  if (!file.empty()) io::write_text_file(file, app::report::to_html(page()));
+  if (!file.empty()) write_file(file, app::report::to_html(page()));
 }
 
 namespace {
@@ -78,6 +74,15 @@ extern "C" void on_interrupt(int signal_number) {
 }
 
 }  // namespace
+
+int unless_interrupted(const std::function<int()>& work) {
+  try {
+    return work();
+  } catch (const Cancelled& e) {
+    std::cerr << "interrupted: " << e.what() << " before there was anything to write\n";
+    return kFailed;
+  }
+}
 
 const std::atomic<bool>& interrupted() { return interrupt_flag; }
 void catch_interrupt() {

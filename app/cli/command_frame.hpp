@@ -19,7 +19,7 @@
 
 namespace treadmark::cli {
 
-/// Set by Ctrl-C while it is caught: work stops after the units that run now. A second Ctrl-C ends the program at once.
+/// Set by Ctrl-C while it is caught: work stops at its next check point. A second Ctrl-C ends the program at once.
 const std::atomic<bool>& interrupted();
 /// To be called as often as wanted.
 void catch_interrupt();
@@ -39,10 +39,14 @@ class ProgressLine {
 
 /// What several verbs have in common: options, and the frame round their work.
 
+/// What work returns, or the exit status of what was interrupted before it had anything to write.
+int unless_interrupted(const std::function<int()>& work);
+
 /// The command of a verb: run(options, common).
 template <class Options>
 Command command(std::shared_ptr<Options> options, int (*run)(const Options&, const CommonOptions&)) {
-  return [options, run](const CommonOptions& common) { return run(*options, common); };
+  return
+      [options, run](const CommonOptions& common) { return unless_interrupted([&] { return run(*options, common); }); };
 }
 
 /// CASE... and --set.
@@ -79,8 +83,6 @@ void print_results(const std::string& json_file, const std::function<std::string
                    const std::function<std::string()>& text);
 /// The JSON file, if one was asked for and is not standard output.
 void write_json_file(const std::string& json_file, const std::function<std::string()>& json);
-/// Errors: Error(numerical) if standard output did not take everything.
-void check_output();
 
 /// Makes the page and writes it as a live report; an empty name: does nothing.
 void write_report_file(const std::filesystem::path& file, const std::function<app::report::Page()>& page);

@@ -14,14 +14,15 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/surfaces/convert_profile.hpp"
 #include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/cases/read_inp.hpp"
 #include "treadmark/io/cases/read_toml.hpp"
 #include "treadmark/io/cases/writing/write_cases.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/profiles/write_profile.hpp"
 #include "treadmark/io/results/summary.hpp"
 
@@ -77,7 +78,7 @@ int convert_cases(const ConvertOptions& options, const CommonOptions& common) {
     text = io::case_file_text(file, output.parent_path());
     io::parse_case_text(text, output);
   }
-  io::write_text_file(output, text);
+  write_file(output, text);
   std::cout << fmt::format("{}: {} {}\n", options.output, file.cases.size(), file.cases.size() == 1 ? "case" : "cases");
   return kOk;
 }
@@ -87,6 +88,8 @@ int convert_command(const ConvertOptions& options, const CommonOptions& common) 
     return convert_cases(options, common);
   if (options.at) throw Error(ErrorKind::configuration, "an instant is written as .toml or .inp", {options.output});
   const ThreadLimit limit(common.threads);
+  catch_interrupt();
+  const CancellationScope scope(&interrupted());
   app::ConvertSettings settings;
   if (!options.body.empty()) settings.body = options.body == "wheel" ? Body::wheel : Body::rail;
   settings.resolution = 1e-3 * options.resolution_mm;

@@ -3,12 +3,13 @@
 #include <iostream>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/pictures/imports/import_pictures.hpp"
 
@@ -42,6 +43,10 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   request.outputs.assign(options.outputs.begin(), options.outputs.end());
   if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to import", {}, "name its file");
 
+  std::vector<std::string> inputs = options.scans, outputs = options.outputs;
+  inputs.push_back(options.settings_file);
+  outputs.push_back(options.json_file);
+  require_different(inputs, outputs);
   const ThreadLimit limit(common.threads);
   const io::ImportReport report =
       with_progress(common.quiet, [&](const Progress& progress) { return app::import_scan(request, progress); });
@@ -57,7 +62,6 @@ int import_command(const ImportOptions& options, const CommonOptions& common) {
   const auto json = [&] { return io::import_json(report, true); };
   write_json_file(options.json_file, json);
   print_results(options.json_file, json, [&] { return io::import_summary(report); });
-  check_output();
   return kOk;
 }
 

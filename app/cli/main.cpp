@@ -1,9 +1,13 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <fcntl.h>
+#include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <filesystem>
 #include <iostream>
 
+#include "treadmark/app/cli/printable_stream.hpp"
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
@@ -24,9 +28,15 @@ int exit_status(const Error& error) {
   return cli::kFailed;
 }
 
-}  // namespace
+/// A standard stream that is closed would become the next file that is opened, and take what is printed. Nothing can be
+/// read from or written to what takes its place.
+void hold_standard_streams() {
+  for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
+    if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
 
-int main(int argc, char** argv) {
+/// Everything but whether the standard output took what it was given.
+int run(int argc, char** argv) {
   CLI::App program{"Treadmark: wheel-rail contact on any 3D surface"};
   program.set_version_flag(
       "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description());
@@ -62,8 +72,23 @@ int main(int argc, char** argv) {
   } catch (const std::bad_alloc&) {
     std::cerr << "treadmark: not enough memory for this problem (use larger element sizes or fewer threads)\n";
     return cli::kFailed;
+  } catch (const std::filesystem::filesystem_error& e) {
+    std::cerr << "treadmark: " << e.path1().string() << ": " << e.code().message()
+              << " (check the path and its permissions)\n";
+    return cli::kUsage;
   } catch (const std::exception& e) {
     std::cerr << "treadmark: unexpected failure: " << e.what() << '\n';
     return cli::kFailed;
   }
+}
+
+}  // namespace
+
+int main(int argc, char** argv) {
+  hold_standard_streams();
+  cli::PrintableStream out(std::cout), err(std::cerr);
+  const int status = run(argc, argv);
+  if (std::cout.flush()) return status;
+  std::cerr << "treadmark: the results could not be written to standard output (is its disk full, or is it closed?)\n";
+  return status == cli::kOk || status == cli::kNotConverged ? cli::kFailed : status;
 }

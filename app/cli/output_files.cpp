@@ -2,9 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/output_files.hpp"
 
+#include <map>
+#include <system_error>
+
+#include <fmt/format.h>
+
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/io/results/comparison_table.hpp"
@@ -25,27 +30,62 @@ void make_folder(const std::filesystem::path& folder) {
     throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
 }
 
-namespace {
-
-/// Makes the folder. The last file of an earlier run goes first: it must not pass for this one if writing fails half
-/// way.
-void prepare(const std::filesystem::path& folder, const char* last_file) {
-  make_folder(folder);
-  std::error_code failure;
-  std::filesystem::remove(folder / last_file, failure);
+std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
+                                                  const std::vector<std::string>& inputs) {
+  if (inputs.size() == 1) return {folder};
+  std::vector<std::filesystem::path> folders;
+  std::map<std::string, std::string> taken;
+  for (const std::string& input : inputs) {
+    const std::string name = std::filesystem::path(input).stem().string();
+    if (name.empty() || name == "." || name == "..")
+      throw Error(ErrorKind::configuration, fmt::format("no folder can have the name of {}", input), {},
+                  "rename the file");
+    folders.push_back(folder / name);
+    if (const auto [other, is_new] = taken.emplace(name, input); !is_new)
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("the results of {} and {} would both go to {}", other->second, input, folders.back().string()),
+          {}, "rename one of them, or give each a folder in a command of its own");
+  }
+  return folders;
 }
 
-/// Writes fields.h5, or says in a note that this build leaves it out; then none of an earlier run stays there.
+void require_different(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs) {
+  namespace fs = std::filesystem;
+  const auto place = [](const std::string& name) {
+    std::error_code failed;
+    const fs::path whole = fs::absolute(name, failed).lexically_normal();
+    const fs::path found = fs::weakly_canonical(whole, failed);
+    return failed ? whole : found;
+  };
+  std::map<fs::path, std::string> taken;
+  for (const std::string& input : inputs)
+    if (!input.empty()) taken.emplace(place(input), input);
+  for (const std::string& output : outputs) {
+    std::error_code unknown;
+    if (output.empty() || output == "-" || fs::is_other(output, unknown)) continue;
+    if (const auto [other, is_new] = taken.emplace(place(output), output); !is_new)
+      throw Error(ErrorKind::configuration, fmt::format("{} would overwrite {}", output, other->second), {},
+                  "give every output a name of its own");
+  }
+}
+
+namespace {
+
+/// Writes fields.h5, or says in a note that this build leaves it out.
 template <class Write>
 std::vector<std::string> write_fields(const std::filesystem::path& folder, Write write) {
-  const std::filesystem::path file = folder / "fields.h5";
   if (has_part("hdf5")) {
-    write(file);
+    write(folder / "fields.h5");
     return {};
   }
-  std::error_code ignored;
-  std::filesystem::remove(file, ignored);
   return {left_out_message("hdf5", "fields.h5") + ": " + left_out_advice("hdf5")};
+}
+
+/// Fields of an earlier run must not pass for those of one without any.
+void remove_unmade(const std::filesystem::path& folder, const std::filesystem::path& made) {
+  std::error_code ignored;
+  if (!std::filesystem::exists(made / "fields.h5", ignored)) std::filesystem::remove(folder / "fields.h5", ignored);
 }
 
 /// Text tables for other people's tools, of the cases that ask for them.
@@ -67,25 +107,29 @@ void write_text_tables(const std::filesystem::path& folder, const io::RunResult&
 }  // namespace
 
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result) {
-  prepare(folder, "result.json");
-  auto notes = write_fields(folder, [&](const auto& file) { io::write_hdf5(file, result); });
-  io::write_vtk(folder / "vtk", result);
-  io::write_text_file(folder / "pressure.svg", pictures::pressure_svg(result));
-  write_text_tables(folder, result);
-  io::write_json(folder / "result.json", result);
+  OutputFolder output(folder, OutputFolder::Old::kept);
+  auto notes = write_fields(output.path(), [&](const auto& file) { io::write_hdf5(file, result); });
+  io::write_vtk(output.path() / "vtk", result);
+  write_file(output.path() / "pressure.svg", pictures::pressure_svg(result));
+  write_text_tables(output.path(), result);
+  io::write_json(output.path() / "result.json", result);
+  remove_unmade(folder, output.path());
+  output.move_into("result.json");
   return notes;
 }
 
 std::vector<std::string> write_comparison_folder(const std::filesystem::path& folder,
                                                  const io::Comparison& comparison) {
-  prepare(folder, "compare.json");
-  io::write_text_file(folder / "pressures.svg", pictures::pressures_svg(comparison));
-  io::write_text_file(folder / "errors.svg", pictures::error_svg(comparison));
-  io::write_text_file(folder / "costs.svg", pictures::cost_svg(comparison));
-  auto notes = write_fields(folder, [&](const auto& file) { io::write_comparison_fields(file, comparison); });
-  io::write_text_file(folder / "table.txt", io::comparison_table(comparison));
-  io::write_csv(folder / "compare.csv", comparison);
-  io::write_json(folder / "compare.json", comparison);
+  OutputFolder output(folder, OutputFolder::Old::kept);
+  write_file(output.path() / "pressures.svg", pictures::pressures_svg(comparison));
+  write_file(output.path() / "errors.svg", pictures::error_svg(comparison));
+  write_file(output.path() / "costs.svg", pictures::cost_svg(comparison));
+  auto notes = write_fields(output.path(), [&](const auto& file) { io::write_comparison_fields(file, comparison); });
+  write_file(output.path() / "table.txt", io::comparison_table(comparison));
+  io::write_csv(output.path() / "compare.csv", comparison);
+  io::write_json(output.path() / "compare.json", comparison);
+  remove_unmade(folder, output.path());
+  output.move_into("compare.json");
   return notes;
 }
 

@@ -14,6 +14,15 @@ namespace treadmark::cli {
 /// Makes a folder for output, and those it lies in. Errors: Error(configuration).
 void make_folder(const std::filesystem::path& folder);
 
+/// The folders for what becomes of input files: the one that was asked for, or where there are several files one with
+/// the name of each in it. Errors: Error(configuration) where two files would share one.
+std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
+                                                  const std::vector<std::string>& inputs);
+
+/// Outputs have places of their own. Names that are empty, "-" or those of devices do not count. Errors:
+/// Error(configuration) where an output would overwrite an input or another output.
+void require_different(const std::vector<std::string>& inputs, const std::vector<std::string>& outputs);
+
 /// Writes everything a result folder holds: result.json, fields.h5, ParaView files and a picture of the pressures.
 /// The JSON file comes last: where it stands the folder is complete. Returns notes on files that this build leaves out.
 std::vector<std::string> write_result_folder(const std::filesystem::path& folder, const io::RunResult& result);

@@ -8,7 +8,7 @@
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/plot.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -33,7 +33,7 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
   if (options.output_file == "-")
     std::cout << svg;
   else
-    io::write_text_file(options.output_file, svg);
+    write_file(options.output_file, svg);
   return kOk;
 }
 

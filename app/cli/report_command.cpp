@@ -6,7 +6,7 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/write_page.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -26,7 +26,7 @@ int report_command(const ReportOptions& options, const CommonOptions& common) {
   app::report::PageOptions how;
   how.live = !options.static_pictures;
   const std::string html = app::report::to_html(page, how);
-  io::write_text_file(file, html);
+  write_file(file, html);
   if (how.live && app::report::page_script().empty() && !common.quiet)
     std::cerr << "note: this build has no Node.js: the report shows fixed pictures\n";
   std::cout << file.string() << '\n';

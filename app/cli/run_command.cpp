@@ -76,11 +76,16 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
   if (options.cases.size() > 1 && !options.report_file.empty())
     throw Error(ErrorKind::configuration, "--report shows the results of one case file only", {},
                 "use -o FOLDER, then treadmark report for each");
+  require_different(options.cases, {options.json_file, options.report_file});
+  const std::vector<std::filesystem::path> folders = options.output_folder.empty()
+                                                         ? std::vector<std::filesystem::path>{}
+                                                         : output_folders(options.output_folder, options.cases);
   const ThreadLimit limit(common.threads);
   catch_interrupt();
 
   int status = kOk;
-  for (const std::string& name : options.cases) {
+  for (std::size_t k = 0; k < options.cases.size(); ++k) {
+    const std::string& name = options.cases[k];
     refuse_other_files(name);
     io::CaseFile file = io::read_any_case(name, options.overrides);
     choose_backends(file, options);
@@ -94,12 +99,8 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (!common.quiet)
       for (const io::SurfaceUse& use : result.surfaces)
         if (use.fit.points > 0) std::cerr << "note: " << io::summary(use) << '\n';
-    if (!options.output_folder.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
-    if (!options.output_folder.empty()) {
-      std::filesystem::path folder = options.output_folder;
-      if (options.cases.size() > 1) folder /= std::filesystem::path(name).stem();
-      print_notes(write_result_folder(folder, result), common.quiet);
-    }
+    if (!folders.empty() || !options.report_file.empty()) app::add_surfaces(result, file, store);
+    if (!folders.empty()) print_notes(write_result_folder(folders[k], result), common.quiet);
     write_report_file(options.report_file, [&] {
       return app::report::run_page(std::make_shared<io::RunResult>(result), io::to_json(result));
     });
@@ -117,7 +118,6 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     if (this_status != kOk && (status == kOk || this_status == kFailed)) status = this_status;
     if (!result.complete) break;
   }
-  check_output();
   return status;
 }
 

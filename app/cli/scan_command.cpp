@@ -5,10 +5,11 @@
 #include <numbers>
 
 #include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/import/scan_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -73,6 +74,7 @@ int scan_command(const ScanOptions& options, const CommonOptions& common) {
   if (!options.truth_file.empty() && std::filesystem::path(options.truth_file) == std::filesystem::path(options.cloud))
     throw Error(ErrorKind::configuration, "the points and the truth about them cannot go to the same file",
                 {options.cloud});
+  require_different({options.surface}, {options.cloud, options.truth_file});
   const ThreadLimit limit(common.threads);
   const app::Scanned scanned = with_progress(common.quiet, [&](const Progress& progress) {
     return app::scan_surface(options.surface, options.cloud, request_of(options), progress);
@@ -80,7 +82,6 @@ int scan_command(const ScanOptions& options, const CommonOptions& common) {
   const auto json = [&] { return app::truth_json(scanned); };
   write_json_file(options.truth_file, json);
   print_results(options.truth_file, json, [&] { return app::summary(scanned); });
-  check_output();
   return kOk;
 }
 

@@ -14,10 +14,10 @@
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/cases/file_kind.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 
@@ -58,7 +58,7 @@ app::FileLock claim(const std::filesystem::path& folder) {
   if (!lock)
     throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {},
                 "choose another folder");
-  io::remove_leftovers(folder);
+  remove_leftovers(folder);
   return std::move(*lock);
 }
 
@@ -66,10 +66,10 @@ void print_summary(const std::string& json_file, const std::string& json, const 
   print_results(
       json_file, [&] { return json; }, [&] { return text; });
   write_json_file(json_file, [&] { return json; });
-  check_output();
 }
 
 int simulate_command(const SimulateOptions& options, const CommonOptions& common) {
+  require_different({options.file}, {options.json_file, options.report_file});
   if (options.resume && options.output_folder.empty())
     throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted simulation", {},
                 "give it with -o FOLDER");

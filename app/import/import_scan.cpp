@@ -15,6 +15,7 @@
 #include "treadmark/app/import/read_map.hpp"
 #include "treadmark/app/import/write_outputs.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/scans/cleaning/thin.hpp"
@@ -136,30 +137,20 @@ void note_removed(const scans::Projection& projection, std::size_t duplicates, c
            settings.clean.outlier_factor, 1e3 * settings.clean.outlier_factor * noise.typical)});
 }
 
-}  // namespace
-
-io::ImportReport import_scan(const ImportRequest& request, const Progress& progress) {
-  if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to read");
-  check_outputs(request);
-  check_settings(request.settings, body_of(request));
+io::ImportReport import_checked(const ImportRequest& request, const Progress& progress) {
   const io::ImportSettings& settings = request.settings;
   io::ImportReport report;
   report.version = version();
   report.settings_toml = io::import_settings_toml(settings);
   StepClock clock(report, progress);
+  const CancellationScope scope(progress.stop);
   clock.begin("reading");
   PlacedScan scan;
-  try {
-    if (request.scans.size() == 1 && io::is_deviation_map(request.scans.front())) {
-      scan = read_map(request, report);
-    } else {
-      Clouds clouds = read_clouds(request, report, progress);
-      scan = find_place(std::move(clouds), request, report, clock);
-    }
-  } catch (const Error& error) {
-    // placement knows nothing of files
-    if (!error.where().file.empty()) throw;
-    throw Error(error.kind(), error.message(), {request.scans.front().string()}, error.advice());
+  if (request.scans.size() == 1 && io::is_deviation_map(request.scans.front())) {
+    scan = read_map(request, report);
+  } else {
+    Clouds clouds = read_clouds(request, report, progress);
+    scan = find_place(std::move(clouds), request, report, clock);
   }
 
   const std::optional<scans::MeasuredSections> sections = sections_to_keep(scan, settings);
@@ -243,13 +234,24 @@ io::ImportReport import_scan(const ImportRequest& request, const Progress& progr
   return report;
 }
 
-namespace {
-
 [[noreturn]] void refuse(const std::string& key, const std::string& why) {
   throw Error(ErrorKind::configuration, key + " would be ignored: " + why, {}, "leave it out");
 }
 
 }  // namespace
+
+io::ImportReport import_scan(const ImportRequest& request, const Progress& progress) {
+  if (request.scans.empty()) throw Error(ErrorKind::configuration, "there is no scan to read");
+  check_outputs(request);
+  check_settings(request.settings, body_of(request));
+  try {
+    return import_checked(request, progress);
+  } catch (const Error& error) {
+    // what works on points knows nothing of files
+    if (!error.where().file.empty()) throw;
+    throw Error(error.kind(), error.message(), {request.scans.front().string()}, error.advice());
+  }
+}
 
 void check_settings(const io::ImportSettings& settings, Body body) {
   const auto& placement = settings.placement;

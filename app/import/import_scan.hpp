@@ -21,7 +21,8 @@ struct ImportRequest {
 /// From the points of a scanner to surfaces: reads, removes what does not belong to the wheel or rail, places, aligns
 /// passes, cleans, fits, writes, and keeps account of all of it. The same input and settings give the same files for
 /// any number of threads. Errors: those of the readers, of placement and fit, naming the file; Error(configuration) for
-/// outputs that cannot hold the surface; Error(numerical) when stopped. Nothing is written then.
+/// outputs that cannot hold the surface; Error(numerical) when stopped between steps, Cancelled (core/cancellation.hpp)
+/// within one. Nothing is written then.
 io::ImportReport import_scan(const ImportRequest& request, const Progress& progress = {});
 
 /// Refuses settings that would be ignored because they belong to the other body or to another choice.

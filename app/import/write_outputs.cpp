@@ -273,43 +273,15 @@ void check_holes(const std::filesystem::path& file, const FittedScan& fit) {
   if (is_offset_file(file)) refuse_holes(fit, file, "offsets");
 }
 
-StagedOutputs::~StagedOutputs() {
-  std::error_code ignored;
-  for (const Output& output : outputs_) std::filesystem::remove_all(output.folder, ignored);
-  for (const auto& folder : made_) std::filesystem::remove(folder, ignored);  // only empty ones go
-}
-
 std::filesystem::path StagedOutputs::place(const std::filesystem::path& file) {
-  Output output{file, file.parent_path() / fmt::format(".{}.{}.part", file.filename().string(), ::getpid())};
-  std::error_code code;
-  for (auto parent = file.parent_path(); !parent.empty() && !std::filesystem::exists(parent, code);
-       parent = parent.parent_path())
-    made_.push_back(parent);
-  std::filesystem::create_directories(output.folder, code);
-  if (code)
-    throw Error(ErrorKind::configuration, "cannot be written: " + code.message(), {file.string()},
-                "check the folder and its permissions");
-  outputs_.push_back(output);
-  return output.folder / file.filename();
+  const std::filesystem::path folder = file.has_parent_path() ? file.parent_path() : ".";
+  if (io::is_slices_file(file)) slices_.push_back(file);
+  return folders_.try_emplace(folder, folder, OutputFolder::Old::kept).first->second.path() / file.filename();
 }
 
 void StagedOutputs::commit() {
-  namespace fs = std::filesystem;
-  for (const Output& output : outputs_) {
-    try {
-      // slices have a folder with files of their own, where others may lie already
-      const fs::path parts = output.folder / output.file.stem();
-      if (fs::is_directory(parts)) {
-        fs::create_directories(output.file.parent_path() / output.file.stem());
-        for (const auto& part : fs::directory_iterator(parts))
-          fs::rename(part.path(), output.file.parent_path() / output.file.stem() / part.path().filename());
-      }
-      fs::rename(output.folder / output.file.filename(), output.file);
-    } catch (const fs::filesystem_error& error) {
-      throw Error(ErrorKind::configuration, "cannot be written: " + error.code().message(), {output.file.string()},
-                  "check the folder and its permissions");
-    }
-  }
+  for (auto& [name, folder] : folders_) folder.move_into();
+  for (const std::filesystem::path& file : slices_) io::remove_other_slices(file);
 }
 
 io::ImportReport::Output write_output(const std::filesystem::path& file, const std::filesystem::path& place,

@@ -3,10 +3,12 @@
 #pragma once
 
 #include <filesystem>
+#include <map>
 #include <string>
 #include <vector>
 
 #include "treadmark/app/import/find_place.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/scans/cleaning/coverage.hpp"
 #include "treadmark/scans/fit/band_surface.hpp"
 
@@ -28,14 +30,10 @@ void check_outputs(const ImportRequest& request);
 /// Refuses slices and offsets of a surface with holes that stay open. Errors: Error(configuration).
 void check_holes(const std::filesystem::path& file, const FittedScan& fit);
 
-/// Surfaces on the way to their names: written into folders beside them, which are gone with this object. One thread.
+/// Surfaces on the way to their names: written into a hidden folder of the folder where they shall lie, which is gone
+/// with this object. One thread.
 class StagedOutputs {
  public:
-  StagedOutputs() = default;
-  StagedOutputs(const StagedOutputs&) = delete;
-  StagedOutputs& operator=(const StagedOutputs&) = delete;
-  ~StagedOutputs();
-
   /// Where to write what shall become `file`. Errors: Error(configuration) where no folder can be made.
   std::filesystem::path place(const std::filesystem::path& file);
 
@@ -43,11 +41,8 @@ class StagedOutputs {
   void commit();
 
  private:
-  struct Output {
-    std::filesystem::path file, folder;
-  };
-  std::vector<Output> outputs_;
-  std::vector<std::filesystem::path> made_;  ///< folders that were not there, the inner ones first
+  std::map<std::filesystem::path, OutputFolder> folders_;
+  std::vector<std::filesystem::path> slices_;  ///< whose earlier folders go at last
 };
 
 /// Writes one surface to `place` that shall become `file`, reads it back and compares it with the fitted one. summary:

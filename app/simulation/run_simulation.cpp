@@ -13,6 +13,7 @@
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/snapshots.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/io/histories/history_model.hpp"
@@ -128,13 +129,15 @@ class Run {
     const auto total = static_cast<std::size_t>(kPerMetre * file_.settings.distance);
     auto last_kept = Clock::now(), last_told = last_kept - std::chrono::hours(1);
     while (!simulation_->finished()) {
-      if (progress.stop_requested()) {
-        result_.status = "interrupted";
-        result_.message = fmt::format("stopped at t = {:.6g} s", simulation_->state().time);
-        return;
-      }
+      if (progress.stop_requested()) return stop();
       const vehicle::SystemState before = simulation_->state();
-      simulation_->advance();
+      try {
+        // The rest of the loop notes the step: all of it or nothing.
+        const CancellationScope scope(progress.stop);
+        simulation_->advance();
+      } catch (const Cancelled&) {
+        return stop();
+      }
       summary_->note();
       snapshots_.take_passed(*simulation_, before);
       if (due(simulation_->state().time * built_.vehicle.speed)) record_->append(result_.values);
@@ -151,6 +154,11 @@ class Run {
         last_kept = Clock::now();
       }
     }
+  }
+
+  void stop() {
+    result_.status = "interrupted";
+    result_.message = fmt::format("stopped at t = {:.6g} s", simulation_->state().time);
   }
 
   /// Whether the instant at x is to be written down.
@@ -231,9 +239,13 @@ io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore
                                     const SimulationOptions& options, const Progress& progress,
                                     SimulationTimes* times) {
   SimulationTimes unasked;
-  Run run(file, store, options, times ? *times : unasked);
-  run.integrate(progress);
-  return run.take();
+  std::optional<Run> run;
+  {
+    const CancellationScope scope(progress.stop);
+    run.emplace(file, store, options, times ? *times : unasked);
+  }
+  run->integrate(progress);
+  return run->take();
 }
 
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,

@@ -21,8 +21,9 @@
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
@@ -123,7 +124,7 @@ class Workers {
     const auto lock = FileLock::attempt(folder / kLockFile);
     if (!lock) return false;
     if (is_finished(i)) return true;
-    io::remove_leftovers(folder);
+    remove_leftovers(folder);
     const auto input = io::read_study_run(study_, run);
     SimulationOptions wanted;
     wanted.settings = run.overrides;
@@ -137,6 +138,8 @@ class Workers {
     if (const auto* simulation = std::get_if<io::SimulationFile>(&input)) {
       try {
         result = run_simulation(*simulation, surfaces, wanted, inner);
+      } catch (const Cancelled&) {
+        return true;
       } catch (const Error& e) {
         if (e.kind() != ErrorKind::numerical) throw;
         result = result_head(*simulation, wanted);
@@ -182,7 +185,7 @@ void claim_folder(const io::StudyFile& study, const StudyOptions& options) {
                 {options.folder.string()});
   const FileLock lock = FileLock::wait(options.folder / kLockFile);
   if (!fs::exists(file))
-    io::write_text_file(file, identity);
+    write_file(file, identity);
   else if (text_of(file) != identity)
     throw Error(ErrorKind::configuration, options.folder.string() + " holds the results of another study", {},
                 "choose another folder, or remove this one; runs, files, settings and build of Treadmark must be the "
@@ -235,11 +238,11 @@ void write_study_folder(const io::StudyFile& file, const StudyOptions& options, 
   const bool all_there =
       std::ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
   if (all_there && fs::exists(marker) && text_of(marker) == written) return;
-  io::remove_leftovers(options.folder);
+  remove_leftovers(options.folder);
   io::write_sweep_csv(options.folder / "sweep.csv", study);
   io::write_study_store(options.folder / "sweep.h5", study);
   write_study_figures(file, options.folder, study);
-  io::write_text_file(marker, written);
+  write_file(marker, written);
 }
 
 ProcessPlace process_place() {

@@ -9,9 +9,9 @@
 #include <algorithm>
 #include <numbers>
 
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/pose.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
@@ -79,13 +79,12 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
     };
     if (has("pmax_Pa")) chart.y.push_back({"pmax_Pa", "p_max [MPa]", kMega});
     const pictures::HistoryRun run{&result, result.title};
-    io::write_text_file(folder / "history.svg", pictures::history_svg(std::span(&run, 1), chart));
+    write_file(folder / "history.svg", pictures::history_svg(std::span(&run, 1), chart));
   }
-  if (!result.snapshots.cases.empty())
-    io::write_text_file(folder / "pressure.svg", pictures::pressure_svg(result.snapshots));
+  if (!result.snapshots.cases.empty()) write_file(folder / "pressure.svg", pictures::pressure_svg(result.snapshots));
   if (const std::vector<pictures::PatchesPanel> panels = patches_panels(result); !panels.empty()) {
-    io::write_text_file(folder / "patches.svg", pictures::patches_svg(panels, result.title));
-    io::write_text_file(folder / "patches.csv", pictures::patches_csv(panels));
+    write_file(folder / "patches.svg", pictures::patches_svg(panels, result.title));
+    write_file(folder / "patches.csv", pictures::patches_csv(panels));
   }
   io::write_simulation(folder / "simulation.h5", result);
 }

@@ -9,7 +9,7 @@
 
 #include "treadmark/app/simulation/study_identity.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 #include "treadmark/pictures/histories/summary_svg.hpp"
@@ -119,9 +119,9 @@ class Figures {
     if (runs.empty()) return;
     const bool multiples =
         std::ranges::any_of(runs, [&](const pictures::HistoryRun& r) { return r.panel != runs.front().panel; });
-    io::write_text_file(folder_ / figure.file,
-                        multiples ? pictures::history_multiples_svg(runs, chart) : pictures::history_svg(runs, chart));
-    io::write_text_file(csv_of(folder_ / figure.file), pictures::history_chart_csv(runs, chart));
+    write_file(folder_ / figure.file,
+               multiples ? pictures::history_multiples_svg(runs, chart) : pictures::history_svg(runs, chart));
+    write_file(csv_of(folder_ / figure.file), pictures::history_chart_csv(runs, chart));
   }
 
   /// Runs that differ in more than the lines' variation stand in panels of their own, where one quantity is drawn.
@@ -154,8 +154,8 @@ class Figures {
     }
     io::StudyResult drawn = study_;
     std::erase_if(drawn.runs, [&](const io::SimulationRun& run) { return !is_drawn(figure, run); });
-    io::write_text_file(folder_ / figure.file, pictures::summary_svg(drawn, chart));
-    io::write_text_file(csv_of(folder_ / figure.file), pictures::summary_chart_csv(drawn, chart));
+    write_file(folder_ / figure.file, pictures::summary_svg(drawn, chart));
+    write_file(csv_of(folder_ / figure.file), pictures::summary_chart_csv(drawn, chart));
   }
 
   const io::StudyFile& file_;

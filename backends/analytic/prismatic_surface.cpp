@@ -177,7 +177,9 @@ Box3 PrismaticSurface::bounds() const {
     if (seg.curvature == 0.0) continue;
     // extremes of y and z lie where the inclination is a multiple of 90 degrees
     const double quarter = std::acos(0.0), a = seg.angle, b = a + seg.curvature * seg.length;
-    for (double q = std::ceil(std::min(a, b) / quarter); q * quarter <= std::max(a, b); q += 1.0)
+    // a turn has all of them
+    double q = std::ceil(std::min(a, b) / quarter);
+    for (int left = 4; left >= 0 && q * quarter <= std::max(a, b); --left, q += 1.0)
       include(point_on(seg, std::clamp((q * quarter - a) / seg.curvature, 0.0, seg.length)));
   }
   return {{-kInfinity, low[0], low[1]}, {kInfinity, high[0], high[1]}};

@@ -11,11 +11,13 @@
 #include <cstdlib>
 #include <cstring>
 #include <fstream>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sheet_grid.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 
 namespace treadmark::offset {
 
@@ -23,8 +25,8 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// What follows the VDB data, ignored by other programs: a mark, the number of bytes before it and their sum. OpenVDB
-/// trusts what it reads, so a damaged file must be known before.
+/// What follows the VDB data, ignored by other programs: a mark, the number of bytes before it and their sum, by which
+/// damage is known. It guards against nobody who means harm.
 constexpr std::array<char, 8> kMark = {'T', 'M', 'K', 'S', 'U', 'M', '0', '1'};
 constexpr std::size_t kTrailer = 24;
 constexpr std::array<char, 8> kVdbMagic = {' ', 'B', 'D', 'V', 0, 0, 0, 0};
@@ -50,19 +52,29 @@ std::vector<char> read_all(const fs::path& file) {
   return data;
 }
 
-void append_trailer(const fs::path& file) {
-  const std::vector<char> data = read_all(file);
-  const std::uint64_t size = data.size(), sum = sum_of(data.data(), data.size());
-  std::ofstream out(file, std::ios::binary | std::ios::app);
-  out.write(kMark.data(), kMark.size());
-  out.write(reinterpret_cast<const char*>(&size), sizeof(size));
-  out.write(reinterpret_cast<const char*>(&sum), sizeof(sum));
-  out.close();
-  if (!out) throw Error(ErrorKind::configuration, "cannot write the offsets", {file.string()});
+/// Bytes 22 to 57 of a VDB file are a random number as text, so that no two files
+/// are alike. Here it follows from the content: equal offsets give equal files.
+void name_by_content(std::string& bytes) {
+  constexpr std::size_t kAt = 22, kLength = 36;
+  if (bytes.size() < kAt + kLength) return;
+  bytes.replace(kAt, kLength, kLength, '0');
+  const std::uint64_t first = sum_of(bytes.data(), bytes.size());
+  const std::uint64_t second = sum_of(reinterpret_cast<const char*>(&first), sizeof(first));
+  const std::string digits = fmt::format("{:016x}{:016x}", first, second);
+  bytes.replace(kAt, kLength,
+                fmt::format("{}-{}-{}-{}-{}", digits.substr(0, 8), digits.substr(8, 4), digits.substr(12, 4),
+                            digits.substr(16, 4), digits.substr(20)));
 }
 
-void require_sound(const fs::path& file) {
-  const std::vector<char> data = read_all(file);
+void append_trailer(std::string& bytes) {
+  const std::uint64_t size = bytes.size(), sum = sum_of(bytes.data(), bytes.size());
+  bytes.append(kMark.data(), kMark.size());
+  bytes.append(reinterpret_cast<const char*>(&size), sizeof(size));
+  bytes.append(reinterpret_cast<const char*>(&sum), sizeof(sum));
+}
+
+/// The VDB data in the content of a file.
+std::string_view require_sound(const std::vector<char>& data, const fs::path& file) {
   const auto refuse = [&](const char* why, const char* advice) {
     throw Error(ErrorKind::input_data, why, {file.string()}, advice);
   };
@@ -78,6 +90,7 @@ void require_sound(const fs::path& file) {
   std::memcpy(&sum, trailer + 16, sizeof(sum));
   if (size != data.size() - kTrailer || sum != sum_of(data.data(), data.size() - kTrailer))
     refuse("the VDB file is damaged: its check sum does not fit", "write or copy it again");
+  return {data.data(), data.size() - kTrailer};
 }
 
 }  // namespace
@@ -89,14 +102,16 @@ void write_vdb(const fs::path& file, const OffsetFile& content) {
   sheet.u0 = f.u0, sheet.y0 = f.y0, sheet.du = f.du, sheet.dy = f.dy;
   sheet.metadata = to_metadata(*content.offsets, content.base);
   if (!content.notes.empty()) sheet.metadata["notes"] = content.notes;
-  write_sheet(file, content.offsets->grid, sheet);
-  append_trailer(file);
+  std::string bytes = sheet_bytes(content.offsets->grid, sheet);
+  name_by_content(bytes);
+  append_trailer(bytes);
+  write_file(file, bytes);
 }
 
 OffsetFile read_vdb(const fs::path& file) {
   constexpr float kAbsurd = 1.0f;  // [m]
-  require_sound(file);
-  SheetFile sheet = read_sheet(file);
+  const std::vector<char> data = read_all(file);
+  SheetFile sheet = read_sheet(require_sound(data, file), file);
   const auto offsets = std::make_shared<SparseOffsets>();
   OffsetFile result;
   from_metadata(sheet.metadata, *offsets, result.base, file.string());
@@ -125,6 +140,12 @@ constexpr const char* kFormat = "treadmark offsets 1";
 std::string number(double v) { return fmt::format("{:.17g}", v); }
 std::string list(const std::vector<double>& v) { return fmt::format("{:.17g}", fmt::join(v, " ")); }
 
+/// The beginning of an entry, which may be long, for a message.
+std::string shown(const std::string& entry) {
+  constexpr std::size_t kMost = 40;
+  return entry.size() > kMost ? fmt::format("{}...", std::string_view(entry).substr(0, kMost)) : entry;
+}
+
 /// Reads entries, with errors that name them.
 class Reader {
  public:
@@ -139,7 +160,7 @@ class Reader {
   }
   void require(const std::string& name, const std::string& wanted) const {
     if (text(name) != wanted)
-      refuse(fmt::format("the entry '{}' of the VDB file is '{}', wanted is '{}'", name, text(name), wanted));
+      refuse(fmt::format("the entry '{}' of the VDB file is '{}', wanted is '{}'", name, shown(text(name)), wanted));
   }
   std::vector<double> numbers(const std::string& name) const {
     std::vector<double> all;
@@ -270,7 +291,7 @@ void from_metadata(const Metadata& metadata, SparseOffsets& offsets, SurfaceSpec
   else if (kind == "arcs")
     base.shape = read_arcs(in);
   else
-    in.refuse(fmt::format("the base '{}' in the VDB file is not known", kind));
+    in.refuse(fmt::format("the base '{}' in the VDB file is not known", shown(kind)));
 }
 
 }  // namespace treadmark::offset

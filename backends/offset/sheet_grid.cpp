@@ -2,8 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/backends/offset/sheet_grid.hpp"
 
-#include <utility>
-
 #include "treadmark/backends/offset/openvdb/sheet_library.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -32,20 +30,11 @@ std::vector<SheetGrid::Entry> SheetGrid::blocks() const { return storage_->block
 std::size_t SheetGrid::active_count() const { return storage_->active_count(); }
 std::size_t SheetGrid::memory_bytes() const { return storage_->memory_bytes(); }
 
-void write_sheet(const std::filesystem::path& file, const SheetGrid& grid, const SheetFile& frame) {
-  throw_fault(sheet_library().write(file, grid.blocks(), {frame.u0, frame.y0, frame.du, frame.dy, frame.metadata}),
-              file);
-}
-
-SheetFile read_sheet(const std::filesystem::path& file) {
-  SheetFrameAndData sheet;
-  std::map<BlockKey, Block> blocks;
-  throw_fault(sheet_library().read(file, sheet, blocks), file);
-  SheetFile result;
-  result.u0 = sheet.u0, result.y0 = sheet.y0, result.du = sheet.du, result.dy = sheet.dy;
-  result.metadata = std::move(sheet.metadata);
-  for (const auto& [key, values] : blocks) result.grid.insert(key, values, 0.0f);
-  return result;
+std::string sheet_bytes(const SheetGrid& grid, const SheetFile& frame) {
+  std::string bytes;
+  throw_fault(sheet_library().write(bytes, grid.blocks(), {frame.u0, frame.y0, frame.du, frame.dy, frame.metadata}),
+              {});
+  return bytes;
 }
 
 }  // namespace treadmark::offset

@@ -7,6 +7,7 @@
 #include <map>
 #include <memory>
 #include <string>
+#include <string_view>
 #include <vector>
 
 #include "treadmark/backends/offset/sheet_types.hpp"
@@ -54,10 +55,10 @@ struct SheetFile {
   double u0 = 0.0, y0 = 0.0, du = 1.0, dy = 1.0;
   std::map<std::string, std::string> metadata;
 };
-/// Errors: Error(configuration) if the file cannot be written.
-void write_sheet(const std::filesystem::path& file, const SheetGrid& grid, const SheetFile& frame);
-/// Errors: Error(input_data) for everything that is not a finite sheet of floats. The file must be known to be sound:
-/// OpenVDB does not survive every damage.
-SheetFile read_sheet(const std::filesystem::path& file);
+/// The bytes of a VDB file. Errors: Error(configuration) for steps that such a file cannot hold.
+std::string sheet_bytes(const SheetGrid& grid, const SheetFile& frame);
+/// data: the bytes of a VDB file, which may be hostile: time and memory stay in proportion to them. file: its name for
+/// messages. Errors: Error(input_data) for everything that is not a finite sheet of floats as sheet_bytes makes it.
+SheetFile read_sheet(std::string_view data, const std::filesystem::path& file);
 
 }  // namespace treadmark::offset

@@ -49,7 +49,8 @@ class Sections {
   Column end(const Column& inside, double y_outside) const {
     Column best = inside;
     double out = y_outside;
-    while (std::fabs(out - best.y) > kEndAccuracy) {
+    // as often as the last bits of a number far from 0 allow
+    for (int left = 100; left > 0 && std::fabs(out - best.y) > kEndAccuracy; --left) {
       Column middle = at({0.5 * (best.y + out)}).front();
       if (present(middle))
         best = std::move(middle);
@@ -77,7 +78,9 @@ class Sections {
 };
 
 std::vector<Column> refined(const Sections& sections, std::vector<Column> columns, double longest) {
-  for (bool changed = true; changed;) {
+  constexpr int kMostHalvings = 100;
+  bool changed = true;
+  for (int left = kMostHalvings; changed && left > 0; --left) {
     std::vector<double> extra;
     for (std::size_t i = 1; i < columns.size(); ++i)
       if (columns[i].y - columns[i - 1].y > kLeastPiece && Sections::length(columns[i - 1], columns[i]) > longest)

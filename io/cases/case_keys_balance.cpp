@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cases/key_builder.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -44,13 +45,14 @@ void add_number(KeyList& list, const std::string& path, KeyLimits limits, const 
 }
 
 void add_roller(KeyList& list) {
-  const auto number = [&](const std::string& name, const std::string& doc, double Roller::*member) {
-    add_number(list, "roller." + name, kAnyNumber, doc, &W::roller, member);
+  const auto number = [&](const std::string& name, KeyLimits limits, const std::string& doc, double Roller::*member) {
+    add_number(list, "roller." + name, limits, doc, &W::roller, member);
   };
-  number("nominal_radius_mm", "radius where the roller's profile has z = 0; negative: the wheel runs inside a ring",
+  number("nominal_radius_mm", kAnyNumber,
+         "radius where the roller's profile has z = 0; negative: the wheel runs inside a ring",
          &Roller::nominal_radius);
-  number("pitch_rate_rad_s", "pitch rate of the roller, positive where a wheel on it rolls forward (shift: rotation)",
-         &Roller::pitch_rate);
+  number("pitch_rate_rad_s", {{}, -kMostSpeed, kMostSpeed},
+         "pitch rate of the roller, positive where a wheel on it rolls forward (shift: rotation)", &Roller::pitch_rate);
   add_switch(list, "roller",
              "a roller with the profile of [rail] in place of the rail; wheelset.s_mm is where the axle stands over "
              "the roller's",

@@ -1,13 +1,14 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/io/cases/shared_keys.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
 using Kind = FrictionLaw::Kind;
-constexpr KeyLimits kFriction{{}, 1e-4, {}};
+constexpr KeyLimits kFriction{{}, 1e-4, kMostFriction}, kFrictionChange{{}, -kMostFriction, kMostFriction};
 const std::vector<std::pair<std::string, Kind>> kLaws{{"coulomb", Kind::coulomb},
                                                       {"linear", Kind::linear},
                                                       {"rational", Kind::rational},
@@ -22,11 +23,11 @@ void add_one_law(KeyList& list) {
   shared_number(list, "friction.coefficient", kFriction,
                 "coefficient of friction; of falling laws the limit at high slip velocity",
                 [](auto& c) -> double& { return c.friction.kinetic; });
-  shared_number(list, "friction.amplitude_1", kAnyNumber, "first falling term at rest, added to the coefficient",
+  shared_number(list, "friction.amplitude_1", kFrictionChange, "first falling term at rest, added to the coefficient",
                 [](auto& c) -> double& { return c.friction.amplitude_1; });
   shared_number(list, "friction.half_velocity_1_m_s", kNotNegative, "slip velocity at which the first term is halved",
                 [](auto& c) -> double& { return c.friction.half_velocity_1; });
-  shared_number(list, "friction.amplitude_2", kAnyNumber, "second falling term at rest",
+  shared_number(list, "friction.amplitude_2", kFrictionChange, "second falling term at rest",
                 [](auto& c) -> double& { return c.friction.amplitude_2; });
   shared_number(list, "friction.half_velocity_2_m_s", kNotNegative, "slip velocity at which the second term is halved",
                 [](auto& c) -> double& { return c.friction.half_velocity_2; });
@@ -36,7 +37,7 @@ void add_one_law(KeyList& list) {
                 [](auto& c) -> double& { return c.friction.memory_velocity; });
   shared_number(list, "friction.reference_temperature_C", kAnyNumber, "temperature: up to here the coefficient holds",
                 [](auto& c) -> double& { return c.friction.reference_temperature; });
-  shared_number(list, "friction.temperature_change", kAnyNumber,
+  shared_number(list, "friction.temperature_change", kFrictionChange,
                 "temperature: change of the coefficient of friction over the range",
                 [](auto& c) -> double& { return c.friction.temperature_change; });
   shared_number(list, "friction.temperature_range_K", kPositive,
@@ -67,14 +68,14 @@ std::vector<ElementKey<Element>> law_keys(Law law) {
   };
   add("coefficient", kFriction, &FrictionLaw::kinetic);
   keys.back().info.required = true;
-  add("amplitude_1", kAnyNumber, &FrictionLaw::amplitude_1);
+  add("amplitude_1", kFrictionChange, &FrictionLaw::amplitude_1);
   add("half_velocity_1_m_s", kNotNegative, &FrictionLaw::half_velocity_1);
-  add("amplitude_2", kAnyNumber, &FrictionLaw::amplitude_2);
+  add("amplitude_2", kFrictionChange, &FrictionLaw::amplitude_2);
   add("half_velocity_2_m_s", kNotNegative, &FrictionLaw::half_velocity_2);
   add("memory_distance_mm", kNotNegative, &FrictionLaw::memory_distance);
   add("memory_velocity_mm_s", kNotNegative, &FrictionLaw::memory_velocity);
   add("reference_temperature_C", kAnyNumber, &FrictionLaw::reference_temperature);
-  add("temperature_change", kAnyNumber, &FrictionLaw::temperature_change);
+  add("temperature_change", kFrictionChange, &FrictionLaw::temperature_change);
   add("temperature_range_K", kPositive, &FrictionLaw::temperature_range);
   return keys;
 }

@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "treadmark/io/cases/shared_keys.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -67,7 +68,7 @@ void add_steps(KeyList& list) {
                      "the next where the table does not give the position; 0: one case at the position given",
                      [](Case& c) -> int& { return c.steps; });
   KeyInfo& step = list.number<Case>(
-      "case.time_step_s", kPositive,
+      "case.time_step_s", {0.0, {}, kMostStep},
       "time between two of these cases, from which the rolling step follows; without it the forward velocity "
       "rolls one rolling step (dq_relative * dx_mm). A shift has no time: its velocities are displacements",
       [](Case& c) -> double& { return c.time_step; });

@@ -3,12 +3,15 @@
 #include <cmath>
 
 #include "treadmark/io/cases/key_builder.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
 using B = BasicCase;
+
+constexpr KeyLimits kCreep{{}, -kMostCreepage, kMostCreepage};
 
 /// Of keys that say the same for a shift and for rolling, one is written.
 void written_in_regime(CaseKey& key, bool shift) {
@@ -40,7 +43,7 @@ void add_load(KeyList& list) {
   // Creepage, shift and force are three ways to say what drives one direction.
   const auto driven = [&](const std::string& name, const std::string& doc, const std::string& direction,
                           double B::*member, std::optional<double> B::*force) {
-    list.number<B>("patch." + name, kAnyNumber, doc, [member](B& c) -> double& { return c.*member; });
+    list.number<B>("patch." + name, kCreep, doc, [member](B& c) -> double& { return c.*member; });
     CaseKey& key = list.keys.back();
     key.info.group = "patch " + direction;
     key.info.alternative = name;
@@ -82,7 +85,7 @@ void add_load(KeyList& list) {
          &B::fy_relative);
   for (const auto& [name, doc] : {std::pair<std::string, std::string>{"spin_rad_m", "spin creepage"},
                                   {"shift_rotation_rad", "rotation of a shift (regime = \"shift\")"}}) {
-    KeyInfo& info = list.number<B>("patch." + name, kAnyNumber, doc, [](B& c) -> double& { return c.phi; });
+    KeyInfo& info = list.number<B>("patch." + name, kCreep, doc, [](B& c) -> double& { return c.phi; });
     info.group = "patch rotation";
     info.alternative = name;
     written_in_regime(list.keys.back(), name.starts_with("shift"));
@@ -101,8 +104,10 @@ void add_load(KeyList& list) {
 void add_rolling(KeyList& list) {
   list.angle<B>("patch.rolling_direction", kAnyNumber, "rolling direction chi: 0 = +x",
                 [](B& c) -> double& { return c.chi; });
-  list.number<B>("patch.rolling_step_mm", kPositive, "distance rolled per step", [](B& c) -> double& { return c.dq; });
-  list.number<B>("patch.velocity_m_s", kPositive, "rolling velocity", [](B& c) -> double& { return c.velocity; });
+  list.number<B>("patch.rolling_step_mm", {0.0, {}, kMostStep}, "distance rolled per step",
+                 [](B& c) -> double& { return c.dq; });
+  list.number<B>("patch.velocity_m_s", {0.0, {}, kMostSpeed}, "rolling velocity",
+                 [](B& c) -> double& { return c.velocity; });
   list.number<B>("patch.spin_offset_factor", kNotNegative,
                  "share of the rolling step by which the spin centre is moved",
                  [](B& c) -> double& { return c.spin_offset_factor; });
@@ -118,8 +123,8 @@ void add_extra_slip(KeyList& list) {
   // As creepages and shifts: relative velocities in rolling, distances in a shift.
   const auto component = [&](const std::string& name, const std::string& axis, const std::string& doc,
                              std::vector<double> B::*member) {
-    KeyInfo& info =
-        list.number_list<B>("patch." + name, doc, [member](B& c) -> std::vector<double>& { return c.*member; });
+    KeyInfo& info = list.number_list<B>(
+        "patch." + name, doc, [member](B& c) -> std::vector<double>& { return c.*member; }, kCreep);
     info.group = "patch extra " + axis;
     info.alternative = name;
     written_in_regime(list.keys.back(), name.starts_with("extra_shift"));

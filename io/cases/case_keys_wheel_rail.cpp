@@ -5,12 +5,15 @@
 #include <numbers>
 
 #include "treadmark/io/cases/key_builder.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
 using W = WheelRailCase;
+
+constexpr KeyLimits kSpeed{{}, -kMostSpeed, kMostSpeed};
 
 bool is_digits(std::string_view text) {
   return !text.empty() && text.find_first_not_of("0123456789") == std::string_view::npos;
@@ -85,11 +88,11 @@ void add_track(KeyList& list) {
                  [](W& c) -> double& { return c.track.dz; });
   list.angle<W>("track.irregularity_roll", kAnyNumber, "roll irregularity of the rail",
                 [](W& c) -> double& { return c.track.roll; });
-  list.number<W>("track.irregularity_vy_m_s", kAnyNumber, "lateral velocity of the rail",
+  list.number<W>("track.irregularity_vy_m_s", kSpeed, "lateral velocity of the rail",
                  [](W& c) -> double& { return c.track.vy; });
-  list.number<W>("track.irregularity_vz_m_s", kAnyNumber, "vertical velocity of the rail",
+  list.number<W>("track.irregularity_vz_m_s", kSpeed, "vertical velocity of the rail",
                  [](W& c) -> double& { return c.track.vz; });
-  list.number<W>("track.irregularity_vroll_rad_s", kAnyNumber, "roll rate of the rail",
+  list.number<W>("track.irregularity_vroll_rad_s", kSpeed, "roll rate of the rail",
                  [](W& c) -> double& { return c.track.vroll; });
 }
 
@@ -142,15 +145,13 @@ void add_wheelset(KeyList& list) {
   list.angle<W>("wheelset.pitch", kAnyNumber,
                 "pitch angle; it turns out-of-round wheels: material angle theta = -pitch is lowest",
                 [](W& c) -> double& { return c.state.position.pitch; });
-  list.number<W>("wheelset.velocity_m_s", kAnyNumber, "forward velocity",
+  list.number<W>("wheelset.velocity_m_s", kSpeed, "forward velocity",
                  [](W& c) -> double& { return c.state.velocity.x; });
-  list.number<W>("wheelset.vy_m_s", kAnyNumber, "lateral velocity", [](W& c) -> double& { return c.state.velocity.y; });
-  list.number<W>("wheelset.vz_m_s", kAnyNumber, "vertical velocity",
-                 [](W& c) -> double& { return c.state.velocity.z; });
-  list.number<W>("wheelset.vroll_rad_s", kAnyNumber, "roll rate",
-                 [](W& c) -> double& { return c.state.velocity.roll; });
-  list.number<W>("wheelset.vyaw_rad_s", kAnyNumber, "yaw rate", [](W& c) -> double& { return c.state.velocity.yaw; });
-  list.number<W>("wheelset.vpitch_rad_s", kAnyNumber,
+  list.number<W>("wheelset.vy_m_s", kSpeed, "lateral velocity", [](W& c) -> double& { return c.state.velocity.y; });
+  list.number<W>("wheelset.vz_m_s", kSpeed, "vertical velocity", [](W& c) -> double& { return c.state.velocity.z; });
+  list.number<W>("wheelset.vroll_rad_s", kSpeed, "roll rate", [](W& c) -> double& { return c.state.velocity.roll; });
+  list.number<W>("wheelset.vyaw_rad_s", kSpeed, "yaw rate", [](W& c) -> double& { return c.state.velocity.yaw; });
+  list.number<W>("wheelset.vpitch_rad_s", kSpeed,
                  "pitch rate, negative when rolling forward (pure rolling: -velocity/radius)",
                  [](W& c) -> double& { return c.state.velocity.pitch; });
   CaseKey& rate = list.keys.back();
@@ -182,7 +183,7 @@ void add_wheelset(KeyList& list) {
 void add_flexible_wheelset(KeyList& list) {
   const auto deviation = [&](const std::string& name, const std::string& doc, SixMotion WheelsetState::*motion,
                              double SixMotion::*axis) {
-    list.number<W>("wheelset.deviation_" + name, kAnyNumber, doc,
+    list.number<W>("wheelset.deviation_" + name, name.starts_with('v') ? kSpeed : kAnyNumber, doc,
                    [=](W& c) -> double& { return c.state.*motion.*axis; });
   };
   const auto rotation = [&](const std::string& name, const std::string& doc, double SixMotion::*axis) {
@@ -209,7 +210,7 @@ void add_discretisation(KeyList& list) {
                  [](W& c) -> double& { return c.discretisation.dx; });
   list.number<W>("discretisation.ds_mm", kPositive, "element size in lateral direction",
                  [](W& c) -> double& { return c.discretisation.ds; });
-  list.number<W>("discretisation.dq_relative", kPositive, "rolling step over dx",
+  list.number<W>("discretisation.dq_relative", {0.0, {}, kMostStep}, "rolling step over dx",
                  [](W& c) -> double& { return c.discretisation.dq_relative; });
   list.angle<W>("discretisation.angle_separation", kNotNegative,
                 "patches whose contact angles differ by more stay apart",

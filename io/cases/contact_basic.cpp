@@ -6,6 +6,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -29,12 +30,12 @@ void read_kinematics(ContactReader& r) {
   if (force >= 1)
     b.fx_relative = text.real("FX");
   else
-    b.xi = text.real("CKSI") * (shift ? kMillimetre : 1.0);
+    b.xi = text.real("CKSI", kMostCreepage) * (shift ? kMillimetre : 1.0);
   if (force >= 2)
     b.fy_relative = text.real("FY");
   else
-    b.eta = text.real("CETA") * (shift ? kMillimetre : 1.0);
-  b.phi = text.real("CPHI") * (shift ? 1.0 : kMilli);
+    b.eta = text.real("CETA", kMostCreepage) * (shift ? kMillimetre : 1.0);
+  b.phi = text.real("CPHI", kMostCreepage * (shift ? 1.0 : kMillimetre)) * (shift ? 1.0 : kMilli);
   if (force >= 1) b.xi = 0.0;
   if (force >= 2) b.eta = 0.0;
   b.spin_x = b.spin_y = 0.0;
@@ -54,8 +55,8 @@ void read_extra_slip(ContactReader& r) {
   if (digit != 9) return;
   r.text.begin_record("the extra rigid slip");
   for (long i = 0; i < elements(kept.basic); ++i) {
-    kept.extra_slip_x.push_back(r.text.real("WX"));
-    kept.extra_slip_y.push_back(r.text.real("WY"));
+    kept.extra_slip_x.push_back(r.text.real("WX", kMostCreepage));
+    kept.extra_slip_y.push_back(r.text.real("WY", kMostCreepage));
   }
 }
 

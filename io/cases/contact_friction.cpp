@@ -7,6 +7,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -15,7 +16,7 @@ namespace {
 constexpr double kSmallestFriction = 1e-4;
 
 double coefficient(ContactText& text, std::string_view name) {
-  const double value = text.real(name);
+  const double value = text.real(name, kMostFriction);
   if (value < kSmallestFriction)
     text.fail(fmt::format("the coefficient of friction must be at least {}, found {}", kSmallestFriction, value));
   return value;
@@ -36,7 +37,7 @@ FrictionLaw read_falling(ContactText& text, int law) {
   f.kind = law == 2 ? Kind::linear : law == 3 ? Kind::rational : Kind::exponential;
   f.kinetic = coefficient(text, "FKIN");
   const auto term = [&](std::string_view amplitude, std::string_view velocity, double& a, double& v) {
-    a = text.real(amplitude);
+    a = text.real(amplitude, kMostFriction);
     v = text.real(velocity) * kMillimetre;
     if (a != 0.0 && !(v > 0.0)) text.fail(fmt::format("{} must be positive where {} is not 0", velocity, amplitude));
   };
@@ -66,7 +67,7 @@ FrictionLaw read_temperature_dependent(ContactText& text) {
   f.kind = FrictionLaw::Kind::temperature;
   f.kinetic = coefficient(text, "FREF");
   f.reference_temperature = text.real("TREF");
-  f.temperature_change = text.real("DFHEAT");
+  f.temperature_change = text.real("DFHEAT", kMostFriction);
   if (f.kinetic + f.temperature_change < kSmallestFriction)
     text.fail(
         fmt::format("FREF + DFHEAT = {} must be at least {}", f.kinetic + f.temperature_change, kSmallestFriction));

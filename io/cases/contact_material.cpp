@@ -7,6 +7,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -22,8 +23,8 @@ double not_negative(ContactText& text, std::string_view name) {
   if (value < 0.0) text.fail(fmt::format("{} must not be negative", name));
   return value;
 }
-double positive(ContactText& text, std::string_view name) {
-  const double value = text.real(name);
+double positive_value(ContactText& text, std::string_view name, double greatest = kInfinity) {
+  const double value = text.real(name, greatest);
   if (!(value > 0.0)) text.fail(fmt::format("{} must be positive", name));
   return value;
 }
@@ -31,7 +32,7 @@ double positive(ContactText& text, std::string_view name) {
 ContactSequence::Layer read_layer(ContactText& text) {
   text.begin_record("the layer line GG3");
   ContactSequence::Layer layer;
-  const double modulus = positive(text, "GG3") * kMegapascal;
+  const double modulus = positive_value(text, "GG3") * kMegapascal;
   layer.flexibility = not_negative(text, "LAYTHK") * kMillimetre / modulus;
   layer.written_yield = text.real("TAU_C0");
   layer.where = text.where();
@@ -49,8 +50,8 @@ void ContactReader::read_rolling() {
   text.begin_record("the rolling line CHI");
   BasicCase& b = kept.basic;
   b.chi = text.angle("CHI");
-  b.dq = positive(text, "DQ") * kMillimetre;
-  b.velocity = positive(text, "VELOC") * kMillimetre;
+  b.dq = positive_value(text, "DQ", kMostStep / kMillimetre) * kMillimetre;
+  b.velocity = positive_value(text, "VELOC", kMostSpeed / kMillimetre) * kMillimetre;
   const auto factor = text.optional_real();
   b.spin_offset_factor = factor ? *factor : 1.0 / 6.0;
   kept.has_rolling = true;
@@ -101,8 +102,8 @@ void ContactReader::read_material() {
   };
   m.poisson_1 = poisson("POISS1");
   m.poisson_2 = poisson("POISS2");
-  m.shear_modulus_1 = positive(text, "GG1") * kMegapascal;
-  m.shear_modulus_2 = positive(text, "GG2") * kMegapascal;
+  m.shear_modulus_1 = positive_value(text, "GG1") * kMegapascal;
+  m.shear_modulus_2 = positive_value(text, "GG2") * kMegapascal;
   kept.has_material = true;
 
   if ((*problem)["BOUND"] == 1) {
@@ -120,7 +121,7 @@ void ContactReader::read_material() {
   } else if (const auto simplified = of_contact_digit(kTangentialTheories, kind); simplified != TangentialModel::full) {
     text.begin_record("the flexibility line of the simplified theory");
     if (simplified == TangentialModel::fastsim_one_flexibility)
-      kept.simplified_flexibility = positive(text, "FLX") * kFlexibility;
+      kept.simplified_flexibility = positive_value(text, "FLX") * kFlexibility;
     FastsimSettings s;
     s.k0 = text.real("K0_MF");
     s.alpha = text.real("ALFAMF");
@@ -153,9 +154,9 @@ void ContactReader::read_heat() {
   for (ThermalProperties* body : {&heat.body_1, &heat.body_2}) {
     text.begin_record(body == &heat.body_1 ? "the thermal line of body 1" : "the thermal line of body 2");
     body->bulk_temperature = text.real("BKTEMP");
-    body->heat_capacity = positive(text, "HEATCP");
-    body->conductivity = positive(text, "LAMBDA") * kMilli;
-    body->density = positive(text, "DENS") * kPerCubicMillimetre;
+    body->heat_capacity = positive_value(text, "HEATCP");
+    body->conductivity = positive_value(text, "LAMBDA") * kMilli;
+    body->density = positive_value(text, "DENS") * kPerCubicMillimetre;
   }
   if ((*model)["MATER"] == 4) {
     text.begin_record("the line BETAPL");

@@ -207,6 +207,27 @@ double ContactText::real(std::string_view name) {
   return *value;
 }
 
+namespace {
+
+void require_magnitude(const ContactText& text, std::string_view name, double value, double greatest) {
+  if (!(std::abs(value) <= greatest))
+    text.fail(fmt::format("{} = {:g} is beyond the greatest magnitude that is taken, {:g}", name, value, greatest));
+}
+
+}  // namespace
+
+double ContactText::real(std::string_view name, double greatest) {
+  const double value = real(name);
+  require_magnitude(*this, name, value, greatest);
+  return value;
+}
+
+double ContactText::angle(std::string_view name, double greatest) {
+  const double value = angle(name);
+  require_magnitude(*this, name, value, greatest);
+  return value;
+}
+
 double ContactText::angle(std::string_view name) {
   const Word word = required(name, "an angle");
   const auto value = word.quoted ? std::nullopt : to_angle(word.text);

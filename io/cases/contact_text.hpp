@@ -32,8 +32,11 @@ class ContactText {
   /// Also a real without fraction (0.0, 1.).
   long integer(std::string_view name);
   double real(std::string_view name);
+  /// A magnitude beyond the greatest one that is taken is refused.
+  double real(std::string_view name, double greatest);
   /// Radians; suffix d = degrees, r = radians (the default).
   double angle(std::string_view name);
+  double angle(std::string_view name, double greatest);
   std::string quoted(std::string_view name);
 
   std::optional<long> optional_integer();

@@ -6,6 +6,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
@@ -19,7 +20,7 @@ void read_discretisation(ContactReader& r) {
   if (!(d.dx > 0.0)) text.fail("DX must be positive");
   d.ds = text.real("DS") * kMillimetre;
   if (!(d.ds > 0.0)) text.fail("DS must be positive");
-  d.dq_relative = text.real("DQREL");
+  d.dq_relative = text.real("DQREL", kMostStep);
   if (!(d.dq_relative > 0.0)) text.fail("DQREL must be positive");
   d.angle_separation = text.angle("A_SEP");
   d.separation = text.real("D_SEP") * kMillimetre;

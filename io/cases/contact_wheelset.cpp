@@ -11,16 +11,17 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/io/cases/contact_case.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::io {
 
 namespace {
 
-/// Three lengths and three angles, or their rates.
-void read_six(ContactText& text, const std::array<std::string_view, 6>& names, SixMotion& motion) {
+/// Three lengths and three angles, or their rates; greatest: of both in SI units.
+void read_six(ContactText& text, const std::array<std::string_view, 6>& names, double greatest, SixMotion& motion) {
   double* const values[] = {&motion.x, &motion.y, &motion.z, &motion.roll, &motion.yaw, &motion.pitch};
-  for (std::size_t i = 0; i < 3; ++i) *values[i] = text.real(names[i]) * kMillimetre;
-  for (std::size_t i = 3; i < 6; ++i) *values[i] = text.angle(names[i]);
+  for (std::size_t i = 0; i < 3; ++i) *values[i] = text.real(names[i], greatest / kMillimetre) * kMillimetre;
+  for (std::size_t i = 3; i < 6; ++i) *values[i] = text.angle(names[i], greatest);
 }
 
 }  // namespace
@@ -63,23 +64,23 @@ void read_wheelset(ContactReader& r) {
   if (e >= 2) {
     text.begin_record("the wheelset velocity line VS");
     if (r.on_roller())
-      r.kept.roller_pitch_rate = text.angle("VPITCH_ROL");
+      r.kept.roller_pitch_rate = text.angle("VPITCH_ROL", kMostSpeed);
     else
-      r.kept.forward_velocity = text.real("VS") * kMillimetre;
-    s.velocity.y = text.real("VY") * kMillimetre;
-    s.velocity.z = text.real("VZ") * kMillimetre;
-    s.velocity.roll = text.angle("VROLL");
-    s.velocity.yaw = text.angle("VYAW");
+      r.kept.forward_velocity = text.real("VS", kMostSpeed / kMillimetre) * kMillimetre;
+    s.velocity.y = text.real("VY", kMostSpeed / kMillimetre) * kMillimetre;
+    s.velocity.z = text.real("VZ", kMostSpeed / kMillimetre) * kMillimetre;
+    s.velocity.roll = text.angle("VROLL", kMostSpeed);
+    s.velocity.yaw = text.angle("VYAW", kMostSpeed);
     if ((*r.problem)["FORCE"] == 1)
       r.kept.longitudinal_force = text.real("FX");
     else
-      r.kept.pitch_rate = text.angle("VPITCH");
+      r.kept.pitch_rate = text.angle("VPITCH", kMostSpeed);
   }
   if (e >= 4) {
     text.begin_record("the wheel deviation line DXWHL");
-    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"}, s.wheel_offset);
+    read_six(text, {"DXWHL", "DYWHL", "DZWHL", "DROLLW", "DYAWW", "DPITCHW"}, kInfinity, s.wheel_offset);
     text.begin_record("the wheel deviation velocity line VXWHL");
-    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"}, s.wheel_velocity);
+    read_six(text, {"VXWHL", "VYWHL", "VZWHL", "VROLLW", "VYAWW", "VPITCHW"}, kMostSpeed, s.wheel_velocity);
   }
 }
 
@@ -181,9 +182,9 @@ void read_track(ContactReader& r) {
   t.dy = text.real("DY") * kMillimetre;
   t.dz = text.real("DZ") * kMillimetre;
   t.roll = text.angle("ROLL");
-  t.vy = text.real("VY") * kMillimetre;
-  t.vz = text.real("VZ") * kMillimetre;
-  t.vroll = text.angle("VROLL");
+  t.vy = text.real("VY", kMostSpeed / kMillimetre) * kMillimetre;
+  t.vz = text.real("VZ", kMostSpeed / kMillimetre) * kMillimetre;
+  t.vroll = text.angle("VROLL", kMostSpeed);
   if ((*r.problem)["FORCE"] == 3) read_springs(r);
 }
 

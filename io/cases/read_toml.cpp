@@ -9,7 +9,7 @@
 #include <array>
 #include <cmath>
 #include <functional>
-#include <optional>
+#include <map>
 #include <set>
 #include <utility>
 
@@ -31,39 +31,35 @@ bool is_scalar_key(const std::string& path) {
   return false;
 }
 
-/// Length of the lists that stand where one value is expected; all lists of one entry must agree.
-void sweep_length(const CaseTable& table, const std::string& prefix, std::optional<std::size_t>& length) {
-  for (const CaseEntry& entry : table) {
+/// A list that stands where one value is expected. at: that value, in a table that outlives this.
+struct ValueList {
+  CaseValue* at;
+  CaseValue values;
+};
+
+/// Takes these lists out of a table; all of one entry must have the same length.
+void take_lists(CaseTable& table, const std::string& prefix, std::vector<ValueList>& lists) {
+  for (CaseEntry& entry : table) {
     const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
     if (entry.value.is_table()) {
-      sweep_length(entry.value.table(), path, length);
+      take_lists(std::get<CaseTable>(entry.value.data), path, lists);
     } else if (entry.value.is_list() && is_scalar_key(path)) {
       const std::size_t count = entry.value.list().size();
       if (count == 0)
         throw Error(ErrorKind::configuration, fmt::format("the list of {} is empty", path), entry.value.where);
-      if (length && *length != count)
+      if (const std::size_t other = lists.empty() ? count : lists.front().values.list().size(); other != count)
         throw Error(
             ErrorKind::configuration,
-            fmt::format("the list of {} has {} values, another one of the same entry has {}", path, count, *length),
+            fmt::format("the list of {} has {} values, another one of the same entry has {}", path, count, other),
             entry.value.where, "lists of one [[cases]] entry advance together");
-      length = count;
+      lists.push_back({&entry.value, std::move(entry.value)});
     }
   }
 }
 
-/// The entry with the i-th value in place of every such list.
-CaseTable sweep_element(const CaseTable& table, const std::string& prefix, std::size_t i) {
-  CaseTable result;
-  for (const CaseEntry& entry : table) {
-    const std::string path = prefix.empty() ? entry.key : prefix + '.' + entry.key;
-    CaseEntry one = entry;
-    if (entry.value.is_table())
-      one.value.data = sweep_element(entry.value.table(), path, i);
-    else if (entry.value.is_list() && is_scalar_key(path))
-      one.value = entry.value.list().at(i);
-    result.push_back(std::move(one));
-  }
-  return result;
+/// Puts the i-th value of every list into its place.
+void take_values(const std::vector<ValueList>& lists, std::size_t i) {
+  for (const ValueList& list : lists) *list.at = list.values.list().at(i);
 }
 
 std::vector<CaseOverride> parse_overrides(std::span<const std::string> overrides) {
@@ -87,42 +83,40 @@ struct Expansion {
   const std::filesystem::path& folder;
   const std::vector<CaseOverride>& changes;
   std::vector<Case>& out;
+  std::map<int, std::size_t> last = {};  ///< of every sequence, in out
 
-  void add(Case next, const SourcePosition& where) const {
+  void add(Case next, const SourcePosition& where) {
     if (out.size() >= kMostCases)
       throw Error(ErrorKind::configuration, fmt::format("more than {} cases", kMostCases), where);
+    last[next.sequence] = out.size();
     out.push_back(std::move(next));
   }
 
-  const Case* previous_of(const Case& c) const {
-    const auto found =
-        std::find_if(out.rbegin(), out.rend(), [&](const Case& one) { return one.sequence == c.sequence; });
-    return found == out.rend() ? nullptr : &*found;
-  }
-
-  /// The i-th case of a table, overridden.
-  Case changed(const CaseTable& table, std::optional<std::size_t> lists, std::size_t i,
-               const SourcePosition& where) const {
+  /// The next case of a table, overridden.
+  Case changed(const CaseTable& table, const SourcePosition& where) const {
     Case next = defaults;
     next.where = where;
-    apply_table(next, lists ? sweep_element(table, "", i) : table, folder);
+    apply_table(next, table, folder);
     for (const CaseOverride& change : changes) apply_assignment(next, change, folder);
     return next;
   }
 
-  void expand(const CaseTable& table, const SourcePosition& where) const {
-    std::optional<std::size_t> lists;
-    sweep_length(table, "", lists);
-    const auto steps = static_cast<std::size_t>(changed(table, lists, 0, where).steps);
-    if (steps > 0 && lists && *lists != steps)
-      throw Error(ErrorKind::configuration,
-                  fmt::format("case.steps is {}, but a list of the same table has {} values", steps, *lists), where,
-                  "a list gives one value for each step");
+  void expand(CaseTable table, const SourcePosition& where) {
     std::set<std::string, std::less<>> given;
     collect_paths(table, "", given);
     for (const CaseOverride& change : changes) given.insert(change.path);
-    for (std::size_t i = 0; i < (steps > 0 ? steps : lists.value_or(1)); ++i) {
-      Case next = changed(table, lists, i, where);
+    std::vector<ValueList> lists;
+    take_lists(table, "", lists);
+    take_values(lists, 0);
+    const std::size_t length = lists.empty() ? 1 : lists.front().values.list().size();
+    const auto steps = static_cast<std::size_t>(changed(table, where).steps);
+    if (steps > 0 && !lists.empty() && length != steps)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("case.steps is {}, but a list of the same table has {} values", steps, length), where,
+                  "a list gives one value for each step");
+    for (std::size_t i = 0; i < (steps > 0 ? steps : length); ++i) {
+      if (i < length) take_values(lists, i);
+      Case next = changed(table, where);
       if (steps > 0) step(next, i > 0, [&](std::string_view key) { return given.contains(key); });
       next.steps = 0;
       add(std::move(next), where);
@@ -134,9 +128,9 @@ struct Expansion {
     HistoryUse& history = std::visit([](auto& content) -> HistoryUse& { return content.history; }, next.content);
     if (goes_on && history == HistoryUse::start) history = HistoryUse::keep_going;
     settle_rolling_step(next);
-    const Case* previous = previous_of(next);
-    if (previous != nullptr && history != HistoryUse::start && history != HistoryUse::same_instant)
-      move_on(next, *previous, given);
+    const auto previous = last.find(next.sequence);
+    if (previous != last.end() && history != HistoryUse::start && history != HistoryUse::same_instant)
+      move_on(next, out[previous->second], given);
   }
 };
 
@@ -179,7 +173,7 @@ CaseFile case_file_of(const CaseTable& document, const std::filesystem::path& na
   }
   apply_table(defaults, common, folder);
 
-  const Expansion expansion{defaults, folder, changes, result.cases};
+  Expansion expansion{defaults, folder, changes, result.cases};
   if (entries == nullptr) {
     expansion.expand({}, defaults.where);
   } else {

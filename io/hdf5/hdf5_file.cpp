@@ -9,12 +9,15 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <cstdlib>
+#include <cstring>
 #include <fstream>
 #include <set>
 #include <string>
 #include <string_view>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 
@@ -141,11 +144,39 @@ void write_values(hid_t group, const Hdf5Dataset& what, hid_t type, const void* 
   AttributeWriter{dataset.get(), "meaning"}(what.meaning);
 }
 
-/// The oldest format with check sums, so that damage does not mislead the library.
-Hdf5Id open_to_write(const std::filesystem::path& file, const std::string& name) {
+/// Before the library is first used: nothing is left to be done at the end of a process, and where a damaged file keeps
+/// the library from closing its objects it would say so on the terminal.
+void quiet_end() { [[maybe_unused]] static const herr_t once = H5dont_atexit(); }
+
+/// Memory of a file, which the library leaves to the image where it would free it at the end.
+void* grow(void* old, std::size_t size, H5FD_file_image_op_t, void*) { return std::realloc(old, size); }
+void* begin_image(std::size_t size, H5FD_file_image_op_t operation, void* image) {
+  return grow(nullptr, size, operation, image);
+}
+void* copy_image(void* to, const void* from, std::size_t size, H5FD_file_image_op_t, void*) {
+  return std::memcpy(to, from, size);
+}
+herr_t end_image(void* memory, H5FD_file_image_op_t operation, void* image) {
+  if (operation == H5FD_FILE_IMAGE_OP_FILE_CLOSE)
+    static_cast<Hdf5Image*>(image)->bytes.reset(static_cast<char*>(memory));
+  else
+    std::free(memory);
+  return 0;
+}
+void* same_image(void* image) { return image; }
+herr_t keep_image(void*) { return 0; }
+
+/// A file in memory: writing to a disk that is full would leave the library in a state that it does not survive. The
+/// oldest format with check sums, so that damage does not mislead the library.
+Hdf5Id open_in_memory(const std::string& name, Hdf5Image& image) {
+  constexpr std::size_t kIncrement = std::size_t{1} << 20;
+  H5FD_file_image_callbacks_t calls{begin_image, copy_image, grow, end_image, same_image, keep_image, &image};
   const Hdf5Id creation = timeless(H5P_FILE_CREATE, name), access = written(H5Pcreate(H5P_FILE_ACCESS), name);
-  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0) cannot_write(name);
-  return written(H5Fcreate(file.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
+  if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
+      H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG) < 0 ||  // groups may still be open
+      H5Pset_fapl_core(access.get(), kIncrement, false) < 0 || H5Pset_file_image_callbacks(access.get(), &calls) < 0)
+    cannot_write(name);
+  return written(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);
 }
 
 Hdf5Id open_to_read(const std::filesystem::path& file) {
@@ -240,6 +271,7 @@ Hdf5Id::~Hdf5Id() {
 }
 
 Hdf5Silence::Hdf5Silence() {
+  quiet_end();
   H5E_auto2_t function = nullptr;
   H5Eget_auto2(H5E_DEFAULT, &function, &data_);
   function_ = reinterpret_cast<void*>(function);
@@ -277,17 +309,21 @@ void Hdf5GroupWriter::write(const Hdf5Dataset& dataset, std::span<const std::str
 void Hdf5GroupWriter::copy_file(const std::filesystem::path& source, const std::string& name) const {
   check_name(name);
   const Hdf5Id file = open_to_read(source);
-  if (H5Ocopy(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0) cannot_write(name);
+  if (H5Ocopy(file.get(), "/", id_.get(), name.c_str(), H5P_DEFAULT, H5P_DEFAULT) < 0)
+    cannot_read(source.string(), "the file: it is damaged");
 }
 
-Hdf5Writer::Hdf5Writer(const std::filesystem::path& file, std::string name)
-    : name_(std::move(name)),
-      file_(open_to_write(file, name_)),
-      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), name_)) {}
+Hdf5Writer::Hdf5Writer(std::filesystem::path file)
+    : target_(std::move(file)),
+      file_(open_in_memory(target_.string(), image_)),
+      root_(written(H5Gopen2(file_.get(), "/", H5P_DEFAULT), target_.string())) {}
 
-void Hdf5Writer::close() {
+void Hdf5Writer::commit() {
   root_ = Hdf5GroupWriter(Hdf5Id());
-  if (H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 || H5Fclose(file_.release()) < 0) cannot_write(name_);
+  const ssize_t size = H5Fflush(file_.get(), H5F_SCOPE_GLOBAL) < 0 ? -1 : H5Fget_file_image(file_.get(), nullptr, 0);
+  if (size < 0 || H5Fclose(file_.release()) < 0 || !image_.bytes) cannot_write(target_.string());
+  write_file(target_, {image_.bytes.get(), static_cast<std::size_t>(size)});
+  image_.bytes.reset();
 }
 
 bool Hdf5GroupReader::has(const std::string& name) const { return H5Lexists(id_.get(), name.c_str(), H5P_DEFAULT) > 0; }

@@ -4,7 +4,9 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <cstdlib>
 #include <filesystem>
+#include <memory>
 #include <span>
 #include <string>
 #include <vector>
@@ -43,20 +45,30 @@ class Hdf5GroupWriter {
   Hdf5Id id_;
 };
 
-/// An HDF5 file being written, readable by the HDF5 library from version 1.8 on.
+/// The bytes of a file that was made in memory.
+struct Hdf5Image {
+  struct Free {
+    void operator()(char* memory) const { std::free(memory); }
+  };
+  std::unique_ptr<char, Free> bytes;
+};
+
+/// An HDF5 file being written, readable by the HDF5 library from version 1.8 on. It is made in memory, where it takes
+/// as much as on the disk; nothing of it stands on the disk before commit().
 class Hdf5Writer {
  public:
-  /// file is replaced; name stands for it in errors.
-  Hdf5Writer(const std::filesystem::path& file, std::string name);
+  explicit Hdf5Writer(std::filesystem::path file);
 
   const Hdf5GroupWriter& root() const { return root_; }
 
-  /// Closes the file. Errors: Error(configuration) where not everything could be written. No group is used afterwards.
-  void close();
+  /// Writes the file, replacing what was there (core/output_file.hpp). Errors: Error(configuration). No group is used
+  /// afterwards.
+  void commit();
 
  private:
   Hdf5Silence silence_;
-  std::string name_;
+  std::filesystem::path target_;
+  Hdf5Image image_;
   Hdf5Id file_;
   Hdf5GroupWriter root_;
 };

@@ -8,7 +8,7 @@
 #include <set>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 
 namespace treadmark::io {
@@ -77,7 +77,7 @@ void write_history_csv(const std::filesystem::path& path, const SimulationResult
     out += csv_number(result.values[i]);
     end_cell(i % result.columns.size());
   }
-  write_text_file(path, out);
+  write_file(path, out);
 }
 
 void write_events_csv(const std::filesystem::path& path, const SimulationResult& result) {
@@ -85,14 +85,14 @@ void write_events_csv(const std::filesystem::path& path, const SimulationResult&
   for (const HistoryEvent& event : result.events)
     out += csv_number(event.time) + ',' + csv_number(event.position) + ',' + csv_cell(event.wheel) + ',' +
            csv_cell(event.kind) + '\n';
-  write_text_file(path, out);
+  write_file(path, out);
 }
 
 void write_modes_csv(const std::filesystem::path& path, const SimulationResult& result) {
   std::string out = "frequency_Hz,damping_ratio,shape\n";
   for (const ModeRow& mode : result.modes)
     out += csv_number(mode.frequency_Hz) + ',' + csv_number(mode.damping_ratio) + ',' + csv_cell(mode.shape) + '\n';
-  write_text_file(path, out);
+  write_file(path, out);
 }
 
 }  // namespace treadmark::io

@@ -8,7 +8,7 @@
 #include <algorithm>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
@@ -54,8 +54,7 @@ void write_sweep(const Hdf5GroupWriter& root, const StudyTable& table) {
 
 void write_study_store(const std::filesystem::path& path, const StudyResult& study) {
   const StudyTable table = study_table(study);
-  AtomicFile target(path);
-  Hdf5Writer file(target.temporary(), path.string());
+  Hdf5Writer file(path);
   const std::vector<Attribute> identity{{"format", std::string(kStudyFormat)},
                                         {"units", "SI"},
                                         {"version", study.version},
@@ -68,8 +67,7 @@ void write_study_store(const std::filesystem::path& path, const StudyResult& stu
   write_sweep(file.root(), table);
   for (const SimulationRun* run : table.runs)
     if (!run->store.empty()) file.root().copy_file(run->store, fmt::format("run_{:04}", run->number));
-  file.close();
-  target.commit();
+  file.commit();
 }
 
 StudyResult read_study_head(const std::filesystem::path& path) {
@@ -108,7 +106,7 @@ void write_sweep_csv(const std::filesystem::path& path, const StudyResult& study
     out +=
         fmt::format("{},{},{},{}\n", run->number, csv_cell(run->label), csv_cell(run->status), csv_cell(run->message));
   }
-  write_text_file(path, out);
+  write_file(path, out);
 }
 
 }  // namespace treadmark::io

@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <fmt/format.h>
 
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -109,8 +108,7 @@ void write_bytes(const Hdf5GroupWriter& root, const std::vector<std::byte>& byte
 
 void write_simulation(const std::filesystem::path& path, const SimulationResult& result) {
   check_simulation(result);
-  AtomicFile target(path);
-  Hdf5Writer file(target.temporary(), path.string());
+  Hdf5Writer file(path);
   const Hdf5GroupWriter& root = file.root();
   root.add(attributes_of(result));
   write_history(root, result);
@@ -120,8 +118,7 @@ void write_simulation(const std::filesystem::path& path, const SimulationResult&
   write_modes(root, result.modes);
   write_snapshots(root, result);
   write_bytes(root, result.checkpoint);
-  file.close();
-  target.commit();
+  file.commit();
 }
 
 }  // namespace treadmark::io

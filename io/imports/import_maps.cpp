@@ -8,7 +8,6 @@
 #include <span>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/hdf5/hdf5_reader.hpp"
 #include "treadmark/io/hdf5/hdf5_writer.hpp"
 #include "treadmark/io/imports/import_words.hpp"
@@ -77,8 +76,7 @@ BandMap read_map(const std::filesystem::path& file, const Hdf5GroupReader& group
 }  // namespace
 
 void write_import_maps(const std::filesystem::path& path, const ImportReport& report) {
-  AtomicFile target(path);
-  Hdf5Writer file(target.temporary(), path.string());
+  Hdf5Writer file(path);
   file.root().add(Attribute{"format", std::string(kFormat)});
   file.root().add(Attribute{"body", std::string(body_name(report.body))});
   file.root().write({"nominal_radius", {}, "m", "of a wheel, else 0"},
@@ -94,8 +92,7 @@ void write_import_maps(const std::filesystem::path& path, const ImportReport& re
     const std::vector<double> values(map.value.begin(), map.value.end());
     group.write({"value", {map.rows, map.columns}, name.unit, name.meaning, true}, values);
   }
-  file.close();
-  target.commit();
+  file.commit();
 }
 
 void read_import_maps(const std::filesystem::path& path, ImportReport& report) {

@@ -144,16 +144,38 @@ std::size_t JsonTree::one_of(const std::vector<std::string_view>& names) const {
   return static_cast<std::size_t>(found - names.begin());
 }
 
-JsonTree read_json_file(const std::filesystem::path& file) {
+namespace {
+
+/// Where lists and objects lie deeper within each other than allowed, counted from 1; 0: nowhere. Texts that are no
+/// JSON are judged up to their first fault, where the parser stops.
+std::size_t too_deep_at(const std::string& text) {
   constexpr int kDeepest = 100;
+  int depth = 0;
+  bool quoted = false;
+  for (std::size_t i = 0; i < text.size(); ++i) {
+    const char c = text[i];
+    if (quoted && c == '\\')
+      ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (!quoted && (c == ']' || c == '}'))
+      --depth;
+    else if (!quoted && (c == '[' || c == '{') && ++depth > kDeepest)
+      return i + 1;
+  }
+  return 0;
+}
+
+}  // namespace
+
+JsonTree read_json_file(const std::filesystem::path& file) {
   const std::string text = profiles::read_text(file, "result", {});
   const auto document = std::make_shared<JsonTree::Document>();
   document->file = file.string();
+  if (const std::size_t byte = too_deep_at(text); byte > 0)
+    fail("the file is nested too deeply", position(document->file, text, byte));
   try {
-    document->root = Json::parse(text, [&](int depth, Json::parse_event_t, Json&) {
-      if (depth > kDeepest) fail("the file is nested too deeply", {document->file, 0, 0});
-      return true;
-    });
+    document->root = Json::parse(text);
   } catch (const Json::parse_error& e) {
     fail("the file is no JSON, or was cut off", position(document->file, text, e.byte));
   } catch (const Json::exception&) {  // a number that is too large

@@ -1,11 +1,10 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
-#include <fstream>
 #include <iterator>
-#include <system_error>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/points/binary_values.hpp"
@@ -98,24 +97,7 @@ void write_mesh(const std::filesystem::path& file, const TriangleMesh& mesh, std
   else
     refuse("unknown extension", "known are .ply, .stl, .obj and .off");
 
-  // complete under another name before it appears under its own
-  std::filesystem::path partial = file;
-  partial += ".part";
-  std::error_code code;
-  {
-    std::ofstream stream(partial, std::ios::binary | std::ios::trunc);
-    stream.write(content.data(), static_cast<std::streamsize>(content.size()));
-    stream.close();
-    if (!stream) {
-      std::filesystem::remove(partial, code);
-      refuse("the file cannot be created or the disk is full", "check the folder, its permissions and the disk");
-    }
-  }
-  std::filesystem::rename(partial, file, code);
-  if (!code) return;
-  const std::string why = code.message();
-  std::filesystem::remove(partial, code);
-  refuse(why, "check the folder and its permissions");
+  write_file(file, content);
 }
 
 }  // namespace treadmark::io

@@ -9,9 +9,11 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/io/files/sha256.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 #include "treadmark/io/profiles/record_reader.hpp"
+#include "treadmark/io/profiles/slice_sum.hpp"
 
 namespace treadmark::io {
 namespace {
@@ -198,6 +200,25 @@ SliceList read_list(std::string_view text, const std::string& file, Body body) {
   return out;
 }
 
+/// Slices of two writings would be a surface that never was.
+void check_sum(std::string_view text, const SliceList& list, const std::filesystem::path& folder) {
+  const std::size_t found = text.find(kSumOfSlices);
+  if (found == std::string_view::npos || (found > 0 && text[found - 1] != '\n')) return;
+  std::string_view expected = text.substr(found + kSumOfSlices.size());
+  expected = expected.substr(0, expected.find_first_of("\r\n"));
+  std::string sums;
+  for (const SliceEntry& entry : list.entries) {
+    std::filesystem::path slice = folder / profiles::portable_path(entry.name);
+    std::error_code code;
+    if (!std::filesystem::is_regular_file(slice, code)) return;  // told by name where it is read
+    sums += sha256_file(slice) + '\n';
+  }
+  if (sha256_hex(sums) == expected) return;
+  const auto line = static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(found), '\n'));
+  throw Error(ErrorKind::input_data, "the slices are not those that this file was written with",
+              {list.set.name, line + 1, 1}, "write them again; if they were changed on purpose, remove this line");
+}
+
 SliceSet load_profiles(SliceList&& list, Body body, const SliceLoader& load) {
   SliceSet set = std::move(list.set);
   std::size_t points = 0;
@@ -237,6 +258,7 @@ SliceSet read_slices(const std::filesystem::path& file, Body body, const Profile
   const std::string text = profiles::read_text(file, "slices", referenced_from);
   const std::filesystem::path folder = profiles::portable_path(file.string()).parent_path();
   SliceList list = read_list(text, file.string(), body);
+  check_sum(text, list, folder);
   ProfileOptions how = options;
   if (options.mirror_z == 0) {
     // all slices the same way up: damage can make some of them look otherwise

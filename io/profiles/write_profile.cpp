@@ -9,7 +9,7 @@
 #include <iterator>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/profiles/read_profile.hpp"
 
@@ -114,7 +114,7 @@ void write_profile(const std::filesystem::path& file, const Profile& profile, co
     throw Error(ErrorKind::configuration,
                 "a reader of this file would take the points for others (upside down, zig-zag)", {file.string(), 0, 0},
                 extension == ".csv" ? "use .prr or .prw, which say how they stand" : "use .csv");
-  write_text_file(file, text);
+  write_file(file, text);
 }
 
 }  // namespace treadmark::io

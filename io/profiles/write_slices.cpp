@@ -5,19 +5,27 @@
 #include <cstddef>
 #include <iterator>
 #include <string>
+#include <system_error>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/files/sha256.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/profiles/slice_sum.hpp"
 
 namespace treadmark::io {
 namespace {
 
 constexpr std::size_t kFewestWritten = 4;
 constexpr double kLeastStep = 1e-6;
+constexpr std::size_t kDigitsOfFolder = 12;  // of the sum of the slices, in the name of their folder
+
+std::string slice_name(std::size_t i) { return fmt::format("slice_{:05}.txt", i + 1); }
 
 void check(const std::filesystem::path& file, const SliceSet& slices) {
   const std::string extension = profiles::lower(file.extension().string());
@@ -42,27 +50,54 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
 
 void write_slices(const std::filesystem::path& file, const SliceSet& slices, std::span<const std::string> comments) {
   check(file, slices);
-  const std::filesystem::path folder = file.parent_path() / file.stem();
   const bool rail = slices.body == Body::rail;
-  std::string index = fmt::format("% {}\n", slices.name);
-  for (const std::string& comment : comments) index += fmt::format("% {}\n", comment);
-  fmt::format_to(std::back_inserter(index),
-                 "\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, "
-                 "NACCEL\n       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
-                 rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH", slices.u.size(),
-                 slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
-  std::string text;
+  OutputFolder folder(file.parent_path() / (file.filename().string() + "-slices"), OutputFolder::Old::replaced);
+  std::string sums, text;
   for (std::size_t i = 0; i < slices.u.size(); ++i) {
-    const std::string name = fmt::format("slice_{:05}.txt", i + 1);
     const Profile& profile = slices.profiles[i];
     text.clear();
     for (std::size_t k = 0; k < profile.y.size(); ++k)
       fmt::format_to(std::back_inserter(text), "{:.10f} {:.10f}\n", kMilli * profile.y[k], kMilli * profile.z[k]);
-    write_text_file(folder / name, text);
-    fmt::format_to(std::back_inserter(index), "   {:.9f}   '{}/{}'\n", kMilli * slices.u[i], file.stem().string(),
-                   name);
+    write_file(folder.path() / slice_name(i), text);
+    sums += sha256_hex(text) + '\n';
   }
-  write_text_file(file, index);
+  const std::string sum = sha256_hex(sums);
+  const std::string name = fmt::format("{}-{}", file.filename().string(), sum.substr(0, kDigitsOfFolder));
+
+  std::string index = fmt::format("% {}\n", slices.name);
+  for (const std::string& comment : comments) index += fmt::format("% {}\n", comment);
+  fmt::format_to(std::back_inserter(index),
+                 "{}{}\n\n     0.0   {}   {}_OFFSET [{}], {}_SCALE\n     {}   NSLC\n       0    0    0   NFEAT, NKINK, "
+                 "NACCEL\n       {}   {}_INTPOL (1=intpol, 2=approx)\n\n",
+                 kSumOfSlices, sum, rail ? "1.0" : "0.001", rail ? "S" : "TH", rail ? "mm" : "mrad", rail ? "S" : "TH",
+                 slices.u.size(), slices.approximate_u ? 2 : 1, rail ? "S" : "TH");
+  for (std::size_t i = 0; i < slices.u.size(); ++i)
+    fmt::format_to(std::back_inserter(index), "   {:.9f}   '{}/{}'\n", kMilli * slices.u[i], name, slice_name(i));
+
+  // Until the file names the new slices the old ones stay.
+  const FolderLock lock(file.parent_path());
+  folder.replace(file.parent_path() / name);
+  write_file(file, index);
+  remove_other_slices(file);
+}
+
+void remove_other_slices(const std::filesystem::path& file) noexcept {
+  namespace fs = std::filesystem;
+  try {
+    const std::string start = file.filename().string() + '-', index = profiles::read_text(file, "slices", {});
+    std::error_code ignored;
+    std::vector<fs::path> old;
+    fs::directory_iterator entry(file.has_parent_path() ? file.parent_path() : fs::path("."), ignored);
+    for (const fs::directory_iterator end; !ignored && entry != end; entry.increment(ignored)) {
+      const std::string name = entry->path().filename().string();
+      if (name.starts_with(start) && name.size() == start.size() + kDigitsOfFolder &&
+          name.find_first_not_of("0123456789abcdef", start.size()) == std::string::npos &&
+          index.find('\'' + name + '/') == std::string::npos)
+        old.push_back(entry->path());
+    }
+    for (const fs::path& folder : old) remove_quietly(folder);
+  } catch (...) {  // what is left over disturbs nobody
+  }
 }
 
 }  // namespace treadmark::io

@@ -10,7 +10,7 @@
 #include <cstring>
 
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
@@ -164,7 +164,7 @@ std::string to_json(const Comparison& comparison) {
 }
 
 void write_json(const std::filesystem::path& path, const Comparison& comparison) {
-  write_text_file(path, to_json(comparison));
+  write_file(path, to_json(comparison));
 }
 
 namespace {

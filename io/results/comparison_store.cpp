@@ -5,7 +5,6 @@
 
 #include <fmt/format.h>
 
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 #include "treadmark/io/results/write_hdf5.hpp"
@@ -32,8 +31,7 @@ ComparisonCandidate read_candidate(const Hdf5GroupReader& group) {
 }  // namespace
 
 void write_comparison_fields(const std::filesystem::path& path, const Comparison& comparison) {
-  AtomicFile target(path);
-  Hdf5Writer file(target.temporary(), path.string());
+  Hdf5Writer file(path);
   file.root().add(std::vector<Attribute>{{"format", std::string(kFormat)},
                                          {"units", "SI"},
                                          {"axes", std::string(kAxes)},
@@ -52,8 +50,7 @@ void write_comparison_fields(const std::filesystem::path& path, const Comparison
       write_case(group.make_group(fmt::format("case_{:04}", result.number)), result, CaseTimes::written);
     write_surfaces(group, c.surfaces);
   }
-  file.close();
-  target.commit();
+  file.commit();
 }
 
 Comparison read_comparison_fields(const std::filesystem::path& path) {

@@ -10,7 +10,7 @@
 #include <cmath>
 #include <vector>
 
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
@@ -153,7 +153,7 @@ std::string to_csv(const Comparison& comparison) {
 }
 
 void write_csv(const std::filesystem::path& path, const Comparison& comparison) {
-  write_text_file(path, to_csv(comparison));
+  write_file(path, to_csv(comparison));
 }
 
 }  // namespace treadmark::io

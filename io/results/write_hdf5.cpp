@@ -9,7 +9,6 @@
 #include <string>
 #include <utility>
 
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/quantities.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
@@ -108,14 +107,12 @@ void write_surfaces(const Hdf5GroupWriter& parent, std::span<const SampledSurfac
 }
 
 void write_hdf5(const std::filesystem::path& path, const RunResult& run) {
-  AtomicFile target(path);
-  Hdf5Writer file(target.temporary(), path.string());
+  Hdf5Writer file(path);
   file.root().add(attributes_of(run));
   for (const CaseResult& result : run.cases)
     write_case(file.root().make_group(fmt::format("case_{:04}", result.number)), result, CaseTimes::written);
   write_surfaces(file.root(), run.sampled);
-  file.close();
-  target.commit();
+  file.commit();
 }
 
 namespace {

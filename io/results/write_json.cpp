@@ -8,7 +8,7 @@
 #include <nlohmann/json.hpp>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/results/quantities.hpp"
 
@@ -156,6 +156,6 @@ std::string to_json(const RunResult& run) {
   return out.dump(1, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 
-void write_json(const std::filesystem::path& path, const RunResult& run) { write_text_file(path, to_json(run)); }
+void write_json(const std::filesystem::path& path, const RunResult& run) { write_file(path, to_json(run)); }
 
 }  // namespace treadmark::io

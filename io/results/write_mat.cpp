@@ -12,7 +12,7 @@
 
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 
 namespace treadmark::io {
@@ -185,7 +185,7 @@ std::string patch_to_mat(const MatFileHead& head, const PatchResult& patch, bool
 
 void write_mat(const std::filesystem::path& path, const MatFileHead& head, const PatchResult& patch,
                bool all_elements) {
-  write_text_file(path, patch_to_mat(head, patch, all_elements));
+  write_file(path, patch_to_mat(head, patch, all_elements));
 }
 
 std::string case_file_name(const std::string& stem, int case_number, int patch, const std::string& extension) {

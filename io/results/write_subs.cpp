@@ -6,7 +6,7 @@
 #include <string_view>
 
 #include "treadmark/core/constants.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 #include "treadmark/io/results/write_mat.hpp"
 
@@ -44,7 +44,7 @@ std::string blocks_to_subs(std::span<const SubsurfaceBlock> blocks, bool full_te
 }
 
 void write_subs(const std::filesystem::path& path, std::span<const SubsurfaceBlock> blocks, bool full_tensor) {
-  write_text_file(path, blocks_to_subs(blocks, full_tensor));
+  write_file(path, blocks_to_subs(blocks, full_tensor));
 }
 
 }  // namespace treadmark::io

@@ -6,7 +6,7 @@
 
 #include <utility>
 
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/results/field_table.hpp"
 #include "treadmark/io/results/subsurface_table.hpp"
 
@@ -76,7 +76,7 @@ class VtkFiles {
   explicit VtkFiles(std::filesystem::path folder) : folder_(std::move(folder)) {}
 
   void add(int case_number, int part, const std::string& name, const std::string& text) {
-    write_text_file(folder_ / name, text);
+    write_file(folder_ / name, text);
     written.push_back(folder_ / name);
     entries +=
         fmt::format("    <DataSet timestep=\"{}\" group=\"\" part=\"{}\" file=\"{}\"/>\n", case_number, part, name);
@@ -117,13 +117,13 @@ std::vector<std::filesystem::path> write_vtk(const std::filesystem::path& folder
   VtkFiles files(folder);
   for (const CaseResult& result : run.cases) write_case(files, result, stem);
   const std::filesystem::path collection = folder / (stem + ".pvd");
-  write_text_file(collection, fmt::format(R"(<?xml version="1.0"?>
+  write_file(collection, fmt::format(R"(<?xml version="1.0"?>
 <VTKFile type="Collection" version="1.0" byte_order="{}" header_type="UInt64">
   <Collection>
 {}  </Collection>
 </VTKFile>
 )",
-                                          vtk_byte_order(), files.entries));
+                                     vtk_byte_order(), files.entries));
   files.written.push_back(collection);
   return files.written;
 }

@@ -14,22 +14,15 @@ namespace treadmark::io {
 
 namespace scans {
 
-BlockWriter::BlockWriter(const std::filesystem::path& file)
-    : path_(file), file_(file), out_(file_.temporary(), std::ios::binary) {}
+using points::put;
 
 void BlockWriter::flush() {
-  out_.write(text_.data(), static_cast<std::streamsize>(text_.size()));
+  file_.write(text_);
   text_.clear();
-  if (!out_)
-    throw Error(ErrorKind::configuration,
-                fmt::format("cannot write {}: the file could not be opened or written to the end", path_.string()), {},
-                "choose another output path or make room on the disk");
 }
 
 void BlockWriter::commit() {
   flush();
-  out_.close();
-  flush();  // tells what closing left
   file_.commit();
 }
 

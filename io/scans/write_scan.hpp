@@ -3,10 +3,9 @@
 #pragma once
 
 #include <filesystem>
-#include <fstream>
 #include <string>
 
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/model/length_unit.hpp"
 #include "treadmark/model/point_cloud.hpp"
 
@@ -15,7 +14,7 @@ namespace treadmark::io::scans {
 /// Text that goes to a file piece by piece; the file appears under its name with commit().
 class BlockWriter {
  public:
-  explicit BlockWriter(const std::filesystem::path& file);
+  explicit BlockWriter(const std::filesystem::path& file) : file_(file) {}
 
   /// What to append to; call flush_if_full() now and then.
   std::string& text() { return text_; }
@@ -27,9 +26,7 @@ class BlockWriter {
 
  private:
   void flush();
-  std::filesystem::path path_;
-  AtomicFile file_;
-  std::ofstream out_;
+  OutputFile file_;
   std::string text_;
 };
 

@@ -9,6 +9,8 @@
 #include <fmt/format.h>
 #include <toml++/toml.h>
 
+#include "treadmark/io/settings/toml_nesting.hpp"
+
 namespace treadmark::io {
 
 namespace {
@@ -72,6 +74,7 @@ std::string_view CaseValue::kind() const {
 }
 
 CaseTable parse_toml(std::string_view text, const std::string& name, std::string_view what) {
+  refuse_deep_toml(text, name);
   try {
     return convert(toml::parse(text, name), name);
   } catch (const toml::parse_error& error) {
@@ -98,6 +101,7 @@ CaseOverride parse_override(std::string_view assignment) {
     throw Error(ErrorKind::configuration, "key or value is missing", where, "write key.path=value");
   if (text.find('\n') != std::string_view::npos)
     throw Error(ErrorKind::configuration, "a value must stand on one line", where);
+  refuse_deep_toml(assignment, where.file);
   result.raw = text;
 
   try {

@@ -43,7 +43,8 @@ struct CaseEntry {
   CaseValue value;
 };
 
-/// Parses TOML; throws Error (configuration) with the position of a syntax error.
+/// Parses TOML; throws Error (configuration) with the position of a syntax error, or of what is nested too deeply
+/// (toml_nesting.hpp).
 /// what: before the parser's own words.
 CaseTable parse_toml(std::string_view text, const std::string& name, std::string_view what = "not valid TOML: ");
 

@@ -260,6 +260,10 @@ StudyFigure read_figure(const TableReader& table, const std::vector<Variation>& 
     throw Error(ErrorKind::configuration,
                 fmt::format("{} = '{}' must end with .svg", table.path_of("file"), figure.file.string()),
                 table.need("file").where);
+  if (figure.file != figure.file.filename() || figure.file == "sweep.svg")
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} = '{}' is no name for a figure", table.path_of("file"), figure.file.string()),
+                table.need("file").where, "figures lie in the folder of results: give a name without folders");
   const std::string kind = table.text("kind");
   figure.kind = kind == "history" ? Kind::history : kind == "summary" ? Kind::summary : Kind::patches;
   if (figure.kind != Kind::patches) {

@@ -256,7 +256,7 @@ const TableKeys& vary_value_keys() {
 
 const TableKeys& figure_keys() {
   static const TableKeys keys{
-      needed(key_info("file", KeyType::text, "ends with `.svg`")),
+      needed(key_info("file", KeyType::text, "a name without folders that ends with `.svg`")),
       needed(one_of("kind", {"history", "summary", "patches"},
                     "a line for each run, a point for each run, or contact patches")),
       key_info("title", KeyType::text, "above the figure"),

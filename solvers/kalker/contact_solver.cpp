@@ -4,14 +4,18 @@
 
 #include <algorithm>
 #include <cmath>
+#include <span>
 #include <string>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/magnitudes.hpp"
 #include "treadmark/solvers/kalker/fastsim/fastsim.hpp"
 #include "treadmark/solvers/kalker/heat/surface_temperature.hpp"
+#include "treadmark/solvers/kalker/invariants.hpp"
 #include "treadmark/solvers/kalker/normal/sub_patch_solver.hpp"
 #include "treadmark/solvers/kalker/solver_state.hpp"
 
@@ -23,6 +27,29 @@ namespace {
 constexpr double kAgreement = 5.0;
 /// Relative change of temperatures at which friction fits them.
 constexpr double kSameTemperature = 1e-5;
+
+/// Errors: Error(configuration) for a number beyond the magnitudes that are taken.
+void check_magnitudes(const ContactProblem& problem) {
+  const auto require = [](double value, double greatest, const char* name) {
+    if (std::isfinite(value) && std::abs(value) > greatest)  // others are refused where they are used
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{} is {:g}, beyond the greatest magnitude that is taken, {:g}", name, value, greatest));
+  };
+  const auto friction = [&](const FrictionLaw& law) {
+    for (const double value : {law.kinetic, law.amplitude_1, law.amplitude_2, law.temperature_change})
+      require(value, kMostFriction, "a coefficient of friction");
+  };
+  friction(problem.friction);
+  for (const FrictionLaw& law : problem.friction_of_row) friction(law);
+  if (problem.regime == Regime::frictionless) return;
+  const Creepage& c = problem.creepage;
+  for (const double value : {c.xi, c.eta, c.phi}) require(value, kMostCreepage, "a creepage");
+  for (const std::span<const double> slip : {problem.extra_slip_x, problem.extra_slip_y})
+    for (const double value : slip) require(value, kMostCreepage, "a given slip");
+  if (problem.regime == Regime::shift) return;
+  require(problem.rolling.velocity, kMostSpeed, "the rolling velocity");
+  require(problem.rolling.step, kMostStep, "the rolling step");
+}
 
 void empty_tangential_fields(const ContactProblem& problem, ContactSolution& solution) {
   for (auto* field : {&solution.traction_x, &solution.traction_y, &solution.displacement_x, &solution.displacement_y,
@@ -132,6 +159,7 @@ void ContactSolver::Workspace::solve_in_turns(const ContactProblem& problem, Con
   std::vector<double> gap;
   double change = 0.0;
   for (int round = 1;; ++round) {
+    check_cancelled();
     const ContactSolution before = solution;
     if (round > 1) {
       const std::vector<double> by_traction = tangential.normal_displacement(problem, solution);
@@ -188,6 +216,7 @@ void ContactSolver::Workspace::solve_warm(const ContactProblem& problem, Contact
   std::vector<double> temperature(problem.grid.size(), problem.thermal->body_1.bulk_temperature);
   double relaxation = 1.0, last_change = 0.0;
   for (int round = 1;; ++round) {
+    check_cancelled();
     solution.temperature_1 = temperature;
     solve_once(problem, solution);
     if (solution.status == Status::no_contact || solution.tangential.status != Status::ok) return;
@@ -216,6 +245,7 @@ ContactSolution ContactSolver::solve_normal(const ContactProblem& problem) {
   ContactSolution solution;
   workspace_->solve_normal(problem, solution);
   accumulate_totals(problem, solution);
+  require_invariants(problem, solution);
   return solution;
 }
 
@@ -223,9 +253,10 @@ void ContactSolver::solve_tangential(const ContactProblem& problem, ContactSolut
   if (solution.pressure.size() != problem.grid.size())
     throw Error(ErrorKind::configuration, "the tangential problem needs the normal solution of the same grid", {},
                 "call solve_normal first");
+  check_magnitudes(problem);
   workspace_->choose_previous(problem);
   if (problem.regime != Regime::frictionless) {
-    if (solution.status == Status::no_contact) {
+    if (solution.status == Status::no_contact || solution.status == Status::failed) {
       empty_tangential_fields(problem, solution);
     } else {
       workspace_->solve_warm(problem, solution);
@@ -244,6 +275,7 @@ void ContactSolver::solve_tangential(const ContactProblem& problem, ContactSolut
       for (const double p : by_approach) solution.sensitivities->by_approach[0] += p * problem.grid.cell_area();
     }
   }
+  require_invariants(problem, solution);
   workspace_->last = history_of(problem, solution);
 }
 

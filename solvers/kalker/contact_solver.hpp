@@ -31,7 +31,8 @@ class ContactSolver {
   /// previous instant.
   void solve_tangential(const ContactProblem& problem, ContactSolution& solution);
 
-  /// Both.
+  /// Both. Every solution keeps the invariants of solvers/kalker/invariants.hpp, or has Status::failed and a message
+  /// that names the one it breaks. Errors: Error(configuration) also for magnitudes beyond model/magnitudes.hpp.
   ContactSolution solve(const ContactProblem& problem);
 
   /// Forgets the last solution and the history (not the coefficients).

@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::vehicle {
@@ -88,6 +89,7 @@ double Simulation::longest_step() const {
 }
 
 Step Simulation::attempt(double length) {
+  check_cancelled();
   Step step = scheme_.take(motion_, length);
   counts_.evaluations += std::max(1, step.iterations);
   return step;
@@ -169,6 +171,19 @@ void Simulation::accept(Step step) {
 
 void Simulation::advance() {
   if (finished()) return;
+  const double next_step = next_step_;
+  const Counts counts = counts_;
+  try {
+    take_step();
+  } catch (const Cancelled&) {
+    // as if the step had not been tried
+    next_step_ = next_step;
+    counts_ = counts;
+    throw;
+  }
+}
+
+void Simulation::take_step() {
   double h = std::min(next_step_, longest_step());
   Step step;
   for (;;) {
@@ -178,7 +193,7 @@ void Simulation::advance() {
     ++counts_.rejected;
     const double factor =
         step.converged ? std::min(0.8, step_factor(step.position_error, settings_.position_tolerance)) : 0.3;
-    if (h * factor < settings_.min_step)
+    if (!(h * factor >= settings_.min_step && h * factor > 0.0))  // no number either
       throw Error(ErrorKind::numerical,
                   fmt::format("the step became shorter than {:.3g} s at t = {:.9g} s: {}", settings_.min_step,
                               motion_.state.time,

@@ -56,7 +56,7 @@ class Simulation {
   /// Whether the duration is over.
   bool finished() const { return motion_.state.time >= settings_.duration * (1.0 - 1e-12); }
   /// One step. Errors: Error(numerical) where the step becomes too short, with the reason; the simulation stays at the
-  /// last good state.
+  /// last good state. Cancelled (core/cancellation.hpp) leaves everything as it was before the step.
   void advance();
 
   /// The vehicle as it was given.
@@ -84,6 +84,7 @@ class Simulation {
   void restore(ByteReader& in);
 
  private:
+  void take_step();
   Step attempt(double length);
   Step locate_event(const Step& step, double length);
   bool changes_contact(const Step& step) const;

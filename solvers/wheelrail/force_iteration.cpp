@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/wheelrail/force_balance.hpp"
 #include "treadmark/solvers/wheelrail/root_search.hpp"
@@ -65,6 +66,7 @@ class Iteration {
     // A wheel that turns slower, its rate less negative, brakes: it pulls the rail forward.
     constexpr int kMost = 60;
     for (int i = 0; i < kMost; ++i) {
+      check_cancelled();
       state = search.add(out_.pitch_rate, step_.longitudinal_force() - *p_.longitudinal_force);
       if (state != RootSearch::State::search) break;
       out_.pitch_rate = search.next();
@@ -120,6 +122,7 @@ class Iteration {
     // Where a flange carries load, tractions turn the force: heights and tractions come to terms in rounds, each with
     // iterations of its own.
     for (int i = 0, round = 0; i < p_.max_force_iterations && round < p_.max_force_iterations; ++i) {
+      check_cancelled();
       if (state == ForceBalance::State::search) {
         step_.evaluate(z);
         tangential_done = false;
@@ -168,6 +171,7 @@ class Iteration {
     double dy = 0.0;
     constexpr int kMost = 60;
     for (int i = 0; i < kMost; ++i) {
+      check_cancelled();
       out_.rail_dy = dy;
       if (!step_.place(dy)) return off_the_rail();
       if (!balance_vertical()) return;

@@ -104,8 +104,9 @@ GaugePoint gauge_point(const Surface& rail, double cant, double gauge_height) {
   GaugePoint point;
   point.z_top = section.z[top];
   LateralRange around{section.y[top > 0 ? top - 1 : top], section.y[std::min(top + 1, section.y.size() - 1)]};
-  constexpr double kFlat = 1e-9;  // the height changes with the square of this [m]
-  while (around.y_max - around.y_min > kFlat) {
+  constexpr double kFlat = 1e-9;     // the height changes with the square of this [m]
+  constexpr int kMostSections = 60;  // far from y = 0 the last bits of y are coarser than that
+  for (int left = kMostSections; left > 0 && around.y_max - around.y_min > kFlat; --left) {
     const Section fine = lateral_section(rail, X_RT, 0.0, around, (around.y_max - around.y_min) / kSections);
     std::size_t least = 0;
     for (std::size_t i = 1; i < fine.z.size(); ++i)

@@ -10,7 +10,11 @@
 #include <utility>
 #include <vector>
 
+#include <fmt/format.h>
+
+#include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/magnitudes.hpp"
 
 namespace treadmark::wheelrail {
 
@@ -24,19 +28,26 @@ void require_finite(double value, const char* name) {
   if (!std::isfinite(value)) refuse(std::string(name) + " is not a finite number");
 }
 
+void require_within(double value, double greatest, const char* name) {
+  require_finite(value, name);
+  if (!(std::abs(value) <= greatest))
+    refuse(fmt::format("{} is {:g}, beyond the greatest magnitude that is taken, {:g}", name, value, greatest));
+}
+
 void require_positive(double value, const char* name) {
   require_finite(value, name);
   if (!(value > 0.0)) refuse(std::string(name) + " must be positive");
 }
 
-void check_motion(const SixMotion& m, const char* name) {
-  for (const double value : {m.x, m.y, m.z, m.roll, m.yaw, m.pitch}) require_finite(value, name);
+void check_motion(const SixMotion& m, const char* name, double greatest = kInfinity) {
+  for (const double value : {m.x, m.y, m.z, m.roll, m.yaw, m.pitch}) require_within(value, greatest, name);
 }
 
 void check_track(const Track& t) {
-  for (const double value : {t.gauge_height, t.gauge_width, t.rail_y0, t.rail_z0, t.cant, t.curvature, t.dy, t.dz,
-                             t.roll, t.vy, t.vz, t.vroll})
+  for (const double value :
+       {t.gauge_height, t.gauge_width, t.rail_y0, t.rail_z0, t.cant, t.curvature, t.dy, t.dz, t.roll})
     require_finite(value, "a number of the track");
+  for (const double value : {t.vy, t.vz, t.vroll}) require_within(value, kMostSpeed, "a velocity of the track");
 }
 
 void check_bodies(const Material& m, const FrictionLaw& f) {
@@ -49,9 +60,10 @@ void check_bodies(const Material& m, const FrictionLaw& f) {
   for (const double value : {m.layer_flexibility, m.layer_yield, m.layer_hardening, m.sheet_flexibility,
                              m.creep_ratio_1, m.creep_ratio_2, m.relaxation_time_1, m.relaxation_time_2})
     require_finite(value, "a number of the material");
-  for (const double value : {f.kinetic, f.amplitude_1, f.amplitude_2, f.half_velocity_1, f.half_velocity_2,
-                             f.memory_distance, f.memory_velocity})
+  for (const double value : {f.half_velocity_1, f.half_velocity_2, f.memory_distance, f.memory_velocity})
     require_finite(value, "a number of the friction law");
+  for (const double value : {f.kinetic, f.amplitude_1, f.amplitude_2, f.temperature_change})
+    require_within(value, kMostFriction, "a coefficient of friction");
 }
 
 void check_forces(const Problem& p) {
@@ -85,6 +97,7 @@ void check_discretisation(const Discretisation& d) {
   require_positive(d.dx, "the element size dx");
   require_positive(d.ds, "the element size ds");
   require_positive(d.dq_relative, "the rolling step over dx");
+  require_within(d.dq_relative, kMostStep, "the rolling step over dx");
   for (const double value : {d.angle_separation, d.separation, d.combination, d.turning.value_or(0.0), d.near_miss})
     require_finite(value, "a rule for patches");
 }
@@ -98,12 +111,12 @@ void validate(const Problem& p) {
   for (const double value : {w.flange_back_distance, w.flange_back_position, w.tape_line.value_or(0.0)})
     require_finite(value, "a dimension of the wheelset");
   check_motion(p.state.position, "a position of the wheelset");
-  check_motion(p.state.velocity, "a velocity of the wheelset");
+  check_motion(p.state.velocity, "a velocity of the wheelset", kMostSpeed);
   check_motion(p.state.wheel_offset, "a deviation of the wheel");
-  check_motion(p.state.wheel_velocity, "a velocity of the wheel's deviation");
+  check_motion(p.state.wheel_velocity, "a velocity of the wheel's deviation", kMostSpeed);
   if (p.roller) {
     require_finite(p.roller->nominal_radius, "the roller's radius");
-    require_finite(p.roller->pitch_rate, "the roller's pitch rate");
+    require_within(p.roller->pitch_rate, kMostSpeed, "the roller's pitch rate");
     if (p.roller->nominal_radius == 0.0) refuse("the roller's radius must not be zero");
   }
   check_bodies(p.material, p.friction);

@@ -142,8 +142,8 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
     std::ifstream in(file);
     return std::string{std::istreambuf_iterator<char>(in), {}};
   };
-  write(path("a/own.txt"), "own");
-  write(path("a/slice_00001.txt"), "old");
+  const std::string index = "  0.0 'a.slcs-0123456789ab/slice_00001.txt'", slice = "slice_00001.txt";
+  write(path("a.slcs-ffffffffffff") / slice, "old");
   const std::vector<std::string> before = names();
   {
     StagedOutputs staged;
@@ -154,17 +154,16 @@ TEST_F(ImportFiles, OutputsGetTheirNamesTogether) {
     StagedOutputs staged;
     const fs::path place = staged.place(path("a.slcs"));
     EXPECT_EQ(place.filename(), "a.slcs");
-    write(place, "index");
-    write(place.parent_path() / "a" / "slice_00001.txt", "new");
+    write(place, index);
+    write(place.parent_path() / "a.slcs-0123456789ab" / slice, "new");
     write(staged.place(path("b.ply")), "ply");
     EXPECT_FALSE(fs::exists(path("a.slcs")));
     staged.commit();
   }
-  EXPECT_EQ(text_of(path("a.slcs")), "index");
-  EXPECT_EQ(text_of(path("a/slice_00001.txt")), "new");
-  EXPECT_EQ(text_of(path("a/own.txt")), "own");
+  EXPECT_EQ(text_of(path("a.slcs")), index);
+  EXPECT_EQ(text_of(path("a.slcs-0123456789ab") / slice), "new");
+  EXPECT_FALSE(fs::exists(path("a.slcs-ffffffffffff"))) << "those of the surface that is replaced";
   EXPECT_EQ(text_of(path("b.ply")), "ply");
-  EXPECT_EQ(names().size(), before.size() + 2);
 }
 
 /// Scans of others that are no wheel or rail, or no part of one that can be placed: what `import` says of them.
@@ -195,6 +194,22 @@ TEST_F(ImportFiles, ScansOfOthersAreRefusedForWhatTheyAre) {
     EXPECT_EQ(r.status, 3) << real.file << ": " << r.err << r.out;
     EXPECT_THAT(r.err, HasSubstr(real.words)) << real.file;
     EXPECT_EQ(names(), before) << real.file;
+  }
+}
+
+/// Failures of whatever comes after reading: few points, which get past one step after the other.
+TEST_F(ImportFiles, FailuresNameTheScan) {
+  TREADMARK_NEEDS("cgal");
+  input.write("rail.toml",
+              "rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\nwheelset.vertical_force_N = 1e5\n");
+  for (const char* points : {"50", "100", "400", "700", "1000"}) {
+    const std::string scan = path("few.ply");
+    const auto made =
+        run_program({"scan", path("rail.toml"), "--body", "rail", "-o", scan, "--points", points, "--range-mm=-60,60"});
+    ASSERT_EQ(made.status, 0) << made.err;
+    const auto r = import({scan, "-o", path("x.slcs"), "--quiet"});
+    EXPECT_EQ(r.status, 3) << points << r.err;
+    EXPECT_THAT(r.err, HasSubstr("treadmark: " + scan + ": ")) << points;
   }
 }
 

@@ -9,6 +9,7 @@
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/support/counting_token.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -31,6 +32,36 @@ TEST(RunCases, StopKeepsFinishedCases) {
   ASSERT_EQ(result.cases.size(), 2u);
   EXPECT_EQ(result.cases[0].number, 1);
   EXPECT_EQ(result.cases[1].number, 2);
+}
+
+TEST(RunCases, IsCancelledWithinACase) {
+  const treadmark::testing::SampleInput input;
+  io::CaseFile file = io::read_any_case(input.inp(), {});
+  while (file.cases.size() < 4) file.cases.push_back(file.cases[0]);
+  const ThreadLimit one_thread(1);
+  const treadmark::testing::CountingToken never;
+  {
+    const CancellationScope scope(&never);
+    EXPECT_TRUE(run_cases(file).complete);
+  }
+  for (const long last : {1L, never.passed() / 2, never.passed() - 200}) {
+    const treadmark::testing::CountingToken token(last);
+    const CancellationScope scope(&token);
+    std::size_t told = 0;
+    Progress progress;
+    progress.report = [&](std::size_t finished, std::size_t, const std::string&) { told = finished; };
+    SurfaceStore store;
+    io::RunResult result;
+    try {
+      result = run_cases(file, store, progress);
+    } catch (const Cancelled&) {  // behind the cases, where their surfaces are described
+      continue;
+    }
+    EXPECT_FALSE(result.complete) << last;
+    EXPECT_LT(result.cases.size(), 4u);
+    EXPECT_EQ(result.cases.size(), told) << "what is finished is kept";
+    EXPECT_EQ(result.cases_total, 4);
+  }
 }
 
 TEST(RunCases, ThreadsDoNotChangeABit) {

@@ -6,7 +6,7 @@
 usage: check_architecture.py ROOT
 
 Checked: who may include whom, one source file per heavy third-party header, surfaces asked through their contract only,
-licence lines, no package hosts.
+licence lines, no package hosts, no other programs started.
 """
 import pathlib
 import re
@@ -48,6 +48,10 @@ HEAVY_FREE = ("tests", "bench")
 
 # Know nothing of a surface but its contract (core/surface.hpp), so that surfaces made of others may stand in for them.
 CONTRACT_ONLY = ("detection/", "solvers/")
+
+# What comes from files must never reach a shell, so the program and its libraries start no other programs.
+STARTS_PROGRAMS = re.compile(r"(?<![\w.>])(system|w?popen|v?fork|exec[lv]p?e?|posix_spawnp?)\s*\(")
+MAY_START = ("tests", "bench")
 
 # Put together here, so that this file does not contain them.
 HOSTS = [".".join(parts) for parts in (
@@ -121,6 +125,9 @@ def check(root):
             violations += [f"{relative}: {what}" for what in check_includes(relative, text, heavy_users)]
             if relative.startswith(CONTRACT_ONLY) and re.search(r"\bdynamic(_pointer)?_cast\b", text):
                 violations.append(f"{relative}: dynamic_cast: ask a question of the contract instead")
+            found = STARTS_PROGRAMS.search(text)
+            if found and layer(relative) not in MAY_START:
+                violations.append(f"{relative}: {found.group(1)}: no other program is started")
         if relative.endswith(LICENSED) and "SPDX-License-Identifier: Apache-2.0" not in text[:400]:
             violations.append(f"{relative}: no SPDX-License-Identifier line at its top")
         violations += [f"{relative}: mentions the package host {host}" for host in HOSTS if host in text.lower()]

@@ -57,6 +57,12 @@ class Planted(unittest.TestCase):
                 self.expect(name, f'#include "treadmark/{header}"\n', f"must not include {header}")
                 self.expect(name, f"#  include <treadmark/{header}>\n", f"must not include {header}")
 
+    def test_no_other_programs(self):
+        for call in ["std::system(text)", "::popen (text)", "fork()", "execvp(a, b)", "posix_spawn(a)"]:
+            self.expect("io/a.cpp", f"void f() {{ {call}; }}\n", "no other program is started")
+            self.assertEqual(self.violations({"tests/a.cpp": f"void f() {{ {call}; }}\n"}), [])
+        self.assertEqual(self.violations({"io/a.cpp": "void f() { built.system(1); subsystem(2); a->system(3); }\n"}), [])
+
     def test_spelling_of_includes(self):
         self.expect("core/a.cpp", '#include "pose.hpp"\n', "must read")
         self.expect("core/a.cpp", '#include "../app/run.hpp"\n', "must read")

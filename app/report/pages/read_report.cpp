@@ -49,12 +49,13 @@ Page simulation_in(const fs::path& store) {
 }  // namespace
 
 Page read_report(const fs::path& given) {
+  std::error_code unknown;  // what cannot be looked at counts as missing
   const fs::path folder =
-      fs::is_regular_file(given) ? (given.has_parent_path() ? given.parent_path() : fs::path(".")) : given;
-  if (!fs::is_directory(folder))
+      fs::is_regular_file(given, unknown) ? (given.has_parent_path() ? given.parent_path() : fs::path(".")) : given;
+  if (!fs::is_directory(folder, unknown))
     throw Error(ErrorKind::input_data, "there is no such folder", {given.string()},
                 "give a folder that a command wrote with -o");
-  const auto has = [&](const char* name) { return fs::exists(folder / name); };
+  const auto has = [&](const char* name) { return fs::exists(folder / name, unknown); };
   if (has("compare.json")) return compare_page(folder);
   if (has("bench.json")) return bench_page(folder);
   if (has("report.json")) return import_page(folder);

@@ -73,21 +73,21 @@ WheelBounds::Box WheelBounds::box(double a, double b) const {
 
 bool WheelBounds::find_top(double a, double b, double& top) const {
   if (!box(a, b).may_hit()) return false;
-  if (b - a < tolerance_) {
+  const double m = 0.5 * (a + b);
+  if (b - a < tolerance_ || !(m > a && m < b)) {
     top = b;
     return true;
   }
-  const double m = 0.5 * (a + b);
   return find_top(m, b, top) || find_top(a, m, top);
 }
 
 bool WheelBounds::find_bottom(double a, double b, double& bottom) const {
   if (!box(a, b).may_hit()) return false;
-  if (b - a < tolerance_) {
+  const double m = 0.5 * (a + b);
+  if (b - a < tolerance_ || !(m > a && m < b)) {
     bottom = a;
     return true;
   }
-  const double m = 0.5 * (a + b);
   return find_bottom(a, m, bottom) || find_bottom(m, b, bottom);
 }
 
@@ -113,14 +113,15 @@ HeightBounds WheelBounds::heights() const {
     if (box(t, t).f_max >= 0.0) return false;
     return along_y || box(t, result.z_max).within;
   };
+  constexpr int kMostSteps = 200;  // doublings and halvings of a number
   double above = result.z_max, step = tolerance_, t = above - step;
-  while (t > low && !inside(t)) {
+  for (int left = kMostSteps; t > low && !inside(t); --left) {
     above = t;
     step *= 2.0;
-    t -= step;
+    t = left > 1 ? t - step : low;
   }
   if (t > low) {
-    while (above - t > tolerance_) {
+    for (int left = kMostSteps; left > 0 && above - t > tolerance_; --left) {
       const double m = 0.5 * (above + t);
       (inside(m) ? t : above) = m;
     }

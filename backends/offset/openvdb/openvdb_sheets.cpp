@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <cmath>
 #include <mutex>
+#include <sstream>
 
+#include <openvdb/io/Archive.h>
 #include <openvdb/io/File.h>
 #include <openvdb/openvdb.h>
 
@@ -23,8 +25,6 @@ void start_openvdb() {
 }
 
 Coord folded(const BlockKey& key) { return {key.bi * kBlockI, key.bj * kBlockI, 0}; }
-
-constexpr int kFarthest = 1 << 29;  ///< voxels from the origin
 
 class Storage final : public SheetStorage {
  public:
@@ -66,8 +66,12 @@ std::unique_ptr<SheetStorage> make_storage() {
   return std::make_unique<Storage>();
 }
 
-SheetFault write_sheet(const std::filesystem::path& file, const std::vector<SheetEntry>& blocks,
-                       const SheetFrameAndData& frame) {
+/// What openvdb::io::File writes, into a stream.
+struct InMemory : openvdb::io::Archive {
+  void write(std::ostream& to, const openvdb::GridCPtrVec& grids) const { Archive::write(to, grids, true); }
+};
+
+SheetFault write_sheet(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& frame) {
   start_openvdb();
   const auto sheet = openvdb::FloatGrid::create(0.0f);
   sheet->setName(kGridName);
@@ -90,53 +94,13 @@ SheetFault write_sheet(const std::filesystem::path& file, const std::vector<Shee
       if (b.values[k] != 0.0f)
         to.setValue({b.key.bi * kBlockI + (k >> 6), b.key.bj * kBlockJ + (k & 63), 0}, b.values[k]);
   try {
-    openvdb::io::File out(file.string());
+    std::ostringstream text(std::ios::binary);
+    InMemory out;
     out.setCompression(openvdb::io::COMPRESS_ACTIVE_MASK);
-    out.write({sheet});
-    out.close();
+    out.write(text, {sheet});
+    bytes = std::move(text).str();
   } catch (const std::exception& e) {
     return {SheetFault::Kind::configuration, std::string("cannot write the offsets: ") + e.what()};
-  }
-  return {};
-}
-
-SheetFault read_sheet(const std::filesystem::path& file, SheetFrameAndData& result, std::map<BlockKey, Block>& blocks) {
-  start_openvdb();
-  const auto refuse = [](std::string why) -> SheetFault { return {SheetFault::Kind::input_data, std::move(why)}; };
-  openvdb::FloatGrid::Ptr sheet;
-  try {
-    openvdb::io::File in(file.string());
-    in.open(false);  // everything at once: no page of the file is read later
-    if (!in.hasGrid(kGridName)) return refuse("the VDB file holds no grid of offsets");
-    sheet = openvdb::gridPtrCast<openvdb::FloatGrid>(in.readGrid(kGridName));
-    in.close();
-  } catch (const std::exception& e) {
-    return refuse(std::string("the VDB file cannot be read: ") + e.what());
-  }
-  if (!sheet) return refuse("the offsets of a VDB file must be single precision numbers");
-  if (!sheet->transform().isLinear()) return refuse("the transform of the offsets must be linear");
-  const auto affine = sheet->transform().baseMap()->getAffineMap();
-  const openvdb::math::Mat4d m = affine->getMat4();
-  result.du = m(0, 0), result.dy = m(1, 1), result.u0 = m(3, 0), result.y0 = m(3, 1);
-  if (m(0, 1) != 0.0 || m(0, 2) != 0.0 || m(1, 0) != 0.0 || m(1, 2) != 0.0 || m(2, 0) != 0.0 || m(2, 1) != 0.0)
-    return refuse("the transform of the offsets must not rotate or shear");
-  if (!(result.du > 0.0) || !(result.dy > 0.0) || !std::isfinite(result.du + result.dy + result.u0 + result.y0))
-    return refuse("the steps of the offsets must be positive");
-  if (sheet->background() != 0.0f) return refuse("the background of the offsets must be 0");
-  for (auto meta = sheet->beginMeta(); meta != sheet->endMeta(); ++meta)
-    if (meta->second->typeName() == "string") result.metadata[meta->first] = meta->second->str();
-
-  const openvdb::CoordBBox box = sheet->evalActiveVoxelBoundingBox();
-  if (!box.empty() && (box.min().z() != 0 || box.max().z() != 0)) return refuse("the offsets must be a sheet at k = 0");
-  if (!box.empty() &&
-      (std::min(box.min().x(), box.min().y()) < -kFarthest || std::max(box.max().x(), box.max().y()) > kFarthest))
-    return refuse("the offsets lie too far from the origin of their grid");
-  for (auto v = sheet->cbeginValueOn(); v; ++v) {
-    if (!v.isVoxelValue()) return refuse("the offsets must not contain tiles");
-    if (!std::isfinite(*v)) return refuse("an offset is not a number");
-    const Coord c = v.getCoord();
-    Block& b = blocks.try_emplace(BlockKey{c.x() >> 3, c.y() >> 6}, Block{}).first->second;
-    b[static_cast<std::size_t>(((c.x() & 7) << 6) | (c.y() & 63))] = *v;
   }
   return {};
 }
@@ -144,7 +108,7 @@ SheetFault read_sheet(const std::filesystem::path& file, SheetFrameAndData& resu
 }  // namespace
 
 extern "C" const SheetLibrary* treadmark_sheet_library() {
-  static const SheetLibrary library{TREADMARK_MODULE_VERSION, make_storage, write_sheet, read_sheet};
+  static const SheetLibrary library{TREADMARK_MODULE_VERSION, make_storage, write_sheet};
   return &library;
 }
 

@@ -43,9 +43,7 @@ struct SheetFrameAndData {
 struct SheetLibrary {
   const char* version;  ///< of Treadmark; another one is not used
   std::unique_ptr<SheetStorage> (*make_storage)();
-  SheetFault (*write)(const std::filesystem::path& file, const std::vector<SheetEntry>& blocks,
-                      const SheetFrameAndData& sheet);
-  SheetFault (*read)(const std::filesystem::path& file, SheetFrameAndData& sheet, std::map<BlockKey, Block>& blocks);
+  SheetFault (*write)(std::string& bytes, const std::vector<SheetEntry>& blocks, const SheetFrameAndData& sheet);
 };
 
 /// Its one symbol, "treadmark_sheet_library".

@@ -153,7 +153,7 @@ NurbsHull::NurbsHull(const NurbsNet& net) {
   for (;;) {
     levels_.push_back(level_of(slabs, nu, nv));
     const Level& level = levels_.back();
-    if (level.blocks.size() == 1) break;
+    if (level.blocks.size() <= 1) break;
     std::vector<Slab> above, parts;
     for (const Block& b : level.blocks) {
       parts.clear();

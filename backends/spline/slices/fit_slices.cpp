@@ -13,6 +13,7 @@
 
 #include "treadmark/backends/spline/banded.hpp"
 #include "treadmark/backends/spline/fit_profile.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::spline {
@@ -99,6 +100,7 @@ std::vector<std::vector<NetPair>> fit_across(const SampledSlices& sampled) {
   std::map<std::size_t, LineFitter> fitters;  // knots are uniform, so only the number of points matters
   std::vector<std::vector<NetPair>> lines;
   for (const SampledSlice& slice : sampled.slices) {
+    check_cancelled();
     auto& line = lines.emplace_back(static_cast<std::size_t>(sampled.positions) + 2, NetPair{kNaN, kNaN});
     const std::size_t n = slice.points.size();
     if (n == 0) continue;
@@ -241,6 +243,7 @@ SliceNet fit_slices(const SliceSet& slices) {
   const std::size_t n = all.u.size();
   std::map<std::pair<std::size_t, std::size_t>, LineFitter> fitters;
   for (std::size_t j = 0; j < static_cast<std::size_t>(net.lines()); ++j) {
+    check_cancelled();
     const auto value = [&](std::size_t i) { return across[all.slice[i]][j]; };
     std::vector<SliceNet::LineCubic> interval(n - 1, SliceNet::LineCubic{});
     std::vector<bool> present(n - 1, false);

@@ -8,6 +8,7 @@
 #include <numeric>
 #include <string>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/model/theories.hpp"
 #include "treadmark/solvers/kalker/fastsim/flexibilities.hpp"
@@ -104,7 +105,10 @@ Vec2 Sweep::run(const Creepage& creepage, bool blended) {
   solution_.state.assign(grid.size(), ElementState::exterior);
 
   if (!steady_) bring_along(flex);
-  for (int iy = 0; iy < grid.ny; ++iy) row(iy, creepage, mu, flex);
+  for (int iy = 0; iy < grid.ny; ++iy) {
+    check_cancelled();
+    row(iy, creepage, mu, flex);
+  }
   if (problem_.tangential_model == TangentialModel::fastrip && mu * normal_force_ > 0.0)
     apply_strip_theory(problem_, StripTheory(problem_, creepage, mu, flex.slope, normal_force_, equivalent_, sign_),
                        solution_);

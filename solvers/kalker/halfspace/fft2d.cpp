@@ -65,7 +65,7 @@ bool is_aligned(const void* memory) {
 
 bool has_only_small_factors(int n) {
   for (const int factor : {2, 3, 5, 7})
-    while (n % factor == 0) n /= factor;
+    while (n > 0 && n % factor == 0) n /= factor;
   return n == 1;
 }
 

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
@@ -110,7 +111,7 @@ Spectrum ToeplitzTransform::kernel_spectrum(const OffsetKernel& kernel) const {
   const int px = padded_nx(), py = padded_ny();
   AlignedVector<double> field(product(px, py));
   const double scale = 1.0 / (static_cast<double>(px) * py);
-  for (int diy = 1 - ny_; diy < ny_; ++diy)
+  for (int diy = 1 - ny_; diy < ny_; ++diy, check_cancelled())
     for (int dix = 1 - nx_; dix < nx_; ++dix)
       field[product((diy + py) % py, px) + static_cast<std::size_t>((dix + px) % px)] = scale * kernel(dix, diy);
   return whole_spectrum(field);
@@ -121,7 +122,7 @@ Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) 
   AlignedVector<double> field;
   field.reserve(product(px, py));
   const double scale = 1.0 / (static_cast<double>(px) * py);
-  for (int iy = 0; iy < py; ++iy)
+  for (int iy = 0; iy < py; ++iy, check_cancelled())
     for (int ix = 0; ix < px; ++ix)
       field.push_back(scale * kernel(2 * ix <= px ? ix : ix - px, 2 * iy <= py ? iy : iy - py));
   return whole_spectrum(field);
@@ -213,7 +214,7 @@ void ToeplitzTransform::add_inverse_columns(std::span<std::complex<double>> spec
 ToeplitzOperator::ToeplitzOperator(int nx, int ny, const OffsetKernel& kernel) : nx_(nx), ny_(ny) {
   check_grid(nx, ny);
   table_.reserve(product(2 * nx - 1, 2 * ny - 1));
-  for (int diy = 1 - ny; diy < ny; ++diy)
+  for (int diy = 1 - ny; diy < ny; ++diy, check_cancelled())
     for (int dix = 1 - nx; dix < nx; ++dix) table_.push_back(kernel(dix, diy));
   if (size() <= kDirectSize) return;
   transform_.emplace(nx, ny);

@@ -83,6 +83,12 @@ ContactHistory averaged_on(const ContactHistory& history, const Grid2& grid, dou
                            double first_yield_stress) {
   if (history.empty() || history.grid == grid) return history;
   const Grid2& from = history.grid;
+  constexpr double kCoarsest = 1e4, kFarthest = 1e15;  // times an old element
+  const double ratio = std::fmax(grid.dx / from.dx, grid.dy / from.dy),
+               way = std::fmax(std::fabs(grid.x0 - from.x0) / from.dx, std::fabs(grid.y0 - from.y0) / from.dy);
+  if (!(ratio <= kCoarsest && way <= kFarthest))
+    throw Error(ErrorKind::configuration, "a history cannot be carried to elements that are so much larger or so far",
+                {}, "keep the steps dx and dy, or start without history");
   const std::vector<Shares> columns = shares_of((grid.x0 - from.x0) / from.dx, grid.dx / from.dx, grid.nx),
                             rows = shares_of((grid.y0 - from.y0) / from.dy, grid.dy / from.dy, grid.ny);
   const auto moved = [&](const std::vector<double>& field, double outside) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
@@ -139,6 +140,7 @@ BoundConstrainedCg::Outcome BoundConstrainedCg::solve(const BoxProblem& problem)
   bool clipped = false, have_direction = false;
   double zr_previous = 0.0;
   for (int iteration = 0;; ++iteration) {
+    check_cancelled();
     update_residual(problem);
     release(problem);
     if (count_ == 0.0) return Outcome::no_contact;

@@ -186,8 +186,13 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   ElementBox box = rounded(bounding_box(grid, [&](std::size_t i) { return pressure[i] > 0.0; }), grid);
   cg.iterations = cg.products = 0;
   cg.approach = problem.approach;
-  BoundConstrainedCg::Outcome outcome;
-  for (;;) {
+  BoundConstrainedCg::Outcome outcome = BoundConstrainedCg::Outcome::iteration_limit;
+  // Every box holds the one before it and at least a row or a column more.
+  for (int left = grid.nx + grid.ny; left >= 0; --left) {
+    if (left == 0) {
+      outcome = BoundConstrainedCg::Outcome::iteration_limit;
+      break;
+    }
     const AlignedVector<double> box_gap = cut(grid, gap, box);
     cg.p = cut(grid, pressure, box);
     const NormalOperator box_operator = op(box);

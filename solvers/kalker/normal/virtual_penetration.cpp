@@ -77,7 +77,8 @@ double curvature_along(const Interpenetration& overlap, double level) {
   const int iy = overlap.deepest_row(), ix = overlap.deepest_column(iy);
   const double least = -overlap.depth();
   int reach = 1;
-  while (std::max(overlap.distance(ix - reach, iy), overlap.distance(ix + reach, iy)) <= level) ++reach;
+  const int most = overlap.grid().nx;
+  while (reach < most && std::max(overlap.distance(ix - reach, iy), overlap.distance(ix + reach, iy)) <= level) ++reach;
   double behind = overlap.distance(ix - reach, iy), ahead = overlap.distance(ix + reach, iy);
   if (reach > 1 && !(std::isfinite(behind) && std::isfinite(ahead))) {  // at the border: the last pair inside
     --reach;
@@ -158,7 +159,7 @@ std::vector<double> kpec_distribution(const Interpenetration& overlap, const Com
     for (int ix = overlap.box().x0; ix < overlap.box().x1; ++ix) {
       if (overlap.distance(ix, iy) > level) continue;
       const int first = ix;
-      while (overlap.distance(ix + 1, iy) <= level) ++ix;
+      while (ix + 1 < grid.nx && overlap.distance(ix + 1, iy) <= level) ++ix;
       fill_run(overlap, iy, first, ix, end_level, distribution);
     }
   }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
@@ -18,6 +19,8 @@ constexpr double kSufficientDecrease = 1e-4;
 constexpr double kReliableReduction = 0.3;  ///< of the violation: the step is trusted as a measure of the error
 constexpr double kLoosestInner = 0.1, kTightestInner = 0.02;  ///< relative accuracy of linear solutions
 constexpr double kRoundOff = 1e-13;
+/// Bounds that exceed all tractions by more than this say nothing about their round-off.
+constexpr double kIdleBound = 1e3;
 
 }  // namespace
 
@@ -137,8 +140,10 @@ NewtonResult FrictionNewton::solve(const FrictionProblem& problem, FrictionState
   Field2 rhs(2 * n), known(2 * n), step(2 * n);
   FrictionState trial;
   double tolerance = kLoosestInner;
-  const double floor = kRoundOff * rms(problem.bound);
+  const double tractions = rms(state.traction) + r * rms(problem.rigid_slip);
+  const double floor = kRoundOff * std::min(rms(problem.bound), kIdleBound * tractions);
   for (; result.steps < settings.max_steps; ++result.steps) {
+    check_cancelled();
     if (state.violation <= floor) {
       result.converged = true;
       break;

@@ -47,7 +47,8 @@ void FrictionState::update(const FrictionProblem& problem) {
       sx += problem.rigid_slip[i];
       sy += problem.rigid_slip[n + i];
       const double zx = traction[i] - r * sx, zy = traction[n + i] - r * sy;
-      const double size = std::sqrt(zx * zx + zy * zy), bound = problem.bound[i];
+      const double square = zx * zx + zy * zy, bound = problem.bound[i];
+      const double size = std::isinf(square) ? std::hypot(zx, zy) : std::sqrt(square);
       slipping[i] = size > bound;
       if (slipping[i]) {
         direction[i] = zx / size;

@@ -6,6 +6,8 @@
 #include <cmath>
 #include <cstdlib>
 
+#include "treadmark/core/cancellation.hpp"
+
 namespace treadmark::kalker {
 
 namespace {
@@ -88,6 +90,7 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
     ++sweeps;
     double change = 0.0, total = 0.0;
     for (std::size_t i = n; i-- > 0;) {
+      check_cancelled();
       // Slip of this element by all others and itself.
       double sx = problem.rigid_slip[i], sy = problem.rigid_slip[n + i];
       const int cell = static_cast<int>(patch_.cell[i]), ix = cell % nx, iy = cell / nx;
@@ -130,7 +133,7 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
       }
     }
     for (std::size_t k = 0; k < 2 * n; ++k) total += p[k] * p[k];
-    if (std::sqrt(change) <= eps * std::sqrt(total)) break;
+    if (!(std::sqrt(change) > eps * std::sqrt(total))) break;  // also where they are no numbers
   }
   return sweeps;
 }

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
 
 namespace treadmark::kalker {
@@ -60,6 +61,7 @@ GmresResult Gmres::solve(const LinearMap& matrix, const LinearMap& preconditione
   divide(b, b_norm, vector_at(0));
   std::size_t steps = 0;
   while (static_cast<int>(steps) < max_iterations) {
+    check_cancelled();
     // Arnoldi step.
     std::vector<double>& next = vector_at(steps + 1);
     preconditioner(basis_[steps], work_);

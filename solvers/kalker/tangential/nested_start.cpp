@@ -3,6 +3,7 @@
 #include "treadmark/solvers/kalker/tangential/nested_start.hpp"
 
 #include <array>
+#include <cmath>
 
 namespace treadmark::kalker {
 
@@ -93,6 +94,7 @@ Field2 nested_start(const Patch& patch, const ComplianceKey& key, std::span<cons
         y += weight * share_y[coarse.index(ix, iy)];
         total += weight;
       }
+    if (!std::isfinite(x + y)) x = y = 0.0;  // nothing is known
     start[i] = x / total * bound[i];
     start[n + i] = y / total * bound[i];
   }

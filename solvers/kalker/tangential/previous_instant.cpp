@@ -77,7 +77,7 @@ std::vector<double> share_of_step(const Patch& patch, const RollingStep& step) {
   for (std::size_t i = 0; i < out.size(); ++i) {
     // elements passed on the way ahead
     int steps = 0;
-    for (;; ++steps) {
+    for (; steps <= grid.nx + grid.ny; ++steps) {
       const long ix = patch.column[i] + std::lround((steps + 1) * element * cx / grid.dx),
                  iy = patch.row[i] + std::lround((steps + 1) * element * cy / grid.dy);
       if (ix < 0 || iy < 0 || ix >= grid.nx || iy >= grid.ny ||

@@ -12,8 +12,8 @@
 #include "treadmark/app/compare/compare_cases.hpp"
 #include "treadmark/app/report/page_data.hpp"
 #include "treadmark/app/report/write_page.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/cases/read_case.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
 #include "treadmark/io/results/comparison_json.hpp"
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/pictures/comparison_pictures.hpp"
@@ -120,7 +120,7 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
   settings.backends = {"spline", "mesh-flat"};
   settings.resolutions = {2e-3};
   const io::Comparison comparison = compare_cases(io::read_any_case(input.string(), {}), settings);
-  io::write_text_file(folder_.path() / "pressures.svg", pictures::pressures_svg(comparison));
+  write_file(folder_.path() / "pressures.svg", pictures::pressures_svg(comparison));
   io::write_comparison_fields(folder_.path() / "fields.h5", comparison);
   const Page page = page_of(comparison);
   EXPECT_EQ(page.kind, "compare");

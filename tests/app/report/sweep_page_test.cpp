@@ -7,7 +7,7 @@
 
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/pages/sweep_page.hpp"
-#include "treadmark/io/files/atomic_file.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
 #include "treadmark/tests/io/results/sample_run.hpp"
@@ -25,9 +25,9 @@ class StoppedStudy : public ::testing::Test {
     std::string identity = "treadmark 0.1.0 abc\nbase 123\n";
     for (int run = 1; run <= 6; ++run)
       identity += fmt::format("run {}\n  swept speed_m_s: {}\n", run, 10 * ((run + 1) / 2));
-    io::write_text_file(folder_.path() / "study.id", identity);
+    write_file(folder_.path() / "study.id", identity);
     for (int run = 1; run <= 4; ++run) write_run(run);
-    io::write_text_file(folder_.path() / "force.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>");
+    write_file(folder_.path() / "force.svg", "<svg xmlns=\"http://www.w3.org/2000/svg\"></svg>");
   }
 
   void write_run(int run) {
@@ -77,9 +77,9 @@ TEST_F(StoppedStudy, ChartsHaveALineForEachChoiceOfTheOtherKeys) {
 }
 
 TEST_F(StoppedStudy, BrokenStoresAreNamed) {
-  io::write_text_file(folder_.path() / "runs" / "run_0002" / "simulation.h5", "broken");
+  write_file(folder_.path() / "runs" / "run_0002" / "simulation.h5", "broken");
   EXPECT_THAT(error_of([&] { read_report(folder_.path()); }), HasSubstr("run_0002"));
-  io::write_text_file(folder_.path() / "study.id", "run x\n");
+  write_file(folder_.path() / "study.id", "run x\n");
   EXPECT_THAT(error_of([&] { read_report(folder_.path()); }), HasSubstr("run x"));
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <sys/resource.h>
 #include <unistd.h>
 
 #include <fstream>
@@ -47,6 +48,7 @@ class VdbFile : public ::testing::Test {
       offset::read_vdb(path_);
     } catch (const Error& e) {
       EXPECT_FALSE(e.message().empty());
+      EXPECT_LT(e.message().size(), 300u);
       EXPECT_EQ(e.where().file, path_.string());
       return static_cast<int>(e.kind());
     }
@@ -142,17 +144,53 @@ TEST_F(VdbFile, NoSingleDamageGoesUnnoticed) {
   }
 }
 
-/// The same file with another text of the same length in it, and a check sum that fits.
-std::string edited(std::string data, const std::string& from, const std::string& to) {
-  const std::size_t at = data.find(from);
-  EXPECT_NE(at, std::string::npos) << from;
-  EXPECT_EQ(from.size(), to.size());
-  data.replace(at, from.size(), to);
+/// The same file with a check sum that fits.
+std::string sealed(std::string data) {
   std::uint64_t sum = 14695981039346656037ull;
   for (std::size_t i = 0; i + 24 < data.size(); ++i)
     sum = (sum ^ static_cast<unsigned char>(data[i])) * 1099511628211ull;
   for (int k = 0; k < 8; ++k) data[data.size() - 8 + static_cast<std::size_t>(k)] = static_cast<char>(sum >> (8 * k));
   return data;
+}
+
+/// The same file with another text of the same length in it, and a check sum that fits.
+std::string edited(std::string data, const std::string& from, const std::string& to) {
+  const std::size_t at = data.find(from);
+  EXPECT_NE(at, std::string::npos) << from;
+  EXPECT_EQ(from.size(), to.size());
+  return sealed(data.replace(at, from.size(), to));
+}
+
+long peak_kilobytes() {
+  rusage use{};
+  getrusage(RUSAGE_SELF, &use);
+  return use.ru_maxrss;
+}
+
+// Whoever makes a hostile file makes a check sum that fits.
+TEST_F(VdbFile, HostileSizesCostNoMemory) {
+  constexpr long kMost = 1000000;  // [kB], also with sanitizers; a single length that is believed takes 4 GB
+  const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.002, 21, 21}, std::vector<float>(441, 1e-4f)};
+  const auto offsets = offset::offsets_from_map(map, Body::rail, 1e-9).offsets;
+  offset::write_vdb(path_, {offsets, {Body::rail, 0.0, StandardProfile{"60E1"}, {}}});
+  const std::string good = bytes();
+  const std::size_t size = good.size() - 24;
+  const long before = peak_kilobytes();
+  const auto read_damaged = [&](std::size_t at, std::size_t count, char byte) {
+    std::string bad = good;
+    bad.replace(at, count, count, byte);
+    put(sealed(bad));
+    const int found = kind();
+    EXPECT_TRUE(found == -1 || found == kInputData) << count << " bytes at " << at;
+  };
+  std::mt19937 random(7);
+  for (std::size_t at = 8; at < 1500; ++at) read_damaged(at, 4, at % 2 == 0 ? '\xff' : '\x7f');
+  for (std::size_t at = 8; at < 1500; at += 8) read_damaged(at, 8, '\0');
+  for (int trial = 0; trial < 500; ++trial) {
+    const std::size_t count = 1 + random() % 600, at = random() % (size - count);
+    read_damaged(at, count, static_cast<char>(random() % 3 == 0 ? random() % 256 : 255));
+  }
+  EXPECT_LT(peak_kilobytes() - before, kMost);
 }
 
 TEST_F(VdbFile, RefusesEntriesThatMakeNoSense) {
@@ -187,6 +225,24 @@ TEST(VdbMetadata, RefusesStepsOfNothing) {
     } catch (const Error& e) {
       EXPECT_EQ(e.kind(), ErrorKind::input_data);
       EXPECT_NE(std::string(e.what()).find("steps"), std::string::npos) << e.what();
+    }
+  }
+}
+
+TEST(VdbMetadata, DoesNotRepeatLongEntries) {
+  const SurfaceSpec rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  const OffsetMap map{"map", {-0.1, -0.02, 0.01, 0.002, 21, 21}, std::vector<float>(441, 1e-4f)};
+  const offset::Metadata good = offset::to_metadata(*offset::offsets_from_map(map, Body::rail, 1e-9).offsets, rail);
+  offset::SparseOffsets read;
+  SurfaceSpec base;
+  for (const char* entry : {"format", "units", "body", "base"}) {
+    offset::Metadata m = good;
+    m[entry] = std::string(100000, 'x');
+    try {
+      offset::from_metadata(m, read, base, "file");
+      ADD_FAILURE() << entry;
+    } catch (const Error& e) {
+      EXPECT_LT(e.message().size(), 300u) << entry;
     }
   }
 }

@@ -37,7 +37,7 @@ TEST_F(Hdf5File, ValuesOfEveryKindComeBack) {
   const std::vector<std::uint8_t> bytes{0, 255, 7};
   const std::vector<std::string> texts{"", "µ <x>", std::string(100000, 'a')};
   {
-    io::Hdf5Writer file(path_, "a.h5");
+    io::Hdf5Writer file(path_);
     const io::Hdf5GroupWriter group = file.root().make_group("group").make_group("inner.one");
     group.add({"word", std::string("größe")});
     group.add({"words", texts});
@@ -48,7 +48,7 @@ TEST_F(Hdf5File, ValuesOfEveryKindComeBack) {
     group.write({"no texts", {0}, "1", ""}, std::vector<std::string>());
     const double one = 5.0;
     group.write({"one", {}, "s", ""}, {&one, 1});
-    file.close();
+    file.commit();
   }
   const io::Hdf5Reader file(path_);
   EXPECT_TRUE(file.root().has("group"));
@@ -67,16 +67,16 @@ TEST_F(Hdf5File, ValuesOfEveryKindComeBack) {
 
 TEST_F(Hdf5File, ACopiedFileIsAGroup) {
   for (const char* name : {"one.h5", "two.h5"}) {
-    io::Hdf5Writer file(folder_.path() / name, name);
+    io::Hdf5Writer file(folder_.path() / name);
     file.root().add({"name", std::string(name)});
     file.root().make_group("part").write({"texts", {1}, "1", ""}, std::vector<std::string>{name});
-    file.close();
+    file.commit();
   }
-  io::Hdf5Writer file(path_, "a.h5");
+  io::Hdf5Writer file(path_);
   file.root().copy_file(folder_.path() / "one.h5", "first");
   file.root().copy_file(folder_.path() / "two.h5", "second");
   EXPECT_EQ(kind_of_error([&] { file.root().copy_file(folder_.path() / "three.h5", "third"); }), ErrorKind::input_data);
-  file.close();
+  file.commit();
   const io::Hdf5Reader read(path_);
   EXPECT_EQ(read.root().open_group("second").text("name"), "two.h5");
   EXPECT_EQ(read.root().open_group("first").open_group("part").strings("texts"), std::vector<std::string>{"one.h5"});
@@ -85,7 +85,7 @@ TEST_F(Hdf5File, ACopiedFileIsAGroup) {
 TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
   const std::vector<double> two{1.0, 2.0};
   {
-    io::Hdf5Writer file(path_, "a.h5");
+    io::Hdf5Writer file(path_);
     for (const std::string name : {"", ".", "a/b", "/"}) {
       EXPECT_EQ(kind_of_error([&] { file.root().make_group(name); }), ErrorKind::configuration);
       EXPECT_EQ(kind_of_error([&] { file.root().write({name, {2}, "1", ""}, two); }), ErrorKind::configuration);
@@ -95,7 +95,7 @@ TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
     file.root().write({"two", {2}, "1", ""}, two);
     EXPECT_EQ(kind_of_error([&] { file.root().make_group("two"); }), ErrorKind::configuration);  // there already
     file.root().add({"number", 2});
-    file.close();
+    file.commit();
   }
   const io::Hdf5Reader file(path_);
   EXPECT_EQ(kind_of_error([&] { file.root().strings("two"); }), ErrorKind::input_data);
@@ -103,8 +103,7 @@ TEST_F(Hdf5File, WrongNamesShapesAndKindsAreErrors) {
   EXPECT_EQ(kind_of_error([&] { file.root().open_group("two"); }), ErrorKind::input_data);
   EXPECT_EQ(kind_of_error([&] { file.root().text("number"); }), ErrorKind::input_data);
   EXPECT_EQ(kind_of_error([&] { file.root().text("none"); }), ErrorKind::input_data);
-  EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer other(folder_.path() / "none" / "a.h5", "a"); }),
-            ErrorKind::configuration);
+  EXPECT_EQ(kind_of_error([&] { io::Hdf5Writer(path_ / "a.h5").commit(); }), ErrorKind::configuration);
 }
 
 }  // namespace

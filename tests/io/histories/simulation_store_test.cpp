@@ -193,9 +193,9 @@ TEST_F(SimulationStore, OtherFilesAreRefused) {
   std::ofstream(path_) << "not HDF5";
   expect_unreadable(path_);
   {
-    io::Hdf5Writer file(path_, "x");
+    io::Hdf5Writer file(path_);
     file.root().add({"format", std::string("something else")});
-    file.close();
+    file.commit();
   }
   expect_unreadable(path_);
   io::write_simulation(path_, result_);

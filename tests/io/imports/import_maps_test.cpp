@@ -36,7 +36,7 @@ class ImportMapsFile : public ::testing::Test {
   }
   /// Writes a file with one map of two rows and three columns.
   void write_small(const std::string& format, std::vector<double> a_edges, std::size_t values) const {
-    io::Hdf5Writer file(path_, "maps.h5");
+    io::Hdf5Writer file(path_);
     file.root().add(io::Attribute{"format", format});
     file.root().add(io::Attribute{"body", std::string("rail")});
     const double zero = 0.0;
@@ -46,7 +46,7 @@ class ImportMapsFile : public ::testing::Test {
     group.write({"a_edges", {a_edges.size()}, "m", ""}, a_edges);
     group.write({"s_edges", {4}, "m", ""}, s);
     group.write({"value", {values}, "m", ""}, value);
-    file.close();
+    file.commit();
   }
   void refused(const std::string& words) const {
     try {

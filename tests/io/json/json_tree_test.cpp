@@ -80,7 +80,13 @@ TEST_F(JsonTreeFile, RefusesWhatIsNoJson) {
     EXPECT_THAT(error_of([&] { read(text); }), HasSubstr("is no JSON, or was cut off")) << text;
   EXPECT_THAT(error_of([&] { read("[1]"); }), HasSubstr("the file is a list where an object"));
   const std::string deep = std::string(200000, '[');
-  EXPECT_THAT(error_of([&] { read(deep); }), HasSubstr("nested too deeply"));
+  EXPECT_THAT(error_of([&] { read(deep); }), HasSubstr("a.json:1:101: the file is nested too deeply"));
+  const auto nested = [](int depth) {
+    return "{\"text\": \"\\\"[[[\",\n\"a\": " + std::string(static_cast<std::size_t>(depth - 1), '[') +
+           std::string(static_cast<std::size_t>(depth - 1), ']') + "}";
+  };
+  EXPECT_EQ(error_of([&] { read(nested(100)); }), "");
+  EXPECT_THAT(error_of([&] { read(nested(101)); }), HasSubstr("a.json:2:105: the file is nested too deeply"));
 }
 
 }  // namespace

@@ -213,6 +213,9 @@ TEST_F(Study, ErrorsOfBaseAndFigures) {
   EXPECT_THAT(samples::error_of([&] { read(kSimulation); }), HasSubstr("study.toml:1:1: [study] is missing"));
   EXPECT_THAT(error("force.svg", "force.png"),
               HasSubstr("study.toml:25:8: study.figures.file = 'force.png' must end with .svg"));
+  // neither out of the folder of results nor over its sweep.csv
+  for (const char* name : {"../force.svg", "/tmp/force.svg", "a/force.svg", "./force.svg", "sweep.svg"})
+    EXPECT_THAT(error("force.svg", name), HasSubstr(std::string("study.figures.file = '") + name + "' is no name"));
   EXPECT_THAT(error("\"summary\"", "\"sumary\""), HasSubstr("is not one of \"history\", \"summary\", \"patches\""));
   EXPECT_THAT(error("x = \"simulation.speed_m_s\"\n", ""), HasSubstr("study.figures.x is missing"));
   EXPECT_THAT(error("y = [\"max_force_N\"]", "y = []"), HasSubstr("study.figures.y is empty"));

@@ -72,6 +72,9 @@ TEST(History, OtherElementsTakeTheMeanOverTheirArea) {
   const Grid2 whole{h.grid.x0 + 2 * h.grid.dx, h.grid.y0 - h.grid.dy, h.grid.dx, h.grid.dy, 4, 6};
   EXPECT_EQ(averaged_on(h, whole, 0.3, 0.0), on_grid(h, whole, 0.3, 0.0));
   EXPECT_EQ(averaged_on(h, whole, 0.3, 0.0).pressure[whole.index(0, 1)], h.pressure[h.grid.index(2, 0)]);
+  // whose sums would not end
+  EXPECT_THROW(averaged_on(h, {0.0, 0.0, 1e290, 2e-3, 3, 3}, 0.3, 0.0), Error);
+  EXPECT_THROW(averaged_on(h, {1e300, 0.0, 1e-3, 2.1e-3, 3, 3}, 0.3, 0.0), Error);
 }
 
 TEST(History, AShiftInPartsIsTheWholeShiftWhileItGrows) {

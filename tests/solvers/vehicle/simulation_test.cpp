@@ -9,6 +9,7 @@
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
+#include "treadmark/tests/support/counting_token.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -215,6 +216,34 @@ TEST(Simulation, GoesOnWithTheSameBits) {
     ByteReader cut(std::span(saved.bytes()).first(length));
     EXPECT_THROW(rest.restore(cut), Error) << length;
   }
+}
+
+TEST(Simulation, CancelledStepsLeaveItWhereItWas) {
+  SimulationSettings settings = fixed_steps(0.05, 2e-3);
+  settings.position_tolerance = 1e-8;
+  settings.min_step = 1e-10;
+  const VehicleOnTrack first = test_vehicle(), second = test_vehicle();
+  const SystemState start = lifted(first, -0.08);
+  Simulation whole(first, start, settings), disturbed(second, start, settings);
+  run(whole);
+  int cancelled = 0;
+  constexpr long kNever = 1000;
+  for (long last = 1; !disturbed.finished(); last = last == kNever ? 1 : last == 7 ? kNever : last + 1) {
+    const treadmark::testing::CountingToken token(last);
+    const CancellationScope scope(&token);
+    const double time = disturbed.state().time;
+    try {
+      disturbed.advance();
+    } catch (const Cancelled&) {
+      ++cancelled;
+      EXPECT_EQ(disturbed.state().time, time);
+    }
+  }
+  EXPECT_GT(cancelled, 10);
+  EXPECT_EQ(disturbed.state().q, whole.state().q);
+  EXPECT_EQ(disturbed.state().v, whole.state().v);
+  EXPECT_EQ(disturbed.counts().steps, whole.counts().steps);
+  EXPECT_EQ(disturbed.counts().evaluations, whole.counts().evaluations);
 }
 
 TEST(Simulation, BadSettingsAndStuckStepsAreErrors) {

@@ -118,7 +118,7 @@ TEST(TableContact, ABallIsHertzian) {
     }
 }
 
-class AgainstPair : public testing::TestWithParam<double> {
+class AgainstPair : public ::testing::TestWithParam<double> {
  protected:
   wheelrail::PairSolution solve(double y, double load, bool creeps, const wheelrail::SixMotion& velocity = {}) {
     wheelrail::Problem p = standard_problem(GetParam());
@@ -175,7 +175,7 @@ TEST_P(AgainstPair, LateralCreepForces) {
     }
 }
 
-INSTANTIATE_TEST_SUITE_P(Cants, AgainstPair, testing::Values(0.0, 1.0 / 40.0));
+INSTANTIATE_TEST_SUITE_P(Cants, AgainstPair, ::testing::Values(0.0, 1.0 / 40.0));
 
 TEST(TableContact, ClosedLoopsGainNoWork) {
   const auto table = standard_table();

@@ -1,0 +1,140 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/tests/faults/output_rows.hpp"
+
+#include <gtest/gtest.h>
+
+#include <sstream>
+
+#include "treadmark/core/parts.hpp"
+#include "treadmark/tests/app/program.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+const char* kCoarseCase = R"(
+[wheel]
+shape.standard = "S1002"
+[rail]
+shape.standard = "60E1"
+[track]
+cant = "1:40"
+[wheelset]
+vertical_force_N = 80e3
+velocity_m_s = 2
+vpitch_rad_s = -4.3478
+[discretisation]
+dx_mm = 2.0
+ds_mm = 2.0
+)";
+
+const char* kShortStudy = R"([study]
+title = "Two speeds"
+base = "short.toml"
+
+[[study.vary]]
+key = "simulation.speed_m_s"
+label = "speed [m/s]"
+values = [20, 40]
+
+[[study.figures]]
+file = "force-by-speed.svg"
+kind = "summary"
+x = "simulation.speed_m_s"
+y = ["q_max_N"]
+)";
+
+#define RESULTS "run $case.toml -o $first;run $case.toml -o $second --set wheelset.vertical_force_N=70e3"
+#define SCANS "scan $case.toml -o $scan.ply --body rail --range-mm -40 60 --points 4000"
+#define RAIL "--resolution 8 --range-mm=-16,16"
+#define OTHER_RAIL "--resolution 8 --range-mm=-24,24"
+#define WHEEL "--body wheel --nominal-radius 460 --resolution 8 --range-deg=-1,1"
+#define OTHER_WHEEL "--body wheel --nominal-radius 460 --resolution 8 --range-deg=-2,2"
+#define COMPARE "compare $case.toml --resolutions 8 --bodies rail --backends spline"
+#define BENCH "bench $case.toml --resolutions 4 --backends spline --seconds-per-measure 0.0001"
+#define LESS " --set wheelset.vertical_force_N=70e3"
+
+const std::vector<OutputRow> kRows{
+    {"run", "", "", "run $case.toml -o @run --json @run.json", "run $case.toml -o @run --json @run.json" LESS, 2},
+    {"run_json", "", "", "run $case.toml --json @run.json", "run $case.toml --json @run.json" LESS, 3},
+    {"run_report", "report hdf5", "", "run $case.toml --report @run.html", "run $case.toml --report @run.html" LESS, 3},
+    {"compare", "", "", COMPARE " -o @compare --json @compare.json", COMPARE " -o @compare --json @compare.json" LESS,
+     0},
+    {"bench", "", "", BENCH " -o @bench --json @bench.json", nullptr, 0},
+    {"convert_slcs", "", "", "convert $rail.prr @rail.slcs " RAIL, "convert $rail.prr @rail.slcs " OTHER_RAIL, 4},
+    {"convert_slcw", "", "", "convert $wheel.txt @wheel.slcw " WHEEL, "convert $wheel.txt @wheel.slcw " OTHER_WHEEL, 1},
+    {"convert_ply", "embree", "", "convert $rail.prr @rail.ply " RAIL, "convert $rail.prr @rail.ply " OTHER_RAIL, 3},
+    {"convert_stl", "embree", "", "convert $rail.prr @rail.stl " RAIL, "convert $rail.prr @rail.stl " OTHER_RAIL, 3},
+    {"convert_obj", "embree", "", "convert $rail.prr @rail.obj " RAIL, "convert $rail.prr @rail.obj " OTHER_RAIL, 3},
+    {"convert_off", "embree", "", "convert $rail.prr @rail.off " RAIL, "convert $rail.prr @rail.off " OTHER_RAIL, 3},
+    {"convert_vdb", "openvdb", "", "convert $rail.prr @rail.vdb " RAIL, "convert $rail.prr @rail.vdb " OTHER_RAIL, 1},
+    {"convert_prr", "", "", "convert $rail.prr @rail.prr", "convert $rail.prr @rail.prr --smooth 100", 3},
+    {"convert_prw", "", "", "convert $wheel.txt @wheel.prw --body wheel",
+     "convert $wheel.txt @wheel.prw --body wheel --smooth 100", 3},
+    {"convert_csv", "", "", "convert $rail.prr @rail.csv", "convert $rail.prr @rail.csv --derivatives", 3},
+    {"convert_toml", "", "", "convert $case.toml @case.toml", "convert $case.toml @case.toml" LESS, 3},
+    {"convert_inp", "", "", "convert $case.inp @case.inp", "convert $case.inp @case.inp --set track.cant=0.02", 3},
+    {"scan", "scans", "", "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 300 --truth @truth.json",
+     "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 200 --truth @truth.json", 0},
+    {"scan_las", "scans", "", "scan $rail.prr -o @scan.las --range-mm -20 20 --points 300",
+     "scan $rail.prr -o @scan.las --range-mm -20 20 --points 200", 0},
+    {"import", "scans cgal", SCANS, "import $scan.ply -o @rail.slcs --body rail --resolution 4 --json @audit.json",
+     "import $scan.ply -o @rail.slcs --body rail --resolution 5 --json @audit.json", 0},
+    {"import_report", "scans cgal report hdf5", SCANS,
+     "import $scan.ply -o @rail.ply --body rail --resolution 4 --report @audit", nullptr, 0},
+    {"report", "report hdf5", RESULTS, "report $first -o @report.html", "report $second -o @report.html", 3},
+    {"plot", "report hdf5", RESULTS, "plot $first --what pressure -o @plot.svg",
+     "plot $second --what pressure -o @plot.svg", 3},
+    {"check", "report", "", "check $case.toml -o @check --report @check.html",
+     "check $case.toml -o @check --report @check.html --set wheelset.y_mm=1", 3},
+    {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation --json @simulation.json",
+     "simulate $short.toml -o @simulation --json @simulation.json --set simulation.speed_m_s=30", 0},
+    {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0},
+};
+
+std::vector<std::string> split(const std::string& text, char at) {
+  std::vector<std::string> parts;
+  std::istringstream in(text);
+  for (std::string part; std::getline(in, part, at);)
+    if (!part.empty()) parts.push_back(part);
+  return parts;
+}
+
+}  // namespace
+
+std::ostream& operator<<(std::ostream& out, const OutputRow& row) { return out << row.name; }
+
+const std::vector<OutputRow>& output_rows() { return kRows; }
+
+std::string missing_part(const OutputRow& row) {
+  for (const std::string& part : split(row.parts, ' '))
+    if (!has_part(part)) return part;
+  return {};
+}
+
+OutputScene::OutputScene() : out_(std::filesystem::canonical(input_.folder()) / "out") {
+  std::filesystem::create_directories(out_);
+  input_.write("case.toml", kCoarseCase);
+  input_.write("short.toml", input_.read("simulation.toml"));
+  input_.edit("short.toml", "distance_m = 0.06\ncheckpoint_s = 0.02", "distance_m = 0.01\ncheckpoint_s = 0.0002");
+  input_.write("short-study.toml", kShortStudy);
+}
+
+std::vector<std::string> OutputScene::words(const std::string& command) const {
+  std::vector<std::string> out = split(command, ' ');
+  for (std::string& word : out)
+    if (word.front() == '$')
+      word = (input_.folder() / word.substr(1)).string();
+    else if (word.front() == '@')
+      word = (out_ / word.substr(1)).string();
+  return out;
+}
+
+void OutputScene::prepare(const OutputRow& row) const {
+  for (const std::string& command : split(row.prepare, ';')) {
+    const ProgramResult made = run_program(words(command));
+    ASSERT_EQ(made.status, 0) << command << ": " << made.err;
+  }
+}
+
+}  // namespace treadmark::testing

@@ -1,0 +1,99 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gtest/gtest.h>
+
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "treadmark/core/parts.hpp"
+#include "treadmark/tests/app/running_program.hpp"
+#include "treadmark/tests/faults/file_tree.hpp"
+#include "treadmark/tests/faults/output_rows.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+/// Runs the program with its standard output redirected as the shell says.
+ProgramResult redirected(const std::string& how, const std::vector<std::string>& arguments) {
+  std::vector<std::string> command{"sh", "-c", "exec \"$@\" " + how, "sh", "treadmark", "--quiet", "--threads", "1"};
+  command.insert(command.end(), arguments.begin(), arguments.end());
+  return RunningProgram(command).wait();
+}
+
+const std::vector<OutputRow> kPrinting{
+    {"run", "", "", "run $case.toml", nullptr, 0},
+    {"run_json", "", "", "run $case.toml --json -", nullptr, 0},
+    {"compare", "", "", "compare $case.toml --resolutions 8 --bodies rail --backends spline", nullptr, 0},
+    {"diff", "hdf5", "run $case.toml -o $first", "diff $first $first", nullptr, 0},
+    {"bench", "", "", "bench $case.toml --resolutions 4 --backends spline --seconds-per-measure 0.001", nullptr, 0},
+    {"convert", "", "", "convert $rail.prr @rail.prr", nullptr, 0},
+    {"scan", "scans", "", "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 300", nullptr, 0},
+    {"import_settings", "scans", "", "import --list-settings", nullptr, 0},
+    {"report", "report hdf5", "run $case.toml -o $first", "report $first -o @report.html", nullptr, 0},
+    {"plot", "report hdf5", "run $case.toml -o $first", "plot $first --what pressure -o -", nullptr, 0},
+    {"check", "", "", "check $case.toml", nullptr, 0},
+    {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation", nullptr, 0},
+    {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0},
+    {"list", "", "", "list verbs", nullptr, 0},
+    {"schema", "", "", "schema", nullptr, 0},
+    {"help", "", "", "--help", nullptr, 0},
+    {"version", "", "", "--version", nullptr, 0},
+};
+
+class StandardOutput : public ::testing::TestWithParam<OutputRow> {};
+
+TEST_P(StandardOutput, WhatCannotBePrintedIsSaid) {
+  const OutputRow& row = GetParam();
+  if (const std::string part = missing_part(row); !part.empty())
+    GTEST_SKIP() << left_out_message(part, "what this test needs");
+  if (!std::filesystem::is_character_file("/dev/full")) GTEST_SKIP() << "no /dev/full";
+  const OutputScene scene;
+  scene.prepare(row);
+  ASSERT_EQ(redirected("> /dev/null", scene.words(row.command)).status, 0);
+  restore(scene.out(), {});
+  const ProgramResult full = redirected("> /dev/full", scene.words(row.command));
+  EXPECT_GE(full.status, 1);
+  EXPECT_LE(full.status, 4);
+  EXPECT_NE(full.err, "");
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, StandardOutput, ::testing::ValuesIn(kPrinting),
+                         [](const auto& which) { return std::string(which.param.name); });
+
+/// The first file that a program opens gets the number of a standard output that is closed.
+class ClosedOutput : public ::testing::TestWithParam<OutputRow> {};
+
+TEST_P(ClosedOutput, NothingIsPrintedIntoFiles) {
+  const OutputRow& row = GetParam();
+  if (const std::string part = missing_part(row); !part.empty())
+    GTEST_SKIP() << left_out_message(part, "what this test needs");
+  const OutputScene scene;
+  scene.prepare(row);
+  ASSERT_EQ(redirected("> /dev/null", scene.words(row.command)).status, 0);
+  const FileTree expected = tree_of(scene.out());
+  for (const char* how : {">&-", "2>&-", ">&- 2>&-", "<&- >&- 2>&-"}) {
+    restore(scene.out(), {});
+    const ProgramResult end = redirected(how, scene.words(row.command));
+    EXPECT_GE(end.status, 0) << how;
+    EXPECT_LE(end.status, 4) << how;
+    const FileTree found = tree_of(scene.out());
+    if (end.status == 0) {
+      EXPECT_EQ(found.size(), expected.size()) << how;
+    }
+    // times in the files differ, so only what is printed would make them longer
+    for (const auto& [path, content] : found) {
+      const auto same = expected.find(path);
+      ASSERT_NE(same, expected.end()) << how << ": " << path;
+      constexpr double kTimes = 64.0;  // [bytes] digits of times
+      EXPECT_NEAR(static_cast<double>(content.size()), static_cast<double>(same->second.size()), kTimes)
+          << how << ": " << path;
+    }
+  }
+}
+
+INSTANTIATE_TEST_SUITE_P(Rows, ClosedOutput, ::testing::ValuesIn(output_rows()),
+                         [](const auto& which) { return std::string(which.param.name); });
+
+}  // namespace
+}  // namespace treadmark::testing
