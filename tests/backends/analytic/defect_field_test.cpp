@@ -9,6 +9,7 @@
 #include "treadmark/backends/analytic/defects/defects.hpp"
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/tests/backends/analytic/defect_formulas.hpp"
+#include "treadmark/tests/support/mutation.hpp"
 
 namespace treadmark::testing {
 namespace {
@@ -109,6 +110,26 @@ TEST_P(DefectFields, RangesHoldValuesAndSlopes) {
     EXPECT_GT(zero, 0);
   }
   EXPECT_EQ(tight, small);
+}
+
+TEST(DefectField, RandomShapesFollowTheFormulas) {
+  constexpr double kRounding = 1e-13;  // of phases far from the origin, times amplitudes of millimetres
+  constexpr int kPoints = 50;
+  std::mt19937 random(23);
+  int changed = 0;
+  const int shapes = mutants(400);
+  for (int i = 0; i < shapes; ++i) {
+    const NamedDefects d = random_defect(random);
+    const auto field = analytic::make_defect_field(d.defects, d.body, kTestRadius, nullptr);
+    for (int k = 0; k < kPoints; ++k) {
+      const double u = std::uniform_real_distribution<double>(d.u_min, d.u_max)(random);
+      const double y = std::uniform_real_distribution<double>(d.y_min, d.y_max)(random);
+      const double value = field->jet(u, y).value;
+      ASSERT_NEAR(value, d.offset(u, y), kRounding) << d.name << ' ' << i << ' ' << u << ' ' << y;
+      if (value != 0.0) ++changed;
+    }
+  }
+  EXPECT_GT(changed, shapes * kPoints / 10);
 }
 
 TEST(DefectField, FlattenedHeadIsTheBaseCutToAPlane) {

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <functional>
 #include <numbers>
+#include <random>
 #include <string>
 #include <vector>
 
@@ -116,6 +117,63 @@ inline std::vector<NamedDefects> offset_defects() {
                  -0.03,
                  0.04});
   return all;
+}
+
+/// A flat, a polygon, a squat or a corrugation of any size within what rails and wheels have.
+inline NamedDefects random_defect(std::mt19937& random) {
+  constexpr double kPi = std::numbers::pi, R = kTestRadius;
+  const auto between = [&](double a, double b) { return std::uniform_real_distribution<double>(a, b)(random); };
+  const double length = between(0.02, 0.1), width = between(0.02, 0.08), depth = between(0.05e-3, 1e-3);
+  const double u0 = between(-3.0, 3.0), y0 = between(-0.02, 0.02);
+  switch (random() % 4) {
+    case 0:
+      return {"flat",
+              Body::wheel,
+              {.flats = {{WheelFlat::Shape::rounded, length, depth, u0, y0, width}}},
+              [=](double t, double y) { return -depth * fade(R * turn(t - u0), length) * fade(y - y0, width); },
+              u0 - length / R,
+              u0 + length / R,
+              y0 - width,
+              y0 + width};
+    case 1: {
+      const int order = 1 + static_cast<int>(random() % 30);
+      return {"polygon",
+              Body::wheel,
+              {.polygonizations = {{{{order, 0.1 * depth, u0}}, y0, width}}},
+              [=](double t, double y) { return 0.1 * depth * std::cos(order * t - u0) * fade(y - y0, width); },
+              -4.0,
+              4.0,
+              y0 - width,
+              y0 + width};
+    }
+    case 2: {
+      const Squat squat{.length = length, .width = width, .depth = depth, .x_center = u0, .y_center = y0};
+      return {"squat",
+              Body::rail,
+              {.squats = {squat}},
+              [=](double x, double y) { return depth * fade(x - u0, length) * fade(y - y0, width); },
+              u0 - length,
+              u0 + length,
+              y0 - width,
+              y0 + width};
+    }
+    default: {
+      const double wave = between(0.02, 0.1), phase = between(-3.0, 3.0), ramp = 0.5 * length;
+      return {"corrugation",
+              Body::rail,
+              {.corrugations = {{{{wave, 0.1 * depth, phase}}, u0, u0 + 3.0 * length, ramp, y0, width}}},
+              [=](double x, double y) {
+                const double in = std::clamp((x - u0) / ramp, 0.0, 1.0);
+                const double out = std::clamp((u0 + 3.0 * length - x) / ramp, 0.0, 1.0);
+                return std::pow(std::sin(0.5 * kPi * in) * std::sin(0.5 * kPi * out), 2) * fade(y - y0, width) * 0.1 *
+                       depth * std::cos(2.0 * kPi * (x - u0) / wave - phase);
+              },
+              u0 - length,
+              u0 + 4.0 * length,
+              y0 - width,
+              y0 + width};
+    }
+  }
 }
 
 }  // namespace treadmark::testing
