@@ -73,7 +73,7 @@ const std::vector<OutputRow> kRows{
      "convert $wheel.txt @wheel.prw --body wheel --smooth 100", 3},
     {"convert_csv", "", "", "convert $rail.prr @rail.csv", "convert $rail.prr @rail.csv --derivatives", 3},
     {"convert_toml", "", "", "convert $case.toml @case.toml", "convert $case.toml @case.toml" LESS, 3},
-    {"convert_inp", "", "", "convert $case.inp @case.inp", "convert $case.inp @case.inp --set track.cant=0.02", 3},
+    {"convert_inp", "", "", "convert $case.inp @case.inp", "convert $case.inp @case.inp --set wheelset.y_mm=1", 3},
     {"scan", "scans", "", "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 300 --truth @truth.json",
      "scan $rail.prr -o @scan.xyz --range-mm -20 20 --points 200 --truth @truth.json", 0},
     {"scan_las", "scans", "", "scan $rail.prr -o @scan.las --range-mm -20 20 --points 300",
