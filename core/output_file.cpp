@@ -366,8 +366,9 @@ void OutputFolder::move_into(const std::string& last) {
   remove_quietly(std::exchange(temporary_, {}));
 }
 
-FolderLock::FolderLock(const fs::path& folder)
-    : descriptor_(open_retrying(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY)) {
+FolderLock::FolderLock(const fs::path& folder) {
+  if (is_hidden_name(folder.filename().string())) return;  // nobody else writes there, and its maker holds it
+  descriptor_ = open_retrying(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
   if (descriptor_ < 0) return;
   while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
   }

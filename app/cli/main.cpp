@@ -36,7 +36,7 @@ void hold_standard_streams() {
 }
 
 /// Everything but whether the standard output took what it was given.
-int run(int argc, char** argv) {
+int parse_and_run(int argc, char** argv) {
   CLI::App program{"Treadmark: wheel-rail contact on any 3D surface"};
   program.set_version_flag(
       "--version", "treadmark " + app::version() + " (" + app::git_revision() + ")\n" + app::build_description());
@@ -57,15 +57,21 @@ int run(int argc, char** argv) {
     CLI::App* app = program.add_subcommand(verb.name, verb.summary);
     commands.emplace_back(app, verb.add(*app));
   }
-
   try {
     program.parse(argc, argv);
-    common.threads_given = threads->count() > 0;
-    for (const auto& [verb, command] : commands)
-      if (verb->parsed()) return command(common);
-    return cli::kUsage;
   } catch (const CLI::ParseError& e) {
     return program.exit(e) == 0 ? cli::kOk : cli::kUsage;
+  }
+  common.threads_given = threads->count() > 0;
+  for (const auto& [verb, command] : commands)
+    if (verb->parsed()) return command(common);
+  return cli::kUsage;
+}
+
+/// The same with every failure as a message and a status.
+int run(int argc, char** argv) {
+  try {
+    return parse_and_run(argc, argv);
   } catch (const Error& e) {
     std::cerr << "treadmark: " << e.what() << '\n';
     return exit_status(e);
