@@ -35,23 +35,6 @@ double radius_of(const FittedScan& fit) {
   return fit.scan.body == Body::wheel ? fit.scan.placement.nominal_radius : 0.0;
 }
 
-/// Size and digest; those of slices cover the files of the slices too.
-void describe_file(const std::filesystem::path& file, io::ImportReport::Output& out) {
-  out.bytes = std::filesystem::file_size(file);
-  out.sha256 = io::sha256_file(file);
-  if (out.kind != "slices") return;
-  std::vector<std::filesystem::path> parts;
-  for (const auto& entry : std::filesystem::directory_iterator(file.parent_path() / file.stem()))
-    parts.push_back(entry.path());
-  std::sort(parts.begin(), parts.end());
-  std::string digests = out.sha256;
-  for (const auto& part : parts) {
-    digests += io::sha256_file(part);
-    out.bytes += std::filesystem::file_size(part);
-  }
-  out.sha256 = io::sha256_hex(digests);
-}
-
 void refuse_holes(const FittedScan& fit, const std::filesystem::path& file, const char* what) {
   if (fit.coverage.whole()) return;
   const scans::Hole& hole = fit.coverage.holes.front();
@@ -295,7 +278,7 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const s
       out.kind = "slices";
       const SliceSet slices = fit.sections != nullptr ? *fit.sections : slices_of(fit, settings);
       out.details = fmt::format("{} slices of {} points", slices.u.size(), slices.profiles.front().y.size());
-      io::write_slices(place, slices, summary);
+      out.bytes = io::write_slices(place, slices, summary);
     } else if (io::is_mesh_file(file)) {
       out.kind = "triangles";
       const TriangleMesh mesh = triangles_of(fit, settings);
@@ -310,7 +293,8 @@ io::ImportReport::Output write_output(const std::filesystem::path& file, const s
     if (error.where().file != place.string()) throw;
     throw Error(error.kind(), error.message(), {file.string()}, error.advice());  // nobody knows the place
   }
-  describe_file(place, out);
+  if (out.bytes == 0) out.bytes = std::filesystem::file_size(place);
+  out.sha256 = io::sha256_file(place);  // a slices file holds that of its slices
   std::optional<NaturalSurface> sections;
   if (fit.sections != nullptr) {
     SurfaceSpec spec;

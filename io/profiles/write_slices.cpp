@@ -48,17 +48,20 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
 
 }  // namespace
 
-void write_slices(const std::filesystem::path& file, const SliceSet& slices, std::span<const std::string> comments) {
+std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& slices,
+                            std::span<const std::string> comments) {
   check(file, slices);
   const bool rail = slices.body == Body::rail;
   OutputFolder folder(file.parent_path() / (file.filename().string() + "-slices"), OutputFolder::Old::replaced);
   std::string sums, text;
+  std::uintmax_t bytes = 0;
   for (std::size_t i = 0; i < slices.u.size(); ++i) {
     const Profile& profile = slices.profiles[i];
     text.clear();
     for (std::size_t k = 0; k < profile.y.size(); ++k)
       fmt::format_to(std::back_inserter(text), "{:.10f} {:.10f}\n", kMilli * profile.y[k], kMilli * profile.z[k]);
     write_file(folder.path() / slice_name(i), text);
+    bytes += text.size();
     sums += sha256_hex(text) + '\n';
   }
   const std::string sum = sha256_hex(sums);
@@ -79,6 +82,7 @@ void write_slices(const std::filesystem::path& file, const SliceSet& slices, std
   folder.replace(file.parent_path() / name);
   write_file(file, index);
   remove_other_slices(file);
+  return bytes + index.size();
 }
 
 void remove_other_slices(const std::filesystem::path& file) noexcept {

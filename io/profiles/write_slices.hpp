@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
 #include <filesystem>
 #include <span>
 #include <string>
@@ -16,8 +17,9 @@ namespace treadmark::io {
 /// stay; then folders of earlier writings go. Errors: Error(configuration) for an extension of the other body, fewer
 /// than four slices, features, slices nearer than 1e-6 m or rad, or a file that cannot be written. comments: lines put
 /// at the top of the slices file, without line ends.
-void write_slices(const std::filesystem::path& file, const SliceSet& slices,
-                  std::span<const std::string> comments = {});
+/// Returns the number of bytes of all of it.
+std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& slices,
+                            std::span<const std::string> comments = {});
 
 /// Removes the folders of slices that earlier writings of a slices file made: those NAME-SUM beside it that it does not
 /// name. For one that was written elsewhere and moved. Never throws.
