@@ -13,9 +13,11 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
+#include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
+#include <string>
 #include <system_error>
 #include <utility>
 #include <vector>
@@ -343,6 +345,11 @@ void OutputFolder::move_into(const std::string& last) {
     if (const int failed = folder_to_disk(folder); failed != 0) cannot_write(folder, failed);
   };
   const auto move = [&](const fs::path& name) {
+    if (fs::is_symlink(fs::symlink_status(target_ / name, error)) || is_stream(target_ / name)) {
+      std::ifstream made(temporary_ / name, std::ios::binary);
+      write_file(target_ / name, std::string{std::istreambuf_iterator<char>(made), {}});
+      return;
+    }
     fs::rename(temporary_ / name, target_ / name, error);
     if (error) cannot_write(target_ / name, error.value());
   };
@@ -364,6 +371,26 @@ void OutputFolder::move_into(const std::string& last) {
   }
   made_.clear();
   remove_quietly(std::exchange(temporary_, {}));
+}
+
+bool is_stream(const fs::path& target) noexcept {
+  std::error_code unknown;
+  const fs::file_status status = fs::status(target, unknown);
+  return fs::exists(status) && !fs::is_regular_file(status) && !fs::is_directory(status);
+}
+
+void make_folder(const fs::path& folder) {
+  make_parents(folder, folder / "x");
+  std::error_code error;
+  if (!fs::is_directory(folder, error)) cannot_write(folder, error ? error.value() : ENOTDIR);
+}
+
+void remove_file(const fs::path& file) {
+  std::error_code error;
+  const bool removed = fs::remove(file, error);
+  if (error) cannot_write(file, error.value());
+  if (!removed) return;
+  if (const int failed = folder_to_disk(file.parent_path()); failed != 0) cannot_write(file, failed);
 }
 
 FolderLock::FolderLock(const fs::path& folder) {

@@ -38,6 +38,15 @@ class OutputFile {
 /// Writes a whole file in this manner.
 void write_file(const std::filesystem::path& target, std::string_view bytes);
 
+/// Whether a target is there and is a pipe, a device or the like: what is written to it cannot be read again.
+bool is_stream(const std::filesystem::path& target) noexcept;
+
+/// Makes a folder, with those that it lies in, for good; does nothing where it is. Errors as for OutputFile.
+void make_folder(const std::filesystem::path& folder);
+
+/// Removes a file for good, if there is one. Errors as for OutputFile.
+void remove_file(const std::filesystem::path& file);
+
 /// Files that belong together, written into a hidden folder beside the target. Without a commit the target stays as it
 /// was. Errors as for OutputFile. One object, one thread.
 class OutputFolder {

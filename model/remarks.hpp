@@ -15,6 +15,7 @@ namespace treadmark {
 /// that finds it (solvers/kalker/plausibility.hpp for a patch, solvers/wheelrail/plausibility.hpp for a pair).
 enum class RemarkKind : std::uint8_t {
   grid_cuts_contact,
+  grid_touches_contact,
   surface_ends_in_contact,
   hole_in_contact,
   contact_hidden,
@@ -44,6 +45,8 @@ struct RemarkRow {
 inline constexpr RemarkRow kRemarkRows[] = {
     {RemarkKind::grid_cuts_contact, "grid_cuts_contact", true,
      "more pressure at the border of the potential contact area than at the edge of a patch: it goes on beyond"},
+    {RemarkKind::grid_touches_contact, "grid_touches_contact", false,
+     "contact reaches the border of the potential contact area with no more pressure than at the edge of a patch"},
     {RemarkKind::surface_ends_in_contact, "surface_ends_in_contact", true,
      "contact reaches the end of a surface's data: pressures there depend on where the data end"},
     {RemarkKind::hole_in_contact, "hole_in_contact", true,

@@ -90,8 +90,7 @@ void check_case_file(const CheckOptions& options, const std::filesystem::path& p
   if (!pictures.empty()) {
     make_folder(pictures);
     for (std::size_t k = 0; k < cases.size(); ++k)
-      write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number),
-                          input.positions[k].second);
+      write_file(pictures / fmt::format("position_{:04}.svg", cases[k].given->number), input.positions[k].second);
   }
   for (const app::CheckedProfile& profile : app::check_profiles(file)) add_profile(profile, input);
   input.outcome = fmt::format("{}{}, no errors", file.cases.size(), file.cases.size() == 1 ? " case" : " cases");

@@ -23,13 +23,6 @@
 
 namespace treadmark::cli {
 
-void make_folder(const std::filesystem::path& folder) {
-  std::error_code failure;
-  std::filesystem::create_directories(folder, failure);
-  if (failure)
-    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(), {folder.string()});
-}
-
 std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,
                                                   const std::vector<std::string>& inputs) {
   if (inputs.size() == 1) return {folder};

@@ -11,9 +11,6 @@
 
 namespace treadmark::cli {
 
-/// Makes a folder for output, and those it lies in. Errors: Error(configuration).
-void make_folder(const std::filesystem::path& folder);
-
 /// The folders for what becomes of input files: the one that was asked for, or where there are several files one with
 /// the name of each in it. Errors: Error(configuration) where two files would share one.
 std::vector<std::filesystem::path> output_folders(const std::filesystem::path& folder,

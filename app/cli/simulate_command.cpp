@@ -111,9 +111,8 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       return kOk;
     }
     if (!options.resume) {
-      std::error_code failure;
-      std::filesystem::remove(folder / "simulation.h5", failure);
-      std::filesystem::remove(run.checkpoint_file, failure);
+      remove_file(folder / "simulation.h5");  // where it stands, the other files are of its making
+      remove_file(run.checkpoint_file);
     }
   }
 

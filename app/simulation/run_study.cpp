@@ -7,9 +7,7 @@
 #include <chrono>
 #include <cstdlib>
 #include <exception>
-#include <fstream>
 #include <mutex>
-#include <sstream>
 #include <thread>
 
 #include <fmt/format.h>
@@ -24,6 +22,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
@@ -36,13 +35,6 @@ namespace fs = std::filesystem;
 constexpr const char* kIdentityFile = "study.id";
 constexpr const char* kLockFile = "lock";
 constexpr auto kPoll = std::chrono::milliseconds(200);
-
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file);
-  std::ostringstream text;
-  text << in.rdbuf();
-  return text.str();
-}
 
 fs::path folder_of(const StudyOptions& options, const io::StudyRun& run) {
   return options.folder / "runs" / fmt::format("run_{:04}", run.number);
@@ -85,6 +77,7 @@ class Workers {
 
  private:
   fs::path store_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "simulation.h5"; }
+  fs::path checkpoint_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "unfinished.h5"; }
   bool is_finished(std::size_t i) const { return fs::exists(store_of(i)); }
   bool stopped() const { return stop_ || progress_.stop_requested(); }
 
@@ -105,7 +98,11 @@ class Workers {
 
   bool known_finished(std::size_t i) {
     const std::lock_guard lock(mutex_);
-    if (!finished_[i] && is_finished(i)) note_finished(i);
+    if (!finished_[i] && is_finished(i)) {
+      std::error_code ignored;
+      fs::remove(checkpoint_of(i), ignored);  // should somebody not have come to it
+      note_finished(i);
+    }
     return finished_[i] != 0;
   }
 
@@ -120,7 +117,7 @@ class Workers {
   bool solve(std::size_t i, SurfaceStore& surfaces) {
     const io::StudyRun& run = study_.runs[i];
     const fs::path folder = folder_of(options_, run);
-    fs::create_directories(folder);
+    make_folder(folder);
     const auto lock = FileLock::attempt(folder / kLockFile);
     if (!lock) return false;
     if (is_finished(i)) return true;
@@ -129,7 +126,7 @@ class Workers {
     SimulationOptions wanted;
     wanted.settings = run.overrides;
     wanted.swept = swept_of(study_, run);
-    wanted.checkpoint_file = folder / "unfinished.h5";
+    wanted.checkpoint_file = checkpoint_of(i);
     wanted.resume = true;
     wanted.store_mutex = &store_mutex();
     Progress inner;
@@ -178,15 +175,11 @@ void claim_folder(const io::StudyFile& study, const StudyOptions& options) {
     throw Error(ErrorKind::configuration, options.folder.string() + " holds no study to go on with", {},
                 "leave --resume out to begin one");
   const std::string identity = study_identity(study);
-  std::error_code failure;
-  fs::create_directories(options.folder / "runs", failure);
-  if (failure)
-    throw Error(ErrorKind::configuration, "cannot create the output folder: " + failure.message(),
-                {options.folder.string()});
+  make_folder(options.folder / "runs");
   const FileLock lock = FileLock::wait(options.folder / kLockFile);
   if (!fs::exists(file))
     write_file(file, identity);
-  else if (text_of(file) != identity)
+  else if (io::profiles::read_text(file, "study", {}) != identity)
     throw Error(ErrorKind::configuration, options.folder.string() + " holds the results of another study", {},
                 "choose another folder, or remove this one; runs, files, settings and build of Treadmark must be the "
                 "same to go on");
@@ -237,7 +230,7 @@ void write_study_folder(const io::StudyFile& file, const StudyOptions& options, 
   for (const io::StudyFigure& figure : file.figures) outputs.push_back(figure.file);
   const bool all_there =
       std::ranges::all_of(outputs, [&](const fs::path& name) { return fs::exists(options.folder / name); });
-  if (all_there && fs::exists(marker) && text_of(marker) == written) return;
+  if (all_there && fs::exists(marker) && io::profiles::read_text(marker, "study", {}) == written) return;
   remove_leftovers(options.folder);
   io::write_sweep_csv(options.folder / "sweep.csv", study);
   io::write_study_store(options.folder / "sweep.h5", study);

@@ -2,13 +2,18 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/surfaces/convert_surface.hpp"
 
-#include <chrono>
-
 #include <fmt/format.h>
+
+#include <chrono>
+#include <fstream>
+#include <iterator>
+#include <optional>
+#include <string>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
 #include "treadmark/io/profiles/read_slices.hpp"
@@ -40,25 +45,34 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   // the same data again need a resolution to be sampled anew
   if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
   Sampled sampled;
+  // What a pipe or a device takes cannot be read again: it gets the bytes of a file.
+  std::optional<OutputFolder> own;
+  if (is_stream(output) && !slices)
+    own.emplace(std::filesystem::temp_directory_path() / "treadmark", OutputFolder::Old::replaced);
+  const std::filesystem::path place = own ? own->path() / output.filename() : output;
   const auto start = Clock::now();
   if (triangles) {
     out.kind = "triangles";
-    io::write_mesh(output, to_triangles(out.source, wanted, &sampled));
+    io::write_mesh(place, to_triangles(out.source, wanted, &sampled));
   } else if (slices) {
     out.kind = "slices";
     io::write_slices(output, to_slices(out.source, wanted, &sampled));
   } else {
     out.kind = "offsets";
-    write_offsets(output, out.source, wanted, &sampled);
+    write_offsets(place, out.source, wanted, &sampled);
   }
   const double seconds = std::chrono::duration<double>(Clock::now() - start).count();
   // measured on the surface that a reader of the file gets
   io::SurfaceSource again;
-  again.geometry = io::GeometryFile{output, {}};
-  again.where = {output.string(), 0, 0};
+  again.geometry = io::GeometryFile{place, {}};
+  again.where = {place.string(), 0, 0};
   const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
   out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
   out.fit = fit_error(out.source, out.written);
+  if (own) {
+    std::ifstream made(place, std::ios::binary);
+    write_file(output, std::string{std::istreambuf_iterator<char>(made), {}});
+  }
   return out;
 }
 

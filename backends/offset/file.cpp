@@ -52,10 +52,10 @@ std::vector<char> read_all(const fs::path& file) {
   return data;
 }
 
-/// Bytes 22 to 57 of a VDB file are a random number as text, so that no two files
+/// In a VDB file a random number as text follows its mark, three numbers for versions and a flag, so that no two files
 /// are alike. Here it follows from the content: equal offsets give equal files.
 void name_by_content(std::string& bytes) {
-  constexpr std::size_t kAt = 22, kLength = 36;
+  constexpr std::size_t kAt = 21, kLength = 36;
   if (bytes.size() < kAt + kLength) return;
   bytes.replace(kAt, kLength, kLength, '0');
   const std::uint64_t first = sum_of(bytes.data(), bytes.size());

@@ -174,6 +174,8 @@ Hdf5Id open_in_memory(const std::string& name, Hdf5Image& image) {
   const Hdf5Id creation = timeless(H5P_FILE_CREATE, name), access = written(H5Pcreate(H5P_FILE_ACCESS), name);
   if (H5Pset_libver_bounds(access.get(), H5F_LIBVER_V18, H5F_LIBVER_V18) < 0 ||
       H5Pset_fclose_degree(access.get(), H5F_CLOSE_STRONG) < 0 ||  // groups may still be open
+      // nothing in reserve: the image ends where the file does
+      H5Pset_meta_block_size(access.get(), 0) < 0 || H5Pset_small_data_block_size(access.get(), 0) < 0 ||
       H5Pset_fapl_core(access.get(), kIncrement, false) < 0 || H5Pset_file_image_callbacks(access.get(), &calls) < 0)
     cannot_write(name);
   return written(H5Fcreate(name.c_str(), H5F_ACC_TRUNC, creation.get(), access.get()), name);

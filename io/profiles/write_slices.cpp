@@ -35,6 +35,9 @@ void check(const std::filesystem::path& file, const SliceSet& slices) {
         ErrorKind::configuration,
         fmt::format("slices of a {} are written to a file *{}", slices.body == Body::rail ? "rail" : "wheel", expected),
         {file.string()});
+  if (is_stream(file))
+    throw Error(ErrorKind::configuration, "slices are written to a regular file and a folder beside it",
+                {file.string()});
   if (slices.u.size() < kFewestWritten)
     throw Error(ErrorKind::configuration, "a slices file needs at least four slices", {file.string()},
                 "use a finer resolution or a longer range");

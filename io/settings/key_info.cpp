@@ -158,7 +158,8 @@ std::string_view plain(KeyType type) {
 
 void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
   constexpr double kGreatest = 1e100;  // other units of it are numbers still
-  if (!(std::abs(value) <= kGreatest)) refuse_value(fmt::format("{} must be finite", key.path), where);
+  if (!std::isfinite(value)) refuse_value(fmt::format("{} must be finite", key.path), where);
+  if (std::abs(value) > kGreatest) refuse_value(fmt::format("{} = {} is too large", key.path, value), where);
   if (key.above && !(value > *key.above))
     refuse_value(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
   if (key.at_least && value < *key.at_least)

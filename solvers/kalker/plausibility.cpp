@@ -18,10 +18,15 @@ constexpr double kLargeCreepage = 0.1;
 constexpr double kAddedEnergy = 0.01;
 constexpr double kForceTolerance = 2e-3;
 
-/// Elements at the border of the grid with more pressure than at the edge of a patch that ends within them; a direction
-/// of one element has no border. Hertz: within half an element h of its edge, a patch of half-width b has at most
-/// p_max sqrt(h / b).
-int cut_at_border(const Grid2& g, const ContactSolution& s) {
+/// Elements in contact at the border of the grid.
+struct AtBorder {
+  int touching = 0;  ///< all of them
+  int cut = 0;       ///< with more pressure than at the edge of a patch that ends within them
+};
+
+/// Hertz: within half an element h of its edge, a patch of half-width b has at most p_max sqrt(h / b). A direction of
+/// one element has no border where that element is a strip, long against the width of contact: plane strain.
+AtBorder at_border(const Grid2& g, const ContactSolution& s) {
   int first_x = g.nx, last_x = -1, first_y = g.ny, last_y = -1;
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix)
@@ -29,17 +34,21 @@ int cut_at_border(const Grid2& g, const ContactSolution& s) {
         first_x = std::min(first_x, ix), last_x = std::max(last_x, ix);
         first_y = std::min(first_y, iy), last_y = std::max(last_y, iy);
       }
-  const double edge_x = s.max_pressure * std::sqrt(2.0 / (last_x - first_x + 1)),
-               edge_y = s.max_pressure * std::sqrt(2.0 / (last_y - first_y + 1));
-  int count = 0;
+  const int width_x = last_x - first_x + 1, width_y = last_y - first_y + 1;
+  constexpr double kStrip = 4.0;  // lengths to widths
+  if ((g.nx == 1 && g.ny > 1 && g.dx < kStrip * g.dy * width_y) ||
+      (g.ny == 1 && g.nx > 1 && g.dy < kStrip * g.dx * width_x))
+    return {s.elements_contact, s.elements_contact};
+  const double edge_x = s.max_pressure * std::sqrt(2.0 / width_x), edge_y = s.max_pressure * std::sqrt(2.0 / width_y);
+  AtBorder found;
   for (int iy = 0; iy < g.ny; ++iy)
     for (int ix = 0; ix < g.nx; ++ix) {
       const double p = s.pressure[g.index(ix, iy)];
-      const bool cut_x = g.nx > 1 && (ix == 0 || ix == g.nx - 1) && p > edge_x,
-                 cut_y = g.ny > 1 && (iy == 0 || iy == g.ny - 1) && p > edge_y;
-      if (cut_x || cut_y) ++count;
+      const bool ends_x = g.nx > 1 && (ix == 0 || ix == g.nx - 1), ends_y = g.ny > 1 && (iy == 0 || iy == g.ny - 1);
+      if (p > 0.0 && (ends_x || ends_y)) ++found.touching;
+      if ((ends_x && p > edge_x) || (ends_y && p > edge_y)) ++found.cut;
     }
-  return count;
+  return found;
 }
 
 /// Power (shift: work) that friction adds and dissipates, per area, both positive.
@@ -66,11 +75,16 @@ double contact_modulus(const Material& material) {
 void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vector<Remark>& remarks) {
   const auto add = [&](RemarkKind kind, std::string text) { remarks.push_back({kind, patch, std::move(text)}); };
 
-  if (const int count = cut_at_border(p.grid, s); count > 0)
+  if (const AtBorder border = at_border(p.grid, s); border.cut > 0)
     add(RemarkKind::grid_cuts_contact,
-        fmt::format("{} of {} elements in contact press at the border of the potential contact area, which cuts the "
-                    "patch: make it larger",
-                    count, s.elements_contact));
+        fmt::format(
+            "{} of {} elements in contact are under pressure at the border of the potential contact area, which "
+            "cuts the patch: make it larger",
+            border.cut, s.elements_contact));
+  else if (border.touching > 0)
+    add(RemarkKind::grid_touches_contact,
+        fmt::format("{} of {} elements in contact lie at the border of the potential contact area: make it larger",
+                    border.touching, s.elements_contact));
 
   if (s.max_pressure > p.pressure_limit)
     add(RemarkKind::beyond_half_space,

@@ -59,7 +59,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"report", {{out}, "report"}},
       {"plot", {{out, "--what", "pressure", "-o", "-"}, "report"}},
       {"check", {{inp}}},
-      {"list", {{}}},
+      {"list", {{"verbs"}}},
       {"schema", {{}}}};
   for (const char* verb : {
 #define VERB(name, summary, part) #name,

@@ -206,5 +206,34 @@ TEST_F(OutputFiles, FilesMoveIntoAFolderThatIsKept) {
   EXPECT_THAT(full_error([&] { OutputFolder(path("file"), OutputFolder::Old::kept); }), HasSubstr("it is a file"));
 }
 
+TEST_F(OutputFiles, FilesMoveIntoWhatLinksAndPipesLeadTo) {
+  put("elsewhere", "old");
+  put("out/own", "own");
+  fs::create_symlink(path("elsewhere"), path("out/link"));
+  ASSERT_EQ(mkfifo(path("out/pipe").c_str(), 0600), 0);
+  EXPECT_TRUE(is_stream(path("out/pipe")));
+  for (const char* other : {"out", "out/own", "out/link", "none"}) EXPECT_FALSE(is_stream(path(other))) << other;
+  std::string read_from_pipe;
+  std::thread reader([&] { read_from_pipe = read(path("out/pipe")); });
+  OutputFolder folder(path("out"), OutputFolder::Old::kept);
+  write_file(folder.path() / "link", "new");
+  write_file(folder.path() / "pipe", "piped");
+  folder.move_into();
+  reader.join();
+  EXPECT_EQ(read_from_pipe, "piped");
+  EXPECT_TRUE(fs::is_fifo(path("out/pipe")));
+  EXPECT_TRUE(fs::is_symlink(path("out/link")));
+  EXPECT_EQ(read(path("elsewhere")), "new");
+}
+
+TEST_F(OutputFiles, RemovingIsDoneOrSaid) {
+  put("a", "a");
+  remove_file(path("a"));
+  EXPECT_FALSE(fs::exists(path("a")));
+  remove_file(path("a"));
+  put("full/b", "b");
+  EXPECT_THAT(full_error([&] { remove_file(path("full")); }), HasSubstr("cannot write " + path("full").string()));
+}
+
 }  // namespace
 }  // namespace treadmark

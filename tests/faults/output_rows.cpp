@@ -88,8 +88,8 @@ const std::vector<OutputRow> kRows{
     {"check", "report", "", "check $case.toml -o @check --report @check.html",
      "check $case.toml -o @check --report @check.html --set wheelset.y_mm=1", 3},
     {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation --json @simulation.json",
-     "simulate $short.toml -o @simulation --json @simulation.json --set simulation.speed_m_s=30", 0},
-    {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0},
+     "simulate $short.toml -o @simulation --json @simulation.json --set simulation.speed_m_s=30", 0, true},
+    {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0, true},
 };
 
 std::vector<std::string> split(const std::string& text, char at) {
@@ -106,8 +106,8 @@ std::ostream& operator<<(std::ostream& out, const OutputRow& row) { return out <
 
 const std::vector<OutputRow>& output_rows() { return kRows; }
 
-std::string missing_part(const OutputRow& row) {
-  for (const std::string& part : split(row.parts, ' '))
+std::string missing_part(const std::string& parts) {
+  for (const std::string& part : split(parts, ' '))
     if (!has_part(part)) return part;
   return {};
 }

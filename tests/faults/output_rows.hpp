@@ -17,8 +17,9 @@ struct OutputRow {
   const char* parts;    ///< of parts(), which it needs, by blanks
   const char* prepare;  ///< commands that make inputs, by semicolons
   const char* command;
-  const char* older;  ///< the same with other content, for what stood there before; nullptr: nothing does
-  int points;         ///< injected a fault and start; 0: the program takes long, so one and one start a fault
+  const char* older;     ///< the same with other content, for what stood there before; nullptr: nothing does
+  int points;            ///< injected a fault and start; 0: the program takes long, so one and one start a fault
+  bool resumes = false;  ///< goes on where it was interrupted
 };
 
 std::ostream& operator<<(std::ostream& out, const OutputRow& row);
@@ -26,8 +27,8 @@ std::ostream& operator<<(std::ostream& out, const OutputRow& row);
 /// All verbs that write files, in all their formats.
 const std::vector<OutputRow>& output_rows();
 
-/// The first of its parts that this build leaves out, or "".
-std::string missing_part(const OutputRow& row);
+/// The first of these parts, by blanks, that this build leaves out, or "".
+std::string missing_part(const std::string& parts);
 
 /// The inputs, and an empty folder for outputs whose path has no links.
 class OutputScene {

@@ -161,4 +161,16 @@ FileTree Disk::after_cut(const Loss& loss) const {
   return out;
 }
 
+Versions named_in(const FileTree& before, const std::vector<Operation>& log) {
+  Versions out;
+  Disk disk(before);
+  for (const Operation& operation : log) {
+    disk.apply(operation);
+    if (operation.what != 'r' || is_hidden(operation.to)) continue;
+    const FileTree now = disk.after_cut({});
+    if (const auto file = now.find(operation.to); file != now.end()) out[file->first].insert(file->second);
+  }
+  return out;
+}
+
 }  // namespace treadmark::testing

@@ -23,6 +23,9 @@ struct Operation {
 /// Reads TREADMARK_FAULT_LOG.
 std::vector<Operation> read_log(const std::filesystem::path& log, const std::filesystem::path& under);
 
+/// What got a visible name in these operations.
+Versions named_in(const FileTree& before, const std::vector<Operation>& log);
+
 /// What a cut takes of that which was not yet synchronised.
 struct Loss {
   enum class Data { kept, dropped, halved, zeroed, random };

@@ -3,8 +3,6 @@
 #include "treadmark/app/report/pages/read_report.hpp"
 
 #include <algorithm>
-#include <fstream>
-#include <sstream>
 
 #include <fmt/format.h>
 
@@ -15,6 +13,7 @@
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/report/pages/sweep_page.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/results/read_hdf5.hpp"
 
@@ -24,10 +23,8 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string text_or_nothing(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  if (in) text << in.rdbuf();
-  return text.str();
+  std::error_code unknown;
+  return fs::exists(file, unknown) ? io::profiles::read_text(file, "results", {}) : std::string();
 }
 
 Page run_in(const fs::path& folder) {

@@ -8,7 +8,6 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
-#include <fstream>
 #include <map>
 #include <optional>
 #include <sstream>
@@ -17,6 +16,7 @@
 #include "treadmark/app/report/pages/history_panels.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/io/histories/study_store.hpp"
 
@@ -254,17 +254,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::string text_of(const fs::path& file) {
-  std::ifstream in(file, std::ios::binary);
-  std::ostringstream text;
-  text << in.rdbuf();
-  if (!in) throw Error(ErrorKind::input_data, "the file cannot be read", {file.string()});
-  return text.str();
-}
-
 /// Numbers of all runs of the study, from its identity: lines "run 12".
 std::vector<int> runs_of(const fs::path& file) {
-  std::istringstream lines(text_of(file));
+  std::istringstream lines(io::profiles::read_text(file, "study", {}));
   std::vector<int> numbers;
   for (std::string line; std::getline(lines, line);) {
     if (!line.starts_with("run ")) continue;
@@ -313,7 +305,8 @@ StudyOnDisk read_study_folder(const fs::path& folder) {
   for (const auto& entry : fs::directory_iterator(folder))
     if (entry.path().extension() == ".svg") pictures.push_back(entry.path());
   std::ranges::sort(pictures);
-  for (const fs::path& picture : pictures) out.pictures.emplace_back(picture.filename().string(), text_of(picture));
+  for (const fs::path& picture : pictures)
+    out.pictures.emplace_back(picture.filename().string(), io::profiles::read_text(picture, "study", {}));
   return out;
 }
 

@@ -99,7 +99,7 @@ TEST_F(VdbFile, KeepsBasesOfArcsAndPoints) {
 
 TEST_F(VdbFile, RefusesOtherBasesAndPlaces) {
   OffsetFile file = wheel();
-  EXPECT_THROW(offset::write_vdb("/nonexistent/folder/x.vdb", file), Error);
+  EXPECT_THROW(offset::write_vdb("/dev/null/folder/x.vdb", file), Error);
   file.base.body = Body::rail;
   EXPECT_THROW(offset::write_vdb(path_, file), Error);
   file = wheel();

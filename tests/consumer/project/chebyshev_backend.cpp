@@ -115,7 +115,7 @@ Differences sample(const Surface& surface, const Surface& base, Body body, std::
 /// Cross approximation with full pivoting: Gaussian elimination stopped when nothing is left (A. Townsend and
 /// L. N. Trefethen, An extension of Chebfun to two dimensions, 2013). rest: the largest difference that is left [m].
 std::vector<SeriesField::Term> low_rank(Differences d, const Rectangle& region, double period, double& rest) {
-  constexpr double kNothing = 1e-8;  // [m]
+  constexpr double kNothing = 1e-8, kNegligible = 1e-9;  // [m]
   constexpr std::size_t kMostTerms = 24;
   const std::size_t rows = d.u.size(), columns = d.y.size();
   std::vector<SeriesField::Term> terms;
@@ -131,8 +131,8 @@ std::vector<SeriesField::Term> low_rank(Differences d, const Rectangle& region, 
     for (std::size_t j = 0; j < columns; ++j) across[j] = d.values[at - at % columns + j] / divisor;
     for (std::size_t i = 0; i < rows; ++i)
       for (std::size_t j = 0; j < columns; ++j) d.values[i * columns + j] -= along[i] * across[j];
-    terms.push_back({ChebyshevSeries(region.x_min, region.x_max, along, period),
-                     ChebyshevSeries(region.y_min, region.y_max, across)});
+    terms.push_back({ChebyshevSeries(region.x_min, region.x_max, along, period, kNegligible),
+                     ChebyshevSeries(region.y_min, region.y_max, across, 0.0, kNegligible / std::fabs(divisor))});
   }
 }
 

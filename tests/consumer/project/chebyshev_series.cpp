@@ -22,7 +22,8 @@ std::vector<double> ChebyshevSeries::nodes(double begin, double end, std::size_t
   return x;
 }
 
-ChebyshevSeries::ChebyshevSeries(double begin, double end, const std::vector<double>& values, double period)
+ChebyshevSeries::ChebyshevSeries(double begin, double end, const std::vector<double>& values, double period,
+                                 double negligible)
     : middle_(0.5 * (begin + end)), half_(0.5 * (end - begin)), period_(period), coefficients_(values.size(), 0.0) {
   // discrete orthogonality of cos(k theta) at the nodes
   const std::size_t n = values.size();
@@ -34,7 +35,13 @@ ChebyshevSeries::ChebyshevSeries(double begin, double end, const std::vector<dou
     scale = std::max(scale, std::fabs(coefficients_[k]));
   }
   constexpr double kRounding = 1e-13;
-  while (coefficients_.size() > 1 && std::fabs(coefficients_.back()) <= kRounding * scale) coefficients_.pop_back();
+  double left_out = 0.0;
+  while (coefficients_.size() > 1) {
+    const double last = std::fabs(coefficients_.back());
+    left_out += last;
+    if (last > kRounding * scale && left_out > negligible) break;
+    coefficients_.pop_back();
+  }
   for (std::size_t k = 1; k < coefficients_.size(); ++k) {
     const double order = static_cast<double>(k), size = std::fabs(coefficients_[k]);
     sum_ += size;

@@ -21,8 +21,9 @@ class ChebyshevSeries {
   /// The n zeros of T_n, where values are wanted; from end to begin.
   static std::vector<double> nodes(double begin, double end, std::size_t n);
 
-  /// Through values at the nodes, without the coefficients that are rounding.
-  ChebyshevSeries(double begin, double end, const std::vector<double>& values, double period = 0.0);
+  /// Through values at the nodes, without the last coefficients that are rounding or together no more than negligible.
+  ChebyshevSeries(double begin, double end, const std::vector<double>& values, double period = 0.0,
+                  double negligible = 0.0);
 
   Jet jet(double x) const;
   /// Conservative, whatever the interval; ends may be infinite.

@@ -49,10 +49,11 @@ TEST(WriteMesh, SaysWhatItCannotDo) {
     EXPECT_FALSE(std::filesystem::is_regular_file(file));
   };
   refused(folder.path() / "a.vtk", "unknown extension");
-  refused(folder.path() / "missing" / "a.ply", "cannot be created");
+  std::ofstream(folder.path() / "file") << "no folder";
+  refused(folder.path() / "file" / "a.ply", "cannot write");
   std::filesystem::create_directory(folder.path() / "folder.ply");
   std::filesystem::create_directory(folder.path() / "folder.ply" / "full");
-  refused(folder.path() / "folder.ply", "cannot be written");
+  refused(folder.path() / "folder.ply", "it is a folder");
   TriangleMesh broken = sample();
   broken.triangles[0][0] = 77;
   EXPECT_THROW(write_mesh(folder.path() / "b.ply", broken), Error);

@@ -62,7 +62,10 @@ TEST(Plausibility, GridThatCutsThePatch) {
 
 // The outermost rows end beyond the patch, and their middle lies in it.
 TEST(Plausibility, PatchThatEndsWithinTheOutermostElements) {
-  EXPECT_THAT(judged(plain_patch(1.1, 80e3, 10).problem), Not(Contains(RemarkKind::grid_cuts_contact)));
+  const OwnedProblem patch = plain_patch(1.1, 80e3, 10);
+  EXPECT_THAT(judged(patch.problem), Not(Contains(RemarkKind::grid_cuts_contact)));
+  EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::grid_touches_contact));
+  EXPECT_THAT(judged(plain_patch(0.8).problem), Not(Contains(RemarkKind::grid_touches_contact)));
 }
 
 TEST(Plausibility, EveryElementInContact) {
@@ -78,6 +81,15 @@ TEST(Plausibility, DirectionOfOneElementHasNoBorder) {
   strip.problem.gap = strip.gap;
   strip.problem.normal_force = 5e6;
   EXPECT_THAT(judged(strip.problem), Not(Contains(RemarkKind::grid_cuts_contact)));
+  EXPECT_THAT(judged(strip.problem), Not(Contains(RemarkKind::grid_touches_contact)));
+}
+
+TEST(Plausibility, RowOfShortElementsIsNoStrip) {
+  OwnedProblem row = plain_patch();
+  row.problem.grid.ny = 1;
+  row.gap.assign(row.gap.begin() + 12 * 24, row.gap.begin() + 13 * 24);
+  row.problem.gap = row.gap;
+  EXPECT_THAT(judged(row.problem), Contains(RemarkKind::grid_cuts_contact));
 }
 
 TEST(Plausibility, PressureAgainstTheStatedLimit) {
