@@ -51,7 +51,7 @@ class Workers {
   Workers(const io::StudyFile& study, const StudyOptions& options, const Progress& progress)
       : study_(study), options_(options), progress_(progress), finished_(study.runs.size(), 0) {
     for (std::size_t i = 0; i < study.runs.size(); ++i)
-      if (is_finished(i)) finished_[i] = 1;
+      if (found_finished(i)) finished_[i] = 1;
     found_ = static_cast<std::size_t>(std::ranges::count(finished_, 1));
   }
 
@@ -79,6 +79,13 @@ class Workers {
   fs::path store_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "simulation.h5"; }
   fs::path checkpoint_of(std::size_t i) const { return folder_of(options_, study_.runs[i]) / "unfinished.h5"; }
   bool is_finished(std::size_t i) const { return fs::exists(store_of(i)); }
+  /// The same, and removes the checkpoint if whoever finished it could not.
+  bool found_finished(std::size_t i) const {
+    if (!is_finished(i)) return false;
+    std::error_code ignored;
+    fs::remove(checkpoint_of(i), ignored);
+    return true;
+  }
   bool stopped() const { return stop_ || progress_.stop_requested(); }
 
   void work_through() {
@@ -98,11 +105,7 @@ class Workers {
 
   bool known_finished(std::size_t i) {
     const std::lock_guard lock(mutex_);
-    if (!finished_[i] && is_finished(i)) {
-      std::error_code ignored;
-      fs::remove(checkpoint_of(i), ignored);  // should somebody not have come to it
-      note_finished(i);
-    }
+    if (!finished_[i] && found_finished(i)) note_finished(i);
     return finished_[i] != 0;
   }
 

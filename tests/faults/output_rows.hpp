@@ -18,7 +18,7 @@ struct OutputRow {
   const char* prepare;  ///< commands that make inputs, by semicolons
   const char* command;
   const char* older;     ///< the same with other content, for what stood there before; nullptr: nothing does
-  int points;            ///< injected a fault and start; 0: the program takes long, so one and one start a fault
+  int points;            ///< injected a fault and start; 0: the program takes long, so few faults and one each
   bool resumes = false;  ///< goes on where it was interrupted
 };
 
