@@ -166,6 +166,12 @@ bool same_file(int descriptor, const fs::path& path) {
          open_one.st_ino == named.st_ino;
 }
 
+/// Waits for who looks whether its maker is dead. Where the file system knows no locks, nobody is taken for dead.
+void hold(int descriptor) {
+  while (::flock(descriptor, LOCK_EX) != 0 && errno == EINTR) {
+  }
+}
+
 /// Writers hold a lock on what they write, which ends with them.
 void remove_if_dead(const fs::path& path) {
   const int descriptor = open_retrying(path.c_str(), O_RDONLY | O_NONBLOCK | O_NOFOLLOW);
@@ -225,8 +231,8 @@ OutputFile::OutputFile(const fs::path& target) : named_(target), target_(target)
       fail(error);
     }
     if (descriptor_ < 0) continue;
+    hold(descriptor_);
     // Another writer may have taken the new file for one that a dead process left.
-    ::flock(descriptor_, LOCK_EX | LOCK_NB);
     if (same_file(descriptor_, temporary_)) break;
     ::close(descriptor_);
     descriptor_ = -1;
@@ -285,7 +291,8 @@ OutputFolder::OutputFolder(const fs::path& target, Old old) : target_(without_li
       fail(error);
     }
     lock_ = open_retrying(temporary_.c_str(), O_RDONLY | O_DIRECTORY);
-    if (lock_ >= 0) ::flock(lock_, LOCK_EX | LOCK_NB);
+    if (lock_ < 0 && errno == ENOENT) continue;
+    if (lock_ >= 0) hold(lock_);
     if (lock_ < 0 || same_file(lock_, temporary_)) break;
     ::close(std::exchange(lock_, -1));
   } while (true);
@@ -396,9 +403,7 @@ void remove_file(const fs::path& file) {
 FolderLock::FolderLock(const fs::path& folder) {
   if (is_hidden_name(folder.filename().string())) return;  // nobody else writes there, and its maker holds it
   descriptor_ = open_retrying(folder.empty() ? "." : folder.c_str(), O_RDONLY | O_DIRECTORY);
-  if (descriptor_ < 0) return;
-  while (::flock(descriptor_, LOCK_EX) != 0 && errno == EINTR) {
-  }
+  if (descriptor_ >= 0) hold(descriptor_);
 }
 
 FolderLock::~FolderLock() {
