@@ -13,7 +13,6 @@
 #include <cerrno>
 #include <charconv>
 #include <cstdio>
-#include <fstream>
 #include <functional>
 #include <iterator>
 #include <optional>
@@ -22,6 +21,8 @@
 #include <utility>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark {
@@ -249,8 +250,10 @@ OutputFile::~OutputFile() {
 void OutputFile::fail(int error) const { cannot_write(named_, error); }
 
 void OutputFile::write(std::string_view bytes) {
+  constexpr std::size_t kPiece = std::size_t{1} << 24;  // what slow disks take within the time of a check point
   while (!bytes.empty()) {
-    const ssize_t count = ::write(descriptor_, bytes.data(), bytes.size());
+    check_cancelled();
+    const ssize_t count = ::write(descriptor_, bytes.data(), std::min(bytes.size(), kPiece));
     if (count < 0 && errno == EINTR) continue;
     if (count <= 0) fail(count == 0 ? EIO : errno);
     bytes.remove_prefix(static_cast<std::size_t>(count));
@@ -270,6 +273,30 @@ void OutputFile::commit() {
 void write_file(const fs::path& target, std::string_view bytes) {
   OutputFile file(target);
   file.write(bytes);
+  file.commit();
+}
+
+void copy_bytes(const fs::path& made, const fs::path& target) {
+  const auto cannot_read = [&](int error) {
+    cannot_write(target, "what is to be written there cannot be read back: " + std::generic_category().message(error),
+                 advice_of(error));
+  };
+  const int from = open_retrying(made.c_str(), O_RDONLY);
+  if (from < 0) cannot_read(errno);
+  const struct Closed {
+    int descriptor;
+    ~Closed() { ::close(descriptor); }
+  } closed{from};
+  OutputFile file(target);
+  std::vector<char> piece(std::size_t{1} << 20);
+  for (;;) {
+    const ssize_t count = ::read(from, piece.data(), piece.size());
+    if (count == 0) break;
+    if (count > 0)
+      file.write({piece.data(), static_cast<std::size_t>(count)});
+    else if (errno != EINTR)
+      cannot_read(errno);
+  }
   file.commit();
 }
 
@@ -352,11 +379,8 @@ void OutputFolder::move_into(const std::string& last) {
     if (const int failed = folder_to_disk(folder); failed != 0) cannot_write(folder, failed);
   };
   const auto move = [&](const fs::path& name) {
-    if (fs::is_symlink(fs::symlink_status(target_ / name, error)) || is_stream(target_ / name)) {
-      std::ifstream made(temporary_ / name, std::ios::binary);
-      write_file(target_ / name, std::string{std::istreambuf_iterator<char>(made), {}});
-      return;
-    }
+    if (fs::is_symlink(fs::symlink_status(target_ / name, error)) || is_stream(target_ / name))
+      return copy_bytes(temporary_ / name, target_ / name);
     fs::rename(temporary_ / name, target_ / name, error);
     if (error) cannot_write(target_ / name, error.value());
   };

@@ -17,8 +17,9 @@ programs=()
 case "$kind" in
   address)
     preset=asan
-    programs=(core/core_tests model/model_tests io/json/io_json_tests io/profiles/io_profiles_tests io/meshes/io_meshes_tests
-      io/cases/io_cases_tests io/scans/io_scans_tests backends/spline/backends_spline_tests solvers/kalker/solvers_kalker_tests)
+    # the longest first
+    programs=(backends/spline/backends_spline_tests solvers/kalker/solvers_kalker_tests io/cases/io_cases_tests io/scans/io_scans_tests
+      io/profiles/io_profiles_tests core/core_tests model/model_tests io/json/io_json_tests io/meshes/io_meshes_tests)
     ;;
   replay) preset=asan ;;
   thread)

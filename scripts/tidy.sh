@@ -12,7 +12,7 @@ if [[ "${1:-}" == --all ]]; then
 elif (($# > 0)); then
   files=("$@")
 else
-  mapfile -t files < <(git log -n 12 --name-only --diff-filter=d --format= | grep -E "$folders" | grep -v '/without_' |
+  mapfile -t files < <(git log --first-parent -n 12 --name-only --diff-filter=d --format= | grep -E "$folders" | grep -v '/without_' |
     awk '!seen[$0]++' | while read -r file; do if [[ -f "$file" ]]; then echo "$file"; fi; done | head -8)
 fi
 if ((${#files[@]} == 0)); then

@@ -42,6 +42,15 @@ kalker::HertzShape hertz_shape(const io::BasicCase& input, const io::HertzInput&
   return {};
 }
 
+}  // namespace
+
+std::optional<kalker::HertzShape> hertz_shape(const io::BasicCase& input) {
+  const auto* hertz = std::get_if<io::HertzInput>(&input.geometry);
+  return hertz != nullptr ? std::optional(hertz_shape(input, *hertz)) : std::nullopt;
+}
+
+namespace {
+
 double timed(const auto& work) {
   const auto start = std::chrono::steady_clock::now();
   work();

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <optional>
 #include <vector>
 
 #include "treadmark/core/grid.hpp"
@@ -21,6 +22,9 @@ class BasicSequence {
  private:
   kalker::ContactSolver solver_;
 };
+
+/// The Hertzian ellipse of a case; none where its geometry is not Hertzian. Errors: Error(configuration).
+std::optional<kalker::HertzShape> hertz_shape(const io::BasicCase& input);
 
 /// Undeformed distance [m] of a formula at the element centres of a grid.
 /// Errors: Error(configuration) if the number of coefficients does not fit the formula or the grid.

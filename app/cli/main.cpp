@@ -4,8 +4,12 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <cstdlib>
+#include <cstring>
+#include <exception>
 #include <filesystem>
 #include <iostream>
+#include <new>
 
 #include "treadmark/app/cli/printable_stream.hpp"
 #include "treadmark/app/cli/verbs.hpp"
@@ -33,6 +37,25 @@ int exit_status(const Error& error) {
 void hold_standard_streams() {
   for (const int stream : {STDIN_FILENO, STDOUT_FILENO, STDERR_FILENO})
     if (::fcntl(stream, F_GETFD) == -1) ::open("/dev/null", stream == STDIN_FILENO ? O_WRONLY : O_RDONLY);
+}
+
+constexpr const char* kNoMemory =
+    "treadmark: not enough memory for this problem (use larger element sizes or fewer threads)\n";
+
+/// Where memory fails while something is thrown or freed nothing can be caught, and within the standard library not
+/// even be looked at; what is being written stays under its hidden name, as after a kill.
+[[noreturn]] void leave_without_memory() {
+  bool no_memory = std::uncaught_exceptions() > 0;
+  try {
+    if (const std::exception_ptr thrown = std::current_exception()) std::rethrow_exception(thrown);
+  } catch (const std::bad_alloc&) {
+    no_memory = true;
+  } catch (...) {
+    no_memory = false;
+  }
+  if (!no_memory) std::abort();
+  [[maybe_unused]] const auto said = ::write(STDERR_FILENO, kNoMemory, std::strlen(kNoMemory));
+  std::_Exit(cli::kFailed);
 }
 
 /// Everything but whether the standard output took what it was given.
@@ -76,7 +99,7 @@ int run(int argc, char** argv) {
     std::cerr << "treadmark: " << e.what() << '\n';
     return exit_status(e);
   } catch (const std::bad_alloc&) {
-    std::cerr << "treadmark: not enough memory for this problem (use larger element sizes or fewer threads)\n";
+    std::cerr << kNoMemory;
     return cli::kFailed;
   } catch (const std::filesystem::filesystem_error& e) {
     std::cerr << "treadmark: " << e.path1().string() << ": " << e.code().message()
@@ -92,6 +115,7 @@ int run(int argc, char** argv) {
 
 int main(int argc, char** argv) {
   hold_standard_streams();
+  std::set_terminate(leave_without_memory);
   cli::PrintableStream out(std::cout), err(std::cerr);
   const int status = run(argc, argv);
   if (std::cout.flush()) return status;

@@ -13,6 +13,7 @@
 #include <string_view>
 
 #include "treadmark/app/version.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -40,6 +41,8 @@ std::string vector_text(const Vec3& v, double factor, int digits) {
 Scanned scan_surface(const std::filesystem::path& surface, const std::filesystem::path& cloud,
                      const ScanRequest& request, const Progress& progress) {
   require_cloud_file(cloud);
+  const CancellationScope scope(progress.stop);
+  check_cancelled();
   const NaturalSurface natural = named_surface(surface, request.surface);
   Scanned out{surface, cloud, request.scanner, request.unit, {}};
   out.settings.body = natural.spec.body;

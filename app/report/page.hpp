@@ -10,6 +10,7 @@
 #include <variant>
 #include <vector>
 
+#include "treadmark/core/never_held.hpp"
 #include "treadmark/io/results/result_model.hpp"
 
 namespace treadmark::app::report {
@@ -105,7 +106,7 @@ struct Number {
   double value = 0.0;
   int digits = 4;
 };
-using Cell = std::variant<std::string, Number>;
+using Cell = std::variant<std::string, Number, NeverHeld>;
 
 struct Table {
   std::string id, caption;

@@ -5,13 +5,12 @@
 #include <fmt/format.h>
 
 #include <chrono>
-#include <fstream>
-#include <iterator>
 #include <optional>
 #include <string>
 
 #include "treadmark/app/surfaces/named_surface.hpp"
 #include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -69,10 +68,7 @@ Converted convert_surface(const std::filesystem::path& input, const std::filesys
   const NaturalSurface back = read_surface(again, out.body, out.source.spec.nominal_radius);
   out.written = {back.surface, true, sampled.resolution, sampled.region, seconds, sampled.note + back.note};
   out.fit = fit_error(out.source, out.written);
-  if (own) {
-    std::ifstream made(place, std::ios::binary);
-    write_file(output, std::string{std::istreambuf_iterator<char>(made), {}});
-  }
+  if (own) copy_bytes(place, output);
   return out;
 }
 

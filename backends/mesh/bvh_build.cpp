@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "treadmark/backends/mesh/bvh.hpp"
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::mesh {
@@ -29,8 +30,10 @@ void reorder(PreparedMesh& mesh, const std::vector<std::uint32_t>& order) {
   std::vector<Corners> triangles(n), neighbours(n);
   std::vector<Vec3> vertices;
   vertices.reserve(mesh.vertices.size());
+  CheckPoint check;
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
+      check.pass();
       const std::uint32_t v = mesh.triangles[order[i]][k], across = mesh.neighbours[order[i]][k];
       if (vertex[v] == kNone) {
         vertex[v] = static_cast<std::uint32_t>(vertices.size());
@@ -87,6 +90,7 @@ void Bvh::split(std::uint32_t node, std::uint32_t begin, std::uint32_t count, co
   self.count = count;
   self.right = 0;
   if (count <= stop_at || count <= kLeaf) return;
+  if (count > kTask) check_cancelled();
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
   for (std::uint32_t i = begin; i < begin + count; ++i) {
     low = low.cwiseMin(middles[order[i]]);
@@ -173,7 +177,9 @@ void Bvh::close(std::uint32_t number) {
 
 void Bvh::add_surface(const std::function<About(std::uint32_t)>& about) {
   about_.resize(mesh_.triangles.size());
+  CheckPoint check;
   for (std::size_t i = nodes_.size(); i-- > 0;) {  // children come behind
+    check.pass();
     Node& node = nodes_[i];
     const auto widen = [&](std::size_t k, float low, float high) {
       node.normal_low[k] = std::min(node.normal_low[k], low);

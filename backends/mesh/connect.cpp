@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "treadmark/backends/mesh/prepare.hpp"
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::mesh {
@@ -37,9 +38,11 @@ void connect(PreparedMesh& mesh) {
       const std::uint64_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
       sides.push_back({std::min(a, b) << 32 | std::max(a, b), t, k});
     }
-  std::sort(sides.begin(), sides.end());
+  sort_many(sides);
   mesh.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
+  CheckPoint check;
   for (std::size_t i = 0; i < sides.size();) {
+    check.pass();
     std::size_t end = i + 1;
     while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
     if (end - i > 2) {
@@ -107,7 +110,9 @@ std::vector<std::uint32_t> merge_close(const std::vector<Vec3>& points, double t
           std::fmax(-kFar, std::fmin(kFar, std::floor((p[k] - origin[k] + shift) * per_cell))));
     return cell;
   };
+  CheckPoint check;
   for (std::uint32_t i = 0; i < points.size(); ++i) {
+    check.pass();
     const Vec3& p = points[i];
     same[i] = i;
     const Cell low = cell_of(p, -tolerance), high = cell_of(p, tolerance);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "treadmark/backends/mesh/prepare.hpp"
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::mesh {
@@ -62,11 +63,13 @@ void orient(PreparedMesh& mesh, Body body, MeshRepair& repair) {
   std::vector<char> seen(mesh.triangles.size(), 0), flip(mesh.triangles.size(), 0);
   bool all_inside_out = true;
   std::vector<std::uint32_t> part;
+  CheckPoint check;
   for (std::uint32_t seed = 0; seed < mesh.triangles.size(); ++seed) {
     if (seen[seed]) continue;
     part.assign(1, seed);
     seen[seed] = 1;
     for (std::size_t i = 0; i < part.size(); ++i) {
+      check.pass();
       const std::uint32_t t = part[i];
       for (std::size_t k = 0; k < 3; ++k) {
         const std::uint32_t n = mesh.neighbours[t][k];

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::mesh {
@@ -83,7 +84,7 @@ std::size_t drop_duplicates(std::vector<Corners>& triangles) {
     std::sort(sorted.begin(), sorted.end());
     keys[t] = {sorted, t};
   }
-  std::sort(keys.begin(), keys.end());
+  sort_many(keys);
   std::vector<char> drop(triangles.size(), 0);
   std::size_t count = 0;
   for (std::size_t i = 1; i < keys.size(); ++i)
@@ -115,7 +116,9 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
   for (std::size_t v = 0; v < same.size(); ++v) repair.merged_vertices += same[v] != v;
 
   result.triangles.reserve(mesh.triangles.size());
+  CheckPoint check;
   for (const auto& corners : mesh.triangles) {
+    check.pass();
     const Corners c{same[corners[0]], same[corners[1]], same[corners[2]]};
     const bool flat = c[0] == c[1] || c[1] == c[2] || c[2] == c[0] ||
                       without_area(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
@@ -131,13 +134,14 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
   std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kNone);
   for (const Corners& c : result.triangles)
     for (const std::uint32_t v : c) renumbered[v] = 0;
+  check_cancelled();
   for (std::size_t v = 0; v < renumbered.size(); ++v) {
     if (renumbered[v] == kNone) {
       repair.unused_vertices += same[v] == v;
       continue;
     }
     renumbered[v] = static_cast<std::uint32_t>(result.vertices.size());
-    result.vertices.push_back(mesh.vertices[v] - result.centre);
+    result.vertices.emplace_back(mesh.vertices[v] - result.centre);
   }
   result.vertices.shrink_to_fit();
   for (Corners& c : result.triangles)

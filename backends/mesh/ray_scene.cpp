@@ -8,6 +8,7 @@
 #include <atomic>
 #include <limits>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::mesh {
@@ -29,6 +30,9 @@ bool count_bytes(void* total, ssize_t bytes, bool) {
   static_cast<std::atomic<std::ptrdiff_t>*>(total)->fetch_add(bytes);
   return true;
 }
+
+/// What Embree asks while it builds, on any of its threads.
+bool goes_on(void* token, double) { return !static_cast<const CancellationToken*>(token)->requested(); }
 
 void require(bool fine, RTCDevice device, const std::string& name) {
   if (fine && (!device || rtcGetDeviceError(device) == RTC_ERROR_NONE)) return;
@@ -58,7 +62,11 @@ RayScene::RayScene(const PreparedMesh& mesh) : library_(std::make_unique<Library
   }
   rtcReleaseGeometry(geometry);
   require(vertices && indices, lib.device, mesh.name);
+  if (const CancellationToken* token = current_cancellation())
+    rtcSetSceneProgressMonitorFunction(lib.scene, goes_on, const_cast<CancellationToken*>(token));
   rtcCommitScene(lib.scene);
+  check_cancelled();
+  rtcSetSceneProgressMonitorFunction(lib.scene, nullptr, nullptr);
   require(true, lib.device, mesh.name);
 }
 

@@ -6,6 +6,7 @@
 #include <numeric>
 
 #include "treadmark/backends/mesh/vertex_fit.hpp"
+#include "treadmark/core/check_point.hpp"
 
 namespace treadmark::mesh {
 
@@ -27,7 +28,9 @@ bool is_sliver(const Vec3& a, const Vec3& b, const Vec3& c) {
 Sectors find_sectors(const PreparedMesh& mesh, double crease_angle) {
   const std::size_t n = mesh.triangles.size();
   std::vector<Vec3> normals(n);
+  CheckPoint check;
   for (std::size_t t = 0; t < n; ++t) {
+    check.pass();
     const Corners& c = mesh.triangles[t];
     const bool sliver = is_sliver(mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]);
     normals[t] = sliver ? Vec3(Vec3::Zero()) : doubled_area(mesh, t).normalized();
@@ -37,6 +40,7 @@ Sectors find_sectors(const PreparedMesh& mesh, double crease_angle) {
   std::iota(parent.begin(), parent.end(), 0u);
   for (std::uint32_t t = 0; t < n; ++t)
     for (std::uint32_t k = 0; k < 3; ++k) {
+      check.pass();
       const std::uint32_t o = mesh.neighbours[t][k];
       if (o == kNone || o < t) continue;
       // the normal of a sliver is noise: no crease there
@@ -52,6 +56,7 @@ Sectors find_sectors(const PreparedMesh& mesh, double crease_angle) {
   sectors.of_corner.resize(n);
   std::vector<std::uint32_t> number(3 * n, kNone), count;
   for (std::uint32_t i = 0; i < 3 * n; ++i) {
+    check.pass();
     const std::uint32_t root = root_corner(parent, i);
     if (number[root] == kNone) {
       number[root] = static_cast<std::uint32_t>(sectors.vertex.size());

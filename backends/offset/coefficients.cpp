@@ -6,6 +6,7 @@
 #include <set>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::offset {
@@ -103,6 +104,7 @@ SheetGrid spline_coefficients(const SparseOffsets& offsets, int degree, float sm
   });
   SheetGrid result;
   for (auto& strip : done) {
+    check_cancelled();
     for (const auto& [key, block] : strip) result.insert(key, block, smallest);
     strip.clear();
     strip.shrink_to_fit();

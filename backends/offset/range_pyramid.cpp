@@ -6,6 +6,7 @@
 #include <limits>
 #include <tuple>
 
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::offset {
@@ -45,7 +46,7 @@ RangePyramid::RangePyramid(const SheetGrid& coefficients, const BlockDirectory& 
       if (b.key.bi == 0)
         for (int cj = 8 * b.key.bj - 1; cj <= 8 * b.key.bj + 8; ++cj)
           keys.emplace_back(std::max(0, (frame_.turn - 1) / kCell - 1), cj);
-  std::sort(keys.begin(), keys.end());
+  sort_many(keys);
   keys.erase(std::unique(keys.begin(), keys.end()), keys.end());
 
   std::vector<Cell> cells(keys.size());
@@ -61,8 +62,7 @@ RangePyramid::RangePyramid(const SheetGrid& coefficients, const BlockDirectory& 
   while (levels_.back().size() > kTop && levels_.size() < kMostLevels) {
     std::vector<Cell> above = levels_.back();
     for (Cell& c : above) c.ci >>= 1, c.cj >>= 1;
-    std::sort(above.begin(), above.end(),
-              [](const Cell& a, const Cell& b) { return std::tie(a.ci, a.cj) < std::tie(b.ci, b.cj); });
+    sort_many(above, [](const Cell& a, const Cell& b) { return std::tie(a.ci, a.cj) < std::tie(b.ci, b.cj); });
     std::size_t n = 0;
     for (const Cell& c : above) {
       if (n > 0 && above[n - 1].ci == c.ci && above[n - 1].cj == c.cj)

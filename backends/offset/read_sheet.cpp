@@ -13,6 +13,7 @@
 #include <vector>
 
 #include "treadmark/backends/offset/sheet_grid.hpp"
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 
 // OpenVDB's own reader trusts the sizes in a file. This one reads what write_sheet writes, a tree of single precision
@@ -180,7 +181,11 @@ class SheetReader {
       }
       node(kTopNode, origin);
     }
-    for (const Leaf& leaf : leaves_) fill(leaf, grid);
+    CheckPoint check;
+    for (const Leaf& leaf : leaves_) {
+      check.pass();
+      fill(leaf, grid);
+    }
   }
 
   [[noreturn]] void refuse_tile() const { refuse("the offsets must not contain tiles"); }

@@ -10,6 +10,7 @@
 
 #include "treadmark/backends/offset/make.hpp"
 #include "treadmark/backends/offset/sparse_offsets.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -246,6 +247,7 @@ OffsetSample sample_offsets(const Surface& target, const Surface& base, Body bod
   OffsetSample result;
   std::size_t sections = 0;
   for (Rows& rows : all) {
+    check_cancelled();
     for (const auto& [key, block] : rows.blocks) result.active += offsets->grid.insert(key, block, tolerance);
     result.continued += rows.continued;
     result.max_offset = std::max(result.max_offset, rows.max_offset);

@@ -24,6 +24,9 @@ std::vector<fs::path> places() {
   std::error_code failed;
   if (const fs::path program = fs::read_symlink("/proc/self/exe", failed); !failed)
     all.push_back(program.parent_path().parent_path() / "lib" / "treadmark" / kFileName);
+  // Beside the shared library that this is part of, wherever it was installed.
+  if (Dl_info here{}; dladdr(reinterpret_cast<const void*>(&sheet_library), &here) != 0 && here.dli_fname != nullptr)
+    all.push_back(fs::path(here.dli_fname).parent_path() / "treadmark" / kFileName);
   all.push_back(fs::path(TREADMARK_BUILT_MODULES) / kFileName);
   all.push_back(fs::path(TREADMARK_INSTALLED_MODULES) / kFileName);
   all.emplace_back(kFileName);

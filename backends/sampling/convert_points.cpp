@@ -8,6 +8,7 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 
 namespace treadmark::sampling {
@@ -37,6 +38,8 @@ TriangleMesh to_mesh(const PointGrid& points, std::string name) {
   constexpr auto kNone = std::numeric_limits<std::uint32_t>::max();
   std::vector<std::uint32_t> vertex(points.h.size(), kNone);
   const std::size_t nu = points.u.size(), ny = points.y.size();
+  mesh.vertices.reserve(points.h.size());
+  mesh.triangles.reserve(2 * points.h.size());
   for (std::size_t iu = 0; iu < nu; ++iu)
     for (std::size_t iy = 0; iy < ny; ++iy)
       if (points.present(iu, iy)) {
@@ -51,7 +54,7 @@ TriangleMesh to_mesh(const PointGrid& points, std::string name) {
     else
       mesh.triangles.push_back({a, b, c});
   };
-  for (std::size_t iu = 0; iu + 1 < nu + (points.closed ? 1 : 0); ++iu)
+  for (std::size_t iu = 0; iu + 1 < nu + (points.closed ? 1 : 0); ++iu, check_cancelled())
     for (std::size_t iy = 0; iy + 1 < ny; ++iy) {
       const std::size_t next = (iu + 1) % nu;
       const std::uint32_t p00 = vertex[points.index(iu, iy)], p10 = vertex[points.index(next, iy)];
@@ -76,6 +79,7 @@ SliceSet to_slices(const PointGrid& points, double nominal_radius, std::string n
   slices.body = points.body;
   slices.name = std::move(name);
   for (std::size_t iu = 0; iu < points.u.size(); ++iu) {
+    check_cancelled();
     std::vector<double> y, z;
     std::size_t last = 0;
     for (std::size_t iy = 0; iy < points.y.size(); ++iy) {

@@ -49,8 +49,7 @@ class Sections {
   Column end(const Column& inside, double y_outside) const {
     Column best = inside;
     double out = y_outside;
-    // as often as the last bits of a number far from 0 allow
-    for (int left = 100; left > 0 && std::fabs(out - best.y) > kEndAccuracy; --left) {
+    for (int left = kMostHalvings; left > 0 && std::fabs(out - best.y) > kEndAccuracy; --left) {
       Column middle = at({0.5 * (best.y + out)}).front();
       if (present(middle))
         best = std::move(middle);
@@ -78,7 +77,6 @@ class Sections {
 };
 
 std::vector<Column> refined(const Sections& sections, std::vector<Column> columns, double longest) {
-  constexpr int kMostHalvings = 100;
   bool changed = true;
   for (int left = kMostHalvings; changed && left > 0; --left) {
     std::vector<double> extra;

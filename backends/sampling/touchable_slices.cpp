@@ -42,8 +42,7 @@ class Section {
 
   /// Last touchable place on the way from inside, which is one, to outside, which is not.
   double end(double inside, double outside) const {
-    // as often as the last bits of a number far from 0 allow
-    for (int left = 100; left > 0 && std::fabs(outside - inside) > kTouchableEndAccuracy; --left) {
+    for (int left = kMostHalvings; left > 0 && std::fabs(outside - inside) > kTouchableEndAccuracy; --left) {
       const double middle = 0.5 * (inside + outside);
       (touchable({middle}).front() ? inside : outside) = middle;
     }

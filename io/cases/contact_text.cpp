@@ -200,13 +200,6 @@ long ContactText::integer(std::string_view name) {
   return *value;
 }
 
-double ContactText::real(std::string_view name) {
-  const Word word = required(name, "a number");
-  const auto value = word.quoted ? std::nullopt : to_real(word.text);
-  if (!value) wrong_word(name, "a number", word);
-  return *value;
-}
-
 namespace {
 
 void require_magnitude(const ContactText& text, std::string_view name, double value, double greatest) {
@@ -215,6 +208,15 @@ void require_magnitude(const ContactText& text, std::string_view name, double va
 }
 
 }  // namespace
+
+double ContactText::real(std::string_view name) {
+  const Word word = required(name, "a number");
+  const auto value = word.quoted ? std::nullopt : to_real(word.text);
+  if (!value) wrong_word(name, "a number", word);
+  constexpr double kBeyondAllUnits = 1e15;
+  require_magnitude(*this, name, *value, kBeyondAllUnits);
+  return *value;
+}
 
 double ContactText::real(std::string_view name, double greatest) {
   const double value = real(name);

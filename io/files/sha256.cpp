@@ -10,6 +10,7 @@
 #include <fstream>
 #include <vector>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/text.hpp"
 
@@ -116,6 +117,7 @@ std::string sha256_file(const std::filesystem::path& file) {
   Sha256 hash;
   std::vector<char> piece(1 << 16);
   do {
+    check_cancelled();
     stream.read(piece.data(), static_cast<std::streamsize>(piece.size()));
     hash.add({piece.data(), static_cast<std::size_t>(stream.gcount())});
   } while (stream);

@@ -13,6 +13,8 @@
 #include <fstream>
 #include <system_error>
 
+#include "treadmark/core/cancellation.hpp"
+
 namespace treadmark::io::profiles {
 
 namespace fs = std::filesystem;
@@ -23,6 +25,7 @@ fs::path portable_path(std::string name) {
 }
 
 std::string read_text(const fs::path& file, const std::string& what, const SourcePosition& referenced_from) {
+  check_cancelled();
   const SourcePosition where = referenced_from.file.empty() ? SourcePosition{file.string(), 0, 0} : referenced_from;
   const auto refuse = [&](const std::string& why, const std::string& advice) {
     std::string name = file.string();
@@ -45,10 +48,17 @@ std::string read_text(const fs::path& file, const std::string& what, const Sourc
 
   std::ifstream stream(actual, std::ios::binary);
   if (!stream) refuse("cannot be opened", "check its permissions");
-  std::string text(static_cast<std::size_t>(size), '\0');
-  stream.read(text.data(), static_cast<std::streamsize>(size));
+  constexpr std::uintmax_t kPiece = std::uintmax_t{1} << 24;
+  std::string text;
+  text.reserve(static_cast<std::size_t>(size));
+  while (stream && text.size() < size) {
+    check_cancelled();
+    const std::size_t before = text.size();
+    text.resize(static_cast<std::size_t>(std::min(size, before + kPiece)));
+    stream.read(text.data() + before, static_cast<std::streamsize>(text.size() - before));
+    text.resize(before + static_cast<std::size_t>(stream.gcount()));
+  }
   if (stream.bad()) refuse("cannot be read to its end", "check the disk");
-  text.resize(static_cast<std::size_t>(stream.gcount()));
   return text;
 }
 

@@ -4,6 +4,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/check_point.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -31,9 +32,13 @@ std::string ply(const TriangleMesh& mesh, Comments comments) {
       "property double z\nelement face {}\nproperty list uchar uint vertex_indices\nend_header\n",
       lines(comments, "comment"), mesh.vertices.size(), mesh.triangles.size());
   out.reserve(out.size() + 24 * mesh.vertices.size() + 13 * mesh.triangles.size());
-  for (const Vec3& v : mesh.vertices)
+  CheckPoint check;
+  for (const Vec3& v : mesh.vertices) {
+    check.pass();
     for (int k = 0; k < 3; ++k) put(out, kMillimetres * v[k]);
+  }
   for (const auto& c : mesh.triangles) {
+    check.pass();
     put(out, std::uint8_t{3});
     for (const std::uint32_t v : c) put(out, v);
   }
@@ -46,7 +51,9 @@ std::string stl(const TriangleMesh& mesh, Comments comments) {
   out.resize(80, ' ');
   out.reserve(84 + 50 * mesh.triangles.size());
   put(out, static_cast<std::uint32_t>(mesh.triangles.size()));
+  CheckPoint check;
   for (const auto& c : mesh.triangles) {
+    check.pass();
     const Vec3 &a = mesh.vertices[c[0]], &b = mesh.vertices[c[1]], &d = mesh.vertices[c[2]];
     Vec3 n = (b - a).cross(d - a);
     if (n.norm() > 0.0) n.normalize();
@@ -64,10 +71,14 @@ std::string text(const TriangleMesh& mesh, bool obj, Comments comments) {
                         : fmt::format("OFF\n# millimetres\n{}{} {} 0\n", lines(comments, "#"), mesh.vertices.size(),
                                       mesh.triangles.size());
   const auto to = std::back_inserter(out);
-  for (const Vec3& v : mesh.vertices)
+  CheckPoint check;
+  for (const Vec3& v : mesh.vertices) {
+    check.pass();
     fmt::format_to(to, "{}{} {} {}\n", obj ? "v " : "", kMillimetres * v.x(), kMillimetres * v.y(),
                    kMillimetres * v.z());
+  }
   for (const auto& c : mesh.triangles) {
+    check.pass();
     const std::uint32_t first = obj ? 1 : 0;
     fmt::format_to(to, "{} {} {} {}\n", obj ? "f" : "3", c[0] + first, c[1] + first, c[2] + first);
   }

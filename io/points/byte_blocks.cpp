@@ -11,6 +11,7 @@
 #include <system_error>
 #include <utility>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 
 namespace treadmark::io::points {
@@ -59,6 +60,7 @@ ByteBlocks::ByteBlocks(std::string_view bytes, std::string name, std::size_t blo
 }
 
 void ByteBlocks::fill(std::size_t bytes) {
+  check_cancelled();
   if (progress_.stop_requested()) fail("reading was stopped", "nothing was changed");
   const std::size_t carried = end_ - begin_;
   if (begin_ > 0 && carried > 0) std::memmove(buffer_.data(), buffer_.data() + begin_, carried);

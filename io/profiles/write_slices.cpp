@@ -10,6 +10,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
@@ -59,6 +60,7 @@ std::uintmax_t write_slices(const std::filesystem::path& file, const SliceSet& s
   std::string sums, text;
   std::uintmax_t bytes = 0;
   for (std::size_t i = 0; i < slices.u.size(); ++i) {
+    check_cancelled();
     const Profile& profile = slices.profiles[i];
     text.clear();
     for (std::size_t k = 0; k < profile.y.size(); ++k)

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/never_held.hpp"
 #include "treadmark/io/results/comparison_model.hpp"
 
 namespace treadmark::io {
@@ -25,7 +26,7 @@ void write_comparison_fields(const std::filesystem::path& path, const Comparison
 Comparison read_comparison_fields(const std::filesystem::path& path);
 
 /// Absent, a number (not finite = it does not exist), a count or a text.
-using FieldValue = std::variant<std::monostate, double, std::int64_t, std::string>;
+using FieldValue = std::variant<std::monostate, double, std::int64_t, std::string, NeverHeld>;
 
 /// A number of a struct: the name that the files give it, where it is, and the factor from SI to the unit of its name.
 template <class Struct>

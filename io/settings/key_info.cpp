@@ -12,22 +12,32 @@
 #include <numbers>
 #include <vector>
 
+#include "treadmark/io/settings/magnitudes.hpp"
+
 namespace treadmark::io {
 
 namespace {
 
 constexpr double kDegree = std::numbers::pi / 180.0;
 
-struct UnitEnding {
-  std::string_view ending;
-  double si;
-};
 // Longer endings first.
-constexpr UnitEnding kUnits[] = {
-    {"_mm_per_MPa", 1e-9}, {"_MPa_per_mm", 1e9}, {"_N_per_mm", 1e3}, {"_per_m", 1.0}, {"_rad_s", 1.0}, {"_rad_m", 1.0},
-    {"_mm_s", 1e-3},       {"_m_s", 1.0},        {"_mm3", 1e-9},     {"_um", 1e-6},   {"_us", 1e-6},   {"_GPa", 1e9},
-    {"_MPa", 1e6},         {"_deg", kDegree},    {"_rad", 1.0},      {"_mm", 1e-3},   {"_N", 1.0},
-};
+constexpr KeyUnit kUnits[] = {{"_mm_per_MPa", 1e-9, "m/Pa"},
+                              {"_MPa_per_mm", 1e9, "Pa/m"},
+                              {"_N_per_mm", 1e3, "N/m"},
+                              {"_per_m", 1.0, "1/m"},
+                              {"_rad_s", 1.0, "rad/s"},
+                              {"_rad_m", 1.0, "rad/m"},
+                              {"_mm_s", 1e-3, "m/s"},
+                              {"_m_s", 1.0, "m/s"},
+                              {"_mm3", 1e-9, "m3"},
+                              {"_um", 1e-6, "m"},
+                              {"_us", 1e-6, "s"},
+                              {"_GPa", 1e9, "Pa"},
+                              {"_MPa", 1e6, "Pa"},
+                              {"_deg", kDegree, "rad"},
+                              {"_rad", 1.0, "rad"},
+                              {"_mm", 1e-3, "m"},
+                              {"_N", 1.0, "N"}};
 
 }  // namespace
 
@@ -58,11 +68,13 @@ ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const
   return place;
 }
 
-double unit_of_key(std::string_view path) {
-  for (const UnitEnding& unit : kUnits)
-    if (path.ends_with(unit.ending)) return unit.si;
-  return 1.0;
+KeyUnit unit_at_end(std::string_view path) {
+  for (const KeyUnit& unit : kUnits)
+    if (path.ends_with(unit.ending)) return unit;
+  return {"", 1.0, "1"};
 }
+
+double unit_of_key(std::string_view path) { return unit_at_end(path).si; }
 
 std::vector<double> numbers_of(const CaseValue& list, double unit) {
   std::vector<double> numbers;
@@ -157,15 +169,24 @@ std::string_view plain(KeyType type) {
 }
 
 void check_range(const KeyInfo& key, double value, const SourcePosition& where) {
-  constexpr double kGreatest = 1e100;  // other units of it are numbers still
   if (!std::isfinite(value)) refuse_value(fmt::format("{} must be finite", key.path), where);
-  if (std::abs(value) > kGreatest) refuse_value(fmt::format("{} = {} is too large", key.path, value), where);
   if (key.above && !(value > *key.above))
     refuse_value(fmt::format("{} = {} must be greater than {}", key.path, value, *key.above), where);
   if (key.at_least && value < *key.at_least)
     refuse_value(fmt::format("{} = {} must be at least {}", key.path, value, *key.at_least), where);
   if (key.at_most && value > *key.at_most)
     refuse_value(fmt::format("{} = {} must be at most {}", key.path, value, *key.at_most), where);
+  const Magnitudes& meant = magnitudes_of(key.path);
+  const char* advice = "is it in the unit that the name of the key ends with?";
+  if (std::abs(value) > meant.greatest)
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("{} = {:g} is beyond the greatest magnitude that is taken, {:g}", key.path, value, meant.greatest),
+        where, advice);
+  if (key.above == 0.0 && value < meant.least)
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} = {:g} is below the least that is taken, {:g}", key.path, value, meant.least), where,
+                advice);
 }
 
 }  // namespace

@@ -73,6 +73,14 @@ struct ElementPath {
 /// Errors: Error(configuration) if rest does not start with a number and a dot.
 ElementPath split_element_path(const KeyInfo& list, std::string_view rest, const SourcePosition& where);
 
+/// The unit that the name of a key ends with. No ending: the number has no unit.
+struct KeyUnit {
+  std::string_view ending;
+  double si = 1.0;           ///< of one unit
+  std::string_view si_name;  ///< of the unit in SI; "1": none
+};
+KeyUnit unit_at_end(std::string_view path);
+
 /// SI value of one unit of the key: from the ending of its name (_mm, _N, _deg, _rad, _us, _GPa, _MPa, _m_s, _per_m
 /// ...).
 double unit_of_key(std::string_view path);

@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/never_held.hpp"
 
 namespace treadmark::io {
 
@@ -22,7 +23,7 @@ using CaseTable = std::vector<CaseEntry>;
 /// A value of a file with its position, independent of the TOML library.
 struct CaseValue {
   SourcePosition where;
-  std::variant<bool, std::int64_t, double, std::string, std::vector<CaseValue>, CaseTable> data;
+  std::variant<bool, std::int64_t, double, std::string, std::vector<CaseValue>, CaseTable, NeverHeld> data;
 
   bool is_table() const { return std::holds_alternative<CaseTable>(data); }
   bool is_list() const { return std::holds_alternative<std::vector<CaseValue>>(data); }

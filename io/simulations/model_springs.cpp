@@ -70,6 +70,10 @@ void add_at(const std::vector<Places>& places, Part part, std::vector<Part>& out
 
 template <class Part>
 void check_names(const std::vector<Part>& parts, std::string_view kind) {
+  constexpr std::size_t kMostParts = 2000;  // of 200 bodies
+  if (parts.size() > kMostParts)
+    throw Error(ErrorKind::configuration, fmt::format("{} {} are more than {}", parts.size(), kind, kMostParts),
+                parts[kMostParts].where);
   std::set<std::string> seen;
   for (const Part& part : parts)
     if (!seen.insert(part.name).second)

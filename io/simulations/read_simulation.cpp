@@ -121,6 +121,21 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
                 fmt::format("simulation.min_step_us = {:.6g} exceeds the longest step of {:.6g} us", s.min_step * 1e6,
                             longest * 1e6),
                 place("min_step_us"), "the longest step follows from max_step_us and max_step_elements * dx / V");
+
+  // Each line holds some hundred numbers in memory, and a step takes a millisecond at least.
+  constexpr double kMostSteps = 1e9, kMostLines = 1e7;
+  const std::string_view extent = simulation.find("duration_s") ? "duration_s" : "distance_m";
+  const double steps = s.duration / longest, lines = s.output_every > 0.0 ? s.distance / s.output_every : steps;
+  if (steps > kMostSteps)
+    throw Error(ErrorKind::configuration,
+                fmt::format("the simulation takes at least {:.3g} steps, more than {:g}", steps, kMostSteps),
+                place(extent),
+                "shorten it, or allow longer steps (max_step_us, max_step_elements, discretisation.dx_mm)");
+  if (std::min(lines, steps) > kMostLines)
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("the history has at least {:.3g} lines, more than {:g}", std::min(lines, steps), kMostLines),
+        place(extent), "shorten it, or write fewer lines (simulation.output_every_mm)");
 }
 
 }  // namespace

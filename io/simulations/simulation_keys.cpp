@@ -159,7 +159,7 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
   using S = SimulationSettings;
   static const std::vector<SettingKey<S>> keys = [] {
     SettingKeys<S> list;
-    list.number("gravity_m_s2", kPositive, "acceleration of gravity", [](S& s) -> double& { return s.gravity; });
+    list.number("gravity_m_s2", {0.0, {}, 1e3}, "acceleration of gravity", [](S& s) -> double& { return s.gravity; });
     list.number("tolerance_um", kPositive, "local error of a step", [](S& s) -> double& { return s.tolerance; });
     list.add(key_info("max_step_us", KeyType::number, "longest step", kPositive)).set =
         [](S& s, const CaseValue& v, const std::filesystem::path&) {

@@ -1,7 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
-#include <cmath>
 #include <functional>
 #include <limits>
 
@@ -63,7 +62,8 @@ SimulationSettings read_settings(const TableReader& simulation) {
     s.distance = simulation.number("distance_m");
     s.duration = s.distance / s.speed;
   }
-  if (!std::isfinite(s.duration) || !std::isfinite(s.distance)) simulation.fail("the simulation has no end");
+  constexpr double kNeverEnds = 1e9;  // [s], [m], as the keys themselves
+  if (!(s.duration <= kNeverEnds) || !(s.distance <= kNeverEnds)) simulation.fail("the simulation has no end");
   for (const SettingKey<SimulationSettings>& key : plain_setting_keys())
     if (const CaseValue* value = simulation.checked_if(key.info.path)) key.set(s, *value, {});
   return s;

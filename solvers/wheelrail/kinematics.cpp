@@ -6,6 +6,11 @@
 #include <cmath>
 #include <numbers>
 
+#include <fmt/format.h>
+
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+
 namespace treadmark::wheelrail {
 
 ContactKinematics contact_kinematics(const Problem& p, const Placement& placed, const Pose& X_TC, double approach) {
@@ -31,8 +36,19 @@ ContactKinematics contact_kinematics(const Problem& p, const Placement& placed, 
     k.velocity = 0.5 * (std::abs(travel) + std::abs(by_pitch));
   }
   constexpr double kStanding = 1e-9;
-  if (k.velocity < kStanding) return k;
-  const Vec3 slip = R_CT * (v_rail - v_wheel) / k.velocity;
+  const Vec3 sliding = R_CT * (v_rail - v_wheel);
+  if (k.velocity < kStanding) {
+    // Without rolling there is no creepage, and friction would vanish.
+    const double speed = std::hypot(sliding.x(), sliding.y());
+    if (speed >= kStanding && p.regime != kalker::Regime::frictionless)
+      throw Error(
+          ErrorKind::numerical,
+          fmt::format("the wheel slides at {:.3g} mm/s and does not roll: there are no creepages without rolling",
+                      kMilli * speed),
+          {}, "give a velocity, or take a shift");
+    return k;
+  }
+  const Vec3 slip = sliding / k.velocity;
   k.xi = slip.x();
   k.eta = slip.y();
   k.phi = X_TC.rotation.col(2).dot(material.rotation_difference()) / k.velocity;

@@ -16,33 +16,13 @@
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
 namespace {
 
 using ::testing::HasSubstr;
-
-const char* kFlatCase = R"(
-[wheel]
-shape.standard = "S1002"
-[[wheel.flats]]
-length_mm = 60
-depth_mm = 0.3
-[rail]
-shape.standard = "60E1"
-[track]
-cant = "1:40"
-[wheelset]
-vertical_force_N = 80e3
-velocity_m_s = 2
-vpitch_rad_s = -4.3478
-[discretisation]
-dx_mm = 1.0
-ds_mm = 1.0
-[[cases]]
-wheelset.pitch_deg = [0, 2]
-)";
 
 const io::ComparisonCandidate& find(const io::Comparison& comparison, const std::string& name, double resolution) {
   for (const io::ComparisonCandidate& c : comparison.candidates)
@@ -53,7 +33,7 @@ const io::ComparisonCandidate& find(const io::Comparison& comparison, const std:
 TEST(CompareCases, RowsAreThoseOfARunWithTheSameBackend) {
   TREADMARK_NEEDS("embree");
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlatCase);
+  input.write("flat.toml", treadmark::testing::flat_wheel_case());
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
   CompareSettings settings;
   settings.backends = {"analytic", "spline", "mesh"};
@@ -95,7 +75,7 @@ TEST(CompareCases, BodiesAndCombinationsAsAskedFor) {
   TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlatCase);
+  input.write("flat.toml", treadmark::testing::flat_wheel_case());
   const std::vector<std::string> one_case{"wheelset.pitch_deg=0"};
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), one_case);
   CompareSettings settings;
@@ -147,7 +127,7 @@ TEST(CompareCases, ThreadsChangeNothingButTimes) {
   TREADMARK_NEEDS("openvdb");
   TREADMARK_NEEDS("tbb");
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlatCase);
+  input.write("flat.toml", treadmark::testing::flat_wheel_case());
   const io::CaseFile file = io::read_any_case((input.folder() / "flat.toml").string(), {});
   CompareSettings settings;
   settings.backends = {"mesh", "offset", "nurbs"};
@@ -205,7 +185,7 @@ TEST(CompareCommand, WritesTableFilesAndPictures) {
   TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("hdf5");
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", kFlatCase);
+  input.write("flat.toml", treadmark::testing::flat_wheel_case());
   const auto folder = input.folder() / "out";
   const auto r = treadmark::testing::run_program({"compare", (input.folder() / "flat.toml").string(), "--backends",
                                                   "spline,mesh-flat", "--resolutions", "2,1", "-o", folder.string()});

@@ -14,6 +14,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
 namespace treadmark::app {
@@ -22,23 +23,8 @@ namespace {
 using ::testing::HasSubstr;
 
 std::string flat_case(const std::string& wheel) {
-  return "[wheel]\n" + wheel + R"(
-[rail]
-shape.standard = "60E1"
-[track]
-cant = "1:40"
-[wheelset]
-vertical_force_N = 80e3
-velocity_m_s = 2
-vpitch_rad_s = -4.3478
-pitch_deg = 1.5
-[discretisation]
-dx_mm = 1.0
-ds_mm = 1.0
-)";
+  return treadmark::testing::standard_case("1.0", wheel, "[[cases]]\nwheelset.pitch_deg = 1.5\n");
 }
-
-const char* kWheel = "shape.standard = \"S1002\"\n[[wheel.flats]]\nlength_mm = 60\ndepth_mm = 0.3\n";
 
 double largest_pressure(const std::filesystem::path& file) {
   return run_cases(io::read_any_case(file.string(), {})).cases.at(0).patches.at(0).pmax;
@@ -59,7 +45,7 @@ TEST_P(Convert, TheFileGivesTheSameContact) {
     TREADMARK_NEEDS(name.ends_with(".vdb") ? "openvdb" : "embree");
   }
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", flat_case(kWheel));
+  input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));
   ConvertSettings settings;
   settings.body = Body::wheel;
   settings.resolution = 2e-3;
@@ -77,7 +63,7 @@ TEST(ConvertSurface, FromTrianglesToSlicesAndOffsets) {
   TREADMARK_NEEDS("embree");
   TREADMARK_NEEDS("openvdb");
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", flat_case(kWheel));
+  input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));
   ConvertSettings settings;
   settings.body = Body::wheel;
   settings.resolution = 1e-3;
@@ -95,7 +81,7 @@ TEST(ConvertSurface, FromTrianglesToSlicesAndOffsets) {
 
 TEST(ConvertSurface, ClosesAWholeWheel) {
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", flat_case(kWheel));
+  input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));
   ConvertSettings settings;
   settings.body = Body::wheel;
   settings.resolution = 8e-3;
@@ -106,7 +92,7 @@ TEST(ConvertSurface, ClosesAWholeWheel) {
 
 TEST(ConvertSurface, SaysWhatIsMissing) {
   const treadmark::testing::SampleInput input;
-  input.write("flat.toml", flat_case(kWheel));
+  input.write("flat.toml", flat_case(treadmark::testing::kWheelWithFlat));
   const auto expect = [&](const char* in, const char* out, const ConvertSettings& settings, const char* words) {
     try {
       convert_surface(input.folder() / in, input.folder() / out, settings);

@@ -12,10 +12,11 @@
 #include <vector>
 
 #include "treadmark/app/import/scan_surface.hpp"
-#include "treadmark/core/error.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/io/scans/read_scan.hpp"
 #include "treadmark/tests/app/program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -23,22 +24,6 @@ namespace {
 using ::testing::HasSubstr;
 using treadmark::testing::run_program;
 using Json = nlohmann::json;
-
-const char* kCase = R"(
-[wheel]
-shape.standard = "S1002"
-[rail]
-shape.standard = "60E1"
-[track]
-cant = "1:40"
-[wheelset]
-vertical_force_N = 80e3
-velocity_m_s = 2
-vpitch_rad_s = -4.3478
-[discretisation]
-dx_mm = 1.0
-ds_mm = 1.0
-)";
 
 /// 60E1, EN 13674-1: the crown has a radius of 300 mm for |y| < 10 mm. All in mm.
 double crown(double y) { return 300.0 - std::sqrt(300.0 * 300.0 - y * y); }
@@ -48,7 +33,7 @@ constexpr double kCone = 1e-5;  // [mm] the standard's digits
 
 class ScanCommand : public ::testing::Test {
  protected:
-  ScanCommand() { input.write("case.toml", kCase); }
+  ScanCommand() { input.write("case.toml", treadmark::testing::standard_case("1.0")); }
 
   std::string path(const std::string& name) const { return (input.folder() / name).string(); }
 
@@ -215,7 +200,7 @@ TEST_F(ScanCommand, LeavesNoFileWhenStopped) {
   progress.stop = &stop;
   ScanRequest request;
   request.surface.body = Body::wheel;
-  EXPECT_THROW(scan_surface(input.folder() / "case.toml", input.folder() / "x.ply", request, progress), Error);
+  EXPECT_THROW(scan_surface(input.folder() / "case.toml", input.folder() / "x.ply", request, progress), Cancelled);
   EXPECT_FALSE(std::filesystem::exists(input.folder() / "x.ply"));
 }
 

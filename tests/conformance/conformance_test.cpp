@@ -28,7 +28,7 @@ Fields evaluate(const Surface& surface, const Pose& X, const Grid2& grid) {
 
 /// Odd steps, so that no point falls on a joint by chance.
 Grid2 coarse_grid() { return {-0.0197, -0.0293, 0.00131, 0.00193, 31, 31}; }
-Grid2 fine_grid() { return {-0.0197, -0.0293, 0.00031, 0.00047, 130, 125}; }
+Grid2 fine_grid() { return {-0.0197, -0.0293, 0.00062, 0.00094, 65, 63}; }
 
 bool same(double a, double b, double tolerance) {
   return (std::isnan(a) && std::isnan(b)) || std::fabs(a - b) <= tolerance;

@@ -16,6 +16,7 @@
 #include <thread>
 #include <vector>
 
+#include "treadmark/core/copy_bytes.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -233,6 +234,21 @@ TEST_F(OutputFiles, RemovingIsDoneOrSaid) {
   remove_file(path("a"));
   put("full/b", "b");
   EXPECT_THAT(full_error([&] { remove_file(path("full")); }), HasSubstr("cannot write " + path("full").string()));
+}
+
+TEST_F(OutputFiles, OfOnesOwnAreCopiedIntoWhatCannotBeRenamed) {
+  put("made", std::string(3'000'000, 'x'));
+  put("target", "old");
+  fs::create_symlink(path("target"), path("link"));
+  copy_bytes(path("made"), path("link"));
+  EXPECT_TRUE(fs::is_symlink(path("link")));
+  EXPECT_EQ(read(path("target")), read(path("made")));
+  put("target", "old");
+  EXPECT_THAT(full_error([&] { copy_bytes(path("none"), path("target")); }),
+              ::testing::AllOf(HasSubstr("cannot write " + path("target").string()), HasSubstr("cannot be read back")));
+  EXPECT_THAT(full_error([&] { copy_bytes(folder_.path(), path("target")); }), HasSubstr("cannot be read back"));
+  EXPECT_EQ(read(path("target")), "old");
+  EXPECT_THAT(names(), ElementsAre("link", "made", "target"));
 }
 
 }  // namespace

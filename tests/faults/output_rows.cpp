@@ -8,25 +8,10 @@
 
 #include "treadmark/core/parts.hpp"
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 
 namespace treadmark::testing {
 namespace {
-
-const char* kCoarseCase = R"(
-[wheel]
-shape.standard = "S1002"
-[rail]
-shape.standard = "60E1"
-[track]
-cant = "1:40"
-[wheelset]
-vertical_force_N = 80e3
-velocity_m_s = 2
-vpitch_rad_s = -4.3478
-[discretisation]
-dx_mm = 2.0
-ds_mm = 2.0
-)";
 
 const char* kShortStudy = R"([study]
 title = "Two speeds"
@@ -82,6 +67,7 @@ const std::vector<OutputRow> kRows{
      "import $scan.ply -o @rail.slcs --body rail --resolution 5 --json @audit.json", 0},
     {"import_report", "scans cgal report hdf5", SCANS,
      "import $scan.ply -o @rail.ply --body rail --resolution 4 --report @audit", nullptr, 0},
+    {"fmu", "fmu", "", "fmu $case.toml -o @wheel.fmu", nullptr, 0},
     {"report", "report hdf5", RESULTS, "report $first -o @report.html", "report $second -o @report.html", 3},
     {"plot", "report hdf5", RESULTS, "plot $first --what pressure -o @plot.svg",
      "plot $second --what pressure -o @plot.svg", 3},
@@ -114,7 +100,7 @@ std::string missing_part(const std::string& parts) {
 
 OutputScene::OutputScene() : out_(std::filesystem::canonical(input_.folder()) / "out") {
   std::filesystem::create_directories(out_);
-  input_.write("case.toml", kCoarseCase);
+  input_.write("case.toml", standard_case("2.0"));
   input_.write("short.toml", input_.read("simulation.toml"));
   input_.edit("short.toml", "distance_m = 0.06\ncheckpoint_s = 0.02", "distance_m = 0.01\ncheckpoint_s = 0.0002");
   input_.write("short-study.toml", kShortStudy);

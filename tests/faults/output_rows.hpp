@@ -2,11 +2,14 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <gtest/gtest.h>
+
 #include <filesystem>
 #include <ostream>
 #include <string>
 #include <vector>
 
+#include "treadmark/core/parts.hpp"
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
 namespace treadmark::testing {
@@ -29,6 +32,12 @@ const std::vector<OutputRow>& output_rows();
 
 /// The first of these parts, by blanks, that this build leaves out, or "".
 std::string missing_part(const std::string& parts);
+
+/// At the beginning of a test of a row: it is skipped where this build leaves out a part that the row needs.
+#define TREADMARK_NEEDS_PARTS_OF(row)                                                                 \
+  if (const std::string missing = ::treadmark::testing::missing_part((row).parts); missing.empty()) { \
+  } else                                                                                              \
+    GTEST_SKIP() << ::treadmark::left_out_message(missing, "what this test needs")
 
 /// The inputs, and an empty folder for outputs whose path has no links.
 class OutputScene {

@@ -85,8 +85,7 @@ class PowerCuts : public ::testing::TestWithParam<OutputRow> {};
 
 TEST_P(PowerCuts, LeaveTheOldFilesOrTheNewOnes) {
   const OutputRow& row = GetParam();
-  if (const std::string part = missing_part(row.parts); !part.empty())
-    GTEST_SKIP() << left_out_message(part, "what this test needs");
+  TREADMARK_NEEDS_PARTS_OF(row);
   const OutputScene scene;
   scene.prepare(row);
   const std::filesystem::path log = scene.input().folder() / "log";

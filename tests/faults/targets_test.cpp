@@ -29,8 +29,7 @@ class Targets : public ::testing::TestWithParam<OutputRow> {
  protected:
   void SetUp() override {
     const OutputRow& row = GetParam();
-    if (const std::string part = missing_part(row.parts); !part.empty())
-      GTEST_SKIP() << left_out_message(part, "what this test needs");
+    TREADMARK_NEEDS_PARTS_OF(row);
     scene.prepare(row);
     const std::string command = row.command;
     const std::size_t at = command.find('@') + 1;

@@ -33,8 +33,7 @@ class TwoWriters : public ::testing::TestWithParam<OutputRow> {};
 /// One is stopped at one of its operations while the other writes the same files from beginning to end.
 TEST_P(TwoWriters, OneOfThemHasWritten) {
   const OutputRow& row = GetParam();
-  if (const std::string part = missing_part(row.parts); !part.empty())
-    GTEST_SKIP() << left_out_message(part, "what this test needs");
+  TREADMARK_NEEDS_PARTS_OF(row);
   const OutputScene scene;
   scene.prepare(row);
   const auto made_by = [&](const char* command) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
+#include "treadmark/core/cancellation.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -138,7 +139,8 @@ NurbsHull::NurbsHull(const NurbsNet& net) {
   int nu = static_cast<int>(cells_u.size()), nv = static_cast<int>(cells_v.size());
   std::vector<Slab> slabs;
   std::vector<Vec3> points;
-  for (const Cell& cu : cells_u)
+  for (const Cell& cu : cells_u) {
+    check_cancelled();
     for (const Cell& cv : cells_v) {
       points.clear();
       for (int iu = cu.first; iu < cu.last; ++iu)
@@ -150,6 +152,7 @@ NurbsHull::NurbsHull(const NurbsNet& net) {
         }
       slabs.push_back(slab_of(points));
     }
+  }
   for (;;) {
     levels_.push_back(level_of(slabs, nu, nv));
     const Level& level = levels_.back();

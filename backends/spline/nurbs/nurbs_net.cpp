@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "treadmark/backends/spline/banded.hpp"
+#include "treadmark/core/cancellation.hpp"
 
 namespace treadmark::spline {
 namespace {
@@ -60,7 +61,7 @@ void NurbsNet::build_boxes() {
   };
   Level first{patches_u(), patches_v(), {}};
   first.boxes.reserve(static_cast<std::size_t>(first.nu) * static_cast<std::size_t>(first.nv));
-  for (int iu = 0; iu < first.nu; ++iu)
+  for (int iu = 0; iu < first.nu; ++iu, check_cancelled())
     for (int iv = 0; iv < first.nv; ++iv) {
       const BezierPatch p = patch(iu, iv);
       Corners corners;

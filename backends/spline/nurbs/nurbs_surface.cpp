@@ -10,6 +10,7 @@
 #include "treadmark/backends/spline/banded.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
 #include "treadmark/backends/spline/point_batches.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -152,6 +153,7 @@ class SplineSlopes {
   /// values(i) -> value at knot i; set(i, slope).
   template <class Values, class Set>
   void solve(const Values& values, const Set& set) {
+    check_cancelled();
     const auto rise = [&](int i) { return (values(next(i, 1)) - values(next(i, 0))) / step(i); };
     for (int i = 0; i < size_; ++i) {
       double& b = rhs_[static_cast<std::size_t>(place(i))];

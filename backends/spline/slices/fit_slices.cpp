@@ -339,6 +339,7 @@ SampledSlices sample_slices(const SliceSet& slices) {
   std::vector<ProfileSpline> splines;
   std::vector<std::vector<double>> features;
   for (std::size_t i = 0; i < count; ++i) {
+    check_cancelled();
     splines.push_back(fit_profile(slices.profiles[i]));
     features.push_back(features_of(slices, i, splines.back().end() - splines.back().begin()));
     if (features.back().size() != features.front().size()) throw bad_slice(slices, i, "has another number of features");
@@ -358,6 +359,7 @@ SampledSlices sample_slices(const SliceSet& slices) {
   }
 
   for (std::size_t i = 0; i < count; ++i) {
+    check_cancelled();
     SampledSlice slice;
     int position = 0;
     for (std::size_t p = 0; p < parts; position += intervals[p], ++p) {

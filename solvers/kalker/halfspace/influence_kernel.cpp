@@ -111,8 +111,10 @@ InfluenceBlock divided(const InfluenceBlock& b, double d) {
 std::shared_ptr<const InfluenceKernel> make_influence_kernel(const Material& material,
                                                              const InfluenceSettings& settings, double dx, double dy,
                                                              double velocity, double chi) {
-  const CombinedMaterial combined = combine(material);
-  if (!(combined.shear_modulus > 0.0 && std::isfinite(combined.poisson) && std::isfinite(combined.difference)))
+  const bool elastic_bodies = material.shear_modulus_1 > 0.0 && material.shear_modulus_2 > 0.0;
+  const CombinedMaterial combined = combine(elastic_bodies ? material : Material{});
+  if (!(elastic_bodies && combined.shear_modulus > 0.0 && std::isfinite(combined.poisson) &&
+        std::isfinite(combined.difference)))
     throw Error(ErrorKind::configuration, "elastic bodies need positive shear moduli and finite Poisson's ratios");
   if (material.creep_ratio_1 != 0.0 || material.creep_ratio_2 != 0.0)
     return make_viscoelastic(material, settings.kind, dx, dy, velocity, chi);

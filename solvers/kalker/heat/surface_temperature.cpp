@@ -172,8 +172,8 @@ SurfaceTemperatures surface_temperatures(const ContactProblem& problem, const Co
                                          const HeatOptions& options) {
   if (!problem.thermal) refuse("the problem has no thermal properties", "set them");
   const bool quirks = options.reference_quirks;
-  const Shares s = shares(*problem.thermal, problem.rolling.velocity, quirks);
   const std::vector<double> flux = frictional_heat(problem, solution, problem.thermal->plastic_fraction);
+  const Shares s = shares(*problem.thermal, problem.rolling.velocity, quirks);
   const Grid2& grid = problem.grid;
   const std::vector<double> roots = distance_roots(grid.nx, grid.dx);
   const double offset_behind = quirks && std::cos(problem.rolling.chi) > 0.0 ? 0.5 : -0.5;

@@ -85,12 +85,18 @@ int FrictionSweeps::run(const FrictionProblem& problem, std::span<double> p, dou
     if (rolling_) add(node(i) + static_cast<std::size_t>(behind), -p[i], -p[n + i]);
   }
 
+  constexpr std::size_t kProducts = std::size_t{1} << 20;  // between two check points: about a millisecond
+  const auto products = static_cast<std::size_t>(ny) * static_cast<std::size_t>(width_);
+  std::size_t since = kProducts;
   int sweeps = 0;
   for (; sweeps < count;) {
     ++sweeps;
     double change = 0.0, total = 0.0;
     for (std::size_t i = n; i-- > 0;) {
-      check_cancelled();
+      if ((since += products) > kProducts) {
+        since = 0;
+        check_cancelled();
+      }
       // Slip of this element by all others and itself.
       double sx = problem.rigid_slip[i], sy = problem.rigid_slip[n + i];
       const int cell = static_cast<int>(patch_.cell[i]), ix = cell % nx, iy = cell / nx;

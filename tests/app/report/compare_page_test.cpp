@@ -18,6 +18,7 @@
 #include "treadmark/io/results/comparison_store.hpp"
 #include "treadmark/pictures/comparison_pictures.hpp"
 #include "treadmark/tests/app/report/page_reader.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
 namespace treadmark::app::report {
@@ -39,27 +40,6 @@ using treadmark::testing::section_ids;
 using treadmark::testing::table_of;
 using treadmark::testing::texts_in;
 using Json = nlohmann::json;
-
-const char* kFlat = R"(
-[wheel]
-shape.standard = "S1002"
-[[wheel.flats]]
-length_mm = 60
-depth_mm = 0.3
-[rail]
-shape.standard = "60E1"
-[track]
-cant = "1:40"
-[wheelset]
-vertical_force_N = 80e3
-velocity_m_s = 2
-vpitch_rad_s = -4.3478
-[discretisation]
-dx_mm = 1.0
-ds_mm = 1.0
-[[cases]]
-wheelset.pitch_deg = [0, 2]
-)";
 
 io::ComparisonRow made_up_row(int number, double error) {
   io::ComparisonRow row;
@@ -115,7 +95,7 @@ class ComparePage : public ::testing::Test {
 };
 
 TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
-  const auto input = folder_.write("in/flat.toml", kFlat);
+  const auto input = folder_.write("in/flat.toml", treadmark::testing::flat_wheel_case());
   CompareSettings settings;
   settings.backends = {"spline", "mesh-flat"};
   settings.resolutions = {2e-3};

@@ -94,16 +94,17 @@ TEST_F(RunStudy, ResultsDoNotTellWhatElseTheWorkerRead) {
 }
 
 TEST_F(RunStudy, ARunWithoutEquilibriumTellsWhereItComesFrom) {
+  input.edit("vehicle.toml", "mass_kg = 9000", "mass_kg = 900000");
   input.edit("study.toml", "values = [20, 40]", "values = [20]");
   input.edit("study.toml", "key = \"wheel.flats.0.depth_mm\"\nvalues = [0.5, 0.9]",
-             "key = \"simulation.gravity_m_s2\"\nvalues = [1e5]");
+             "key = \"simulation.gravity_m_s2\"\nvalues = [1000]");
   input.edit("study.toml", "series = \"wheel.flats.0.depth_mm\"", "series = \"simulation.gravity_m_s2\"");
   const StudyOutcome outcome = run_study(study(), options, {});
   ASSERT_EQ(outcome.study.runs.size(), 1u);
   EXPECT_EQ(outcome.study.runs[0].status, "failed");
   const io::SimulationResult result = io::read_simulation(outcome.study.runs[0].store);
   EXPECT_EQ(result.rows(), 0u);
-  EXPECT_EQ(result.settings, (std::vector<std::string>{"simulation.speed_m_s=20", "simulation.gravity_m_s2=100000"}));
+  EXPECT_EQ(result.settings, (std::vector<std::string>{"simulation.speed_m_s=20", "simulation.gravity_m_s2=1000"}));
   std::vector<std::string> files;
   for (const auto& [name, hash] : result.geometry_sha256) files.push_back(name);
   EXPECT_EQ(files, (std::vector<std::string>{"vehicle.toml", "track.toml"}));

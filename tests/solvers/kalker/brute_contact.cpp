@@ -144,16 +144,25 @@ VectorXd pressures(const MatrixXd& a, const VectorXd& h) {
 
 /// The traction in the disc for which the slip r + d q of one element is zero or opposes it.
 std::array<double, 2> in_disc(const std::array<double, 2>& r, const std::array<double, 2>& d, double bound) {
-  std::array<double, 2> q{-r[0] / d[0], -r[1] / d[1]};
-  if (!(std::hypot(q[0], q[1]) > bound)) return q;
-  // q = -r / (d + l) of length bound, l > 0: the length falls as l grows.
-  double low = 0.0, high = std::hypot(r[0], r[1]) / bound;
+  const auto at = [&](double l) { return std::array<double, 2>{-r[0] / (d[0] + l), -r[1] / (d[1] + l)}; };
+  const auto length_of = [](const std::array<double, 2>& q) { return std::sqrt(q[0] * q[0] + q[1] * q[1]); };
+  std::array<double, 2> q = at(0.0);
+  double length = length_of(q);
+  if (!(length > bound)) return q;
+  // q = -r / (d + l) of length bound, l > 0: the length falls as l grows, and its inverse is nearly straight and
+  // concave, so that Newton's steps from the left stay there; halving where rounding leads them astray.
+  double l = 0.0, low = 0.0, high = length_of(r) / bound;
   for (int k = 0; k < 200 && high - low > 1e-16 * high; ++k) {
-    const double l = 0.5 * (low + high);
-    q = {-r[0] / (d[0] + l), -r[1] / (d[1] + l)};
-    (std::hypot(q[0], q[1]) > bound ? low : high) = l;
+    (length > bound ? low : high) = l;
+    const double slope = (q[0] * q[0] / (d[0] + l) + q[1] * q[1] / (d[1] + l)) / (length * length * length);
+    double next = l + (1.0 / bound - 1.0 / length) / slope;
+    if (!(next > low && next < high)) next = 0.5 * (low + high);
+    const bool at_rest = std::abs(next - l) <= 1e-16 * (d[0] + next);
+    l = next;
+    q = at(l);
+    length = length_of(q);
+    if (at_rest) break;
   }
-  const double length = std::hypot(q[0], q[1]);
   return {q[0] * bound / length, q[1] * bound / length};
 }
 
@@ -161,27 +170,34 @@ std::array<double, 2> in_disc(const std::array<double, 2>& r, const std::array<d
 /// rolling. False: they do not come to rest.
 bool tractions(const MatrixXd& a, const VectorXd& w, const VectorXd& bound, bool last_first, VectorXd& q) {
   const Eigen::Index n = bound.size();
+  // Both components of the elements in contact, in the order of the sweep.
+  std::vector<Eigen::Index> at;
+  for (Eigen::Index step = 0; step < n; ++step) {
+    const Eigen::Index i = last_first ? n - 1 - step : step;
+    if (bound[i] > 0.0) at.insert(at.end(), {i, n + i});
+  }
+  const Eigen::Matrix<double, Eigen::Dynamic, Eigen::Dynamic, Eigen::RowMajor> inside = a(at, at);
+  const VectorXd rigid = w(at);
+  VectorXd now = q(at);
   constexpr int kMostSweeps = 20'000;
   const double scale = bound.maxCoeff();
-  for (int k = 0; k < kMostSweeps; ++k) {
+  bool rests = false;
+  for (int k = 0; k < kMostSweeps && !rests; ++k) {
     double change = 0.0;
-    for (Eigen::Index step = 0; step < n; ++step) {
-      const Eigen::Index i = last_first ? n - 1 - step : step;
-      if (!(bound[i] > 0.0)) {
-        q[i] = q[n + i] = 0.0;
-        continue;
-      }
-      const std::array<double, 2> d{a(i, i), a(n + i, n + i)};
-      const std::array<double, 2> r{w[i] + a.row(i).dot(q) - d[0] * q[i],
-                                    w[n + i] + a.row(n + i).dot(q) - d[1] * q[n + i]};
-      const std::array<double, 2> next = in_disc(r, d, bound[i]);
-      change = std::max({change, std::abs(next[0] - q[i]), std::abs(next[1] - q[n + i])});
-      q[i] = next[0];
-      q[n + i] = next[1];
+    for (Eigen::Index i = 0; i < now.size(); i += 2) {
+      const std::array<double, 2> d{inside(i, i), inside(i + 1, i + 1)};
+      const std::array<double, 2> r{rigid[i] + inside.row(i).dot(now) - d[0] * now[i],
+                                    rigid[i + 1] + inside.row(i + 1).dot(now) - d[1] * now[i + 1]};
+      const std::array<double, 2> next = in_disc(r, d, bound[at[static_cast<std::size_t>(i)]]);
+      change = std::max({change, std::abs(next[0] - now[i]), std::abs(next[1] - now[i + 1])});
+      now[i] = next[0];
+      now[i + 1] = next[1];
     }
-    if (change <= kAtRest * scale) return true;
+    rests = change <= kAtRest * scale;
   }
-  return false;
+  q.setZero();
+  q(at) = now;
+  return rests;
 }
 
 }  // namespace

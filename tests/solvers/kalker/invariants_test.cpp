@@ -19,6 +19,7 @@
 #include "treadmark/solvers/kalker/normal/normal_solver.hpp"
 #include "treadmark/solvers/kalker/tangential/tangential_solver.hpp"
 #include "treadmark/tests/solvers/kalker/owned_problem.hpp"
+#include "treadmark/tests/support/meant_overflow.hpp"
 
 namespace treadmark::kalker {
 namespace {
@@ -137,6 +138,7 @@ ContactSolution normal_solution(const ContactProblem& problem) {
 }
 
 TEST(Invariants, SlipBeyondAllNumbersEndsWithoutSolution) {
+  const treadmark::testing::MeantOverflow meant;
   OwnedProblem owned = rolling_patch(5);
   for (const double creepage : {1e290, 1e298, 1e300, 1e308}) {
     owned.problem.creepage = {creepage, 0.0, 0.0};
@@ -155,6 +157,7 @@ TEST(Invariants, SlipBeyondAllNumbersEndsWithoutSolution) {
 }
 
 TEST(Invariants, HugeCreepageSlidesWithAllFriction) {
+  const treadmark::testing::MeantOverflow meant;
   OwnedProblem owned = rolling_patch(8);
   for (const double creepage : {1.0, 1e6, kMostCreepage, 1e100, 1e150}) {
     owned.problem.creepage = {creepage, 0.0, 0.0};

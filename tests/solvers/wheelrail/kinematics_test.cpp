@@ -7,6 +7,8 @@
 #include <cmath>
 #include <numbers>
 
+#include "treadmark/core/error.hpp"
+
 namespace treadmark::wheelrail {
 namespace {
 
@@ -82,6 +84,30 @@ TEST(Kinematics, StandingWheelHasNone) {
   const ContactKinematics k = contact_kinematics({}, straight(0.46), {{0.0, 0.75, 0.0}, Mat3::Identity()}, 0.0);
   EXPECT_EQ(k.velocity, 0.0);
   EXPECT_EQ(k.xi, 0.0);
+}
+
+// A wheel that stands has no creepage. One that slides without rolling has none that could be told, and not no force.
+TEST(Kinematics, SlidingWithoutRollingIsRefused) {
+  const Pose X_TC{{0.0, 0.75, 0.0}, Mat3::Identity()};
+  for (const kalker::Regime regime : {kalker::Regime::steady, kalker::Regime::transient}) {
+    Problem p;
+    p.regime = regime;
+    const ContactKinematics standing = contact_kinematics(p, straight(0.46), X_TC, 0.0);
+    EXPECT_EQ(std::hypot(standing.xi, standing.eta, standing.phi), 0.0);
+    p.state.velocity.z = 0.1;  // normal to the contact: no sliding
+    EXPECT_NO_THROW(contact_kinematics(p, straight(0.46), X_TC, 0.0));
+    p.state.velocity.y = 1e-6;
+    EXPECT_THROW(contact_kinematics(p, straight(0.46), X_TC, 0.0), Error);
+    p.state.velocity.x = 1e-3;  // it rolls, however much it slides
+    p.state.velocity.pitch = -1e-3 / 0.46;
+    EXPECT_NEAR(contact_kinematics(p, straight(0.46), X_TC, 0.0).eta, -1e-3, 1e-12);
+    p = {};
+    p.state.velocity.y = 0.1;
+    p.regime = kalker::Regime::frictionless;
+    EXPECT_NO_THROW(contact_kinematics(p, straight(0.46), X_TC, 0.0));
+    p.regime = kalker::Regime::shift;
+    EXPECT_NEAR(contact_kinematics(p, straight(0.46), X_TC, 0.0).eta, -0.1, 1e-12);
+  }
 }
 
 }  // namespace

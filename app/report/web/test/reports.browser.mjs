@@ -74,12 +74,21 @@ class Tab {
     return this.page.locator(`[data-readout="${field}"]`).first().getAttribute("data-value");
   }
 
-  async waitForValue(field, wanted, bound) {
-    await this.page.waitForFunction(
-      ([name, value, most]) => Math.abs(Number(document.querySelector(`[data-readout="${name}"]`)?.getAttribute("data-value") ?? NaN) - value) <= most,
-      [field, wanted, bound],
-      { timeout: 10000 },
-    );
+  /** Asks for the peak of a view until it has the value: on a busy machine the picture follows the slider late. */
+  async waitForPeak(view, field, wanted, bound) {
+    for (let tries = 1; ; ++tries) {
+      await this.page.locator(`${view} [data-control='peak']`).first().click();
+      try {
+        await this.page.waitForFunction(
+          ([name, value, most]) => Math.abs(Number(document.querySelector(`[data-readout="${name}"]`)?.getAttribute("data-value") ?? NaN) - value) <= most,
+          [field, wanted, bound],
+          { timeout: 2000 },
+        );
+        return;
+      } catch (error) {
+        if (tries === 30) throw new Error(`${field} is ${await this.value(field)}, not ${wanted}`, { cause: error });
+      }
+    }
   }
 
   /** Full-precision number of a table: row of a step, column by its heading. */
@@ -110,9 +119,11 @@ async function photograph(file, name, selector) {
     assert.ok(wide <= window, `${name} is ${wide} wide in a window of ${window}`);
     for (const theme of ["light", "dark"]) {
       await tab.page.emulateMedia({ colorScheme: theme });
-      await tab.page.waitForTimeout(700);
-      const dark = await tab.page.evaluate(() => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380);
-      assert.equal(dark, theme === "dark", `${name}, ${theme}`);
+      await tab.page.waitForFunction(
+        (wanted) => getComputedStyle(document.body).backgroundColor.match(/\d+/g).slice(0, 3).reduce((sum, c) => sum + Number(c), 0) < 380 === wanted,
+        theme === "dark",
+      );
+      await tab.page.waitForTimeout(500);  // colours change gradually
       await tab.page.screenshot({ path: join(pictures, `${name}-${size}-${theme}.png`) });
     }
     await tab.close();
@@ -138,20 +149,17 @@ test("a wheel flat in 26 positions", async () => {
     await tab.key(".timeline-slider", key);
     const step = await tab.step();
     if (k !== undefined) assert.equal(step, k);
-    await page.waitForTimeout(150);
-    await page.locator("#patches-view [data-control='peak']").click();
     const patch = json.cases[step].patches.reduce((a, b) => (a.fn_N > b.fn_N ? a : b));
-    await tab.waitForValue("pressure", patch.pmax_MPa, 2e-4 * patch.pmax_MPa);
+    await tab.waitForPeak("#patches-view", "pressure", patch.pmax_MPa, 2e-4 * patch.pmax_MPa);
     assert.equal(await page.locator("#table-cases tr.current").getAttribute("data-step"), String(step));
   }
   // A row of the table chooses its case, another quantity is shown.
   await page.locator("#table-cases tr[data-step='12'] td").first().click();
   await tab.waitForStep(12);
   await page.locator("#patches-view [data-control='field']").selectOption("traction");
-  await page.locator("#patches-view [data-control='peak']").click();
-  const traction = Number(await tab.value("traction"));
-  const patch = json.cases[12].patches[0];
-  assert.ok(traction > 0 && traction <= 0.3001 * patch.pmax_MPa, `traction ${traction}`);
+  // More than nothing, and no more than friction lets through.
+  const half = 0.5 * 0.3001 * json.cases[12].patches[0].pmax_MPa;
+  await tab.waitForPeak("#patches-view", "traction", half, 0.9999 * half);
   // Files: pictures and numbers.
   for (const kind of ["SVG", "PNG", "CSV"]) {
     const [file] = await Promise.all([page.waitForEvent("download"), page.locator("#patches-view .downloads button", { hasText: kind }).first().click()]);
@@ -173,7 +181,7 @@ test("the view in space shows wheel, rail and patch and is picked", async () => 
   let picked = null;
   for (const [dx, dy] of [[0, 0], [0, -15], [0, 15], [20, 0], [-20, 0], [30, -20], [-30, 20], [40, 10], [-40, -10], [0, 40], [0, -40]]) {
     await page.mouse.click(box.x + box.width / 2 + dx, box.y + box.height / 2 + dy);
-    await page.waitForTimeout(200);
+    await page.waitForFunction(() => document.querySelector("#scene").dataset.picked, undefined, { timeout: 1000 }).catch(() => undefined);
     picked = await page.locator("#scene").getAttribute("data-picked");
     if (picked) break;
   }
@@ -231,10 +239,8 @@ test("400 steps in time", async () => {
       slider.value = String(k);
       slider.dispatchEvent(new Event("input", { bubbles: true }));
     }, step);
-    await tab.page.waitForTimeout(200);
-    await tab.page.locator("#patches-view [data-control='peak']").click();
     const pressure = json.cases[step].patches.reduce((a, b) => (a.fn_N > b.fn_N ? a : b)).pmax_MPa;
-    await tab.waitForValue("pressure", pressure, 6e-3 * pressure);  // one byte a number at this length
+    await tab.waitForPeak("#patches-view", "pressure", pressure, 6e-3 * pressure);  // one byte a number at this length
   }
   await tab.close();
 });
@@ -260,8 +266,7 @@ test("names and messages with markup are text; cases without contact are named",
   assert.match(await tab.page.locator("main .banner").first().textContent(), /1 case/);
   await tab.key(".timeline-slider", "End");
   await tab.page.locator("#patches-view").scrollIntoViewIfNeeded();
-  await tab.page.waitForTimeout(300);
-  assert.match(await tab.page.locator("#patches-view").textContent(), /no contact|failed/i);
+  await tab.page.waitForFunction(() => /no contact|failed/i.test(document.querySelector("#patches-view").textContent));
   await tab.close();
 });
 
@@ -273,9 +278,8 @@ test("a comparison of representations", async () => {
   assert.equal(rows, json.rows.length);
   await tab.page.locator("[data-view='contact'] [data-control='peak']").first().waitFor();
   await tab.key(".timeline-slider", "End");
-  await tab.page.locator("[data-view='contact'] [data-control='peak']").first().click();
   const truth = json.rows.find((row) => row.case === 3);
-  await tab.waitForValue("pressure", truth.pmax_MPa, 2e-4 * truth.pmax_MPa);
+  await tab.waitForPeak("[data-view='contact']", "pressure", truth.pmax_MPa, 2e-4 * truth.pmax_MPa);
   assert.ok((await tab.page.locator("[data-view='chart'] path.line, [data-view='chart'] .mark").count()) > 0);
   await tab.close();
   await photograph(file, "compare", "[data-view='contact']");
