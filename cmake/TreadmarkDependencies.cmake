@@ -54,11 +54,41 @@ else()
   endif()
 endif()
 
+# Debian's package names programs of libzip that it does not have.
+if(TREADMARK_HAVE_FMU)
+  find_path(LIBZIP_INCLUDE_DIR zip.h)
+  find_library(LIBZIP_LIBRARY zip)
+  if(NOT LIBZIP_INCLUDE_DIR OR NOT LIBZIP_LIBRARY)
+    treadmark_missing(fmu)
+  endif()
+endif()
+
 if(TREADMARK_HAVE_REPORT_SCRIPTS)
   find_program(TREADMARK_NODE NAMES node nodejs)
   find_program(TREADMARK_NPM npm)
   if(NOT TREADMARK_NODE OR NOT TREADMARK_NPM)
     treadmark_missing(report_scripts)
+  endif()
+endif()
+
+# The interpreter that the package is made for, which need not be the first one on the path.
+if(TREADMARK_HAVE_PYTHON)
+  if(DEFINED Python_EXECUTABLE)
+    set(pythons "${Python_EXECUTABLE}")
+  else()
+    set(pythons "/usr/bin/python3")
+  endif()
+  set(TREADMARK_PYTHON_EXECUTABLE "${pythons}" CACHE FILEPATH "Python for which the package treadmark is built")
+  execute_process(COMMAND "${TREADMARK_PYTHON_EXECUTABLE}" -c
+    "import numpy, sysconfig; print(sysconfig.get_path('include'), sysconfig.get_config_var('EXT_SUFFIX'), sep=';', end='')"
+    OUTPUT_VARIABLE python_facts RESULT_VARIABLE python_failed ERROR_QUIET)
+  find_path(PYBIND11_INCLUDE_DIR pybind11/pybind11.h)
+  if(NOT python_failed)
+    list(GET python_facts 0 TREADMARK_PYTHON_INCLUDE)
+    list(GET python_facts 1 TREADMARK_PYTHON_SUFFIX)
+  endif()
+  if(python_failed OR NOT PYBIND11_INCLUDE_DIR OR NOT EXISTS "${TREADMARK_PYTHON_INCLUDE}/Python.h")
+    treadmark_missing(python)
   endif()
 endif()
 

@@ -1,7 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
 # Installs the libraries as a CMake package: find_package(Treadmark CONFIG) gives treadmark::treadmark, which is all of
-# them, and one target a folder (treadmark::core, treadmark::io_cases, ...).
+# them, one target a folder (treadmark::core, treadmark::io_cases, ...), and treadmark::c, the shared library for C.
 include(CMakePackageConfigHelpers)
 
 get_property(libraries GLOBAL PROPERTY TREADMARK_LIBRARIES)
@@ -25,3 +25,4 @@ write_basic_package_version_file("${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.c
 install(FILES "${PROJECT_BINARY_DIR}/TreadmarkConfig.cmake" "${PROJECT_BINARY_DIR}/TreadmarkConfigVersion.cmake"
   DESTINATION ${package_folder})
 install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION ${CMAKE_INSTALL_DOCDIR})
+include(TreadmarkPackages)

@@ -40,6 +40,9 @@ treadmark_part(e57 TREADMARK_WITH_EXPAT "Expat" "libexpat1-dev" "Read scans in E
 treadmark_part(report TREADMARK_REPORT "reports" "" "HTML reports and pictures of result folders (report, plot, --report)")
 treadmark_part(report_scripts TREADMARK_REPORT_SCRIPTS "report scripts" "nodejs and npm"
   "Bundle the scripts that make HTML reports live (needs Node.js, npm and a network once)" NEEDS report)
+treadmark_part(python TREADMARK_PYTHON "Python" "pybind11-dev, python3-dev and python3-numpy"
+  "The package treadmark for Python, with pybind11 and NumPy")
+treadmark_part(fmu TREADMARK_FMU "FMUs" "libzip-dev" "Export as functional mock-up units (fmu), with libzip")
 
 # treadmark_missing(<part>): the error of a package that was not found.
 function(treadmark_missing part)

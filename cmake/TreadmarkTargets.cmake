@@ -1,5 +1,7 @@
 # SPDX-License-Identifier: Apache-2.0
 include(GNUInstallDirs)
+# What is installed without a word about it; see TreadmarkPackages.cmake.
+set(CMAKE_INSTALL_DEFAULT_COMPONENT_NAME development)
 # One spelling of includes everywhere: "treadmark/<folder>/<file>.hpp", in the build tree through a link to the sources.
 file(MAKE_DIRECTORY "${PROJECT_BINARY_DIR}/include")
 if(NOT EXISTS "${PROJECT_BINARY_DIR}/include/treadmark")

@@ -7,12 +7,13 @@ set -euo pipefail
 
 packages=(
   g++ cmake ninja-build ccache git ca-certificates python3
-  libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libhdf5-dev libfftw3-dev zlib1g-dev libexpat1-dev
+  libeigen3-dev libtbb-dev libfmt-dev nlohmann-json3-dev libtomlplusplus-dev libcli11-dev libhdf5-dev libfftw3-dev zlib1g-dev libexpat1-dev libzip-dev
   libembree-dev libopenvdb-dev libboost-iostreams-dev libcgal-dev libgmp-dev libmpfr-dev
+  pybind11-dev python3-dev python3-numpy
   libgtest-dev libgmock-dev libbenchmark-dev libboost-dev openmpi-bin
 )
 
-[[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen libkissfft-dev)
+[[ ${1:-} != --tests ]] || packages+=(chromium clang-format clang-tidy doxygen gfortran libkissfft-dev python3-pytest python3-mypy python3-pandas python3-xarray libxml2-utils libsimbody-dev)
 [[ ${1:-} != --fuzz ]] || packages+=(clang libclang-rt-14-dev libkissfft-dev)
 # Node.js from elsewhere is as good as Debian's, which brings npm in a package of its own.
 command -v node >/dev/null || packages+=(nodejs)

@@ -8,6 +8,8 @@ set -euo pipefail
 cd "$(dirname "${BASH_SOURCE[0]}")/.."
 
 bash scripts/install-packages.sh --tests
+# What two of the builds below have in common is compiled once, precompiled headers too.
+export CCACHE_BASEDIR=$PWD CCACHE_SLOPPINESS=pch_defines,time_macros
 # The folder and the options of scripts/main-job.sh: what that has compiled is not compiled again.
 cmake --preset release -DTREADMARK_BUILD_TESTS=ON -DTREADMARK_BUILD_BENCH=ON -DTREADMARK_WARNINGS_AS_ERRORS=ON
 cmake --build --preset release

@@ -7,6 +7,7 @@
 #include <regex>
 
 #include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/running_program.hpp"
 #include "treadmark/tests/app/sample_input.hpp"
 #include "treadmark/tests/support/parts.hpp"
 
@@ -51,10 +52,36 @@ TEST(CommandLine, ListsAndSchema) {
   const auto verb = [](const std::string& name, const char* part) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
-  EXPECT_EQ(run_program({"list", "verbs"}).out, "run\ncompare\ndiff\nbench\nconvert\n" + verb("import", "scans") +
-                                                    verb("scan", "scans") + verb("simulate", "vehicle") +
-                                                    verb("sweep", "vehicle") + verb("report", "report") +
-                                                    verb("plot", "report") + "check\nlist\nschema\n");
+  EXPECT_EQ(run_program({"list", "verbs"}).out,
+            "run\ncompare\ndiff\nbench\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
+                verb("simulate", "vehicle") + verb("sweep", "vehicle") + verb("fmu", "fmu") +
+                verb("report", "report") + verb("plot", "report") + "check\nlist\nschema\ncompletion\nman\n");
+}
+
+/// What bash would offer for the last of these words.
+std::string completed(const std::string& words) {
+  const std::string script = "eval \"$(" TREADMARK_PROGRAM " completion bash)\"; COMP_WORDS=(" + words +
+                             "); COMP_CWORD=$((${#COMP_WORDS[@]} - 1)); _treadmark; echo ${COMPREPLY[*]}";
+  return RunningProgram({"bash", "-c", script}).wait().out;
+}
+
+TEST(CommandLine, ShellsCompleteVerbsOptionsAndChoices) {
+  EXPECT_EQ(completed("treadmark com"), "compare completion\n");
+  EXPECT_EQ(completed("treadmark run --js"), "--json\n");
+  EXPECT_EQ(completed("treadmark --quiet completion z"), "zsh\n");
+  EXPECT_EQ(completed("treadmark run examples/wheel"), "\n");  // files are the shell's own work
+  EXPECT_THAT(run_program({"completion", "zsh"}).out, HasSubstr("'*--json["));
+  EXPECT_THAT(run_program({"completion", "fish"}).out, HasSubstr("__fish_seen_subcommand_from run' -l json -r"));
+  EXPECT_EQ(run_program({"completion", "csh"}).status, 2);
+}
+
+TEST(CommandLine, ManualPagesSayWhatHelpSays) {
+  const std::string page = run_program({"man", "run"}).out;
+  EXPECT_THAT(page, HasSubstr(".TH TREADMARK-RUN 1"));
+  EXPECT_THAT(page, HasSubstr("\\fB\\-\\-json\\fR \\fIFILE\\fR"));
+  const std::string all = run_program({"man"}).out;
+  EXPECT_THAT(all, HasSubstr("\\fBtreadmark\\-check\\fR(1)"));
+  EXPECT_EQ(run_program({"man", "wishes"}).status, 2);
 }
 
 TEST(CommandLine, CheckReadsWithoutSolving) {

@@ -60,7 +60,10 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"plot", {{out, "--what", "pressure", "-o", "-"}, "report"}},
       {"check", {{inp}}},
       {"list", {{"verbs"}}},
-      {"schema", {{}}}};
+      {"fmu", {{toml, "-o", path("wheel.fmu")}, "fmu"}},
+      {"schema", {{}}},
+      {"completion", {{"bash"}}},
+      {"man", {{}}}};
   for (const char* verb : {
 #define VERB(name, summary, part) #name,
 #include "treadmark/app/cli/verbs.def"

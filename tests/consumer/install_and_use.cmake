@@ -7,8 +7,10 @@ treadmark_public_headers(public_headers "${CMAKE_CURRENT_LIST_DIR}/../../docs/pu
 list(JOIN public_headers "," public_headers)
 file(REMOVE_RECURSE "${WORK}")
 set(sanitize "")
+set(sanitize_c "")
 if(SANITIZE)
   set(sanitize "-DCMAKE_CXX_FLAGS=-fsanitize=${SANITIZE}")
+  set(sanitize_c "-DCMAKE_C_FLAGS=-fsanitize=${SANITIZE}")
 endif()
 
 function(run)
@@ -24,6 +26,24 @@ run("${CMAKE_COMMAND}" -S "${SOURCE}" -B "${WORK}/build" -G "${GENERATOR}" "-DCM
   "-DCMAKE_CXX_COMPILER_LAUNCHER=${LAUNCHER}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix" "-DPUBLIC_HEADERS=${public_headers}" ${sanitize})
 run("${CMAKE_COMMAND}" --build "${WORK}/build")
 run("${WORK}/build/consumer")
+
+# In C: with CMake, and with pkg-config where that is.
+run("${CMAKE_COMMAND}" -S "${SOURCE}/../c_project" -B "${WORK}/build_c" -G "${GENERATOR}" "-DCMAKE_PREFIX_PATH=${WORK}/prefix"
+  "-DPROGRAM=${PROGRAM_IN_C}" ${sanitize_c})
+run("${CMAKE_COMMAND}" --build "${WORK}/build_c")
+run("${WORK}/build_c/consumer_in_c")
+file(GLOB_RECURSE pc "${WORK}/prefix/treadmark.pc")
+get_filename_component(pc_folder "${pc}" DIRECTORY)
+find_program(pkg_config pkg-config)
+if(pkg_config AND NOT SANITIZE)
+  set(ENV{PKG_CONFIG_PATH} "${pc_folder}")
+  execute_process(COMMAND "${pkg_config}" --cflags --libs treadmark OUTPUT_VARIABLE flags OUTPUT_STRIP_TRAILING_WHITESPACE
+    COMMAND_ERROR_IS_FATAL ANY)
+  separate_arguments(flags UNIX_COMMAND "${flags}")
+  run(cc "${PROGRAM_IN_C}" -o "${WORK}/by_pkg_config" ${flags})
+  set(ENV{LD_LIBRARY_PATH} "${pc_folder}/..")
+  run("${WORK}/by_pkg_config")
+endif()
 
 # No installed header may refer to one that is not installed.
 file(GLOB_RECURSE headers "${WORK}/prefix/include/*.hpp")

@@ -1,0 +1,58 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+# Packages for Debian: `cpack -G DEB` in the folder of a build. What is installed belongs to one of the components below.
+
+# treadmark_package(<component> <name> <section> <summary>): one package; more of it in variables CPACK_DEBIAN_<COMPONENT>_...
+set(CPACK_COMPONENTS_ALL "")
+macro(treadmark_package component name section summary)
+  list(APPEND CPACK_COMPONENTS_ALL ${component})
+  string(TOUPPER ${component} upper)
+  set(CPACK_DEBIAN_${upper}_PACKAGE_NAME ${name})
+  set(CPACK_DEBIAN_${upper}_PACKAGE_SECTION ${section})
+  set(CPACK_COMPONENT_${upper}_DESCRIPTION "${summary}")
+  install(FILES "${PROJECT_SOURCE_DIR}/LICENSE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" RENAME copyright
+    COMPONENT ${component})
+  install(FILES "${PROJECT_SOURCE_DIR}/NOTICE" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/${name}" COMPONENT ${component})
+endmacro()
+
+treadmark_package(program treadmark science "Wheel-rail contact on any 3D surface: the program")
+treadmark_package(library libtreadmark0 libs "Wheel-rail contact on any 3D surface: shared library")
+treadmark_package(development libtreadmark-dev libdevel "Wheel-rail contact on any 3D surface: headers for C and C++")
+if(TREADMARK_HAVE_PYTHON)
+  treadmark_package(python python3-treadmark python "Wheel-rail contact on any 3D surface: package for Python")
+  string(REGEX REPLACE ".*cpython-3([0-9]+).*" "\\1" minor "${TREADMARK_PYTHON_SUFFIX}")
+  math(EXPR next "${minor} + 1")
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${minor}), python3 (<< 3.${next}), python3-numpy")
+  set(CPACK_COMPONENT_PYTHON_DEPENDS library)
+endif()
+
+# The module for offsets lies beside the shared library.
+set(CPACK_COMPONENT_PROGRAM_DEPENDS library)
+set(CPACK_COMPONENT_DEVELOPMENT_DEPENDS library)
+# Programs in C need the shared library alone, those in C++ link static ones.
+set(CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS "libeigen3-dev, libfmt-dev, nlohmann-json3-dev, libtomlplusplus-dev, zlib1g-dev")
+foreach(part IN LISTS TREADMARK_PARTS)
+  string(TOUPPER "${part}" upper)
+  if(TREADMARK_HAVE_${upper} AND TREADMARK_${upper}_PACKAGES MATCHES "-dev" AND NOT part STREQUAL "python")
+    string(REPLACE " and " ", " packages "${TREADMARK_${upper}_PACKAGES}")
+    string(APPEND CPACK_DEBIAN_DEVELOPMENT_PACKAGE_RECOMMENDS ", ${packages}")
+  endif()
+endforeach()
+
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/examples/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/examples" COMPONENT program
+  PATTERN CMakeLists.txt EXCLUDE)
+install(DIRECTORY "${PROJECT_SOURCE_DIR}/docs/" DESTINATION "${CMAKE_INSTALL_DATADIR}/doc/treadmark/docs" COMPONENT program
+  PATTERN "*.in" EXCLUDE PATTERN "*.dox" EXCLUDE)
+
+set(CPACK_GENERATOR DEB)
+set(CPACK_PACKAGE_NAME treadmark)
+set(CPACK_PACKAGE_VENDOR "Treadmark contributors")
+set(CPACK_PACKAGE_CONTACT "Treadmark contributors <contributors@treadmark.invalid>")
+set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_STRIP_FILES ON)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_DEBIAN_ENABLE_COMPONENT_DEPENDS ON)
+set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
+set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
+set(CPACK_DEBIAN_PACKAGE_GENERATE_SHLIBS ON)
+include(CPack)

@@ -1,0 +1,332 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <pybind11/numpy.h>
+
+#include <cmath>
+#include <utility>
+
+#include "treadmark/app/cases/case_sequence.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/cases/wheelrail_result.hpp"
+#include "treadmark/app/surfaces/convert_surface.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/interfaces/c/surfaces.hpp"
+#include "treadmark/interfaces/python/python.hpp"
+#include "treadmark/io/cases/case_keys.hpp"
+#include "treadmark/io/cases/read_toml.hpp"
+#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/write_slices.hpp"
+#include "treadmark/model/natural_view.hpp"
+
+namespace treadmark::python {
+namespace {
+
+using Numbers = py::array_t<double, py::array::c_style | py::array::forcecast>;
+using Corners = py::array_t<std::int32_t, py::array::c_style | py::array::forcecast>;
+
+tm_body body_named(const std::string& name) {
+  if (name == "rail") return TM_RAIL;
+  if (name == "wheel") return TM_WHEEL;
+  throw c::BadArgument{"body must be \"rail\" or \"wheel\""};
+}
+
+const char* or_null(const std::string& text) { return text.empty() ? nullptr : text.c_str(); }
+
+using Case = Owned<tm_case>;
+using Surf = Owned<tm_surface>;
+
+// ---- surfaces
+
+/// Shapes of arrays are checked by the package.
+Surf of_slices(const std::string& body, const Numbers& u, const Numbers& y, const Numbers& z, double radius) {
+  return released([&] {
+    return made<tm_surface>([&](tm_surface** out) {
+      return tm_surface_from_slices(body_named(body), u.data(), static_cast<std::size_t>(u.size()), y.data(), z.data(),
+                                    static_cast<std::size_t>(u.size() > 0 ? y.size() / u.size() : 0), radius, out);
+    });
+  });
+}
+
+/// The same surface with other defects: assignments with the keys of case files.
+Surf with_defects(const tm_surface& from, const Strings& assignments) {
+  return released([&] {
+    SurfaceSpec spec = from.natural->spec;
+    io::Case holder;
+    holder.number = 1;
+    auto& given = std::get<io::WheelRailCase>(holder.content);
+    (spec.body == Body::wheel ? given.wheel : given.rail).defects = spec.defects;
+    for (const std::string& assignment : assignments) io::apply_assignment(holder, io::parse_override(assignment), {});
+    spec.defects = (spec.body == Body::wheel ? given.wheel : given.rail).defects;
+    return Surf(c::natural_surface(create_natural(std::move(spec))).release());
+  });
+}
+
+/// The slice of a wheel's or rail's surface that is not written stays what it is: files say what they hold.
+void save(const tm_surface& s, const std::filesystem::path& file, double resolution) {
+  released([&] {
+    Representation wanted{"", resolution, {}};
+    const bool triangles = io::is_mesh_file(file), offsets = file.extension() == ".vdb";
+    if (wanted.resolution == 0.0 && !triangles) wanted.resolution = kDefaultResolution;
+    if (triangles)
+      io::write_mesh(file, to_triangles(*s.natural, wanted));
+    else if (offsets)
+      write_offsets(file, *s.natural, wanted);
+    else if (file.extension() == ".slcs" || file.extension() == ".slcw")
+      io::write_slices(file, to_slices(*s.natural, wanted));
+    else
+      throw Error(ErrorKind::configuration, "surfaces cannot be written to files like this", {file.string(), 0, 0},
+                  "use .ply, .stl, .obj or .off for triangles, .slcs or .slcw for slices, .vdb for offsets");
+  });
+}
+
+/// (vertices [m], corners)
+py::tuple triangles(const tm_surface& s, double resolution) {
+  const auto mesh = released([&] {
+    return std::make_shared<const TriangleMesh>(to_triangles(*s.natural, {"", resolution, {}}));
+  });
+  const py::object owner = owner_of(mesh);
+  const auto n = static_cast<py::ssize_t>(mesh->vertices.size()), m = static_cast<py::ssize_t>(mesh->triangles.size());
+  return py::make_tuple(
+      view(mesh->vertices.data(), 'd', {n, 3}, {sizeof(Vec3), sizeof(double)}, owner),
+      view(mesh->triangles.data(), 'I', {m, 3}, {3 * sizeof(std::uint32_t), sizeof(std::uint32_t)}, owner));
+}
+
+/// Heights, and slopes where they are wanted, over points (x, y) of a plane.
+py::tuple heights(const tm_surface& s, const Numbers& x, const Numbers& y, const std::optional<Numbers>& origin,
+                  const std::optional<Numbers>& rotation, bool slopes) {
+  const std::vector<py::ssize_t> shape(x.shape(), x.shape() + x.ndim());
+  Numbers z(shape), dzdx(slopes ? shape : std::vector<py::ssize_t>{0}), dzdy(dzdx.request().shape);
+  double *to_z = z.mutable_data(), *to_x = slopes ? dzdx.mutable_data() : nullptr,
+         *to_y = slopes ? dzdy.mutable_data() : nullptr;
+  released([&] {
+    check([&] {
+      return tm_surface_heights(&s, origin ? origin->data() : nullptr, rotation ? rotation->data() : nullptr, x.data(),
+                                y.data(), static_cast<std::size_t>(x.size()), to_z, to_x, to_y);
+    });
+  });
+  return py::make_tuple(z, dzdx, dzdy);
+}
+
+/// Heights of a rail or radii of a wheel at lateral positions y of one station u.
+Numbers section(const tm_surface& s, double u, const Numbers& y) {
+  Numbers z(y.size());
+  const auto n = static_cast<std::size_t>(y.size());
+  double* const to = z.mutable_data();
+  released([&] { section_heights(*s.represented.surface, s.natural->spec.body, u, {y.data(), n}, {{to, n}, {}, {}}); });
+  return z;
+}
+
+/// What is found at points (x, y) seen along z of the surface's own axes: found, position, normal, principal
+/// curvatures.
+py::tuple locate(const tm_surface& s, const Numbers& x, const Numbers& y) {
+  const auto n = static_cast<std::size_t>(x.size());
+  auto points = std::make_shared<std::vector<SurfacePoint>>(n);
+  released([&] {
+    std::vector<Vec2> places;
+    for (std::size_t i = 0; i < n; ++i) {
+      c::require(std::isfinite(x.data()[i]) && std::isfinite(y.data()[i]), "x and y must be finite");
+      places.emplace_back(x.data()[i], y.data()[i]);
+    }
+    s.represented.surface->locate({}, places, *points);
+  });
+  const py::object owner = owner_of(points);
+  const auto count = static_cast<py::ssize_t>(n);
+  constexpr py::ssize_t kStep = sizeof(SurfacePoint), kDouble = sizeof(double);
+  const SurfacePoint* first = points->data();
+  const auto column = [&](const void* data, char item) { return view(data, item, {count}, {kStep}, owner); };
+  return py::make_tuple(column(&first->status, 'B'), view(&first->position_S, 'd', {count, 3}, {kStep, kDouble}, owner),
+                        view(&first->normal_S, 'd', {count, 3}, {kStep, kDouble}, owner),
+                        column(&first->curvature_1, 'd'), column(&first->curvature_2, 'd'));
+}
+
+py::tuple bounds(const tm_surface& s) {
+  const Box3 box = s.represented.surface->bounds();
+  return py::make_tuple(py::make_tuple(box.min.x(), box.min.y(), box.min.z()),
+                        py::make_tuple(box.max.x(), box.max.y(), box.max.z()));
+}
+
+// ---- solving
+
+using Pair = Owned<tm_pair>;
+
+/// The solution as results say it, with a copy of nothing that is large.
+py::dict solved(tm_solution& solution) {
+  std::shared_ptr<const io::CaseResult> result;
+  {
+    const py::gil_scoped_release free;
+    if (!solution.result)
+      solution.result = app::to_result(std::get<io::WheelRailCase>(solution.input->content), *solution.pair);
+    result = std::make_shared<const io::CaseResult>(std::move(*solution.result));
+  }
+  return to_python(std::move(result));
+}
+
+/// Independent problems, each from rest, on all threads; their order is kept.
+py::list solve_all(const tm_pair& pair, const std::vector<tm_case*>& cases) {
+  auto results = std::make_shared<std::vector<io::CaseResult>>(cases.size());
+  released([&] {
+    app::PairPool pool;
+    parallel_for(cases.size(), [&](std::size_t i) {
+      app::PairPool::Lease lease = pool.take(pair.geometry);
+      tm_pair own{pair.geometry, std::move(*lease.pair), pair.wheel_radius, pair.roller_radius};
+      const auto solution = made<tm_solution>([&](auto out) { return tm_pair_solve(&own, cases[i], out); });
+      io::CaseResult& result = (*results)[i];
+      result = app::to_result(std::get<io::WheelRailCase>(cases[i]->content->content), *solution->pair);
+      result.number = static_cast<int>(i) + 1;
+      *lease.pair = std::move(own.pair);
+      pool.give_back(std::move(lease));
+    });
+  });
+  return to_python(results, *results);
+}
+
+py::bytes bytes_of(const tm_state& state) {
+  std::size_t size = 0;
+  check([&] { return tm_state_to_bytes(&state, nullptr, &size); });
+  std::string bytes(size, '\0');
+  check([&] { return tm_state_to_bytes(&state, bytes.data(), &size); });
+  return bytes;
+}
+
+Owned<tm_state> state_of(const py::bytes& bytes) {
+  const std::string_view text = bytes;
+  return made<tm_state>([&](tm_state** out) { return tm_state_from_bytes(text.data(), text.size(), out); });
+}
+
+void add_cases(py::module_& module) {
+  py::class_<tm_case, Case>(module, "Case")
+      .def_static(
+          "create",
+          [](bool patch) { return made<tm_case>([&](auto out) { return tm_case_create(patch ? 1 : 0, out); }); })
+      .def_static("read",
+                  [](const std::filesystem::path& file, int number) {
+                    return released([&] {
+                      return made<tm_case>([&](auto out) { return tm_case_read(file.c_str(), number, out); });
+                    });
+                  })
+      .def_static("parse",
+                  [](const std::string& text, const std::string& folder, int number) {
+                    return made<tm_case>([&](auto out) {
+                      return tm_case_parse(text.data(), text.size(), or_null(folder), number, out);
+                    });
+                  })
+      .def("copy", [](const tm_case& c) { return made<tm_case>([&](auto out) { return tm_case_copy(&c, out); }); })
+      .def("set", [](tm_case& c,
+                     const std::string& assignment) { check([&] { return tm_case_set(&c, assignment.c_str()); }); })
+      .def("set_number",
+           [](tm_case& c, int id, double value) { check([&] { return tm_case_set_number_by_id(&c, id, value); }); })
+      .def("get_number",
+           [](const tm_case& c, const std::string& name) {
+             double value = 0.0;
+             check([&] { return tm_case_get_number(&c, name.c_str(), &value); });
+             return value;
+           })
+      .def_property_readonly("patch", [](const tm_case& c) { return c.content->content.index() == 1; });
+}
+
+void add_surfaces(py::module_& module) {
+  py::class_<tm_surface, Surf>(module, "Surface")
+      .def_static("read",
+                  [](const std::filesystem::path& file, const std::string& body, double radius, double scale) {
+                    return released([&] {
+                      return made<tm_surface>([&](auto out) {
+                        return tm_surface_read(file.c_str(), body_named(body), radius, scale, out);
+                      });
+                    });
+                  })
+      .def_static("of_case",
+                  [](const tm_case& c, const std::string& body) {
+                    return released([&] {
+                      return made<tm_surface>([&](auto out) { return tm_surface_of_case(&c, body_named(body), out); });
+                    });
+                  })
+      .def_static("profile",
+                  [](const std::string& body, const Numbers& y, const Numbers& z, double radius, double strength) {
+                    return released([&] {
+                      return made<tm_surface>([&](auto out) {
+                        return tm_surface_from_profile(body_named(body), y.data(), z.data(),
+                                                       static_cast<std::size_t>(y.size()), radius, strength, out);
+                      });
+                    });
+                  })
+      .def_static("slices", of_slices)
+      .def_static("mesh",
+                  [](const std::string& body, const Numbers& vertices, const Corners& corners, double radius) {
+                    return released([&] {
+                      return made<tm_surface>([&](auto out) {
+                        return tm_surface_from_triangles(body_named(body), vertices.data(),
+                                                         static_cast<std::size_t>(vertices.size() / 3), corners.data(),
+                                                         static_cast<std::size_t>(corners.size() / 3), radius, out);
+                      });
+                    });
+                  })
+      .def("represent",
+           [](const tm_surface& s, const std::string& backend, double resolution) {
+             return released([&] {
+               return made<tm_surface>(
+                   [&](auto out) { return tm_surface_represent(&s, backend.c_str(), resolution, out); });
+             });
+           })
+      .def("with_defects", with_defects)
+      .def("save", save)
+      .def("triangles", triangles)
+      .def("heights", heights)
+      .def("section", section)
+      .def("locate", locate)
+      .def("bounds", bounds)
+      .def_property_readonly("body",
+                             [](const tm_surface& s) { return s.natural->spec.body == Body::wheel ? "wheel" : "rail"; })
+      .def_property_readonly("nominal_radius", [](const tm_surface& s) { return s.natural->spec.nominal_radius; })
+      .def_property_readonly("backend",
+                             [](const tm_surface& s) { return std::string(s.represented.surface->backend()); })
+      .def_property_readonly("resolution", [](const tm_surface& s) { return s.represented.resolution; })
+      .def_property_readonly("constant_profile", [](const tm_surface& s) { return s.natural->constant_profile(); })
+      .def_property_readonly("memory_bytes", [](const tm_surface& s) { return s.represented.surface->memory_bytes(); })
+      .def_property_readonly("note", [](const tm_surface& s) { return s.natural->note + s.represented.note; });
+}
+
+}  // namespace
+
+py::object view(const void* data, char item, const std::vector<py::ssize_t>& shape,
+                const std::vector<py::ssize_t>& strides, const py::object& owner) {
+  static const py::dtype kDouble("d"), kByte("B"), kFloat("f"), kUnsigned("I");
+  const py::dtype& type = item == 'd' ? kDouble : item == 'B' ? kByte : item == 'f' ? kFloat : kUnsigned;
+  py::array array(type, shape, strides, data, owner);
+  py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+  return array;
+}
+
+void add_handles(py::module_& module) {
+  add_cases(module);
+  add_surfaces(module);
+  py::class_<tm_state, Owned<tm_state>>(module, "State")
+      .def_static("from_bytes", state_of)
+      .def("to_bytes", bytes_of)
+      .def(py::pickle([](const tm_state& state) { return bytes_of(state); },
+                      [](const py::bytes& bytes) { return state_of(bytes); }));
+  py::class_<tm_pair, Pair>(module, "Pair")
+      .def(py::init([](const tm_surface& rail, const tm_surface& wheel) {
+        return made<tm_pair>([&](auto out) { return tm_pair_create(&rail, &wheel, out); });
+      }))
+      .def("solve",
+           [](tm_pair& pair, const tm_case& c) {
+             const auto solution =
+                 released([&] { return made<tm_solution>([&](auto out) { return tm_pair_solve(&pair, &c, out); }); });
+             return solved(*solution);
+           })
+      .def("solve_all", solve_all)
+      .def("reset", [](tm_pair& pair) { check([&] { return tm_pair_reset(&pair); }); })
+      .def("save",
+           [](const tm_pair& pair) { return made<tm_state>([&](auto out) { return tm_pair_save(&pair, out); }); })
+      .def("restore",
+           [](tm_pair& pair, const tm_state& state) { check([&] { return tm_pair_restore(&pair, &state); }); });
+  py::class_<tm_patch, Owned<tm_patch>>(module, "PatchSolver")
+      .def(py::init([] { return made<tm_patch>(tm_patch_create); }))
+      .def("solve", [](tm_patch& patch, const tm_case& c) {
+        const auto solution =
+            released([&] { return made<tm_solution>([&](auto out) { return tm_patch_solve(&patch, &c, out); }); });
+        return solved(*solution);
+      });
+}
+
+}  // namespace treadmark::python

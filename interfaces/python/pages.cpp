@@ -1,0 +1,24 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/report/pages/read_report.hpp"
+#include "treadmark/app/report/pages/run_page.hpp"
+#include "treadmark/app/report/write_page.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/interfaces/python/python.hpp"
+#include "treadmark/io/results/write_json.hpp"
+
+namespace treadmark::python {
+
+void add_pages(py::module_& module) {
+  module.def("report_run", [](Run& run, const std::filesystem::path& file) {
+    with_files([&] {
+      run.whole();
+      write_file(file, app::report::to_html(app::report::run_page(run.result, io::to_json(*run.result))));
+    });
+  });
+  module.def("report_folder", [](const std::filesystem::path& folder, const std::filesystem::path& file) {
+    with_files([&] { write_file(file, app::report::to_html(app::report::read_report(folder))); });
+  });
+}
+
+}  // namespace treadmark::python

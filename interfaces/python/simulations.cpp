@@ -1,0 +1,194 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <utility>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/run_study.hpp"
+#include "treadmark/app/simulation/simulation_outputs.hpp"
+#include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
+#include "treadmark/interfaces/python/python.hpp"
+#include "treadmark/io/cases/file_kind.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/io/histories/study_store.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
+#include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
+
+namespace treadmark::python {
+namespace {
+
+io::SimulationFile simulation_of(const Source& source) {
+  if (source.text) return io::parse_simulation_text(*source.text, source.file, source.overrides);
+  if (io::is_study_file(source.file))
+    throw Error(ErrorKind::configuration, "this is a study of several simulations", {source.file.string(), 0, 0},
+                "use treadmark.sweep");
+  return io::read_simulation_file(source.file, source.overrides);
+}
+
+struct Simulated {
+  std::shared_ptr<const io::SimulationResult> result;
+  std::string json;
+};
+
+/// modes_only: static equilibrium and modes, without integration.
+Simulated simulate(const Source& source, bool modes_only, const py::object& progress, int threads) {
+  return with_progress(progress, threads, [&](const Progress& report) {
+    const io::SimulationFile file = simulation_of(source);
+    app::SurfaceStore store;
+    app::SimulationOptions options;
+    options.settings = source.overrides;
+    app::SimulationTimes times;
+    auto result = std::make_shared<const io::SimulationResult>(
+        modes_only ? app::static_results(file, store, options)
+                   : app::run_simulation(file, store, options, report, &times));
+    return Simulated{result, app::to_json(*result, times)};
+  });
+}
+
+py::list named_values(const std::vector<io::NamedValue>& values) {
+  py::list list;
+  for (const io::NamedValue& v : values) list.append(py::make_tuple(v.name, v.value, v.unit, v.description));
+  return list;
+}
+
+py::dict content_of(const Simulated& simulated) {
+  const io::SimulationResult& r = *simulated.result;
+  const py::object owner = owner_of(simulated.result);
+  py::list columns, events, modes;
+  for (const io::HistoryColumn& c : r.columns) columns.append(py::make_tuple(c.name, c.unit, c.description));
+  for (const io::HistoryEvent& e : r.events) events.append(py::make_tuple(e.time, e.position, e.wheel, e.kind));
+  for (const io::ModeRow& m : r.modes) modes.append(py::make_tuple(m.frequency_Hz, m.damping_ratio, m.shape));
+  py::dict d;
+  d["title"] = r.title;
+  d["status"] = r.status;
+  d["message"] = r.message;
+  d["version"] = r.version;
+  d["input_file"] = r.input_file;
+  d["settings"] = r.settings;
+  d["swept"] = r.swept;
+  d["columns"] = columns;
+  d["values"] =
+      view(r.values, 'd', {static_cast<py::ssize_t>(r.rows()), static_cast<py::ssize_t>(r.columns.size())}, owner);
+  d["events"] = events;
+  d["summary"] = named_values(r.summary);
+  d["statics"] = named_values(r.statics);
+  d["modes"] = modes;
+  d["snapshots"] = to_python(simulated.result, r.snapshots.cases);
+  d["snapshot_times"] = r.snapshot_times;
+  return d;
+}
+
+Simulated read_simulation(const std::filesystem::path& file) {
+  return with_files([&] {
+    io::SimulationResult result = io::read_simulation(file);
+    io::SnapshotSeries series = io::read_snapshots(file);
+    result.snapshots = std::move(series.run);
+    result.snapshot_times = std::move(series.times);
+    result.snapshot_scenes = std::move(series.scenes);
+    return Simulated{std::make_shared<const io::SimulationResult>(std::move(result)), {}};
+  });
+}
+
+/// Forces of the columns over time.
+std::string history_svg(const Simulated& simulated, const std::string& x, const Strings& y, const std::string& title) {
+  pictures::HistoryChart chart;
+  chart.title = title;
+  chart.x = {x, x};
+  for (const std::string& column : y) chart.y.push_back({column, column});
+  const pictures::HistoryRun run{simulated.result.get(), "", ""};
+  return pictures::history_svg({&run, 1}, chart);
+}
+
+py::dict study_to_python(const io::StudyResult& study) {
+  py::list runs;
+  for (const io::SimulationRun& run : study.runs)
+    runs.append(py::make_tuple(run.number, run.label, run.status, run.message, run.swept, named_values(run.summary),
+                               run.store.string()));
+  py::dict d;
+  d["title"] = study.title;
+  d["version"] = study.version;
+  d["input_file"] = study.input_file;
+  d["settings"] = study.settings;
+  d["runs"] = runs;
+  return d;
+}
+
+py::dict sweep(const Source& source, const std::filesystem::path& folder, bool resume, const py::object& progress,
+               int threads) {
+  require_part("hdf5", "folders of studies");
+  app::StudyOutcome outcome = with_progress(progress, threads, [&](const Progress& report) {
+    if (!io::is_study_file(source.file))
+      throw Error(ErrorKind::configuration, "this is not a study: it has no table [study]",
+                  {source.file.string(), 0, 0}, "use treadmark.simulate for one simulation");
+    const io::StudyFile study = io::read_study_file(source.file, source.overrides);
+    app::StudyOptions wanted;
+    wanted.folder = folder;
+    wanted.settings = source.overrides;
+    wanted.must_exist = resume;
+    wanted.workers = std::min(thread_count(), std::max(1, static_cast<int>(study.runs.size())));
+    app::StudyOutcome done = app::run_study(study, wanted, report);
+    const std::lock_guard lock(file_mutex());
+    if (done.complete) app::write_study_folder(study, wanted, done.study);
+    return done;
+  });
+  py::dict d = study_to_python(outcome.study);
+  d["complete"] = outcome.complete;
+  d["runs_total"] = outcome.runs_total;
+  return d;
+}
+
+/// How many runs or simulations there are, and notes.
+std::pair<std::size_t, Strings> check_simulation(const Source& source, bool study) {
+  return released([&] {
+    app::SurfaceStore surfaces;
+    Strings notes;
+    std::size_t count = 1;
+    if (!study) {
+      const io::SimulationFile file = simulation_of(source);
+      app::check_vehicle(file, surfaces);
+      notes = file.notes;
+    } else {
+      const io::StudyFile file = io::read_study_file(source.file, source.overrides);
+      app::check_study_figures(file);
+      count = file.runs.size();
+      notes = file.notes;
+      for (const io::StudyRun& run : file.runs) {
+        const auto base = io::read_study_run(file, run);
+        if (const auto* simulation = std::get_if<io::SimulationFile>(&base))
+          app::check_vehicle(*simulation, surfaces);
+        else
+          app::check_geometry(std::get<io::CaseFile>(base));
+      }
+    }
+    return std::pair(count, notes);
+  });
+}
+
+}  // namespace
+
+void add_simulations(py::module_& module) {
+  py::class_<Simulated>(module, "Simulated")
+      .def_static("read", read_simulation)
+      .def("content", [](const Simulated& s) { return content_of(s); })
+      .def("json", [](const Simulated& s) { return s.json.empty() ? app::to_json(*s.result, {}) : s.json; })
+      .def("summary", [](const Simulated& s) { return app::summary_text(*s.result); })
+      .def("svg", history_svg)
+      .def("write_folder", [](const Simulated& s, const std::filesystem::path& folder) {
+        with_files([&] {
+          std::filesystem::create_directories(folder);
+          app::write_simulation_folder(folder, *s.result);
+        });
+      });
+  module.def("simulate", simulate);
+  module.def("sweep", sweep);
+  module.def("read_sweep", [](const std::filesystem::path& file) {
+    return study_to_python(with_files([&] { return io::read_study_head(file); }));
+  });
+  module.def("check_simulation", check_simulation);
+}
+
+}  // namespace treadmark::python

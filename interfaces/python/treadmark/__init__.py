@@ -1,0 +1,36 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""Contact of wheels and rails, of any shape.
+
+All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to the right, z down; forces act on the rail. Whole files:
+``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``sweep``. Single instants: ``Surface``, ``Pair``, ``Problem``.
+The handbook is docs/python.md.
+"""
+from . import _treadmark
+from ._errors import Cancelled, ConvergenceWarning, InputError, NumericalError, TreadmarkError
+from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, Patch, Quantity, Remark, Result
+from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
+from ._surfaces import Located, Surface, backends, register_backend
+from ._verbs import (BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Mode, Position, ScanImport, Simulation, Sweep, SweepRun,
+                     Value, bench, check, compare, import_scan, read_bench, read_comparison, read_import, read_result, read_simulation,
+                     read_sweep, report, run, simulate, sweep)
+
+__version__: str = _treadmark.version()
+
+
+def version_text() -> str:
+    """Version, revision, parts and licence of this build, as ``treadmark --version``."""
+    return _treadmark.version_text()
+
+
+def parts() -> dict[str, bool]:
+    """Which parts this build has: "hdf5", "vehicle", "scans", ..."""
+    return _treadmark.parts()
+
+
+def set_threads(count: int) -> None:
+    """Threads of all calls of this process, at most; 0 = all of the machine. Results do not depend on it."""
+    _treadmark.set_threads(count)
+
+
+__all__ = [name for name in dir() if not name.startswith("_")] + ["__version__"]

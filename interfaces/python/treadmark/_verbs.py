@@ -1,0 +1,540 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""What the program's verbs do, and readers of the files that they write."""
+from __future__ import annotations
+
+import csv
+import dataclasses
+import difflib
+import html
+import json
+import pathlib
+from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence
+
+import numpy as np
+import numpy.typing as npt
+
+from . import _treadmark
+from ._errors import InputError
+from ._inputs import Changes, Input, Path, assignments, source as _source
+from ._records import Array, Case, Result, case_of, frame, html_table, result_of, result_of_json
+
+if TYPE_CHECKING:
+    import pandas
+
+#: Told (finished, total, what); returning False ends the work early.
+Progress = Optional[Callable[[int, int, str], Any]]
+
+
+def run(source: Input, *, set: Changes = None, folder: Path | None = None, backend: str | None = None, wheel_backend: str | None = None,
+        rail_backend: str | None = None, resolution: float | None = None, progress: Progress = None, threads: int = 0) -> Result:
+    """Solves all cases of a case file (.toml, .inp), of its text or of a dictionary, as ``treadmark run`` does.
+
+    set: changes of keys, {"wheelset.y_mm": 5.0}; folder: from which names of files in text count; backend: representation of both surfaces,
+    or of each; resolution [m]: of what is sampled for it; progress: called with (finished, total, what); threads: at most, 0 = all.
+    A case that fails has its status; the others go on. Errors: InputError with file, line and column. Ctrl-C ends it.
+
+    >>> result = run({"rail.shape.standard": "60E1", "wheel.shape.standard": "S1002", "wheelset.vertical_force_N": 80e3,
+    ...               "discretisation": {"dx_mm": 1.0, "ds_mm": 1.0}})
+    >>> result.cases[0].patches[0].pressure.ndim
+    2
+    """
+    changes = assignments(set)
+    for body, own in (("wheel", wheel_backend), ("rail", rail_backend)):
+        if own or backend:
+            changes.append(f"{body}.backend={own or backend}")
+        if resolution is not None:
+            changes.append(f"{body}.resolution_mm={1e3 * resolution!r}")
+    return result_of(_treadmark.run(_source(source, changes, folder), progress, threads))
+
+
+class CheckedProfile(NamedTuple):
+    """What is seen of a profile: facts and doubts as (name, text)."""
+
+    name: str
+    facts: list[tuple[str, str]]
+    doubts: list[tuple[str, str]]
+    notes: list[str]
+
+
+class Position(NamedTuple):
+    """A wheel over its rail without mechanics: curves across the track (n, 2) of y, z in track axes [m]; least gap along z [m]: negative where
+    they lie in each other, NaN where no wheel is over the rail."""
+
+    case: int
+    least_gap: float
+    rail: Array
+    wheel: Array
+
+    def svg(self) -> str:
+        """The section as a picture."""
+        gap = "no wheel over the rail" if self.least_gap != self.least_gap else f"least gap {1e3 * self.least_gap:.4g} mm"
+        return _treadmark.position_svg(f"Case {self.case}: {gap}", [(y, z) for y, z in self.rail.tolist()], [(y, z) for y, z in self.wheel.tolist()])
+
+    def _repr_svg_(self) -> str:
+        return self.svg()
+
+
+@dataclasses.dataclass(eq=False)
+class Check:
+    """What check() understood of an input without errors."""
+
+    kind: str  #: "cases", "simulation", "study" or "profile"
+    count: int  #: of cases or runs
+    notes: list[str]
+    profiles: list[CheckedProfile]
+    positions: list[Position]  #: of each case of a wheel on a rail
+
+    def __repr__(self) -> str:
+        doubts = sum(len(profile.doubts) for profile in self.profiles)
+        return f"<Check: {self.kind}, {self.count}, no errors, {doubts} doubts>"
+
+    def _repr_html_(self) -> str:
+        rows = [{"profile": p.name, "what": name, "": text} for p in self.profiles for name, text in (*p.facts, *p.doubts)]
+        return html.escape(repr(self)) + html_table(rows) + "".join(position.svg() for position in self.positions[:6])
+
+
+def check(source: Input, *, set: Changes = None, folder: Path | None = None, body: str = "", kind: str = "") -> Check:
+    """Reads all that a file of cases, a simulation, a study or a profile names, without solving anything.
+
+    body: "wheel" or "rail" of a profile that does not tell; kind: "simulation" of text (else cases). Errors: InputError with the place.
+    """
+    given = _source(source, set, folder)
+    kind = given.kind if given.kind != "text" else kind or "cases"
+    if kind == "profile":
+        if assignments(set):
+            raise InputError("set changes keys of case files, this is a profile")
+        return Check(kind, 1, [], [CheckedProfile(*p) for p in _treadmark.check_profile(pathlib.Path(source), body)], [])  # type: ignore[arg-type]
+    if kind != "cases":
+        count, notes = _treadmark.check_simulation(given, kind == "study")
+        return Check(kind, count, notes, [], [])
+    count, notes, profiles, positions = _treadmark.check_cases(given)
+    return Check(kind, count, notes, [CheckedProfile(*p) for p in profiles], [Position(*p) for p in positions])
+
+
+class _Document:
+    """What the JSON text of the same content says: names with their units, None where nothing is known."""
+
+    _held: Any
+
+    def to_json(self) -> str:
+        """The text of the JSON file."""
+        text: str = self._held.json()
+        return text
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The content of the JSON file."""
+        content: dict[str, Any] = json.loads(self.to_json())
+        return content
+
+    def write(self, folder: Path) -> None:
+        """Writes the folder that the program writes with -o."""
+        self._held.write_folder(pathlib.Path(folder))
+
+    def report(self, file: Path) -> None:
+        """Writes the HTML report of this content."""
+        import tempfile
+
+        with tempfile.TemporaryDirectory() as folder:
+            self.write(folder)
+            _treadmark.report_folder(pathlib.Path(folder), pathlib.Path(file))
+
+
+class Comparison(_Document):
+    """The same cases through several representations of the surfaces: the first candidate is the truth."""
+
+    def __init__(self, held: _treadmark.Comparison) -> None:
+        self._held = held
+        self._document = super().document
+
+    @property
+    def document(self) -> dict[str, Any]:
+        """The content of compare.json."""
+        return self._document
+
+    @property
+    def complete(self) -> bool:
+        """False where it was stopped."""
+        return bool(self._document["complete"])
+
+    @property
+    def candidates(self) -> list[dict[str, Any]]:
+        """Each representation, its bodies and how far they are from the truth, as in compare.json."""
+        found: list[dict[str, Any]] = self._document["candidates"]
+        return found
+
+    def cases(self, candidate: int) -> list[Case]:
+        """Results of a candidate, from 0, with their fields."""
+        if not 0 <= candidate < len(self.candidates):
+            raise IndexError(f"there are {len(self.candidates)} candidates")
+        return [case_of(raw) for raw in self._held.cases(candidate)]
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A dictionary a candidate and case, with names and units of compare.csv."""
+        found: list[dict[str, Any]] = self._document["rows"]
+        return found
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row a candidate and case. Needs pandas."""
+        return frame(self.rows())
+
+    def table(self) -> str:
+        """A line a candidate, for people."""
+        text: str = self._held.table()
+        return text
+
+    def svg(self, what: str = "errors") -> str:
+        """A picture: "errors" over resolution, "costs", or "pressures"."""
+        if what not in ("errors", "costs", "pressures"):
+            raise ValueError('what must be "errors", "costs" or "pressures"')
+        text: str = getattr(self._held, what + "_svg")()
+        return text
+
+    def __repr__(self) -> str:
+        return f"<Comparison of {len(self.candidates)} representations>"
+
+    def _repr_html_(self) -> str:
+        return self.svg() + self.svg("pressures") + f"<pre>{html.escape(self.table())}</pre>"
+
+
+def compare(source: Input, *, set: Changes = None, folder: Path | None = None, backends: Iterable[str] = (), resolutions: Iterable[float] = (),
+            bodies: str = "auto", wheel_backends: Iterable[str] = (), rail_backends: Iterable[str] = (), progress: Progress = None,
+            threads: int = 0) -> Comparison:
+    """The cases with the surfaces as given and in every representation at every resolution [m], as ``treadmark compare`` does.
+
+    backends: default all that the shapes allow; bodies: "wheel", "rail", "both", or "auto": those that change along their length;
+    wheel_backends with rail_backends: every one with every other. What cannot be built is a failure of that candidate.
+    """
+    if bodies not in ("auto", "wheel", "rail", "both"):
+        raise InputError('bodies must be "auto", "wheel", "rail" or "both"')
+    return Comparison(_treadmark.compare(_source(source, set, folder), list(backends), list(resolutions), bodies, list(wheel_backends),
+                                         list(rail_backends), progress, threads))
+
+
+class Bench(_Document):
+    """What representations cost: time and memory."""
+
+    def __init__(self, held: _treadmark.Bench) -> None:
+        self._held = held
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A dictionary a representation and body, with names and units of bench.csv."""
+        rows: list[dict[str, Any]] = self.document["rows"]
+        return rows
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row a representation and body. Needs pandas."""
+        return frame(self.rows())
+
+    def table(self) -> str:
+        """For people."""
+        text: str = self._held.table()
+        return text
+
+    def svg(self) -> str:
+        """Costs by backend and resolution as a picture."""
+        text: str = self._held.svg()
+        return text
+
+    def _repr_html_(self) -> str:
+        return self.svg() + f"<pre>{html.escape(self.table())}</pre>"
+
+
+def bench(source: Input | None = None, *, set: Changes = None, folder: Path | None = None, backends: Iterable[str] = (),
+          resolutions: Iterable[float] = (), seconds_per_measure: float = 0.2, progress: Progress = None, threads: int = 1) -> Bench:
+    """Times the representations of the surfaces of a case, by default a wheel with a flat on a rail with a squat. Checks agreement first."""
+    given = None if source is None else _source(source, set, folder)
+    return Bench(_treadmark.bench(given, assignments(set), list(backends), list(resolutions), seconds_per_measure, progress, threads))
+
+
+class BandMap(NamedTuple):
+    """Values over the unrolled running band, shape (rows along a, columns along s), NaN where nothing is; ends of a and s [m]."""
+
+    values: npt.NDArray[np.float32]
+    a_min: float
+    a_max: float
+    s_min: float
+    s_max: float
+
+
+class ScanImport(_Document):
+    """What was done to a scan, from the points to the surface."""
+
+    def __init__(self, held: _treadmark.Imported) -> None:
+        self._held = held
+
+    @property
+    def maps(self) -> dict[str, BandMap]:
+        """"density" and "removed" [1/m^2], "fitted", "residual" and "noise" [m], without copies."""
+        return {name: BandMap(*value) for name, value in self._held.maps().items()}
+
+    def summary(self) -> str:
+        """A page of text."""
+        text: str = self._held.summary()
+        return text
+
+    def svg(self, what: str = "fitted") -> str:
+        """A picture: "before", "removed", "fitted" or "residual"."""
+        if what not in ("before", "removed", "fitted", "residual"):
+            raise ValueError('what must be "before", "removed", "fitted" or "residual"')
+        text: str = getattr(self._held, what + "_svg")()
+        return text
+
+    def _repr_html_(self) -> str:
+        return self.svg() + f"<pre>{html.escape(self.summary())}</pre>"
+
+
+def import_scan(scans: Path | Sequence[Path], outputs: Path | Sequence[Path], *, settings: Path | None = None, set: Changes = None,
+                progress: Progress = None, threads: int = 0) -> ScanImport:
+    """From points of a scanner (or a gridded map of deviations) to a surface, as ``treadmark import`` does.
+
+    scans: several files are several passes; outputs: .slcs .slcw .ply .stl .obj .off .vdb, read again by Surface.read; settings: a TOML
+    file; set: changes of settings, {"scan.body": "wheel"}. Errors: InputError naming the file.
+    """
+
+    def paths(given: Any) -> list[pathlib.Path]:
+        return [pathlib.Path(given)] if isinstance(given, (str, pathlib.PurePath)) else [pathlib.Path(one) for one in given]
+
+    if not paths(scans):
+        raise InputError("there is no scan to import", advice="name its file")
+    return ScanImport(_treadmark.import_scan(paths(scans), paths(outputs), None if settings is None else pathlib.Path(settings), assignments(set),
+                                             progress, threads))
+
+
+class Value(NamedTuple):
+    """A number of a simulation with its unit and meaning."""
+
+    name: str
+    value: float
+    unit: str
+    meaning: str
+
+
+class Column(NamedTuple):
+    """A column of a history."""
+
+    name: str
+    unit: str
+    meaning: str
+
+
+class Event(NamedTuple):
+    """A wheel that loses or regains contact, at a time [s] and a position [m]."""
+
+    time: float
+    position: float
+    wheel: str
+    kind: str
+
+
+class Mode(NamedTuple):
+    """A mode of the linearised system."""
+
+    frequency: float  #: [Hz]
+    damping_ratio: float
+    shape: str
+
+
+@dataclasses.dataclass(eq=False)
+class Simulation:
+    """A vehicle on its track in time. ``simulation["t_s"]`` is a column of its history, without a copy."""
+
+    title: str
+    status: str  #: "complete", "interrupted" or "failed"
+    message: str
+    version: str
+    input_file: str
+    settings: list[str]
+    swept: list[tuple[str, str]]  #: keys and values of the study it belongs to
+    columns: list[Column]
+    values: Array  #: shape (instants, columns), a view
+    events: list[Event]
+    summary: dict[str, Value]
+    statics: dict[str, Value]
+    modes: list[Mode]
+    snapshots: list[Case]  #: contact fields at chosen instants
+    snapshot_times: list[float]  #: [s]
+    _held: _treadmark.Simulated | None = dataclasses.field(default=None, repr=False)
+
+    def __getitem__(self, column: str) -> Array:
+        names = [c.name for c in self.columns]
+        if column not in names:
+            raise KeyError(f"there is no column {column}; near are {difflib.get_close_matches(column, names)}, all are in columns")
+        return self.values[:, names.index(column)]
+
+    def __repr__(self) -> str:
+        return f"<Simulation {self.title!r}: {self.status}, {len(self.values)} instants of {len(self.columns)} columns>"
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {**self.__dict__, "_held": None}
+
+    def _whole(self) -> _treadmark.Simulated:
+        if self._held is None:
+            raise ValueError("a simulation that was pickled has numbers and fields only")
+        return self._held
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row an instant, a column a quantity (units in the names). Needs pandas."""
+        import pandas
+
+        return pandas.DataFrame(self.values, columns=[c.name for c in self.columns])
+
+    def to_json(self) -> str:
+        """The summary as ``treadmark simulate --json`` writes it."""
+        return self._whole().json()
+
+    def write(self, folder: Path) -> None:
+        """simulation.h5, history.csv, events.csv, modes.csv and pictures."""
+        self._whole().write_folder(pathlib.Path(folder))
+
+    def svg(self, columns: Sequence[str] = (), x: str = "t_s") -> str:
+        """Columns over another one as a picture; default: vertical forces of the wheels."""
+        chosen = list(columns) or [c.name for c in self.columns if c.name.endswith("Q_N")] or [c.name for c in self.columns[1:4]]
+        return self._whole().svg(x, chosen[:6], self.title)
+
+    def _repr_html_(self) -> str:
+        rows = [v._asdict() for v in self.summary.values()]
+        return (self.svg() if self._held is not None and len(self.values) > 1 else "") + html_table(rows, repr(self))
+
+
+def _simulation_of(held: _treadmark.Simulated) -> Simulation:
+    raw = held.content()
+    raw["columns"] = [Column(*c) for c in raw["columns"]]
+    raw["events"] = [Event(*e) for e in raw["events"]]
+    raw["modes"] = [Mode(*m) for m in raw["modes"]]
+    for name in ("summary", "statics"):
+        raw[name] = {v[0]: Value(*v) for v in raw[name]}
+    raw["snapshots"] = [case_of(c) for c in raw["snapshots"]]
+    return Simulation(**raw, _held=held)
+
+
+def simulate(source: Input, *, set: Changes = None, folder: Path | None = None, modes_only: bool = False, progress: Progress = None,
+             threads: int = 0) -> Simulation:
+    """A vehicle on its track in time, as ``treadmark simulate`` does; modes_only: equilibrium and modes, without integration.
+
+    A numerical failure on the way gives the status "failed" and the history up to there.
+    """
+    return _simulation_of(_treadmark.simulate(_source(source, set, folder), modes_only, progress, threads))
+
+
+class SweepRun(NamedTuple):
+    """One simulation of a study."""
+
+    number: int
+    label: str
+    status: str
+    message: str
+    swept: dict[str, str]
+    summary: dict[str, Value]
+    store: str  #: its simulation.h5, for read_simulation; may be empty
+
+
+@dataclasses.dataclass(eq=False)
+class Sweep:
+    """Simulations that differ in the values of some keys."""
+
+    title: str
+    version: str
+    input_file: str
+    settings: list[str]
+    runs: list[SweepRun]
+    complete: bool = True
+    runs_total: int = 0
+
+    def rows(self) -> list[dict[str, Any]]:
+        """A dictionary a run: number, label, status, swept keys (numbers where they are), summary."""
+
+        def number(text: str) -> Any:
+            try:
+                return float(text)
+            except ValueError:
+                return text
+
+        return [{"run": r.number, "label": r.label, "status": r.status, **{key: number(text) for key, text in r.swept.items()},
+                 **{name: v.value for name, v in r.summary.items()}} for r in self.runs]
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row a run. Needs pandas."""
+        return frame(self.rows())
+
+    def __repr__(self) -> str:
+        return f"<Sweep {self.title!r}: {len(self.runs)} of {self.runs_total or len(self.runs)} runs>"
+
+    def _repr_html_(self) -> str:
+        return html_table([dict(list(row.items())[:10]) for row in self.rows()], repr(self))
+
+
+def _sweep_of(raw: dict[str, Any]) -> Sweep:
+    raw["runs"] = [SweepRun(number, label, status, message, dict(swept), {v[0]: Value(*v) for v in summary}, store)
+                   for number, label, status, message, swept, summary, store in raw["runs"]]
+    return Sweep(**raw)
+
+
+def sweep(source: Path, output: Path, *, set: Changes = None, resume: bool = False, progress: Progress = None, threads: int = 0) -> Sweep:
+    """Solves the runs of a study file that are not finished yet, into a folder, as ``treadmark sweep -o`` does."""
+    return _sweep_of(_treadmark.sweep(_source(source, set), pathlib.Path(output), resume, progress, threads))
+
+
+def read_result(file: Path) -> Result:
+    """A run from fields.h5 (all of it), result.json (numbers), or a folder of ``treadmark run -o``."""
+    path = pathlib.Path(file)
+    if path.is_dir():
+        path = path / "fields.h5" if (path / "fields.h5").exists() else path / "result.json"
+    if path.suffix == ".h5":
+        return result_of(_treadmark.Run.read_hdf5(path))
+    try:
+        return result_of_json(path.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise InputError(f"cannot be read: {error.strerror}", str(path)) from None
+    except (ValueError, KeyError, TypeError) as error:
+        raise InputError(f"is no result of treadmark run: {error}", str(path), advice="give result.json or fields.h5") from None
+
+
+def read_comparison(folder: Path) -> Comparison:
+    """The folder of ``treadmark compare -o``."""
+    return Comparison(_treadmark.Comparison.read_folder(pathlib.Path(folder)))
+
+
+def read_bench(file: Path) -> Bench:
+    """bench.json, or its folder."""
+    path = pathlib.Path(file)
+    return Bench(_treadmark.Bench.read(path / "bench.json" if path.is_dir() else path))
+
+
+def read_import(folder: Path) -> ScanImport:
+    """The folder of ``treadmark import --report``."""
+    _left_out("Imported", "import_scan")
+    return ScanImport(_treadmark.Imported.read_folder(pathlib.Path(folder)))
+
+
+def read_simulation(file: Path) -> Simulation:
+    """simulation.h5, or its folder, with its snapshots."""
+    _left_out("Simulated", "simulate")
+    path = pathlib.Path(file)
+    return _simulation_of(_treadmark.Simulated.read(path / "simulation.h5" if path.is_dir() else path))
+
+
+def read_sweep(folder: Path) -> Sweep:
+    """The folder of ``treadmark sweep -o``, or its sweep.h5."""
+    path = pathlib.Path(folder)
+    path = path.parent if path.suffix == ".h5" else path
+    head = _treadmark.read_sweep(path / "sweep.h5")
+    with open(path / "sweep.csv", newline="", encoding="utf-8") as table:
+        labels = {int(row["run"]): (row["label"], row["message"]) for row in csv.DictReader(table)}
+    runs = []
+    for number, (label, message) in sorted(labels.items()):
+        store = path / "runs" / f"run_{number:04}" / "simulation.h5"
+        run = read_simulation(store)
+        runs.append(SweepRun(number, label, run.status, message, dict(run.swept), run.summary, str(store)))
+    return Sweep(head["title"], head["version"], head["input_file"], head["settings"], runs, True, len(runs))
+
+
+def report(folder: Path, file: Path) -> None:
+    """Writes the HTML report of a folder of results of any verb."""
+    _treadmark.report_folder(pathlib.Path(folder), pathlib.Path(file))
+
+
+def _left_out(name: str, function: str) -> None:
+    if not hasattr(_treadmark, name):
+        getattr(_treadmark, function)()  # says which part this build leaves out

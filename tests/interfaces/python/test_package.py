@@ -1,0 +1,48 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""The package as such: stubs, docstrings and their examples, exports."""
+import doctest
+import inspect
+import os
+import pathlib
+import subprocess
+import sys
+
+import pytest
+
+import treadmark as tm
+from treadmark import _inputs, _records, _solving, _surfaces, _verbs
+
+
+def test_all_that_is_exported_says_what_it_is():
+    for name in tm.__all__:
+        thing = getattr(tm, name)
+        if callable(thing) and not name.startswith("__"):
+            assert inspect.getdoc(thing), name
+            for member, value in vars(thing).items() if inspect.isclass(thing) else ():
+                if not member.startswith("_") and (inspect.isfunction(value) or isinstance(value, (property, classmethod))):
+                    assert inspect.getdoc(value), f"{name}.{member}"
+
+
+@pytest.mark.parametrize("module", [_inputs, _records, _solving, _surfaces, _verbs])
+def test_examples_in_docstrings(module):
+    assert doctest.testmod(module).failed == 0
+
+
+def test_the_handbook_runs():
+    text = (pathlib.Path(os.environ["TREADMARK_SOURCE"]) / "docs" / "python.md").read_text()
+    blocks = text.split("```python\n")[1:]
+    names = {}
+    for block in blocks:
+        exec(compile(block.split("```")[0], "docs/python.md", "exec"), names)
+    assert blocks
+
+
+def test_stubs_say_what_there_is(tmp_path):
+    pytest.importorskip("mypy")
+    folder = pathlib.Path(tm.__file__).parent.parent
+    environment = {**os.environ, "MYPYPATH": str(folder), "MYPY_CACHE_DIR": str(folder / ".mypy_cache")}
+    stubs = subprocess.run([sys.executable, "-m", "mypy.stubtest", "treadmark._treadmark", "--allowlist",
+                            str(pathlib.Path(__file__).parent / "stub_allowances.txt"), "--ignore-unused-allowlist"], capture_output=True, text=True,
+                           env=environment, cwd=tmp_path)
+    assert stubs.returncode == 0, stubs.stdout + stubs.stderr

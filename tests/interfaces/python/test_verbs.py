@@ -1,0 +1,113 @@
+# SPDX-License-Identifier: Apache-2.0
+# SPDX-FileCopyrightText: Treadmark contributors
+"""compare, bench, import, simulate and sweep, against the program and the files that it writes."""
+import csv
+import json
+
+import numpy as np
+import pytest
+
+import treadmark as tm
+from conftest import CASE
+
+FLAT = {**CASE, "wheel.flats": [{"length_mm": 30.0, "depth_mm": 0.3}]}
+
+
+def needs(*parts):
+    missing = [part for part in parts if not tm.parts()[part]]
+    return pytest.mark.skipif(bool(missing), reason=f"this build leaves out {missing}")
+
+
+def test_comparison(tmp_path):
+    compared = tm.compare(FLAT, backends=["analytic", "spline"], resolutions=[2e-3])
+    assert compared.complete and [c["backend"] for c in compared.candidates][:1] == ["analytic"] and len(compared.candidates) == 2
+    truth, other = compared.cases(0)[0], compared.cases(1)[0]
+    error = other.patches[0].pmax / truth.patches[0].pmax - 1
+    assert compared.rows()[1]["pmax_error_percent"] == pytest.approx(100 * error, rel=1e-6) and abs(error) < 0.1
+    compared.write(tmp_path / "folder")
+    again = tm.read_comparison(tmp_path / "folder")
+    assert again.table() == compared.table()
+    written = list(csv.DictReader((tmp_path / "folder" / "compare.csv").open()))
+    assert [float(row["pmax_MPa"]) for row in written] == [row["pmax_MPa"] for row in compared.rows()]
+    assert all(compared.svg(what).startswith("<svg") for what in ("errors", "costs", "pressures")) and "<svg" in compared._repr_html_()
+    with pytest.raises(ValueError):
+        compared.svg("colours")
+    with pytest.raises(IndexError):
+        compared.cases(2)
+    with pytest.raises(tm.InputError, match="splint"):
+        tm.compare(FLAT, backends=["splint"])
+
+
+def test_bench(tmp_path):
+    timed = tm.bench(FLAT, backends=["spline"], resolutions=[2e-3], seconds_per_measure=0.001)
+    rows = timed.rows()
+    assert {row["body"] for row in rows} == {"wheel", "rail"} and all(row["agrees"] for row in rows)
+    timed.write(tmp_path)
+    assert tm.read_bench(tmp_path).rows() == rows and timed.svg().startswith("<svg")
+
+
+@needs("vehicle", "hdf5")
+def test_simulation(tmp_path, examples):
+    found = tm.simulate(examples / "flat-at-speed.toml", set={
+        "simulation.distance_m": 0.02, "discretisation.dx_mm": 2.0, "discretisation.ds_mm": 2.0})
+    assert found.status == "complete" and found.values.shape == (len(found["t_s"]), len(found.columns)) and not found.values.flags.writeable
+    assert (np.diff(found["t_s"]) > 0).all() and np.shares_memory(found["t_s"], found.values)
+    found.write(tmp_path)
+    again = tm.read_simulation(tmp_path)
+    assert (again.values == found.values).all() and again.summary.keys() == found.summary.keys() and again.modes == found.modes
+    assert found.svg().startswith("<svg") and "<svg" in found._repr_html_() and json.loads(found.to_json())
+    with pytest.raises(KeyError, match="Q_N"):
+        found["Q_M"]
+    pandas = pytest.importorskip("pandas")
+    assert isinstance(found.to_pandas(), pandas.DataFrame) and list(found.to_pandas()["t_s"]) == list(found["t_s"])
+
+
+@needs("vehicle")
+def test_modes(examples, program):
+    modes = tm.simulate(examples / "flat-at-speed.toml", modes_only=True)
+    assert len(modes.values) == 0 and modes.modes and modes.statics
+
+
+@needs("vehicle", "hdf5")
+def test_sweep(tmp_path, examples):
+    study = tmp_path / "study.toml"
+    (tmp_path / "case.toml").write_text(tm._inputs.to_toml(CASE))
+    study.write_text('[study]\nbase = "case.toml"\n[[study.vary]]\nkey = "wheelset.y_mm"\nvalues = [0.0, 3.0]\n')
+    told = []
+    swept = tm.sweep(study, tmp_path / "out", progress=lambda *what: told.append(what))
+    assert swept.complete and len(swept.runs) == 2 == swept.runs_total and told
+    rows = swept.rows()
+    assert [row["wheelset.y_mm"] for row in rows] == [0.0, 3.0]
+    again = tm.read_sweep(tmp_path / "out")
+    assert [r["wheelset.y_mm"] for r in again.rows()] == [0.0, 3.0] and again.rows()[0].keys() == rows[0].keys()
+    with pytest.raises(tm.InputError, match="treadmark.simulate"):
+        tm.sweep(examples / "flat-at-speed.toml", tmp_path / "other")
+    tm.report(tmp_path / "out", tmp_path / "report.html") if tm.parts()["report"] else None
+
+
+@needs("scans")
+def test_import(tmp_path):
+    """Points on a turned section: a rail of a hundred millimetres, as a scanner sees it."""
+    rail = tm.Surface.standard("60E1")
+    y = np.linspace(-0.034, 0.034, 180)
+    points = np.array([(x, a, b) for x in np.arange(0, 0.12, 1e-3) for a, b in zip(y, rail.heights(0.0, y))])
+    np.savetxt(tmp_path / "scan.xyz", 1e3 * points, fmt="%.5f")
+    told = []
+    audit = tm.import_scan(tmp_path / "scan.xyz", tmp_path / "rail.slcs", set={"scan.body": "rail", "scan.unit": "mm"},
+                           progress=lambda *what: told.append(what))
+    assert audit.document["points"]["read"] == len(points) if "points" in audit.document else audit.document
+    made = tm.Surface.read(tmp_path / "rail.slcs", "rail")
+    assert made.heights(0.05, np.linspace(-0.02, 0.02, 9)).ptp() == pytest.approx(rail.heights(0.0, np.linspace(-0.02, 0.02, 9)).ptp(), abs=2e-5)
+    assert audit.maps["fitted"].values.ndim == 2 and audit.svg().startswith("<svg") and "60E1" in audit.summary()
+    if tm.parts()["hdf5"]:
+        audit.write(tmp_path / "audit")
+        assert tm.read_import(tmp_path / "audit").to_json() == audit.to_json()
+    with pytest.raises(tm.InputError, match="nowhere"):
+        tm.import_scan("nowhere.xyz", tmp_path / "rail.slcs", set={"scan.body": "rail"})
+    with pytest.raises(tm.InputError):
+        tm.import_scan([], tmp_path / "rail.slcs")
+
+
+def test_parts_and_version(program):
+    assert tm.version_text().split() == program("--version").split()[-len(tm.version_text().split()):]
+    assert tm.parts()["python"] and tm.__version__ in tm.version_text()
