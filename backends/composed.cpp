@@ -219,7 +219,10 @@ NaturalSurface create_ring(SurfaceSpec spec) {
     natural.surface = slice_ring(assembly::ring_slices(*points, radius));
   } else {
     const auto* chain = std::get_if<ArcChain>(&spec.shape);
-    natural.surface = assembly::make_ring_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), radius);
+    natural.surface = assembly::make_ring_surface(
+        chain != nullptr ? *chain
+                         : std::get<ArcChain>(analytic::standard_curve(std::get<StandardProfile>(spec.shape).name)),
+        radius);
   }
   natural.kind = std::make_shared<const RingKind>();
   natural.spec = std::move(spec);

@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <optional>
 #include <utility>
 #include <variant>
 
@@ -51,12 +52,14 @@ std::shared_ptr<const Surface> as_spline(Resampling& r) {
 std::shared_ptr<const Surface> as_nurbs(Resampling& r) {
   const SurfaceSpec& spec = r.spec();
   const auto* chain = std::get_if<ArcChain>(&spec.shape);
-  const auto* standard = std::get_if<StandardProfile>(&spec.shape);
-  if (spec.defects.empty() && !r.asked() && (chain != nullptr || (standard != nullptr && standard->name == "60E1"))) {
+  std::optional<ArcChain> known;
+  if (const auto* standard = std::get_if<StandardProfile>(&spec.shape); standard != nullptr && spec.body == Body::rail)
+    known = std::get<ArcChain>(analytic::standard_curve(standard->name));
+  if (spec.defects.empty() && !r.asked() && (chain != nullptr || known)) {
     r.set_resolution(0.0);
     r.limit_rail();
-    return spline::make_nurbs_surface(chain != nullptr ? *chain : analytic::rail_60e1_chain(), spec.body,
-                                      spec.nominal_radius, r.region().u_min, r.region().u_max);
+    return spline::make_nurbs_surface(chain != nullptr ? *chain : *known, spec.body, spec.nominal_radius,
+                                      r.region().u_min, r.region().u_max);
   }
   return spline::make_nurbs_surface(r.points(true));
 }

@@ -6,6 +6,7 @@
 
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/backends/create.hpp"
+#include "treadmark/backends/profile_library.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
@@ -20,12 +21,26 @@ void print_left_out(std::string_view name, std::string_view part) {
   std::cout << name << " - left out of this build: " << left_out_advice(part) << '\n';
 }
 
+/// A row a profile, columns apart.
+void print_profiles() {
+  constexpr const char* kRow = "{:<14} {:<6} {:>7} {:>6} {:>8} {:>7}  {:<12} {}\n";
+  std::cout << fmt::format(kRow, "name", "body", "height", "width", "area", "mass", "from", "shape; other names");
+  std::cout << fmt::format(kRow, "", "", "mm", "mm", "cm2", "kg/m", "", "");
+  const auto number = [](double value, double unit, int digits) {
+    return value > 0.0 ? fmt::format("{:.{}f}", value / unit, digits) : std::string("-");
+  };
+  for (const LibraryProfile& p : profile_library())
+    std::cout << fmt::format(kRow, p.name, p.body == Body::wheel ? "wheel" : "rail", number(p.height, 1e-3, 1),
+                             number(p.width, 1e-3, 1), number(p.area, 1e-4, 2), number(p.mass_per_m, 1.0, 2), p.source,
+                             p.also.empty() ? p.shape : fmt::format("{}; {}", p.shape, p.also));
+}
+
 int list_command(const std::string& what) {
   if (what == "backends") {
     for (const auto name : backend_names()) std::cout << name << '\n';
     for (const Backend* backend : left_out_backends()) print_left_out(backend->name, backend->part);
   } else if (what == "profiles") {
-    for (const auto name : standard_profile_names()) std::cout << name << '\n';
+    print_profiles();
   } else if (what == "solvers") {
     std::cout << theory_list();
   } else if (what == "verbs") {

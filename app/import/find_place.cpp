@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/backends/create.hpp"
+#include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
@@ -114,8 +115,7 @@ void read_nominal(const ImportRequest& request, PlacedScan& scan) {
   if (name == "auto") name = scan.body == Body::wheel ? "S1002" : "60E1";
   SurfaceSpec spec;
   spec.body = scan.body;
-  const auto& standard = standard_profile_names();
-  if (std::find(standard.begin(), standard.end(), name) != standard.end()) {
+  if (library_body(name)) {
     spec.shape = StandardProfile{name};
   } else {
     spec.shape = io::read_profile(name, scan.body, {}, {});

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/backends/profile_library.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/files/line_scanner.hpp"
 #include "treadmark/io/meshes/read_mesh.hpp"
@@ -88,6 +89,9 @@ NaturalSurface read_surface(const io::SurfaceSource& source, Body body, double r
     else
       spec.shape = io::read_profile(file->file, body, file->options, source.where);
   } else if (const auto* standard = std::get_if<StandardProfile>(&source.geometry)) {
+    if (!library_body(standard->name))
+      throw Error(ErrorKind::configuration, fmt::format("there is no standard profile '{}'", standard->name),
+                  source.where, "treadmark list profiles prints those there are");
     spec.shape = *standard;
   } else {
     spec.shape = std::get<ArcChain>(source.geometry);

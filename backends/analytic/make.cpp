@@ -3,6 +3,8 @@
 #include "treadmark/backends/analytic/make.hpp"
 
 #include <cmath>
+#include <utility>
+#include <variant>
 
 #include <fmt/format.h>
 
@@ -25,14 +27,16 @@ std::shared_ptr<const Surface> make_revolved_surface(const ArcChain& chain, doub
 
 std::shared_ptr<const Surface> make_standard_surface(const StandardProfile& profile, Body body, double nominal_radius,
                                                      const std::vector<WheelFlat>& flats) {
-  const Body belongs_to = standard_profile_body(profile.name);
+  std::variant<ArcChain, GraphCurve> shape = standard_curve(profile.name);
+  const Body belongs_to = std::holds_alternative<ArcChain>(shape) ? Body::rail : Body::wheel;
   if (belongs_to != body)
     throw Error(ErrorKind::configuration,
                 fmt::format("the standard profile {} belongs to a {}, not to a {}", profile.name,
                             belongs_to == Body::wheel ? "wheel" : "rail", body == Body::wheel ? "wheel" : "rail"));
-  if (body == Body::wheel) return std::make_shared<RevolvedSurface>(s1002_curve(), nominal_radius, flats);
+  if (body == Body::wheel)
+    return std::make_shared<RevolvedSurface>(std::get<GraphCurve>(std::move(shape)), nominal_radius, flats);
   if (!flats.empty()) throw Error(ErrorKind::configuration, "flats belong to wheels, not to rails");
-  return make_prismatic_surface(rail_60e1_chain());
+  return make_prismatic_surface(std::get<ArcChain>(shape));
 }
 
 ArcChain cylinder_chain(double radius, double half_angle) {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <variant>
 
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/backends/analytic/defects/flat_depth.hpp"
@@ -51,12 +52,13 @@ void sample_piece(const GraphCurve& curve, int piece, double step, Profile& out)
 
 Profile sample_profile(const StandardProfile& profile, double step) {
   require_step(step);
-  if (standard_profile_body(profile.name) == Body::rail) {
-    Profile out = sample_profile(rail_60e1_chain(), Body::rail, step);
+  const std::variant<ArcChain, GraphCurve> shape = standard_curve(profile.name);
+  if (const auto* chain = std::get_if<ArcChain>(&shape)) {
+    Profile out = sample_profile(*chain, Body::rail, step);
     out.name = profile.name;
     return out;
   }
-  const GraphCurve curve = s1002_curve();
+  const auto& curve = std::get<GraphCurve>(shape);
   Profile out;
   out.body = Body::wheel;
   out.name = profile.name;

@@ -123,7 +123,7 @@ SurfaceSpec wheel_of_roller(const SurfaceSpec& roller) {
     turn_over(moved, radius);
     wheel.shape = std::move(moved);
   } else {
-    wheel.shape = turned(analytic::rail_60e1_chain());
+    wheel.shape = turned(std::get<ArcChain>(analytic::standard_curve(std::get<StandardProfile>(roller.shape).name)));
   }
   return wheel;
 }

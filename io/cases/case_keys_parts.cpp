@@ -113,8 +113,7 @@ std::vector<Key> geometry_keys() {
     std::get<GeometryFile>(s.geometry).file = name;
     s.where = v.where;
   };
-  Key standard = geometry_key("standard", KeyType::choice, "standard profile from its published formula");
-  standard.info.choices = {"60E1"};
+  Key standard = geometry_key("standard", KeyType::text, "standard profile by its name: treadmark list profiles");
   standard.set = [](SurfaceSource& s, const CaseValue& v) {
     s.geometry = StandardProfile{v.text()};
     s.where = v.where;

@@ -16,12 +16,8 @@ using W = WheelRailCase;
 /// Keys of wheel.shape or rail.shape.
 class ShapeKeys {
  public:
-  ShapeKeys(KeyList& list, std::string body, SurfaceSource W::*surface, std::string standard)
-      : list_(list),
-        prefix_(body + ".shape."),
-        body_(std::move(body)),
-        surface_(surface),
-        standard_(std::move(standard)) {}
+  ShapeKeys(KeyList& list, std::string body, SurfaceSource W::*surface)
+      : list_(list), prefix_(body + ".shape."), body_(std::move(body)), surface_(surface) {}
 
   void add() {
     add_geometry();
@@ -74,8 +70,7 @@ class ShapeKeys {
       s.where = v.where;
     };
 
-    KeyInfo standard = info("standard", KeyType::choice, "standard profile from its published formula");
-    standard.choices = {standard_};
+    KeyInfo standard = info("standard", KeyType::text, "standard profile by its name: treadmark list profiles");
     standard.group = prefix_;
     standard.alternative = "standard";
     CaseKey& published = list_.add(standard);
@@ -299,15 +294,14 @@ class ShapeKeys {
   KeyList& list_;
   std::string prefix_, body_;
   SurfaceSource W::*surface_;
-  std::string standard_;
 };
 
 }  // namespace
 
 void add_shape_keys(KeyList& list) {
-  ShapeKeys(list, "rail", &W::rail, "60E1").add();
+  ShapeKeys(list, "rail", &W::rail).add();
   add_part_keys(list);
-  ShapeKeys(list, "wheel", &W::wheel, "S1002").add();
+  ShapeKeys(list, "wheel", &W::wheel).add();
 }
 
 }  // namespace treadmark::io

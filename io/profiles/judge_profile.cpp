@@ -204,18 +204,24 @@ class Judge {
                          kMm * steps[largest], kMm * p_.y[largest], kMm * p_.y[largest + 1], where));
   }
 
+  /// Several profiles share a head: all that are as near as the nearest are named.
   void standard() {
-    const StandardOutline* nearest = nullptr;
-    std::optional<StandardDeparture> best;
+    constexpr double kAlike = 1e-6;  // [m] finer than any gauge
+    constexpr std::size_t kNamed = 6;
+    std::vector<std::pair<StandardDeparture, std::string>> all;
     for (const StandardOutline& standard : standards_)
-      if (const auto departure = departure_from(p_, standard); departure && (!best || departure->usual < best->usual)) {
-        best = departure;
-        nearest = &standard;
-      }
-    if (!best) return;
+      if (const auto departure = departure_from(p_, standard)) all.emplace_back(*departure, standard.name);
+    if (all.empty()) return;
+    const auto usual = [](const auto& row) { return row.first.usual; };
+    const StandardDeparture best = std::ranges::min_element(all, {}, usual)->first;
+    std::string names;
+    std::size_t count = 0;
+    for (const auto& [departure, name] : all)
+      if (departure.usual <= best.usual + kAlike && ++count <= kNamed) names += (count > 1 ? ", " : "") + name;
+    if (count > kNamed) names += fmt::format(" and {} more", count - kNamed);
     fact("standard",
          fmt::format("{:.3g} mm from {} (largest {:.3g} mm) when shifted by {:.2f} mm and rolled by {:.2f} mrad",
-                     kMm * best->usual, nearest->name, kMm * best->largest, kMm * best->shift_y, kMm * best->roll));
+                     kMm * best.usual, names, kMm * best.largest, kMm * best.shift_y, kMm * best.roll));
   }
 
   static constexpr double kFlange = 15e-3;  ///< what reaches so far beyond the tread is a flange

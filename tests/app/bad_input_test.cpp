@@ -46,6 +46,20 @@ TEST_F(BadInput, MissingProfile) {
   expect_refused(3, {"absent.txt", "case.inp:14"});
 }
 
+TEST_F(BadInput, StandardProfilesThatThereAreNot) {
+  for (const auto& [name, said] :
+       {std::pair{"61E1", "there is no standard profile '61E1'"},
+        std::pair{"S1002", "the standard profile S1002 belongs to a wheel, not to a rail"}}) {
+    input.write("case.toml",
+                "wheelset = { nominal_radius_mm = 460, vertical_force_N = 1e5 }\n[rail]\nshape.standard = \"" +
+                    std::string(name) + "\"\n[wheel]\nshape.standard = \"S1002\"\n");
+    const ProgramResult r = run_program({"run", (input.folder() / "case.toml").string()});
+    EXPECT_EQ(r.status, 2);
+    EXPECT_THAT(r.err, HasSubstr("case.toml:3:18"));
+    EXPECT_THAT(r.err, HasSubstr(said));
+  }
+}
+
 TEST_F(BadInput, MissingSliceFile) {
   input.use_slices();
   std::filesystem::remove(input.folder() / "slice_3.txt");

@@ -53,8 +53,8 @@ TEST(CommandLine, ListsAndSchema) {
     return name + (has_part(part) ? "" : " - left out of this build: " + left_out_advice(part)) + '\n';
   };
   EXPECT_EQ(run_program({"list", "verbs"}).out,
-            "run\ncompare\ndiff\nbench\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
-                verb("simulate", "vehicle") + verb("sweep", "vehicle") + verb("fmu", "fmu") +
+            "run\ncompare\ndiff\nbench\ngeometry\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
+                "measure\n" + verb("simulate", "vehicle") + verb("sweep", "vehicle") + verb("fmu", "fmu") +
                 verb("report", "report") + verb("plot", "report") + "check\nlist\nschema\ncompletion\nman\n");
 }
 

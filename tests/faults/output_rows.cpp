@@ -37,6 +37,7 @@ y = ["q_max_N"]
 #define OTHER_WHEEL "--body wheel --nominal-radius 460 --resolution 8 --range-deg=-2,2"
 #define COMPARE "compare $case.toml --resolutions 8 --bodies rail --backends spline"
 #define BENCH "bench $case.toml --resolutions 4 --backends spline --seconds-per-measure 0.0001"
+#define PAIR "geometry --wheel S1002 --rail 60E1 --cant 1:40 --amplitudes-mm 3 --step-mm 0.5"
 #define LESS " --set wheelset.vertical_force_N=70e3"
 
 const std::vector<OutputRow> kRows{
@@ -67,6 +68,13 @@ const std::vector<OutputRow> kRows{
      "import $scan.ply -o @rail.slcs --body rail --resolution 5 --json @audit.json", 0},
     {"import_report", "scans cgal report hdf5", SCANS,
      "import $scan.ply -o @rail.ply --body rail --resolution 4 --report @audit", nullptr, 0},
+    {"geometry", "report", "",
+     PAIR " --gauge-mm 1435 -o @geometry --json @pair.json --csv @pair.csv --report @pair.html",
+     PAIR " --gauge-mm 1437 -o @geometry --json @pair.json --csv @pair.csv --report @pair.html", 0},
+    {"measure", "report hdf5", "", "measure wheel S1002 --json @wheel.json --csv @wheel.csv --report @wheel.html",
+     "measure wheel S1002 --json @wheel.json --csv @wheel.csv --report @wheel.html --nominal S1002", 0},
+    {"measure_list", "report hdf5", "", "measure wheel S1002 1:40 --csv @list.csv --hdf5 @list.h5 --report @list.html",
+     "measure wheel S1002 1:40 --csv @list.csv --hdf5 @list.h5 --report @list.html --nominal S1002", 0},
     {"fmu", "fmu", "", "fmu $case.toml -o @wheel.fmu", nullptr, 0},
     {"report", "report hdf5", RESULTS, "report $first -o @report.html", "report $second -o @report.html", 3},
     {"plot", "report hdf5", RESULTS, "plot $first --what pressure -o @plot.svg",

@@ -9,27 +9,13 @@
 #include <string>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/model/hertz_ellipse.hpp"
 
 namespace treadmark::kalker {
 
 namespace {
 
 using std::numbers::pi;
-
-/// Complete elliptic integrals for the axis ratio g <= 1: K, E of modulus k = sqrt(1 - g^2), and (E - g^2 K) / k^2.
-struct EllipticIntegrals {
-  double first, second, combined;
-};
-
-EllipticIntegrals elliptic_integrals(double g) {
-  const double k_squared = (1.0 - g) * (1.0 + g);
-  const double k = std::sqrt(k_squared);
-  const double first = std::comp_ellint_1(k), second = std::comp_ellint_2(k);
-  // The quotient loses its digits for nearly circular contacts; series of the integral of cos^2/sqrt(1 - k^2 sin^2).
-  const double combined = k_squared < 1e-4 ? pi / 4.0 * (1.0 + k_squared / 8.0 + 3.0 * k_squared * k_squared / 64.0)
-                                           : (second - g * g * first) / k_squared;
-  return {first, second, combined};
-}
 
 void require_positive(double value, const char* name) {
   if (!(value > 0.0) || !std::isfinite(value))
@@ -41,17 +27,6 @@ void require_positive(double value, const char* name) {
 double modulus(const CombinedMaterial& material) {
   require_positive(material.shear_modulus, "the shear modulus");
   return material.shear_modulus / (1.0 - material.poisson);
-}
-
-/// Axis ratio g for a ratio of curvatures, both in (0, 1]; the first falls with the second.
-double axis_ratio(double curvature_ratio) {
-  double low = 0.0, high = 1.0;
-  for (int i = 0; i < 200 && high - low > 1e-16 * high; ++i) {
-    const double middle = 0.5 * (low + high);
-    if (middle <= 0.0) break;
-    (hertz_curvature_ratio(middle) < curvature_ratio ? low : high) = middle;
-  }
-  return 0.5 * (low + high);
 }
 
 HertzShape line(double curvature_x, double a, double half_length, double force) {
@@ -73,36 +48,20 @@ double line_force(const HertzLoad& load) {
 
 }  // namespace
 
-double hertz_curvature_ratio(double g) {
-  const auto [first, second, combined] = elliptic_integrals(g);
-  return (second - combined) / combined;
-}
-
 HertzShape hertz_from_curvatures(double curvature_x, double curvature_y, const HertzLoad& load,
                                  const CombinedMaterial& material) {
   require_positive(curvature_x, "curvature A");
   require_positive(curvature_y, "curvature B");
   require_positive(load.value, load.force_prescribed ? "the force" : "the approach");
-  const double g = axis_ratio(std::min(curvature_x, curvature_y) / std::max(curvature_x, curvature_y));
-  const auto [first, second, combined] = elliptic_integrals(g);
-  const double rho = 2.0 / (curvature_x + curvature_y), e_star = modulus(material);
-
+  const HertzEllipse e = (load.force_prescribed ? hertz_by_force : hertz_by_approach)(curvature_x, curvature_y,
+                                                                                      load.value, modulus(material));
   HertzShape shape;
   shape.curvature_x = curvature_x;
   shape.curvature_y = curvature_y;
-  double c = 0.0;  // sqrt(ab)
-  if (load.force_prescribed) {
-    shape.force = load.value;
-    c = std::cbrt(3.0 * shape.force * rho * second / (4.0 * pi * e_star * std::sqrt(g)));
-    shape.approach = 2.0 * c * c * g * first / (rho * second);
-  } else {
-    shape.approach = load.value;
-    c = std::sqrt(shape.approach * rho * second / (2.0 * first * g));
-    shape.force = 4.0 * pi * c * c * c * e_star * std::sqrt(g) / (3.0 * rho * second);
-  }
-  const double small = c * std::sqrt(g), large = c / std::sqrt(g);
-  shape.semi_axis_x = curvature_x >= curvature_y ? small : large;
-  shape.semi_axis_y = curvature_x >= curvature_y ? large : small;
+  shape.semi_axis_x = e.semi_axis_x;
+  shape.semi_axis_y = e.semi_axis_y;
+  shape.force = e.force;
+  shape.approach = e.approach;
   return shape;
 }
 
@@ -120,7 +79,7 @@ HertzShape hertz_from_semi_axes(double a, double b, const HertzLoad& load, const
   require_positive(b, "semi-axis b");
   require_positive(load.value, load.force_prescribed ? "the force" : "the approach");
   const double g = std::min(a, b) / std::max(a, b), c = std::sqrt(a * b), e_star = modulus(material);
-  const auto [first, second, combined] = elliptic_integrals(g);
+  const auto [first, second, combined] = ellipse_integrals(g);
 
   HertzShape shape;
   shape.semi_axis_x = a;

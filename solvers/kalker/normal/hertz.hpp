@@ -37,8 +37,6 @@ double hertz_pressure(const HertzShape& shape, double x, double y);
 /// A paraboloid over the same area with the same force: the traction bound for which simplified theory was made
 /// (Kalker 1982).
 double parabolic_pressure(const HertzShape& shape, double x, double y);
-/// Curvature ratio min(A, B) / max(A, B) that belongs to the axis ratio g = min(a, b) / max(a, b).
-double hertz_curvature_ratio(double axis_ratio);
 
 /// Grid of nx by ny elements over +-scale times the semi-axes. A line contact of several rows is covered so that whole
 /// rows fit its length, the remaining ones lie outside on both sides.

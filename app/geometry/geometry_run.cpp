@@ -1,0 +1,345 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/measures/wheel.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+
+namespace treadmark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+const char* body_word(Body body) { return body == Body::wheel ? "wheel" : "rail"; }
+
+/// A number that is all of the text.
+std::optional<double> whole_number(std::string_view text) {
+  double value = 0.0;
+  const auto [end, trouble] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (trouble != std::errc() || end != text.data() + text.size() || !std::isfinite(value)) return std::nullopt;
+  return value;
+}
+
+NaturalSurface surface_of(const GeometryRequest& request, const std::string& name, Body body) {
+  if (name == request.case_file) {
+    NamedSurface said;
+    said.body = body;
+    said.overrides = request.overrides;
+    return named_surface(name, said);
+  }
+  if (!fs::exists(name) && fs::path(name).extension() != ".vdb") {
+    try {
+      SurfaceSpec spec;
+      spec.body = body;
+      spec.shape = StandardProfile{name};
+      spec.nominal_radius = body == Body::wheel ? 0.5 * kUsualDiameter : 0.0;
+      return create_natural(std::move(spec));
+    } catch (const Error& error) {
+      throw Error(ErrorKind::input_data,
+                  fmt::format("neither a file nor a profile that is built in: {}", error.message()), {name},
+                  "see treadmark list profiles");
+    }
+  }
+  NamedSurface said;
+  said.body = body;
+  said.scale_to_mm = request.scale_to_mm;
+  said.nominal_radius = body == Body::wheel && fs::path(name).extension() != ".vdb" ? 0.5 * kUsualDiameter : 0.0;
+  return named_surface(name, said);
+}
+
+/// How far the tape line lies from y = 0 in a profile of a wheel that begins beside it: instruments count y from the
+/// flange back. Nothing where the back is not in the profile [m].
+std::optional<double> tape_line_of(const std::string& name, double scale_to_mm) {
+  io::ProfileOptions options;
+  options.scale = scale_to_mm;
+  try {
+    const measures::Section points(io::read_profile(name, Body::wheel, options));
+    const measures::WheelMeasures found = measures::measure_wheel(points);
+    if (found.back_seen) return -found.shift_y;
+  } catch (const Error&) {
+    // whoever takes it as it is says what is wrong with it
+  }
+  return std::nullopt;
+}
+
+geometry::Section section_of(const GeometryRequest& request, const std::string& name, Body body, double cant) {
+  const NaturalSurface natural = surface_of(request, name, body);
+  std::shared_ptr<const Surface> surface = natural.surface;
+  if (!request.backend.empty()) {
+    constexpr double kHalfLength = 5e-3, kHalfAngle = 0.03;  // what is sampled round the section [m], [rad]
+    Representation wanted{request.backend, request.resolution, {}};
+    wanted.region.u_min = body == Body::wheel ? request.pitch - kHalfAngle : request.x - kHalfLength;
+    wanted.region.u_max = body == Body::wheel ? request.pitch + kHalfAngle : request.x + kHalfLength;
+    surface = represent(natural, wanted).surface;
+  }
+  geometry::Section section = body == Body::wheel ? geometry::wheel_section(*surface, request.pitch)
+                                                  : geometry::rail_section(*surface, cant, request.x);
+  // a flange and y = 0 at the tape line need more room on the flange's side
+  constexpr double kLeastBeside = 45e-3;
+  if (body == Body::wheel && section.first() > -kLeastBeside && is_profile_file(name))
+    if (const std::optional<double> tape = tape_line_of(name, request.scale_to_mm)) section = section.shifted(-*tape);
+  if (const std::string why = geometry::wrong_body(section); !why.empty())
+    throw Error(ErrorKind::input_data, fmt::format("this is no {}: {}", body_word(body), why), {name},
+                fmt::format("give the profile of a {} here", body_word(body)));
+  return section;
+}
+
+/// A wheel with the diameter asked for at its tape line.
+void set_wheel(geometry::SideBodies& side, std::shared_ptr<const geometry::Section> section,
+               const std::optional<double>& diameter, bool from_case, const std::string& name) {
+  const double tape = section->at(0.0).z;
+  if (std::isnan(tape))
+    throw Error(ErrorKind::input_data,
+                fmt::format("no tape line: the wheel's profile does not reach y = 0, it runs from {:.1f} to {:.1f} mm",
+                            kMilli * section->first(), kMilli * section->last()),
+                {name}, "y counts from the tape line, 70 mm from the flange's back");
+  side.radius = diameter ? 0.5 * *diameter : from_case ? tape : 0.5 * kUsualDiameter;
+  side.wheel = side.radius == tape ? std::move(section)
+                                   : std::make_shared<const geometry::Section>(section->raised(side.radius - tape));
+}
+
+/// The wheelset under its load, and what is to be known of these numbers.
+void add_load(GeometryResult& out) {
+  const geometry::Analysis& a = out.analysis;
+  const geometry::WheelsetOnTrack wheelset =
+      geometry::place(out.right, out.left, out.placement, out.request.settings.roll, out.request.settings.yaw);
+  out.load = geometry::loaded_functions(wheelset, a.functions, {*out.request.axle_load, out.material},
+                                        a.equilibrium.value_or(0.0), a.single.amplitude);
+  struct Doubt {
+    std::string what;
+    double first;  ///< shift where it is met
+    std::size_t count = 0;
+  };
+  std::vector<Doubt> doubts;
+  const auto met = [&](const std::string& what, double y) {
+    auto known = std::ranges::find(doubts, what, &Doubt::what);
+    if (known == doubts.end()) known = doubts.insert(known, {what, y});
+    ++known->count;
+  };
+  for (std::size_t i = 0; i < a.functions.rows.size(); ++i) {
+    const geometry::LoadedPosition& at = out.load->rows[i];
+    const double y = a.functions.rows[i].y;
+    std::string seen;  // both sides may have the same
+    for (const geometry::LoadedSide* side : {&at.right, &at.left}) {
+      if (side->reason.empty() || side->reason == seen) continue;
+      met("no pressure: " + side->reason, y);
+      seen = side->reason;
+    }
+    if (at.right.shared || at.left.shared)
+      met("the approach closes the gap of a second contact, which shares the load: the ellipse is not the true one", y);
+  }
+  for (const Doubt& doubt : doubts)
+    out.notes.push_back(fmt::format("at {} of {} shifts, y = {:g} mm the first, {}", doubt.count,
+                                    a.functions.rows.size(), kMilli * doubt.first, doubt.what));
+}
+
+}  // namespace
+
+double parse_cant(const std::string& text) {
+  const auto refuse = [&]() -> double {
+    throw Error(ErrorKind::configuration, fmt::format("'{}' is no inclination of a rail", text), {},
+                "write it as 1:40, or 0");
+  };
+  double tangent = 0.0;
+  if (const auto colon = text.find(':'); colon != std::string::npos) {
+    const auto rise = whole_number(text.substr(0, colon)), run = whole_number(text.substr(colon + 1));
+    if (!rise || !run || *run == 0.0) return refuse();
+    tangent = *rise / *run;
+  } else {
+    const auto value = whole_number(text);
+    if (!value) return refuse();
+    tangent = *value;
+  }
+  constexpr double kSteepest = 0.2;
+  if (std::fabs(tangent) > kSteepest) return refuse();
+  return std::atan(tangent);
+}
+
+std::vector<double> parse_lengths_mm(const std::string& text) {
+  const auto refuse = [&](const char* why) {
+    throw Error(ErrorKind::configuration, fmt::format("'{}': {}", text, why), {},
+                "write 3, or 1,2,3, or 1:7.5:0.1 (from:to:step)");
+  };
+  std::vector<double> out, numbers;
+  const char between = text.find(':') != std::string::npos ? ':' : ',';
+  for (std::size_t at = 0; at <= text.size();) {
+    const std::size_t end = std::min(text.find(between, at), text.size());
+    const auto number = whole_number(std::string_view(text).substr(at, end - at));
+    if (!number) refuse("not a number");
+    numbers.push_back(*number);
+    at = end + 1;
+  }
+  if (between == ',') {
+    for (const double mm : numbers) out.push_back(kMillimetre * mm);
+  } else {
+    if (numbers.size() != 3 || !(numbers[2] > 0.0) || !(numbers[1] >= numbers[0])) refuse("not from:to:step");
+    constexpr double kMost = 10000.0;
+    const double count = std::floor((numbers[1] - numbers[0]) / numbers[2] + 1e-6);
+    if (count > kMost) refuse("too many values");
+    for (int k = 0; k <= static_cast<int>(count); ++k)
+      out.push_back(kMillimetre * std::round(1e9 * (numbers[0] + k * numbers[2])) / 1e9);
+  }
+  return out;
+}
+
+std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest& request, const std::string& name,
+                                                           Body body, double cant) {
+  const std::string key =
+      fmt::format("{}|{}|{}|{}|{}|{}|{}|{}", name, body_word(body), body == Body::rail ? cant : 0.0, request.pitch,
+                  request.x, request.scale_to_mm, request.backend, request.resolution);
+  {
+    const std::lock_guard lock(mutex_);
+    if (const auto found = sections_.find(key); found != sections_.end()) return found->second;
+  }
+  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant));
+  constexpr std::size_t kMost = 2000;  // of long lists whose files come once
+  const std::lock_guard lock(mutex_);
+  if (sections_.size() >= kMost) sections_.clear();
+  return sections_.try_emplace(key, std::move(section)).first->second;
+}
+
+GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store) {
+  GeometryResult out;
+  out.request = request;
+  GeometryRequest& r = out.request;
+  double cant = r.cant.value_or(0.0);
+  geometry::PairPlacement& placement = out.placement;
+  if (!r.case_file.empty()) {
+    const io::CaseFile file = io::read_any_case(r.case_file, r.overrides);
+    const io::WheelRailCase* first = first_wheelrail_case(file);
+    if (first == nullptr)
+      throw Error(ErrorKind::configuration, "there is no case of a wheel on a rail in the file", {r.case_file});
+    if (first->roller)
+      throw Error(ErrorKind::configuration, "rollers have no geometry of a track", {r.case_file},
+                  "use a case with rails");
+    if (r.wheel.empty()) r.wheel = r.case_file;
+    if (r.rail.empty()) r.rail = r.case_file;
+    const Track& track = first->track;
+    if (!r.cant) cant = track.cant;
+    if (track.gauge_based)
+      placement.gauge = track.gauge_width, placement.gauge_height = track.gauge_height;
+    else
+      placement.rail_origins = 2.0 * std::fabs(track.rail_y0);
+    placement.wheel_origins = first->wheelset.flange_back_distance - 2.0 * first->wheelset.flange_back_position;
+    out.material = first->material;
+    if (file.cases.size() > 1) out.notes.push_back("the first case of a wheel on a rail counts");
+  } else {
+    for (const auto& [name, what] : {std::pair{&r.wheel, "--wheel"}, std::pair{&r.rail, "--rail"}})
+      if (name->empty()) throw Error(ErrorKind::configuration, fmt::format("no profile: {} is missing", what));
+    if (!r.gauge && !r.rail_origins)
+      throw Error(ErrorKind::configuration, "where the rails are is not said", {},
+                  "give --gauge-mm with --cant, or --rail-origins-mm");
+  }
+  if (r.gauge && r.rail_origins)
+    throw Error(ErrorKind::configuration, "--gauge-mm and --rail-origins-mm say the same thing twice", {},
+                "give one of them");
+  if (r.gauge) placement.gauge = r.gauge;
+  if (r.rail_origins) placement.gauge.reset(), placement.rail_origins = *r.rail_origins;
+  if (r.gauge_height) placement.gauge_height = *r.gauge_height;
+  if (r.wheel_origins) placement.wheel_origins = *r.wheel_origins;
+
+  const std::string wheel_left = r.wheel_left.empty() ? r.wheel : r.wheel_left,
+                    rail_left = r.rail_left.empty() ? r.rail : r.rail_left;
+  const auto side = [&](const std::string& wheel, const std::string& rail, const std::optional<double>& diameter) {
+    geometry::SideBodies s;
+    set_wheel(s, store.get(r, wheel, Body::wheel, 0.0), diameter, wheel == r.case_file, wheel);
+    s.rail = store.get(r, rail, Body::rail, cant);
+    s.cant = cant;
+    return s;
+  };
+  out.right = side(r.wheel, r.rail, r.diameter);
+  out.left = side(wheel_left, rail_left, r.diameter_left ? r.diameter_left : r.diameter);
+  if (out.left.radius == out.right.radius && wheel_left == r.wheel) out.left.wheel = out.right.wheel;
+  return out;
+}
+
+GeometryResult run_geometry(const GeometryRequest& request, SectionStore& store) {
+  GeometryResult out = read_geometry(request, store);
+  out.analysis = geometry::analyse(out.right, out.left, out.placement, out.request.settings);
+  std::size_t beyond = 0;
+  for (const geometry::Conicity& c : out.analysis.conicity) beyond += c.reason.empty() ? 0U : 1U;
+  if (beyond > 0)
+    for (const geometry::Conicity& c : out.analysis.conicity)
+      if (!c.reason.empty()) {
+        out.notes.push_back(fmt::format("no conicity at {} of {} amplitudes, {:g} mm the first: {}", beyond,
+                                        out.analysis.conicity.size(), kMilli * c.amplitude, c.reason));
+        break;
+      }
+  if (out.request.axle_load) add_load(out);
+  if (!request.new_wheel.empty() || !request.new_rail.empty()) {
+    GeometryRequest fresh = request;
+    if (!request.new_wheel.empty()) fresh.wheel = request.new_wheel, fresh.wheel_left.clear();
+    if (!request.new_rail.empty()) fresh.rail = request.new_rail, fresh.rail_left.clear();
+    const GeometryResult placed = read_geometry(fresh, store);
+    out.with_new = geometry::analyse(placed.right, placed.left, placed.placement, placed.request.settings);
+  }
+  return out;
+}
+
+std::vector<std::string> profile_doubts(const GeometryRequest& request) {
+  std::vector<std::string> out, seen;
+  for (const auto& [name, body] : {std::pair{request.wheel, Body::wheel}, std::pair{request.wheel_left, Body::wheel},
+                                   std::pair{request.rail, Body::rail}, std::pair{request.rail_left, Body::rail}}) {
+    if (std::ranges::find(seen, name) != seen.end() || !std::filesystem::exists(name) || !is_profile_file(name))
+      continue;
+    seen.push_back(name);
+    const CheckedProfile checked = check_profile(name, body);
+    for (const io::ProfileRemark& remark : checked.judgement.remarks)
+      out.push_back(fmt::format("{}: {}: {}", checked.name, remark.name, remark.text));
+  }
+  return out;
+}
+
+void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result, const GaugeSweep* sweep) {
+  make_folder(folder);
+  write_file(folder / "functions.csv", functions_csv(result));
+  write_file(folder / "conicity.csv", conicity_csv(result));
+  write_file(folder / "charts.svg", geometry_charts_svg(result));
+  write_file(folder / "contact_points.svg", contact_points_svg(result));
+  if (sweep != nullptr) {
+    write_file(folder / "gauges.csv", sweep_csv(*sweep));
+    write_file(folder / "gauges.svg", gauge_sweep_svg(*sweep));
+  }
+  write_file(folder / "geometry.json", geometry_json(result, sweep));
+}
+
+GaugeSweep sweep_gauge(const GeometryResult& base, const std::vector<double>& gauges) {
+  GaugeSweep out;
+  out.gauges = gauges;
+  out.conicity.resize(gauges.size());
+  out.at_3mm.resize(gauges.size());
+  out.trouble.resize(gauges.size());
+  geometry::AnalysisSettings settings = base.request.settings;
+  settings.second = 0.0;
+  settings.harmonic = false;
+  parallel_for(gauges.size(), [&](std::size_t i) {
+    geometry::PairPlacement placement = base.placement;
+    placement.gauge = gauges[i];
+    try {
+      geometry::Analysis a = geometry::analyse(base.right, base.left, placement, settings);
+      out.conicity[i] = std::move(a.conicity);
+      out.at_3mm[i] = a.at_3mm;
+    } catch (const Error& error) {
+      out.trouble[i] = error.message();
+    }
+  });
+  return out;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,132 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <filesystem>
+#include <map>
+#include <mutex>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "treadmark/app/lists/result_list.hpp"
+#include "treadmark/geometry/analysis.hpp"
+#include "treadmark/geometry/loaded_wheelset.hpp"
+
+namespace treadmark::app {
+
+/// A wheelset on a track as commands and lists of pairs name it.
+struct GeometryRequest {
+  std::string label;                                ///< of a row in a list; may be empty
+  std::string case_file;                            ///< empty: the profiles below
+  std::string wheel, wheel_left, rail, rail_left;   ///< files or names of profiles; left ones empty: as the right ones
+  std::string new_wheel, new_rail;                  ///< of both sides, for the effect of wear; empty: as they are
+  std::optional<double> diameter, diameter_left;    ///< at the tape lines [m]
+  std::optional<double> cant, gauge, gauge_height;  ///< [rad], [m]
+  std::optional<double> rail_origins, wheel_origins;  ///< distances [m]
+  double pitch = 0.0;                                 ///< of the wheels, for those that are not round [rad]
+  double x = 0.0;                                     ///< along rails that vary [m]
+  double scale_to_mm = 1.0;                           ///< of profile and triangle files
+  std::string backend;                                ///< of all surfaces; empty: as given
+  double resolution = 0.0;                            ///< [m]; 0: the backend's
+  std::vector<std::string> overrides;                 ///< of the case
+  std::optional<double> axle_load;                    ///< what both wheels carry [N]; none: geometry alone
+  geometry::AnalysisSettings settings;
+};
+
+inline constexpr double kUsualDiameter = 0.92;  ///< where none is given [m]
+
+/// Sections that have been read, so that lists of pairs read each file once. Thread-safe.
+class SectionStore {
+ public:
+  /// That of the wheel or rail of a name, at the cant [rad]. Errors: those of readers and backends; Error(input_data)
+  /// for a wheel given as a rail or the reverse.
+  std::shared_ptr<const geometry::Section> get(const GeometryRequest& request, const std::string& name, Body body,
+                                               double cant);
+
+ private:
+  std::mutex mutex_;
+  std::map<std::string, std::shared_ptr<const geometry::Section>> sections_;
+};
+
+/// A wheelset on its track with the answers.
+struct GeometryResult {
+  GeometryRequest request;
+  geometry::SideBodies right, left;
+  geometry::PairPlacement placement;
+  Material material;  ///< of the case, else the one that cases have by default
+  geometry::Analysis analysis;
+  std::optional<geometry::Analysis> with_new;     ///< the same with new profiles, where they were named
+  std::optional<geometry::LoadedFunctions> load;  ///< where a load was given
+  std::vector<std::string> notes;
+};
+
+/// Reads what is named. Errors: those of SectionStore and of cases; Error(configuration) for what is missing;
+/// Error(input_data) for a wheel without its tape line.
+GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store);
+/// The same with the answers; errors also those of geometry::analyse and geometry::loaded.
+GeometryResult run_geometry(const GeometryRequest& request, SectionStore& store);
+
+/// Conicity at several gauges.
+struct GaugeSweep {
+  std::vector<double> gauges;                             ///< [m]
+  std::vector<std::vector<geometry::Conicity>> conicity;  ///< of each gauge at the amplitudes asked for
+  std::vector<geometry::Conicity> at_3mm;                 ///< of each gauge
+  std::vector<std::string> trouble;                       ///< of each gauge; empty: none
+};
+/// Parallel; the result does not depend on the number of threads.
+GaugeSweep sweep_gauge(const GeometryResult& base, const std::vector<double>& gauges);
+
+/// Reads a list of pairs: text with commas, whose first line names the columns: any of name, wheel, wheel_left, rail,
+/// rail_left, diameter_mm, diameter_left_mm, gauge_mm, cant, rail_origins_mm, wheel_origins_mm. An empty cell is as in
+/// `usual`; files count from the folder of the list. Errors: Error(input_data) with the line for what cannot be
+/// understood.
+std::vector<GeometryRequest> read_pair_list(const std::string& file, const GeometryRequest& usual);
+
+/// All pairs; one that fails says why in its row. Finished rows are kept in a file while that goes on (make_rows).
+ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::filesystem::path& kept = {},
+                     const Progress& progress = {});
+
+/// "1:40", "0.025" (as tangent), "0"; [rad]. Errors: Error(configuration).
+double parse_cant(const std::string& text);
+/// "3", "1,2,3", "1:7.5:0.1" (from, to, step) in mm; [m]. Errors: Error(configuration).
+std::vector<double> parse_lengths_mm(const std::string& text);
+
+/// What is doubtful about profiles that are files. Thread-safe.
+std::vector<std::string> profile_doubts(const GeometryRequest& request);
+
+// What is written. All of them thread-safe.
+std::string geometry_text(const GeometryResult& result);  ///< for a terminal
+std::string sweep_text(const GaugeSweep& sweep);
+std::string geometry_json(const GeometryResult& result, const GaugeSweep* sweep);  ///< docs/geometry.schema.json
+std::string functions_csv(const GeometryResult& result);
+std::string conicity_csv(const GeometryResult& result);
+std::string sweep_csv(const GaugeSweep& sweep);
+std::string geometry_charts_svg(const GeometryResult& result);  ///< differences of radii, conicity, places, angles
+std::string contact_points_svg(const GeometryResult& result);   ///< both sections with lines between points in contact
+std::string gauge_sweep_svg(const GaugeSweep& sweep);
+
+/// All of it into a folder: tables, pictures and, last, geometry.json. Errors: those of core/output_file.hpp.
+void write_geometry_folder(const std::filesystem::path& folder, const GeometryResult& result, const GaugeSweep* sweep);
+
+/// A column of the contact functions: its name with the unit, and its value.
+struct FunctionColumn {
+  const char* name;
+  double (*value)(const geometry::Position& position, const geometry::WheelsetOnTrack& wheelset);
+};
+const std::vector<FunctionColumn>& function_columns();
+
+/// A column of the contact functions that only a load makes.
+struct LoadColumn {
+  const char* name;
+  double (*value)(const geometry::LoadedPosition& position);
+};
+const std::vector<LoadColumn>& load_columns();
+/// Why a side has no ellipse, in columns of their own.
+struct LoadReasonColumn {
+  const char* name;
+  const std::string& (*value)(const geometry::LoadedPosition& position);
+};
+const std::vector<LoadReasonColumn>& load_reason_columns();
+
+}  // namespace treadmark::app

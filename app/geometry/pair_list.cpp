@@ -1,0 +1,208 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+
+#include <charconv>
+#include <cmath>
+#include <filesystem>
+
+#include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/text.hpp"
+
+namespace treadmark::app {
+namespace {
+
+/// A column of a list: its name, and the member that it sets.
+struct InputColumn {
+  const char* name;
+  std::string GeometryRequest::*text = nullptr;
+  std::optional<double> GeometryRequest::*length = nullptr;  ///< in mm there
+  bool is_file = false;
+};
+constexpr InputColumn kInputColumns[] = {
+    {"name", &GeometryRequest::label},
+    {"wheel", &GeometryRequest::wheel, nullptr, true},
+    {"wheel_left", &GeometryRequest::wheel_left, nullptr, true},
+    {"rail", &GeometryRequest::rail, nullptr, true},
+    {"rail_left", &GeometryRequest::rail_left, nullptr, true},
+    {"diameter_mm", nullptr, &GeometryRequest::diameter},
+    {"diameter_left_mm", nullptr, &GeometryRequest::diameter_left},
+    {"gauge_mm", nullptr, &GeometryRequest::gauge},
+    {"rail_origins_mm", nullptr, &GeometryRequest::rail_origins},
+    {"wheel_origins_mm", nullptr, &GeometryRequest::wheel_origins},
+    {"cant"},
+};
+
+/// The cells of a line; a quoted cell may hold commas and doubled quotes (RFC 4180), not line ends.
+std::vector<std::string> cells_of(std::string_view line) {
+  std::vector<std::string> out(1);
+  bool quoted = false;
+  for (std::size_t i = 0; i < line.size(); ++i) {
+    const char c = line[i];
+    if (c == '"' && quoted && i + 1 < line.size() && line[i + 1] == '"')
+      out.back() += '"', ++i;
+    else if (c == '"')
+      quoted = !quoted;
+    else if (c == ',' && !quoted)
+      out.emplace_back();
+    else
+      out.back() += c;
+  }
+  for (std::string& cell : out) {
+    const auto from = cell.find_first_not_of(" \t\r"), to = cell.find_last_not_of(" \t\r");
+    cell = from == std::string::npos ? std::string() : cell.substr(from, to - from + 1);
+  }
+  return out;
+}
+
+/// A name in the list: a file beside it, or the name of a profile.
+std::string resolved(const std::filesystem::path& folder, const std::string& cell) {
+  const std::filesystem::path file = io::profiles::portable_path(cell);
+  return !file.is_absolute() && std::filesystem::exists(folder / file) ? (folder / file).string() : cell;
+}
+
+void set_cell(GeometryRequest& request, const InputColumn& column, const std::string& cell,
+              const std::filesystem::path& folder, const SourcePosition& where) {
+  if (column.text != nullptr) {
+    request.*column.text = column.is_file ? resolved(folder, cell) : cell;
+    return;
+  }
+  if (column.length == nullptr) {
+    request.cant = parse_cant(cell);
+    return;
+  }
+  double value = 0.0;
+  const auto [end, trouble] = std::from_chars(cell.data(), cell.data() + cell.size(), value);
+  if (trouble != std::errc() || end != cell.data() + cell.size() || !std::isfinite(value))
+    throw Error(ErrorKind::input_data, fmt::format("'{}' is no number for {}", cell, column.name), where);
+  request.*column.length = kMillimetre * value;
+  // one of the two places the rails
+  if (column.length == &GeometryRequest::gauge) request.rail_origins.reset();
+  if (column.length == &GeometryRequest::rail_origins) request.gauge.reset();
+}
+
+}  // namespace
+
+std::vector<GeometryRequest> read_pair_list(const std::string& file, const GeometryRequest& usual) {
+  const std::string text = io::profiles::read_text(file, "list of pairs", {});
+  const std::filesystem::path folder = std::filesystem::path(file).parent_path();
+  std::vector<const InputColumn*> columns;
+  std::vector<GeometryRequest> out;
+  int number = 0;
+  for (std::size_t at = 0; at < text.size();) {
+    const std::size_t end = std::min(text.find('\n', at), text.size());
+    const std::string line = text.substr(at, end - at);
+    at = end + 1;
+    ++number;
+    if (line.find_first_not_of(" \t\r") == std::string::npos || line.front() == '#') continue;
+    const std::vector<std::string> cells = cells_of(line);
+    const SourcePosition where{file, number, 0};
+    if (columns.empty()) {
+      for (const std::string& cell : cells) {
+        const auto* known =
+            std::ranges::find(kInputColumns, cell, [](const InputColumn& c) { return std::string(c.name); });
+        if (known == std::end(kInputColumns)) {
+          std::string names;
+          for (const InputColumn& c : kInputColumns) names += fmt::format("{}{}", names.empty() ? "" : ", ", c.name);
+          throw Error(ErrorKind::input_data, fmt::format("'{}' is no column of a list of pairs", cell), where,
+                      "the first line names the columns: " + names);
+        }
+        columns.push_back(known);
+      }
+      continue;
+    }
+    if (cells.size() > columns.size())
+      throw Error(ErrorKind::input_data,
+                  fmt::format("{} cells where there are {} columns", cells.size(), columns.size()), where);
+    GeometryRequest request = usual;
+    for (std::size_t k = 0; k < cells.size(); ++k)
+      if (!cells[k].empty()) set_cell(request, *columns[k], cells[k], folder, where);
+    if (request.label.empty()) request.label = fmt::format("{}", out.size() + 1);
+    out.push_back(std::move(request));
+  }
+  if (out.empty()) throw Error(ErrorKind::input_data, "there are no pairs in the list", {file});
+  return out;
+}
+
+namespace {
+
+/// A number of a pair: its name, and its value.
+struct PairColumn {
+  const char* name;
+  bool shown;
+  double (*value)(const geometry::Analysis& a);
+};
+constexpr PairColumn kPairColumns[] = {
+    {"gauge_mm", true, [](const geometry::Analysis& a) { return kMilli * a.gauge; }},
+    {"active_faces_mm", false, [](const geometry::Analysis& a) { return kMilli * a.active_faces; }},
+    {"clearance_mm", true, [](const geometry::Analysis& a) { return kMilli * (a.gauge - a.active_faces); }},
+    {"equilibrium_y_mm", true, [](const geometry::Analysis& a) { return kMilli * a.equilibrium.value_or(kNaN); }},
+    {"amplitude_mm", false, [](const geometry::Analysis& a) { return kMilli * a.single.amplitude; }},
+    {"tan_gamma_e", true, [](const geometry::Analysis& a) { return a.single.tan_gamma; }},
+    {"tan_gamma_e_3mm", true, [](const geometry::Analysis& a) { return a.at_3mm.tan_gamma; }},
+    {"nonlinearity_per_mm", true, [](const geometry::Analysis& a) { return kMillimetre * a.nonlinearity; }},
+    {"greatest_amplitude_mm", false, [](const geometry::Analysis& a) { return kMilli * a.greatest_amplitude; }},
+    {"flange_thickness_mm", false, [](const geometry::Analysis& a) { return kMilli * a.flange_thickness_right; }},
+    {"flange_thickness_left_mm", false, [](const geometry::Analysis& a) { return kMilli * a.flange_thickness_left; }},
+};
+
+/// All numbers that a pair depends on.
+std::string numbers_of(const GeometryRequest& r) {
+  const geometry::AnalysisSettings& s = r.settings;
+  std::string out;
+  for (const std::optional<double>& v : {r.diameter, r.diameter_left, r.cant, r.gauge, r.gauge_height, r.rail_origins,
+                                         r.wheel_origins, s.wanted_amplitude})
+    out += v ? fmt::format("{},", *v) : std::string("-,");
+  out += fmt::format("{},{},{},{},{},{},{},{}", r.pitch, r.x, r.scale_to_mm, r.backend, r.resolution, s.yaw, s.step,
+                     s.roll == geometry::Roll::free);
+  for (const double a : s.amplitudes) out += fmt::format(",{}", a);
+  return out;
+}
+
+}  // namespace
+
+ResultList run_pairs(const std::vector<GeometryRequest>& requests, const std::filesystem::path& kept,
+                     const Progress& progress) {
+  ResultList list;
+  list.title = "Contact geometry of pairs";
+  list.things = "pairs";
+  list.words = {"wheel", "wheel_left", "rail", "rail_left"};
+  for (const PairColumn& column : kPairColumns) list.numbers.push_back({column.name, column.shown});
+  if (!requests.empty()) {
+    const geometry::AnalysisSettings& s = requests.front().settings;
+    list.settings =
+        fmt::format("roll {}, step {:g} mm", s.roll == geometry::Roll::free ? "free" : "none", kMilli * s.step);
+    for (const double a : s.amplitudes)
+      list.numbers.push_back({fmt::format("tan_gamma_e_at_{:g}mm", kMilli * a), false});
+  }
+  SectionStore store;
+  ListWork work;
+  work.count = requests.size();
+  work.name = [&](std::size_t i) { return requests[i].label; };
+  work.sources = [&](std::size_t i) {
+    const GeometryRequest& r = requests[i];
+    return std::vector<std::string>{r.label, r.wheel, r.wheel_left, r.rail, r.rail_left, numbers_of(r)};
+  };
+  work.make = [&](std::size_t i) {
+    GeometryRequest request = requests[i];
+    request.settings.second = 0.0;
+    request.settings.harmonic = false;
+    ListRow row{request.label, "ok", {}, {request.wheel, request.wheel_left, request.rail, request.rail_left}};
+    try {
+      const geometry::Analysis a = run_geometry(request, store).analysis;
+      for (const PairColumn& column : kPairColumns) row.numbers.push_back(column.value(a));
+      for (const geometry::Conicity& c : a.conicity) row.numbers.push_back(c.tan_gamma);
+      row.badness = a.single.tan_gamma;
+    } catch (const Error& error) {
+      row.status = "failed";
+      row.error = error.what();
+    }
+    return row;
+  };
+  make_rows(list, work, kept, progress);
+  return list;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,41 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <span>
+#include <string>
+#include <vector>
+
+#include "treadmark/measures/rail.hpp"
+#include "treadmark/measures/roughness.hpp"
+#include "treadmark/measures/round.hpp"
+#include "treadmark/measures/wheel.hpp"
+
+namespace treadmark::app {
+
+/// What is said of a whole wheel: of one section, or the medians of several; with what only a revolution tells.
+struct WheelNumbers : measures::WheelMeasures {
+  measures::Measure runout, axial_runout, eccentricity;  ///< [m]
+  measures::Measure flat_depth, flat_length;             ///< of the deepest flat; 0: there is none [m]
+  measures::Measure back_to_back, active_faces;          ///< with the other wheel of the axle [m]
+};
+
+/// The same of a rail.
+struct RailNumbers : measures::RailMeasures {
+  measures::Measure roughness_exceedance;  ///< largest of a band over its limit [dB]
+};
+
+/// A number of results: its key with the unit, what it is in words, and where it stands.
+template <class Numbers>
+struct NumberRow {
+  const char* key;
+  const char* label;
+  double unit;  ///< SI of one unit of the key
+  measures::Measure Numbers::*at;
+};
+
+/// In the order in which they are shown.
+std::span<const NumberRow<WheelNumbers>> number_rows(const WheelNumbers&);
+std::span<const NumberRow<RailNumbers>> number_rows(const RailNumbers&);
+
+}  // namespace treadmark::app

@@ -1,0 +1,123 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/measure/read_measured.hpp"
+
+#include <algorithm>
+#include <filesystem>
+
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/app/surfaces/profile_check.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
+#include "treadmark/backends/builtin.hpp"
+#include "treadmark/backends/profile_library.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/meshes/read_mesh.hpp"
+#include "treadmark/io/profiles/read_profile.hpp"
+#include "treadmark/io/profiles/read_slices.hpp"
+
+namespace treadmark::app {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr double kLibraryStep = 0.1e-3;  // [m]
+
+Profile library_points(const std::string& name, Body body) {
+  const Body of = *library_body(name);
+  if (of != body)
+    throw Error(ErrorKind::configuration, name + " is a " + (of == Body::wheel ? "wheel" : "rail") + ", not a " +
+                                              (body == Body::wheel ? "wheel" : "rail"));
+  Profile points;
+  points.body = body;
+  points.name = name;
+  for (const Vec2& p : library_outline(name, kLibraryStep)) {
+    points.y.push_back(p.x());
+    points.z.push_back(p.y());
+  }
+  return points;
+}
+
+/// A section that was read is where it is: no scatter is looked for in exact shapes.
+bool is_library_name(const std::string& name) {
+  std::error_code ignored;
+  return !fs::exists(name, ignored) && library_body(name).has_value();
+}
+
+ReadMeasured read_points(const std::string& name, const MeasureRequest& request) {
+  io::ProfileOptions options;
+  options.scale = request.scale_to_mm;
+  io::SourcedProfile read = io::read_sourced_profile(name, request.body, options);
+  ReadMeasured out;
+  out.kind = "profile";
+  out.points = std::move(read.profile);
+  out.nominal_radius = request.nominal_radius > 0.0 ? request.nominal_radius : read.source.nominal_radius.value_or(0.0);
+  out.said = std::move(read.source.said);
+  out.notes = std::move(read.source.notes);
+  return out;
+}
+
+ReadMeasured read_any_surface(const std::string& name, const MeasureRequest& request) {
+  NamedSurface said;
+  said.body = request.body;
+  said.nominal_radius = request.nominal_radius;
+  said.scale_to_mm = request.scale_to_mm;
+  said.overrides = request.overrides;
+  const NaturalSurface natural = named_surface(name, said);
+  ReadMeasured out;
+  out.kind = "surface";
+  out.surface = natural.surface;
+  out.nominal_radius = natural.spec.nominal_radius;
+  out.placed = true;
+  const Box3 box = natural.surface->bounds();
+  out.x_min = box.min.x(), out.x_max = box.max.x();
+  if (!natural.note.empty()) out.notes.push_back(natural.note);
+  return out;
+}
+
+}  // namespace
+
+ReadMeasured read_measured(const std::string& name, const MeasureRequest& request) {
+  if (is_library_name(name)) {
+    ReadMeasured out;
+    out.kind = "library profile";
+    out.points = library_points(name, request.body);
+    out.nominal_radius = request.nominal_radius;
+    out.placed = true;
+    return out;
+  }
+  if (is_only_scan(name)) return read_scanned(name, request);
+  const fs::path file = name;
+  const std::string extension = io::profiles::lower(file.extension().string());
+  if (extension == ".toml" || extension == ".inp" || is_offset_file(file) || io::is_slices_file(file))
+    return read_any_surface(name, request);
+  if (io::is_mesh_file(file)) {
+    try {
+      return read_any_surface(name, request);
+    } catch (const Error& error) {
+      // the same extensions hold points of scanners
+      if (error.message().find("triangle") == std::string::npos && error.message().find("face") == std::string::npos)
+        throw;
+      return read_scanned(name, request);
+    }
+  }
+  return read_points(name, request);
+}
+
+measures::Section mirrored_section(const std::string& name, const MeasureRequest& request) {
+  io::ProfileOptions options;
+  options.scale = request.scale_to_mm;
+  options.mirror_y = 1;
+  return measures::Section(io::read_profile(name, Body::wheel, options));
+}
+
+measures::Section nominal_section(const std::string& name, Body body) {
+  if (is_library_name(name)) return measures::Section(library_points(name, body), 0.0);
+  std::error_code ignored;
+  if (!fs::exists(io::profile_file(name), ignored))
+    throw Error(ErrorKind::configuration, "there is neither a profile nor a file named '" + name + "'", {},
+                "treadmark list profiles");
+  return measures::Section(io::read_profile(name, body, {}));
+}
+
+}  // namespace treadmark::app

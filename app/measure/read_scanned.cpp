@@ -1,0 +1,87 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <atomic>
+#include <cmath>
+#include <filesystem>
+
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/import/import_scan.hpp"
+#include "treadmark/app/measure/read_measured.hpp"
+#include "treadmark/app/surfaces/named_surface.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/io/files/line_scanner.hpp"
+#include "treadmark/io/scans/read_scan.hpp"
+
+namespace treadmark::app {
+namespace {
+
+/// A folder of this process that goes when it is done with.
+class ScratchFolder {
+ public:
+  ScratchFolder() {
+    static std::atomic<int> count{0};
+    path_ = std::filesystem::temp_directory_path() / fmt::format("treadmark-measure-{}-{}", getpid(), count++);
+    std::filesystem::create_directories(path_);
+  }
+  ~ScratchFolder() {
+    std::error_code ignored;
+    std::filesystem::remove_all(path_, ignored);
+  }
+  ScratchFolder(const ScratchFolder&) = delete;
+  ScratchFolder& operator=(const ScratchFolder&) = delete;
+  const std::filesystem::path& path() const { return path_; }
+
+ private:
+  std::filesystem::path path_;
+};
+
+}  // namespace
+
+bool is_only_scan(const std::string& name) {
+  const std::string extension = io::profiles::lower(std::filesystem::path(name).extension().string());
+  for (const char* known : {".xyz", ".las", ".laz", ".pcd", ".e57", ".pts", ".ptx"})
+    if (extension == known) return true;
+  return false;
+}
+
+ReadMeasured read_scanned(const std::string& name, const MeasureRequest& request) {
+  const ScratchFolder scratch;
+  const std::filesystem::path slices = scratch.path() / (request.body == Body::wheel ? "scan.slcw" : "scan.slcs");
+  ImportRequest import;
+  import.scans = {name};
+  import.outputs = {slices};
+  import.settings.scan.body = request.body == Body::wheel ? "wheel" : "rail";
+  if (!request.nominal.empty()) import.settings.placement.nominal = request.nominal;
+  import.settings.placement.nominal_radius_mm = 1e3 * request.nominal_radius;
+  import.settings.placement.zero = "scan";
+  const io::ImportReport report = import_scan(import);
+  NamedSurface said;
+  said.body = request.body;
+  said.nominal_radius = report.nominal_radius;
+  ReadMeasured out;
+  out.kind = "scan";
+  out.surface = named_surface(slices, said).surface;
+  out.nominal_radius = report.nominal_radius;
+  out.placed = true;
+  // What the fit leaves of the points' scatter, by held out points and by its number of functions, and where the axis
+  // may lie.
+  std::size_t functions = 0;
+  for (const io::ImportReport::Level& level : report.levels) functions += level.used;
+  const double scatter = report.noise * std::sqrt(static_cast<double>(functions) /
+                                                  static_cast<double>(std::max<std::size_t>(1, report.fitted_points)));
+  out.error = std::hypot(report.held_out_error, report.axis_position_error, scatter);
+  out.point_noise = report.noise;
+  out.point_distance = report.spacing;
+  out.x_min = report.u_min, out.x_max = report.u_max;
+  out.notes = report.warnings;
+  out.said.emplace_back("points", fmt::format("{}", report.points_used));
+  out.said.emplace_back("noise of the points", fmt::format("{:.4g} mm", 1e3 * report.noise));
+  out.said.emplace_back("error of the fit", fmt::format("{:.4g} mm", 1e3 * out.error));
+  return out;
+}
+
+}  // namespace treadmark::app

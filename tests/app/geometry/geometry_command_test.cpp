@@ -1,0 +1,168 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <fstream>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "treadmark/app/geometry/geometry_run.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parallel.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/standard_case.hpp"
+#include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+using treadmark::testing::run_program;
+
+const std::vector<std::string> kPair{"geometry", "--wheel", "S1002",      "--rail", "60E1",
+                                     "--cant",   "1:40",    "--gauge-mm", "1435"};
+
+std::vector<std::string> with(std::vector<std::string> arguments, const std::vector<std::string>& more) {
+  arguments.insert(arguments.end(), more.begin(), more.end());
+  return arguments;
+}
+
+TEST(GeometryCommand, WritesJsonByItsSchema) {
+  const auto result =
+      run_program(with(kPair, {"--json", "-", "--amplitudes-mm", "1:8:0.5", "--gauges-mm", "1434,1436"}));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const json out = json::parse(result.out);
+  const json schema = json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/geometry.schema.json"));
+  EXPECT_EQ(treadmark::testing::first_violation(out, schema, schema), "");
+  const json& g = out.at("geometry");
+  EXPECT_EQ(g.at("conicity").at("tan_gamma_e").size(), 15u);
+  EXPECT_NEAR(g.at("conicity_3mm").get<double>(), 0.174, 0.003);
+  const json& functions = g.at("functions");
+  const std::size_t rows = functions.at("y_mm").size();
+  for (const auto& [name, values] : functions.items()) EXPECT_EQ(values.size(), rows) << name;
+  EXPECT_EQ(functions.size(), function_columns().size());
+  // the same numbers in two ways
+  for (std::size_t i = 0; i < rows; ++i)
+    EXPECT_NEAR(functions["delta_r_mm"][i].get<double>(),
+                functions["radius_right_mm"][i].get<double>() - functions["radius_left_mm"][i].get<double>(), 1e-9);
+  EXPECT_EQ(g.at("gauge_sweep").at("tan_gamma_e").size(), 2u);
+  EXPECT_FALSE(g.at("jumps").empty());
+}
+
+TEST(GeometryCommand, WritesAFolder) {
+  const treadmark::testing::TemporaryFolder folder;
+  const auto result = run_program(with(kPair, {"-o", (folder.path() / "out").string(), "--gauges-mm", "1432:1437:1"}));
+  ASSERT_EQ(result.status, 0) << result.err;
+  EXPECT_THAT(result.out, HasSubstr("conicity at 3 mm      0.17"));
+  for (const char* name : {"geometry.json", "functions.csv", "conicity.csv", "charts.svg", "contact_points.svg",
+                           "gauges.csv", "gauges.svg"})
+    EXPECT_GT(std::filesystem::file_size(folder.path() / "out" / name), 200u) << name;
+}
+
+TEST(GeometryCommand, TakesCases) {
+  const treadmark::testing::TemporaryFolder folder;
+  const auto by_name = run_program(with(kPair, {"--json", "-"}));
+  folder.write("case.toml", treadmark::testing::standard_case("1.0"));
+  const auto by_case = run_program({"geometry", (folder.path() / "case.toml").string(), "--json", "-"});
+  ASSERT_EQ(by_case.status, 0) << by_case.err;
+  const json a = json::parse(by_name.out).at("geometry"), b = json::parse(by_case.out).at("geometry");
+  EXPECT_NEAR(a.at("conicity_3mm").get<double>(), b.at("conicity_3mm").get<double>(),
+              1e-3);  // 1:40 is an angle there, a tangent here
+  EXPECT_EQ(b.at("track").at("gauge_mm").get<double>(), 1435.0);
+}
+
+TEST(GeometryCommand, TheEffectOfWear) {
+  const treadmark::testing::TemporaryFolder folder;
+  const auto result = run_program(with(kPair, {"--new-wheel", "1:40", "--json", "-", "--amplitudes-mm", "1,3"}));
+  ASSERT_EQ(result.status, 0) << result.err;
+  const json out = json::parse(result.out), g = out.at("geometry");
+  const json schema = json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/geometry.schema.json"));
+  EXPECT_EQ(treadmark::testing::first_violation(out, schema, schema), "");
+  EXPECT_NEAR(g["conicity_3mm"].get<double>(), 0.174, 3e-3);
+  // a tread 1:40 has the conicity of its cone
+  EXPECT_NEAR(g["with_new"]["conicity_3mm"].get<double>(), 0.025, 1e-3);
+  EXPECT_EQ(g["with_new"]["rail"], "");
+  std::vector<std::string> worn = kPair;
+  worn[2] = "1:40";
+  const auto both = run_program(with(worn, {"--new-wheel", "S1002", "--new-rail", "60E1", "--json", "-"}));
+  const auto alone = run_program(with(kPair, {"--json", "-"}));
+  EXPECT_EQ(json::parse(both.out)["geometry"]["with_new"]["conicity"]["tan_gamma_e"],
+            json::parse(alone.out)["geometry"]["conicity"]["tan_gamma_e"]);
+  EXPECT_EQ(run_program(with(kPair, {"--new-wheel", "60E1"})).status, 3);
+}
+
+TEST(GeometryCommand, ListsOfPairsGoOnAfterABadOne) {
+  const treadmark::testing::TemporaryFolder folder;
+  write_file(folder.path() / "bad.prw", "no profile\n");
+  write_file(folder.path() / "pairs.csv",
+             "name,wheel,rail,gauge_mm,diameter_left_mm\n"
+             "one,S1002,60E1,1435,\n"
+             "broken,bad.prw,60E1,1435,\n"
+             "\"wide, very\",S1002,60E1,1600,\n"
+             "other,S1002,60E1,1437,919.9\n");
+  const auto result = run_program({"geometry", "--pairs", (folder.path() / "pairs.csv").string(), "--cant", "1:40",
+                                   "--amplitudes-mm", "2,3", "--csv", (folder.path() / "out.csv").string()});
+  EXPECT_EQ(result.status, 1);
+  EXPECT_THAT(result.err, HasSubstr("2 of 4 pairs failed"));
+  std::ifstream in(folder.path() / "out.csv");
+  std::vector<std::string> lines;
+  for (std::string line; std::getline(in, line);) lines.push_back(line);
+  ASSERT_EQ(lines.size(), 5u);
+  EXPECT_THAT(lines[0], HasSubstr(",tan_gamma_e_at_2mm,tan_gamma_e_at_3mm"));
+  EXPECT_THAT(lines[1], HasSubstr("one,S1002,,60E1,,ok,,1435,"));
+  EXPECT_THAT(lines[2], HasSubstr("failed"));
+  EXPECT_THAT(lines[2], HasSubstr("bad.prw"));
+  EXPECT_THAT(lines[3], HasSubstr("falls through the gauge"));
+  EXPECT_THAT(lines[4], HasSubstr(",ok,"));
+}
+
+TEST(GeometryCommand, PairsDoNotDependOnThreads) {
+  GeometryRequest usual;
+  usual.wheel = "S1002", usual.rail = "60E1", usual.cant = 0.025;
+  usual.settings.amplitudes = {3e-3};
+  std::vector<GeometryRequest> requests;
+  for (int k = 0; k < 6; ++k) {
+    requests.push_back(usual);
+    requests.back().gauge = 1.433 + 1e-3 * k;
+  }
+  std::string one, all;
+  {
+    const ThreadLimit limit(1);
+    one = list_csv(run_pairs(requests));
+  }
+  all = list_csv(run_pairs(requests));
+  EXPECT_EQ(one, all);
+}
+
+TEST(GeometryCommand, SaysWhatIsWrongWithAList) {
+  const treadmark::testing::TemporaryFolder folder;
+  const auto error_of = [&](const std::string& text) {
+    const std::string file = (folder.path() / "list.csv").string();
+    write_file(file, text);
+    try {
+      read_pair_list(file, {});
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(error_of("wheel,rial\n"), HasSubstr("list.csv:1: 'rial' is no column"));
+  EXPECT_THAT(error_of("wheel,gauge_mm\nS1002,wide\n"), HasSubstr("list.csv:2: 'wide' is no number for gauge_mm"));
+  EXPECT_THAT(error_of("wheel\nS1002,60E1\n"), HasSubstr("2 cells where there are 1 columns"));
+  EXPECT_THAT(error_of("wheel,rail\n"), HasSubstr("no pairs"));
+}
+
+TEST(GeometryCommand, ExitStatuses) {
+  EXPECT_EQ(run_program({"geometry"}).status, 2);
+  EXPECT_EQ(run_program(with(kPair, {"--amplitudes-mm", "40"})).status, 2);
+  EXPECT_EQ(run_program(with(kPair, {"--wheel-left", "nothing.prw"})).status, 3);
+  EXPECT_EQ(run_program({"geometry", "--wheel", "S1002", "--rail", "60E1", "--gauge-mm", "1600"}).status, 1);
+}
+
+}  // namespace
+}  // namespace treadmark::app

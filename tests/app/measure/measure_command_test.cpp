@@ -1,0 +1,228 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <filesystem>
+#include <fstream>
+#include <string>
+
+#include <nlohmann/json.hpp>
+
+#include "treadmark/backends/analytic/sample.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/io/results/json_schema.hpp"
+#include "treadmark/tests/support/parts.hpp"
+#include "treadmark/tests/support/shared_data.hpp"
+#include "treadmark/tests/support/temporary_folder.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using nlohmann::json;
+using ::testing::HasSubstr;
+namespace fs = std::filesystem;
+
+std::string written(const fs::path& file, const std::string& text) {
+  std::ofstream(file) << text;
+  return file.string();
+}
+
+/// 50 points on each of the lines through these corners.
+std::string polyline(const std::vector<std::pair<double, double>>& corners) {
+  std::string text = "y_mm;z_mm\n";
+  for (std::size_t k = 0; k + 1 < corners.size(); ++k)
+    for (int i = k == 0 ? 0 : 1; i <= 50; ++i) {
+      const auto& [y0, z0] = corners[k];
+      const auto& [y1, z1] = corners[k + 1];
+      text += std::to_string(y0 + (y1 - y0) * i / 50) + ";" + std::to_string(z0 + (z1 - z0) * i / 50) + "\n";
+    }
+  return text;
+}
+
+json measured(const std::vector<std::string>& arguments, int status = 0) {
+  std::vector<std::string> all{"measure"};
+  all.insert(all.end(), arguments.begin(), arguments.end());
+  all.insert(all.end(), {"--json", "-"});
+  const ProgramResult r = run_program(all);
+  EXPECT_EQ(r.status, status) << r.err;
+  if (r.out.empty()) return {};
+  json result = json::parse(r.out);
+  const json schema = json::parse(std::ifstream(TREADMARK_SOURCE_DIR "/docs/measure.schema.json"));
+  EXPECT_EQ(first_violation(result, schema, schema), "");
+  return result;
+}
+
+TEST(Measure, S1002ByItsName) {
+  const json m = measured({"wheel", "S1002", "--nominal", "S1002", "--nominal-radius", "460"});
+  EXPECT_NEAR(m["wheel"]["flange_height_mm"], 28.000, 5e-4);
+  EXPECT_NEAR(m["wheel"]["flange_thickness_mm"], 32.500, 5e-4);
+  EXPECT_NEAR(m["wheel"]["flange_gradient_mm"], 10.794, 5e-4);
+  EXPECT_NEAR(m["wheel"]["diameter_mm"], 920.0, 1e-3);
+  EXPECT_NEAR(m["wheel"]["diameter_lost_mm"], 0.0, 1e-3);
+  EXPECT_TRUE(m["wheel"]["runout_mm"].is_null());
+  EXPECT_THAT(m["wheel"]["reasons"]["runout_mm"].get<std::string>(), HasSubstr("takes a scan round the wheel"));
+  EXPECT_EQ(m["status"], "no limits");
+}
+
+TEST(Measure, LimitsSayWithinOutsideAndNotMeasured) {
+  const TemporaryFolder folder;
+  const std::string limits = written(folder.path() / "limits.toml",
+                                     "[wheel]\n"
+                                     "flange_height_mm = { max = 36 }\n"
+                                     "flange_thickness_mm = { min = 32.6, max = 33 }\n"
+                                     "runout_mm = { max = 0.3 }\n");
+  const json m = measured({"wheel", "S1002", "--limits", limits});
+  EXPECT_EQ(m["status"], "outside");
+  EXPECT_EQ(m["limits_file"], "limits.toml");
+  ASSERT_EQ(m["limits"].size(), 3U);
+  EXPECT_EQ(m["limits"][0]["status"], "within");
+  EXPECT_EQ(m["limits"][1]["status"], "outside");
+  EXPECT_EQ(m["limits"][2]["status"], "not measured");
+  const std::string wrong = written(folder.path() / "wrong.toml", "[wheel]\nflange_hight_mm = { max = 36 }\n");
+  const ProgramResult r = run_program({"measure", "wheel", "S1002", "--limits", wrong});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("wrong.toml:2:1"));
+  EXPECT_THAT(r.err, HasSubstr("flange_height_mm"));
+}
+
+TEST(Measure, ManyFilesAndOneThatIsBad) {
+  const TemporaryFolder folder;
+  // a wheel 1:20 with a flange of straight lines: 28 mm deep
+  const std::string good = polyline({{-70, 0}, {-70, 20}, {-62, 28}, {-50, 28}, {-35, 0.75}, {60, -4}});
+  const fs::path inside = folder.path() / "wheels";
+  fs::create_directories(inside);
+  written(inside / "a.csv", good);
+  written(inside / "b.csv", "nothing\n");
+  written(inside / "readme.md", "no profile");
+  const std::string list = written(folder.path() / "list.txt", "# wheels\nwheels/a.csv\nS1002\n");
+  const std::string csv = (folder.path() / "all.csv").string();
+  const json m = measured({"wheel", inside.string(), "@" + list, "--csv", csv}, 3);
+  ASSERT_EQ(m["files"].size(), 4U);
+  EXPECT_EQ(m["files"][0]["status"], "no limits");
+  // z = -1 on the tape line
+  EXPECT_NEAR(m["files"][0]["wheel"]["flange_height_mm"], 29.0, 0.05);
+  EXPECT_EQ(m["files"][1]["status"], "failed");
+  EXPECT_THAT(m["files"][1]["error"].get<std::string>(), HasSubstr("b.csv"));
+  EXPECT_EQ(m["files"][2]["wheel"], m["files"][0]["wheel"]);
+  EXPECT_NEAR(m["files"][3]["wheel"]["flange_height_mm"], 28.0, 1e-3);
+  std::ifstream table(csv);
+  std::string line;
+  int lines = 0;
+  while (std::getline(table, line)) ++lines;
+  EXPECT_EQ(lines, 5);
+}
+
+TEST(Measure, AWheelWithAFlatAndAPolygonRoundItsWhole) {
+  const TemporaryFolder folder;
+  const std::string wheel = written(
+      folder.path() / "wheel.toml",
+      "rail.shape.standard = \"60E1\"\nwheelset = { nominal_radius_mm = 460, z_mm = 0 }\n[wheel]\n"
+      "shape.standard = \"S1002\"\nflats = [{ shape = \"fresh\", length_mm = 40, theta_center_deg = 30 }]\n"
+      "polygonizations = [{ harmonics = [{ order = 3, amplitude_um = 20 }, { order = 20, amplitude_um = 5 }] }]\n");
+  const json m = measured({"wheel", wheel, "--stations", "4"});
+  const json& w = m["wheel"];
+  ASSERT_EQ(w["flats"].size(), 1U);
+  EXPECT_NEAR(w["flats"][0]["depth_mm"], 0.435, 0.005);  // L^2/(8 R)
+  EXPECT_NEAR(w["flats"][0]["length_mm"], 40.0, 0.5);
+  EXPECT_NEAR(w["flats"][0]["theta_rad"], 30.0 * 0.017453292519943295, 1e-3);
+  EXPECT_NEAR(w["level_db"][1], 23.01, 0.02);
+  EXPECT_NEAR(w["level_db"][18], 10.97, 0.05);
+  EXPECT_NEAR(w["orders"][18]["wavelength_mm"], 144.5, 0.05);
+  EXPECT_NEAR(w["flange_height_mm"], 28.0, 0.01);
+  EXPECT_NEAR(w["flange_thickness_mm"], 32.5, 0.01);
+  EXPECT_EQ(w["round"]["theta_rad"].size(), 4U);
+}
+
+TEST(Measure, ACorrugatedAndMilledRail) {
+  const TemporaryFolder folder;
+  const std::string rail =
+      written(folder.path() / "rail.toml",
+              "wheel.shape.standard = \"S1002\"\nwheelset = { nominal_radius_mm = 460, z_mm = 0 }\n[rail]\n"
+              "shape.standard = \"54E1\"\n[[rail.corrugations]]\nx_start_mm = -5000\nx_end_mm = 5000\nramp_mm = 1\n"
+              "waves = [{ wavelength_mm = 50, amplitude_um = 30 }]\n");
+  const json m = measured({"rail", rail, "--nominal", "54E1", "--stations", "3"});
+  const json& r = m["rail"]["roughness"];
+  for (std::size_t i = 0; i < r["wavelength_m"].size(); ++i)
+    if (std::fabs(r["wavelength_m"][i].get<double>() - 0.05) < 1e-9) {
+      EXPECT_NEAR(r["level_db"][i], 20.0 * std::log10(30.0 / std::sqrt(2.0)), 0.3);
+      EXPECT_NEAR(r["exceedance_db"][i].get<double>(), r["level_db"][i].get<double>() + 1.1, 1e-6);
+    }
+  EXPECT_NEAR(m["rail"]["w1_mm"], 0.0, 0.03);
+  EXPECT_EQ(m["rail"]["alignment"], "none");
+}
+
+/// S1002 as an instrument writes it, y from the flange back.
+std::string miniprof_text(const std::string& header, double y_of_tape, double sign) {
+  std::string text = header + "\n\n";
+  const Profile points = analytic::sample_profile(StandardProfile{"S1002"}, 0.3e-3);
+  for (std::size_t i = points.y.size(); i-- > 0;)
+    text += std::to_string(sign * (1e3 * points.y[i] + y_of_tape)) + " " + std::to_string(1e3 * points.z[i]) + "\n";
+  return text;
+}
+
+TEST(Measure, AnInstrumentsOwnNumbers) {
+  const TemporaryFolder folder;
+  const std::string words = "Stock.......:\nCar Number..:\nAxle Number.:\nWheel ID....:\n";
+  for (const std::string& header :
+       {"MINIPROF 101 148 1994 3 24\navg_whl.prd\n" + words + "32.50 28.00 10.79  (Sd/Sh/qR)",
+        "#MINIWHEELPROF\na.whl\nMINIPROF 2020\n" + words + "32.50 28.00 10.79\n(Sd/Sh/qR)"}) {
+    const std::string file = written(folder.path() / "own.whl", miniprof_text(header, 70.0, 1.0));
+    const json m = measured({"wheel", file});
+    EXPECT_EQ(m["said"]["Sd Sh qR"], "32.50 28.00 10.79");
+    EXPECT_NEAR(m["wheel"]["flange_thickness_mm"], 32.50, 0.01);
+    EXPECT_NEAR(m["wheel"]["flange_height_mm"], 28.00, 0.01);
+    EXPECT_NEAR(m["wheel"]["flange_gradient_mm"], 10.79, 0.01);
+    EXPECT_TRUE(m["notes"].empty()) << m["notes"];
+  }
+  const std::string other = written(
+      folder.path() / "other.whl",
+      miniprof_text("#MINIWHEELPROF\na.whl\nMINIPROF 2020\n" + words + "32.58 37.11 14.71\n(Sd/Sh/qR)", 70.0, 1.0));
+  EXPECT_THAT(measured({"wheel", other})["notes"].dump(), HasSubstr("not those of its points"));
+}
+
+TEST(Measure, TwoWheelsOfAnAxle) {
+  const TemporaryFolder folder;
+  // tape lines 1500 mm apart: backs 1360, active faces 1425
+  const std::string right = written(folder.path() / "right.txt", miniprof_text("y z", 750.0, 1.0)),
+                    left = written(folder.path() / "left.txt", miniprof_text("y z", 750.0, -1.0));
+  const json m = measured({"wheel", right, "--mate", left});
+  EXPECT_NEAR(m["wheel"]["back_to_back_mm"], 1360.0, 1e-3);
+  EXPECT_NEAR(m["wheel"]["active_faces_mm"], 1425.0, 1e-3);
+  EXPECT_EQ(run_program({"measure", "wheel", right, "--mate", right}).status, 3);
+}
+
+TEST(Measure, WrongBodiesAreRefusedByName) {
+  ProgramResult r = run_program({"measure", "rail", "S1002"});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("S1002 is a wheel, not a rail"));
+  const TemporaryFolder folder;
+  std::string points;
+  for (double y = -36.0; y <= 36.0; y += 0.5)
+    points += std::to_string(y) + " " + std::to_string(y * y * y * y / 1e5) + "\n";
+  r = run_program({"measure", "wheel", written(folder.path() / "rail.txt", points)});
+  EXPECT_EQ(r.status, 3);
+  EXPECT_THAT(r.err, HasSubstr("does not look like a wheel"));
+  EXPECT_EQ(run_program({"measure", "wheel", "S1002", "--nominal", "S1003"}).status, 2);
+}
+
+TEST(Measure, ProfilesOfOthers) {
+  TREADMARK_REQUIRE_SHARED();
+  // Reference wheels of UIC 519: flanges of 28 mm.
+  for (const char* name : {"RUIC519A.dat", "RUIC519B.dat", "RUIC519H.dat", "RUIC519I.dat"}) {
+    const json m = measured({"wheel", (*shared / "data/geometry" / name).string()});
+    EXPECT_NEAR(m["wheel"]["flange_height_mm"], 28.0, 2e-3) << name;
+  }
+  // Rail A is what the library calls it, to what is printed.
+  const json a = measured(
+      {"rail", (*shared / "data/geometry/SUIC519A.dat").string(), "--nominal", "UIC519-rail-A", "--alignment", "none"});
+  EXPECT_NEAR(a["rail"]["w1_mm"], 0.0, 2e-3);
+  EXPECT_NEAR(a["rail"]["w3_mm"], 0.0, 3e-3);
+  // The rail of the Manchester benchmark: an older UIC 60 inclined 1:40, 7.49 mm beside the origin of its file.
+  const json b = measured({"rail", (*shared / "data/contact_examples/MBench_UIC60_v3.prr").string()});
+  EXPECT_GT(b["rail"]["crown_radius_mm"], 50.0);
+}
+
+}  // namespace
+}  // namespace treadmark::testing
