@@ -192,11 +192,19 @@ TM_API void tm_solution_free(tm_solution *s);
 typedef enum tm_table { TM_CASE_NUMBERS = 0, TM_SOLUTION_NUMBERS = 1, TM_PATCH_NUMBERS = 2, TM_PATCH_FIELDS = 3 } tm_table;
 TM_API tm_status tm_list(tm_table table, size_t i, const char **name, const char **unit, const char **meaning);
 
-/* ---- Whole files ---- */
+/* ---- Whole files, geometry, measures ---- */
 
 /* All cases of a file, .toml or .inp, with assignments as for tm_case_set: result.json as text, freed with tm_text_free. Returns
  * the gravest status of the cases. */
 TM_API tm_status tm_run(const char *file, const char *const *assignments, size_t n, char **json);
+/* As `treadmark geometry`: how a wheelset sits on its track at every shift, without forces, and its conicity. settings: "key=value" with
+ * the names of that verb's options ("wheel=S1002", "rail=60E1", "gauge_mm=1435", "cant=1:40", "amplitudes_mm=[1, 3]"; docs/c-interface.md),
+ * the later of two holds; "case=FILE" names a case, whose keys may change as in tm_run ("wheelset.y_mm=5"). json: by
+ * docs/geometry.schema.json, freed with tm_text_free. */
+TM_API tm_status tm_geometry(const char *const *settings, size_t n, char **json);
+/* As `treadmark measure` of one file, or of a profile by its name (`treadmark list profiles`): "nominal=S1002", "limits=FILE". What was not
+ * measured says why; limits that do not hold are results, too. json: by docs/measure.schema.json, freed with tm_text_free. */
+TM_API tm_status tm_measure(tm_body body, const char *file, const char *const *settings, size_t n, char **json);
 TM_API void tm_text_free(char *text);
 
 #ifdef __cplusplus

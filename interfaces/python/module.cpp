@@ -125,6 +125,7 @@ PYBIND11_MODULE(_treadmark, module) {
   add_handles(module);
   add_results(module);
   add_verbs(module);
+  add_requests(module);
   add_backends(module);
   add_simulations(module);
   add_scans(module);

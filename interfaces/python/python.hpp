@@ -198,6 +198,7 @@ struct Run {
 void add_handles(py::module_& module);
 void add_results(py::module_& module);
 void add_verbs(py::module_& module);
+void add_requests(py::module_& module);
 void add_backends(py::module_& module);
 void add_simulations(py::module_& module);
 void add_scans(py::module_& module);

@@ -3,12 +3,15 @@
 """Contact of wheels and rails, of any shape.
 
 All numbers are in SI units (m, N, Pa, rad, s); axes are x along the track, y to the right, z down; forces act on the rail. Whole files:
-``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``sweep``. Single instants: ``Surface``, ``Pair``, ``Problem``.
+``run``, ``check``, ``compare``, ``bench``, ``import_scan``, ``simulate``, ``sweep``. Profiles: ``geometry``, ``measure``, ``profiles``. Single
+instants: ``Surface``, ``Pair``, ``Problem``.
 The handbook is docs/python.md.
 """
 from . import _treadmark
 from ._errors import Cancelled, ConvergenceWarning, InputError, NumericalError, TreadmarkError
 from ._records import CASE_QUANTITIES, FIELDS, PATCH_QUANTITIES, Case, Field, Grid, Patch, Quantity, Remark, Result
+from ._requests import (Conicity, GaugeMap, Geometry, Jump, LibraryProfile, LimitCheck, Measure, Measured, SecondContact, ShiftLimit, geometry,
+                        measure, measure_files, measures_to_pandas, profiles)
 from ._solving import Pair, PatchSolver, Problem, Solution, State, hertz, settings
 from ._surfaces import Located, Surface, backends, register_backend
 from ._verbs import (BandMap, Bench, Check, CheckedProfile, Column, Comparison, Event, Mode, Position, ScanImport, Simulation, Sweep, SweepRun,

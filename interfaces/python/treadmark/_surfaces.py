@@ -69,10 +69,9 @@ class Surface:
 
     @classmethod
     def standard(cls, name: str, body: str | None = None, nominal_radius: float = 0.46) -> "Surface":
-        """A standard profile by its published formula: "60E1" (rail), "S1002" (wheel). nominal_radius [m]: of a wheel.
-        body: asked for no more than to be checked."""
-        shapes = {"60E1": "rail", "S1002": "wheel"}
-        which = shapes.get(name, body or "rail")
+        """A standard profile by its published formula: "60E1" (rail), "S1002" (wheel) or another one of ``profiles()``. nominal_radius [m]: of a
+        wheel. body: asked for no more than to be checked."""
+        which = _treadmark.profile_body(name) or body or "rail"
         if body is not None and body != which:
             raise InputError(f"{name} is the profile of a {which}")
         other = "60E1" if which == "wheel" else "S1002"

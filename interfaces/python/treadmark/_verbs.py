@@ -112,7 +112,7 @@ def check(source: Input, *, set: Changes = None, folder: Path | None = None, bod
     return Check(kind, count, notes, [CheckedProfile(*p) for p in profiles], [Position(*p) for p in positions])
 
 
-class _Document:
+class _Text:
     """What the JSON text of the same content says: names with their units, None where nothing is known."""
 
     _held: Any
@@ -127,6 +127,10 @@ class _Document:
         """The content of the JSON file."""
         content: dict[str, Any] = json.loads(self.to_json())
         return content
+
+
+class _Document(_Text):
+    """The same with a folder and a report."""
 
     def write(self, folder: Path) -> None:
         """Writes the folder that the program writes with -o."""

@@ -73,6 +73,15 @@ TEST_F(CMisuse, HasItsStatusAndItsWords) {
   double z[3];
   unsigned char bytes[64] = {};
   const char *files[] = {"/nowhere.ply"}, *none[] = {nullptr}, *wrong[] = {"clean.nonsense=1"};
+  // what tm_geometry and tm_measure are told, and what they say to it
+  const char *pair_of_names[] = {"wheel=S1002", "rail=60E1"}, *no_equals[] = {"gauge_mm"},
+             *nan_gauge[] = {"wheel=S1002", "rail=60E1", "gauge_mm=nan"}, *misspelt[] = {"guage_mm=1435"},
+             *turned[] = {"wheel=60E1", "rail=S1002", "gauge_mm=1435"},
+             *missing[] = {"wheel=/nowhere.whl", "rail=60E1", "gauge_mm=1435"},
+             *wide[] = {"wheel=S1002", "rail=60E1", "gauge_mm=1600"}, *some_roll[] = {"roll=some"},
+             *of_no_case[] = {"wheel=S1002", "rail=60E1", "gauge_mm=1435", "wheelset.y_mm=1"},
+             *stations[] = {"stations=1.5"}, *infinite[] = {"line_mm=inf"}, *for_rails[] = {"alignment=top"},
+             *no_profile[] = {"nominal=S1003"};
   const auto flat_function = [](void*, double, const double*, std::size_t n, double* heights) {
     for (std::size_t k = 0; k < n; ++k) heights[k] = 0.0;
     return 0;
@@ -219,6 +228,37 @@ TEST_F(CMisuse, HasItsStatusAndItsWords) {
       {"run of no file", TM_BAD_ARGUMENT, "file", 1, [&] { return tm_run(nullptr, nullptr, 0, &json); }},
       {"null assignment", TM_BAD_ARGUMENT, "assignments", 1, [&] { return tm_run("x.toml", none, 1, &json); }},
       {"run of nothing", TM_BAD_REQUEST, "nowhere.toml", 1, [&] { return tm_run("/nowhere.toml", nullptr, 0, &json); }},
+      {"geometry of nothing", TM_BAD_REQUEST, "wheel is missing", 1, [&] { return tm_geometry(nullptr, 0, &json); }},
+      {"settings that are not there", TM_BAD_ARGUMENT, "settings", 1, [&] { return tm_geometry(nullptr, 2, &json); }},
+      {"null setting", TM_BAD_ARGUMENT, "settings", 1, [&] { return tm_geometry(none, 1, &json); }},
+      {"no place for the rails", TM_BAD_REQUEST, "where the rails are", 1,
+       [&] { return tm_geometry(pair_of_names, 2, &json); }},
+      {"no equals sign", TM_BAD_REQUEST, "'='", 1, [&] { return tm_geometry(no_equals, 1, &json); }},
+      {"gauge of NaN", TM_BAD_REQUEST, "gauge_mm must be finite", 1, [&] { return tm_geometry(nan_gauge, 3, &json); }},
+      {"unknown setting", TM_BAD_REQUEST, "did you mean 'gauge_mm'", 1,
+       [&] { return tm_geometry(misspelt, 1, &json); }},
+      {"rail for a wheel", TM_BAD_INPUT, "60E1", 1, [&] { return tm_geometry(turned, 3, &json); }},
+      {"wheel that is no file", TM_BAD_INPUT, "nowhere.whl", 1, [&] { return tm_geometry(missing, 3, &json); }},
+      {"wheelset that falls", TM_NUMERICAL, "gauge", 1, [&] { return tm_geometry(wide, 3, &json); }},
+      {"no such roll", TM_BAD_REQUEST, "roll", 1, [&] { return tm_geometry(some_roll, 1, &json); }},
+      {"keys of no case", TM_BAD_REQUEST, "case", 1, [&] { return tm_geometry(of_no_case, 4, &json); }},
+      {"measures of no file", TM_BAD_ARGUMENT, "file", 1,
+       [&] { return tm_measure(TM_WHEEL, nullptr, nullptr, 0, &json); }},
+      {"measures of no body", TM_BAD_ARGUMENT, "body", 1,
+       [&] { return tm_measure(static_cast<tm_body>(5), "S1002", nullptr, 0, &json); }},
+      {"measures of another body", TM_BAD_REQUEST, "not a rail", 1,
+       [&] { return tm_measure(TM_RAIL, "S1002", nullptr, 0, &json); }},
+      {"measures of nothing", TM_BAD_INPUT, "nowhere.whl", 1,
+       [&] { return tm_measure(TM_WHEEL, "/nowhere.whl", nullptr, 0, &json); }},
+      {"measures by a null setting", TM_BAD_ARGUMENT, "settings", 1,
+       [&] { return tm_measure(TM_WHEEL, "S1002", none, 1, &json); }},
+      {"stations", TM_BAD_REQUEST, "stations", 1, [&] { return tm_measure(TM_RAIL, "60E1", stations, 1, &json); }},
+      {"infinite line", TM_BAD_REQUEST, "line_mm must be finite", 1,
+       [&] { return tm_measure(TM_RAIL, "60E1", infinite, 1, &json); }},
+      {"alignment of a wheel", TM_BAD_REQUEST, "belongs to rails", 1,
+       [&] { return tm_measure(TM_WHEEL, "S1002", for_rails, 1, &json); }},
+      {"nominal that is none", TM_BAD_REQUEST, "S1003", 1,
+       [&] { return tm_measure(TM_WHEEL, "S1002", no_profile, 1, &json); }},
       {"threads", TM_BAD_ARGUMENT, "threads", 0, [&] { return tm_set_threads(-1); }},
       {"all threads of the world", TM_BAD_ARGUMENT, "threads", 0, [&] { return tm_set_threads(1 << 30); }},
   };

@@ -11,7 +11,7 @@ import sys
 import pytest
 
 import treadmark as tm
-from treadmark import _inputs, _records, _solving, _surfaces, _verbs
+from treadmark import _inputs, _records, _requests, _solving, _surfaces, _verbs
 
 
 def test_all_that_is_exported_says_what_it_is():
@@ -24,7 +24,7 @@ def test_all_that_is_exported_says_what_it_is():
                     assert inspect.getdoc(value), f"{name}.{member}"
 
 
-@pytest.mark.parametrize("module", [_inputs, _records, _solving, _surfaces, _verbs])
+@pytest.mark.parametrize("module", [_inputs, _records, _requests, _solving, _surfaces, _verbs])
 def test_examples_in_docstrings(module):
     assert doctest.testmod(module).failed == 0
 

@@ -21,6 +21,10 @@ PAIR = ("rail.shape.standard = \"60E1\"\nwheel.shape.standard = \"S1002\"\n[trac
 ASSIGNMENTS = ["wheelset.y_mm=5", "wheelset.z_mm=0.2", "case.regime=transient", "case.regime=none", "case.regime=shift", "case.history=continue",
                "case.side=left", "rail.backend=spline", "wheel.flats=[{length_mm=60, depth_mm=0.9}]", "friction.coefficient=1e-3", "nonsense", "", "=", "\0"]
 TEXTS = ["rail", "wheel", "spline", "chebyshev", "pmax", "force_on_rail.fz_tr", "pressure", "", "a\0b", "\ud800", "é" * 100]
+ASKED = ["wheel=S1002", "wheel=cone 1:20", "wheel=60E1", "rail=60E1", "rail=circle R300", "gauge_mm=1435", "gauge_mm=nan", "gauge_mm=1e300", "cant=1:40",
+         "cant=0", "rail_origins_mm=1500", "amplitudes_mm=[1, 3]", "amplitudes_mm=3", "amplitudes_mm=1:9:1e-9", "gauges_mm=1434,1436", "roll=free",
+         "step_mm=0.5", "step_mm=1e-9", "yaw_mrad=10", "nominal=S1002", "nominal=60E1", "nominal_radius_mm=460", "alignment=top", "stations=3", "line_mm=5",
+         "wheelset.y_mm=5", "case=nowhere.toml", "nonsense=1", "nonsense", "", "=", "\0", "wheel=\"a\\u0000b\""]
 MEANT = (tm.TreadmarkError, TypeError, ValueError, AttributeError, OverflowError, IndexError, KeyError, NotImplementedError)
 
 
@@ -98,6 +102,9 @@ class Calls:
             lambda: n.Pair.restore(pair, self.of(n.State)),
             lambda: n.State.from_bytes(self.damaged(self.of(n.State))),
             lambda: self.solve(lambda: n.PatchSolver.solve(self.of(n.PatchSolver), case)),
+            lambda: n.geometry(r.sample(ASKED[:9], 4) + r.sample(ASKED, 3), None, 0),
+            lambda: n.measure(self.body(), r.choice(["S1002", "60E1", "EPS", "", "a\0b", "nowhere"]), r.sample(ASKED, 2), None, 0),
+            lambda: n.measure_files(self.body(), ["S1002", "60E1", "@nowhere", "."][: r.randrange(5)], r.sample(ASKED, 1), None, 0),
         ])
 
     def solve(self, call):
@@ -117,7 +124,8 @@ class Calls:
 
     def nonsense(self):
         """Any function or method with anything."""
-        name = self.random.choice(["Case", "Surface", "Pair", "PatchSolver", "State", "Run", "Comparison", "Bench", "Source", "position_svg", "tables"])
+        name = self.random.choice(["Case", "Surface", "Pair", "PatchSolver", "State", "Run", "Comparison", "Bench", "Source", "position_svg", "tables", "Geometry", "Measured",
+                                   "geometry", "measure", "measure_files", "profile_body", "request_tables"])
         called = getattr(native, name)
         if isinstance(called, type):
             methods = [m for m in dir(called) if not m.startswith("_") and callable(getattr(called, m)) and not m.startswith(("write", "save"))]
