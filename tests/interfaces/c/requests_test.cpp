@@ -83,7 +83,8 @@ TEST(CRequests, EverySettingOfGeometryCounts) {
       "gauge_mm=1434",    "cant=1:20",      "gauge_height_mm=12", "wheel_origins_mm=1499",
       "amplitudes_mm=4",  "amplitude_mm=4", "gauges_mm=1434",     "roll=free",
       "axle_load_kN=100", "yaw_mrad=5",     "step_mm=0.05",       "second_mm=0",
-      "backend=spline",   "pitch_deg=5",    "position_mm=5"};
+      "backend=spline",   "pitch_deg=5",    "position_mm=5",      "new_wheel=1:40",
+      "new_rail=54E1"};
   for (const char* change : changes)
     EXPECT_NE(text_of_geometry(with(kPair, {"amplitudes_mm=3", change})), plain) << change;
   // those that need others, and what is not in the pair at all
