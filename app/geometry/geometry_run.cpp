@@ -238,7 +238,7 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
       placement.rail_origins = 2.0 * std::fabs(track.rail_y0);
     placement.wheel_origins = first->wheelset.flange_back_distance - 2.0 * first->wheelset.flange_back_position;
     out.material = first->material;
-    if (file.cases.size() > 1) out.notes.push_back("the first case of a wheel on a rail counts");
+    if (file.cases.size() > 1) out.notes.emplace_back("the first case of a wheel on a rail counts");
   } else {
     for (const auto& [name, what] : {std::pair{&r.wheel, "--wheel"}, std::pair{&r.rail, "--rail"}})
       if (name->empty()) throw Error(ErrorKind::configuration, fmt::format("no profile: {} is missing", what));
