@@ -69,6 +69,7 @@ Numbers median_numbers(const std::vector<MeasuredStation<Numbers>>& stations) {
   Numbers out = stations[stations.size() / 2].numbers;
   for (const auto& row : number_rows(out)) {
     std::vector<Measure> all;
+    all.reserve(stations.size());
     for (const auto& station : stations) all.push_back(station.numbers.*row.at);
     out.*row.at = median_of(std::move(all));
   }
@@ -133,11 +134,11 @@ class WheelFile {
   /// Both tips at one height, tape lines at y = 0.
   void draw(const Section& section, const WheelNumbers& n) const {
     for (std::size_t i = 0; i < section.size(); ++i)
-      out_.section.push_back(section.point(i) + Vec2(n.shift_y, n.shift_z));
+      out_.section.emplace_back(section.point(i) + Vec2(n.shift_y, n.shift_z));
     if (nominals_.wheels.empty()) return;
     const Section& nominal = nominals_.wheels.front().section;
     for (std::size_t i = 0; i < nominal.size(); ++i)
-      out_.nominal.push_back(nominal.point(i) + Vec2(0.0, n.tread_wear.known() ? n.tread_wear.value : 0.0));
+      out_.nominal.emplace_back(nominal.point(i) + Vec2(0.0, n.tread_wear.known() ? n.tread_wear.value : 0.0));
   }
 
   /// With the other wheel, whose axes are those of this one, y from the middle of the axle.
