@@ -7,6 +7,7 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
+#include <ranges>
 #include <utility>
 
 #include "treadmark/core/cancellation.hpp"
@@ -162,8 +163,8 @@ ContactFunctions contact_functions(const WheelsetOnTrack& wheelset, const Functi
     find_jumps(wheelset, out.rows[i], out.rows[i + 1], out.jumps);
   if (wheelset.symmetric()) {
     std::vector<Jump> all;
-    for (auto jump = out.jumps.rbegin(); jump != out.jumps.rend(); ++jump)
-      all.push_back({mirrored(jump->after), mirrored(jump->before), !jump->right});
+    for (const Jump& jump : std::views::reverse(out.jumps))
+      all.push_back({mirrored(jump.after), mirrored(jump.before), !jump.right});
     all.insert(all.end(), out.jumps.begin(), out.jumps.end());
     out.jumps = std::move(all);
   }

@@ -814,7 +814,7 @@ std::vector<Vec2> outline_points(const RailSection& section, double step) {
     for (int i = 1; i < n; ++i) {
       const double part = static_cast<double>(i) / n, t = turn * part;
       const double along = turn == 0.0 ? chord.norm() * part : 2.0 * radius * std::sin(0.5 * t);
-      half.push_back(from + along * Vec2(std::cos(start + 0.5 * t), std::sin(start + 0.5 * t)));
+      half.emplace_back(from + along * Vec2(std::cos(start + 0.5 * t), std::sin(start + 0.5 * t)));
     }
     half.push_back(to);
   }

@@ -75,10 +75,11 @@ class SettingList {
     all.push_back({io::key_info(std::move(name), io::KeyType::text, ""), 1.0,
                    [set = std::move(set)](Root& root, const io::CaseOverride& v) { set(root, v.value.text()); }});
   }
-  void word(std::string name, std::vector<std::string> choices, std::function<void(Root&, const std::string&)> set) {
+  void word(std::string name, const std::vector<std::string>& choices,
+            std::function<void(Root&, const std::string&)> set) {
     text(std::move(name), std::move(set));
     all.back().info.type = io::KeyType::choice;
-    all.back().info.choices = std::move(choices);
+    all.back().info.choices = choices;
   }
 };
 
@@ -169,6 +170,7 @@ const std::vector<Setting<app::MeasureRequest>>& measure_settings() {
 template <class Root>
 std::vector<RequestKey> keys_of(const std::vector<Setting<Root>>& settings) {
   std::vector<RequestKey> keys;
+  keys.reserve(settings.size());
   for (const Setting<Root>& setting : settings) keys.push_back({setting.info.path, setting.si});
   return keys;
 }
@@ -189,6 +191,7 @@ void apply_setting(Root& root, std::vector<std::string>& overrides, const std::v
     return;
   }
   std::vector<std::string> known;
+  known.reserve(settings.size());
   for (const Setting<Root>& setting : settings) known.push_back(setting.info.path);
   const std::string nearest = io::nearest_key(given.path, known);
   throw Error(ErrorKind::configuration, fmt::format("there is no setting '{}'", given.path.substr(0, 100)),

@@ -4,7 +4,7 @@
 #include <string>
 #include <system_error>
 
-#include <stdlib.h>
+#include <stdlib.h>  // NOLINT(modernize-deprecated-headers): mkdtemp of POSIX
 
 #include "treadmark/app/import/import_scan.hpp"
 #include "treadmark/app/surfaces/named_surface.hpp"

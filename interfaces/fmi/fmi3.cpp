@@ -26,7 +26,7 @@ fmi3Status none3(fmi3Instance instance, const char* function, std::size_t count)
 
 std::vector<std::uint32_t> arrays(const Instance& i, const fmi3ValueReference* references, std::size_t count,
                                   const void* values, std::size_t room) {
-  const auto all = i.scalars(references, count, Instance::Arrays::whole);
+  auto all = i.scalars(references, count, Instance::Arrays::whole);
   require(all.size() == room, "the number of values is not that of the variables");
   require(values != nullptr || room == 0, "the values are null");
   return all;

@@ -49,7 +49,8 @@ void require(bool right, const char* what) {
   if (!right) throw BadCall{what};
 }
 
-Instance* Instance::create(const char* token, const std::filesystem::path& resources, Logger logger, bool tells_all) {
+Instance* Instance::create(const char* token, const std::filesystem::path& resources, const Logger& logger,
+                           bool tells_all) {
   try {
     std::unique_ptr<Instance> made(new Instance);
     made->token_ = token_of(resources);

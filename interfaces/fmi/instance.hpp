@@ -50,7 +50,8 @@ struct SavedState {
 class Instance {
  public:
   /// Null with a message where it cannot be made; never throws.
-  static Instance* create(const char* token, const std::filesystem::path& resources, Logger logger, bool tells_all);
+  static Instance* create(const char* token, const std::filesystem::path& resources, const Logger& logger,
+                          bool tells_all);
 
   void log(Outcome outcome, const char* category, const std::string& message) const;
   void set_logging(bool on, std::span<const char* const> categories);

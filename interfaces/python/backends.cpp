@@ -80,7 +80,7 @@ void add_backends(py::module_& module) {
     return names;
   });
   module.def("register_backend",
-             [](const std::string& name, const std::string& summary, double order, py::function make) {
+             [](const std::string& name, const std::string& summary, double order, const py::function& make) {
                Backend row;
                row.name = name;
                row.summary = summary;

@@ -30,7 +30,7 @@ void raise(const char* name, const std::string& message, const SourcePosition& w
   PyErr_SetObject(type.ptr(), type(message, where.file, where.line, where.column, advice).ptr());
 }
 
-void translate(std::exception_ptr thrown) {
+void translate(std::exception_ptr thrown) {  // NOLINT(performance-unnecessary-value-param): pybind11 has it so
   try {
     if (thrown) std::rethrow_exception(thrown);
   } catch (const Error& error) {

@@ -103,7 +103,7 @@ class SliceNet {
 
 // Both fields at once in one register (GCC and clang).
 namespace detail {
-typedef double Pair __attribute__((vector_size(16)));
+typedef double Pair __attribute__((vector_size(16)));  // NOLINT(modernize-use-using): the attribute has no other place
 
 inline Pair both(double x) { return Pair{x, x}; }
 inline NetPair store(const Pair& p) { return {p[0], p[1]}; }
