@@ -7,7 +7,6 @@
 #include <algorithm>
 #include <cmath>
 #include <optional>
-#include <ranges>
 #include <utility>
 
 #include "treadmark/core/cancellation.hpp"
@@ -163,8 +162,8 @@ ContactFunctions contact_functions(const WheelsetOnTrack& wheelset, const Functi
     find_jumps(wheelset, out.rows[i], out.rows[i + 1], out.jumps);
   if (wheelset.symmetric()) {
     std::vector<Jump> all;
-    for (const Jump& jump : std::views::reverse(out.jumps))
-      all.push_back({mirrored(jump.after), mirrored(jump.before), !jump.right});
+    for (const Jump& jump : out.jumps) all.push_back({mirrored(jump.after), mirrored(jump.before), !jump.right});
+    std::ranges::reverse(all);
     all.insert(all.end(), out.jumps.begin(), out.jumps.end());
     out.jumps = std::move(all);
   }
