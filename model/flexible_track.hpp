@@ -17,6 +17,7 @@ struct RailBeam {
   double shear_stiffness = 0.0;    ///< kappa G A [N]; > 0
   double mass = 0.0;               ///< of a unit of length [kg/m]; > 0
   double rotary_inertia = 0.0;     ///< rho I [kg m]; >= 0
+  double damping_time = 0.0;       ///< damping over stiffness: loss factor over angular frequency [s]; >= 0
 };
 
 /// Where a sleeper carries a rail: pad, its half of the sleeper, ballast below that on rigid ground.

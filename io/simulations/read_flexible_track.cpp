@@ -23,7 +23,7 @@ int integer_or(const TableReader& table, std::string_view key, int otherwise) {
 
 RailBeam read_beam(const TableReader& table) {
   return {table.number("bending_stiffness_N_m2"), table.number("shear_stiffness_N"), table.number("mass_kg_per_m"),
-          table.number_or("rotary_inertia_kg_m", 0.0)};
+          table.number_or("rotary_inertia_kg_m", 0.0), table.number_or("damping_us", 0.0)};
 }
 
 /// Distances from each seat to the next, one for each seat.

@@ -126,6 +126,8 @@ const TableKeys& rail_beam_keys() {
       needed(key_info("shear_stiffness_N", KeyType::number, "kappa G A of one rail", kPositive)),
       needed(key_info("mass_kg_per_m", KeyType::number, "of one rail", kPositive)),
       with_default("0", key_info("rotary_inertia_kg_m", KeyType::number, "density times I", kNotNegative)),
+      with_default("0", key_info("damping_us", KeyType::number,
+                                 "inner damping over stiffness: the loss factor is 2 pi f times this", kNotNegative)),
       with_default("1.507", key_info("distance_m", KeyType::number, "of the middles of both rails", {0.1, {}, 10.0}))};
   return keys;
 }

@@ -21,7 +21,7 @@ void require_sense(const FlexibleTrack& track) {
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
   const auto not_negative = [](double value) { return value >= 0.0 && std::isfinite(value); };
   if (!positive(track.rail.bending_stiffness) || !positive(track.rail.shear_stiffness) || !positive(track.rail.mass) ||
-      !not_negative(track.rail.rotary_inertia))
+      !not_negative(track.rail.rotary_inertia) || !not_negative(track.rail.damping_time))
     refuse("a rail needs positive stiffnesses in bending and shear and a positive mass");
   if (track.seats.size() < 2) refuse("a flexible track needs at least two seats");
   if (track.bay_elements < 1) refuse("a bay needs at least one element");
@@ -91,7 +91,7 @@ RailOnSeats::RailOnSeats(const FlexibleTrack& track) {
         const int row = at[static_cast<std::size_t>(i)], column = at[static_cast<std::size_t>(j)];
         stiffness_.add(row, column, k(i, j));
         mass_.add(row, column, m(i, j));
-        damping_.add(row, column, loss * m(i, j));
+        damping_.add(row, column, loss * m(i, j) + track.rail.damping_time * k(i, j));
       }
   }
   for (std::size_t i = 0; i < count; ++i) {

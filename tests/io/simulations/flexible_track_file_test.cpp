@@ -28,6 +28,7 @@ bending_stiffness_N_m2 = 6.4e6
 shear_stiffness_N = 250e6
 mass_kg_per_m = 60
 rotary_inertia_kg_m = 0.24
+damping_us = 2.5
 distance_m = 1.5
 
 [seats]
@@ -75,6 +76,7 @@ TEST(FlexibleTrackFile, ReadsRailAndSeatsInSIUnits) {
   EXPECT_EQ(track.rail.shear_stiffness, 250e6);
   EXPECT_EQ(track.rail.mass, 60.0);
   EXPECT_EQ(track.rail.rotary_inertia, 0.24);
+  EXPECT_DOUBLE_EQ(track.rail.damping_time, 2.5e-6);
   EXPECT_EQ(track.gauge, 1.5);
   ASSERT_EQ(track.seats.size(), 20u);
   EXPECT_DOUBLE_EQ(track.seats[1].x - track.seats[0].x, 0.6);
@@ -117,7 +119,7 @@ TEST(FlexibleTrackFile, KeysAreChangedByTheirPaths) {
 
 TEST(FlexibleTrackFile, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refused("spacings_m = [0.6, 0.5]", "spacings_m = [0.6, -0.5]"),
-              AllOf(HasSubstr("f.toml:15"), HasSubstr("seats.spacings_m")));
+              AllOf(HasSubstr("f.toml:16"), HasSubstr("seats.spacings_m")));
   EXPECT_THAT(refused("spacings_m = [0.6, 0.5]", "spacings_m = []"), HasSubstr("seats.spacings_m is empty"));
   EXPECT_THAT(refused("spacings_m = [0.6, 0.5]", "spacings_m = [0.6]\nspacing_m = 0.6"), HasSubstr("exclude"));
   EXPECT_THAT(refused("spacings_m = [0.6, 0.5]", ""), HasSubstr("seats.spacing_m is missing"));

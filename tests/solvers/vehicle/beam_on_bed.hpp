@@ -15,7 +15,7 @@ namespace treadmark::vehicle {
 /// Zhai's ballasted track (2004), one rail; kappa G A as of a 60 kg/m rail.
 inline FlexibleTrack zhai_track(double spacing = 0.545, int seats = 120) {
   FlexibleTrack track;
-  track.rail = {2.059e11 * 3.217e-5, 244e6, 60.64, 7850.0 * 3.217e-5};
+  track.rail = {2.059e11 * 3.217e-5, 244e6, 60.64, 7850.0 * 3.217e-5, 0.0};
   const double share = spacing / 0.545;  // a finer track carries the same on each metre
   for (int i = 0; i < seats; ++i)
     track.seats.push_back({i * spacing, share * 65e6, share * 75e3, share * 125.5, share * 137.75e6, share * 58.8e3});
@@ -31,11 +31,12 @@ inline std::complex<double> bed_stiffness(const RailSeat& seat, double spacing, 
 
 /// Deflection at a distance from a unit force on an infinite beam of Timoshenko's theory on a bed: residues of the
 /// Fourier transform over the wave number k,
-///   w(k) = (R + B k2)/((Z + S k2)(R + B k2) - S2 k2),   Z = bed - m w2,   R = S - J w2,   S = kappa G A,   B = E I.
+///   w(k) = (R + B k2)/((Z + S k2)(R + B k2) - S2 k2),   Z = bed - m w2,   R = S - J w2,   S = kappa G A,   B = E I,
+/// both times rail.
 inline std::complex<double> infinite_beam(const RailBeam& beam, std::complex<double> bed, double w,
-                                          double distance = 0.0) {
+                                          double distance = 0.0, std::complex<double> rail = 1.0) {
   using Complex = std::complex<double>;
-  const double s = beam.shear_stiffness, b = beam.bending_stiffness, r = s - w * w * beam.rotary_inertia;
+  const Complex s = rail * beam.shear_stiffness, b = rail * beam.bending_stiffness, r = s - w * w * beam.rotary_inertia;
   const Complex z = bed - w * w * beam.mass;
   // s b k4 + (z b + s r - s2) k2 + z r = 0
   const Complex half = 0.5 * (z * b + s * r - s * s) / (s * b), root = std::sqrt(half * half - z * r / (s * b));

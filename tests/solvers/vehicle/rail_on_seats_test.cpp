@@ -170,6 +170,24 @@ TEST(RailOnSeats, ReceptanceIsThatOfAnInfiniteRailOnItsSeats) {
   }
 }
 
+/// A loss factor that grows with frequency is a complex stiffness of the beam.
+TEST(RailOnSeats, InnerDampingIsALossFactor) {
+  FlexibleTrack track = zhai_track(0.02, 1601);
+  track.bay_elements = 2;
+  track.rail.damping_time = 20e-6;
+  const RailOnSeats rail(absorbing(track, 400));
+  FlexibleTrack undamped = track;
+  undamped.rail.damping_time = 0.0;
+  const RailOnSeats hard(absorbing(undamped, 400));
+  for (const double f : {300.0, 1000.0}) {
+    const double w = 2.0 * kPi * f;
+    const Complex expected =
+        infinite_beam(track.rail, bed_stiffness(track.seats[0], 0.02, w), w, 0.0, Complex(1.0, w * 20e-6));
+    EXPECT_LT(off(rail.receptance(track.seats[800].x, f), expected), 2e-3) << f;
+    EXPECT_GT(off(hard.receptance(track.seats[800].x, f), expected), 5e-3) << f;
+  }
+}
+
 /// Errors of the elements fall with the square of their length.
 TEST(RailOnSeats, ElementsConverge) {
   const auto error = [](int elements) {
