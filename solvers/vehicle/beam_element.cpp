@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/solvers/vehicle/beam_element.hpp"
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -28,6 +29,13 @@ BeamVector BeamElement::deflection(double p) const {
   const double p2 = p * p, p3 = p2 * p, s = shear_;
   return BeamVector(2.0 * p3 - 3.0 * p2 - s * p + 1.0 + s, length_ * (p3 - (2.0 + 0.5 * s) * p2 + (1.0 + 0.5 * s) * p),
                     -2.0 * p3 + 3.0 * p2 + s * p, length_ * (p3 - (1.0 - 0.5 * s) * p2 - 0.5 * s * p)) /
+         (1.0 + s);
+}
+
+BeamVector BeamElement::slope(double p) const {
+  const double p2 = p * p, s = shear_;
+  return BeamVector((6.0 * p2 - 6.0 * p - s) / length_, 3.0 * p2 - (4.0 + s) * p + 1.0 + 0.5 * s,
+                    (-6.0 * p2 + 6.0 * p + s) / length_, 3.0 * p2 - (2.0 - s) * p - 0.5 * s) /
          (1.0 + s);
 }
 
@@ -59,6 +67,13 @@ double BeamElement::own_compliance(double part) const {
                    after = BeamElement(beam_, (1.0 - part) * length_).stiffness();
   const Eigen::Matrix2d k = before.bottomRightCorner<2, 2>() + after.topLeftCorner<2, 2>();
   return k(1, 1) / k.determinant();
+}
+
+double BeamElement::own_compliance_slope(double part) const {
+  // A quotient of polynomials: differences over this share of the length are exact to ten digits.
+  constexpr double kStep = 1e-4;
+  const double low = std::max(0.0, part - kStep), high = std::min(1.0, part + kStep);
+  return (own_compliance(high) - own_compliance(low)) / ((high - low) * length_);
 }
 
 double pinned_pinned_frequency(const RailBeam& beam, double span) {

@@ -24,11 +24,15 @@ class BeamElement {
   BeamMatrix mass() const;
   /// Deflection at part 0 ... 1 of the length by the coordinates.
   BeamVector deflection(double part) const;
+  /// Slope of the deflection there, shear included.
+  BeamVector slope(double part) const;
   /// Rotation of the section there.
   BeamVector rotation(double part) const;
   /// Further deflection [m/N] under a force at this place while the ends stand still: what the interpolation of the
   /// deflection cannot follow.
   double own_compliance(double part) const;
+  /// Its derivative along the element [1/N].
+  double own_compliance_slope(double part) const;
 
  private:
   RailBeam beam_;

@@ -121,7 +121,9 @@ RailOnSeats::Place RailOnSeats::place(double x) const {
   const double part = std::min((x - nodes_[e].x) / (nodes_[e + 1].x - nodes_[e].x), 1.0);
   return {{nodes_[e].first, nodes_[e].first + 1, nodes_[e + 1].first, nodes_[e + 1].first + 1},
           elements_[e].deflection(part),
-          elements_[e].own_compliance(part)};
+          elements_[e].slope(part),
+          elements_[e].own_compliance(part),
+          elements_[e].own_compliance_slope(part)};
 }
 
 std::vector<std::complex<double>> RailOnSeats::receptance(std::span<const double> x, double frequency) const {

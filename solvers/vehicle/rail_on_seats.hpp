@@ -36,8 +36,9 @@ class RailOnSeats {
   /// What a place of the rail moves by: deflection = sum of values[i] q[first[i]], and what is deflected there beyond.
   struct Place {
     std::array<int, 4> coordinate{};
-    BeamVector value = BeamVector::Zero();
-    double own_compliance = 0.0;  ///< [m/N]
+    BeamVector value = BeamVector::Zero(), slope = BeamVector::Zero();  ///< slope: of the deflection there [1/m]
+    double own_compliance = 0.0;                                        ///< [m/N]
+    double own_compliance_slope = 0.0;                                  ///< [1/N]
   };
   /// x [m], between begin() and end().
   Place place(double x) const;
