@@ -38,6 +38,8 @@ struct LateralSupport {
   double bed_damping = 0.0;    ///< [N s/m]; >= 0
   double foot_width = 0.0;     ///< over which a pad resists rolling of the rail [m]; > 0
   double roll_inertia = 0.0;   ///< of the rail about its axis, over its mass [m2]; > 0
+  double rail_mass = 0.0;      ///< that moves sideways at a wheel [kg]; > 0
+  double sleeper_mass = 0.0;   ///< the same of half the sleepers [kg]; > 0
 };
 
 /// A rail of finite length: it begins half a bay before its first seat and ends half a bay behind its last one.

@@ -87,7 +87,8 @@ LateralSupport read_lateral(const TableReader& table) {
   const double radius = table.number("roll_radius_mm");
   return {table.number("pad_stiffness_N_per_m"), table.number_or("pad_damping_N_s_per_m", 0.0),
           table.number("bed_stiffness_N_per_m"), table.number_or("bed_damping_N_s_per_m", 0.0),
-          table.number("foot_width_mm"),         radius * radius};
+          table.number("foot_width_mm"),         radius * radius,
+          table.number("rail_mass_kg"),          table.number("sleeper_mass_kg")};
 }
 
 }  // namespace

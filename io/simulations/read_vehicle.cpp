@@ -78,6 +78,8 @@ void scale_track(FlexibleTrack& track, const TableReader& table) {
   track.lateral->bed_stiffness *= stiffness;
   track.lateral->pad_damping *= damping;
   track.lateral->bed_damping *= damping;
+  track.lateral->rail_mass *= mass;
+  track.lateral->sleeper_mass *= mass;
 }
 
 /// Tables and keys of the other kind of track say that the kind is not what was meant.
@@ -188,7 +190,7 @@ AnyTrack parse_any_track_text(std::string_view text, const std::string& name, st
 TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   AnyTrack track = parse_any_track_text(text, name, changes);
   if (TrackModel* const lumped = std::get_if<TrackModel>(&track)) return std::move(*lumped);
-  throw Error(ErrorKind::configuration, "a simulation cannot run on a flexible track", {name, 1, 1},
+  throw Error(ErrorKind::configuration, "a lumped track is needed, this is a flexible one", {name, 1, 1},
               "'treadmark track FILE --fit 3 -o FOLDER' makes a lumped one of it");
 }
 

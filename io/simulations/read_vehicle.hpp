@@ -21,7 +21,7 @@ namespace treadmark::io {
 /// Throws Error(configuration) with file:line:column: broken TOML, unknown keys and names (with a suggestion), values
 /// out of range, bodies that nothing holds. Safe to call from several threads.
 VehicleModel read_vehicle_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
-/// A lumped track, as simulations need it: a flexible one is refused with what to do about it.
+/// A lumped track: a flexible one is refused with what to do about it.
 TrackModel read_track_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// A track of either kind.

@@ -172,7 +172,9 @@ const TableKeys& lateral_keys() {
       needed(key_info("bed_stiffness_N_per_m", KeyType::number, "below half a sleeper, at a wheel", kPositive)),
       with_default("0", key_info("bed_damping_N_s_per_m", KeyType::number, "at a wheel", kNotNegative)),
       needed(key_info("foot_width_mm", KeyType::number, "of the rail: pads resist its rolling over it", kPositive)),
-      needed(key_info("roll_radius_mm", KeyType::number, "radius of gyration of the rail about its axis", kPositive))};
+      needed(key_info("roll_radius_mm", KeyType::number, "radius of gyration of the rail about its axis", kPositive)),
+      needed(key_info("rail_mass_kg", KeyType::number, "of the rail that moves sideways at a wheel", kPositive)),
+      needed(key_info("sleeper_mass_kg", KeyType::number, "of the halves of sleepers that move with it", kPositive))};
   return keys;
 }
 
@@ -241,6 +243,10 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
     list.number("spectral_radius", {{}, 0.0, 1.0},
                 "of the time integration at infinite frequency: 1 = no numerical damping",
                 [](S& s) -> double& { return s.spectral_radius; });
+    list.number(
+        "from_midspan_mm", kAnyNumber,
+        "on a flexible track: place of the vehicle's x = 0 at the start, ahead of the middle between two sleepers",
+        [](S& s) -> double& { return s.from_midspan; });
     list.number("checkpoint_s", kPositive, "time of the computer between two checkpoints",
                 [](S& s) -> double& { return s.checkpoint; });
     list.number("output_every_mm", kNotNegative,

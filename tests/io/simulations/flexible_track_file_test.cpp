@@ -56,6 +56,8 @@ bed_stiffness_N_per_m = 35e6
 bed_damping_N_s_per_m = 175e3
 foot_width_mm = 150
 roll_radius_mm = 70
+rail_mass_kg = 80
+sleeper_mass_kg = 300
 )";
 
 FlexibleTrack flexible(const std::string& text, const std::vector<std::string>& overrides = {}) {
@@ -148,14 +150,18 @@ TEST(FlexibleTrackFile, KindsAreNotMixed) {
               HasSubstr("there are no [[bodies]]"));
 }
 
-/// Rails that bend are no part of the time integration.
-TEST(FlexibleTrackFile, SimulationsSayWhatToDoInstead) {
+TEST(FlexibleTrackFile, SimulationsTakeIt) {
   const treadmark::testing::TemporaryFolder folder;
   folder.write("vehicle.toml", samples::kVehicle);
   folder.write("track.toml", kFlexible);
-  EXPECT_THAT(
-      samples::error_of([&] { parse_simulation_text(samples::kSimulation, folder.path() / "s.toml", {}); }),
-      AllOf(HasSubstr("track.toml"), HasSubstr("cannot run on a flexible track"), HasSubstr("treadmark track")));
+  const std::vector<std::string> changes{"track_model.rail.mass_kg_per_m=54", "simulation.from_midspan_mm=100"};
+  const SimulationFile file = parse_simulation_text(samples::kSimulation, folder.path() / "s.toml", changes);
+  EXPECT_FALSE(file.track);
+  ASSERT_TRUE(file.flexible_track);
+  EXPECT_EQ(file.flexible_track->rail.mass, 54.0);
+  EXPECT_DOUBLE_EQ(file.settings.from_midspan, 0.1);
+  EXPECT_THAT(samples::error_of([] { parse_track_text(kFlexible, "t.toml"); }),
+              AllOf(HasSubstr("a lumped track is needed"), HasSubstr("treadmark track")));
 }
 
 TEST(ShippedTrack, ZhaiFlexibleHasTheDataOfTheLumpedOne) {
