@@ -291,7 +291,7 @@ TEST(Irregularities, NonsenseIsRefused) {
     }
     return "accepted";
   };
-  using testing::HasSubstr;
+  using ::testing::HasSubstr;
   using Spec = IrregularitySpec;
   EXPECT_THAT(message([](Spec& s) { s.spectral.shortest = 200.0; }), HasSubstr("wavelengths of 200 to 100 m"));
   EXPECT_THAT(message([](Spec& s) { s.spectral.shortest = 0.0; }), HasSubstr("wavelengths of 0 to"));

@@ -204,7 +204,7 @@ TEST(TrackPath, LinesThatMakeNoSenseAreRefused) {
     }
     return "accepted";
   };
-  using testing::HasSubstr;
+  using ::testing::HasSubstr;
   EXPECT_THAT(message({}), HasSubstr("no elements"));
   EXPECT_THAT(message({piece(0, {})}), HasSubstr("0 m long"));
   EXPECT_THAT(message({piece(-5, {})}), HasSubstr("-5 m long"));
