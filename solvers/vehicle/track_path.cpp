@@ -64,9 +64,9 @@ Along angle_of(const Along& cant, double base) {
 
 }  // namespace
 
-Pose PathPoint::X_SP() const { return {origin_S, rotation_z(heading) * rotation_x(cant_angle.value)}; }
+Pose PathPoint::X_LT() const { return {origin_L, rotation_z(heading) * rotation_x(cant_angle.value)}; }
 
-Vec3 PathPoint::tangent_S() const { return {std::cos(heading), std::sin(heading), height.first}; }
+Vec3 PathPoint::tangent_L() const { return {std::cos(heading), std::sin(heading), height.first}; }
 
 Vec3 PathPoint::turn() const {
   const double phi = cant_angle.value;
@@ -123,21 +123,21 @@ PathPoint TrackPath::at(double distance) const {
     point.height = {half * point.cant.value, half * point.cant.first, half * point.cant.second};
   }
   const Vec2 moved = way(e, start.heading, x);
-  point.origin_S = {start.x + moved.x(), start.y + moved.y(), point.height.value};
+  point.origin_L = {start.x + moved.x(), start.y + moved.y(), point.height.value};
   return point;
 }
 
 Vec3 TrackPath::to_space(const PathPlace& place) const {
-  return at(place.distance).X_SP().apply({0.0, place.y, place.z});
+  return at(place.distance).X_LT().apply({0.0, place.y, place.z});
 }
 
-std::optional<PathPlace> TrackPath::locate(const Vec3& point_S, double near) const {
+std::optional<PathPlace> TrackPath::locate(const Vec3& point_L, double near) const {
   constexpr int kMostSteps = 60;
   constexpr double kLongestStep = 50.0;  // [m], that the method does not run away on nearly parallel planes
   double s = near;
   for (int k = 0; k < kMostSteps; ++k) {
     const PathPoint p = at(s);
-    const Vec3 away = point_S - p.origin_S;
+    const Vec3 away = point_L - p.origin_L;
     const double sine = std::sin(p.heading), cosine = std::cos(p.heading);
     const double ahead = away.x() * cosine + away.y() * sine, aside = away.y() * cosine - away.x() * sine;
     const double slope = 1.0 - p.curvature.value * aside;
@@ -145,29 +145,29 @@ std::optional<PathPlace> TrackPath::locate(const Vec3& point_S, double near) con
     const double step = std::clamp(ahead / slope, -kLongestStep, kLongestStep);
     s += step;
     if (std::abs(step) > 1e-12 * (1.0 + std::abs(s))) continue;
-    const Vec3 p_P = at(s).X_SP().apply_inverse(point_S);
-    return PathPlace{s, p_P.y(), p_P.z()};
+    const Vec3 p_T = at(s).X_LT().apply_inverse(point_L);
+    return PathPlace{s, p_T.y(), p_T.z()};
   }
   return std::nullopt;
 }
 
-std::optional<PathPlace> TrackPath::locate(const Vec3& point_S) const {
+std::optional<PathPlace> TrackPath::locate(const Vec3& point_L) const {
   constexpr double kSpacing = 20.0, kTurn = 0.2;  // [m], [rad]
-  double nearest = 0.0, least = (point_S - at(0.0).origin_S).squaredNorm();
+  double nearest = 0.0, least = (point_L - at(0.0).origin_L).squaredNorm();
   for (std::size_t i = 0; i < layout_.elements.size(); ++i) {
     const LayoutElement& e = layout_.elements[i];
     const double most = std::max(std::abs(e.curvature.from), std::abs(e.curvature.to));
     const int parts = static_cast<int>(std::ceil(e.length * std::max(1.0 / kSpacing, most / kTurn)));
     for (int k = 1; k <= parts; ++k) {
       const double s = starts_[i].distance + e.length * k / parts;
-      const double distance = (point_S - at(s).origin_S).squaredNorm();
+      const double distance = (point_L - at(s).origin_L).squaredNorm();
       if (distance < least) {
         least = distance;
         nearest = s;
       }
     }
   }
-  return locate(point_S, nearest);
+  return locate(point_L, nearest);
 }
 
 double TrackPath::largest_curvature_step() const {

@@ -16,13 +16,13 @@ struct Along {
   double value = 0.0, first = 0.0, second = 0.0;
 };
 
-/// The path frame P of a line at one place: origin on the track centre line in the plane of the rail tops, x horizontal
-/// along the line in plan, y and z turned about x by the cant. S is the space in which the line lies: at the beginning
-/// of the line its origin and axes are those of the uncanted path frame.
-/// Where elements meet, derivatives are those of the element behind the joint.
+/// The track frame T (core/README.md) at one place of a line, the path frame: origin on the track centre line in the
+/// plane of the rail tops, x horizontal along the line in plan, y and z turned about x by the cant. L is the frame of
+/// the whole line: that of its beginning without cant. Where elements meet, derivatives are those of the element behind
+/// the joint.
 struct PathPoint {
   double distance = 0.0;         ///< s, along the centre line in plan [m]
-  Vec3 origin_S = Vec3::Zero();  ///< [m]
+  Vec3 origin_L = Vec3::Zero();  ///< [m]
   double heading = 0.0;          ///< psi, about z; not wrapped [rad]
   Along curvature;               ///< dpsi/ds [1/m]
   Along cant;                    ///< height of the left rail over the right one [m]
@@ -30,8 +30,8 @@ struct PathPoint {
   Along height;                  ///< z of the origin, down [m]
   Along gauge;                   ///< [m]
 
-  Pose X_SP() const;       ///< R = Rz(psi) Rx(phi)
-  Vec3 tangent_S() const;  ///< d origin / ds
+  Pose X_LT() const;       ///< R = Rz(psi) Rx(phi)
+  Vec3 tangent_L() const;  ///< d origin / ds
   /// How the frame turns over the distance, in its own axes: dR/ds = R [turn]x [rad/m].
   Vec3 turn() const;
   Vec3 turn_first() const;  ///< d turn / ds [rad/m2]
@@ -59,9 +59,9 @@ class TrackPath {
 
   /// Where a point of space is on the path: the place whose plane x = 0 contains it, next to `near`. Nothing where
   /// there is none: behind the centre of a curve, or further away than Newton's method reaches.
-  std::optional<PathPlace> locate(const Vec3& point_S, double near) const;
+  std::optional<PathPlace> locate(const Vec3& point_L, double near) const;
   /// The same from the part of the line that is nearest.
-  std::optional<PathPlace> locate(const Vec3& point_S) const;
+  std::optional<PathPlace> locate(const Vec3& point_L) const;
 
   /// Largest step of the curvature where elements meet [1/m]; 0 for a line with transitions everywhere.
   double largest_curvature_step() const;

@@ -45,11 +45,11 @@ TEST(TrackPath, ACircleCloses) {
     const double round = 2.0 * kPi * std::abs(radius);
     const TrackPath path = path_of({piece(round, {1 / radius, 1 / radius})});
     const PathPoint end = path.at(round), quarter = path.at(round / 4.0);
-    EXPECT_LT(end.origin_S.norm(), kExact * round);
+    EXPECT_LT(end.origin_L.norm(), kExact * round);
     EXPECT_NEAR(std::abs(end.heading), 2.0 * kPi, kExact);
     // To the right is positive y.
-    EXPECT_NEAR(quarter.origin_S.x(), std::abs(radius), kExact * round);
-    EXPECT_NEAR(quarter.origin_S.y(), radius, kExact * round);
+    EXPECT_NEAR(quarter.origin_L.x(), std::abs(radius), kExact * round);
+    EXPECT_NEAR(quarter.origin_L.y(), radius, kExact * round);
   }
 }
 
@@ -76,8 +76,8 @@ TEST(TrackPath, AClothoidHasFresnelsIntegrals) {
     const TrackPath path = path_of({piece(length, {0, 1 / radius})});
     for (const double s : {0.5, 17.0, 63.0, 80.0}) {
       const Vec2 exact = scale * fresnel(s / scale);
-      EXPECT_NEAR(path.at(s).origin_S.x(), exact.x(), kExact * length) << radius << ' ' << s;
-      EXPECT_NEAR(path.at(s).origin_S.y(), std::copysign(exact.y(), radius), kExact * length) << radius << ' ' << s;
+      EXPECT_NEAR(path.at(s).origin_L.x(), exact.x(), kExact * length) << radius << ' ' << s;
+      EXPECT_NEAR(path.at(s).origin_L.y(), std::copysign(exact.y(), radius), kExact * length) << radius << ' ' << s;
     }
   }
 }
@@ -97,8 +97,8 @@ TEST(TrackPath, TransitionsEqualAFinerQuadrature) {
       const double weight = i == 0 || i == n ? 1.0 : i % 2 == 1 ? 4.0 : 2.0, psi = heading(length * i / n);
       sum += weight * length / (3.0 * n) * Vec2(std::cos(psi), std::sin(psi));
     }
-    EXPECT_NEAR(path.at(length).origin_S.x(), sum.x(), 1e-12 * length);
-    EXPECT_NEAR(path.at(length).origin_S.y(), sum.y(), 1e-12 * length);
+    EXPECT_NEAR(path.at(length).origin_L.x(), sum.x(), 1e-12 * length);
+    EXPECT_NEAR(path.at(length).origin_L.y(), sum.y(), 1e-12 * length);
     EXPECT_NEAR(path.at(length).heading, (a + b) / 2.0 * length, kExact);
   }
 }
@@ -128,10 +128,10 @@ TEST(TrackPath, DerivativesEqualDifferences) {
           EXPECT_NEAR(of(member, &Along::first), (p.*member).second, kDifference);
         }
         EXPECT_NEAR(slope([&](double x) { return path.at(x).heading; }, s), p.curvature.value, kDifference);
-        const Vec3 tangent = slope([&](double x) -> Vec3 { return path.at(x).origin_S; }, s);
-        EXPECT_LT((tangent - p.tangent_S()).norm(), kDifference);
-        const Mat3 R = p.X_SP().rotation;
-        const Mat3 rate = R.transpose() * slope([&](double x) -> Mat3 { return path.at(x).X_SP().rotation; }, s);
+        const Vec3 tangent = slope([&](double x) -> Vec3 { return path.at(x).origin_L; }, s);
+        EXPECT_LT((tangent - p.tangent_L()).norm(), kDifference);
+        const Mat3 R = p.X_LT().rotation;
+        const Mat3 rate = R.transpose() * slope([&](double x) -> Mat3 { return path.at(x).X_LT().rotation; }, s);
         EXPECT_LT((Vec3(rate(2, 1), rate(0, 2), rate(1, 0)) - p.turn()).norm(), kDifference);
         const Vec3 turn_first = slope([&](double x) -> Vec3 { return path.at(x).turn(); }, s);
         EXPECT_LT((turn_first - p.turn_first()).norm(), kDifference);
@@ -147,7 +147,7 @@ TEST(TrackPath, JointsAreAsSmoothAsTheShapeAllows) {
       SCOPED_TRACE(joint);
       const double step = 1e-7;  // [m]
       const PathPoint before = path.at(joint - step), behind = path.at(joint + step);
-      EXPECT_LT((behind.origin_S - before.origin_S).norm(), 3.0 * step);
+      EXPECT_LT((behind.origin_L - before.origin_L).norm(), 3.0 * step);
       EXPECT_NEAR(before.heading, behind.heading, step);
       for (const auto member :
            {&PathPoint::curvature, &PathPoint::cant, &PathPoint::cant_angle, &PathPoint::height, &PathPoint::gauge}) {
