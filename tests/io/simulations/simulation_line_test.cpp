@@ -235,6 +235,15 @@ TEST_F(SimulationLine, TheSchemaKnowsTheTables) {
   EXPECT_TRUE(nlohmann::json::parse(study_file_schema()).at("properties").contains("layout"));
 }
 
+TEST_F(SimulationLine, TheExampleOfTheDocumentationIsRead) {
+  const std::string text = read_text(std::string(TREADMARK_SOURCE_DIR) + "/docs/layout.md"), start = "```toml\n";
+  const std::size_t at = text.find(start) + start.size();
+  const SimulationFile file = parse(text.substr(at, text.find("```", at) - at));
+  ASSERT_TRUE(file.layout && file.irregularities);
+  EXPECT_EQ(file.layout->elements.size(), 4u);
+  EXPECT_EQ(file.irregularities->spectral.seed, 42u);
+}
+
 TEST_F(SimulationLine, AnyFileIsReadOrRefused) {
   std::mt19937 random(9);
   const std::string whole = samples::kSimulation + kLine + kSpectra;
