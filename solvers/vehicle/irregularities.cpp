@@ -139,9 +139,16 @@ Irregularities::Irregularities(const IrregularitySpec& spec, double end) : spec_
     return;
   }
   const std::vector<double> places = places_of(spec.spectral, spec.begin, end);
+  constexpr double kMostTerms = 1e10;  // a minute or two
   for (std::size_t i = 0; i < splines_.size(); ++i)
-    if (spec.spectral.spectra[i])
-      splines_[i].emplace(places, samples_of(sinusoids_of(spec.spectral, static_cast<Irregularity>(i)), places));
+    if (spec.spectral.spectra[i]) {
+      const std::vector<Sinusoid> waves = sinusoids_of(spec.spectral, static_cast<Irregularity>(i));
+      if (static_cast<double>(waves.size()) * static_cast<double>(places.size()) > kMostTerms)
+        throw Error(ErrorKind::configuration,
+                    fmt::format("irregularities of {} sinusoids at {} places", waves.size(), places.size()), spec.where,
+                    "shorten the line, or give fewer sinusoids_per_third_octave or a longer shortest_wavelength_m");
+      splines_[i].emplace(places, samples_of(waves, places));
+    }
   last_ = places.back();
 }
 

@@ -39,7 +39,7 @@ struct RailOffsets {
 class Irregularities {
  public:
   /// end: distance up to which spectra are realised; tables have their own end [m]. Errors: those of check(spec);
-  /// Error(configuration) for spectra over more than ten million samples.
+  /// Error(configuration) for spectra over more than ten million samples, or 1e10 waves times samples.
   Irregularities(const IrregularitySpec& spec, double end);
 
   Along function(Irregularity which, double distance) const;
