@@ -35,6 +35,7 @@ struct IrregularityTable {
 /// A one-sided power spectral density S over the wavenumber k [rad/m]: the variance of wavelengths between two limits
 /// is the integral of S between their wavenumbers [m2].
 struct IrregularitySpectrum {
+  /// How it is given.
   enum class Form {
     two_poles,    ///< S = A c^2 / ((k^2 + r^2)(k^2 + c^2))
     three_poles,  ///< S = A c^2 k^2 / ((k^2 + r^2)(k^2 + c^2)(k^2 + s^2))

@@ -26,7 +26,7 @@ enum class CantAxis {
 
 /// A number at the beginning and at the end of an element.
 struct FromTo {
-  double from = 0.0, to = 0.0;
+  double from = 0.0, to = 0.0;  ///< in the unit of the member
 };
 
 /// A piece of line. Straights and circles have equal ends.

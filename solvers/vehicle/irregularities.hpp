@@ -42,7 +42,9 @@ class Irregularities {
   /// Error(configuration) for spectra over more than ten million samples, or 1e10 waves times samples.
   Irregularities(const IrregularitySpec& spec, double end);
 
+  /// One function of the track [m].
   Along function(Irregularity which, double distance) const;
+  /// What all four mean for the rails.
   RailOffsets at(double distance) const;
 
   /// Last distance with data [m]; behind it everything stays as it is there.

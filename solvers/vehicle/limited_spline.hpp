@@ -20,7 +20,7 @@ class LimitedSpline {
   LimitedSpline(std::vector<double> x, std::vector<double> y);
 
   double first() const { return x_.front(); }  ///< where it begins
-  double last() const { return x_.back(); }
+  double last() const { return x_.back(); }    ///< where it ends
   /// Before the first and behind the last point the value there.
   Along at(double x) const;
   /// Points whose slope is limited.

@@ -13,7 +13,7 @@ namespace treadmark::vehicle {
 
 /// A function of the distance along the track and its derivatives by it.
 struct Along {
-  double value = 0.0, first = 0.0, second = 0.0;
+  double value = 0.0, first = 0.0, second = 0.0;  ///< f, df/ds, d2f/ds2 [m] and powers of 1/m, or as said
 };
 
 /// The track frame T (core/README.md) at one place of a line, the path frame: origin on the track centre line in the
@@ -50,11 +50,13 @@ class TrackPath {
   /// Errors: those of check(layout).
   explicit TrackPath(TrackLayout layout);
 
+  /// As given.
   const TrackLayout& layout() const { return layout_; }
   double length() const { return starts_.back().distance; }  ///< [m]
 
   /// Any distance; before the beginning and behind the end the line is straight or a circle.
   PathPoint at(double distance) const;
+  /// The point in L of a place [m].
   Vec3 to_space(const PathPlace& place) const;
 
   /// Where a point of space is on the path: the place whose plane x = 0 contains it, next to `near`. Nothing where
