@@ -98,7 +98,8 @@ std::size_t TrackPath::element_at(double distance) const {
 
 PathPoint TrackPath::at(double distance) const {
   std::size_t i = element_at(distance);
-  LayoutElement e = layout_.elements[i];
+  const LayoutElement& given = layout_.elements[i];
+  LayoutElement e{given.length, given.curvature, given.cant, given.gauge, given.shape, {}};
   const auto constant = [&e](double FromTo::*end) {
     for (FromTo* value : {&e.curvature, &e.cant, &e.gauge}) *value = {value->*end, value->*end};
   };
