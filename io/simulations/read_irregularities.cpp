@@ -90,22 +90,21 @@ void check_columns(const LineScanner& line, const Columns& columns) {
   for (int function = 0; function < kIrregularities; ++function) {
     const bool track = columns.of(function, 0).has_value(), left = columns.of(function, -1).has_value(),
                right = columns.of(function, 1).has_value();
-    const std::string_view name = kIrregularityNames[static_cast<std::size_t>(function)];
+    const auto index = static_cast<std::size_t>(function);
+    const std::string_view name = kIrregularityNames[index];
     if (left != right)
       line.fail(fmt::format("{} is given of the {} rail only", name, left ? "left" : "right"), 0,
                 "give both rails, or the track");
     // The level and the alignment of both rails say what cross level and gauge say, too.
     const bool again = left && columns.of(function + 1, 0).has_value();
     if ((track && left) || again)
-      line.fail(fmt::format("{} of both rails stands beside {}", name,
-                            track ? name : kIrregularityNames[static_cast<std::size_t>(function + 1)]),
-                0, "give two functions of the track, or one of each rail");
+      line.fail(fmt::format("{} of both rails stands beside {}", name, track ? name : kIrregularityNames[index + 1]), 0,
+                "give two functions of the track, or one of each rail");
     if (track || left) ++functions;
   }
   if (functions == 0)
     line.fail("no column holds an irregularity", 0,
-              "names are longitudinal_level_mm, cross_level_mm, "
-              "alignment_mm, gauge_mm");
+              "names are longitudinal_level_mm, cross_level_mm, alignment_mm, gauge_mm");
 }
 
 Columns read_names(const LineScanner& line, std::vector<std::string>* notes) {

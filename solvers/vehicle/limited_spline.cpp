@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 
 #include "treadmark/core/error.hpp"
 
@@ -19,8 +20,8 @@ double minmod(double a, double b) {
 }
 
 /// Slope in x[0] of the polynomial through up to four points (Newton's divided differences).
-double end_slope(const double* x, const double* y, std::size_t count, int step) {
-  const auto at = [step](const double* values, std::size_t i) { return values[static_cast<int>(i) * step]; };
+double end_slope(const double* x, const double* y, std::size_t count, std::ptrdiff_t step) {
+  const auto at = [step](const double* values, std::size_t i) { return values[static_cast<std::ptrdiff_t>(i) * step]; };
   Numbers d(count);
   for (std::size_t i = 0; i < count; ++i) d[i] = at(y, i);
   double slope = 0.0, product = 1.0;
