@@ -78,7 +78,9 @@ std::optional<double> tape_line_of(const std::string& name, double scale_to_mm) 
   return std::nullopt;
 }
 
-geometry::Section section_of(const GeometryRequest& request, const std::string& name, Body body, double cant) {
+/// from_back: set where the tape line of a wheel was found from its flange back.
+geometry::Section section_of(const GeometryRequest& request, const std::string& name, Body body, double cant,
+                             bool& from_back) {
   const NaturalSurface natural = surface_of(request, name, body);
   std::shared_ptr<const Surface> surface = natural.surface;
   if (!request.backend.empty()) {
@@ -93,7 +95,10 @@ geometry::Section section_of(const GeometryRequest& request, const std::string& 
   // a flange and y = 0 at the tape line need more room on the flange's side
   constexpr double kLeastBeside = 45e-3;
   if (body == Body::wheel && section.first() > -kLeastBeside && is_profile_file(name))
-    if (const std::optional<double> tape = tape_line_of(name, request.scale_to_mm)) section = section.shifted(-*tape);
+    if (const std::optional<double> tape = tape_line_of(name, request.scale_to_mm)) {
+      section = section.shifted(-*tape);
+      from_back = true;
+    }
   if (const std::string why = geometry::wrong_body(section); !why.empty())
     throw Error(ErrorKind::input_data, fmt::format("this is no {}: {}", body_word(body), why), {name},
                 fmt::format("give the profile of a {} here", body_word(body)));
@@ -207,11 +212,18 @@ std::shared_ptr<const geometry::Section> SectionStore::get(const GeometryRequest
     const std::lock_guard lock(mutex_);
     if (const auto found = sections_.find(key); found != sections_.end()) return found->second;
   }
-  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant));
+  bool from_back = false;
+  auto section = std::make_shared<const geometry::Section>(section_of(request, name, body, cant, from_back));
   constexpr std::size_t kMost = 2000;  // of long lists whose files come once
   const std::lock_guard lock(mutex_);
+  if (from_back) from_back_.insert(name);
   if (sections_.size() >= kMost) sections_.clear();
   return sections_.try_emplace(key, std::move(section)).first->second;
+}
+
+bool SectionStore::counts_from_back(const std::string& wheel) {
+  const std::lock_guard lock(mutex_);
+  return from_back_.contains(wheel);
 }
 
 GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store) {
@@ -266,6 +278,9 @@ GeometryResult read_geometry(const GeometryRequest& request, SectionStore& store
   out.right = side(r.wheel, r.rail, r.diameter);
   out.left = side(wheel_left, rail_left, r.diameter_left ? r.diameter_left : r.diameter);
   if (out.left.radius == out.right.radius && wheel_left == r.wheel) out.left.wheel = out.right.wheel;
+  for (const std::string& wheel : std::set<std::string>{r.wheel, wheel_left})
+    if (store.counts_from_back(wheel))
+      out.notes.push_back("y of " + wheel + " counts from its flange back: the tape line is taken 70 mm from it");
   return out;
 }
 

@@ -547,19 +547,20 @@ namespace {
 
 /// What the numbers of a list depend on beside its files.
 std::string settings_of(const MeasureRequest& request) {
+  const auto exact = [](double value) { return io::csv_number(io::twelve_digits(value)); };
   std::string out =
-      fmt::format("nominal {}, radius {}, scale {:g}, alignment {}, tape line from {}, {} stations",
+      fmt::format("nominal {}, radius {}, scale {}, alignment {}, tape line from {}, {} stations",
                   request.nominal.empty() ? "none" : request.nominal,
-                  request.nominal_radius > 0.0 ? fmt::format("{:g} mm", 1e3 * request.nominal_radius) : "of the file",
-                  request.scale_to_mm, request.alignment ? name_of(*request.alignment) : "usual",
+                  request.nominal_radius > 0.0 ? exact(1e3 * request.nominal_radius) + " mm" : "of the file",
+                  exact(request.scale_to_mm), request.alignment ? name_of(*request.alignment) : "usual",
                   request.from_flange_back ? "flange back" : "file", request.stations);
   if (request.body == Body::rail)
-    out += fmt::format(", line at {:g} mm every {:g} mm", 1e3 * request.line, 1e3 * request.line_step);
+    out += fmt::format(", line at {} mm every {} mm", exact(1e3 * request.line), exact(1e3 * request.line_step));
   for (const std::string& key : request.overrides) out += ", " + key;
   const Limits& limits = request.limits;
   for (const Limit& limit : request.body == Body::wheel ? limits.wheel : limits.rail)
     out += fmt::format(", {} {}..{}", limit.key, limit.min.value_or(-HUGE_VAL), limit.max.value_or(HUGE_VAL));
-  for (const double level : limits.roughness) out += fmt::format(", {:g} dB", level);
+  for (const double level : limits.roughness) out += fmt::format(", {} dB", level);
   return out;
 }
 

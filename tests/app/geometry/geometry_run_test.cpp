@@ -56,6 +56,12 @@ TEST(GeometryRun, ProfilesOfInstrumentsCountFromTheFlangeBack) {
   const std::vector<double> tape = of("tape.txt"), back = of("back.txt");
   ASSERT_EQ(tape.size(), 6u);
   for (std::size_t i = 0; i < tape.size(); ++i) EXPECT_NEAR(back[i], tape[i], 1e-3);
+  SectionStore store;
+  const auto noted = [&](const char* file) {
+    return run_geometry(standard_pair((folder.path() / file).string(), "60E1", 1.0 / 40.0, 1435.0), store).notes;
+  };
+  EXPECT_THAT(noted("back.txt"), ::testing::ElementsAre(HasSubstr("back.txt counts from its flange back")));
+  EXPECT_THAT(noted("tape.txt"), ::testing::IsEmpty());
 }
 
 /// Conicity of a table at an amplitude, as the file of a case of EN 15302 gives it: reference and corridors.

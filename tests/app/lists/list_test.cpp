@@ -103,6 +103,25 @@ TEST(ResultList, MakesAnewWhatHasChanged) {
   EXPECT_EQ(list.rows[5].numbers[0], 5.0);
 }
 
+TEST(ResultList, MakesAnewWhatNamesOtherFiles) {
+  const TemporaryFolder folder;
+  Lengths lengths(folder.path(), 6);
+  lengths.files[4] = (folder.path() / "CASE.TOML").string();
+  lengths.files[5] = (folder.path() / "rail.Slcs").string();
+  for (const int i : {4, 5}) write_file(lengths.files[static_cast<std::size_t>(i)], std::string(7, 'x'));
+  const fs::path kept = folder.path() / "kept";
+  const ThreadLimit one(1);
+  std::atomic<bool> stop{false};
+  Progress progress;
+  progress.stop = &stop;
+  // the last one asks and stops, when all others are finished
+  progress.report = [&](std::size_t finished, std::size_t, const std::string&) { stop = finished == 5; };
+  EXPECT_THROW(lengths.make(kept, progress), Cancelled);
+  lengths.looked = 0;
+  lengths.make(kept);
+  EXPECT_GE(lengths.looked, 3);  // these two, and the row that failed
+}
+
 TEST(ResultList, LeavesFilesOfOthersAlone) {
   const TemporaryFolder folder;
   Lengths lengths(folder.path(), 3);
