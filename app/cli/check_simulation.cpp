@@ -5,6 +5,7 @@
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
@@ -26,7 +27,11 @@ void check_study_file(const std::string& name, const std::vector<std::string>& o
   const io::StudyFile study = io::read_study_file(name, overrides);
   app::check_study_figures(study);
   app::SurfaceStore surfaces;
-  for (const io::StudyRun& run : study.runs) check_run(io::read_study_run(study, run), surfaces);
+  for (const io::StudyRun& run : study.runs) {
+    const auto input = io::read_study_run(study, run);
+    if (const auto* simulation = std::get_if<io::SimulationFile>(&input)) app::refuse_line(*simulation);
+    check_run(input, surfaces);
+  }
   std::cout << name << ": " << study.runs.size() << (study.runs.size() == 1 ? " run" : " runs") << ", no errors\n";
 }
 
@@ -35,7 +40,10 @@ void check_simulation_file(const std::string& name, const std::vector<std::strin
   const io::SimulationFile file = io::read_simulation_file(name, overrides);
   check_run(file, surfaces);
   print_notes(file.notes, false);
-  std::cout << name << ": a simulation, no errors\n";
+  const std::vector<std::string> line = app::line_summary(file);
+  for (const std::string& text : line) std::cout << name << ": " << text << '\n';
+  std::cout << name << ": a simulation, no errors"
+            << (line.empty() ? "\n" : "; its line is not yet used by simulate, which refuses it\n");
 }
 
 std::string vehicle_schema() { return io::vehicle_file_schema(); }

@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
@@ -115,6 +116,7 @@ std::string wheel_name(const io::WheelContactInput& wheel) {
 }
 
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
+  refuse_line(file);
   Builder builder(file, store);
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;

@@ -84,6 +84,7 @@ FileHashes input_hashes(const io::SimulationFile& file) {
   if (file.other_wheel) hashes.add(*file.other_wheel);
   hashes.add(file.vehicle_file);
   if (file.track_file) hashes.add(*file.track_file);
+  if (file.irregularity_file) hashes.add(*file.irregularity_file);
   return hashes.take();
 }
 

@@ -38,7 +38,8 @@ Overrides sorted(std::span<const std::string> assignments) {
       result.vehicle.push_back(std::move(change));
     else if (cut(change.path, "track_model."))
       result.track.push_back(std::move(change));
-    else if (change.path == "title" || change.path.starts_with("simulation."))
+    else if (change.path == "title" || change.path.starts_with("simulation.") || change.path.starts_with("layout.") ||
+             change.path.starts_with("irregularities."))
       result.simulation.push_back(std::move(change));
     else
       result.contact.push_back(one);
@@ -58,26 +59,6 @@ void change_simulation(CaseTable& document, const std::vector<CaseOverride>& cha
         std::erase_if(*table,
                       [&](const CaseEntry& e) { return e.key != key && (e.key == kDistance || e.key == kDuration); });
   }
-}
-
-struct FileText {
-  NamedFile file;
-  std::string text;
-};
-
-/// Text of a file that the simulation names.
-FileText named_text(const TableReader& simulation, std::string_view key, const std::filesystem::path& folder) {
-  std::string name = simulation.text(key);
-  std::replace(name.begin(), name.end(), '\\', '/');
-  const std::filesystem::path path = (folder / name).lexically_normal();
-  std::error_code code;
-  if (!std::filesystem::is_regular_file(path, code))
-    throw Error(ErrorKind::configuration,
-                fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
-                simulation.need(key).where, "names count from the folder of the simulation file");
-  FileText result{{path, {}}, read_text(path)};
-  result.file.sha256 = sha256_hex(result.text);
-  return result;
 }
 
 void read_models(const TableReader& simulation, const std::filesystem::path& folder, const Overrides& overrides,
@@ -138,7 +119,35 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
         place(extent), "shorten it, or write fewer lines (simulation.output_every_mm)");
 }
 
+/// Tables beside [simulation] that are none of a case file.
+constexpr std::string_view kLineTables[] = {"layout", "irregularities"};
+
+/// Reader of one of them, if it is there.
+std::optional<TableReader> line_table(const CaseTable& document, std::string_view key, const TableKeys& known) {
+  const auto entry =
+      std::find_if(document.begin(), document.end(), [&](const CaseEntry& one) { return one.key == key; });
+  if (entry == document.end()) return std::nullopt;
+  if (!entry->value.is_table())
+    throw Error(ErrorKind::configuration, fmt::format("{} must be a table, found {}", key, entry->value.kind()),
+                entry->value.where);
+  return TableReader(entry->value.table(), entry->value.where, std::string(key), known);
+}
+
 }  // namespace
+
+FileText named_text(const TableReader& simulation, std::string_view key, const std::filesystem::path& folder) {
+  std::string name = simulation.text(key);
+  std::replace(name.begin(), name.end(), '\\', '/');
+  const std::filesystem::path path = (folder / name).lexically_normal();
+  std::error_code code;
+  if (!std::filesystem::is_regular_file(path, code))
+    throw Error(ErrorKind::configuration,
+                fmt::format("{}: there is no file {}", simulation.path_of(key), path.string()),
+                simulation.need(key).where, "names count from the folder of the simulation file");
+  FileText result{{path, {}}, read_text(path)};
+  result.file.sha256 = sha256_hex(result.text);
+  return result;
+}
 
 SimulationFile simulation_of(CaseTable document, const std::filesystem::path& name,
                              std::span<const std::string> overrides) {
@@ -152,7 +161,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   for (const CaseEntry& entry : document) {
     if (entry.key == "simulation")
       simulation_table = &entry;
-    else
+    else if (std::find(std::begin(kLineTables), std::end(kLineTables), entry.key) == std::end(kLineTables))
       contact.tables.push_back(entry);
     if (entry.key == "title" && std::holds_alternative<std::string>(entry.value.data))
       result.title = entry.value.text();
@@ -168,6 +177,9 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
+  if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
+  if (const auto table = line_table(document, "irregularities", irregularity_keys()))
+    read_irregularities(*table, name.parent_path(), result);
   read_contact(contact, result);
   read_other_wheel(contact, simulation, result);
   choose_steps(simulation, result);

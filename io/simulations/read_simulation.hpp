@@ -39,7 +39,21 @@ FieldRequests read_fields(const TableReader& simulation);
 /// One entry for every wheel of the vehicle.
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets);
 
-/// Everything outside of [simulation]: the keys of a case file.
+/// A file that a key names, from the folder of the simulation file, with its text.
+struct FileText {
+  NamedFile file;
+  std::string text;
+};
+FileText named_text(const TableReader& table, std::string_view key, const std::filesystem::path& folder);
+
+/// Places of the rearmost and the foremost wheelset along the vehicle [m].
+FromTo wheelset_places(const VehicleModel& vehicle);
+
+/// [layout], which must reach as far as the vehicle runs, and [irregularities]: out.vehicle and out.settings are set.
+void read_layout(const TableReader& layout, SimulationFile& out);
+void read_irregularities(const TableReader& irregularities, const std::filesystem::path& folder, SimulationFile& out);
+
+/// Everything outside of [simulation], [layout] and [irregularities]: the keys of a case file.
 struct ContactPart {
   CaseTable tables;
   std::vector<std::string> overrides;

@@ -4,6 +4,8 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
+#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/track_layout.hpp"
 
 namespace treadmark::io {
 
@@ -69,8 +71,15 @@ std::string schema_of(std::string_view title, TableKeys keys, bool with_case) {
   return file_schema(title, keys);
 }
 
+/// Where the vehicle runs: tables beside [simulation].
+TableKeys line_tables() {
+  return {table_key("layout", KeyType::table, "the line: straights, curves, cant, gauge", layout_keys()),
+          table_key("irregularities", KeyType::table, "deviations of the rails from it", irregularity_keys())};
+}
 TableKeys simulation_tables() {
-  return {needed(table_key("simulation", KeyType::table, "a vehicle on its track", simulation_keys()))};
+  TableKeys keys{needed(table_key("simulation", KeyType::table, "a vehicle on its track", simulation_keys()))};
+  for (KeyInfo& key : line_tables()) keys.push_back(std::move(key));
+  return keys;
 }
 TableKeys study_tables() { return {needed(table_key("study", KeyType::table, "runs with varied keys", study_keys()))}; }
 
@@ -225,6 +234,78 @@ const TableKeys& wheel_keys() {
   return keys;
 }
 
+const TableKeys& layout_keys() {
+  static const TableKeys keys{
+      with_default("0", key_info("start_m", KeyType::number,
+                                 "place of the vehicle's x = 0 at the start, from the "
+                                 "beginning of the line",
+                                 kNotNegative)),
+      with_default("1435", key_info("gauge_mm", KeyType::number, "where no element says another", kPositive)),
+      with_default("1500", key_info("cant_base_mm", KeyType::number, "width over which cant is measured", kPositive)),
+      with_default("\"centre\"",
+                   one_of("cant_about", {"centre", "low_rail"}, "what keeps its height where the track is canted")),
+      needed(table_key("elements", KeyType::table_list, "one behind the other", element_keys()))};
+  return keys;
+}
+
+const TableKeys& element_keys() {
+  static const TableKeys keys{
+      needed(
+          one_of("kind", {"straight", "curve", "transition"},
+                 "a transition goes from the element before it to the one behind it; at the ends of the line from or "
+                 "to a straight without cant")),
+      needed(key_info("length_m", KeyType::number, "along the centre line in plan", {0.0, {}, kLongestLine})),
+      key_info("radius_m", KeyType::number, "of a curve (required there): positive to the right, negative to the left"),
+      with_default("0", key_info("cant_mm", KeyType::number,
+                                 "of a curve: how much the outer rail lies higher; of a straight: the left one")),
+      key_info("gauge_mm", KeyType::number, "of a straight or a curve", kPositive),
+      with_default("\"clothoid\"",
+                   one_of("shape", {"clothoid", "bloss"}, "of a transition: how curvature, cant and gauge go over"))};
+  return keys;
+}
+
+const TableKeys& irregularity_keys() {
+  static const TableKeys keys = [] {
+    TableKeys list{
+        key_info("file", KeyType::path, "measured ones, as text with named columns; this or `spectra` is required"),
+        with_default("0", key_info("offset_m", KeyType::number, "added to the distances of the file")),
+        key_info("begin_m", KeyType::number, "from here on they grow; without it from in front of the vehicle"),
+        with_default("20",
+                     key_info("wind_up_m", KeyType::number, "length over which they grow from zero", kNotNegative)),
+        with_default("1", key_info("seed", KeyType::integer, "another number, another track with the same spectra",
+                                   {{}, 0.0, 1e15})),
+        with_default("3", key_info("shortest_wavelength_m", KeyType::number, "that occurs in spectra", kPositive)),
+        with_default("70", key_info("longest_wavelength_m", KeyType::number, "that occurs in spectra", kPositive)),
+        with_default("30", key_info("sinusoids_per_third_octave", KeyType::integer, "of which spectra are made",
+                                    {{}, 1.0, 1000.0}))};
+    for (const std::string_view name : kIrregularityNames)
+      list.push_back(with_default(
+          "1", key_info(fmt::format("{}_factor", name), KeyType::number, "on this function; -1 changes its sign")));
+    list.push_back(table_key("spectra", KeyType::table_list, "power spectral densities, at most one of each function",
+                             spectrum_keys()));
+    return list;
+  }();
+  return keys;
+}
+
+const TableKeys& spectrum_keys() {
+  static const TableKeys keys{
+      needed(one_of("function", {kIrregularityNames.begin(), kIrregularityNames.end()}, "of the track")),
+      needed(one_of("form", {"two_poles", "three_poles", "table"},
+                    "A c²/((k² + r²)(k² + c²)), the same times k²/(k² + s²), or numbers")),
+      key_info("amplitude_m_rad", KeyType::number, "A (required but for a table)", kNotNegative),
+      key_info("omega_c_rad_m", KeyType::number, "c (required but for a table)", kPositive),
+      with_default("0", key_info("omega_r_rad_m", KeyType::number, "r", kNotNegative)),
+      with_default("0", key_info("omega_s_rad_m", KeyType::number, "s", kNotNegative)),
+      key_info("wavenumber_rad_m", KeyType::number_list, "of a table, increasing", kPositive),
+      key_info("density_m3_rad", KeyType::number_list, "of a table at them; straight lines between logarithms",
+               kPositive),
+      with_default(
+          "1", key_info("sides", KeyType::integer,
+                        "1: the variance is the integral over positive wavenumbers; 2: twice that", {{}, 1.0, 2.0}))};
+  return keys;
+}
+
 const TableKeys& study_keys() {
   static const TableKeys keys{
       key_info("title", KeyType::text, "without it the name of the file"),
@@ -287,6 +368,7 @@ std::string study_file_schema() {
   // Beside [study] the tables of its base may stand.
   TableKeys keys = study_tables();
   keys.push_back(table_key("simulation", KeyType::table, "of the base", simulation_keys()));
+  for (KeyInfo& key : line_tables()) keys.push_back(std::move(key));
   keys.push_back(table_key("cases", KeyType::table_list, "of the base, a case file"));
   return schema_of("Treadmark study file", std::move(keys), true);
 }

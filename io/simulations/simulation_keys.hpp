@@ -34,6 +34,12 @@ const TableKeys& simulation_keys();
 const TableKeys& field_keys();
 const TableKeys& wheel_keys();
 
+/// [layout], [[layout.elements]], [irregularities] and [[irregularities.spectra]] beside [simulation].
+const TableKeys& layout_keys();
+const TableKeys& element_keys();
+const TableKeys& irregularity_keys();
+const TableKeys& spectrum_keys();
+
 const TableKeys& study_keys();
 const TableKeys& vary_keys();
 const TableKeys& vary_value_keys();

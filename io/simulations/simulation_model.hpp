@@ -8,6 +8,8 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/irregularities.hpp"
+#include "treadmark/model/track_layout.hpp"
 #include "treadmark/model/vehicle_model.hpp"
 
 namespace treadmark::io {
@@ -71,6 +73,10 @@ struct SimulationFile {
   NamedFile vehicle_file;
   std::optional<TrackModel> track;  ///< none: rigid track
   std::optional<NamedFile> track_file;
+  std::optional<TrackLayout> layout;  ///< none: a straight without end
+  double start = 0.0;                 ///< place of the vehicle's x = 0 on the line when the simulation begins [m]
+  std::optional<IrregularitySpec> irregularities;  ///< none: the rails lie as the line says
+  std::optional<NamedFile> irregularity_file;
   /// Bodies and settings of the contact. What the simulation itself finds (side, loads, positions, history) has no
   /// meaning here; velocity and pitch rate are those of rolling at the speed.
   WheelRailCase contact;

@@ -32,6 +32,33 @@ TEST(CheckSimulation, OverridesAreChecked) {
   EXPECT_EQ(run_program({"check", input.path("study.toml"), "--set", "vehicle.bodies.mass.mass_kg=-1"}).status, 2);
 }
 
+const std::string kLine =
+    "[[layout.elements]]\nkind = \"transition\"\nlength_m = 60\n[[layout.elements]]\nkind = \"curve\"\nlength_m = 500\n"
+    "radius_m = -600\ncant_mm = 100\n[irregularities]\n[[irregularities.spectra]]\nfunction = \"alignment\"\n"
+    "form = \"two_poles\"\namplitude_m_rad = 2e-7\nomega_c_rad_m = 0.8246\nomega_r_rad_m = 0.0206\n\n[case]";
+
+TEST(CheckSimulation, ALineIsUnderstoodButRefusedBySimulate) {
+  const SampleSimulation input;
+  input.edit("simulation.toml", "[case]", kLine);
+  const std::vector<std::string> set{"--set", "simulation.speed_m_s=30"};
+  const ProgramResult check = run_program({"check", input.path("simulation.toml"), set[0], set[1]});
+  EXPECT_EQ(check.status, 0) << check.err;
+  EXPECT_THAT(check.out, HasSubstr("layout: 560 m in 2 elements"));
+  // 1500 * 30^2 / (9.81 * 600) - 100 mm.
+  EXPECT_THAT(check.out,
+              HasSubstr("layout: 60 to 560 m: radius 600 m to the left, cant 100 mm, gauge 1435 mm; at 30 m/s cant "
+                        "deficiency 129.4 mm, lateral acceleration 0.843 m/s2"));
+  EXPECT_THAT(check.out, HasSubstr("irregularities: alignment with a standard deviation of "));
+  EXPECT_THAT(check.out, HasSubstr("a simulation, no errors; its line is not yet used by simulate"));
+  const ProgramResult run = run_program({"simulate", input.path("simulation.toml"), "-o", input.path("out")});
+  EXPECT_EQ(run.status, 2);
+  EXPECT_THAT(run.err, HasSubstr("[layout] is not yet used by simulate"));
+  EXPECT_THAT(run.err, HasSubstr("simulation.toml:"));
+  const ProgramResult study = run_program({"check", input.path("study.toml")});
+  EXPECT_EQ(study.status, 2);
+  EXPECT_THAT(study.err, HasSubstr("[layout] is not yet used by simulate"));
+}
+
 TEST(CheckSimulation, TablesNeedRoundWheels) {
   const SampleSimulation input;
   input.use_slices();

@@ -1,0 +1,71 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/model/track_layout.hpp"
+
+#include <fmt/format.h>
+
+#include <cmath>
+#include <string>
+
+namespace treadmark {
+
+namespace {
+
+[[noreturn]] void refuse(const LayoutElement& element, std::string message, std::string advice = {}) {
+  throw Error(ErrorKind::configuration, std::move(message), element.where, std::move(advice));
+}
+
+bool finite(const FromTo& value) { return std::isfinite(value.from) && std::isfinite(value.to); }
+
+void check_element(const LayoutElement& e, const TrackLayout& layout) {
+  if (!(e.length > 0.0) || !(e.length <= kLongestLine))
+    refuse(e, fmt::format("an element of the line is {:.6g} m long", e.length),
+           fmt::format("give more than 0 and at most {:g} m", kLongestLine));
+  if (!finite(e.curvature) || !finite(e.cant) || !finite(e.gauge)) refuse(e, "a number of the line is not finite");
+  for (const double curvature : {e.curvature.from, e.curvature.to})
+    if (std::abs(curvature) * kTightestRadius > 1.0)
+      refuse(e, fmt::format("a curve has a radius of {:.6g} m, less than {:g} m", 1.0 / std::abs(curvature),
+                            kTightestRadius));
+  for (const double cant : {e.cant.from, e.cant.to})
+    if (std::abs(cant) > layout.cant_base / 2.0)
+      refuse(e, fmt::format("a cant of {:.6g} mm on rails {:.6g} mm apart", cant * 1e3, layout.cant_base * 1e3),
+             "cant is in millimetres, at most half of its base");
+  if (!(e.gauge.from > 0.0) || !(e.gauge.to > 0.0)) refuse(e, "a gauge of the line is not positive");
+  if (layout.cant_axis == CantAxis::low_rail && e.cant.from * e.cant.to < 0.0)
+    refuse(e, "the cant changes its sign within an element while the track turns about its low rail",
+           "turn about the centre, or put a piece without cant between");
+}
+
+void check_joint(const LayoutElement& one, const LayoutElement& next) {
+  constexpr double kSame = 1e-9;  // [m]: rounding of a change of units
+  if (std::abs(one.cant.to - next.cant.from) > kSame)
+    refuse(next, fmt::format("the cant steps from {:.6g} to {:.6g} mm", one.cant.to * 1e3, next.cant.from * 1e3),
+           "put a transition between the two");
+  if (std::abs(one.gauge.to - next.gauge.from) > kSame)
+    refuse(next, fmt::format("the gauge steps from {:.6g} to {:.6g} mm", one.gauge.to * 1e3, next.gauge.from * 1e3),
+           "put a transition between the two");
+}
+
+}  // namespace
+
+double TrackLayout::length() const {
+  double sum = 0.0;
+  for (const LayoutElement& element : elements) sum += element.length;
+  return sum;
+}
+
+void check(const TrackLayout& layout) {
+  if (layout.elements.empty())
+    throw Error(ErrorKind::configuration, "the line has no elements", layout.where, "give at least one straight");
+  if (!(layout.cant_base > 0.0) || !std::isfinite(layout.cant_base))
+    throw Error(ErrorKind::configuration, "the base of cant must be positive", layout.where);
+  for (std::size_t i = 0; i < layout.elements.size(); ++i) {
+    check_element(layout.elements[i], layout);
+    if (i > 0) check_joint(layout.elements[i - 1], layout.elements[i]);
+  }
+  if (layout.length() > kLongestLine)
+    throw Error(ErrorKind::configuration, fmt::format("the line is {:.6g} m long", layout.length()), layout.where,
+                fmt::format("at most {:g} m", kLongestLine));
+}
+
+}  // namespace treadmark
