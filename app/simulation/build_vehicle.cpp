@@ -10,6 +10,8 @@
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/solvers/vehicle/contact_on_rail.hpp"
+#include "treadmark/solvers/vehicle/lateral_track.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
 
 namespace treadmark::app {
@@ -104,6 +106,18 @@ class Builder {
   std::shared_ptr<const vehicle::ContactTable> table_;
 };
 
+/// What moves below each wheelset beside rails that bend.
+std::optional<TrackModel> track_below(const io::SimulationFile& file) {
+  return file.flexible_track ? vehicle::lateral_track(*file.flexible_track) : file.track;
+}
+
+/// The rail under a wheelset from where the simulation starts.
+vehicle::MovingRail rail_below(const io::SimulationFile& file, std::size_t wheelset) {
+  const std::string& body = file.vehicle.wheelsets.at(wheelset).body;
+  const double x = std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
+  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, file.settings.spectral_radius};
+}
+
 }  // namespace
 
 std::size_t BuiltVehicle::watched_wheel() const {
@@ -121,7 +135,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
   v.speed = file.settings.speed;
-  v.system = vehicle::assemble(file.vehicle, file.track, v.speed, file.settings.gravity);
+  v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
   for (const io::WheelContactInput& wheel : file.wheels) {
     vehicle::WheelOnRail on{wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()};
@@ -145,6 +159,12 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       built.full.push_back(nullptr);
       built.bodies.emplace_back();
     }
+    if (file.flexible_track) {
+      constexpr double kTolerance = 1e-4;  // a tenth of what a step may leave
+      const auto set = static_cast<std::size_t>(wheel.wheelset);
+      on.element = std::make_shared<vehicle::ContactOnRail>(on.element, rail_below(file, set),
+                                                            0.5 * v.system.wheelset_load.at(set), kTolerance);
+    }
     v.wheels.push_back(std::move(on));
   }
   v.connect();
@@ -158,7 +178,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
 
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   Builder builder(file, store);
-  vehicle::assemble(file.vehicle, file.track, file.settings.speed, file.settings.gravity);
+  if (file.flexible_track) rail_below(file, 0);
+  vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity);
   for (const io::WheelContactInput& wheel : file.wheels) {
     const bool full = wheel.model == io::ContactModelInput::full;
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry();
@@ -181,6 +202,13 @@ vehicle::SimulationSettings integration_settings(const io::SimulationFile& file)
   // A wheelset may run a little ahead of the vehicle.
   constexpr double kWithin = 0.99;
   out.max_travel = any_full ? kWithin * s.max_step_elements * file.contact.discretisation.dx : kNoLimit;
+  if (file.flexible_track) {
+    // The error of a rail's motion is not estimated: steps are short against its waves and elements.
+    constexpr double kShortest = 5e-5, kOfBay = 0.02;
+    const std::vector<RailSeat>& seats = file.flexible_track->seats;
+    out.max_step = s.max_step.value_or(kShortest);
+    out.max_travel = std::min(out.max_travel, kOfBay * (seats[1].x - seats[0].x));
+  }
   out.step.spectral_radius = s.spectral_radius;
   return out;
 }

@@ -42,6 +42,13 @@ constexpr MotionColumn kMotion[] = {
 
 const char* unit_of(const vehicle::Coordinate& c) { return static_cast<int>(c.freedom) < 3 ? "m" : "rad"; }
 
+/// Nothing is added to a rail that does not bend, not even a sign of zero.
+void add_bending(const ContactReaction& reaction, Motion& m) {
+  if (reaction.bending.z == 0.0 && reaction.bending.vz == 0.0) return;
+  m.rail.z += reaction.bending.z;
+  m.rail.vz += reaction.bending.vz;
+}
+
 }  // namespace
 
 std::span<const MotionColumn> motion_columns() { return kMotion; }
@@ -90,11 +97,13 @@ void HistoryRecord::add_wheel(std::size_t wheel, const std::string& prefix, bool
   add(prefix + "patches", "1", "contact patches" + of, [=] { return static_cast<double>(reaction().patches); });
   add(prefix + "doubts", "1", "grave remarks on the contact (docs/results.md)" + of,
       [=] { return static_cast<double>(reaction().doubts); });
-  add(prefix + "friction_W", "W", "power dissipated by friction" + of, [=] { return reaction().frictional_power; });
+  add(prefix + "friction_W", "W", "power dissipated by friction" + of,
+      [=] { return reaction().frictional_power - reaction().rail_power; });
   const auto motion = [this, wheel] { return simulation_.vehicle().motion(wheel, simulation_.state()); };
   for (const MotionColumn& column : kMotion)
-    add(prefix + column.name, column.unit, column.description + of, [motion, place = column.place] {
+    add(prefix + column.name, column.unit, column.description + of, [motion, reaction, place = column.place] {
       Motion m = motion();
+      add_bending(reaction(), m);
       return place(m);
     });
 }

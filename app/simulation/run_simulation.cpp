@@ -98,7 +98,7 @@ class Run {
       add(wheel + ".Y_N", r.on_rail.force.y(), "N", "lateral force on the rail");
       add(wheel + ".Ty_N", r.lateral_creep_force, "N", "lateral creep force on the rail");
       add(wheel + ".y_cp_m", r.contact_y, "m", "contact in track axes");
-      add(wheel + ".rail_z_m", m.rail.z, "m", "vertical displacement of the rail");
+      add(wheel + ".rail_z_m", m.rail.z + r.bending.z, "m", "vertical displacement of the rail");
     }
     for (std::size_t set = 0; set < built_.vehicle.system.wheelsets.size(); ++set)
       add(fmt::format("wheelset{}.load_N", set + 1), built_.vehicle.system.wheelset_load[set], "N",

@@ -73,7 +73,11 @@ void read_models(const TableReader& simulation, const std::filesystem::path& fol
                 overrides.track.front().value.where, "without it the track is rigid");
   }
   const FileText track = named_text(simulation, "track", folder);
-  out.track = parse_track_text(track.text, track.file.path.string(), overrides.track);
+  AnyTrack any = parse_any_track_text(track.text, track.file.path.string(), overrides.track);
+  if (TrackModel* const lumped = std::get_if<TrackModel>(&any))
+    out.track = std::move(*lumped);
+  else
+    out.flexible_track = std::move(std::get<FlexibleTrack>(any));
   out.track_file = track.file;
 }
 

@@ -17,15 +17,19 @@ namespace treadmark::io {
 
 namespace {
 
-/// Overrides of keys that are not in one of the lists mean the table that gives the model its name.
-void change_model(CaseTable& document, std::span<const CaseOverride> changes, const std::string& main_table) {
-  constexpr std::string_view kLists[] = {"bodies", "springs", "bump_stops", "wheelsets"};
+/// Overrides of keys that are not in another table mean the one that gives the model its name.
+void change_model(CaseTable& document, std::span<const CaseOverride> changes, const std::string& main_table,
+                  std::span<const std::string_view> others) {
   for (const CaseOverride& change : changes) {
     const std::string_view head = std::string_view(change.path).substr(0, change.path.find('.'));
-    const bool in_list = std::find(std::begin(kLists), std::end(kLists), head) != std::end(kLists);
-    change_value(document, in_list ? change.path : main_table + '.' + change.path, change);
+    const bool in_other = std::ranges::find(others, head) != others.end();
+    change_value(document, in_other ? change.path : main_table + '.' + change.path, change);
   }
 }
+
+constexpr std::string_view kVehicleParts[] = {"bodies", "springs", "bump_stops", "wheelsets"};
+constexpr std::string_view kTrackParts[] = {"bodies", "springs", "bump_stops", "wheelsets",
+                                            "rail",   "seats",   "varied",     "lateral"};
 
 /// Reader of the table that gives the model its name.
 TableReader main_table(const TableReader& document, const std::string& key, const std::vector<KeyInfo>& known) {
@@ -53,6 +57,45 @@ void scale_model(Model& model, const TableReader& table) {
     scale(spring.stiffness, stiffness);
     scale(spring.damping, damping);
     scale(spring.damper_stiffness, damping > 0.0 ? stiffness : 0.0);
+  }
+}
+
+/// Springs are scaled, not the rail, whose stiffness is known well.
+void scale_track(FlexibleTrack& track, const TableReader& table) {
+  const double mass = table.number_or("scale_mass", 1.0), stiffness = table.number_or("scale_stiffness", 1.0),
+               damping = table.number_or("scale_damping", 1.0);
+  track.rail.mass *= mass;
+  track.rail.rotary_inertia *= mass;
+  for (RailSeat& seat : track.seats) {
+    seat.sleeper_mass *= mass;
+    seat.pad_stiffness *= stiffness;
+    seat.bed_stiffness *= stiffness;
+    seat.pad_damping *= damping;
+    seat.bed_damping *= damping;
+  }
+  if (!track.lateral) return;
+  track.lateral->pad_stiffness *= stiffness;
+  track.lateral->bed_stiffness *= stiffness;
+  track.lateral->pad_damping *= damping;
+  track.lateral->bed_damping *= damping;
+  track.lateral->rail_mass *= mass;
+  track.lateral->sleeper_mass *= mass;
+}
+
+/// Tables and keys of the other kind of track say that the kind is not what was meant.
+void refuse_other_kind(const TableReader& document, const TableReader& table, bool flexible) {
+  const auto refuse = [&](const TableReader& reader, std::string_view key) {
+    if (reader.find(key) == nullptr) return;
+    throw Error(
+        ErrorKind::configuration,
+        fmt::format("{} belongs to tracks whose kind is \"{}\"", reader.path_of(key), flexible ? "lumped" : "flexible"),
+        reader.find(key)->where, "see docs/simulation-files.md");
+  };
+  if (flexible) {
+    refuse(table, "rails");
+    for (const char* key : {"bodies", "springs"}) refuse(document, key);
+  } else {
+    for (const char* key : {"rail", "seats", "varied", "lateral"}) refuse(document, key);
   }
 }
 
@@ -106,7 +149,7 @@ std::vector<CaseOverride> parsed(std::span<const std::string> overrides) {
 
 VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   CaseTable tables = parse_toml(text, name);
-  change_model(tables, changes, "vehicle");
+  change_model(tables, changes, "vehicle", kVehicleParts);
   const TableReader document(tables, {name, 1, 1}, "", vehicle_tables());
   const TableReader table = main_table(document, "vehicle", vehicle_keys());
   VehicleModel vehicle;
@@ -120,11 +163,20 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
   return vehicle;
 }
 
-TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
+AnyTrack parse_any_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
   CaseTable tables = parse_toml(text, name);
-  change_model(tables, changes, "track");
+  change_model(tables, changes, "track", kTrackParts);
   const TableReader document(tables, {name, 1, 1}, "", track_tables());
   const TableReader table = main_table(document, "track", track_keys());
+  const bool flexible = table.text_or("kind", "lumped") == "flexible";
+  refuse_other_kind(document, table, flexible);
+  if (flexible) {
+    FlexibleTrack track = read_flexible_track(document);
+    track.name = table.text("name");
+    track.source = table.text_or("source", {});
+    scale_track(track, table);
+    return track;
+  }
   TrackModel track;
   track.name = table.text("name");
   track.bodies = read_bodies(document);
@@ -135,12 +187,23 @@ TrackModel parse_track_text(std::string_view text, const std::string& name, std:
   return track;
 }
 
+TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes) {
+  AnyTrack track = parse_any_track_text(text, name, changes);
+  if (TrackModel* const lumped = std::get_if<TrackModel>(&track)) return std::move(*lumped);
+  throw Error(ErrorKind::configuration, "a lumped track is needed, this is a flexible one", {name, 1, 1},
+              "'treadmark track FILE --fit 3 -o FOLDER' makes a lumped one of it");
+}
+
 VehicleModel read_vehicle_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
   return parse_vehicle_text(read_text(file), file.string(), parsed(overrides));
 }
 
 TrackModel read_track_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
   return parse_track_text(read_text(file), file.string(), parsed(overrides));
+}
+
+AnyTrack read_any_track_file(const std::filesystem::path& file, std::span<const std::string> overrides) {
+  return parse_any_track_text(read_text(file), file.string(), parsed(overrides));
 }
 
 }  // namespace treadmark::io

@@ -6,10 +6,12 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <variant>
 #include <vector>
 
 #include "treadmark/io/settings/toml_value.hpp"
 #include "treadmark/io/simulations/table_reader.hpp"
+#include "treadmark/model/flexible_track.hpp"
 #include "treadmark/model/vehicle_model.hpp"
 
 namespace treadmark::io {
@@ -19,12 +21,22 @@ namespace treadmark::io {
 /// Throws Error(configuration) with file:line:column: broken TOML, unknown keys and names (with a suggestion), values
 /// out of range, bodies that nothing holds. Safe to call from several threads.
 VehicleModel read_vehicle_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+/// A lumped track: a flexible one is refused with what to do about it.
 TrackModel read_track_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
+
+/// A track of either kind.
+using AnyTrack = std::variant<TrackModel, FlexibleTrack>;
+AnyTrack read_any_track_file(const std::filesystem::path& file, std::span<const std::string> overrides = {});
 
 /// The same for text in memory; name serves for messages. Paths of changes as above, whatever their messages say.
 VehicleModel parse_vehicle_text(std::string_view text, const std::string& name,
                                 std::span<const CaseOverride> changes = {});
 TrackModel parse_track_text(std::string_view text, const std::string& name, std::span<const CaseOverride> changes = {});
+AnyTrack parse_any_track_text(std::string_view text, const std::string& name,
+                              std::span<const CaseOverride> changes = {});
+
+/// A flexible track but for name, source and scales, from the tables beside [track].
+FlexibleTrack read_flexible_track(const TableReader& document);
 
 /// The parts that vehicle and track files share. One table may stand for several equal parts at different places, which
 /// are then called by its name and their number from 1. Error(configuration) at the place of what is wrong.

@@ -99,7 +99,13 @@ const TableKeys& vehicle_tables() {
 const TableKeys& track_tables() {
   static const TableKeys keys{
       needed(table_key("track", KeyType::table, "the track as a whole", track_keys())),
-      needed(table_key("bodies", KeyType::table_list, "rigid bodies", body_keys())),
+      table_key("rail", KeyType::table, "a flexible rail; required where kind is \"flexible\"", rail_beam_keys()),
+      table_key("seats", KeyType::table, "what carries a flexible rail; required where kind is \"flexible\"",
+                seat_keys()),
+      table_key("varied", KeyType::table_list, "seats of a flexible rail that differ", varied_seat_keys()),
+      table_key("lateral", KeyType::table, "flexible rails sideways; without it they do not move there",
+                lateral_keys()),
+      table_key("bodies", KeyType::table_list, "rigid bodies; required where kind is \"lumped\"", body_keys()),
       table_key("springs", KeyType::table_list, "springs and dampers between them", spring_keys())};
   return keys;
 }
@@ -112,10 +118,72 @@ const TableKeys& vehicle_keys() {
 const TableKeys& track_keys() {
   static const TableKeys keys = [] {
     TableKeys list = model_keys();
-    list.insert(list.begin() + 2,
-                needed(key_info("rails", KeyType::text_list, "the bodies that carry the left and the right rail")));
+    list.insert(
+        list.begin() + 2,
+        {with_default("\"lumped\"", one_of("kind", {"lumped", "flexible"},
+                                           "masses on springs below each wheelset, or rails that bend on sleepers")),
+         key_info("rails", KeyType::text_list,
+                  "the bodies that carry the left and the right rail (required where kind is \"lumped\")")});
     return list;
   }();
+  return keys;
+}
+
+const TableKeys& rail_beam_keys() {
+  static const TableKeys keys{
+      needed(key_info("bending_stiffness_N_m2", KeyType::number, "E I of one rail, vertically", kPositive)),
+      needed(key_info("shear_stiffness_N", KeyType::number, "kappa G A of one rail", kPositive)),
+      needed(key_info("mass_kg_per_m", KeyType::number, "of one rail", kPositive)),
+      with_default("0", key_info("rotary_inertia_kg_m", KeyType::number, "density times I", kNotNegative)),
+      with_default("0", key_info("damping_us", KeyType::number,
+                                 "inner damping over stiffness: the loss factor is 2 pi f times this", kNotNegative)),
+      with_default("1.507", key_info("distance_m", KeyType::number, "of the middles of both rails", {0.1, {}, 10.0}))};
+  return keys;
+}
+
+const TableKeys& seat_keys() {
+  static const TableKeys keys{
+      with_default("120", key_info("count", KeyType::integer, "of sleepers", {{}, 4.0, kMostSeats})),
+      key_info("spacing_m", KeyType::number, "from sleeper to sleeper; this or the next one is required",
+               {0.0, {}, 100.0}),
+      key_info("spacings_m", KeyType::number_list, "unequal ones, over and over again", {0.0, {}, 100.0}),
+      needed(key_info("pad_stiffness_N_per_m", KeyType::number, "of the pad of one seat", kPositive)),
+      with_default("0", key_info("pad_damping_N_s_per_m", KeyType::number, "of it", kNotNegative)),
+      needed(key_info("sleeper_mass_kg", KeyType::number, "of a whole sleeper, which has two seats", kPositive)),
+      needed(key_info("bed_stiffness_N_per_m", KeyType::number, "of what carries a sleeper at one seat", kPositive)),
+      with_default("0", key_info("bed_damping_N_s_per_m", KeyType::number, "of it", kNotNegative)),
+      with_default(
+          "16", key_info("bay_elements", KeyType::integer, "beam elements from sleeper to sleeper", {{}, 2.0, 64.0})),
+      with_default("30", key_info("absorbing_bays", KeyType::integer,
+                                  "bays at each end in which the rail is damped more and more; at most a quarter of "
+                                  "`count`",
+                                  {{}, 0.0, kMostSeats})),
+      with_default("2000", key_info("absorption_per_s", KeyType::number,
+                                    "damping over mass at both ends, from 0 growing with the square", kNotNegative))};
+  return keys;
+}
+
+const TableKeys& varied_seat_keys() {
+  static const TableKeys keys{
+      needed(key_info("first_seat", KeyType::integer, "from 1", {{}, 1.0, kMostSeats})),
+      key_info("last_seat", KeyType::integer, "default the first one", {{}, 1.0, kMostSeats}),
+      with_default("1", key_info("pad_factor", KeyType::number, "on stiffness and damping of pads", kPositive)),
+      with_default("1", key_info("sleeper_factor", KeyType::number, "on the mass of sleepers", kPositive)),
+      with_default("1", key_info("bed_factor", KeyType::number, "on stiffness and damping below sleepers; 0: they hang",
+                                 kNotNegative))};
+  return keys;
+}
+
+const TableKeys& lateral_keys() {
+  static const TableKeys keys{
+      needed(key_info("pad_stiffness_N_per_m", KeyType::number, "at a wheel, not at a seat", kPositive)),
+      with_default("0", key_info("pad_damping_N_s_per_m", KeyType::number, "at a wheel", kNotNegative)),
+      needed(key_info("bed_stiffness_N_per_m", KeyType::number, "below half a sleeper, at a wheel", kPositive)),
+      with_default("0", key_info("bed_damping_N_s_per_m", KeyType::number, "at a wheel", kNotNegative)),
+      needed(key_info("foot_width_mm", KeyType::number, "of the rail: pads resist its rolling over it", kPositive)),
+      needed(key_info("roll_radius_mm", KeyType::number, "radius of gyration of the rail about its axis", kPositive)),
+      needed(key_info("rail_mass_kg", KeyType::number, "of the rail that moves sideways at a wheel", kPositive)),
+      needed(key_info("sleeper_mass_kg", KeyType::number, "of the halves of sleepers that move with it", kPositive))};
   return keys;
 }
 
@@ -184,6 +252,10 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
     list.number("spectral_radius", {{}, 0.0, 1.0},
                 "of the time integration at infinite frequency: 1 = no numerical damping",
                 [](S& s) -> double& { return s.spectral_radius; });
+    list.number(
+        "from_midspan_mm", kAnyNumber,
+        "on a flexible track: place of the vehicle's x = 0 at the start, ahead of the middle between two sleepers",
+        [](S& s) -> double& { return s.from_midspan; });
     list.number("checkpoint_s", kPositive, "time of the computer between two checkpoints",
                 [](S& s) -> double& { return s.checkpoint; });
     list.number("output_every_mm", kNotNegative,
@@ -374,7 +446,7 @@ std::string study_file_schema() {
 }
 
 std::string vehicle_key_table() { return key_table(vehicle_tables()); }
-std::string track_key_table() { return key_table(std::span(track_tables()).first(1)); }
+std::string track_key_table() { return key_table(std::span(track_tables()).first(5)); }
 std::string simulation_key_table() { return key_table(simulation_tables()); }
 std::string study_key_table() { return key_table(study_tables()); }
 

@@ -15,12 +15,18 @@ namespace treadmark::io {
 using TableKeys = std::vector<KeyInfo>;
 
 inline constexpr double kMostValues = 10000;  ///< of a variation, and runs of a study
+inline constexpr double kMostSeats = 5000;    ///< of a flexible track
 
 /// The tables of vehicle and of track files, with the keys of each.
 const TableKeys& vehicle_tables();
 const TableKeys& track_tables();
 const TableKeys& vehicle_keys();
 const TableKeys& track_keys();
+/// Of a flexible track: [rail], [seats], [[varied]] and [lateral].
+const TableKeys& rail_beam_keys();
+const TableKeys& seat_keys();
+const TableKeys& varied_seat_keys();
+const TableKeys& lateral_keys();
 const TableKeys& body_keys();
 const TableKeys& place_keys();
 const TableKeys& spring_keys();

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/flexible_track.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
 #include "treadmark/model/vehicle_model.hpp"
@@ -48,6 +49,7 @@ struct SimulationSettings {
   double min_step = 1e-9;          ///< [s]
   /// Distance travelled in a step over dx; without a wish 1 with transient rolling, else 2.
   double max_step_elements = 2.0;
+  double from_midspan = 0.0;     ///< of a flexible track: place of x = 0 at the start from the middle of a bay [m]
   double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
   double checkpoint = 10.0;      ///< time of the computer between two checkpoints [s]
   double output_every = 0.0;     ///< distance between two lines of output [m]; 0 = every step
@@ -71,7 +73,8 @@ struct SimulationFile {
   FieldRequests fields;
   VehicleModel vehicle;
   NamedFile vehicle_file;
-  std::optional<TrackModel> track;  ///< none: rigid track
+  std::optional<TrackModel> track;              ///< none: rigid track, or a flexible one
+  std::optional<FlexibleTrack> flexible_track;  ///< then there is no other one
   std::optional<NamedFile> track_file;
   std::optional<TrackLayout> layout;  ///< none: a straight without end
   double start = 0.0;                 ///< place of the vehicle's x = 0 on the line when the simulation begins [m]

@@ -52,6 +52,8 @@ struct ContactReaction {
   int doubts = 0;                           ///< grave remarks (model/remarks.hpp)
   double elastic_energy = 0.0;              ///< stored in the contact [J]
   double frictional_power = 0.0;            ///< dissipated, >= 0 [W]
+  double rail_power = 0.0;                  ///< of this, by dampers of a rail that bends [W]
+  RailMotion bending;                       ///< of the rail at the contact, beside the motion of its body
   std::vector<PatchTangent> tangents;
 };
 

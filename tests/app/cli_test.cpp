@@ -54,8 +54,9 @@ TEST(CommandLine, ListsAndSchema) {
   };
   EXPECT_EQ(run_program({"list", "verbs"}).out,
             "run\ncompare\ndiff\nbench\ngeometry\nconvert\n" + verb("import", "scans") + verb("scan", "scans") +
-                "measure\n" + verb("simulate", "vehicle") + verb("sweep", "vehicle") + verb("fmu", "fmu") +
-                verb("report", "report") + verb("plot", "report") + "check\nlist\nschema\ncompletion\nman\n");
+                "measure\n" + verb("simulate", "vehicle") + verb("sweep", "vehicle") + verb("track", "vehicle") +
+                verb("fmu", "fmu") + verb("report", "report") + verb("plot", "report") +
+                "check\nlist\nschema\ncompletion\nman\n");
 }
 
 /// What bash would offer for the last of these words.

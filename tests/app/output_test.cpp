@@ -58,6 +58,7 @@ TEST_F(OutputPlaces, EveryVerbNoticesThatNothingIsTaken) {
       {"import", {{"--list-settings"}, "scans"}},
       {"scan", {{rail, "-o", path("rail.xyz"), "--points", "100", "--range-mm=0,10"}, "scans"}},
       {"measure", {{"wheel", "S1002"}}},
+      {"track", {{TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml", "--count", "10"}, "vehicle"}},
       {"fmu", {{toml, "-o", path("wheel.fmu")}, "fmu"}},
       {"report", {{out}, "report"}},
       {"plot", {{out, "--what", "pressure", "-o", "-"}, "report"}},

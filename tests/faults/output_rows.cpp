@@ -38,6 +38,8 @@ y = ["q_max_N"]
 #define COMPARE "compare $case.toml --resolutions 8 --bodies rail --backends spline"
 #define BENCH "bench $case.toml --resolutions 4 --backends spline --seconds-per-measure 0.0001"
 #define PAIR "geometry --wheel S1002 --rail 60E1 --cant 1:40 --amplitudes-mm 3 --step-mm 0.5"
+#define TRACK \
+  "track " TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml -o @track --json @t.json --receptance @t.csv"
 #define LESS " --set wheelset.vertical_force_N=70e3"
 
 const std::vector<OutputRow> kRows{
@@ -84,6 +86,7 @@ const std::vector<OutputRow> kRows{
     {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation --json @simulation.json",
      "simulate $short.toml -o @simulation --json @simulation.json --set simulation.speed_m_s=30", 0, true},
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0, true},
+    {"track", "vehicle", "", TRACK " --fit 1 --count 20", TRACK " --fit 1 --count 30", 2},
 };
 
 std::vector<std::string> split(const std::string& text, char at) {

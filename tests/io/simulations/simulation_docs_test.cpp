@@ -11,6 +11,7 @@
 #include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/io/simulations/read_study.hpp"
+#include "treadmark/io/simulations/read_vehicle.hpp"
 #include "treadmark/io/simulations/simulation_keys.hpp"
 #include "treadmark/tests/support/temporary_folder.hpp"
 
@@ -34,8 +35,9 @@ std::set<std::string> write_examples(const treadmark::testing::TemporaryFolder& 
 
 TEST(SimulationDocs, ExamplesAreRead) {
   const treadmark::testing::TemporaryFolder folder;
-  EXPECT_THAT(write_examples(folder),
-              ::testing::ElementsAre("simulation.toml", "study.toml", "track.toml", "vehicle.toml"));
+  EXPECT_THAT(write_examples(folder), ::testing::ElementsAre("flexible-track.toml", "simulation.toml", "study.toml",
+                                                             "track.toml", "vehicle.toml"));
+  EXPECT_EQ(std::get<FlexibleTrack>(read_any_track_file(folder.path() / "flexible-track.toml")).seats.size(), 160u);
   const SimulationFile simulation = read_simulation_file(folder.path() / "simulation.toml");
   EXPECT_EQ(simulation.vehicle.bodies.size(), 3u);
   EXPECT_EQ(simulation.vehicle.springs.size(), 4u);
@@ -74,6 +76,7 @@ TEST(SimulationSchema, DescribesTheExamples) {
   write_examples(folder);
   const std::pair<const char*, std::string> schemas[] = {{"vehicle.toml", vehicle_file_schema()},
                                                          {"track.toml", track_file_schema()},
+                                                         {"flexible-track.toml", track_file_schema()},
                                                          {"simulation.toml", simulation_file_schema()},
                                                          {"study.toml", study_file_schema()}};
   for (const auto& [name, text] : schemas) {

@@ -1,0 +1,80 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <filesystem>
+#include <iostream>
+
+#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/track/track_run.hpp"
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/output_file.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+struct TrackOptions {
+  std::string file;
+  std::string csv_file, json_file, folder;  ///< empty = none; "-": standard output instead of the table
+  int layers = 0;
+  double from = 10.0, to = 1500.0;
+  int count = 200;
+  std::vector<std::string> overrides;
+};
+
+int track_command(const TrackOptions& options, const CommonOptions&) {
+  require_different({options.file}, {options.csv_file, options.json_file});
+  catch_interrupt();
+  const CancellationScope scope(&interrupted());
+  app::TrackRequest request;
+  request.file = options.file;
+  request.overrides = options.overrides;
+  request.from = options.from;
+  request.to = options.to;
+  request.count = options.count;
+  request.layers = options.layers;
+  const app::TrackResult result = app::run_track(request);
+  const auto json = [&] { return app::track_json(result); };
+  write_json_file(options.json_file, json);
+  if (options.csv_file == "-")
+    std::cout << app::track_csv(result);
+  else if (!options.csv_file.empty())
+    write_file(options.csv_file, app::track_csv(result));
+  if (!options.folder.empty()) app::write_track_folder(options.folder, result);
+  if (options.csv_file != "-") print_results(options.json_file, json, [&] { return app::track_table(result); });
+  if (!result.fitted || result.fitted->fit.report.status == Status::ok) return kOk;
+  std::cerr << "treadmark: " << result.fitted->fit.report.message << '\n';
+  return kNotConverged;
+}
+
+}  // namespace
+
+Command add_track(CLI::App& verb) {
+  auto options = std::make_shared<TrackOptions>();
+  verb.add_option("FILE", options->file, "Track file (.toml), flexible or lumped")->required();
+  verb.add_option("--receptance", options->csv_file,
+                  "Write magnitude and phase over the frequency here (CSV); - for standard output instead of the text")
+      ->type_name("FILE");
+  verb.add_option("--fit", options->layers, "Fit a lumped track of so many masses at each rail to the receptance")
+      ->check(CLI::Range(1, vehicle::kMostLumpedLayers))
+      ->type_name("LAYERS");
+  verb.add_option("--from", options->from, "Lowest frequency [Hz]")
+      ->check(CLI::Range(1e-3, 1e5))
+      ->capture_default_str()
+      ->type_name("HZ");
+  verb.add_option("--to", options->to, "Highest frequency [Hz]")
+      ->check(CLI::Range(1e-3, 1e5))
+      ->capture_default_str()
+      ->type_name("HZ");
+  verb.add_option("--count", options->count, "Frequencies, evenly spaced in the logarithm")
+      ->check(CLI::Range(10, 10000))
+      ->capture_default_str();
+  verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
+      ->type_name("FILE");
+  verb.add_option("-o,--output", options->folder,
+                  "Folder for track.json, receptance.csv, track.svg and the fitted track, fitted.toml")
+      ->type_name("FOLDER");
+  add_overrides(verb, options->overrides);
+  return command(options, track_command);
+}
+
+}  // namespace treadmark::cli

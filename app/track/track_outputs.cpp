@@ -1,0 +1,227 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <fmt/format.h>
+#include <cmath>
+#include <nlohmann/json.hpp>
+
+#include "treadmark/app/track/track_run.hpp"
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/simulations/write_track.hpp"
+#include "treadmark/pictures/chart.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using TrackJson = nlohmann::ordered_json;
+
+constexpr double kNano = 1e9, kDegreeOfRad = 180.0 / kPi;
+
+std::vector<const TrackCurve*> all_curves(const TrackResult& result) {
+  std::vector<const TrackCurve*> all;
+  for (const TrackCurve& curve : result.curves) all.push_back(&curve);
+  if (result.fitted) all.push_back(&result.fitted->curve);
+  if (result.lateral) all.push_back(&*result.lateral);
+  return all;
+}
+
+/// The third of an octave, about: every so many frequencies that a table has some 20 lines.
+std::vector<std::size_t> table_rows(std::size_t count) {
+  constexpr std::size_t kLines = 20;
+  std::vector<std::size_t> rows;
+  for (std::size_t line = 0; line < kLines; ++line)
+    if (const std::size_t row = line * (count - 1) / (kLines - 1); rows.empty() || row != rows.back())
+      rows.push_back(row);
+  return rows;
+}
+
+TrackJson number_of(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return io::twelve_digits(value) + 0.0;
+}
+
+TrackJson list_of_numbers(const std::vector<double>& values) {
+  TrackJson list = TrackJson::array();
+  for (const double value : values) list.push_back(number_of(value));
+  return list;
+}
+
+std::vector<double> magnitudes_in(const TrackCurve& curve) {
+  std::vector<double> all;
+  for (const auto& value : curve.receptance) all.push_back(std::abs(value));
+  return all;
+}
+
+std::vector<double> phases_in(const TrackCurve& curve) {
+  std::vector<double> all;
+  for (const auto& value : curve.receptance) all.push_back(kDegreeOfRad * std::arg(value));
+  return all;
+}
+
+pictures::Chart chart_over_frequency(const TrackResult& result, const char* title, const char* y, double factor,
+                                     std::vector<double> (*values)(const TrackCurve&)) {
+  pictures::Chart chart;
+  chart.title = title;
+  chart.x_label = "frequency [Hz]";
+  chart.y_label = y;
+  chart.x_scale = pictures::AxisScale::log;
+  chart.x_range = {result.frequency.front(), result.frequency.back()};
+  int style = 0;
+  for (const TrackCurve* curve : all_curves(result)) {
+    pictures::ChartSeries series;
+    series.name = curve->name;
+    series.style = style++;
+    series.width = 2.0;
+    if (curve->key == "fitted") series.dashes = "5 4";
+    const std::vector<double> y_values = values(*curve);
+    for (std::size_t i = 0; i < y_values.size(); ++i)
+      series.curve.push_back({result.frequency[i], factor * y_values[i]});
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
+}  // namespace
+
+std::string track_table(const TrackResult& r) {
+  const auto line = [](const char* what, double value, const char* unit, const std::string& remark) {
+    return fmt::format("  {:<34} {:>9.5g} {:<7} {}", what, value, unit, remark).append("\n");
+  };
+  std::string text = fmt::format("{}: {}\n", r.name, r.flexible ? "flexible" : "lumped");
+  for (const TrackCurve* curve : all_curves(r))
+    text += line(fmt::format("stiffness at rest, {}", curve->name).c_str(), kMega / curve->at_rest, "MN/m", "");
+  if (r.bay) {
+    text += line("pinned-pinned frequency", r.bay->pinned_pinned, "Hz",
+                 fmt::format("by formula, sleepers {:.4g} m apart", r.bay->length));
+    text +=
+        line("most between against over sleepers", r.bay->peak, "Hz", fmt::format("{:.3g} times", r.bay->peak_ratio));
+  }
+  if (r.fitted) {
+    const vehicle::ReceptanceError& e = r.fitted->fit.error;
+    text += fmt::format(
+        "fit of {} layers to '{}', {:.4g} to {:.4g} Hz: off by {:.2g} (root mean square of the logarithm), at most "
+        "{:.2g} at {:.4g} Hz\n",
+        r.fitted->fit.layers.size(), r.typical().name, r.frequency.front(), r.frequency.back(), e.rms, e.worst,
+        e.worst_frequency);
+    for (const vehicle::LumpedLayer& layer : r.fitted->fit.layers)
+      text += fmt::format("  {:>9.5g} kg on {:>9.5g} MN/m, {:>9.5g} kN s/m\n", layer.mass, kMega * layer.stiffness,
+                          1e-3 * layer.damping);
+  }
+  text += "receptance [nm/N] and phase [deg]\n" + fmt::format("  {:>8}", "f [Hz]");
+  for (const TrackCurve* curve : all_curves(r)) text += fmt::format("  {:>17}", curve->name);
+  text += '\n';
+  for (const std::size_t row : table_rows(r.frequency.size())) {
+    text += fmt::format("  {:>8.5g}", r.frequency[row]);
+    for (const TrackCurve* curve : all_curves(r))
+      text += fmt::format("  {:>9.4g} {:>7.1f}", kNano * std::abs(curve->receptance[row]),
+                          kDegreeOfRad * std::arg(curve->receptance[row]));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string track_csv(const TrackResult& r) {
+  std::string text = "frequency_Hz";
+  for (const TrackCurve* curve : all_curves(r)) text += fmt::format(",{0}_m_per_N,{0}_phase_deg", curve->key);
+  text += '\n';
+  for (std::size_t i = 0; i < r.frequency.size(); ++i) {
+    text += io::csv_number(r.frequency[i]);
+    for (const TrackCurve* curve : all_curves(r))
+      text += ',' + io::csv_number(std::abs(curve->receptance[i])) + ',' +
+              io::csv_number(kDegreeOfRad * std::arg(curve->receptance[i]));
+    text += '\n';
+  }
+  return text;
+}
+
+std::string track_json(const TrackResult& r) {
+  TrackJson out;
+  out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
+  out["input"] = {{"file", r.request.file.string()}, {"settings", r.request.overrides}};
+  out["name"] = r.name;
+  out["kind"] = r.flexible ? "flexible" : "lumped";
+  if (r.bay) {
+    out["seats"] = r.bay->seats;
+    out["bay_m"] = number_of(r.bay->length);
+    out["pinned_pinned_Hz"] = number_of(r.bay->pinned_pinned);
+    out["peak_Hz"] = number_of(r.bay->peak);
+    out["peak_ratio"] = number_of(r.bay->peak_ratio);
+    out["deflection"] = {{"x_m", list_of_numbers(r.bay->x)}, {"m_per_N", list_of_numbers(r.bay->deflection)}};
+  }
+  out["frequency_Hz"] = list_of_numbers(r.frequency);
+  out["curves"] = TrackJson::object();
+  for (const TrackCurve* curve : all_curves(r))
+    out["curves"][curve->key] = {{"stiffness_at_rest_N_per_m", number_of(1.0 / curve->at_rest)},
+                                 {"m_per_N", list_of_numbers(magnitudes_in(*curve))},
+                                 {"phase_deg", list_of_numbers(phases_in(*curve))}};
+  if (r.fitted) {
+    const vehicle::LumpedFit& fit = r.fitted->fit;
+    TrackJson layers = TrackJson::array();
+    for (const vehicle::LumpedLayer& layer : fit.layers)
+      layers.push_back({{"mass_kg", number_of(layer.mass)},
+                        {"stiffness_N_per_m", number_of(layer.stiffness)},
+                        {"damping_N_s_per_m", number_of(layer.damping)}});
+    out["fit"] = {{"to", r.typical().key},
+                  {"layers", std::move(layers)},
+                  {"converged", fit.report.status == Status::ok},
+                  {"rms_of_logarithm", number_of(fit.error.rms)},
+                  {"largest_of_logarithm", number_of(fit.error.worst)},
+                  {"largest_at_Hz", number_of(fit.error.worst_frequency)}};
+  }
+  return out.dump(2) + '\n';
+}
+
+std::string track_svg(const TrackResult& r) {
+  pictures::ChartSheet sheet;
+  sheet.title = r.name;
+  sheet.width = 620.0;
+  sheet.height = 240.0;
+  sheet.gap_y = 66.0;
+  sheet.top = 58.0;
+  sheet.legend = pictures::ChartSheet::Legend::common;
+  sheet.charts = {chart_over_frequency(r, "receptance", "motion under a force [nm/N]", kNano, magnitudes_in),
+                  chart_over_frequency(r, "phase", "ahead of the force [deg]", 1.0, phases_in)};
+  sheet.charts.front().y_scale = pictures::AxisScale::log;
+  sheet.series = pictures::named(sheet.charts.front().series);
+  if (r.bay) {
+    pictures::Chart chart;
+    chart.title = "at rest, force between sleepers";
+    chart.x_label = "along the rail [m]";
+    chart.y_label = "deflection [nm/N]";
+    chart.y_down = true;
+    chart.x_range = {r.bay->x.front(), r.bay->x.back()};
+    pictures::ChartSeries line;
+    line.width = 2.0;
+    for (std::size_t i = 0; i < r.bay->x.size(); ++i) line.curve.push_back({r.bay->x[i], kNano * r.bay->deflection[i]});
+    chart.series.push_back(std::move(line));
+    sheet.charts.push_back(std::move(chart));
+  }
+  return pictures::draw_sheet(sheet);
+}
+
+std::string fitted_text(const TrackResult& r) {
+  const vehicle::ReceptanceError& e = r.fitted->fit.error;
+  const bool lateral = r.fitted->track.bodies.front().free[static_cast<std::size_t>(Freedom::y)];
+  return io::track_text(
+      r.fitted->track, r.source,
+      {fmt::format("Made by treadmark track from {}: {} layers whose vertical receptance is that of '{}'",
+                   r.request.file.filename().string(), r.fitted->fit.layers.size(), r.typical().name),
+       fmt::format("from {:.4g} to {:.4g} Hz, off by {:.2g} (root mean square of the logarithm), at most {:.2g} at "
+                   "{:.4g} Hz.",
+                   r.frequency.front(), r.frequency.back(), e.rms, e.worst, e.worst_frequency),
+       lateral ? "Lateral springs and roll are those of [lateral], not fitted." : "Rails do not move sideways.",
+       "Both halves of the track are equal and not connected."});
+}
+
+void write_track_folder(const std::filesystem::path& folder, const TrackResult& result) {
+  OutputFolder output(folder, OutputFolder::Old::kept);
+  write_file(output.path() / "receptance.csv", track_csv(result));
+  write_file(output.path() / "track.svg", track_svg(result));
+  if (result.fitted) write_file(output.path() / "fitted.toml", fitted_text(result));
+  write_file(output.path() / "track.json", track_json(result));
+  output.move_into("track.json");
+}
+
+}  // namespace treadmark::app

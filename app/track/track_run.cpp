@@ -1,0 +1,189 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/track/track_run.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/constants.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/vehicle/rail_on_seats.hpp"
+#include "treadmark/solvers/vehicle/track_receptance.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using Complex = std::complex<double>;
+
+/// Heights of the parts of a lumped track [m]: of no influence on vertical motion.
+constexpr double kRailHeight = 0.09, kFootHeight = 0.17, kSleeperHeight = 0.28, kBedHeight = 0.39;
+
+std::vector<double> frequencies_of(const TrackRequest& request) {
+  if (!(request.from > 0.0) || !(request.to > request.from) || request.count < 2)
+    throw Error(ErrorKind::configuration, fmt::format("{} frequencies from {:g} to {:g} Hz make no range",
+                                                      request.count, request.from, request.to));
+  std::vector<double> f;
+  for (int i = 0; i < request.count; ++i)
+    f.push_back(request.from * std::pow(request.to / request.from, i / (request.count - 1.0)));
+  f.back() = request.to;
+  return f;
+}
+
+void run_flexible(const FlexibleTrack& track, TrackResult& result) {
+  constexpr int kMeanPlaces = 8;
+  const vehicle::RailOnSeats rail(track);
+  const double bay = rail.middle_bay(), middle = rail.middle();
+  std::vector<double> places{middle, middle + 0.5 * bay};
+  for (int i = 0; i < kMeanPlaces; ++i) places.push_back(middle + (i + 0.5) / kMeanPlaces * bay - 0.5 * bay);
+  result.curves = {{"between sleepers", "between", {}, 0.0},
+                   {"over a sleeper", "over", {}, 0.0},
+                   {"mean of a bay", "mean", {}, 0.0}};
+  const auto values = [&](double f) {
+    check_cancelled();
+    const std::vector<Complex> all = rail.receptance(places, f);
+    // What is fitted to their logarithms' mean is nearest to all of them. What takes energy has phases of one half
+    // turn.
+    Complex sum = 0.0;
+    for (std::size_t i = 2; i < all.size(); ++i) sum += std::log(all[i]);
+    return std::array<Complex, 3>{all[0], all[1], std::exp(sum / static_cast<double>(kMeanPlaces))};
+  };
+  const auto at_rest = values(0.0);
+  for (std::size_t c = 0; c < 3; ++c) result.curves[c].at_rest = at_rest[c].real();
+  for (const double f : result.frequency) {
+    const auto at = values(f);
+    for (std::size_t c = 0; c < 3; ++c) result.curves[c].receptance.push_back(at[c]);
+  }
+
+  TrackResult::Bay& own = result.bay.emplace();
+  own.seats = track.seats.size();
+  own.length = bay;
+  own.pinned_pinned = vehicle::pinned_pinned_frequency(track.rail, bay);
+  for (double part = 0.7; part < 1.3; part += 0.002) {
+    check_cancelled();
+    const std::vector<Complex> pair = rail.receptance(std::span(places).first(2), part * own.pinned_pinned);
+    const double ratio = std::abs(pair[0] / pair[1]);
+    if (ratio > own.peak_ratio) own.peak_ratio = ratio, own.peak = part * own.pinned_pinned;
+  }
+  constexpr double kShown = 4.0;  // to either side [m]
+  constexpr int kPoints = 161;
+  for (int i = 0; i < kPoints; ++i) {
+    const double x = kShown * (2.0 * i / (kPoints - 1) - 1.0);
+    if (middle + x >= rail.begin() && middle + x <= rail.end()) own.x.push_back(x);
+  }
+  std::vector<double> shown;
+  for (const double x : own.x) shown.push_back(middle + x);
+  own.deflection = rail.deflection(middle, shown);
+}
+
+void run_lumped(const TrackModel& track, TrackResult& result) {
+  const double rest[] = {0.0};
+  const auto curve = [&](const char* name, const char* key, Freedom direction) {
+    return TrackCurve{name, key, vehicle::receptance(track, direction, result.frequency),
+                      vehicle::receptance(track, direction, rest).front().real()};
+  };
+  result.curves = {curve("rail", "rail", Freedom::z)};
+  if (!(result.curves.front().at_rest > 0.0))
+    throw Error(ErrorKind::configuration, "the rails of this track do not move in z, so it has no receptance");
+  if (TrackCurve lateral = curve("rail, lateral", "lateral", Freedom::y); lateral.at_rest > 0.0)
+    result.lateral = std::move(lateral);
+}
+
+}  // namespace
+
+TrackModel lumped_track(const std::string& name, const std::vector<vehicle::LumpedLayer>& layers, double distance,
+                        const std::optional<LateralSupport>& lateral) {
+  const std::size_t count = layers.size();
+  TrackModel track;
+  track.name = name;
+  for (const char* side : {"left", "right"}) {
+    const double y = (side[0] == 'l' ? -0.5 : 0.5) * distance;
+    // From the top: head, rail, sleeper, of which fewer layers have the last ones but always a rail.
+    std::vector<std::string> names{fmt::format("{}_rail", side)};
+    if (count > 1) names.push_back(fmt::format("{}_sleeper", side));
+    if (count > 2) names.insert(names.begin(), fmt::format("{}_head", side));
+    (side[0] == 'l' ? track.left_rail : track.right_rail) = names.front();
+    for (std::size_t i = 0; i < count; ++i) {
+      const bool last = i + 1 == count, sleeper = last && count > 1, head = count > 2 && i == 0;
+      BodySpec body;
+      body.name = names[i];
+      body.mass = layers[i].mass;
+      body.position = {0.0, y, sleeper ? kSleeperHeight : kRailHeight};
+      body.free[static_cast<std::size_t>(Freedom::z)] = true;
+      SpringSpec spring;
+      spring.name = fmt::format("{}_{}", side, head ? "local" : last ? "bed" : "pad");
+      spring.body_a = last ? kGround : names[i + 1];
+      spring.body_b = names[i];
+      spring.position = {0.0, y, head ? kRailHeight : sleeper ? kBedHeight : kFootHeight};
+      spring.stiffness[2] = layers[i].stiffness;
+      spring.damping[2] = layers[i].damping;
+      if (lateral) {
+        body.free[static_cast<std::size_t>(Freedom::y)] = true;
+        // A single layer is pad and bed one behind the other; a head moves with its rail as well as it does vertically.
+        const auto series = [](double a, double b) { return a > 0.0 && b > 0.0 ? a * b / (a + b) : 0.0; };
+        if (head) {
+          spring.stiffness[1] = layers[i].stiffness;
+          spring.damping[1] = layers[i].damping;
+        } else if (count == 1) {
+          spring.stiffness[1] = series(lateral->pad_stiffness, lateral->bed_stiffness);
+          spring.damping[1] = series(lateral->pad_damping, lateral->bed_damping);
+        } else {
+          spring.stiffness[1] = last ? lateral->bed_stiffness : lateral->pad_stiffness;
+          spring.damping[1] = last ? lateral->bed_damping : lateral->pad_damping;
+        }
+        if (!sleeper) {
+          body.free[static_cast<std::size_t>(Freedom::roll)] = true;
+          body.inertia.x() = layers[i].mass * lateral->roll_inertia;
+          const double arm = lateral->foot_width * lateral->foot_width / 12.0;  // an even spring below the foot
+          spring.stiffness[3] = layers[i].stiffness * arm;
+          spring.damping[3] = layers[i].damping * arm;
+        }
+      }
+      track.bodies.push_back(std::move(body));
+      track.springs.push_back(std::move(spring));
+    }
+  }
+  return track;
+}
+
+TrackResult run_track(const TrackRequest& request) {
+  TrackResult result;
+  result.request = request;
+  result.frequency = frequencies_of(request);
+  const io::AnyTrack any = io::read_any_track_file(request.file, request.overrides);
+  double distance = 0.0;
+  std::optional<LateralSupport> lateral;
+  if (const auto* flexible = std::get_if<FlexibleTrack>(&any)) {
+    result.flexible = true;
+    result.name = flexible->name;
+    result.source = flexible->source;
+    distance = flexible->gauge;
+    lateral = flexible->lateral;
+    run_flexible(*flexible, result);
+  } else {
+    const TrackModel& lumped = std::get<TrackModel>(any);
+    result.name = lumped.name;
+    const auto rail_y = [&](const std::string& name) {
+      return std::ranges::find(lumped.bodies, name, &BodySpec::name)->position.y();
+    };
+    distance = std::abs(rail_y(lumped.right_rail) - rail_y(lumped.left_rail));
+    run_lumped(lumped, result);
+  }
+  if (request.layers > 0) {
+    const TrackCurve& target = result.typical();
+    TrackResult::Fitted fitted;
+    fitted.fit = vehicle::fit_lumped(result.frequency, target.receptance, request.layers);
+    fitted.track = lumped_track(fmt::format("{}, {} layers fitted to its receptance", result.name, request.layers),
+                                fitted.fit.layers, distance, lateral);
+    fitted.curve = {"fitted", "fitted", {}, 0.0};
+    for (const double f : result.frequency)
+      fitted.curve.receptance.push_back(vehicle::receptance(fitted.fit.layers, f));
+    fitted.curve.at_rest = vehicle::receptance(fitted.fit.layers, 0.0).real();
+    result.fitted = std::move(fitted);
+  }
+  return result;
+}
+
+}  // namespace treadmark::app

@@ -1,0 +1,57 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+#include <string>
+#include <vector>
+
+namespace treadmark {
+
+/// A track whose rails bend, as plain data in SI units: one rail on the seats of its sleepers, the other one is equal.
+/// Axes: x forward along the rail, z down; vertical motion.
+
+/// A rail as a beam of Timoshenko's theory.
+struct RailBeam {
+  double bending_stiffness = 0.0;  ///< E I [N m2]; > 0
+  double shear_stiffness = 0.0;    ///< kappa G A [N]; > 0
+  double mass = 0.0;               ///< of a unit of length [kg/m]; > 0
+  double rotary_inertia = 0.0;     ///< rho I [kg m]; >= 0
+  double damping_time = 0.0;       ///< damping over stiffness: loss factor over angular frequency [s]; >= 0
+};
+
+/// Where a sleeper carries a rail: pad, its half of the sleeper, ballast below that on rigid ground.
+struct RailSeat {
+  double x = 0.0;              ///< [m]
+  double pad_stiffness = 0.0;  ///< [N/m]; >= 0
+  double pad_damping = 0.0;    ///< [N s/m]; >= 0
+  double sleeper_mass = 0.0;   ///< half of it [kg]; > 0
+  double bed_stiffness = 0.0;  ///< [N/m]; >= 0, 0: the sleeper hangs
+  double bed_damping = 0.0;    ///< [N s/m]; >= 0
+};
+
+/// Sideways and in roll one spring and damper each above and below a half sleeper, as of a lumped track.
+struct LateralSupport {
+  double pad_stiffness = 0.0;  ///< [N/m]; > 0
+  double pad_damping = 0.0;    ///< [N s/m]; >= 0
+  double bed_stiffness = 0.0;  ///< [N/m]; > 0
+  double bed_damping = 0.0;    ///< [N s/m]; >= 0
+  double foot_width = 0.0;     ///< over which a pad resists rolling of the rail [m]; > 0
+  double roll_inertia = 0.0;   ///< of the rail about its axis, over its mass [m2]; > 0
+  double rail_mass = 0.0;      ///< that moves sideways at a wheel [kg]; > 0
+  double sleeper_mass = 0.0;   ///< the same of half the sleepers [kg]; > 0
+};
+
+/// A rail of finite length: it begins half a bay before its first seat and ends half a bay behind its last one.
+struct FlexibleTrack {
+  std::string name, source;
+  RailBeam rail;
+  std::vector<RailSeat> seats;  ///< x increasing; at least two
+  double gauge = 1.507;         ///< distance of the middles of both rails [m]
+  int bay_elements = 16;        ///< beam elements from seat to seat
+  int absorbing_bays = 0;       ///< at each end
+  double absorption = 0.0;      ///< damping over mass at the outermost place, growing with the square from 0 [1/s]
+  std::optional<LateralSupport> lateral;  ///< none: rails do not move sideways
+};
+
+}  // namespace treadmark

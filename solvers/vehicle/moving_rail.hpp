@@ -1,0 +1,84 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <optional>
+
+#include "treadmark/core/byte_archive.hpp"
+#include "treadmark/solvers/vehicle/rail_on_seats.hpp"
+
+namespace treadmark::vehicle {
+
+/// A rail of a flexible track in time, below one vertical force that moves along it at constant speed. The rail that is
+/// looked at moves on with the force by one bay after the other, so that all seats and spacings must be equal; what it
+/// leaves behind and takes up in front lies at rest. Integrated by the scheme of Hilber, Hughes and Taylor (1977). Not
+/// thread-safe.
+class MovingRail {
+ public:
+  /// speed [m/s]; > 0. start: place of the force at time 0, from the middle between two sleepers [m]. spectral_radius:
+  /// of the scheme for fast vibrations, 0.5 to 1. Errors: Error(configuration).
+  MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius);
+
+  /// How the place under the force answers a force at some time: deflection = free + compliance * force.
+  struct Answer {
+    double free = 0.0;        ///< [m]
+    double compliance = 0.0;  ///< [m/N]
+  };
+  /// The rail at rest under a force that has always been there, time 0.
+  Answer at_rest() const;
+  /// After a step to this time, from what was accepted last.
+  Answer after(double time);
+
+  /// What a force at that time, of which after was asked last, means.
+  /// Rate of the deflection under the force, which moves [m/s].
+  double rate(double force) const;
+  struct Moved {
+    double slope = 0.0;   ///< horizontal force on what presses on the rail, over the force
+    double energy = 0.0;  ///< kinetic and elastic energy [J]
+    double power = 0.0;   ///< of all dampers, >= 0 [W]
+  };
+  Moved moved(double force) const;
+
+  /// Makes a state at rest under this force, which moves, that of time 0.
+  void begin(double force);
+  /// Makes the state after the step that of moved(force).
+  void accept(double force);
+  double time() const { return time_; }
+
+  void save(ByteWriter& out) const;
+  /// Errors: Error(input_data).
+  void restore(ByteReader& in);
+
+ private:
+  using Column = BandedSymmetric<double>::Column;
+  /// A step to some time, as far as it does not depend on the force at its end.
+  struct Trial {
+    double time = 0.0;
+    RailOnSeats::Place place;
+    Column known_q, known_v, free, unit;  ///< accelerations without the force, and by a unit of it
+    double of_q = 0.0, of_v = 0.0;        ///< of displacements and rates by accelerations
+    // At the place under the force, without it and by a unit of it.
+    Answer deflection, slope, rate;
+  };
+
+  double window_place(double time) const;
+  Column spread(const RailOnSeats::Place& place) const;
+  static double along(const RailOnSeats::Place& place, const BeamVector& by, const Column& q);
+  const BandedSymmetric<double>& factors(double length);
+  void move_window();
+
+  RailOnSeats rail_;
+  double speed_, start_, alpha_, beta_, gamma_;
+  Column calm_;                     ///< factors on what stays in the window as it moves
+  double bay_ = 0.0, first_ = 0.0;  ///< length of a bay; beginning of that in the middle [m]
+  int bay_size_ = 0;                ///< coordinates of a bay
+
+  double time_ = 0.0, force_ = 0.0;
+  double windows_ = 0.0;  ///< bays by which the window has moved
+  Column q_, v_, a_;
+  std::optional<Trial> trial_;
+  double factors_of_ = -1.0;  ///< length of a step
+  BandedSymmetric<double> factors_;
+};
+
+}  // namespace treadmark::vehicle

@@ -1,0 +1,192 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/vehicle/moving_rail.hpp"
+
+#include <gtest/gtest.h>
+
+#include <cmath>
+#include <complex>
+#include <memory>
+#include <vector>
+
+#include "beam_on_bed.hpp"
+#include "small_vehicles.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/solvers/vehicle/contact_on_rail.hpp"
+#include "treadmark/solvers/vehicle/simulation.hpp"
+
+namespace treadmark::vehicle {
+namespace {
+
+constexpr double kBendingContact = 9e10;  // [N/m^1.5]
+
+FlexibleTrack short_zhai(int seats = 60, int elements = 8) {
+  FlexibleTrack track = zhai_track(0.545, seats);
+  track.bay_elements = elements;
+  track.absorbing_bays = 15;
+  track.absorption = 2000.0;
+  return track;
+}
+
+TEST(BeamElement, SlopesAreThoseOfDeflections) {
+  const BeamElement element(zhai_track().rail, 0.4);
+  constexpr double kStep = 1e-6;
+  for (const double part : {0.1, 0.35, 0.8}) {
+    const BeamVector by = (element.deflection(part + kStep) - element.deflection(part - kStep)) / (2.0 * kStep * 0.4);
+    EXPECT_LT((element.slope(part) - by).norm(), 1e-8);
+    const double own = (element.own_compliance(part + 1e-3) - element.own_compliance(part - 1e-3)) / (2e-3 * 0.4);
+    EXPECT_NEAR(element.own_compliance_slope(part) / own, 1.0, 1e-4);
+  }
+}
+
+/// A force that crawls finds the deflection at rest at every place, also where the window has moved on.
+TEST(MovingRail, CrawlingForceDeflectsAsAtRest) {
+  const FlexibleTrack track = short_zhai();
+  const RailOnSeats rest(track);
+  constexpr double kForce = 55e3, kSpeed = 0.5, kStart = 0.1, kBay = 0.545;
+  MovingRail rail(track, kSpeed, kStart, 0.8);
+  EXPECT_NEAR(rail.at_rest().compliance / rest.receptance(rest.middle() + kStart, 0.0).real(), 1.0, 1e-12);
+  rail.begin(kForce);
+  for (int i = 1; i <= 1200; ++i) {
+    const double time = 2e-3 * i;
+    const MovingRail::Answer answer = rail.after(time);
+    const double w = answer.free + answer.compliance * kForce;
+    rail.accept(kForce);
+    if (i % 40 != 0) continue;
+    const double place = std::remainder(kStart + kSpeed * time, kBay);
+    EXPECT_NEAR(w / (kForce * rest.receptance(rest.middle() + place, 0.0).real()), 1.0, 2e-3) << time;
+  }
+}
+
+/// A force that hardly moves meets the receptance of the place.
+TEST(MovingRail, HarmonicForceMeetsTheReceptance) {
+  const FlexibleTrack track = short_zhai();
+  const RailOnSeats rest(track);
+  constexpr double kStart = 0.11;
+  for (const double f : {60.0, 300.0, 900.0}) {
+    MovingRail rail(track, 1e-6, kStart, 1.0);
+    rail.begin(0.0);
+    const double w = 2.0 * kPi * f, step = 1.0 / (200.0 * f);
+    std::complex<double> found = 0.0;
+    const int periods = static_cast<int>(0.15 * f);
+    for (int i = 1; i <= 200 * periods; ++i) {
+      const double time = i * step, force = std::cos(w * time);
+      const MovingRail::Answer answer = rail.after(time);
+      rail.accept(force);
+      if (i > 200 * (periods - 2))
+        found += (answer.free + answer.compliance * force) * std::exp(std::complex<double>(0.0, -w * time)) / 200.0;
+    }
+    EXPECT_LT(std::abs(found / rest.receptance(rest.middle() + kStart, f) - 1.0), 0.01) << f << " Hz";
+  }
+}
+
+/// Frýba's closed form for Euler's beam on a bed: the deflection under a force grows by 1/sqrt(1 - (V/c)^2) with the
+/// critical speed c = (4 k E I/m2)^(1/4), until it has left its start behind.
+TEST(MovingRail, FastForceOnABed) {
+  FlexibleTrack track = zhai_track(0.08, 500);
+  track.rail.shear_stiffness *= 1e3;
+  track.rail.rotary_inertia = 0.0;
+  track.bay_elements = 2;
+  track.absorbing_bays = 150;
+  track.absorption = 4000.0;
+  const double bed = 65e6 / 0.545;
+  for (RailSeat& seat : track.seats) seat = {seat.x, bed * 0.08, 0.0, 1.0, 1e13, 0.0};
+  const double b = track.rail.bending_stiffness;
+  const double critical = std::pow(4.0 * bed * b / (track.rail.mass * track.rail.mass), 0.25);
+  const double at_rest = 1.0 / (2.0 * std::sqrt(2.0) * std::pow(b, 0.25) * std::pow(bed, 0.75));
+  for (const double share : {0.3, 0.5}) {
+    const double speed = share * critical;
+    MovingRail rail(track, speed, 0.0, 0.9);
+    rail.begin(1.0);
+    const double step = 0.01 / speed;
+    double mean = 0.0;
+    constexpr int kSteps = 4000, kAveraged = 1600;
+    for (int i = 1; i <= kSteps; ++i) {
+      const MovingRail::Answer answer = rail.after(i * step);
+      rail.accept(1.0);
+      if (i > kSteps - kAveraged) mean += (answer.free + answer.compliance) / kAveraged;
+    }
+    EXPECT_NEAR(mean / at_rest * std::sqrt(1.0 - share * share), 1.0, 0.01) << share;
+  }
+}
+
+TEST(MovingRail, RefusesTracksAndSpeedsThatItCannotFollow) {
+  EXPECT_NO_THROW(MovingRail(short_zhai(), 20.0, 0.0, 0.8));
+  EXPECT_THROW(MovingRail(short_zhai(), 0.0, 0.0, 0.8), Error);
+  EXPECT_THROW(MovingRail(short_zhai(), 20.0, 0.0, 0.1), Error);
+  FlexibleTrack hanging = short_zhai(), uneven = short_zhai(), small = zhai_track(0.545, 10);
+  hanging.seats[20].bed_stiffness = 0.0;
+  uneven.seats[20].x += 0.05;
+  for (const FlexibleTrack& track : {hanging, uneven, small}) EXPECT_THROW(MovingRail(track, 20.0, 0.0, 0.8), Error);
+}
+
+/// A wheelset with a mass upon it, each wheel on a rail of its own.
+VehicleOnTrack on_bending_rails(const FlexibleTrack& track, double speed, double tolerance) {
+  VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, speed, kBendingContact);
+  const double load = 0.5 * v.system.wheelset_load[0];
+  for (WheelOnRail& wheel : v.wheels) {
+    wheel.element = std::make_shared<ContactOnRail>(wheel.element, MovingRail(track, speed, 0.0, 0.8), load, tolerance);
+  }
+  return v;
+}
+
+SimulationSettings small_steps(double duration, double step) {
+  SimulationSettings s;
+  s.duration = duration;
+  s.position_tolerance = 1.0;
+  s.max_step = s.first_step = step;
+  s.min_step = 1e-4 * step;
+  s.max_travel = 1.0;
+  s.step.force_tolerance = 1e-6;
+  return s;
+}
+
+TEST(ContactOnRail, EquilibriumRestsOnTheDeflectedRail) {
+  const FlexibleTrack track = short_zhai();
+  const VehicleOnTrack v = on_bending_rails(track, 20.0, 1e-9);
+  const Equilibrium e = find_equilibrium(v);
+  ASSERT_EQ(e.report.status, Status::ok);
+  const RailOnSeats rest(track);
+  const double load = 0.5 * (1813.0 + 9000.0) * kGravity;
+  EXPECT_NEAR(e.state.q[1],
+              load * rest.receptance(rest.middle(), 0.0).real() + std::pow(load / kBendingContact, 2.0 / 3.0), 1e-8);
+}
+
+TEST(ContactOnRail, EnergyIsBalanced) {
+  const VehicleOnTrack v = on_bending_rails(short_zhai(), 20.0, 1e-8);
+  SystemState start = find_equilibrium(v).state;
+  start.q[0] += 0.01;
+  Simulation s(v, start, small_steps(0.3, 2e-5));
+  while (!s.finished()) s.advance();
+  EXPECT_GT(s.energy().turnover, 10.0);
+  EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
+  EXPECT_LT(std::abs(s.energy().contact_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
+}
+
+TEST(ContactOnRail, GoesOnWithTheSameBits) {
+  const SimulationSettings settings = small_steps(0.15, 5e-5);
+  const VehicleOnTrack first = on_bending_rails(short_zhai(), 20.0, 1e-6);
+  const auto start_of = [](const VehicleOnTrack& v) {
+    SystemState state = find_equilibrium(v).state;
+    state.q[0] += 0.01;
+    return state;
+  };
+  Simulation whole(first, start_of(first), settings);
+  ByteWriter saved;
+  for (int i = 0; !whole.finished(); ++i) {
+    if (i == 1500) whole.save(saved);
+    whole.advance();
+  }
+  const VehicleOnTrack second = on_bending_rails(short_zhai(), 20.0, 1e-6);
+  Simulation rest(second, start_of(second), settings);
+  ByteReader reader(saved.bytes());
+  rest.restore(reader);
+  EXPECT_TRUE(reader.at_end());
+  while (!rest.finished()) rest.advance();
+  EXPECT_EQ(rest.state().q, whole.state().q);
+  EXPECT_EQ(rest.energy().elastic, whole.energy().elastic);
+  EXPECT_EQ(rest.counts().steps, whole.counts().steps);
+}
+
+}  // namespace
+}  // namespace treadmark::vehicle
