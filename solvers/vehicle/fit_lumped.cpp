@@ -16,19 +16,19 @@ namespace treadmark::vehicle {
 namespace {
 
 using Complex = std::complex<double>;
-using Numbers = Eigen::VectorXd;  // logarithms of mass, stiffness, damping, layer after layer
+using Logarithms = Eigen::VectorXd;  // logarithms of mass, stiffness, damping, layer after layer
 
 constexpr int kOfLayer = 3;
 
-std::vector<LumpedLayer> layers_of(const Numbers& numbers) {
+std::vector<LumpedLayer> layers_of(const Logarithms& numbers) {
   std::vector<LumpedLayer> layers;
   for (Eigen::Index i = 0; i < numbers.size(); i += kOfLayer)
     layers.push_back({std::exp(numbers[i]), std::exp(numbers[i + 1]), std::exp(numbers[i + 2])});
   return layers;
 }
 
-Numbers numbers_of(const std::vector<LumpedLayer>& layers) {
-  Numbers numbers(kOfLayer * static_cast<Eigen::Index>(layers.size()));
+Logarithms numbers_of(const std::vector<LumpedLayer>& layers) {
+  Logarithms numbers(kOfLayer * static_cast<Eigen::Index>(layers.size()));
   for (std::size_t i = 0; i < layers.size(); ++i)
     numbers.segment<kOfLayer>(kOfLayer * static_cast<Eigen::Index>(i)) << std::log(layers[i].mass),
         std::log(layers[i].stiffness), std::log(layers[i].damping);
@@ -46,12 +46,12 @@ class Search {
   }
 
   struct Found {
-    Numbers numbers;
+    Logarithms numbers;
     double squares = kInfinity;
     bool converged = false;
   };
 
-  Found from(const Numbers& start) const {
+  Found from(const Logarithms& start) const {
     constexpr int kMost = 300;
     constexpr double kLeastGain = 1e-10;
     Found found{start, residual(start).squaredNorm(), false};
@@ -65,7 +65,7 @@ class Search {
       while (!better && lambda < 1e10) {
         Eigen::MatrixXd damped = normal;
         damped.diagonal() += lambda * (normal.diagonal().array() + 1e-12 * normal.diagonal().maxCoeff()).matrix();
-        Numbers next = found.numbers - damped.ldlt().solve(slope);
+        Logarithms next = found.numbers - damped.ldlt().solve(slope);
         for (Eigen::Index m = 0; m < next.size(); m += kOfLayer) next[m] = std::max(next[m], least_mass_);
         // Numbers beyond e^60 belong to no track.
         const double squares =
@@ -86,7 +86,7 @@ class Search {
   }
 
  private:
-  Eigen::VectorXd residual(const Numbers& numbers) const {
+  Eigen::VectorXd residual(const Logarithms& numbers) const {
     const std::vector<LumpedLayer> layers = layers_of(numbers);
     Eigen::VectorXd r(2 * static_cast<Eigen::Index>(frequency_.size()));
     for (std::size_t i = 0; i < frequency_.size(); ++i) {
@@ -97,11 +97,11 @@ class Search {
     return r;
   }
 
-  Eigen::MatrixXd jacobian(const Numbers& numbers) const {
+  Eigen::MatrixXd jacobian(const Logarithms& numbers) const {
     constexpr double kStep = 1e-5;
     Eigen::MatrixXd j(2 * static_cast<Eigen::Index>(frequency_.size()), numbers.size());
     for (Eigen::Index c = 0; c < numbers.size(); ++c) {
-      Numbers up = numbers, down = numbers;
+      Logarithms up = numbers, down = numbers;
       up[c] += kStep;
       down[c] -= kStep;
       j.col(c) = (residual(up) - residual(down)) / (2.0 * kStep);

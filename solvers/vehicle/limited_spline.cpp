@@ -12,7 +12,7 @@ namespace treadmark::vehicle {
 
 namespace {
 
-using Numbers = std::vector<double>;
+using Samples = std::vector<double>;
 
 double minmod(double a, double b) {
   if (!(a * b > 0.0)) return 0.0;
@@ -22,7 +22,7 @@ double minmod(double a, double b) {
 /// Slope in x[0] of the polynomial through up to four points (Newton's divided differences).
 double end_slope(const double* x, const double* y, std::size_t count, std::ptrdiff_t step) {
   const auto at = [step](const double* values, std::size_t i) { return values[static_cast<std::ptrdiff_t>(i) * step]; };
-  Numbers d(count);
+  Samples d(count);
   for (std::size_t i = 0; i < count; ++i) d[i] = at(y, i);
   double slope = 0.0, product = 1.0;
   for (std::size_t order = 1; order < count; ++order) {
@@ -34,9 +34,9 @@ double end_slope(const double* x, const double* y, std::size_t count, std::ptrdi
 }
 
 /// Slopes of the spline with continuous second derivative and given slopes at its ends (Thomas's algorithm).
-void solve_slopes(const Numbers& x, const Numbers& rise, Numbers& slope) {
+void solve_slopes(const Samples& x, const Samples& rise, Samples& slope) {
   const std::size_t n = slope.size();
-  Numbers c(n), d(n);
+  Samples c(n), d(n);
   d[0] = slope[0];
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double before = x[i] - x[i - 1], behind = x[i + 1] - x[i];
@@ -49,10 +49,10 @@ void solve_slopes(const Numbers& x, const Numbers& rise, Numbers& slope) {
 
 }  // namespace
 
-LimitedSpline::LimitedSpline(Numbers x, Numbers y) : x_(std::move(x)), y_(std::move(y)) {
+LimitedSpline::LimitedSpline(Samples x, Samples y) : x_(std::move(x)), y_(std::move(y)) {
   const std::size_t n = x_.size();
   if (n < 2 || y_.size() != n) throw Error(ErrorKind::input_data, "a spline needs at least two points");
-  Numbers rise(n - 1);
+  Samples rise(n - 1);
   for (std::size_t i = 0; i + 1 < n; ++i) {
     rise[i] = (y_[i + 1] - y_[i]) / (x_[i + 1] - x_[i]);
     if (!(x_[i + 1] > x_[i]) || !std::isfinite(rise[i]))
@@ -68,7 +68,7 @@ LimitedSpline::LimitedSpline(Numbers x, Numbers y) : x_(std::move(x)), y_(std::m
   solve_slopes(x_, rise, slope_);
 
   // Second differences at the points; none at the ends, so that the last piece of a step is not taken for a peak.
-  Numbers bend(n);
+  Samples bend(n);
   for (std::size_t i = 1; i + 1 < n; ++i) bend[i] = (rise[i] - rise[i - 1]) / (x_[i + 1] - x_[i - 1]);
   for (std::size_t i = 1; i + 1 < n; ++i) {
     const double from_left = rise[i - 1] + minmod(bend[i - 1], bend[i]) * (x_[i] - x_[i - 1]);
