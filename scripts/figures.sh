@@ -33,7 +33,7 @@ if [[ -n $slices ]]; then
   wheel=(--set "wheel.shape.file=$slices" --set "wheel.shape.smoothing_lambda_mm3=${SMOOTHING_MM3:-5}" --set "wheel.flats=[]"
     --set "simulation.other_wheel.shape.standard=S1002" --set "simulation.wheels.0.pitch_deg=$(degrees 60)")
   list=""
-  for angle in -16 -8 -5 -2 1 4 7 12; do list+="${list:+, }$(degrees "$angle")"; done
+  for angle in -10 -5 -3 -1 1 3 5 8; do list+="${list:+, }$(degrees "$angle")"; done
   angles=(--set "simulation.fields.pitch_deg=[$list]")
 else
   echo "generated flat" >&2
