@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
+#include <tuple>
 #include <utility>
 
 #include "treadmark/app/cases/run_cases.hpp"
@@ -9,6 +10,8 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/app/track/track_run.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parts.hpp"
 #include "treadmark/interfaces/python/python.hpp"
@@ -142,6 +145,24 @@ py::dict sweep(const Source& source, const std::filesystem::path& folder, bool r
   return d;
 }
 
+struct FoundTrack {
+  std::shared_ptr<const app::TrackResult> result;
+};
+
+FoundTrack track(const std::filesystem::path& file, const Strings& overrides, const std::pair<double, double>& range,
+                 int count, int layers) {
+  return with_progress(py::none(), 1, [&](const Progress& report) {
+    const CancellationScope scope(report.stop);
+    app::TrackRequest request;
+    request.file = file;
+    request.overrides = overrides;
+    std::tie(request.from, request.to) = range;
+    request.count = count;
+    request.layers = layers;
+    return FoundTrack{std::make_shared<const app::TrackResult>(app::run_track(request))};
+  });
+}
+
 /// How many runs or simulations there are, and notes.
 std::pair<std::size_t, Strings> check_simulation(const Source& source, bool study) {
   return released([&] {
@@ -187,6 +208,15 @@ void add_simulations(py::module_& module) {
           app::write_simulation_folder(folder, *s.result);
         });
       });
+  py::class_<FoundTrack>(module, "Track")
+      .def("json", [](const FoundTrack& t) { return app::track_json(*t.result); })
+      .def("csv", [](const FoundTrack& t) { return app::track_csv(*t.result); })
+      .def("svg", [](const FoundTrack& t) { return app::track_svg(*t.result); })
+      .def("summary", [](const FoundTrack& t) { return app::track_table(*t.result); })
+      .def("write_folder", [](const FoundTrack& t, const std::filesystem::path& folder) {
+        with_files([&] { app::write_track_folder(folder, *t.result); });
+      });
+  module.def("track", track);
   module.def("simulate", simulate);
   module.def("sweep", sweep);
   module.def("read_sweep", [](const std::filesystem::path& file) {

@@ -44,13 +44,15 @@ struct FileText {
   NamedFile file;
   std::string text;
 };
+/// Errors: Error(configuration) where there is no such file.
 FileText named_text(const TableReader& table, std::string_view key, const std::filesystem::path& folder);
 
 /// Places of the rearmost and the foremost wheelset along the vehicle [m].
 FromTo wheelset_places(const VehicleModel& vehicle);
 
-/// [layout], which must reach as far as the vehicle runs, and [irregularities]: out.vehicle and out.settings are set.
+/// [layout], which must reach as far as the vehicle runs: out.vehicle and out.settings are set.
 void read_layout(const TableReader& layout, SimulationFile& out);
+/// [irregularities], which must reach as far: out.vehicle, out.settings and out.layout are set.
 void read_irregularities(const TableReader& irregularities, const std::filesystem::path& folder, SimulationFile& out);
 
 /// Everything outside of [simulation], [layout] and [irregularities]: the keys of a case file.

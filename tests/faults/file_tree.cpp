@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/faults/file_tree.hpp"
 
+#include <algorithm>
 #include <cstdint>
 #include <cstring>
 #include <fstream>
 #include <iterator>
+#include <string_view>
 
 namespace treadmark::testing {
 namespace {
@@ -23,8 +25,8 @@ bool is_of_set(const std::string& path) { return path.find(".slcw-") != path.npo
 /// Written last and removed first: where it stands, the other files of its folder are of the same making.
 bool is_last(const std::string& path) {
   const std::string name = path.substr(path.rfind('/') + 1);
-  return path.size() > name.size() &&
-         (name == "result.json" || name == "compare.json" || name == "bench.json" || name == "simulation.h5");
+  constexpr std::string_view kLast[] = {"result.json", "compare.json", "bench.json", "simulation.h5", "track.json"};
+  return path.size() > name.size() && std::ranges::find(kLast, name) != std::end(kLast);
 }
 
 /// The first of the files of its folder in `whole` that `now` does not hold.

@@ -422,6 +422,52 @@ def simulate(source: Input, *, set: Changes = None, folder: Path | None = None, 
     return _simulation_of(_treadmark.simulate(_source(source, set, folder), modes_only, progress, threads))
 
 
+class Track(_Text):
+    """How a track gives way under a wheel."""
+
+    def __init__(self, held: _treadmark.Track) -> None:
+        self._held = held
+
+    @property
+    def frequencies(self) -> npt.NDArray[np.float64]:
+        """[Hz]"""
+        return np.array(self.document["frequency_Hz"])
+
+    @property
+    def receptances(self) -> dict[str, npt.NDArray[np.complex128]]:
+        """Motion of the rail under a force at it, by name [m/N]: "between" sleepers, "over" one, "mean" of a flexible track, "rail" of a
+        lumped one, "fitted", "lateral"."""
+        return {name: np.array(curve["m_per_N"]) * np.exp(1j * np.radians(np.array(curve["phase_deg"])))
+                for name, curve in self.document["curves"].items()}
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """A row a frequency, with names and units of receptance.csv. Needs pandas."""
+        rows = list(csv.DictReader(self._held.csv().splitlines()))
+        return frame([{name: float(value) for name, value in row.items()} for row in rows])
+
+    def summary(self) -> str:
+        """For people."""
+        text: str = self._held.summary()
+        return text
+
+    def svg(self) -> str:
+        """Receptance and phase as a picture."""
+        text: str = self._held.svg()
+        return text
+
+    def write(self, folder: Path) -> None:
+        """Writes the folder that the program writes with -o; with a fitted track, fitted.toml."""
+        self._held.write_folder(pathlib.Path(folder))
+
+    def _repr_html_(self) -> str:
+        return self.svg()
+
+
+def track(file: Path, *, set: Changes = None, from_Hz: float = 10.0, to_Hz: float = 1500.0, count: int = 200, fit: int = 0) -> Track:
+    """How the track of a file gives way, as ``treadmark track`` does; fit: layers of a lumped track that is fitted to it, 0 = none."""
+    return Track(_treadmark.track(pathlib.Path(file), assignments(set), (from_Hz, to_Hz), count, fit))
+
+
 class SweepRun(NamedTuple):
     """One simulation of a study."""
 

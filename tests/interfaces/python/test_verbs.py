@@ -68,6 +68,22 @@ def test_modes(examples, program):
     assert len(modes.values) == 0 and modes.modes and modes.statics
 
 
+@needs("vehicle")
+def test_track(tmp_path, examples):
+    found = tm.track(examples / "tracks" / "zhai-equivalent.toml", set={"scale_stiffness": 2.0}, count=20, fit=1)
+    receptance = found.receptances["rail"]
+    assert found.frequencies.shape == receptance.shape == (20,) and (abs(receptance) > 0.0).all()
+    softer = tm.track(examples / "tracks" / "zhai-equivalent.toml", count=20)
+    assert abs(softer.receptances["rail"][0]) > 1.5 * abs(receptance[0]) and "fitted" not in softer.receptances
+    found.write(tmp_path)
+    assert json.loads((tmp_path / "track.json").read_text()) == found.document
+    refit = tm.track(tmp_path / "fitted.toml", count=20)
+    assert np.allclose(refit.receptances["rail"], found.receptances["fitted"], rtol=1e-6)
+    assert found.svg().startswith("<svg") and "kg on" in found.summary()
+    with pytest.raises(tm.InputError, match="Hz|frequenc"):
+        tm.track(examples / "tracks" / "zhai-equivalent.toml", from_Hz=100.0, to_Hz=10.0)
+
+
 @needs("vehicle", "hdf5")
 def test_sweep(tmp_path, examples):
     study = tmp_path / "study.toml"
