@@ -104,8 +104,10 @@ BodyPair ContactSearch::bodies_at(double wheel_dz) const {
 
 SearchResult ContactSearch::at(double wheel_dz) {
   const SearchSettings& s = settings_;
-  if (std::isnan(least_gap())) return {{}, least_gap(), least_gap()};
   const double look_below = std::max({0.0, s.rules.near_miss, s.refine ? grazing_gap(s.grid_T) : 0.0});
+  // Where the bodies touch, this finds the least gap as well.
+  if (gap_) gap_->reveal(look_below + wheel_dz);
+  if (std::isnan(least_gap())) return {{}, least_gap(), least_gap()};
   return method() == SearchMethod::locus ? on_locus(wheel_dz, look_below) : on_grid(wheel_dz, look_below);
 }
 
@@ -122,7 +124,6 @@ SearchResult ContactSearch::on_grid(double wheel_dz, double look_below) {
   SearchResult result;
   result.least_gap = gap_->least() - wheel_dz;
   double closest = std::numeric_limits<double>::infinity();
-  gap_->reveal(look_below + wheel_dz);
 
   std::vector<ContactPatch> patches, near_misses;
   for (const Region& region :

@@ -146,7 +146,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
       input.side = wheel.side;
       const wheelrail::Problem problem = to_problem(input, geometry.round_wheel);
       on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
-      built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem));
+      built.full.push_back(
+          std::make_shared<vehicle::FullContact>(geometry, problem, integration_settings(file).max_travel));
       built.bodies.push_back(bodies_of(geometry, file, wheel.side));
       on.element = built.full.back();
     } else {

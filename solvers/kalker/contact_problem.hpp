@@ -44,6 +44,7 @@ struct Rolling {
   double velocity = 30.0;                 ///< V [m/s]
   double step = 0.0;                      ///< dq [m]; steady rolling is discretised with dq = dx whatever is given
   double spin_offset_factor = 1.0 / 6.0;  ///< share of dq by which the spin centre is shifted for rolling
+  double usual_step = 0.0;                ///< most steps dq of transient rolling are this one [m]; 0: unknown
 };
 
 /// Hertz ellipse known beforehand: h = A x^2 + B y^2.

@@ -82,7 +82,7 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
   return marker;
 }
 
-FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem)
+FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double usual_travel)
     : problem_(std::move(problem)), pair_(geometry) {
   const Vec3 marker = rail_marker_at_rest(geometry, problem_);
   problem_.track.gauge_based = false;
@@ -91,6 +91,8 @@ FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem
   problem_.vertical_force.reset();
   problem_.longitudinal_force.reset();
   problem_.rail_springs.reset();
+  problem_.discretisation.quick_search = true;
+  problem_.discretisation.usual_dq_relative = usual_travel / problem_.discretisation.dx;
   past_.state = accepted_.before.state = pair_.save();
 }
 

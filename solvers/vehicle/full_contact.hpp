@@ -16,7 +16,7 @@ class FullContact : public ContactElement {
  public:
   /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling.
   /// Errors: Error(configuration).
-  FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem);
+  FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double usual_travel = 0.0);
 
   ContactReaction evaluate(const PairMotion& motion) override;
   void accept() override;

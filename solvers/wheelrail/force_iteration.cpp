@@ -90,9 +90,13 @@ class Iteration {
   /// On success the tangential problem is solved as well.
   bool balance_vertical() {
     const std::optional<RailSprings>& springs = p_.rail_springs;
-    if (!p_.vertical_force && !(springs && springs->stiffness_z > 0.0)) {
+    if (step_.at_given_height()) {
       out_.z = p_.state.position.z;
       step_.evaluate(out_.z);
+      if (std::isnan(step_.least_gap())) {
+        off_the_rail();
+        return false;
+      }
       return !inside_the_rail() && solve_tangential();
     }
     ForceBalance::Target target;

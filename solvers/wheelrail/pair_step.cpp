@@ -49,9 +49,15 @@ bool PairStep::place(double rail_dy) {
                                    start_.X_TA,          std::nullopt,          wheel_profile_};
   const Stopwatch watch(times_.search_s);
   search_.emplace(bodies, search_settings(geometry_, moved, start_));
+  if (at_given_height()) return true;  // the gap is found together with the patches
   const double gap = search_->least_gap();
   touching_z_ = start_z_ + gap;
   return !std::isnan(gap);
+}
+
+bool PairStep::at_given_height() const {
+  const auto& springs = problem_.rail_springs;
+  return !problem_.vertical_force && !(springs && springs->stiffness_z > 0.0);
 }
 
 /// The reference program has one creepage for all parts, strip theory one for every row.
@@ -118,6 +124,7 @@ kalker::ContactProblem PairStep::contact_problem(const Patch& patch) const {
   c.rolling.chi = s.kinematics.chi;
   c.rolling.velocity = s.kinematics.velocity;
   c.rolling.step = p.regime == kalker::Regime::shift ? 1.0 : p.discretisation.dq_relative * s.grid.dx;
+  c.rolling.usual_step = p.discretisation.usual_dq_relative * s.grid.dx;
   c.settings = p.solver;
   c.history = patch.history ? (p.history == kalker::HistoryUse::normal_only ? kalker::HistoryUse::normal_only
                                                                             : kalker::HistoryUse::keep_going)

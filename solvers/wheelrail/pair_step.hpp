@@ -26,9 +26,12 @@ class PairStep {
            std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times,
            std::shared_ptr<const detection::SampledProfile> wheel_profile);
 
-  /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other.
+  /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
+  /// finds that out, its least_gap() is no number then.
   bool place(double rail_dy);
-  /// Wheelset height z [m] at which the bodies touch.
+  /// No force asks for another height of the wheelset than that of its state.
+  bool at_given_height() const;
+  /// Wheelset height z [m] at which the bodies touch; not known at a given height.
   double touching_z() const { return touching_z_; }
 
   /// Patches and pressures with the wheelset at height z over the undeflected rail.

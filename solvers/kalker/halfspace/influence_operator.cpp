@@ -67,6 +67,25 @@ void InfluenceOperator::tangential_by_tangential(std::span<const double> px, std
   invert(&InfluenceBlock::yx, &InfluenceBlock::yy, uy);
 }
 
+void InfluenceOperator::tangential_by_tangential(std::span<InfluenceOperator* const> nodes,
+                                                 std::span<const double> weights, std::span<const double> px,
+                                                 std::span<const double> py, std::span<double> ux,
+                                                 std::span<double> uy) {
+  InfluenceOperator& own = *nodes.front();
+  own.transform_.forward(px, own.field_1_);
+  own.transform_.forward(py, own.field_2_);
+  const auto inverse = [&](Coefficient by_x, Coefficient by_y, std::span<double> result) {
+    clear(std::span(own.sum_));
+    for (std::size_t k = 0; k < nodes.size(); ++k) {
+      add_product(own.sum_, own.field_1_, nodes[k]->spectrum(by_x), weights[k]);
+      add_product(own.sum_, own.field_2_, nodes[k]->spectrum(by_y), weights[k]);
+    }
+    own.transform_.inverse(own.sum_, result);
+  };
+  inverse(&InfluenceBlock::xx, &InfluenceBlock::xy, ux);
+  inverse(&InfluenceBlock::yx, &InfluenceBlock::yy, uy);
+}
+
 void InfluenceOperator::tangential_by_normal(std::span<const double> pn, std::span<double> ux, std::span<double> uy,
                                              const RowInclination* rows) {
   if (rows) return turned().apply(*rows, {.x = {}, .y = {}, .n = pn}, {.x = ux, .y = uy, .n = {}});

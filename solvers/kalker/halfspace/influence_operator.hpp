@@ -36,6 +36,11 @@ class InfluenceOperator {
   /// are turned (TurnedProduct), or none.
   void tangential_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> ux,
                                 std::span<double> uy, const RowInclination* rows = nullptr);
+  /// The same by a weighted sum of the coefficients of operators of one size, half-spaces only. The first one's memory
+  /// is used. Errors: none; nodes not empty, as many weights.
+  static void tangential_by_tangential(std::span<InfluenceOperator* const> nodes, std::span<const double> weights,
+                                       std::span<const double> px, std::span<const double> py, std::span<double> ux,
+                                       std::span<double> uy);
   void tangential_by_normal(std::span<const double> pn, std::span<double> ux, std::span<double> uy,
                             const RowInclination* rows = nullptr);
   void normal_by_tangential(std::span<const double> px, std::span<const double> py, std::span<double> un,

@@ -3,6 +3,7 @@
 #include "treadmark/solvers/kalker/tangential/previous_instant.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "treadmark/core/error.hpp"
@@ -11,7 +12,10 @@ namespace treadmark::kalker {
 
 namespace {
 
-constexpr std::size_t kMostOperators = 12;
+constexpr std::size_t kMostOperators = 24;
+
+/// Steps next to the usual one, of which they differ by this share.
+constexpr double kNodes = 2e-3;
 
 /// A rectangle of a grid that holds all elements that matter, its size rounded up so that it is met again.
 struct Box {
@@ -111,6 +115,33 @@ InfluenceOperator& OperatorStore::get(int nx, int ny, const Grid2& grid, double 
   return entries_.front().product;
 }
 
+namespace {
+
+/// Displacements by tractions of the instant before where material was a step ago. Coefficients for a step that
+/// nobody met before cost more than all else; close to the usual step they are a parabola through three that are kept.
+/// False: the step is another one.
+bool interpolated_displacement(const ContactProblem& problem, const RollingStep& step, const Box& box,
+                               const KernelChoice& kernel, OperatorStore& operators, const std::vector<double>& px,
+                               const std::vector<double>& py, std::vector<double>& ux, std::vector<double>& uy) {
+  const double usual = problem.rolling.usual_step;
+  if (!(usual > 0.0) || !step.rolling) return false;
+  const double t = (step.distance / usual - 1.0) / kNodes;
+  if (!(std::abs(t) <= 1.0)) return false;
+  const double g = combine(problem.material).shear_modulus;
+  std::array<InfluenceOperator*, 3> nodes{};
+  for (int k = 0; k < 3; ++k) {
+    const double node = usual * (1.0 + (k - 1) * kNodes);
+    nodes[static_cast<std::size_t>(k)] =
+        &operators.get(box.nx, box.ny, problem.grid, g, kernel.kernel, node * (step.shift_x / step.distance),
+                       node * (step.shift_y / step.distance));
+  }
+  const std::array<double, 3> weights{0.5 * t * (t - 1.0), 1.0 - t * t, 0.5 * t * (t + 1.0)};
+  InfluenceOperator::tangential_by_tangential(nodes, weights, px, py, ux, uy);
+  return true;
+}
+
+}  // namespace
+
 PatchConditions patch_conditions(const ContactProblem& problem, const Patch& patch, const RollingStep& step,
                                  const KernelChoice& kernel, std::span<const double> pressure,
                                  const ContactHistory& previous, OperatorStore& operators) {
@@ -157,12 +188,15 @@ PatchConditions patch_conditions(const ContactProblem& problem, const Patch& pat
   if (history) {
     const std::vector<double> px = cut(grid, box, then.traction_x), py = cut(grid, box, then.traction_y);
     const auto displacement = [&](double shift_x, double shift_y, std::vector<double>& x, std::vector<double>& y) {
-      InfluenceOperator& op = operators.get(box.nx, box.ny, grid, g, kernel.kernel, shift_x, shift_y);
       x.assign(size, 0.0);
       y.assign(size, 0.0);
-      op.tangential_by_tangential(px, py, x, y, rows);
+      const bool moved = shift_x != 0.0 || shift_y != 0.0, plain = !rows && !kernel.coupled;
+      if (!(moved && plain && interpolated_displacement(problem, step, box, kernel, operators, px, py, x, y)))
+        operators.get(box.nx, box.ny, grid, g, kernel.kernel, shift_x, shift_y)
+            .tangential_by_tangential(px, py, x, y, rows);
       if (kernel.coupled) {
-        op.tangential_by_normal(cut(grid, box, then.pressure), ux, uy, rows);
+        operators.get(box.nx, box.ny, grid, g, kernel.kernel, shift_x, shift_y)
+            .tangential_by_normal(cut(grid, box, then.pressure), ux, uy, rows);
         for (std::size_t k = 0; k < size; ++k) {
           x[k] += ux[k];
           y[k] += uy[k];
