@@ -187,7 +187,7 @@ class Builder {
   };
 
   void require_section(const io::WheelContactInput& wheel, const Rails& rails, double from, double to) {
-    constexpr double kSame = 1e-5, kSamePlace = 1e-4;                // [m]
+    constexpr double kSame = 1e-5, kSamePlace = 1e-5;                // [m]
     constexpr double kAside = 0.036, kAcross = 1e-3, kAlong = 5e-3;  // looked at, about the profile's origin [m]
     constexpr int kMost = 2000;
     wheelrail::Problem problem = to_problem(file_.contact, true);
@@ -212,16 +212,19 @@ class Builder {
         if (off > most) most = off, at = grid.x(ix);
       }
     if (most <= kSame && apart <= kSamePlace) return;
-    throw Error(
-        ErrorKind::configuration,
-        apart > kSamePlace
-            ? fmt::format("the {} rail and that of its table have origins {:.3g} mm apart",
-                          wheel.side == Side::left ? "left" : "right", 1e3 * apart)
-            : fmt::format("{} takes its forces from a table at x = {:.6g} m along the rail, which differs there "
-                          "by {:.3g} mm from the rail of the table",
-                          wheel_name(wheel), at, 1e3 * most),
-        file_.rail(wheel.side).where,
-        "give the wheel contact = \"full\" there (full_from_m, full_to_m), or another simulation.table_rail");
+    SourcePosition where = file_.rail(wheel.side).where;
+    if (where.file.empty()) where = {file_.path.string(), 1, 1};
+    if (apart > kSamePlace)
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("the rail below {} and that of its table lie {:.3g} mm apart", wheel_name(wheel), 1e3 * apart),
+          where, "their gauge is measured at x = 0: begin where both are the same, or place them by rail_y_mm");
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} takes its forces from a table at x = {:.6g} m along the rail, which differs there by "
+                            "{:.3g} mm from the rail of the table",
+                            wheel_name(wheel), at, 1e3 * most),
+                where,
+                "give the wheel contact = \"full\" there (full_from_m, full_to_m), or another simulation.table_rail");
   }
 
   wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source,

@@ -213,7 +213,9 @@ ContactPart with_rail(ContactPart part, const TableReader& simulation) {
 
 void read_rails(const ContactPart& part, const TableReader& simulation, SimulationFile& out) {
   const auto read = [&](std::string_view key, std::optional<SurfaceSource>& rail) {
-    if (simulation.table(key) != nullptr) rail = read_in_place(part, simulation, key, "rail", out).rail;
+    if (simulation.table(key) == nullptr) return;
+    rail = read_in_place(part, simulation, key, "rail", out).rail;
+    if (rail->where.file.empty()) rail->where = simulation.need(key).where;  // of parts
   };
   read("left_rail", out.left_rail);
   read("right_rail", out.right_rail);

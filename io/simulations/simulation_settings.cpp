@@ -51,7 +51,7 @@ WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
   const SourcePosition& where = table.need(wheel.full_from ? "full_from_m" : "full_to_m").where;
   if (wheel.model != ContactModelInput::full)
     throw Error(ErrorKind::configuration, "full_from_m and full_to_m belong to a wheel with contact = \"full\"", where);
-  constexpr double kShortest = 0.1;
+  constexpr double kShortest = 0.1 - 1e-9;
   if (wheel.full_from && wheel.full_to && !(*wheel.full_to - *wheel.full_from >= kShortest))
     throw Error(ErrorKind::configuration, "full_to_m must lie at least 0.1 m behind full_from_m", where,
                 "the contacts go over into each other within 0.05 m at both ends");

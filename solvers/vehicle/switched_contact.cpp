@@ -49,7 +49,7 @@ SwitchedContact::SwitchedContact(std::shared_ptr<FullContact> full, std::shared_
                                  const FullStretch& stretch)
     : full_(std::move(full)), table_(std::move(table)), stretch_(stretch) {
   if (!full_ || !table_) throw Error(ErrorKind::configuration, "a contact that changes over lacks an element");
-  if (!(stretch.blend > 0.0) || !(stretch.to - stretch.from >= 2.0 * stretch.blend))
+  if (!(stretch.blend > 0.0) || !(stretch.to - stretch.from > 1.999 * stretch.blend))
     throw Error(ErrorKind::configuration, "the stretch of a full contact is too short to go over into it and back");
 }
 

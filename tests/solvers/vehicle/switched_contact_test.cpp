@@ -129,7 +129,7 @@ TEST_F(SwitchedContactTest, SavedStatesGoOn) {
 }
 
 TEST_F(SwitchedContactTest, StretchesThatAreTooShortAreRefused) {
-  stretch.to = stretch.from + 1.9 * stretch.blend;
+  stretch.to = stretch.from + 1.5 * stretch.blend;
   EXPECT_THROW(SwitchedContact(full, table, stretch), Error);
   stretch.to = std::numeric_limits<double>::infinity();
   EXPECT_NO_THROW(SwitchedContact(full, table, stretch));
