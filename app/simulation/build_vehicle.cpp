@@ -3,6 +3,9 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -12,7 +15,9 @@
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/solvers/vehicle/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/lateral_track.hpp"
+#include "treadmark/solvers/vehicle/switched_contact.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
+#include "treadmark/solvers/wheelrail/placement.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -43,17 +48,62 @@ io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelCo
   return source;
 }
 
+io::WheelRailCase contact_input(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
+  io::WheelRailCase input = file.contact;
+  input.side = wheel.side;
+  input.rail = file.rail(wheel.side);
+  if (wheel.side == Side::left && !input.track.gauge_based) input.track.rail_y0 = -input.track.rail_y0;
+  return input;
+}
+
+double rail_place(const io::SimulationFile& file, int wheelset) {
+  const auto x = [&](std::size_t i) {
+    return std::ranges::find(file.vehicle.bodies, file.vehicle.wheelsets.at(i).body, &BodySpec::name)->position.x();
+  };
+  return file.settings.rail_start + (x(static_cast<std::size_t>(wheelset)) - x(0));
+}
+
 namespace {
+
+/// Where a wheel's contact is found in full.
+vehicle::FullStretch stretch_of(const io::SimulationFile& file, const io::WheelContactInput& wheel) {
+  constexpr double kFar = std::numeric_limits<double>::infinity();
+  vehicle::FullStretch stretch;
+  stretch.from = wheel.full_from.value_or(-kFar);
+  stretch.to = wheel.full_to.value_or(kFar);
+  stretch.rail_x = rail_place(file, wheel.wheelset);
+  return stretch;
+}
 
 class Builder {
  public:
-  Builder(const io::SimulationFile& file, SurfaceStore& store) : file_(file), store_(store) {
-    rail_region_.u_min = -kRailBeyond;
-    rail_region_.u_max = file.settings.distance + kRailBeyond;
-  }
+  Builder(const io::SimulationFile& file, SurfaceStore& store) : file_(file), store_(store) {}
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
-    return geometry(wheel_source(file_, wheel), file_.contact.rail);
+    const wheelrail::Geometry bodies =
+        geometry(wheel_source(file_, wheel), file_.rail(wheel.side), rail_region(wheel.side));
+    if (wheel.changes_over() && !bodies.round_wheel)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{} is not round: its contact cannot change over to a table", wheel_name(wheel)),
+                  file_.contact.wheel.where, "leave out full_from_m and full_to_m, or say defects = false");
+    return bodies;
+  }
+
+  /// Refuses a rail that is another one than that of the tables where a wheel takes its forces from a table.
+  void require_section(const io::WheelContactInput& wheel) {
+    const io::SurfaceSource& own = file_.rail(wheel.side);
+    const io::SurfaceSource source = table_rail(wheel.side);
+    const bool is_full = wheel.model == io::ContactModelInput::full;
+    // Rails without their defects are what tables are of.
+    if (is_full ? !wheel.changes_over() : natural_rail(undamaged(own)).constant_profile()) return;
+    const vehicle::FullStretch stretch = stretch_of(file_, wheel);
+    const double begin = stretch.rail_x, end = begin + file_.settings.distance;
+    const auto require = [&](double from, double to) {
+      if (from < to) require_section(wheel, {natural_rail(own), natural_rail(source)}, from, to);
+    };
+    if (!is_full) return require(begin, end);
+    require(begin, std::min(end, stretch.from + stretch.blend));
+    require(std::max(begin, stretch.to - stretch.blend), end);
   }
 
   /// As the wheels are given, whatever represents them in the analysis.
@@ -72,38 +122,122 @@ class Builder {
   }
 
   /// Round wheel, rail without defects, both as they are given.
-  wheelrail::Geometry table_geometry() {
-    io::SurfaceSource wheel = round_wheel(file_), rail = file_.contact.rail;
-    rail.defects = {};
-    wheel.backend = rail.backend = "";
-    wheel.resolution = rail.resolution = 0.0;
-    const wheelrail::Geometry bodies = geometry(wheel, rail);
+  wheelrail::Geometry table_geometry(Side side) {
+    io::SurfaceSource wheel = round_wheel(file_);
+    wheel.backend = "";
+    wheel.resolution = 0.0;
+    const wheelrail::Geometry bodies = geometry(wheel, table_rail(side), Region{});
+    if (!bodies.round_wheel)
+      throw Error(ErrorKind::configuration, "wheels with table contact must be round", wheel.where,
+                  "give the shape of the round wheels as simulation.other_wheel");
     if (!bodies.constant_profiles())
-      throw Error(ErrorKind::configuration,
-                  bodies.round_wheel ? "wheels with table contact need a rail of one section"
-                                     : "wheels with table contact must be round",
-                  wheel.where,
-                  bodies.round_wheel ? "give every wheel contact = \"full\""
-                                     : "give the shape of the round wheels as simulation.other_wheel");
+      throw Error(ErrorKind::configuration, "wheels with table contact need a rail of one section",
+                  file_.table_rail ? file_.table_rail->where : file_.rail(side).where,
+                  file_.table_rail ? "simulation.table_rail must not vary"
+                                   : "give it as simulation.table_rail, or give every wheel contact = \"full\"");
     return bodies;
   }
 
-  std::shared_ptr<const vehicle::ContactTable> table(double wheel_load) {
-    if (!table_) table_ = vehicle::build_contact_table(table_geometry(), to_problem(file_.contact, true), wheel_load);
-    return table_;
+  std::shared_ptr<const vehicle::ContactTable> table(Side side, double wheel_load) {
+    // Rails are right-hand ones: one table serves both sides of one shape.
+    auto& made = tables_[is_common(side) ? nullptr : &file_.rail(side)];
+    if (!made) made = vehicle::build_contact_table(table_geometry(side), to_problem(file_.contact, true), wheel_load);
+    return made;
   }
 
  private:
-  wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source) {
-    const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, rail_region_);
+  static io::SurfaceSource undamaged(io::SurfaceSource rail) {
+    rail.defects = {};
+    rail.backend = "";
+    rail.resolution = 0.0;
+    return rail;
+  }
+
+  const NaturalSurface& natural_rail(const io::SurfaceSource& source) {
+    return *store_.get(source, Body::rail, 0.0, Region{}).natural;
+  }
+
+  /// Whether tables of a side are those of simulation.table_rail.
+  bool is_common(Side side) {
+    return file_.table_rail && !natural_rail(undamaged(file_.rail(side))).constant_profile();
+  }
+
+  io::SurfaceSource table_rail(Side side) { return undamaged(is_common(side) ? *file_.table_rail : file_.rail(side)); }
+
+  /// What wheels of a side with full contact pass.
+  Region rail_region(Side side) const {
+    Region region;
+    bool any = false;
+    for (const io::WheelContactInput& wheel : file_.wheels) {
+      if (wheel.side != side || wheel.model != io::ContactModelInput::full) continue;
+      const vehicle::FullStretch stretch = stretch_of(file_, wheel);
+      const double low = std::max(stretch.rail_x, stretch.from) - kRailBeyond,
+                   high = std::min(stretch.rail_x + file_.settings.distance, stretch.to) + kRailBeyond;
+      if (!(low < high)) continue;
+      region.u_min = any ? std::min(region.u_min, low) : low;
+      region.u_max = any ? std::max(region.u_max, high) : high;
+      any = true;
+    }
+    return region;
+  }
+
+  struct Rails {
+    const NaturalSurface& own;
+    const NaturalSurface& of_table;
+  };
+
+  void require_section(const io::WheelContactInput& wheel, const Rails& rails, double from, double to) {
+    constexpr double kSame = 1e-5, kSamePlace = 1e-5;                // [m]
+    constexpr double kAside = 0.036, kAcross = 1e-3, kAlong = 5e-3;  // looked at, about the profile's origin [m]
+    constexpr int kMost = 2000;
+    wheelrail::Problem problem = to_problem(file_.contact, true);
+    problem.wheelset.tape_line.reset();  // of the wheel, which is not asked for
+    const auto origin = [&](const NaturalSurface& rail) {
+      return wheelrail::place({rail.surface, nullptr, rail.constant_profile(), true}, problem).X_TR;
+    };
+    const Pose X_TR = origin(rails.own), X_TR_table = origin(rails.of_table);
+    const double apart = (X_TR.origin - X_TR_table.origin).norm();
+    const int nx = std::clamp(static_cast<int>((to - from) / kAlong) + 2, 2, kMost);
+    const int ny = 2 * static_cast<int>(kAside / kAcross) + 1;
+    const Grid2 grid{from, X_TR.origin.y() - kAside, (to - from) / (nx - 1), kAcross, nx, ny};
+    std::vector<double> z(grid.size()), z_table(grid.size()), slope(grid.size());
+    rails.own.surface->heights({X_TR.inverse(), grid}, {z, {}, {}});
+    rails.of_table.surface->heights({X_TR_table.inverse(), grid}, {z_table, {}, slope});
+    double most = 0.0, at = from;
+    for (int iy = 0; iy < ny; ++iy)
+      for (int ix = 0; ix < nx; ++ix) {
+        const std::size_t i = grid.index(ix, iy);
+        if (!(std::abs(slope[i]) <= 1.0)) continue;
+        const double off = std::isnan(z[i]) ? std::numeric_limits<double>::infinity() : std::abs(z[i] - z_table[i]);
+        if (off > most) most = off, at = grid.x(ix);
+      }
+    if (most <= kSame && apart <= kSamePlace) return;
+    SourcePosition where = file_.rail(wheel.side).where;
+    if (where.file.empty()) where = {file_.path.string(), 1, 1};
+    if (apart > kSamePlace)
+      throw Error(
+          ErrorKind::configuration,
+          fmt::format("the rail below {} and that of its table lie {:.3g} mm apart", wheel_name(wheel), 1e3 * apart),
+          where, "their gauge is measured at x = 0: begin where both are the same, or place them by rail_y_mm");
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} takes its forces from a table at x = {:.6g} m along the rail, which differs there by "
+                            "{:.3g} mm from the rail of the table",
+                            wheel_name(wheel), at, 1e3 * most),
+                where,
+                "give the wheel contact = \"full\" there (full_from_m, full_to_m), or another simulation.table_rail");
+  }
+
+  wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source,
+                               const Region& region) {
+    const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, region);
     const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, file_.contact.wheelset.nominal_radius, Region{});
     return {rail.represented.surface, wheel.represented.surface, rail.constant_profile(), wheel.constant_profile()};
   }
 
   const io::SimulationFile& file_;
   SurfaceStore& store_;
-  Region rail_region_;
-  std::shared_ptr<const vehicle::ContactTable> table_;
+  /// By the rail that they are of; null: simulation.table_rail.
+  std::map<const io::SurfaceSource*, std::shared_ptr<const vehicle::ContactTable>> tables_;
 };
 
 /// What moves below each wheelset beside rails that bend.
@@ -140,25 +274,30 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
   for (const io::WheelContactInput& wheel : file.wheels) {
     vehicle::WheelOnRail on{wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()};
     if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
-    if (wheel.model == io::ContactModelInput::full) {
-      const wheelrail::Geometry geometry = builder.full_geometry(wheel);
-      io::WheelRailCase input = file.contact;
-      input.side = wheel.side;
-      const wheelrail::Problem problem = to_problem(input, geometry.round_wheel);
-      on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
-      built.full.push_back(
-          std::make_shared<vehicle::FullContact>(geometry, problem, integration_settings(file).max_travel));
-      built.bodies.push_back(bodies_of(geometry, file, wheel.side));
-      on.element = built.full.back();
-    } else {
+    std::shared_ptr<vehicle::TableContact> from_table;
+    const bool is_full = wheel.model == io::ContactModelInput::full;
+    if (!is_full || wheel.changes_over()) {
+      builder.require_section(wheel);
       const Stopwatch watch(built.table_seconds);
-      const double load = *std::ranges::max_element(v.system.wheelset_load) / 2.0;
-      const auto table = builder.table(load);
-      on.element = std::make_shared<vehicle::TableContact>(table, on.side);
+      const auto table = builder.table(on.side, *std::ranges::max_element(v.system.wheelset_load) / 2.0);
+      from_table = std::make_shared<vehicle::TableContact>(table, on.side);
       on.rail_marker = table->nominal().X_TR.origin;
       if (on.side == Side::left) on.rail_marker.y() = -on.rail_marker.y();
+    }
+    if (is_full) {
+      const wheelrail::Geometry geometry = builder.full_geometry(wheel);
+      const wheelrail::Problem problem = to_problem(contact_input(file, wheel), geometry.round_wheel);
+      on.rail_marker = vehicle::rail_marker_at_rest(geometry, problem);
+      built.full.push_back(std::make_shared<vehicle::FullContact>(geometry, problem, rail_place(file, wheel.wheelset),
+                                                                  integration_settings(file).max_travel));
+      built.bodies.push_back(bodies_of(geometry, file, wheel.side));
+      on.element = built.full.back();
+      if (from_table)
+        on.element = std::make_shared<vehicle::SwitchedContact>(built.full.back(), from_table, stretch_of(file, wheel));
+    } else {
       built.full.push_back(nullptr);
       built.bodies.emplace_back();
+      on.element = from_table;
     }
     if (file.flexible_track) {
       constexpr double kTolerance = 1e-4;  // a tenth of what a step may leave
@@ -183,10 +322,10 @@ void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity);
   for (const io::WheelContactInput& wheel : file.wheels) {
     const bool full = wheel.model == io::ContactModelInput::full;
-    const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry();
-    io::WheelRailCase input = file.contact;
-    input.side = wheel.side;
-    vehicle::rail_marker_at_rest(geometry, to_problem(input, geometry.round_wheel));
+    const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);
+    if (full && wheel.changes_over()) builder.table_geometry(wheel.side);
+    builder.require_section(wheel);
+    vehicle::rail_marker_at_rest(geometry, to_problem(contact_input(file, wheel), geometry.round_wheel));
   }
 }
 

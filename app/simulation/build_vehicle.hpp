@@ -35,6 +35,12 @@ std::string wheel_name(const io::WheelContactInput& wheel);
 /// The shape of a wheel with full contact.
 io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelContactInput& wheel);
 
+/// Contact of a wheel as in a case file: its side and rail, whose place is mirrored for a left-hand one.
+io::WheelRailCase contact_input(const io::SimulationFile& file, const io::WheelContactInput& wheel);
+
+/// Place of a wheelset along the rails at the start [m].
+double rail_place(const io::SimulationFile& file, int wheelset);
+
 /// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without
 /// defects. Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot
 /// have.

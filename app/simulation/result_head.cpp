@@ -81,7 +81,8 @@ class Hashes {
 FileHashes input_hashes(const io::SimulationFile& file) {
   Hashes hashes;
   hashes.add(file.contact);
-  if (file.other_wheel) hashes.add(*file.other_wheel);
+  for (const auto* source : {&file.other_wheel, &file.left_rail, &file.right_rail, &file.table_rail})
+    if (*source) hashes.add(**source);
   hashes.add(file.vehicle_file);
   if (file.track_file) hashes.add(*file.track_file);
   if (file.irregularity_file) hashes.add(*file.irregularity_file);

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/simulation/run_simulation.hpp"
 
+#include <algorithm>
 #include <chrono>
 #include <cmath>
 #include <optional>
@@ -15,6 +16,7 @@
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/parallel.hpp"
 #include "treadmark/core/stopwatch.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -61,6 +63,7 @@ class Run {
       }
     }
     const wheelrail::PhaseTimes after = contact_times();
+    times_.shared = thread_count() > 1 && std::ranges::count(built_.full, nullptr) + 2 <= std::ssize(built_.full);
     times_.contact = {after.search_s - before.search_s,           after.distance_s - before.distance_s,
                       after.normal_s - before.normal_s,           after.tangential_s - before.tangential_s,
                       after.searches - before.searches,           after.distances - before.distances,

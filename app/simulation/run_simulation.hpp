@@ -30,6 +30,7 @@ struct SimulationOptions {
 /// Time of the computer that a simulation took; not part of its results.
 struct SimulationTimes {
   double build_s = 0.0, tables_s = 0.0, equilibrium_s = 0.0, modes_s = 0.0, integration_s = 0.0;  ///< [s]
+  bool shared = false;            ///< contacts were solved on several threads at a time: their times overlap
   wheelrail::PhaseTimes contact;  ///< of the wheels with full contact, in the integration
 };
 

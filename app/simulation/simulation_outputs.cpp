@@ -106,17 +106,20 @@ std::string summary_text(const io::SimulationResult& result) {
 std::string times_text(const SimulationTimes& t) {
   const double geometry = t.contact.search_s + t.contact.distance_s;
   const double contact = geometry + t.contact.normal_s + t.contact.tangential_s;
-  const auto share = [&](double part) { return t.integration_s > 0.0 ? 100.0 * part / t.integration_s : 0.0; };
+  const double whole = t.shared ? contact : t.integration_s;
+  const auto share = [&](double part) { return whole > 0.0 ? 100.0 * part / whole : 0.0; };
   std::string text = fmt::format(
       "time: {:.2f} s surfaces and contact tables, {:.2f} s equilibrium, {:.2f} s modes, {:.2f} s integration\n",
       t.build_s, t.equilibrium_s, t.modes_s, t.integration_s);
   if (contact > 0.0)
     text += fmt::format(
-        "  of the integration: geometry {:.0f} % (search {:.0f} %, distance {:.0f} %), normal problem {:.0f} %, "
+        "  of the {}: geometry {:.0f} % (search {:.0f} %, distance {:.0f} %), normal problem {:.0f} %, "
         "tangential problem "
-        "{:.0f} %, other {:.0f} %; {} contact solutions\n",
-        share(geometry), share(t.contact.search_s), share(t.contact.distance_s), share(t.contact.normal_s),
-        share(t.contact.tangential_s), share(t.integration_s - contact), t.contact.searches);
+        "{:.0f} %{}; {} contact solutions\n",
+        t.shared ? fmt::format("contacts, {:.2f} s of all threads", contact) : "integration", share(geometry),
+        share(t.contact.search_s), share(t.contact.distance_s), share(t.contact.normal_s),
+        share(t.contact.tangential_s),
+        t.shared ? "" : fmt::format(", other {:.0f} %", share(t.integration_s - contact)), t.contact.searches);
   return text;
 }
 

@@ -33,9 +33,9 @@ Grid2 depth_window(const wheelrail::PairSolution& s) {
 }  // namespace
 
 io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, const vehicle::PairMotion& m) {
-  io::WheelRailCase input = file.contact;
-  input.side = file.wheels[wheel].side;
+  io::WheelRailCase input = contact_input(file, file.wheels[wheel]);
   input.state.position = m.wheelset;
+  input.state.position.x += rail_place(file, file.wheels[wheel].wheelset);
   input.state.velocity = m.wheelset_velocity;
   Track& t = input.track;
   t.dy = m.rail.y, t.dz = m.rail.z, t.roll = m.rail.roll, t.vy = m.rail.vy, t.vz = m.rail.vz, t.vroll = m.rail.vroll;
@@ -46,13 +46,13 @@ io::WheelRailCase input_of(const io::SimulationFile& file, std::size_t wheel, co
 void Snapshots::take_start() {
   if (!wanted()) return;
   for (std::size_t i = 0; i < built_.full.size(); ++i)
-    if (built_.full[i]) kept_.push_back({i, {}, false, built_.full[i]->accepted()});
+    if (built_.full[i] && built_.full[i]->holds(0.0)) kept_.push_back({i, {}, false, built_.full[i]->accepted()});
 }
 
 void Snapshots::take_passed(const vehicle::Simulation& simulation, const vehicle::SystemState& before) {
   if (!wanted()) return;
   for (std::size_t i = 0; i < built_.full.size(); ++i) {
-    if (!built_.full[i]) continue;
+    if (!built_.full[i] || !built_.full[i]->holds(simulation.state().time)) continue;
     const vehicle::PairMotion was = simulation.vehicle().motion(i, before),
                               is = simulation.vehicle().motion(i, simulation.state());
     std::vector<std::size_t> angles;

@@ -151,9 +151,12 @@ std::string write_vehicle(const FmuContent& content, const fs::path& folder) {
     for (std::size_t i = 0; i < source.parts.size(); ++i)
       say_geometry(fmt::format("{}.parts.{}.file", key, i), source.parts[i]);
   };
-  say_source("rail", file.contact.rail, Body::rail);
+  if (!file.left_rail || !file.right_rail) say_source("rail", file.contact.rail, Body::rail);
   say_source("wheel", file.contact.wheel, Body::wheel);
   if (file.other_wheel) say_source("simulation.other_wheel", *file.other_wheel, Body::wheel);
+  if (file.left_rail) say_source("simulation.left_rail", *file.left_rail, Body::rail);
+  if (file.right_rail) say_source("simulation.right_rail", *file.right_rail, Body::rail);
+  if (file.table_rail) say_source("simulation.table_rail", *file.table_rail, Body::rail);
   if (file.contact.influence.kind == InfluenceSettings::Kind::table)
     say("influence.file", packer.add(file.contact.influence.file));
   write_file(folder / kCaseFile, io::read_text(content.input));

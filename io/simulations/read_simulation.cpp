@@ -184,8 +184,10 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);
+  contact = with_rail(std::move(contact), simulation);
   read_contact(contact, result);
   read_other_wheel(contact, simulation, result);
+  read_rails(contact, simulation, result);
   choose_steps(simulation, result);
   check_steps(simulation, result);
   return result;

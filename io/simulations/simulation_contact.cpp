@@ -145,19 +145,40 @@ void read_contact(const ContactPart& part, SimulationFile& out) {
   check_regime(part, out);
 }
 
+namespace {
+
+/// Representations that overrides ask for hold for all rails.
+bool is_of_all_rails(const std::string& change) {
+  return change.starts_with("rail.backend") || change.starts_with("rail.resolution_mm");
+}
+
+/// A table of [simulation] with the keys of a body of a case file, read in its place.
+WheelRailCase read_in_place(const ContactPart& part, const TableReader& simulation, std::string_view key,
+                            const std::string& body, const SimulationFile& out) {
+  const CaseValue& value = simulation.need(key);
+  CaseTable tables = completed(part, out);
+  std::erase_if(tables, [&](const CaseEntry& entry) { return entry.key == body; });
+  tables.push_back({body, value.where, {value.where, *simulation.table(key)}});
+  ContactPart other{{}, {}, part.name};
+  for (const std::string& one : part.overrides)
+    if (!one.starts_with(body + '.') || is_of_all_rails(one)) other.overrides.push_back(one);
+  return contact_of(tables, other, nullptr);
+}
+
+void refuse_defects(const SurfaceSource& source, const TableReader& simulation, std::string_view key,
+                    std::string_view what, std::string_view advice) {
+  if (source.defects.empty()) return;
+  throw Error(ErrorKind::configuration,
+              fmt::format("{} is the shape of {}, it has no defects", simulation.path_of(key), what),
+              simulation.need(key).where, std::string(advice));
+}
+
+}  // namespace
+
 void read_other_wheel(const ContactPart& part, const TableReader& simulation, SimulationFile& out) {
-  if (const CaseTable* wheel = simulation.table("other_wheel")) {
-    // Its keys are those of [wheel]: read in its place.
-    CaseTable tables = completed(part, out);
-    std::erase_if(tables, [](const CaseEntry& entry) { return entry.key == "wheel"; });
-    tables.push_back({"wheel", simulation.need("other_wheel").where, {simulation.need("other_wheel").where, *wheel}});
-    ContactPart other{{}, {}, part.name};
-    for (const std::string& one : part.overrides)
-      if (!one.starts_with("wheel.")) other.overrides.push_back(one);
-    out.other_wheel = contact_of(tables, other, nullptr).wheel;
-    if (!out.other_wheel->defects.empty())
-      throw Error(ErrorKind::configuration, "simulation.other_wheel is the shape of round wheels, it has no defects",
-                  simulation.need("other_wheel").where, "give them in [wheel]");
+  if (simulation.table("other_wheel") != nullptr) {
+    out.other_wheel = read_in_place(part, simulation, "other_wheel", "wheel", out).wheel;
+    refuse_defects(*out.other_wheel, simulation, "other_wheel", "round wheels", "give them in [wheel]");
     return;
   }
   const auto round =
@@ -167,6 +188,46 @@ void read_other_wheel(const ContactPart& part, const TableReader& simulation, Si
       fmt::format("[wheel] is measured all around, but the {} wheel of wheelset {} is round: its shape is missing",
                   round->side == Side::left ? "left" : "right", round->wheelset + 1),
       "give [simulation.other_wheel], for example shape.standard = \"S1002\"");
+}
+
+ContactPart with_rail(ContactPart part, const TableReader& simulation) {
+  const bool left = simulation.table("left_rail") != nullptr, right = simulation.table("right_rail") != nullptr;
+  const auto common = std::ranges::find(part.tables, "rail", &CaseEntry::key);
+  const auto change = std::ranges::find_if(
+      part.overrides, [](const std::string& one) { return one.starts_with("rail.") && !is_of_all_rails(one); });
+  const bool given = common != part.tables.end(), changed = change != part.overrides.end();
+  if (left && right) {
+    const CaseValue& own = simulation.need("right_rail");
+    if (given || changed)
+      throw Error(ErrorKind::configuration, "[rail] is the rail of no wheel: both sides have rails of their own",
+                  given ? common->key_where : parse_override(*change).value.where,
+                  "leave out [rail], simulation.left_rail or simulation.right_rail");
+    part.tables.push_back({"rail", own.where, {own.where, own.table()}});
+  } else if ((left || right) && !given && !changed) {
+    throw Error(ErrorKind::configuration, fmt::format("the {} rail has no shape", left ? "right" : "left"),
+                simulation.need(left ? "left_rail" : "right_rail").where,
+                fmt::format("give [rail] or [simulation.{}_rail]", left ? "right" : "left"));
+  }
+  return part;
+}
+
+void read_rails(const ContactPart& part, const TableReader& simulation, SimulationFile& out) {
+  const auto read = [&](std::string_view key, std::optional<SurfaceSource>& rail) {
+    if (simulation.table(key) == nullptr) return;
+    rail = read_in_place(part, simulation, key, "rail", out).rail;
+    if (rail->where.file.empty()) rail->where = simulation.need(key).where;  // of parts
+  };
+  read("left_rail", out.left_rail);
+  read("right_rail", out.right_rail);
+  read("table_rail", out.table_rail);
+  if (out.table_rail)
+    refuse_defects(*out.table_rail, simulation, "table_rail", "rails for tables", "give them to the rail itself");
+  const Track& track = out.contact.track;
+  if (!track.gauge_based && !(track.rail_y0 > 0.0))
+    throw Error(ErrorKind::configuration,
+                "track.rail_y_mm of a simulation must be positive: it is that of the right rail",
+                given_at(part, "track.rail_y_mm").value_or(SourcePosition{part.name.string(), 1, 1}),
+                "the left rail lies at its mirror image");
 }
 
 }  // namespace treadmark::io

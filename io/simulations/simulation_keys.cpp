@@ -256,6 +256,10 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
         "from_midspan_mm", kAnyNumber,
         "on a flexible track: place of the vehicle's x = 0 at the start, ahead of the middle between two sleepers",
         [](S& s) -> double& { return s.from_midspan; });
+    list.number("rail_start_m", kAnyNumber,
+                "place of the leading wheelset along the rails at the start, from where x of rails that vary, their "
+                "defects and friction along the track count; the other wheelsets stand behind it as in the vehicle",
+                [](S& s) -> double& { return s.rail_start; });
     list.number("checkpoint_s", kPositive, "time of the computer between two checkpoints",
                 [](S& s) -> double& { return s.checkpoint; });
     list.number("output_every_mm", kNotNegative,
@@ -281,6 +285,14 @@ const TableKeys& simulation_keys() {
         table_key("other_wheel", KeyType::table,
                   "shape of the round wheels, with the keys of `[wheel]`; required where `[wheel]` is made of "
                   "slices or triangles and a wheel is round"));
+    for (const char* side : {"left", "right"})
+      list.push_back(table_key(fmt::format("{}_rail", side), KeyType::table,
+                               fmt::format("shape of the {} rail instead of `[rail]`, with its keys; y of both sides "
+                                           "points away from the middle of the track",
+                                           side)));
+    list.push_back(table_key("table_rail", KeyType::table,
+                             "rail of one section for wheels with table contact, with the keys of `[rail]`; required "
+                             "where their own rail varies by more than its defects"));
     return list;
   }();
   return keys;
@@ -302,7 +314,10 @@ const TableKeys& wheel_keys() {
       needed(one_of("contact", {"full", "table"}, "the contact problem itself, or a table of solutions")),
       with_default("true", key_info("defects", KeyType::flag, "false: the wheel is round")),
       with_default("0", key_info("pitch_deg", KeyType::number,
-                                 "pitch of the wheelset at the start, the same for both its wheels"))};
+                                 "pitch of the wheelset at the start, the same for both its wheels")),
+      key_info("full_from_m", KeyType::number,
+               "of a full contact: from this place along the rail, with a table before; at least 0.1 m before the end"),
+      key_info("full_to_m", KeyType::number, "to this place, with a table behind")};
   return keys;
 }
 

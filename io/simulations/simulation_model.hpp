@@ -30,6 +30,10 @@ struct WheelContactInput {
   ContactModelInput model = ContactModelInput::table;
   bool defects = false;         ///< false: the wheel is round
   std::optional<double> pitch;  ///< of the wheelset at the start, the same for both its wheels [rad]; none: 0
+  /// Of a full contact: from and to which place along the rail, from a table elsewhere; none: without end [m].
+  std::optional<double> full_from, full_to;
+
+  bool changes_over() const { return full_from || full_to; }
 };
 
 /// Instants at which the fields within the contact patches are kept.
@@ -50,6 +54,7 @@ struct SimulationSettings {
   /// Distance travelled in a step over dx; without a wish 1 with transient rolling, else 2.
   double max_step_elements = 2.0;
   double from_midspan = 0.0;     ///< of a flexible track: place of x = 0 at the start from the middle of a bay [m]
+  double rail_start = 0.0;       ///< place of the leading wheelset along the rails at the start [m]
   double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
   double checkpoint = 10.0;      ///< time of the computer between two checkpoints [s]
   double output_every = 0.0;     ///< distance between two lines of output [m]; 0 = every step
@@ -84,8 +89,16 @@ struct SimulationFile {
   /// meaning here; velocity and pitch rate are those of rolling at the speed.
   WheelRailCase contact;
   std::optional<SurfaceSource> other_wheel;  ///< shape of wheels without defects, where `contact.wheel` cannot be it
-  std::vector<WheelContactInput> wheels;     ///< all of them: left and right of the leading wheelset, then the next one
-  std::vector<std::string> notes;            ///< harmless oddities worth telling
+  std::optional<SurfaceSource> left_rail, right_rail;  ///< instead of `contact.rail`, which is none of them if both are
+  std::optional<SurfaceSource> table_rail;             ///< of one section, below tables on rails that vary
+  std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
+  std::vector<std::string> notes;         ///< harmless oddities worth telling
+
+  /// The rail of a side, as a right-hand one.
+  const SurfaceSource& rail(Side side) const {
+    const std::optional<SurfaceSource>& own = side == Side::left ? left_rail : right_rail;
+    return own ? *own : contact.rail;
+  }
 };
 
 }  // namespace treadmark::io

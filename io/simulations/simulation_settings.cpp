@@ -45,6 +45,16 @@ WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
   wheel.model = table.text("contact") == "full" ? ContactModelInput::full : ContactModelInput::table;
   wheel.defects = table.flag_or("defects", true);
   wheel.pitch = table.number_if("pitch_deg");
+  wheel.full_from = table.number_if("full_from_m");
+  wheel.full_to = table.number_if("full_to_m");
+  if (!wheel.changes_over()) return wheel;
+  const SourcePosition& where = table.need(wheel.full_from ? "full_from_m" : "full_to_m").where;
+  if (wheel.model != ContactModelInput::full)
+    throw Error(ErrorKind::configuration, "full_from_m and full_to_m belong to a wheel with contact = \"full\"", where);
+  constexpr double kShortest = 0.1 - 1e-9;
+  if (wheel.full_from && wheel.full_to && !(*wheel.full_to - *wheel.full_from >= kShortest))
+    throw Error(ErrorKind::configuration, "full_to_m must lie at least 0.1 m behind full_from_m", where,
+                "the contacts go over into each other within 0.05 m at both ends");
   return wheel;
 }
 

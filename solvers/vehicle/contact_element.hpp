@@ -69,6 +69,9 @@ class ContactElement {
   /// What was evaluated last is what the next steps go on from.
   virtual void accept() = 0;
 
+  /// Whether an evaluation takes so long that several of them are worth a thread each.
+  virtual bool costly() const { return false; }
+
   /// Everything on which following evaluations depend, to the last bit.
   virtual void save(ByteWriter& out) const = 0;
   /// Errors: Error(input_data) for bytes that are not those of such an element.

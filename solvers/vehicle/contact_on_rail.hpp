@@ -19,6 +19,7 @@ class ContactOnRail : public ContactElement {
 
   ContactReaction evaluate(const PairMotion& motion) override;
   void accept() override;
+  bool costly() const override { return contact_->costly(); }
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
 

@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/solvers/vehicle/wheel_loop.hpp"
+
 namespace treadmark::vehicle {
 namespace {
 
@@ -78,11 +80,10 @@ class Balance {
   bool imbalance(const SystemState& state, Vector& r, std::vector<ContactReaction>& reactions, std::string& why) const {
     r = system_.weight - system_.stiffness * state.q - system_.damping * state.v +
         characteristic_forces(system_, state.q);
-    reactions.clear();
+    reactions = evaluate_wheels(vehicle_, state);
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const PairMotion m = vehicle_.motion(i, state);
-      reactions.push_back(vehicle_.wheels[i].element->evaluate(m));
-      const ContactReaction& reaction = reactions.back();
+      const ContactReaction& reaction = reactions[i];
       if (reaction.status != Status::ok || !(reaction.normal_force > 0.0)) {
         why = fmt::format("{}: {}", vehicle_.wheels[i].name,
                           reaction.message.empty() ? "the wheel does not touch the rail" : reaction.message);
@@ -143,8 +144,10 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   LinearSystem system{vehicle.system.stiffness, vehicle.system.damping};
   for (const CharacteristicForce& c : vehicle.system.characteristics)
     system.stiffness += characteristic(c, c.direction.dot(state.q)).stiffness * c.direction * c.direction.transpose();
+  std::vector<PairTangent> tangents(vehicle.wheels.size());
+  for_each_wheel(vehicle, [&](std::size_t i) { tangents[i] = linearised(vehicle, i, state, coarseness); });
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
-    const PairTangent t = linearised(vehicle, i, state, coarseness);
+    const PairTangent& t = tangents[i];
     system.stiffness += vehicle.maps[i].transpose() * t.stiffness * vehicle.maps[i];
     system.damping += vehicle.maps[i].transpose() * t.damping * vehicle.maps[i];
   }

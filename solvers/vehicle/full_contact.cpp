@@ -82,8 +82,9 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
   return marker;
 }
 
-FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double usual_travel)
-    : problem_(std::move(problem)), pair_(geometry) {
+FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double rail_x,
+                         double usual_travel)
+    : problem_(std::move(problem)), rail_x_(rail_x), pair_(geometry) {
   const Vec3 marker = rail_marker_at_rest(geometry, problem_);
   problem_.track.gauge_based = false;
   problem_.track.rail_y0 = marker.y();
@@ -99,6 +100,7 @@ FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem
 wheelrail::PairSolution FullContact::solve(const Past& past, const PairMotion& motion) {
   wheelrail::Problem p = problem_;
   p.state.position = motion.wheelset;
+  p.state.position.x += rail_x_;
   p.state.velocity = motion.wheelset_velocity;
   const RailMotion& r = motion.rail;
   p.track.dy = r.y, p.track.dz = r.z, p.track.roll = r.roll;
@@ -155,6 +157,11 @@ ContactReaction FullContact::evaluate(const PairMotion& motion) {
 void FullContact::accept() {
   accepted_ = {past_, tried_};
   past_ = {pair_.save(), true, tried_.wheelset.x};
+}
+
+void FullContact::forget() {
+  pair_.reset();
+  past_ = {pair_.save(), false, 0.0};
 }
 
 wheelrail::PairSolution FullContact::repeat(const Instant& instant) {

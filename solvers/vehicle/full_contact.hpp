@@ -14,12 +14,17 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
 /// Steady rolling forgets; transient rolling carries the tractions of the accepted instants on.
 class FullContact : public ContactElement {
  public:
-  /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling.
-  /// Errors: Error(configuration).
-  FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double usual_travel = 0.0);
+  /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling. rail_x: place of
+  /// the axle along the rail where it has travelled nothing [m]. usual_travel: of most steps of transient rolling [m],
+  /// 0: none is; it saves time, results do not depend on it. Errors: Error(configuration).
+  FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double rail_x = 0.0,
+              double usual_travel = 0.0);
 
   ContactReaction evaluate(const PairMotion& motion) override;
   void accept() override;
+  bool costly() const override { return true; }
+  /// As if no instant had been accepted: the next one rolls steadily.
+  void forget();
   void save(ByteWriter& out) const override;
   void restore(ByteReader& in) override;
 
@@ -36,6 +41,8 @@ class FullContact : public ContactElement {
   };
   /// The one accepted last.
   const Instant& accepted() const { return accepted_; }
+  /// Whether the instant at this time has been accepted, and none later.
+  bool holds(double time) const { return past_.started && accepted_.motion.time == time; }
   /// Solves an instant again; what the next evaluations go on from stays as it is.
   wheelrail::PairSolution repeat(const Instant& instant);
   static void write(const Instant& instant, ByteWriter& out);
@@ -48,6 +55,7 @@ class FullContact : public ContactElement {
   wheelrail::PairSolution solve(const Past& past, const PairMotion& motion);
 
   wheelrail::Problem problem_;
+  double rail_x_;
   wheelrail::Pair pair_;
   Past past_;
   PairMotion tried_;

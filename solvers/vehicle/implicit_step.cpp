@@ -7,6 +7,8 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/solvers/vehicle/wheel_loop.hpp"
+
 namespace treadmark::vehicle {
 namespace {
 
@@ -110,11 +112,10 @@ Step ImplicitStep::take(const Motion& from, double h) {
     Matrix give = Matrix::Zero(f.among_touched.rows(), f.among_touched.rows());
     std::vector<PairVector> forces;
     std::vector<PairTangent> tangents;
-    step.reactions.clear();
+    step.reactions = evaluate_wheels(vehicle_, at);
     for (std::size_t i = 0; i < wheels; ++i) {
       const PairMotion m = vehicle_.motion(i, at);
-      step.reactions.push_back(vehicle_.wheels[i].element->evaluate(m));
-      const ContactReaction& reaction = step.reactions.back();
+      const ContactReaction& reaction = step.reactions[i];
       if (reaction.status == Status::failed || reaction.status == Status::not_converged) {
         step.why_not = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message);
         return step;

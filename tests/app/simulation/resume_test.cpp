@@ -78,6 +78,11 @@ TEST_F(Resume, PeaksBetweenTheLinesOutliveKills) {
   expect_kills_to_change_nothing();
 }
 
+TEST_F(Resume, WithContactsThatChangeOver) {
+  input.edit("simulation.toml", "defects = false\n", "defects = false\nfull_to_m = 0.12\n");
+  expect_kills_to_change_nothing();
+}
+
 TEST_F(Resume, KilledBeforeTheFirstCheckpoint) {
   ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
   for (const int delay_ms : {0, 30, 120}) {

@@ -64,6 +64,8 @@ TEST_F(SimulationText, FillsEveryValueInSIUnits) {
   EXPECT_DOUBLE_EQ(s.longest_step(0.5e-3), 0.5e-3 / 20.0);
   EXPECT_TRUE(file.fields.pitch.empty() && file.fields.position.empty());
   EXPECT_FALSE(file.other_wheel);
+  EXPECT_EQ(s.rail_start, 0.0);
+  EXPECT_FALSE(file.left_rail || file.right_rail || file.table_rail);
 }
 
 TEST_F(SimulationText, ContactIsThatOfACaseFile) {
@@ -169,6 +171,68 @@ TEST_F(SimulationText, OtherWheelIsReadLikeAWheel) {
               "[simulation.other_wheel]\nshape.standard = \"S1002\"\nflats = [{ length_mm = 60, depth_mm = 0.9 }]\n");
       }),
       ::testing::HasSubstr("it has no defects"));
+}
+
+TEST_F(SimulationText, EachSideMayHaveItsOwnRail) {
+  const auto standard = [](const SurfaceSource& source) { return std::get<StandardProfile>(source.geometry).name; };
+  const SimulationFile common = parse(kSimulation);
+  EXPECT_EQ(&common.rail(Side::left), &common.contact.rail);
+  const std::string left = "[simulation.left_rail]\nshape.standard = \"54E1\"\n";
+  const std::string squat =
+      "[simulation.right_rail]\nshape.standard = \"60E2\"\nsquats = [{ length_mm = 30, width_mm = 20, depth_mm = 0.1 "
+      "}]\n";
+  const SimulationFile one = parse(kSimulation + left);
+  EXPECT_EQ(standard(one.rail(Side::left)), "54E1");
+  EXPECT_EQ(standard(one.rail(Side::right)), "60E1");
+  const std::string without = with(kSimulation, "[rail]\nshape.standard = \"60E1\"\n", "");
+  const SimulationFile both = parse(without + left + squat + "[simulation.table_rail]\nshape.standard = \"60E1\"\n",
+                                    {"rail.resolution_mm=0.4", "simulation.left_rail.shape.standard=60E2"});
+  EXPECT_EQ(standard(both.rail(Side::left)), "60E2");
+  EXPECT_EQ(both.rail(Side::right).defects.squats.size(), 1u);
+  EXPECT_TRUE(both.rail(Side::left).defects.empty());
+  EXPECT_DOUBLE_EQ(both.rail(Side::left).resolution, 4e-4);
+  EXPECT_DOUBLE_EQ(both.rail(Side::right).resolution, 4e-4);
+  ASSERT_TRUE(both.table_rail);
+  EXPECT_EQ(standard(*both.table_rail), "60E1");
+
+  const auto error_with = [&](const std::string& text, const std::vector<std::string>& overrides = {}) {
+    return samples::error_of([&] { parse(text, overrides); });
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(error_with(kSimulation + left + squat), HasSubstr("s.toml:22:2: [rail] is the rail of no wheel"));
+  EXPECT_THAT(error_with(without + left + squat, {"rail.shape.standard=60E1"}),
+              HasSubstr("[rail] is the rail of no wheel"));
+  EXPECT_THAT(error_with(without + left), HasSubstr("the right rail has no shape (give [rail] or"));
+  EXPECT_THAT(error_with(without), HasSubstr("rail.shape"));
+  EXPECT_THAT(error_with(kSimulation + "[simulation.left_rail]\nshape.standard = 3\n"),
+              HasSubstr("rail.shape.standard must be text"));
+  EXPECT_THAT(error_with(with(kSimulation + squat, "right_rail", "table_rail")), HasSubstr("it has no defects"));
+}
+
+TEST_F(SimulationText, RailsByTheirPlaceAreRightHandOnes) {
+  EXPECT_EQ(parse(with(kSimulation, "cant =", "rail_y_mm = 753.6\ncant =")).contact.track.rail_y0, 0.7536);
+  EXPECT_THAT(error("cant =", "rail_y_mm = -753.6\ncant ="),
+              ::testing::HasSubstr("s.toml:26:13: track.rail_y_mm of a simulation must be positive"));
+}
+
+TEST_F(SimulationText, StretchesOfFullContact) {
+  using ::testing::HasSubstr;
+  const auto with_stretch = [&](const std::string& keys) {
+    return with(kSimulation, "pitch_deg = 30\n", "pitch_deg = 30\n" + keys);
+  };
+  const WheelContactInput wheel = parse(with_stretch("full_from_m = -1\nfull_to_m = -0.9\n")).wheels[0];
+  EXPECT_EQ(wheel.full_from, -1.0);
+  EXPECT_EQ(wheel.full_to, -0.9);
+  EXPECT_FALSE(parse(with_stretch("full_to_m = 2\n")).wheels[0].full_from);
+  EXPECT_FALSE(parse(kSimulation).wheels[0].changes_over());
+  const auto refused = [&](const std::string& keys) { return samples::error_of([&] { parse(with_stretch(keys)); }); };
+  EXPECT_THAT(refused("full_from_m = 1\nfull_to_m = 0.5\n"),
+              HasSubstr("s.toml:14:15: full_to_m must lie at least 0.1 m behind full_from_m"));
+  EXPECT_THAT(refused("full_from_m = 1\nfull_to_m = 1.05\n"), HasSubstr("at least 0.1 m"));
+  EXPECT_THAT(refused("full_from_m = \"here\"\n"), HasSubstr("must be a number"));
+  EXPECT_THAT(samples::error_of(
+                  [&] { parse(with(with_stretch("full_to_m = 1\n"), "contact = \"full\"", "contact = \"table\"")); }),
+              HasSubstr("belong to a wheel with contact = \"full\""));
 }
 
 TEST_F(SimulationText, ErrorsOfSettings) {

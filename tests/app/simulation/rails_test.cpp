@@ -1,0 +1,299 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/cases/run_cases.hpp"
+#include "treadmark/io/cases/read_case.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/simulation/sample_simulation.hpp"
+
+// Rails of their own on both sides, and rails that vary along the track.
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::HasSubstr;
+
+constexpr double kMilli = 1e-3;
+
+/// A wheelset that does not move sideways.
+const char* kGuided = R"([vehicle]
+name = "guided"
+
+[[bodies]]
+name = "load"
+mass_kg = 9000
+position_m = [0, 0, -1]
+free = ["z"]
+
+[[bodies]]
+name = "axle"
+mass_kg = 1800
+inertia_kg_m2 = [1100, 110, 1100]
+position_m = [0, 0, -0.46]
+free = ["z", "roll", "pitch"]
+
+[[wheelsets]]
+body = "axle"
+nominal_radius_mm = 460
+
+[[springs]]
+name = "primary"
+between = ["axle", "load"]
+at_m = [[0, -1, -0.46], [0, 1, -0.46]]
+stiffness_N_per_m = [30e6, 4e6, 1.2e6]
+damping_N_s_per_m = [0, 0, 40e3]
+)";
+
+const char* kCommon = R"([wheel]
+shape.standard = "S1002"
+
+[wheelset]
+flange_back_distance_mm = 1360
+flange_back_position_mm = -70
+
+[friction]
+coefficient = 0.3
+
+[discretisation]
+dx_mm = 1.5
+ds_mm = 1.5
+
+[case]
+regime = "steady"
+)";
+
+/// As in examples/crossing.toml.
+std::string crossing(const std::string& rail) {
+  return fmt::format(R"([[{0}.parts]]
+standard = "60E1"
+crossing = "nose"
+crossing_x_mm = 0
+crossing_length_mm = 400
+[[{0}.parts]]
+standard = "60E1"
+y_mm = 36
+z_mm = -0.6
+crossing = "wing"
+crossing_x_mm = -250
+crossing_length_mm = 500
+
+)",
+                     rail);
+}
+
+class RailsOfSimulations : public ::testing::Test {
+ protected:
+  RailsOfSimulations() { input.write("vehicle.toml", kGuided); }
+  void write(const std::string& simulation, const std::string& track = "[track]\ngauge_mm = 1435\n\n") const {
+    input.write("s.toml", "[simulation]\nvehicle = \"vehicle.toml\"\n" + simulation + track + kCommon);
+  }
+  io::SimulationResult simulate(const std::vector<std::string>& options = {}) const {
+    std::filesystem::remove_all(input.path("out"));
+    std::vector<std::string> words{"simulate", input.path("s.toml"), "-o", input.path("out")};
+    words.insert(words.end(), options.begin(), options.end());
+    const ProgramResult r = run_program(words);
+    EXPECT_EQ(r.status, 0) << r.err;
+    return io::read_simulation(input.path("out/simulation.h5"));
+  }
+  /// What check and simulate both say.
+  std::string refusal() const {
+    const ProgramResult check = run_program({"check", input.path("s.toml")});
+    EXPECT_EQ(check.status, 2) << check.out;
+    EXPECT_EQ(run_program({"simulate", input.path("s.toml")}).status, 2);
+    return check.err;
+  }
+  static std::vector<double> column(const io::SimulationResult& history, const std::string& name) {
+    return column_values(history, column_index(history, name));
+  }
+  SampleSimulation input;
+};
+
+const char* kBothFull = R"(speed_m_s = 10
+distance_m = 0.02
+[[simulation.wheels]]
+wheelset = 1
+side = "left"
+contact = "full"
+[[simulation.wheels]]
+wheelset = 1
+side = "right"
+contact = "full"
+[rail]
+shape.standard = "60E1"
+)";
+
+TEST_F(RailsOfSimulations, ByTheirPlaceAreMirrorImages) {
+  write(kBothFull, "[track]\nrail_y_mm = 753.6\nrail_z_mm = 0\n\n");
+  const io::SimulationResult history = simulate();
+  // Both in full, one from a table, both from tables.
+  const std::vector<std::vector<std::string>> tables{
+      {"--set", "simulation.wheels.0.contact=table"},
+      {"--set", "simulation.wheels.0.contact=table", "--set", "simulation.wheels.1.contact=table"}};
+  constexpr double kWeight = 9.81 * 10800.0;
+  const double at_left = column(history, "y_cp_m").back(), at_right = column(history, "ws1_right.y_cp_m").back();
+  EXPECT_NEAR(at_left, -at_right, 1e-9);
+  EXPECT_NEAR(at_right, 0.7536 - 0.0136, 2e-3);
+  EXPECT_NEAR(column(history, "Q_N").back(), column(history, "ws1_right.Q_N").back(), 1e-6 * kWeight);
+  EXPECT_NEAR(column(history, "Y_N").back(), -column(history, "ws1_right.Y_N").back(), 1e-6 * kWeight);
+  for (const auto& options : tables) {
+    const io::SimulationResult other = simulate(options);
+    const std::string left = options.size() == 2 ? "ws1_left.Q_N" : "Q_N",
+                      right = options.size() == 2 ? "Q_N" : "ws1_right.Q_N";
+    EXPECT_NEAR(column(other, left).back(), 0.5 * kWeight, 0.01 * kWeight);
+    EXPECT_NEAR(column(other, right).back(), 0.5 * kWeight, 0.01 * kWeight);
+  }
+}
+
+/// Under the same load and guidance `run` finds the wheelset at the same height with the same patches.
+TEST_F(RailsOfSimulations, APassageOfACrossingIsThatOfCases) {
+  write(R"(speed_m_s = 0.5
+distance_m = 0.03
+rail_start_m = -0.045
+left_rail.shape.standard = "60E1"
+[[simulation.wheels]]
+wheelset = 1
+side = "right"
+contact = "full"
+)" + crossing("simulation.right_rail"),
+        "[track]\nrail_y_mm = 753.6\nrail_z_mm = 0\n\n");
+  const io::SimulationResult history = simulate();
+  const auto at = [&](const std::string& name, std::size_t row) { return column(history, name).at(row); };
+  const std::size_t rows = history.rows();
+  const std::vector<double> z = column(history, "wheelset_z_m"), patches = column(history, "patches");
+  const double way = *std::ranges::max_element(z) - *std::ranges::min_element(z);
+  EXPECT_GT(way, 1e-4);
+  EXPECT_EQ(*std::ranges::max_element(patches), 2.0) << "wing and nose carry together";
+  const std::vector<double> y = column(history, "y_cp_m");
+  EXPECT_LT(*std::ranges::min_element(y), 0.75);
+  EXPECT_GT(*std::ranges::max_element(y), 0.78);
+
+  // At rest, and where the nose takes over.
+  std::vector<std::size_t> chosen{0, rows / 4, rows / 2, rows - 1};
+  for (std::size_t row = 0; row < rows; ++row)
+    if (patches[row] == 2.0) {
+      chosen.push_back(row);
+      break;
+    }
+  std::string text = crossing("rail") + kCommon + "side = \"right\"\n\n[track]\nrail_y_mm = 753.6\nrail_z_mm = 0\n";
+  for (const std::size_t row : chosen)
+    text += fmt::format(
+        "\n[[cases]]\nwheelset.vertical_force_N = {:.12g}\nwheelset.s_mm = {:.12g}\nwheelset.y_mm = 0\n"
+        "wheelset.roll_rad = {:.12g}\nwheelset.nominal_radius_mm = 460\nwheelset.velocity_m_s = {:.12g}\n"
+        "wheelset.vpitch_rad_s = {:.12g}\nwheelset.vroll_rad_s = {:.12g}\n",
+        at("Q_N", row), (at("wheelset_x_m", row) - 0.045) / kMilli, at("wheelset_roll_rad", row),
+        at("wheelset_vx_m_s", row), at("wheelset_vpitch_rad_s", row), at("wheelset_vroll_rad_s", row));
+  input.write("case.toml", text);
+  const io::RunResult run = app::run_cases(io::read_any_case(input.path("case.toml")));
+  ASSERT_EQ(run.cases.size(), chosen.size());
+  for (std::size_t i = 0; i < chosen.size(); ++i) {
+    SCOPED_TRACE(chosen[i]);
+    const io::CaseResult& c = run.cases[i];
+    const std::size_t row = chosen[i];
+    EXPECT_NEAR(c.z, at("wheelset_z_m", row), 0.01 * way);
+    ASSERT_EQ(static_cast<double>(c.patches.size()), patches[row]);
+    const auto most = std::ranges::max_element(c.patches, {}, &io::PatchResult::fn);
+    EXPECT_NEAR(most->pmax, at("pmax_Pa", row), 0.01 * most->pmax);
+    EXPECT_NEAR(most->y_tr, at("y_cp_m", row), 1e-5);
+  }
+}
+
+const char* kSquat = R"(
+squats = [{ length_mm = 30, width_mm = 60, depth_mm = 0.1, x_center_mm = 30, y_center_mm = -13 }]
+)";
+
+TEST_F(RailsOfSimulations, WheelsetsPassADefectOneAfterTheOther) {
+  // Axles far too close to each other for a real vehicle, so that the way is short.
+  std::string two = kGuided;
+  const auto edit = [&](const std::string& from, const std::string& to) {
+    two.replace(two.find(from), from.size(), to);
+  };
+  edit("position_m = [0, 0, -0.46]", "positions_m = [[0.02, 0, -0.46], [-0.02, 0, -0.46]]");
+  edit("body = \"axle\"\nnominal_radius_mm = 460",
+       "body = \"axle1\"\nnominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle2\"\nnominal_radius_mm = 460");
+  edit("between = [\"axle\", \"load\"]\nat_m = [[0, -1, -0.46], [0, 1, -0.46]]",
+       "places = [{ between = [\"axle1\", \"load\"], at_m = [[0.02, -1, -0.46], [0.02, 1, -0.46]] },\n"
+       "{ between = [\"axle2\", \"load\"], at_m = [[-0.02, -1, -0.46], [-0.02, 1, -0.46]] }]");
+  input.write("vehicle.toml", two);
+  write(std::string("speed_m_s = 2\ndistance_m = 0.1\n") + R"([[simulation.wheels]]
+wheelset = 1
+side = "right"
+contact = "full"
+[[simulation.wheels]]
+wheelset = 2
+side = "right"
+contact = "full"
+[rail]
+shape.standard = "60E1")" +
+        kSquat);
+  const io::SimulationResult history = simulate();
+  const std::vector<double> x = column(history, "x_m");
+  const auto deepest = [&](const std::string& name) {
+    const std::vector<double> z = column(history, name);
+    return x.at(static_cast<std::size_t>(std::ranges::max_element(z) - z.begin()));
+  };
+  EXPECT_NEAR(deepest("wheelset_z_m"), 0.03, 4e-3);
+  EXPECT_NEAR(deepest("ws2_right.wheelset_z_m"), 0.03 + 0.04, 4e-3);
+}
+
+std::string changing_over(const std::string& stretch) {
+  return "speed_m_s = 10\ndistance_m = 0.4\n[[simulation.wheels]]\nwheelset = 1\nside = \"right\"\ncontact = "
+         "\"full\"\n" +
+         stretch + "[rail]\nshape.standard = \"60E1\"";
+}
+const char* kSquatAhead =
+    "\nsquats = [{ length_mm = 30, width_mm = 60, depth_mm = 0.1, x_center_mm = 200, y_center_mm = -13 }]\n";
+
+TEST_F(RailsOfSimulations, FullContactWhereTheRailVaries) {
+  write(changing_over("") + kSquatAhead);
+  const io::SimulationResult full = simulate();
+  write(changing_over("full_from_m = 0.1\nfull_to_m = 0.3\n") + kSquatAhead);
+  const io::SimulationResult both = simulate();
+  const auto largest = [&](const io::SimulationResult& r) {
+    const std::vector<double> q = column(r, "Q_N");
+    return *std::ranges::max_element(q);
+  };
+  EXPECT_GT(largest(full), 1.1 * column(full, "Q_N").front());
+  EXPECT_NEAR(largest(both), largest(full), 0.01 * largest(full));
+  const std::vector<double> x = column(both, "x_m"), q = column(both, "Q_N");
+  for (std::size_t i = 0; i < x.size(); ++i) EXPECT_NEAR(x[i] < 0.18 ? q[i] : q[0], q[0], 0.005 * q[0]) << x[i];
+}
+
+TEST_F(RailsOfSimulations, TablesOnRailsThatVaryAreRefused) {
+  write(changing_over("full_from_m = 0.2\nfull_to_m = 0.35\n") + kSquatAhead);
+  EXPECT_THAT(refusal(), ::testing::ContainsRegex("s\\.toml:[0-9]+:[0-9]+: ws1_right takes its forces from a table at "
+                                                  "x = 0\\.[12].* which differs there by 0\\.[01]"));
+  write(changing_over("full_to_m = 0.19\n") + kSquatAhead);
+  EXPECT_THAT(refusal(), HasSubstr("which differs there by"));
+  // The wing before a crossing is not the rail behind it, and no rail of one section is there at all.
+  const std::string own = "left_rail.shape.standard = \"60E1\"\n", table = "table_rail.shape.standard = \"60E1\"\n",
+                    begin = "speed_m_s = 10\ndistance_m = 0.1\n";
+  write(begin + own + crossing("simulation.right_rail"));
+  EXPECT_THAT(refusal(), HasSubstr("wheels with table contact need a rail of one section"));
+  write(begin + own + table + crossing("simulation.right_rail"), "[track]\nrail_y_mm = 753.6\n\n");
+  EXPECT_THAT(refusal(), HasSubstr("takes its forces from a table at x = "));
+  write(begin + own + table + crossing("simulation.right_rail"));
+  EXPECT_THAT(refusal(), HasSubstr("the rail below ws1_right and that of its table lie 0.628 mm apart"));
+  write(begin + own + crossing("simulation.right_rail") + crossing("simulation.table_rail"));
+  EXPECT_THAT(refusal(), HasSubstr("simulation.table_rail must not vary"));
+}
+
+TEST_F(RailsOfSimulations, WheelsThatAreNotRoundDoNotChangeOver) {
+  input.edit("simulation.toml", "pitch_deg = 4\n", "pitch_deg = 4\nfull_to_m = 1\n");
+  const ProgramResult r = run_program({"check", input.path("simulation.toml")});
+  EXPECT_EQ(r.status, 2);
+  EXPECT_THAT(r.err, HasSubstr("ws1_left is not round: its contact cannot change over to a table"));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
