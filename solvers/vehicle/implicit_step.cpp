@@ -140,7 +140,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
       const PairVector correction = -(of_q * tangents[i].stiffness + of_v * tangents[i].damping) * moved;
       forces[i] += correction;
       const double scale = std::max(force_scale_, step.reactions[i].normal_force);
-      most = std::max(most, largest_force(correction) / scale);
+      most = std::max(most, std::max(largest_force(correction), step.reactions[i].corrected) / scale);
     }
     if (!a.allFinite()) {
       step.why_not = "the motion has no finite values";

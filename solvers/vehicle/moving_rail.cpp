@@ -13,48 +13,45 @@
 namespace treadmark::vehicle {
 namespace {
 
-void require_equal_bays(const FlexibleTrack& track) {
-  const std::vector<RailSeat>& seats = track.seats;
-  const auto refuse = [](const char* message, const char* advice) {
-    throw Error(ErrorKind::configuration, message, {}, advice);
-  };
-  constexpr std::size_t kLeast = 20;
-  if (seats.size() < kLeast) refuse("a wheel needs at least 20 sleepers below it", "make seats.count larger");
-  const double bay = seats[1].x - seats[0].x;
-  for (std::size_t i = 1; i < seats.size(); ++i) {
-    const RailSeat &a = seats[i - 1], &b = seats[i];
-    const bool equal = a.pad_stiffness == b.pad_stiffness && a.pad_damping == b.pad_damping &&
-                       a.sleeper_mass == b.sleeper_mass && a.bed_stiffness == b.bed_stiffness &&
-                       a.bed_damping == b.bed_damping && std::abs((b.x - a.x) / bay - 1.0) < 1e-9;
-    if (!equal)
-      refuse("a wheel moves along a track of equal sleepers at equal distances only", "make all of them equal");
-  }
-}
-
 void add_rail_state(ByteWriter& out, const Eigen::VectorXd& v) {
   out.put(std::span<const double>(v.data(), static_cast<std::size_t>(v.size())));
 }
 
 }  // namespace
 
-MovingRail::MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius)
-    : rail_(track), speed_(speed), start_(start) {
-  require_equal_bays(track);
-  if (!(speed > 0.0) || !std::isfinite(speed) || !std::isfinite(start))
+MovingRail::MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius, double length)
+    : track_(track), speed_(speed) {
+  const RailOnSeats whole(track);    // refuses what makes no sense
+  constexpr double kFarthest = 1e6;  // [m]
+  if (!(speed > 0.0) || !std::isfinite(speed))
     throw Error(ErrorKind::configuration, "the speed along a rail must be positive");
+  if (!(std::abs(start) <= kFarthest))
+    throw Error(ErrorKind::configuration, "a rail begins within 1000 km of the middle of its seats");
   if (!(spectral_radius >= 0.5 && spectral_radius <= 1.0))
     throw Error(ErrorKind::configuration, "the spectral radius must lie between 0.5 and 1");
   alpha_ = -(1.0 - spectral_radius) / (1.0 + spectral_radius);
   beta_ = 0.25 * (1.0 - alpha_) * (1.0 - alpha_);
   gamma_ = 0.5 - alpha_;
-  bay_ = rail_.middle_bay();
-  first_ = rail_.middle() - 0.5 * bay_;
-  bay_size_ = 2 * track.bay_elements + 1;
-  q_ = v_ = a_ = Column::Zero(rail_.size());
+  start_ = whole.middle() + start;
+
+  constexpr double kFewest = 20.0, kMost = 1e4;
+  const std::vector<RailSeat>& seats = track.seats;
+  const double bay = (seats.back().x - seats.front().x) / static_cast<double>(seats.size() - 1);
+  if (!(length > 0.0 && length <= kMost * bay))
+    throw Error(ErrorKind::configuration, "the part of a rail that is looked at has a length of at most 10000 bays");
+  seats_ = static_cast<std::int64_t>(std::max(kFewest, std::ceil(length / bay)));
+
+  std::int64_t before = 0;  // seat before the start
+  while (seat(before).x > start_) --before;
+  while (seat(before + 1).x <= start_) ++before;
+  look_from(before - (seats_ - 1) / 2);
+  compliance_at_rest_ = rail_->receptance(start_, 0.0).real();
+  q_ = v_ = a_ = Column::Zero(rail_->size());
 
   // A step between what still moves and what is taken up at rest would give energy.
   constexpr Eigen::Index kCalmedBays = 10;
-  const Eigen::Index rest = rail_.size() - bay_size_, calmed = std::min(kCalmedBays * bay_size_, rest / 4);
+  const Eigen::Index bay_size = 2 * track_.bay_elements + 1, rest = rail_->size() - bay_size,
+                     calmed = std::min(kCalmedBays * bay_size, rest / 4);
   calm_ = Column::Ones(rest);
   for (Eigen::Index i = 0; i < calmed; ++i) {
     const double s = std::cos(0.5 * kPi * static_cast<double>(i + 1) / static_cast<double>(calmed));
@@ -62,15 +59,34 @@ MovingRail::MovingRail(const FlexibleTrack& track, double speed, double start, d
   }
 }
 
-/// Without what the window has moved on, the place at time 0 lies in the middle bay.
-double MovingRail::window_place(double time) const {
-  const double from_first = start_ + 0.5 * bay_;
-  const double in_bay = from_first - bay_ * std::floor(from_first / bay_);
-  return first_ + in_bay + (speed_ * time - windows_ * bay_);
+/// Also those that continue the track.
+RailSeat MovingRail::seat(std::int64_t index) const {
+  const std::vector<RailSeat>& seats = track_.seats;
+  const auto last = static_cast<std::int64_t>(seats.size()) - 1;
+  if (index >= 0 && index <= last) return seats[static_cast<std::size_t>(index)];
+  RailSeat beyond = index < 0 ? seats.front() : seats.back();
+  if (index < 0)
+    beyond.x += static_cast<double>(index) * (seats[1].x - seats[0].x);
+  else
+    beyond.x += static_cast<double>(index - last) * (beyond.x - seats[seats.size() - 2].x);
+  return beyond;
+}
+
+/// Makes the part that begins with this seat the one that is looked at.
+void MovingRail::look_from(std::int64_t first_seat) {
+  first_seat_ = first_seat;
+  FlexibleTrack part = track_;
+  part.seats.clear();
+  for (std::int64_t i = 0; i < seats_; ++i) part.seats.push_back(seat(first_seat + i));
+  part.absorbing_bays = std::min(track_.absorbing_bays, static_cast<int>(seats_ / 4));
+  rail_ = std::make_unique<const RailOnSeats>(part);
+  next_place_ = seat(first_seat + (seats_ - 1) / 2 + 1).x;
+  factors_of_ = -1.0;
+  trial_.reset();
 }
 
 MovingRail::Column MovingRail::spread(const RailOnSeats::Place& place) const {
-  Column f = Column::Zero(rail_.size());
+  Column f = Column::Zero(rail_->size());
   for (std::size_t i = 0; i < 4; ++i) f[place.coordinate[i]] += place.value[static_cast<Eigen::Index>(i)];
   return f;
 }
@@ -81,40 +97,51 @@ double MovingRail::along(const RailOnSeats::Place& place, const BeamVector& by, 
   return sum;
 }
 
-MovingRail::Answer MovingRail::at_rest() const { return {0.0, rail_.receptance(window_place(0.0), 0.0).real()}; }
-
-const BandedSymmetric<double>& MovingRail::factors(double h) {
-  if (factors_of_ == h) return factors_;
-  factors_ = rail_.mass();
+void MovingRail::factorise(double h) {
+  if (factors_of_ == h) return;
+  factors_ = rail_->mass();
   const double of_damping = (1.0 + alpha_) * gamma_ * h, of_stiffness = (1.0 + alpha_) * beta_ * h * h;
   for (std::size_t i = 0; i < factors_.values().size(); ++i)
-    factors_.values()[i] += of_damping * rail_.damping().values()[i] + of_stiffness * rail_.stiffness().values()[i];
+    factors_.values()[i] += of_damping * rail_->damping().values()[i] + of_stiffness * rail_->stiffness().values()[i];
   factors_.factorise();
   factors_of_ = h;
-  return factors_;
+  by_unit_.clear();
+}
+
+/// Accelerations by a unit force there, for the length of a step in use.
+const MovingRail::Column& MovingRail::by_unit(int coordinate) {
+  Column& column = by_unit_[coordinate];
+  if (column.size() == 0) {
+    column = Column::Zero(rail_->size());
+    column[coordinate] = 1.0;
+    factors_.solve(column);
+  }
+  return column;
 }
 
 MovingRail::Answer MovingRail::after(double time) {
   if (!trial_ || trial_->time != time) {
     Trial t;
     t.time = time;
-    const double h = time - time_;
-    t.place = rail_.place(window_place(time));
+    // Differences of times vary in their last digits, which are not worth a factorisation.
+    const double h = static_cast<float>(time - time_);
+    t.place = rail_->place(place_at(time));
     t.of_q = beta_ * h * h;
     t.of_v = gamma_ * h;
     t.known_q = q_ + h * v_ + (0.5 - beta_) * h * h * a_;
     t.known_v = v_ + (1.0 - gamma_) * h * a_;
     if (h > 0.0) {
-      const BandedSymmetric<double>& f = factors(h);
-      const RailOnSeats::Place before = rail_.place(window_place(time_));
-      t.free = alpha_ * (rail_.damping().times(v_) + rail_.stiffness().times(q_)) - alpha_ * force_ * spread(before) -
-               (1.0 + alpha_) * (rail_.damping().times(t.known_v) + rail_.stiffness().times(t.known_q));
-      f.solve(t.free);
-      t.unit = (1.0 + alpha_) * spread(t.place);
-      f.solve(t.unit);
+      factorise(h);
+      t.free = rail_->damping().times(alpha_ * v_ - (1.0 + alpha_) * t.known_v) +
+               rail_->stiffness().times(alpha_ * q_ - (1.0 + alpha_) * t.known_q) -
+               alpha_ * force_ * spread(rail_->place(place_at(time_)));
+      factors_.solve(t.free);
+      t.unit = Column::Zero(rail_->size());
+      for (std::size_t i = 0; i < 4; ++i)
+        t.unit += (1.0 + alpha_) * t.place.value[static_cast<Eigen::Index>(i)] * by_unit(t.place.coordinate[i]);
     } else {
       t.free = a_;
-      t.unit = Column::Zero(rail_.size());
+      t.unit = Column::Zero(rail_->size());
     }
     const auto answer = [&](const BeamVector& by, const Column& known, double of) {
       return Answer{along(t.place, by, known) + of * along(t.place, by, t.free), of * along(t.place, by, t.unit)};
@@ -139,19 +166,18 @@ MovingRail::Moved MovingRail::moved(double force) const {
   const Column a = t.free + force * t.unit, q = t.known_q + t.of_q * a, v = t.known_v + t.of_v * a;
   Moved m;
   m.slope = t.slope.free + t.slope.compliance * force;
-  m.energy = 0.5 * v.dot(rail_.mass().times(v)) + 0.5 * q.dot(rail_.stiffness().times(q)) +
-             0.5 * t.place.own_compliance * force * force;
-  m.power = v.dot(rail_.damping().times(v));
+  m.energy = 0.5 * (rail_->mass().form(v) + rail_->stiffness().form(q) + t.place.own_compliance * force * force);
+  m.power = rail_->damping().form(v);
   return m;
 }
 
 void MovingRail::begin(double force) {
-  time_ = windows_ = 0.0;
+  time_ = 0.0;
   force_ = force;
-  BandedSymmetric<double> k = rail_.stiffness();
+  BandedSymmetric<double> k = rail_->stiffness();
   k.factorise();
   const auto under = [&](double by) {
-    Column q = force * spread(rail_.place(window_place(0.0) + by));
+    Column q = force * spread(rail_->place(start_ + by));
     k.solve(q);
     return q;
   };
@@ -159,7 +185,7 @@ void MovingRail::begin(double force) {
   constexpr double kStep = 1e-3;
   q_ = under(0.0);
   v_ = speed_ / (2.0 * kStep) * (under(kStep) - under(-kStep));
-  a_ = Column::Zero(rail_.size());
+  a_ = Column::Zero(rail_->size());
   trial_.reset();
 }
 
@@ -172,31 +198,38 @@ void MovingRail::accept(double force) {
   time_ = t.time;
   force_ = force;
   trial_.reset();
-  while (window_place(time_) >= first_ + bay_) move_window();
+  while (place_at(time_) >= next_place_) move_on();
 }
 
-void MovingRail::move_window() {
-  windows_ += 1.0;
-  const Eigen::Index rest = q_.size() - bay_size_;
+void MovingRail::move_on() {
+  const Eigen::Index bay = 2 * track_.bay_elements + 1, rest = q_.size() - bay;
   for (Column* column : {&q_, &v_, &a_}) {
     const Column kept = column->tail(rest).cwiseProduct(calm_);
     column->head(rest) = kept;
-    column->tail(bay_size_).setZero();
+    column->tail(bay).setZero();
   }
+  look_from(first_seat_ + 1);
 }
 
 void MovingRail::save(ByteWriter& out) const {
-  for (const double value : {time_, force_, windows_}) out.put(value);
+  for (const double value : {time_, force_}) out.put(value);
+  out.put(first_seat_);
   for (const Column* column : {&q_, &v_, &a_}) add_rail_state(out, *column);
 }
 
 void MovingRail::restore(ByteReader& in) {
-  for (double* value : {&time_, &force_, &windows_}) in.get(*value);
+  constexpr std::int64_t kFarthest = 1'000'000'000;  // [seats]
+  const auto foreign = [] {
+    throw Error(ErrorKind::input_data, "a saved state belongs to another track", {}, "start anew");
+  };
+  for (double* value : {&time_, &force_}) in.get(*value);
+  const auto first = in.get<std::int64_t>();
+  if (!(std::abs(first) < kFarthest)) foreign();
+  look_from(first);
   for (Column* column : {&q_, &v_, &a_}) {
     std::vector<double> values;
     in.get(values);
-    if (static_cast<Eigen::Index>(values.size()) != q_.size())
-      throw Error(ErrorKind::input_data, "a saved state belongs to another track", {}, "start anew");
+    if (static_cast<Eigen::Index>(values.size()) != q_.size()) foreign();
     *column = Eigen::Map<const Column>(values.data(), q_.size());
   }
   trial_.reset();

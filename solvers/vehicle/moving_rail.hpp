@@ -2,6 +2,9 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstdint>
+#include <map>
+#include <memory>
 #include <optional>
 
 #include "treadmark/core/byte_archive.hpp"
@@ -9,15 +12,22 @@
 
 namespace treadmark::vehicle {
 
-/// A rail of a flexible track in time, below one vertical force that moves along it at constant speed. The rail that is
-/// looked at moves on with the force by one bay after the other, so that all seats and spacings must be equal; what it
-/// leaves behind and takes up in front lies at rest. Integrated by the scheme of Hilber, Hughes and Taylor (1977). Not
-/// thread-safe.
+/// A rail of a flexible track in time, below one vertical force that moves along it at constant speed. The part of the
+/// rail that is looked at moves on with the force, from bay to bay; what it leaves behind and takes up in front lies at
+/// rest. Before its first seat and behind its last one the track goes on with equal ones. Integrated by the scheme of
+/// Hilber, Hughes and Taylor (1977). Not thread-safe.
 class MovingRail {
  public:
-  /// speed [m/s]; > 0. start: place of the force at time 0, from the middle between two sleepers [m]. spectral_radius:
-  /// of the scheme for fast vibrations, 0.5 to 1. Errors: Error(configuration).
-  MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius);
+  /// Of the part that is looked at [m].
+  static constexpr double kUsualLength = 30.0;
+  /// More of FlexibleTrack::bay_elements are not used.
+  static constexpr int kMostBayElements = 8;
+
+  /// speed [m/s]; > 0. start: place of the force at time 0, from the middle of the bay in the middle of the track [m].
+  /// spectral_radius: of the scheme for fast vibrations, 0.5 to 1. length: of the part that is looked at [m], made
+  /// longer where that is less than 20 sleepers. Errors: Error(configuration).
+  MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius,
+             double length = kUsualLength);
 
   /// How the place under the force answers a force at some time: deflection = free + compliance * force.
   struct Answer {
@@ -25,7 +35,7 @@ class MovingRail {
     double compliance = 0.0;  ///< [m/N]
   };
   /// The rail at rest under a force that has always been there, time 0.
-  Answer at_rest() const;
+  Answer at_rest() const { return {0.0, compliance_at_rest_}; }
   /// After a step to this time, from what was accepted last.
   Answer after(double time);
 
@@ -61,24 +71,30 @@ class MovingRail {
     Answer deflection, slope, rate;
   };
 
-  double window_place(double time) const;
+  double place_at(double time) const { return start_ + speed_ * time; }
+  RailSeat seat(std::int64_t index) const;
+  void look_from(std::int64_t first_seat);
   Column spread(const RailOnSeats::Place& place) const;
   static double along(const RailOnSeats::Place& place, const BeamVector& by, const Column& q);
-  const BandedSymmetric<double>& factors(double length);
-  void move_window();
+  void factorise(double length);
+  const Column& by_unit(int coordinate);
+  void move_on();
 
-  RailOnSeats rail_;
+  FlexibleTrack track_;
   double speed_, start_, alpha_, beta_, gamma_;
-  Column calm_;                     ///< factors on what stays in the window as it moves
-  double bay_ = 0.0, first_ = 0.0;  ///< length of a bay; beginning of that in the middle [m]
-  int bay_size_ = 0;                ///< coordinates of a bay
+  std::int64_t seats_ = 0;   ///< of the part that is looked at
+  Column calm_;              ///< factors on what stays in it as it moves
+  double next_place_ = 0.0;  ///< of the force, where the part moves on [m]
+  double compliance_at_rest_ = 0.0;
+  std::unique_ptr<const RailOnSeats> rail_;  ///< the part
 
   double time_ = 0.0, force_ = 0.0;
-  double windows_ = 0.0;  ///< bays by which the window has moved
+  std::int64_t first_seat_ = 0;  ///< of the part; 0 is the first one of the track
   Column q_, v_, a_;
   std::optional<Trial> trial_;
   double factors_of_ = -1.0;  ///< length of a step
   BandedSymmetric<double> factors_;
+  std::map<int, Column> by_unit_;  ///< accelerations by unit forces at coordinates
 };
 
 }  // namespace treadmark::vehicle

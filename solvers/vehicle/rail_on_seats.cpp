@@ -13,9 +13,6 @@
 namespace treadmark::vehicle {
 namespace {
 
-// From the deflection at one end of an element to the rotation at the other, with a sleeper between them.
-constexpr int kRailBand = 4;
-
 void require_sense(const FlexibleTrack& track) {
   const auto refuse = [](const std::string& message) { throw Error(ErrorKind::configuration, message); };
   const auto positive = [](double value) { return value > 0.0 && std::isfinite(value); };
@@ -48,7 +45,8 @@ RailOnSeats::RailOnSeats(const FlexibleTrack& track) {
   const std::size_t count = seats.size();
   const double before = 0.5 * (seats[1].x - seats[0].x), behind = 0.5 * (seats[count - 1].x - seats[count - 2].x);
 
-  // Nodes; each seat's sleeper has its coordinate after those of the node above it.
+  // Nodes; each seat's sleeper has its coordinate after those of the node above it: from the deflection at one end of
+  // an element to the rotation at the other they are four numbers apart.
   const int half = (track.bay_elements + 1) / 2;
   std::vector<int> sleepers;
   int next = 0;
@@ -68,7 +66,7 @@ RailOnSeats::RailOnSeats(const FlexibleTrack& track) {
     else
       add_nodes(seats[i].x, seats[i].x + behind, half);
   }
-  mass_ = damping_ = stiffness_ = BandedSymmetric<double>(next, kRailBand);
+  mass_ = damping_ = stiffness_ = BandedSymmetric<double>(next);
 
   // Ends of the undamped part.
   const auto absorbing = static_cast<std::size_t>(track.absorbing_bays);
@@ -129,7 +127,7 @@ RailOnSeats::Place RailOnSeats::place(double x) const {
 std::vector<std::complex<double>> RailOnSeats::receptance(std::span<const double> x, double frequency) const {
   using Complex = std::complex<double>;
   const double w = 2.0 * kPi * frequency;
-  BandedSymmetric<Complex> dynamic(size(), kRailBand);
+  BandedSymmetric<Complex> dynamic(size());
   for (std::size_t i = 0; i < dynamic.values().size(); ++i)
     dynamic.values()[i] = Complex(stiffness_.values()[i] - w * w * mass_.values()[i], w * damping_.values()[i]);
   const bool regular = dynamic.factorise();
