@@ -105,10 +105,13 @@ class Assembly {
   void add_modes(const FlexibleAxle& axle, PlacedBody& body) {
     check_flexible(axle, body.spec);
     body.axle = &axle;
-    const auto add = [&](const std::string& name, Freedom freedom, double mass, double stiffness, double damping) {
+    // scale: displacement or rotation that a unit of the mode is worth.
+    const auto add = [&](const std::string& name, Freedom freedom, double mass, double stiffness, double damping,
+                         double scale) {
       const int body_index = system_.coordinates[static_cast<std::size_t>(body.coordinate[0])].body;
       const int c = add_coordinate(body_index, freedom, body.spec.name + '.' + name, mass);
       system_.coordinates.back().elastic = true;
+      system_.coordinates.back().arm *= scale;
       terms_.push_back({{{c, 1.0}}, stiffness, false});
       if (damping > 0.0) terms_.push_back({{{c, 1.0}}, damping, true});
       body.elastic.push_back({c, {}});
@@ -119,7 +122,10 @@ class Assembly {
       ++number;
       for (const Freedom plane : {Freedom::z, Freedom::x}) {
         const std::string name = fmt::format("bending{}_{}", number, plane == Freedom::z ? "vertical" : "horizontal");
-        body.bending.push_back({&m, plane, add(name, plane, m.mass, m.stiffness, m.damping)});
+        double scale = 0.0;
+        for (const double w : m.shape) scale = std::max(scale, std::abs(w));
+        for (const double slope : m.slope) scale = std::max(scale, kHalfGauge * std::abs(slope));
+        body.bending.push_back({&m, plane, add(name, plane, m.mass, m.stiffness, m.damping, scale)});
         for (const std::size_t side : {0u, 1u}) {
           const double y = (side == 0 ? -0.5 : 0.5) * axle.wheel_distance;
           SixValues motion = section_motion(axle, body.bending.back(), y);
@@ -132,7 +138,8 @@ class Assembly {
     }
     number = 0;
     for (const TorsionMode& m : axle.torsion) {
-      add(fmt::format("torsion{}", ++number), Freedom::pitch, m.inertia, m.stiffness, m.damping);
+      const double scale = std::max(std::abs(m.wheel_rotation[0]), std::abs(m.wheel_rotation[1]));
+      add(fmt::format("torsion{}", ++number), Freedom::pitch, m.inertia, m.stiffness, m.damping, scale);
       for (const std::size_t side : {0u, 1u}) body.elastic.back().motion[side][4] = m.wheel_rotation[side];
     }
   }

@@ -38,8 +38,9 @@ using Matrix = Eigen::MatrixXd;
 struct Coordinate {
   int body = -1;  ///< -1: inner end of a damper that has a spring in series; without mass
   Freedom freedom = Freedom::x;
-  std::string name;      ///< "bogie1.roll"; a body of the track below wheelset 2: "left_rail@2"
-  double arm = 1.0;      ///< lengths that a unit of it is worth: 1, of rotations half the gauge [m]
+  std::string name;  ///< "bogie1.roll"; a body of the track below wheelset 2: "left_rail@2"
+  /// Lengths that a unit of it is worth [m]: 1, of rotations half the gauge; of modes as far as they move.
+  double arm = 1.0;
   bool elastic = false;  ///< of a mode of a flexible wheelset, in the direction of its shape: not of the body's centre
 };
 

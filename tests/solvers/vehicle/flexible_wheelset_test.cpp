@@ -19,7 +19,7 @@ namespace {
 using testing::AxleBeam;
 using testing::manchester_axle;
 
-constexpr double kTurn = 2.0 * std::numbers::pi, kWheelAt = 0.75, kBoxAt = 1.0, kRadius = 0.46;
+constexpr double kTurn = 2.0 * std::numbers::pi, kWheelAt = 0.75, kBoxAt = 1.0, kRadius = 0.46, kElement = 0.02;
 const std::vector<double> kPlaces{-kBoxAt, -kWheelAt, kWheelAt, kBoxAt};
 
 /// A wheelset that bends, below a mass on four springs.
@@ -63,7 +63,7 @@ int coordinate_at(const Multibody& s, const std::string& name) {
 
 FlexibleAxle manchester(int bending, int torsion, double damping = 0.0) {
   double polar = 0.0;
-  const AxleBeam beam = manchester_axle(&polar);
+  const AxleBeam beam = manchester_axle(&polar, kElement);
   return beam.axle(2.0 * kWheelAt, polar, kPlaces, bending, torsion, damping);
 }
 
@@ -140,7 +140,7 @@ TEST(FlexibleWheelset, SpringsHoldTheBendingAxle) {
 }
 
 TEST(FlexibleWheelset, AFreeWheelsetVibratesAsTheBeam) {
-  const AxleBeam beam = manchester_axle();
+  const AxleBeam beam = manchester_axle(nullptr, kElement);
   std::vector<double> expected;
   for (const double omega : {beam.bending().omega[0], beam.bending().omega[1], beam.torsion().omega[0]})
     expected.push_back(omega / kTurn);
@@ -218,7 +218,7 @@ TEST(FlexibleWheelset, MomentaOfWheelsAreThoseOfDiscsOnTheBeam) {
 /// Loads at the boxes, wheels on rails: what modes make of the slope of the wheels, beside the beam's.
 TEST(FlexibleWheelset, BendsAtRestAsFarAsItsModesReach) {
   constexpr double kForce = 50e3;
-  const AxleBeam beam = manchester_axle();
+  const AxleBeam beam = manchester_axle(nullptr, kElement);
   const Eigen::VectorXd exact = beam.loaded(kForce, kBoxAt, kWheelAt);
   const double slope = exact[2 * beam.node(kWheelAt) + 1], box = exact[2 * beam.node(kBoxAt)];
   // Between the wheels the moment is constant: near the hand formula of the middle section.
@@ -287,6 +287,37 @@ TEST(FlexibleWheelset, EnergyOfARunIsBalanced) {
   while (!s.finished()) s.advance();
   EXPECT_GT(s.energy().turnover, 10.0);
   EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
+}
+
+/// Another scale of the shapes is another unit of their coordinates, nothing else.
+TEST(FlexibleWheelset, TheScaleOfShapesIsFree) {
+  constexpr double kScale = 40.0;
+  FlexibleAxle scaled = manchester(2, 1, 0.01);
+  for (BendingMode& mode : scaled.bending) {
+    for (double& w : mode.shape) w *= kScale;
+    for (double& slope : mode.slope) slope *= kScale;
+    for (double* value : {&mode.mass, &mode.stiffness, &mode.damping}) *value *= kScale * kScale;
+  }
+  for (TorsionMode& mode : scaled.torsion) {
+    for (double& rotation : mode.wheel_rotation) rotation *= kScale;
+    for (double* value : {&mode.inertia, &mode.stiffness, &mode.damping}) *value *= kScale * kScale;
+  }
+  const auto run_with = [](const FlexibleAxle& axle, double unit) {
+    const VehicleOnTrack v =
+        on_hertz_springs(flexible_vehicle(axle), rails_on_springs(200.0, 6e7, 5e4), 20.0, 9e10, 1e5);
+    SystemState start = find_equilibrium(v, {1e-12, 1e-6, 60}).state;
+    start.v[coordinate_at(v.system, "wheelset.bending1_vertical")] += 0.2 / unit;
+    start.v[coordinate_at(v.system, "wheelset.torsion1")] += 0.5 / unit;
+    Simulation s(v, start, running(0.02));
+    while (!s.finished()) s.advance();
+    Vector q = s.state().q;
+    for (int i = 0; i < v.system.size(); ++i)
+      if (v.system.coordinates[static_cast<std::size_t>(i)].elastic) q[i] *= unit;
+    return std::pair<Vector, long>(q, s.counts().steps);
+  };
+  const auto plain = run_with(manchester(2, 1, 0.01), 1.0), other = run_with(scaled, kScale);
+  EXPECT_EQ(plain.second, other.second);
+  EXPECT_LT((plain.first - other.first).cwiseAbs().maxCoeff(), 1e-10);
 }
 
 TEST(FlexibleWheelset, GoesOnWithTheSameBits) {
