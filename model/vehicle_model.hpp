@@ -3,11 +3,13 @@
 #pragma once
 
 #include <array>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/pose.hpp"
+#include "treadmark/model/flexible_axle.hpp"
 
 namespace treadmark {
 
@@ -58,8 +60,9 @@ struct BumpStopSpec {
 
 /// Which body carries a wheelset.
 struct WheelsetSpec {
-  std::string body;             ///< its springs hold the axle boxes, which do not turn with the axle
-  double nominal_radius = 0.0;  ///< [m]
+  std::string body;                       ///< its springs hold the axle boxes, which do not turn with the axle
+  double nominal_radius = 0.0;            ///< [m]
+  std::optional<FlexibleAxle> axle = {};  ///< none: rigid; with it the body must be free in all directions
 };
 
 /// Bodies above the rails and what connects them.

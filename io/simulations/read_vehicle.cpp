@@ -27,7 +27,7 @@ void change_model(CaseTable& document, std::span<const CaseOverride> changes, co
   }
 }
 
-constexpr std::string_view kVehicleParts[] = {"bodies", "springs", "bump_stops", "wheelsets"};
+constexpr std::string_view kVehicleParts[] = {"bodies", "springs", "bump_stops", "wheelsets", "axles"};
 constexpr std::string_view kTrackParts[] = {"bodies", "springs", "bump_stops", "wheelsets",
                                             "rail",   "seats",   "varied",     "lateral"};
 
@@ -57,6 +57,23 @@ void scale_model(Model& model, const TableReader& table) {
     scale(spring.stiffness, stiffness);
     scale(spring.damping, damping);
     scale(spring.damper_stiffness, damping > 0.0 ? stiffness : 0.0);
+  }
+}
+
+/// The stiffness of steel stays: frequencies follow.
+void scale_axles(VehicleModel& vehicle, const TableReader& table) {
+  const double mass = table.number_or("scale_mass", 1.0), damping = table.number_or("scale_damping", 1.0);
+  for (WheelsetSpec& wheelset : vehicle.wheelsets) {
+    if (!wheelset.axle) continue;
+    wheelset.axle->wheel_polar_inertia *= mass;
+    for (BendingMode& mode : wheelset.axle->bending) {
+      mode.mass *= mass;
+      mode.damping *= damping;
+    }
+    for (TorsionMode& mode : wheelset.axle->torsion) {
+      mode.inertia *= mass;
+      mode.damping *= damping;
+    }
   }
 }
 
@@ -101,6 +118,9 @@ void refuse_other_kind(const TableReader& document, const TableReader& table, bo
 
 std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std::vector<BodySpec>& bodies) {
   std::vector<WheelsetSpec> wheelsets;
+  const std::vector<FlexibleAxle> axles = read_axles(document);
+  std::vector<std::string> axle_names;
+  for (const FlexibleAxle& axle : axles) axle_names.push_back(axle.name);
   std::set<std::string> seen;
   for (const CaseValue* one : document.tables("wheelsets")) {
     const TableReader part(one->table(), one->where, "wheelsets", wheelset_keys());
@@ -114,8 +134,16 @@ std::vector<WheelsetSpec> read_wheelsets(const TableReader& document, const std:
     if (!body->free.at(static_cast<std::size_t>(Freedom::z)))
       throw Error(ErrorKind::configuration, fmt::format("the wheelset '{}' cannot move in z", wheelset.body), where,
                   "add \"z\" to what is free: the load of its wheels follows from its vertical motion");
+    if (const CaseValue* name = part.checked_if("axle")) {
+      check_name("wheelsets.axle: the axle", name->text(), axle_names, name->where);
+      wheelset.axle = *std::ranges::find(axles, name->text(), &FlexibleAxle::name);
+    }
     wheelsets.push_back(std::move(wheelset));
   }
+  for (const FlexibleAxle& axle : axles)
+    if (std::ranges::none_of(wheelsets, [&](const WheelsetSpec& w) { return w.axle && w.axle->name == axle.name; }))
+      throw Error(ErrorKind::configuration, fmt::format("no wheelset has the axle '{}'", axle.name), axle.where,
+                  "name it as axle of one of [[wheelsets]]");
   if (wheelsets.empty())
     document.fail("there are no [[wheelsets]]", "name the bodies that run on the rails, the leading one first");
   return wheelsets;
@@ -160,6 +188,7 @@ VehicleModel parse_vehicle_text(std::string_view text, const std::string& name, 
   vehicle.wheelsets = read_wheelsets(document, vehicle.bodies);
   check_vehicle(vehicle);
   scale_model(vehicle, table);
+  scale_axles(vehicle, table);
   return vehicle;
 }
 

@@ -45,6 +45,7 @@ std::vector<BodySpec> read_bodies(const TableReader& document);
 /// bodies: those that can be connected, beside the ground.
 std::vector<SpringSpec> read_springs(const TableReader& document, const std::vector<BodySpec>& bodies);
 std::vector<BumpStopSpec> read_bump_stops(const TableReader& document, const std::vector<BodySpec>& bodies);
+std::vector<FlexibleAxle> read_axles(const TableReader& document);
 
 std::vector<std::string> names_of(const std::vector<BodySpec>& bodies);
 

@@ -36,11 +36,12 @@ KeyInfo scale_key(std::string name, KeyLimits limits, std::string doc) {
 }
 
 TableKeys model_keys() {
-  return {needed(key_info("name", KeyType::text, "of the model")),
-          key_info("source", KeyType::text, "where the numbers come from"),
-          scale_key("scale_mass", kPositive, "factor on all masses and moments of inertia"),
-          scale_key("scale_stiffness", kPositive, "factor on all stiffnesses of springs; bump stops stay"),
-          scale_key("scale_damping", kNotNegative, "factor on all damping")};
+  return {
+      needed(key_info("name", KeyType::text, "of the model")),
+      key_info("source", KeyType::text, "where the numbers come from"),
+      scale_key("scale_mass", kPositive, "factor on all masses and moments of inertia"),
+      scale_key("scale_stiffness", kPositive, "factor on all stiffnesses of springs; bump stops, axles and rails stay"),
+      scale_key("scale_damping", kNotNegative, "factor on all damping")};
 }
 
 TableKeys place_keys_of(const std::string& part) {
@@ -92,7 +93,8 @@ const TableKeys& vehicle_tables() {
       table_key("springs", KeyType::table_list, "springs and dampers between them", spring_keys()),
       table_key("bump_stops", KeyType::table_list, "springs with a characteristic", bump_stop_keys()),
       needed(table_key("wheelsets", KeyType::table_list, "bodies that run on the rails, the leading one first",
-                       wheelset_keys()))};
+                       wheelset_keys())),
+      table_key("axles", KeyType::table_list, "how wheelsets bend and twist", axle_keys())};
   return keys;
 }
 
@@ -228,7 +230,51 @@ const TableKeys& bump_stop_keys() {
 
 const TableKeys& wheelset_keys() {
   static const TableKeys keys{needed(key_info("body", KeyType::text, "free in z at least")),
-                              needed(key_info("nominal_radius_mm", KeyType::number, "of its wheels", kPositive))};
+                              needed(key_info("nominal_radius_mm", KeyType::number, "of its wheels", kPositive)),
+                              key_info("axle", KeyType::text, "name of one of `[[axles]]`; without it it is rigid")};
+  return keys;
+}
+
+const TableKeys& axle_keys() {
+  static const TableKeys keys{
+      needed(key_info("name", KeyType::text, "letters, digits, `_`, `-`")),
+      needed(key_info("wheel_distance_mm", KeyType::number, "of the middle planes of both wheels", kPositive)),
+      needed(key_info("wheel_polar_inertia_kg_m2", KeyType::number,
+                      "of one wheel with its discs about the axle, part of the body's own", kNotNegative)),
+      key_info("places_mm", KeyType::number_list,
+               "along the axle from its middle to the right, increasing: wheels, axle boxes and what else is held by "
+               "springs; required with `bending`"),
+      table_key("bending", KeyType::table_list, "vibrations of the free wheelset, each in both planes", bending_keys()),
+      table_key("torsion", KeyType::table_list, "vibrations of the free wheelset about its axle", torsion_keys())};
+  return keys;
+}
+
+namespace {
+
+TableKeys mode_keys(const TableKeys& own) {
+  TableKeys keys{
+      needed(key_info("frequency_Hz", KeyType::number, "of the free wheelset at rest", kPositive)),
+      with_default("0", key_info("damping_ratio", KeyType::number, "over critical damping", {{}, 0.0, 1.0}))};
+  keys.insert(keys.end(), own.begin(), own.end());
+  return keys;
+}
+
+}  // namespace
+
+const TableKeys& bending_keys() {
+  static const TableKeys keys = mode_keys(
+      {needed(key_info("modal_mass_kg", KeyType::number, "integral of mass times shape², scaled as the shape is",
+                       kPositive)),
+       needed(key_info("shape", KeyType::number_list, "displacement at each of `places_mm`", kAnyNumber)),
+       needed(key_info("slope_per_m", KeyType::number_list, "its derivative along the axle there", kAnyNumber))});
+  return keys;
+}
+
+const TableKeys& torsion_keys() {
+  static const TableKeys keys = mode_keys(
+      {needed(key_info("modal_inertia_kg_m2", KeyType::number,
+                       "sum of moments of inertia times rotation², scaled as the rotations are", kPositive)),
+       needed(key_info("wheel_rotation", KeyType::number_list, "of the left and the right wheel", kAnyNumber))});
   return keys;
 }
 

@@ -32,6 +32,10 @@ const TableKeys& place_keys();
 const TableKeys& spring_keys();
 const TableKeys& bump_stop_keys();
 const TableKeys& wheelset_keys();
+/// Of [[axles]], [[axles.bending]] and [[axles.torsion]].
+const TableKeys& axle_keys();
+const TableKeys& bending_keys();
+const TableKeys& torsion_keys();
 
 /// Keys of [simulation] that are one member of SimulationSettings each, in the order in which they are read.
 const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys();

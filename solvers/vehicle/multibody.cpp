@@ -19,12 +19,36 @@ constexpr double kHalfGauge = 0.75;  // [m], to compare rotations with displacem
 constexpr int kRotations = 3;        // freedoms from here on are rotations
 constexpr const char* kFreedomNames[] = {"x", "y", "z", "roll", "pitch", "yaw"};
 
+/// A bending mode in one plane.
+struct PlacedMode {
+  const BendingMode* mode;
+  Freedom plane;  ///< x or z
+  int coordinate;
+};
+
 struct PlacedBody {
   BodySpec spec;
   std::array<int, kFreedoms> coordinate;
   bool axle_boxes = false;  ///< springs do not follow its pitch
   bool fixed_while_preloading = false;
+  const FlexibleAxle* axle = nullptr;
+  std::vector<PlacedMode> bending = {};
+  std::vector<Multibody::Wheelset::Elastic> elastic = {};
 };
+
+/// Motion of the axle's section at y per unit of a bending mode's coordinate.
+SixValues section_motion(const FlexibleAxle& axle, const PlacedMode& placed, double y) {
+  const AxleDeflection at = deflection_at(axle, *placed.mode, y);
+  SixValues motion{};
+  if (placed.plane == Freedom::z) {
+    motion[2] = at.displacement;
+    motion[3] = at.slope;
+  } else {
+    motion[0] = at.displacement;
+    motion[5] = -at.slope;
+  }
+  return motion;
+}
 
 /// A direction in which a spring or damper acts: relative displacement of b against a by the coordinates.
 using Direction = std::vector<std::pair<int, double>>;
@@ -37,6 +61,7 @@ class Assembly {
     for (const WheelsetSpec& w : vehicle.wheelsets) {
       PlacedBody& body = find(w.body, {});
       body.axle_boxes = body.fixed_while_preloading = true;
+      if (w.axle) add_modes(*w.axle, body);
     }
     for (const SpringSpec& spring : vehicle.springs) add_spring(spring, "", Vec3::Zero());
     for (const BumpStopSpec& stop : vehicle.bump_stops) add_stop(stop);
@@ -76,6 +101,65 @@ class Assembly {
     return static_cast<int>(inertia_.size()) - 1;
   }
 
+  /// Coordinates of a flexible wheelset's modes, with their own springs and dampers.
+  void add_modes(const FlexibleAxle& axle, PlacedBody& body) {
+    check_flexible(axle, body.spec);
+    body.axle = &axle;
+    // scale: displacement or rotation that a unit of the mode is worth.
+    const auto add = [&](const std::string& name, Freedom freedom, double mass, double stiffness, double damping,
+                         double scale) {
+      const int body_index = system_.coordinates[static_cast<std::size_t>(body.coordinate[0])].body;
+      const int c = add_coordinate(body_index, freedom, body.spec.name + '.' + name, mass);
+      system_.coordinates.back().elastic = true;
+      system_.coordinates.back().arm *= scale;
+      terms_.push_back({{{c, 1.0}}, stiffness, false});
+      if (damping > 0.0) terms_.push_back({{{c, 1.0}}, damping, true});
+      body.elastic.push_back({c, {}});
+      return c;
+    };
+    int number = 0;
+    for (const BendingMode& m : axle.bending) {
+      ++number;
+      for (const Freedom plane : {Freedom::z, Freedom::x}) {
+        const std::string name = fmt::format("bending{}_{}", number, plane == Freedom::z ? "vertical" : "horizontal");
+        double scale = 0.0;
+        for (const double w : m.shape) scale = std::max(scale, std::abs(w));
+        for (const double slope : m.slope) scale = std::max(scale, kHalfGauge * std::abs(slope));
+        body.bending.push_back({&m, plane, add(name, plane, m.mass, m.stiffness, m.damping, scale)});
+        for (const std::size_t side : {0u, 1u}) {
+          const double y = (side == 0 ? -0.5 : 0.5) * axle.wheel_distance;
+          SixValues motion = section_motion(axle, body.bending.back(), y);
+          // The rigid wheel's motion, taken on to the centre of the wheelset.
+          motion[0] += motion[5] * y;
+          motion[2] -= motion[3] * y;
+          body.elastic.back().motion[side] = motion;
+        }
+      }
+    }
+    number = 0;
+    for (const TorsionMode& m : axle.torsion) {
+      const double scale = std::max(std::abs(m.wheel_rotation[0]), std::abs(m.wheel_rotation[1]));
+      add(fmt::format("torsion{}", ++number), Freedom::pitch, m.inertia, m.stiffness, m.damping, scale);
+      for (const std::size_t side : {0u, 1u}) body.elastic.back().motion[side][4] = m.wheel_rotation[side];
+    }
+  }
+
+  static void check_flexible(const FlexibleAxle& axle, const BodySpec& spec) {
+    check_axle(axle);
+    for (int f = 0; f < kFreedoms; ++f)
+      if (!spec.free[static_cast<std::size_t>(f)])
+        throw Error(ErrorKind::configuration,
+                    fmt::format("the wheelset '{}' with the flexible axle '{}' cannot move in {}", spec.name, axle.name,
+                                kFreedomNames[f]),
+                    spec.where, "the modes are those of a free wheelset: make it free in all directions");
+    constexpr double kRounding = 1.0 + 1e-9;
+    if (2.0 * axle.wheel_polar_inertia > kRounding * spec.inertia.y())
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the two wheels of axle '{}' have {:.6g} kg m2 about it, the whole wheelset '{}' {:.6g}",
+                              axle.name, 2.0 * axle.wheel_polar_inertia, spec.name, spec.inertia.y()),
+                  axle.where);
+  }
+
   PlacedBody& find(const std::string& name, const SourcePosition& where) {
     const auto found = by_name_.find(name);
     if (found == by_name_.end())
@@ -99,11 +183,37 @@ class Assembly {
     for (int r = 0; r < 3; ++r) add(kRotations + r, Vec3::Unit(r).cross(arm).dot(axis));
   }
 
+  /// The same of the axle box at a point of a wheelset that bends. Twisting does not move boxes.
+  void add_bending(const std::string& name, const std::string& suffix, const SourcePosition& where, const Vec3& point,
+                   int freedom, double sign, Direction& direction) {
+    if (name == kGround) return;
+    const PlacedBody& body = find(name + suffix, where);
+    for (const PlacedMode& placed : body.bending) {
+      const Vec3 arm = point - body.spec.position;
+      const std::vector<double>& places = body.axle->places;
+      if (arm.y() < places.front() || arm.y() > places.back())
+        throw Error(ErrorKind::configuration,
+                    fmt::format("the shapes of axle '{}' go from y = {:.6g} to {:.6g} m, but '{}' is held at {:.6g} m",
+                                body.axle->name, places.front(), places.back(), name, arm.y()),
+                    where, "give the shapes at the axle boxes too");
+      const SixValues motion = section_motion(*body.axle, placed, arm.y());
+      double factor = motion[static_cast<std::size_t>(freedom)];
+      const Vec3 from_section(arm.x(), 0.0, arm.z());
+      if (freedom < kRotations)
+        for (int r = 0; r < 3; ++r)
+          factor += motion[static_cast<std::size_t>(kRotations + r)] *
+                    Vec3::Unit(r).cross(from_section).dot(Vec3::Unit(freedom));
+      if (factor != 0.0) direction.emplace_back(placed.coordinate, sign * factor);
+    }
+  }
+
   Direction relative(const std::string& a, const std::string& b, const std::string& suffix, const SourcePosition& where,
                      const Vec3& point, int freedom) {
     Direction direction;
     add_point(a, suffix, where, point, freedom, -1.0, direction);
     add_point(b, suffix, where, point, freedom, 1.0, direction);
+    add_bending(a, suffix, where, point, freedom, -1.0, direction);
+    add_bending(b, suffix, where, point, freedom, 1.0, direction);
     return direction;
   }
 
@@ -141,7 +251,7 @@ class Assembly {
 
   void add_wheelset(const WheelsetSpec& spec, const std::optional<TrackModel>& track, std::size_t number) {
     const PlacedBody& body = find(spec.body, {});
-    Multibody::Wheelset w{body.coordinate, spec.nominal_radius, -1, -1};
+    Multibody::Wheelset w{body.coordinate, spec.nominal_radius, -1, -1, body.elastic};
     const Vec3 below(body.spec.position.x(), 0.0, 0.0);
     if (track) {
       const std::string suffix = '@' + std::to_string(number + 1);
@@ -177,6 +287,8 @@ class Assembly {
     }
     system_.damping = system_.dissipation;
     for (std::size_t i = 0; i < system_.wheelsets.size(); ++i) couple_roll_and_yaw(system_.wheelsets[i]);
+    for (const Multibody::Wheelset& w : system_.wheelsets)
+      if (!w.elastic.empty()) couple_bending(w);
     for (const auto& [direction, stop] : stops_)
       system_.characteristics.push_back({spread(direction), stop->displacement, stop->force});
     balance_weight();
@@ -193,6 +305,27 @@ class Assembly {
     system_.damping(yaw, roll) += momentum;
   }
 
+  /// The same of wheels whose axle bends: each turns with its own roll and yaw. What is between them has been counted.
+  void couple_bending(const Multibody::Wheelset& w) {
+    const int roll = w.coordinate[3], yaw = w.coordinate[5];
+    const PlacedBody& body =
+        bodies_[static_cast<std::size_t>(system_.coordinates[static_cast<std::size_t>(roll)].body)];
+    const double momentum = body.axle->wheel_polar_inertia * -speed_ / w.nominal_radius;
+    for (const std::size_t side : {0u, 1u}) {
+      Direction rolls{{roll, 1.0}}, yaws{{yaw, 1.0}};
+      for (const Multibody::Wheelset::Elastic& mode : w.elastic) {
+        rolls.emplace_back(mode.coordinate, mode.motion[side][3]);
+        yaws.emplace_back(mode.coordinate, mode.motion[side][5]);
+      }
+      for (const auto& [i, a] : rolls)
+        for (const auto& [j, b] : yaws) {
+          if (i == roll && j == yaw) continue;
+          system_.damping(i, j) -= momentum * a * b;
+          system_.damping(j, i) += momentum * a * b;
+        }
+    }
+  }
+
   /// Springs bear the weight of what is not a wheelset; the rest is left to the wheelsets' contact.
   void balance_weight() {
     const Eigen::Index n = system_.mass.size();
@@ -200,7 +333,8 @@ class Assembly {
     std::vector<Eigen::Index> sprung;
     for (Eigen::Index i = 0; i < n; ++i) {
       const Coordinate& c = system_.coordinates[static_cast<std::size_t>(i)];
-      if (c.body >= 0 && c.freedom == Freedom::z) weight[i] = inertia_[static_cast<std::size_t>(i)] * gravity_;
+      if (c.body >= 0 && c.freedom == Freedom::z && !c.elastic)
+        weight[i] = inertia_[static_cast<std::size_t>(i)] * gravity_;
       if (c.body < 0 || !bodies_[static_cast<std::size_t>(c.body)].fixed_while_preloading) sprung.push_back(i);
     }
     // Inner ends of dampers and directions without springs bear nothing.
@@ -278,6 +412,9 @@ Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> pair_map(const Multibody
   const Multibody::Wheelset& w = system.wheelsets.at(static_cast<std::size_t>(wheelset));
   for (int f = 0; f < kFreedoms; ++f)
     if (const int c = w.coordinate[static_cast<std::size_t>(f)]; c >= 0) map(f, c) = 1.0;
+  for (const Multibody::Wheelset::Elastic& mode : w.elastic)
+    for (int f = 0; f < kFreedoms; ++f)
+      map(f, mode.coordinate) = mode.motion[side == wheelrail::Side::left ? 0 : 1][static_cast<std::size_t>(f)];
   const int index = side == wheelrail::Side::left ? w.left_rail : w.right_rail;
   if (index < 0) return map;
   const Multibody::Rail& rail = system.rails[static_cast<std::size_t>(index)];

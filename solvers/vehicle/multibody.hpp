@@ -39,7 +39,9 @@ struct Coordinate {
   int body = -1;  ///< -1: inner end of a damper that has a spring in series; without mass
   Freedom freedom = Freedom::x;
   std::string name;  ///< "bogie1.roll"; a body of the track below wheelset 2: "left_rail@2"
-  double arm = 1.0;  ///< lengths that a unit of it is worth: 1, of rotations half the gauge [m]
+  /// Lengths that a unit of it is worth [m]: 1, of rotations half the gauge; of modes as far as they move.
+  double arm = 1.0;
+  bool elastic = false;  ///< of a mode of a flexible wheelset, in the direction of its shape: not of the body's centre
 };
 
 /// A force with a characteristic between two bodies.
@@ -51,7 +53,7 @@ struct CharacteristicForce {
 /// Equations of motion of vehicle and track about their reference configuration, which travels at constant speed:
 ///   M q'' + C q' + K q = f + forces of bump stops and contacts.
 /// K q = f holds for a vehicle whose wheelsets cannot move: springs bear their preloads. C contains the gyroscopic
-/// coupling of the wheelsets' roll and yaw. Immutable.
+/// coupling of the wheelsets' roll and yaw, that of bending wheelsets included. Immutable.
 struct Multibody {
   std::vector<Coordinate> coordinates;
   Vector mass;                ///< diagonal of M
@@ -65,6 +67,12 @@ struct Multibody {
     std::array<int, kFreedoms> coordinate;  ///< -1: not free
     double nominal_radius = 0.0;
     int left_rail = -1, right_rail = -1;  ///< index into rails; -1: rigid
+    /// What a mode of the axle adds to the motion of one wheel, which is rigid: as the motion of a wheelset's centre.
+    struct Elastic {
+      int coordinate;
+      std::array<SixValues, 2> motion;  ///< of the left and the right wheel
+    };
+    std::vector<Elastic> elastic = {};
   };
   struct Rail {
     std::array<int, 3> coordinate;  ///< of its body: y, z, roll; -1: not free

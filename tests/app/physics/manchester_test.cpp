@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <cmath>
 #include <numbers>
+#include <tuple>
 
 #include <gtest/gtest.h>
 
@@ -9,6 +10,7 @@
 #include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
+#include "treadmark/tests/solvers/vehicle/axle_beam.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -104,9 +106,66 @@ TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
   check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10);
 }
 
+const std::string kFlexible =
+    "simulation.vehicle=" + std::string(TREADMARK_SOURCE_DIR) + "/examples/vehicles/manchester-flexible.toml";
+
+TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFlexibleWheelsets) {
+  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=5", kFlexible}, 2e-10);
+}
+
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFullContact) {
   check_energy_of_a_free_run({"simulation.wheels.0.defects=false", "simulation.distance_m=1", "case.regime=steady"},
                              1e-9);
+}
+
+/// The shipped numbers are those of the beam that the file describes, and the rest of the vehicle is manchester.toml.
+TEST(ManchesterFlexible, HasTheModesOfItsBeam) {
+  const VehicleModel rigid = example({}).vehicle, flexible = example({kFlexible}).vehicle;
+  double polar = 0.0;
+  const testing::AxleBeam beam = testing::manchester_axle(&polar);
+  EXPECT_NEAR(beam.total_mass(), 1813.0, 1e-9);
+  EXPECT_NEAR(beam.transverse_inertia(), 1120.0, 1e-9);
+  EXPECT_NEAR(beam.polar_inertia(), 112.0, 1e-9);
+  const FlexibleAxle expected = beam.axle(1.5, polar, {-1.0, -0.75, 0.75, 1.0}, 3, 1, 0.005);
+  for (const WheelsetSpec& wheelset : flexible.wheelsets) {
+    const FlexibleAxle& axle = wheelset.axle.value();
+    EXPECT_EQ(axle.wheel_distance, expected.wheel_distance);
+    EXPECT_EQ(axle.places, expected.places);
+    EXPECT_NEAR(axle.wheel_polar_inertia, polar, 1e-3);
+    ASSERT_EQ(axle.bending.size(), 3u);
+    for (std::size_t i = 0; i < 3; ++i) {
+      const BendingMode &found = axle.bending[i], &wanted = expected.bending[i];
+      EXPECT_NEAR(found.mass / wanted.mass, 1.0, 1e-5) << i;
+      EXPECT_NEAR(found.stiffness / wanted.stiffness, 1.0, 2e-5) << i;
+      EXPECT_NEAR(found.damping / wanted.damping, 1.0, 2e-5) << i;
+      for (std::size_t place = 0; place < 4; ++place) {
+        EXPECT_NEAR(found.shape[place], wanted.shape[place], 1e-5) << i << ' ' << place;
+        EXPECT_NEAR(found.slope[place], wanted.slope[place], 1e-5) << i << ' ' << place;
+      }
+    }
+    ASSERT_EQ(axle.torsion.size(), 1u);
+    EXPECT_NEAR(axle.torsion[0].inertia / expected.torsion[0].inertia, 1.0, 1e-5);
+    EXPECT_NEAR(axle.torsion[0].stiffness / expected.torsion[0].stiffness, 1.0, 2e-5);
+    EXPECT_NEAR(axle.torsion[0].wheel_rotation[0], -1.0, 1e-6);
+  }
+  ASSERT_EQ(flexible.bodies.size(), rigid.bodies.size());
+  for (std::size_t i = 0; i < rigid.bodies.size(); ++i) {
+    const BodySpec &a = flexible.bodies[i], &b = rigid.bodies[i];
+    EXPECT_EQ(std::tie(a.name, a.mass, a.inertia, a.position, a.free),
+              std::tie(b.name, b.mass, b.inertia, b.position, b.free));
+  }
+  ASSERT_EQ(flexible.springs.size(), rigid.springs.size());
+  for (std::size_t i = 0; i < rigid.springs.size(); ++i) {
+    const SpringSpec &a = flexible.springs[i], &b = rigid.springs[i];
+    EXPECT_EQ(std::tie(a.name, a.body_a, a.body_b, a.position, a.stiffness, a.damping, a.damper_stiffness),
+              std::tie(b.name, b.body_a, b.body_b, b.position, b.stiffness, b.damping, b.damper_stiffness));
+  }
+  ASSERT_EQ(flexible.bump_stops.size(), rigid.bump_stops.size());
+  for (std::size_t i = 0; i < rigid.bump_stops.size(); ++i) {
+    const BumpStopSpec &a = flexible.bump_stops[i], &b = rigid.bump_stops[i];
+    EXPECT_EQ(std::tie(a.name, a.body_a, a.body_b, a.position, a.direction, a.displacement, a.force),
+              std::tie(b.name, b.body_a, b.body_b, b.position, b.direction, b.displacement, b.force));
+  }
 }
 
 /// One passage of the flat in each representation of the wheel: the same forces within 2 % of the largest.

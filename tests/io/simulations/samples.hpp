@@ -48,6 +48,28 @@ body = "axle"
 nominal_radius_mm = 460
 )";
 
+/// The same with a wheelset that bends and twists, from line 36 on.
+inline const std::string kWithAxle = kVehicle + R"(axle = "shaft"
+
+[[axles]]
+name = "shaft"
+wheel_distance_mm = 1500
+wheel_polar_inertia_kg_m2 = 50
+places_mm = [-1000, -750, 750, 1000]
+
+[[axles.bending]]
+frequency_Hz = 80
+damping_ratio = 0.01
+modal_mass_kg = 300
+shape = [1, 0.2, 0.2, 1]
+slope_per_m = [-3, -2, 2, 3]
+
+[[axles.torsion]]
+frequency_Hz = 60
+modal_inertia_kg_m2 = 102
+wheel_rotation = [-1, 1]
+)";
+
 inline const std::string kTrack = R"([track]
 name = "springs"
 rails = ["left", "right"]

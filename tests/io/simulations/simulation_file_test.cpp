@@ -362,7 +362,7 @@ TEST_F(SimulationText, ErrorsOfOverrides) {
 
 TEST_F(SimulationText, ShippedVehiclesRunOnShippedTracks) {
   const std::string examples = std::string(TREADMARK_SOURCE_DIR) + "/examples/";
-  for (const char* vehicle : {"manchester", "single-wheelset", "wheel-on-mass"})
+  for (const char* vehicle : {"manchester", "manchester-flexible", "single-wheelset", "wheel-on-mass"})
     for (const char* track : {"zhai-equivalent", "gm-tt0088"}) {
       const SimulationFile file =
           parse(kSimulation, {"simulation.vehicle=" + examples + "vehicles/" + vehicle + ".toml",

@@ -53,6 +53,10 @@ TEST(SimulationMutation, VehicleOnlyThrowsError) {
   expect_errors(samples::kVehicle, 1, [](const std::string& text) { parse_vehicle_text(text, "v.toml"); });
 }
 
+TEST(SimulationMutation, FlexibleWheelsetOnlyThrowsError) {
+  expect_errors(samples::kWithAxle, 5, [](const std::string& text) { parse_vehicle_text(text, "v.toml"); });
+}
+
 TEST(SimulationMutation, TrackOnlyThrowsError) {
   expect_errors(samples::kTrack, 2, [](const std::string& text) { parse_track_text(text, "t.toml"); });
 }
