@@ -70,6 +70,10 @@ void add_spectra(AssessedRun& run) {
       continue;
     }
     const std::vector<double> values = io::column_values(result, column);
+    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) {
+      run.doubts.push_back(fmt::format("{}: it has no spectrum, not all of its values are numbers", name));
+      continue;
+    }
     const measures::EvenSignal even =
         measures::even_samples(std::span(time).subspan(first), std::span(values).subspan(first), usual);
     constexpr std::size_t kLongest = 1 << 16, kShort = 64;
@@ -188,6 +192,13 @@ AssessedRun assess_result(std::string name, std::shared_ptr<const io::Simulation
   add_doubts(run);
   if (!request.spectra.empty() && request.from < end) add_spectra(run);
   return run;
+}
+
+std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,
+                                      const std::optional<AssessmentRequest>& request) {
+  if (!request || result->rows() < 2) return {};
+  std::string name = result->title.empty() ? result->input_file : result->title;
+  return assess_result(std::move(name), std::move(result), *request);
 }
 
 }  // namespace treadmark::app

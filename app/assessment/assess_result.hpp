@@ -3,6 +3,7 @@
 #pragma once
 
 #include <memory>
+#include <optional>
 #include <span>
 #include <string>
 #include <vector>
@@ -42,6 +43,11 @@ measures::RunSignals signals_of(const io::SimulationResult& result);
 /// as far as it goes. Thread-safe.
 AssessedRun assess_result(std::string name, std::shared_ptr<const io::SimulationResult> result,
                           const AssessmentRequest& request);
+
+/// The assessment that a simulation file asks for; nothing where it asks for none or the run has no two instants.
+/// Errors: as assess_result.
+std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,
+                                      const std::optional<AssessmentRequest>& request);
 
 /// Sections have names of their own and an extent. Errors: Error(configuration).
 void check(const AssessmentRequest& request);

@@ -12,6 +12,7 @@
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/io/files/text.hpp"
 #include "treadmark/io/histories/channels.hpp"
+#include "treadmark/io/json/json_tree.hpp"
 #include "treadmark/pictures/chart.hpp"
 #include "treadmark/pictures/histories/history_svg.hpp"
 
@@ -137,6 +138,8 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
     one["title"] = run.result->title;
     one["input"] = {{"file", run.result->input_file}, {"sha256", run.result->input_sha256}};
     one["vehicle"] = kVehicleKinds[static_cast<std::size_t>(run.request.vehicle)];
+    one["from_m"] = json_number(run.request.from);
+    one["channels"] = run.request.spectra;
     one["sections"] = AssessmentJson::array();
     for (const AssessmentSection& section : run.request.sections)
       one["sections"].push_back({{"name", section.name},
@@ -171,6 +174,22 @@ std::string assessment_json(std::span<const AssessedRun> runs) {
     out["runs"].push_back(std::move(one));
   }
   return out.dump(2) + '\n';
+}
+
+AssessmentRequest request_in(const std::filesystem::path& json) {
+  const io::JsonTree file = io::read_json_file(json);
+  const std::vector<io::JsonTree> runs = file.at("runs").items();
+  if (runs.size() != 1) file.refuse("it is not the assessment of one run");
+  const io::JsonTree& run = runs.front();
+  AssessmentRequest request;
+  request.vehicle = static_cast<VehicleKind>(run.at("vehicle").one_of({kVehicleKinds.begin(), kVehicleKinds.end()}));
+  request.from = run.number("from_m");
+  request.spectra = run.at("channels").texts();
+  for (const io::JsonTree& one : run.at("sections").items())
+    request.sections.push_back(
+        {one.text("name"), one.number("from_m"), one.number("to_m"),
+         static_cast<SectionKind>(one.at("kind").one_of({kSectionKinds.begin(), kSectionKinds.end()}))});
+  return request;
 }
 
 std::string spectra_svg(std::span<const AssessedRun> runs) {

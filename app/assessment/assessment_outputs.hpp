@@ -31,8 +31,11 @@ const measures::Assessed* worst_of(const AssessedRun& run, const std::string& se
 /// forces.
 std::vector<std::string> usual_channels(const io::SimulationResult& result);
 
-/// assessment.csv, spectra.csv and spectra.svg where there are spectra, runs.svg and runs.csv with the channels over
-/// the distance, and last assessment.json.
+/// What an assessment of one run was asked for, from its assessment.json. Errors: Error(input_data).
+AssessmentRequest request_in(const std::filesystem::path& json);
+
+/// assessment.csv, spectra.csv and spectra.svg where there are spectra, where there are channels runs.svg and runs.csv
+/// with these over the distance, and last assessment.json.
 void write_assessment_folder(const std::filesystem::path& folder, std::span<const AssessedRun> runs,
                              std::span<const std::string> channels);
 

@@ -10,6 +10,7 @@
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/report/pages/assessment_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parts.hpp"
@@ -26,7 +27,7 @@ struct AssessOptions {
   std::string vehicle = "passenger";
   double from = 0.0;
   std::vector<std::string> sections, spectra, channels;
-  std::string csv_file, json_file, folder;  ///< empty = none; "-": standard output instead of the text
+  std::string csv_file, json_file, folder, report_file;  ///< empty = none; "-": standard output instead of the text
 };
 
 double metres(std::string_view text, const std::string& section) {
@@ -84,7 +85,7 @@ std::vector<std::string> names_of(const std::vector<std::string>& results) {
 }
 
 int assess_command(const AssessOptions& options, const CommonOptions&) {
-  require_different(options.results, {options.csv_file, options.json_file});
+  require_different(options.results, {options.csv_file, options.json_file, options.report_file});
   require_part("hdf5", "results of simulations");
   AssessmentRequest request;
   const auto kind = std::ranges::find(kVehicleKinds, options.vehicle);
@@ -100,9 +101,10 @@ int assess_command(const AssessOptions& options, const CommonOptions&) {
     io::fitting_columns(result->columns, options.channels);  // refused before anything is computed
     runs.push_back(app::assess_result(names[i], std::move(result), request));
   }
-  if (!options.folder.empty())
-    app::write_assessment_folder(
-        options.folder, runs, options.channels.empty() ? app::usual_channels(*runs.front().result) : options.channels);
+  const std::vector<std::string> channels =
+      options.channels.empty() ? app::usual_channels(*runs.front().result) : options.channels;
+  if (!options.folder.empty()) app::write_assessment_folder(options.folder, runs, channels);
+  write_report_file(options.report_file, [&] { return app::report::assessment_page(runs, channels); });
   if (!options.csv_file.empty() && options.csv_file != "-") write_file(options.csv_file, app::assessment_csv(runs));
   const auto json = [&] { return app::assessment_json(runs); };
   write_json_file(options.json_file, json);
@@ -142,6 +144,7 @@ Command add_assess(CLI::App& verb) {
   verb.add_option("-o,--output", options->folder,
                   "Folder for assessment.csv, assessment.json, spectra.csv, runs.csv and pictures (SVG)")
       ->type_name("FOLDER");
+  add_report_file(verb, options->report_file);
   return command(options, assess_command);
 }
 
