@@ -7,6 +7,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
@@ -113,20 +114,26 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     if (!options.resume) {
       remove_file(folder / "simulation.h5");  // where it stands, the other files are of its making
       remove_file(run.checkpoint_file);
+      remove_file(folder / "assessment.json");
     }
   }
 
   app::SimulationTimes times;
-  const io::SimulationResult result = with_progress(
-      common.quiet, [&](const Progress& progress) { return app::run_simulation(file, store, run, progress, &times); });
+  const auto shared = std::make_shared<const io::SimulationResult>(with_progress(
+      common.quiet, [&](const Progress& progress) { return app::run_simulation(file, store, run, progress, &times); }));
+  const io::SimulationResult& result = *shared;
+  const std::optional<app::AssessedRun> assessed = app::assess_own(shared, file.assessment);
+  const app::AssessedRun* const own = assessed ? &*assessed : nullptr;
   if (!folder.empty()) {
+    if (own) app::write_assessment_folder(folder, std::span(own, 1), {});
     app::write_simulation_folder(folder, result);
     std::error_code ignored;
     if (result.status == "complete") std::filesystem::remove(run.checkpoint_file, ignored);
   }
-  write_report_file(options.report_file,
-                    [&] { return app::report::simulation_page(std::make_shared<io::SimulationResult>(result), {}); });
-  print_summary(options.json_file, app::to_json(result, times), app::summary_text(result) + app::times_text(times));
+  write_report_file(options.report_file, [&] { return app::report::simulation_page(shared, {}, own); });
+  print_summary(
+      options.json_file, app::to_json(result, times, own),
+      app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';

@@ -1,6 +1,7 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/app/cli/verbs.hpp"
+#include "treadmark/app/report/pages/assessment_page.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/app/report/pages/check_page.hpp"
 #include "treadmark/app/report/pages/compare_page.hpp"
@@ -33,6 +34,7 @@ Page check_page(const std::vector<CheckedInput>&) { without_report(); }
 Page compare_page(const std::shared_ptr<const io::Comparison>&, std::string) { without_report(); }
 Page bench_page(const BenchReport&, std::string) { without_report(); }
 Page import_page(const io::ImportReport&, std::string, const std::filesystem::path&) { without_report(); }
-Page simulation_page(std::shared_ptr<const io::SimulationResult>, std::string) { without_report(); }
+Page simulation_page(std::shared_ptr<const io::SimulationResult>, std::string, const AssessedRun*) { without_report(); }
+Page assessment_page(std::span<const AssessedRun>, std::span<const std::string>) { without_report(); }
 
 }  // namespace treadmark::app::report

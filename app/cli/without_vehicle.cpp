@@ -7,6 +7,7 @@
 namespace treadmark::cli {
 
 Command add_simulate(CLI::App& verb) { return add_left_out(verb); }
+Command add_assess(CLI::App& verb) { return add_left_out(verb); }
 Command add_sweep(CLI::App& verb) { return add_left_out(verb); }
 Command add_track(CLI::App& verb) { return add_left_out(verb); }
 

@@ -4,7 +4,13 @@
 #include "treadmark/app/simulation/history_record.hpp"
 
 #include <algorithm>
+#include <array>
+#include <limits>
 #include <string>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/histories/channels.hpp"
 
 namespace treadmark::app {
 
@@ -60,7 +66,8 @@ std::string column_prefix(const io::SimulationFile& file, std::size_t wheel) {
   return wheel == watched ? "" : wheel_name(file.wheels.at(wheel)) + '.';
 }
 
-HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation)
+HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation,
+                             const io::HistoryRequest& request)
     : simulation_(simulation) {
   const auto& wheels = simulation.vehicle().wheels;
   const std::size_t watched = built.watched_wheel();
@@ -72,6 +79,9 @@ HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulatio
     if (i != watched) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
   add_energies();
   add_bodies();
+  add_running(watched);
+  add_accelerations(request);
+  keep_only(request);  // the last
 }
 
 void HistoryRecord::add(std::string name, std::string unit, std::string description, std::function<double()> value) {
@@ -132,6 +142,74 @@ void HistoryRecord::add_bodies() {
         [this, at] { return simulation_.state().q[at]; });
     add(c.name + "_rate_" + unit + "_s", unit + "/s", "its rate", [this, at] { return simulation_.state().v[at]; });
   }
+}
+
+/// What running tests and wear ask of the wheels.
+void HistoryRecord::add_running(std::size_t watched) {
+  const vehicle::VehicleOnTrack& vehicle = simulation_.vehicle();
+  for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
+    const std::string prefix = i == watched ? "" : vehicle.wheels[i].name + '.';
+    const std::string of = i == watched ? " (" + vehicle.wheels[i].name + ")" : "";
+    const auto reaction = [this, i]() -> const ContactReaction& { return simulation_.reactions()[i]; };
+    add(prefix + "Y_over_Q", "1", "lateral over vertical force on the rail, nan without load" + of, [=] {
+      const Vec3& force = reaction().on_rail.force;
+      return force.z() > 0.0 ? force.y() / force.z() : std::numeric_limits<double>::quiet_NaN();
+    });
+    add(prefix + "Tgamma_N", "N", "wear number: power of friction over speed" + of, [=, this] {
+      const ContactReaction& r = reaction();
+      const double speed = simulation_.vehicle().motion(i, simulation_.state()).wheelset_velocity.x;
+      return (r.frictional_power - r.rail_power) / speed;
+    });
+  }
+  for (std::size_t set = 0; set < vehicle.system.wheelsets.size(); ++set)
+    add(fmt::format("ws{}.sumY_N", set + 1), "N", "lateral force on both rails", [this, set] {
+      double sum = 0.0;
+      for (std::size_t i = 0; i < simulation_.reactions().size(); ++i)
+        if (static_cast<std::size_t>(simulation_.vehicle().wheels[i].wheelset) == set)
+          sum += simulation_.reactions()[i].on_rail.force.y();
+      return sum;
+    });
+}
+
+/// Of points that move little: a + (angular acceleration) x arm.
+void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
+  const vehicle::Multibody& system = simulation_.vehicle().system;
+  using Places = std::array<int, kFreedoms>;  // of the coordinates, -1: none
+  const auto add_point = [&](const std::string& name, const std::string& what, const Places& at, const Vec3& arm) {
+    const auto value = [this, at](Freedom f) {
+      const int i = at[static_cast<std::size_t>(f)];
+      return i < 0 ? 0.0 : simulation_.acceleration()[i];
+    };
+    add(name + ".ay_m_s2", "m/s2", "lateral acceleration of " + what,
+        [=] { return value(Freedom::y) + value(Freedom::yaw) * arm.x() - value(Freedom::roll) * arm.z(); });
+    add(name + ".az_m_s2", "m/s2", "vertical acceleration of " + what,
+        [=] { return value(Freedom::z) + value(Freedom::roll) * arm.y() - value(Freedom::pitch) * arm.x(); });
+  };
+  for (const vehicle::WheelOnRail& wheel : simulation_.vehicle().wheels) {
+    Places at = system.wheelsets[static_cast<std::size_t>(wheel.wheelset)].coordinate;
+    at[static_cast<std::size_t>(Freedom::pitch)] = -1;  // axle boxes do not turn with the axle
+    const double y = wheel.side == wheelrail::Side::left ? -request.axle_box_y : request.axle_box_y;
+    add_point("axle_box." + wheel.name, "the axle box of " + wheel.name, at, {0.0, y, 0.0});
+  }
+  for (const io::PointInput& point : request.points) {
+    Places at;
+    at.fill(-1);
+    for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
+      const vehicle::Coordinate& c = system.coordinates[i];
+      if (c.body >= 0 && c.name.substr(0, c.name.rfind('.')) == point.body)
+        at[static_cast<std::size_t>(c.freedom)] = static_cast<int>(i);
+    }
+    add_point(fmt::format("{}.{}", kPointKinds[static_cast<std::size_t>(point.kind)], point.name),
+              fmt::format("a point of {}", point.body), at, point.arm);
+  }
+}
+
+void HistoryRecord::keep_only(const io::HistoryRequest& request) {
+  if (request.channels.empty()) return;
+  std::vector<Column> kept{columns_[0], columns_[1]};  // time and distance
+  for (const std::size_t i : io::fitting_columns(columns(), request.channels, request.channels_where))
+    if (i > 1) kept.push_back(columns_[i]);
+  columns_ = std::move(kept);
 }
 
 std::vector<io::HistoryColumn> HistoryRecord::columns() const {

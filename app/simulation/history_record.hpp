@@ -28,7 +28,9 @@ std::string column_prefix(const io::SimulationFile& file, std::size_t wheel);
 /// prefix.
 class HistoryRecord {
  public:
-  HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation);
+  /// Errors: Error(configuration) for channels that are none.
+  HistoryRecord(const BuiltVehicle& built, const vehicle::Simulation& simulation,
+                const io::HistoryRequest& request = {});
 
   std::vector<io::HistoryColumn> columns() const;
   /// Appends the present instant.
@@ -43,6 +45,9 @@ class HistoryRecord {
   void add_wheel(std::size_t wheel, const std::string& prefix, bool full);
   void add_bodies();
   void add_energies();
+  void add_running(std::size_t watched);
+  void add_accelerations(const io::HistoryRequest& request);
+  void keep_only(const io::HistoryRequest& request);
 
   const vehicle::Simulation& simulation_;
   std::vector<Column> columns_;

@@ -18,6 +18,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/io/histories/channels.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
@@ -118,9 +119,10 @@ class Run {
 
   void begin() {
     simulation_.emplace(built_.vehicle, equilibrium_.state, integration_settings(file_));
-    record_.emplace(built_, *simulation_);
+    record_.emplace(built_, *simulation_, file_.history);
     summary_.emplace(built_, *simulation_);
     result_.columns = record_->columns();
+    if (file_.assessment) io::fitting_columns(result_.columns, file_.assessment->spectra);  // before time is spent
     if (kept_) return restore();
     record_->append(result_.values);
     summary_->note();

@@ -12,6 +12,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/simulation/case_run.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/result_head.hpp"
@@ -150,6 +151,9 @@ class Workers {
       result = run_case_file(std::get<io::CaseFile>(input), surfaces, wanted, inner);
     }
     if (result.status == "interrupted") return true;
+    if (const auto* simulation = std::get_if<io::SimulationFile>(&input))
+      if (const auto assessed = assess_own(std::make_shared<io::SimulationResult>(result), simulation->assessment))
+        write_assessment_folder(folder, std::span(&*assessed, 1), {});
     {
       const std::lock_guard store(store_mutex());
       io::write_simulation(store_of(i), result);

@@ -9,6 +9,7 @@
 #include <algorithm>
 #include <numbers>
 
+#include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/core/pose.hpp"
@@ -23,6 +24,10 @@ namespace {
 
 bool is_of_a_wheel(const std::string& name) {
   if (name.starts_with("energy.")) return true;
+  if (std::ranges::any_of(kPointKinds,
+                          [&](std::string_view kind) { return name.starts_with(std::string(kind) + '.'); }))
+    return true;
+  if (name.ends_with(".sumY_N")) return true;
   const auto dot = name.find('.');
   return dot == std::string::npos || (name.starts_with("ws") && (name.substr(0, dot).ends_with("_left") ||
                                                                  name.substr(0, dot).ends_with("_right")));
@@ -73,13 +78,14 @@ void write_simulation_folder(const std::filesystem::path& folder, const io::Simu
     pictures::HistoryChart chart;
     chart.title = result.title;
     chart.x = {"t_s", "t [s]"};
-    chart.y = {{"Q_N", "Q [kN]", kKilo, {result.values[2]}}, {"Ty_N", "T_y [kN]", kKilo}};
     const auto has = [&](const char* name) {
       return std::ranges::find(result.columns, name, &io::HistoryColumn::name) != result.columns.end();
     };
+    if (has("Q_N")) chart.y.push_back({"Q_N", "Q [kN]", kKilo, {result.values[io::column_index(result, "Q_N")]}});
+    if (has("Ty_N")) chart.y.push_back({"Ty_N", "T_y [kN]", kKilo});
     if (has("pmax_Pa")) chart.y.push_back({"pmax_Pa", "p_max [MPa]", kMega});
     const pictures::HistoryRun run{&result, result.title};
-    write_file(folder / "history.svg", pictures::history_svg(std::span(&run, 1), chart));
+    if (!chart.y.empty()) write_file(folder / "history.svg", pictures::history_svg(std::span(&run, 1), chart));
   }
   if (!result.snapshots.cases.empty()) write_file(folder / "pressure.svg", pictures::pressure_svg(result.snapshots));
   if (const std::vector<pictures::PatchesPanel> panels = patches_panels(result); !panels.empty()) {
@@ -149,7 +155,7 @@ Json named(const std::vector<io::NamedValue>& values) {
 
 }  // namespace
 
-std::string to_json(const io::SimulationResult& r, const SimulationTimes& t) {
+std::string to_json(const io::SimulationResult& r, const SimulationTimes& t, const AssessedRun* assessed) {
   Json out;
   out["treadmark"] = {{"version", r.version}, {"git", r.git}, {"threads", thread_count()}};
   out["input"] = {{"file", r.input_file}, {"sha256", r.input_sha256}, {"settings", r.settings}};
@@ -165,6 +171,7 @@ std::string to_json(const io::SimulationResult& r, const SimulationTimes& t) {
   out["events"] = Json::array();
   for (const io::HistoryEvent& e : r.events)
     out["events"].push_back({{"t_s", e.time}, {"x_m", e.position}, {"wheel", e.wheel}, {"kind", e.kind}});
+  if (assessed) out["assessment"] = Json::parse(assessment_json(std::span(assessed, 1))).at("runs").at(0);
   out["rows"] = r.rows();
   out["timing"] = {{"build_s", t.build_s},
                    {"equilibrium_s", t.equilibrium_s},

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/app/assessment/assess_result.hpp"
 #include "treadmark/app/simulation/run_simulation.hpp"
 #include "treadmark/pictures/histories/patches_svg.hpp"
 
@@ -23,8 +24,10 @@ std::vector<pictures::PatchesPanel> patches_panels(const io::SimulationResult& r
 /// patches.csv. Files appear only when complete. Not to be called from two threads at once.
 void write_simulation_folder(const std::filesystem::path& folder, const io::SimulationResult& result);
 
-/// Result of a simulation as JSON, without history: what was run, static values, modes, events, summary, times.
-std::string to_json(const io::SimulationResult& result, const SimulationTimes& times);
+/// Result of a simulation as JSON, without history: what was run, static values, modes, events, summary, times, and
+/// what it says against limits, where it was assessed.
+std::string to_json(const io::SimulationResult& result, const SimulationTimes& times,
+                    const AssessedRun* assessed = nullptr);
 
 /// The same for people.
 std::string summary_text(const io::SimulationResult& result);

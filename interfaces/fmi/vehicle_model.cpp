@@ -34,7 +34,7 @@ class VehicleModel final : public Model {
       : file_(io::read_simulation_file(resources / kCaseFile, read_overrides(resources))),
         built_(app::build_vehicle(file_, store_)),
         simulation_(built_.vehicle, equilibrium_of(built_), app::integration_settings(file_)),
-        record_(built_, simulation_) {
+        record_(built_, simulation_, file_.history) {
     for (const io::HistoryColumn& column : record_.columns()) {
       Variable output;
       output.name = column.name;

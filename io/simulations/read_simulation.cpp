@@ -39,7 +39,7 @@ Overrides sorted(std::span<const std::string> assignments) {
     else if (cut(change.path, "track_model."))
       result.track.push_back(std::move(change));
     else if (change.path == "title" || change.path.starts_with("simulation.") || change.path.starts_with("layout.") ||
-             change.path.starts_with("irregularities."))
+             change.path.starts_with("irregularities.") || change.path.starts_with("assessment."))
       result.simulation.push_back(std::move(change));
     else
       result.contact.push_back(one);
@@ -124,7 +124,7 @@ void check_steps(const TableReader& simulation, const SimulationFile& out) {
 }
 
 /// Tables beside [simulation] that are none of a case file.
-constexpr std::string_view kLineTables[] = {"layout", "irregularities"};
+constexpr std::string_view kLineTables[] = {"layout", "irregularities", "assessment"};
 
 /// Reader of one of them, if it is there.
 std::optional<TableReader> line_table(const CaseTable& document, std::string_view key, const TableKeys& known) {
@@ -181,6 +181,8 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
+  read_history(simulation, result);
+  if (const auto table = line_table(document, "assessment", assessment_keys())) read_assessment(*table, result);
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);

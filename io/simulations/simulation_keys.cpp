@@ -4,6 +4,7 @@
 
 #include "treadmark/io/cases/case_keys.hpp"
 #include "treadmark/io/settings/key_schema.hpp"
+#include "treadmark/model/assessment.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
 
@@ -75,7 +76,9 @@ std::string schema_of(std::string_view title, TableKeys keys, bool with_case) {
 /// Where the vehicle runs: tables beside [simulation].
 TableKeys line_tables() {
   return {table_key("layout", KeyType::table, "the line: straights, curves, cant, gauge", layout_keys()),
-          table_key("irregularities", KeyType::table, "deviations of the rails from it", irregularity_keys())};
+          table_key("irregularities", KeyType::table, "deviations of the rails from it", irregularity_keys()),
+          table_key("assessment", KeyType::table, "what is read out of the run",
+                    assessment_keys())};
 }
 TableKeys simulation_tables() {
   TableKeys keys{needed(table_key("simulation", KeyType::table, "a vehicle on its track", simulation_keys()))};
@@ -327,6 +330,14 @@ const TableKeys& simulation_keys() {
     for (const auto& key : plain_setting_keys()) list.push_back(key.info);
     list.push_back(table_key("fields", KeyType::table, "when contact fields are kept", field_keys()));
     list.push_back(table_key("wheels", KeyType::table_list, "how the contact of single wheels is found", wheel_keys()));
+    list.push_back(with_default("1000", key_info("axle_box_y_mm", KeyType::number,
+                                                 "of the points of axle boxes whose accelerations are written down, to "
+                                                 "both sides of the wheelset's middle",
+                                                 kNotNegative)));
+    list.push_back(key_info("channels", KeyType::text_list,
+                            "columns of the history beside time and distance, `*` for any letters; without it all"));
+    list.push_back(table_key("points", KeyType::table_list, "points of bodies whose accelerations are written down",
+                             point_keys()));
     list.push_back(
         table_key("other_wheel", KeyType::table,
                   "shape of the round wheels, with the keys of `[wheel]`; required where `[wheel]` is made of "
@@ -364,6 +375,35 @@ const TableKeys& wheel_keys() {
       key_info("full_from_m", KeyType::number,
                "of a full contact: from this place along the rail, with a table before; at least 0.1 m before the end"),
       key_info("full_to_m", KeyType::number, "to this place, with a table behind")};
+  return keys;
+}
+
+const TableKeys& point_keys() {
+  static const TableKeys keys{needed(key_info("name", KeyType::text, "letters, digits, `_`, `-`")),
+                              needed(key_info("body", KeyType::text, "of the vehicle")),
+                              needed(key_info("at_m", KeyType::triple, "where it is, loaded and at rest")),
+                              with_default("\"car_body\"", one_of("kind", {kPointKinds.begin(), kPointKinds.end()},
+                                                                  "which filters and limits an assessment takes"))};
+  return keys;
+}
+
+const TableKeys& assessment_keys() {
+  static const TableKeys keys{
+      with_default("\"passenger\"", one_of("vehicle", {kVehicleKinds.begin(), kVehicleKinds.end()}, "limits differ")),
+      with_default("0", key_info("from_m", KeyType::number,
+                                 "where the assessment begins without sections, and spectra begin", kNotNegative)),
+      key_info("spectra", KeyType::text_list, "channels whose spectra are wanted, `*` for any letters"),
+      table_key("sections", KeyType::table_list, "parts of the run; without them it is assessed as a whole",
+                section_keys())};
+  return keys;
+}
+
+const TableKeys& section_keys() {
+  static const TableKeys keys{needed(key_info("name", KeyType::text, "one of its own")),
+                              needed(key_info("from_m", KeyType::number, "distance travelled", kNotNegative)),
+                              needed(key_info("to_m", KeyType::number, "distance travelled", kNotNegative)),
+                              with_default("\"straight\"", one_of("kind", {kSectionKinds.begin(), kSectionKinds.end()},
+                                                                  "quasi-static forces are assessed in curves"))};
   return keys;
 }
 

@@ -43,6 +43,11 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys();
 const TableKeys& simulation_keys();
 const TableKeys& field_keys();
 const TableKeys& wheel_keys();
+const TableKeys& point_keys();
+
+/// [assessment] and [[assessment.sections]] beside [simulation].
+const TableKeys& assessment_keys();
+const TableKeys& section_keys();
 
 /// [layout], [[layout.elements]], [irregularities] and [[irregularities.spectra]] beside [simulation].
 const TableKeys& layout_keys();

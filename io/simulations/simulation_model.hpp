@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "treadmark/io/cases/case_model.hpp"
+#include "treadmark/model/assessment.hpp"
 #include "treadmark/model/flexible_track.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
@@ -40,6 +41,22 @@ struct WheelContactInput {
 struct FieldRequests {
   std::vector<double> pitch;     ///< where a wheelset passes one of these angles, in each revolution [rad]
   std::vector<double> position;  ///< distance travelled [m]
+};
+
+/// A point of a body whose accelerations are written down.
+struct PointInput {
+  std::string name;
+  PointKind kind = PointKind::car_body;
+  std::string body;
+  Vec3 arm = Vec3::Zero();  ///< from the body's centre of mass [m]
+};
+
+/// What a history holds.
+struct HistoryRequest {
+  std::vector<std::string> channels;  ///< patterns (io/histories/channels.hpp); none: everything
+  SourcePosition channels_where;
+  std::vector<PointInput> points;
+  double axle_box_y = 1.0;  ///< of the points of axle boxes, to both sides of the wheelset's middle [m]
 };
 
 /// How far and how exactly a simulation goes.
@@ -76,6 +93,8 @@ struct SimulationFile {
   std::string title;
   SimulationSettings settings;
   FieldRequests fields;
+  HistoryRequest history;
+  std::optional<AssessmentRequest> assessment;
   VehicleModel vehicle;
   NamedFile vehicle_file;
   std::optional<TrackModel> track;              ///< none: rigid track, or a flexible one

@@ -63,6 +63,8 @@ class Simulation {
   const VehicleOnTrack& vehicle() const { return *vehicle_; }
   /// After the last step.
   const SystemState& state() const { return motion_.state; }
+  /// Of all coordinates after the last step, of the scheme.
+  const Vector& acceleration() const { return motion_.a; }
   /// Of all wheels after the last step, in the order of VehicleOnTrack::wheels.
   const std::vector<ContactReaction>& reactions() const { return reactions_; }
   /// Since the start, in the order of time.

@@ -85,6 +85,9 @@ const std::vector<OutputRow> kRows{
      "check $case.toml -o @check --report @check.html --set wheelset.y_mm=1", 3},
     {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation --json @simulation.json",
      "simulate $short.toml -o @simulation --json @simulation.json --set simulation.speed_m_s=30", 0, true},
+    {"assess", "vehicle hdf5", "simulate $simulation.toml -o $simulated",
+     "assess $simulated -o @assessed --json @assessed.json --csv @assessed.csv",
+     "assess $simulated -o @assessed --json @assessed.json --csv @assessed.csv --vehicle freight", 2},
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0, true},
     {"track", "vehicle", "", TRACK " --fit 1 --count 20", TRACK " --fit 1 --count 30", 2},
 };

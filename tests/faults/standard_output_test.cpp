@@ -35,6 +35,7 @@ const std::vector<OutputRow> kPrinting{
     {"plot", "report hdf5", "run $case.toml -o $first", "plot $first --what pressure -o -", nullptr, 0},
     {"check", "", "", "check $case.toml", nullptr, 0},
     {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation", nullptr, 0},
+    {"assess", "vehicle hdf5", "simulate $simulation.toml -o $simulated", "assess $simulated", nullptr, 0},
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0},
     {"track", "vehicle", "", "track " TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml --count 20", nullptr, 0},
     {"list", "", "", "list verbs", nullptr, 0},

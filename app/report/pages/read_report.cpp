@@ -3,12 +3,15 @@
 #include "treadmark/app/report/pages/read_report.hpp"
 
 #include <algorithm>
+#include <optional>
 
 #include <fmt/format.h>
 
+#include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/report/pages/bench_page.hpp"
 #include "treadmark/app/report/pages/compare_page.hpp"
 #include "treadmark/app/report/pages/import_page.hpp"
+#include "treadmark/app/report/pages/page_parts.hpp"
 #include "treadmark/app/report/pages/run_page.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
 #include "treadmark/app/report/pages/sweep_page.hpp"
@@ -40,7 +43,10 @@ Page simulation_in(const fs::path& store) {
   result->snapshots = std::move(snapshots.run);
   result->snapshot_times = std::move(snapshots.times);
   result->snapshot_scenes = std::move(snapshots.scenes);
-  return simulation_page(result, {});
+  std::optional<AssessedRun> assessed;
+  if (const fs::path file = store.parent_path() / "assessment.json"; fs::exists(file) && result->rows() > 1)
+    assessed = assess_result(title_of(result->input_file), result, request_in(file));
+  return simulation_page(result, {}, assessed ? &*assessed : nullptr);
 }
 
 }  // namespace

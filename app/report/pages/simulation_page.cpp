@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/report/html_text.hpp"
+#include "treadmark/app/report/pages/assessment_page.hpp"
 #include "treadmark/app/report/pages/case_figures.hpp"
 #include "treadmark/app/report/pages/history_panels.hpp"
 #include "treadmark/app/report/pages/page_parts.hpp"
@@ -102,14 +103,16 @@ Section histories(const Result& result, const Rows& rows) {
   const std::string watched = watched_wheel(result);
   ChartView forces{true};
   add(forces, history_panel(result, "vertical force Q", {{"Q_N", "Q"}}, rows));
-  if (!forces.panels.empty() && !result.values.empty() && result.columns.size() > 2)
+  const bool has_q = std::ranges::find(result.columns, "Q_N", &io::HistoryColumn::name) != result.columns.end();
+  if (has_q && !forces.panels.empty() && !result.values.empty())
     forces.panels.front().levels.push_back({forces.panels.front().series.front().y.front(), "at the start"});
   add(forces,
       history_panel(result, "lateral force", {{"Ty_N", "lateral creep force T_y"}, {"Y_N", "lateral force Y"}}, rows));
   add(forces, history_panel(result, "longitudinal creep force", {{"Tx_N", "T_x"}}, rows));
   add(forces, history_panel(result, "largest pressure", {{"pmax_Pa", "p_max"}}, rows));
-  section.blocks.emplace_back(
-      Figure{"forces", fmt::format("Forces of {}", watched), std::move(forces), "Forces act on the rail."});
+  if (!forces.panels.empty())
+    section.blocks.emplace_back(
+        Figure{"forces", fmt::format("Forces of {}", watched), std::move(forces), "Forces act on the rail."});
 
   ChartView contact{true};
   add(contact, history_panel(result, "contact area", {{"area_m2", "area"}}, rows));
@@ -122,6 +125,8 @@ Section histories(const Result& result, const Rows& rows) {
   ChartView all{true};
   add(all, history_panel(result, "vertical force Q", of_all_wheels(result, "Q_N", watched), rows));
   add(all, history_panel(result, "lateral creep force T_y", of_all_wheels(result, "Ty_N", watched), rows));
+  add(all, history_panel(result, "lateral force Y", of_all_wheels(result, "Y_N", watched), rows));
+  add(all, history_panel(result, "wear number", of_all_wheels(result, "Tgamma_N", watched), rows));
   if (!all.panels.empty() && all.panels.front().series.size() > 1)
     section.blocks.emplace_back(Figure{"wheels", "All wheels", std::move(all)});
 
@@ -156,7 +161,7 @@ Section tables(const Result& result) {
 
 }  // namespace
 
-Page simulation_page(std::shared_ptr<const Result> result, std::string document) {
+Page simulation_page(std::shared_ptr<const Result> result, std::string document, const AssessedRun* assessed) {
   Page page{"simulation", result->title.empty() ? title_of(result->input_file) : result->title, ""};
   page.document = std::move(document);
   page.full_data = "simulation.h5";
@@ -201,6 +206,8 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document)
     if (!page.surfaces.empty()) contact.blocks.emplace_back(Figure{"scene", "Wheel and rail", SceneView{0}});
     page.sections.insert(page.sections.begin() + 1, std::move(contact));
   }
+  if (assessed)
+    for (Section& section : assessment_sections(std::span(assessed, 1))) page.sections.push_back(std::move(section));
   page.sections.push_back(tables(*result));
   return page;
 }

@@ -5,13 +5,15 @@
 #include <memory>
 #include <string>
 
+#include "treadmark/app/assessment/assess_result.hpp"
 #include "treadmark/app/report/page.hpp"
 #include "treadmark/io/histories/history_model.hpp"
 
 namespace treadmark::app::report {
 
 /// Report of a simulation in time, complete or not, with its snapshots if it has any. document: JSON text, may be
-/// empty.
-Page simulation_page(std::shared_ptr<const io::SimulationResult> result, std::string document);
+/// empty. assessed: what it says against limits, or nullptr.
+Page simulation_page(std::shared_ptr<const io::SimulationResult> result, std::string document,
+                     const AssessedRun* assessed = nullptr);
 
 }  // namespace treadmark::app::report

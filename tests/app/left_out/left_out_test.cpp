@@ -30,6 +30,7 @@ TEST(LeftOut, RequestsEndAsWrongUsageAndNameTheOption) {
   const std::string nowhere = "/nowhere/x.toml";
   const Request requests[] = {
       {"vehicle", "treadmark simulate", {"simulate", nowhere, "-o", "/nowhere/out", "--modes"}},
+      {"vehicle", "treadmark assess", {"assess", "/nowhere/out", "--from", "2"}},
       {"vehicle", "treadmark sweep", {"sweep", nowhere, "--resume", "-o", "/nowhere/out"}},
       {"vehicle", "treadmark track", {"track", nowhere, "--fit", "2"}},
       {"vehicle", "the schema of study files", {"schema", "study"}},

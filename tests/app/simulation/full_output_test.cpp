@@ -11,7 +11,8 @@ namespace {
 
 TEST(FullOutput, IsAFailureOfSimulateAndSweep) {
   const SampleSimulation input;
-  for (const char* command : {"simulate \"$1/simulation.toml\"", "sweep \"$1/study.toml\" -o \"$1/out\""}) {
+  for (const char* command : {"simulate -o \"$1/run\" \"$1/simulation.toml\"", "assess \"$1/run\"",
+                              "sweep \"$1/study.toml\" -o \"$1/out\""}) {
     const ProgramResult r = RunningProgram({"sh", "-c", std::string("\"$0\" --quiet ") + command + " > /dev/full",
                                             "treadmark", input.path("")})
                                 .wait();

@@ -5,7 +5,7 @@
 
 export interface ReportData {
   format: "treadmark report 1";
-  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "sweep";
+  kind: "run" | "check" | "compare" | "bench" | "import" | "simulation" | "assessment" | "sweep";
   title: string;
   timeline: Timeline | null;
   /** Quantities that patches may have, in the order of the menu. */

@@ -1,0 +1,204 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/assessment/assess_result.hpp"
+
+#include <algorithm>
+#include <charconv>
+#include <cmath>
+#include <map>
+#include <set>
+
+#include <fmt/format.h>
+
+#include "treadmark/io/histories/channels.hpp"
+
+namespace treadmark::app {
+namespace {
+
+constexpr const char* kWholeRun = "run";
+constexpr double kStepsOfWave = 8.0;  // of the record
+
+/// "ws12_left": 11 and true.
+struct WheelPlace {
+  std::size_t wheelset = 0;
+  bool left = false;
+};
+std::optional<WheelPlace> wheel_place(const std::string& name) {
+  if (!name.starts_with("ws")) return {};
+  WheelPlace place;
+  const char* const end = name.data() + name.size();
+  const auto [rest, error] = std::from_chars(name.data() + 2, end, place.wheelset);
+  const std::string side(rest, end);
+  if (error != std::errc() || place.wheelset == 0 || (side != "_left" && side != "_right")) return {};
+  --place.wheelset;
+  place.left = side == "_left";
+  return place;
+}
+
+/// Of "car_body.floor.ay_m_s2" what stands before, within and behind the dots; empty: another channel.
+std::vector<std::string> parts_of(const std::string& channel) {
+  const auto first = channel.find('.'), last = channel.rfind('.');
+  if (first == std::string::npos) return {};
+  if (first == last) return {channel.substr(0, first), channel.substr(first + 1)};
+  return {channel.substr(0, first), channel.substr(first + 1, last - first - 1), channel.substr(last + 1)};
+}
+
+double longest_step(const std::vector<double>& time, std::size_t first) {
+  double longest = 0.0;
+  for (std::size_t i = first + 1; i < time.size(); ++i) longest = std::max(longest, time[i] - time[i - 1]);
+  return longest;
+}
+
+double usual_step(const std::vector<double>& time, std::size_t first) {
+  std::vector<double> steps;
+  for (std::size_t i = first + 1; i < time.size(); ++i)
+    if (time[i] > time[i - 1]) steps.push_back(time[i] - time[i - 1]);
+  return measures::percentile(std::move(steps), 0.5);
+}
+
+void add_spectra(AssessedRun& run) {
+  const io::SimulationResult& result = *run.result;
+  const std::vector<double> time = io::column_values(result, io::column_index(result, "t_s"));
+  const std::vector<double> place = io::column_values(result, io::column_index(result, "x_m"));
+  const auto first = static_cast<std::size_t>(std::ranges::lower_bound(place, run.request.from) - place.begin());
+  for (const std::size_t column : io::fitting_columns(result.columns, run.request.spectra)) {
+    const std::string name = io::channel_name(result.columns[column]);
+    const double usual = usual_step(time, first), longest = longest_step(time, first);
+    constexpr double kFewest = 16.0;
+    if (!(usual > 0.0) || (time.back() - time[first]) / usual < kFewest) {
+      run.doubts.push_back(fmt::format("{}: too few instants for a spectrum", name));
+      continue;
+    }
+    const std::vector<double> values = io::column_values(result, column);
+    if (!std::ranges::all_of(values, [](double v) { return std::isfinite(v); })) {
+      run.doubts.push_back(fmt::format("{}: it has no spectrum, not all of its values are numbers", name));
+      continue;
+    }
+    const measures::EvenSignal even =
+        measures::even_samples(std::span(time).subspan(first), std::span(values).subspan(first), usual);
+    constexpr std::size_t kLongest = 1 << 16, kShort = 64;
+    const std::size_t quarter = even.values.size() / 4;
+    ChannelSpectrum spectrum{name, result.columns[column].unit, {}, {}};
+    spectrum.density = measures::power_spectrum(even, 1.0 / (kStepsOfWave * longest),
+                                                quarter < kShort ? 0 : std::min(quarter, kLongest));
+    spectrum.bands = measures::third_octave_bands(spectrum.density);
+    if (spectrum.bands.empty())
+      run.doubts.push_back(
+          fmt::format("{}: the record is too short, or its steps of up to {:.3g} s are too long, for "
+                      "one-third octaves",
+                      name, longest));
+    run.spectra.push_back(std::move(spectrum));
+  }
+}
+
+void add_doubts(AssessedRun& run) {
+  if (run.result->status != "complete")
+    run.doubts.push_back(fmt::format("the run is {}: it is assessed as far as it goes", run.result->status));
+  std::map<std::string, std::pair<std::size_t, std::string>> counts;
+  for (const measures::Assessed& one : run.quantities)
+    if (one.status != measures::AssessedStatus::ok) {
+      auto& [count, example] = counts[measures::name_of(one.status)];
+      if (count++ == 0) example = fmt::format("{} of {} in {}", one.quantity, one.place, one.section);
+    }
+  for (const auto& [status, found] : counts)
+    run.doubts.push_back(fmt::format("{} of {} quantities are {} (docs/assessment.md), the first {}", found.first,
+                                     run.quantities.size(), status, found.second));
+}
+
+}  // namespace
+
+bool has_level(const std::string& unit) { return unit == "m/s2"; }
+
+double acceleration_level(double rms) {
+  constexpr double kReference = 1e-6;  // [m/s2]
+  return 20.0 * std::log10(rms / kReference);
+}
+
+measures::RunSignals signals_of(const io::SimulationResult& result) {
+  for (const char* name : {"t_s", "x_m"})
+    if (std::ranges::find(result.columns, name, &io::HistoryColumn::name) == result.columns.end())
+      throw Error(ErrorKind::input_data, fmt::format("the history has no column {}", name), {},
+                  "only simulations of vehicles can be assessed");
+  measures::RunSignals run;
+  const auto values = [&](std::size_t column) { return io::column_values(result, column); };
+  run.time = values(io::column_index(result, "t_s"));
+  run.place = values(io::column_index(result, "x_m"));
+  std::map<std::string, std::map<std::string, std::size_t>> wheels;  // by name, by quantity: the column
+  std::vector<std::string> order;
+  for (std::size_t i = 0; i < result.columns.size(); ++i) {
+    const std::vector<std::string> parts = parts_of(io::channel_name(result.columns[i]));
+    if (parts.size() == 2 && wheel_place(parts[0])) {
+      if (!wheels.contains(parts[0])) order.push_back(parts[0]);
+      wheels[parts[0]][parts[1]] = i;
+    }
+    const auto kind = parts.size() == 3 ? std::ranges::find(kPointKinds, parts[0]) : kPointKinds.end();
+    if (kind != kPointKinds.end() && (parts[2] == "ay_m_s2" || parts[2] == "az_m_s2"))
+      run.points.push_back(
+          {parts[1], static_cast<PointKind>(kind - kPointKinds.begin()), parts[2] == "ay_m_s2", values(i)});
+  }
+  for (const std::string& name : order) {
+    const auto& of = wheels[name];
+    if (!of.contains("Q_N") || !of.contains("Y_N")) continue;
+    const WheelPlace place = *wheel_place(name);
+    measures::WheelSignal wheel{name, place.left, place.wheelset, values(of.at("Q_N")), values(of.at("Y_N")), {}};
+    if (of.contains("Tgamma_N")) wheel.wear = values(of.at("Tgamma_N"));
+    run.wheels.push_back(std::move(wheel));
+    while (run.wheelsets.size() <= place.wheelset) {
+      const std::size_t number = run.wheelsets.size() + 1;
+      measures::WheelsetSignal set{fmt::format("ws{}", number), measures::kUnknown};
+      const std::string load = fmt::format("wheelset{}.load_N", number);
+      for (const io::NamedValue& one : result.statics)
+        if (one.name == load) set.load = one.value;
+      run.wheelsets.push_back(std::move(set));
+    }
+  }
+  return run;
+}
+
+void check(const AssessmentRequest& request) {
+  std::set<std::string> names;
+  for (const AssessmentSection& section : request.sections) {
+    if (section.name.empty() || !names.insert(section.name).second)
+      throw Error(ErrorKind::configuration, section.name.empty()
+                                                ? "a section has no name"
+                                                : fmt::format("two sections have the name {}", section.name));
+    if (!(section.to > section.from) || !std::isfinite(section.to - section.from))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("section {} from {:.6g} to {:.6g} m is none", section.name, section.from, section.to));
+  }
+}
+
+AssessedRun assess_result(std::string name, std::shared_ptr<const io::SimulationResult> result,
+                          const AssessmentRequest& request) {
+  check(request);
+  AssessedRun run{std::move(name), std::move(result), request, {}, {}, {}};
+  const measures::RunSignals signals = signals_of(*run.result);
+  if (signals.time.size() < 2)
+    throw Error(ErrorKind::input_data, fmt::format("{}: the history has fewer than two instants", run.name));
+  const double begin = signals.place.front(), end = signals.place.back();
+  const auto outside = [&](const std::string& what) {
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} does not lie within the run of {}, {:.6g} to {:.6g} m", what, run.name, begin, end));
+  };
+  constexpr double kSlack = 1e-3;  // [m]
+  for (const AssessmentSection& section : request.sections)
+    if (run.result->status == "complete" && (section.from < begin - kSlack || section.to > end + kSlack))
+      outside(fmt::format("section {} from {:.6g} to {:.6g} m", section.name, section.from, section.to));
+  if (!(request.from < end) && run.result->status == "complete")
+    outside(fmt::format("the beginning of the assessment, {:.6g} m,", request.from));
+  if (run.request.sections.empty())
+    run.request.sections.push_back({kWholeRun, std::max(request.from, begin), end, SectionKind::straight});
+  run.quantities = measures::assess_run(signals, run.request.sections, request.vehicle);
+  add_doubts(run);
+  if (!request.spectra.empty() && request.from < end) add_spectra(run);
+  return run;
+}
+
+std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,
+                                      const std::optional<AssessmentRequest>& request) {
+  if (!request || result->rows() < 2) return {};
+  std::string name = result->title.empty() ? result->input_file : result->title;
+  return assess_result(std::move(name), std::move(result), *request);
+}
+
+}  // namespace treadmark::app

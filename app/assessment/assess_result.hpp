@@ -1,0 +1,55 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <optional>
+#include <span>
+#include <string>
+#include <vector>
+
+#include "treadmark/io/histories/history_model.hpp"
+#include "treadmark/measures/running.hpp"
+#include "treadmark/measures/spectrum.hpp"
+
+namespace treadmark::app {
+
+/// Spectrum of a channel over the whole run.
+struct ChannelSpectrum {
+  std::string channel, unit;
+  measures::PowerSpectrum density;
+  std::vector<measures::FrequencyBand> bands;
+};
+
+/// Whether levels in decibels are usual of a unit: accelerations, re 1e-6 m/s2.
+bool has_level(const std::string& unit);
+double acceleration_level(double rms);
+
+/// What a run says against limits.
+struct AssessedRun {
+  std::string name;
+  std::shared_ptr<const io::SimulationResult> result;
+  AssessmentRequest request;  ///< with its sections
+  std::vector<measures::Assessed> quantities;
+  std::vector<ChannelSpectrum> spectra;
+  std::vector<std::string> doubts;
+};
+
+/// The signals of a history by the names of its columns. Errors: Error(input_data) without columns t_s and x_m.
+measures::RunSignals signals_of(const io::SimulationResult& result);
+
+/// Errors: Error(configuration) for sections that do not lie within the run, where they are given, and channels that
+/// the history does not have; Error(input_data) for histories that cannot be assessed. An interrupted run is assessed
+/// as far as it goes. Thread-safe.
+AssessedRun assess_result(std::string name, std::shared_ptr<const io::SimulationResult> result,
+                          const AssessmentRequest& request);
+
+/// The assessment that a simulation file asks for; nothing where it asks for none or the run has no two instants.
+/// Errors: as assess_result.
+std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,
+                                      const std::optional<AssessmentRequest>& request);
+
+/// Sections have names of their own and an extent. Errors: Error(configuration).
+void check(const AssessmentRequest& request);
+
+}  // namespace treadmark::app

@@ -1,0 +1,286 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/app/assessment/assessment_outputs.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include "treadmark/app/version.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/io/files/text.hpp"
+#include "treadmark/io/histories/channels.hpp"
+#include "treadmark/io/json/json_tree.hpp"
+#include "treadmark/pictures/chart.hpp"
+#include "treadmark/pictures/histories/history_svg.hpp"
+
+namespace treadmark::app {
+namespace {
+
+using AssessmentJson = nlohmann::ordered_json;
+using measures::Assessed;
+using measures::AssessedStatus;
+
+/// The numbers of a quantity and what they are called.
+struct NumberOf {
+  const char* name;
+  double (*value)(const Assessed&);
+};
+const NumberOf kNumbers[] = {
+    {"min", [](const Assessed& a) { return a.least; }},   {"p0_15", [](const Assessed& a) { return a.low; }},
+    {"p50", [](const Assessed& a) { return a.middle; }},  {"p99_85", [](const Assessed& a) { return a.high; }},
+    {"max", [](const Assessed& a) { return a.most; }},    {"mean", [](const Assessed& a) { return a.mean; }},
+    {"rms", [](const Assessed& a) { return a.rms; }},     {"value", [](const Assessed& a) { return a.value; }},
+    {"limit", [](const Assessed& a) { return a.limit; }}, {"share", [](const Assessed& a) { return a.share(); }}};
+
+/// An empty cell for what is not known.
+std::string cell(double value) { return std::isfinite(value) ? io::csv_number(value) : std::string(); }
+
+AssessmentJson json_number(double value) {
+  if (!std::isfinite(value)) return nullptr;
+  return io::twelve_digits(value) + 0.0;
+}
+
+/// Forces in kN.
+std::pair<double, std::string> shown_value(double value, const std::string& unit) {
+  constexpr double kKiloNewton = 1e-3;
+  if (unit == "N") return {value * kKiloNewton, "kN"};
+  return {value, unit == "1" ? "" : unit};
+}
+
+}  // namespace
+
+const Assessed* worst_of(const AssessedRun& run, const std::string& section, const std::string& quantity) {
+  const Assessed* worst = nullptr;
+  const auto badness = [](const Assessed& a) { return std::isfinite(a.limit) ? a.share() : std::fabs(a.value); };
+  for (const Assessed& one : run.quantities)
+    if (one.section == section && one.quantity == quantity && one.status == AssessedStatus::ok &&
+        (worst == nullptr || badness(one) > badness(*worst)))
+      worst = &one;
+  return worst;
+}
+
+std::string assessment_text(std::span<const AssessedRun> runs) {
+  std::string text;
+  for (const AssessedRun& run : runs) {
+    text += fmt::format("{}: {}\n", run.name, run.result->title);
+    for (const AssessmentSection& section : run.request.sections) {
+      text += fmt::format("  {}, {:.6g} to {:.6g} m, {}\n", section.name, section.from, section.to,
+                          kSectionKinds[static_cast<std::size_t>(section.kind)]);
+      for (const measures::QuantityInfo& info : measures::assessed_quantities()) {
+        const Assessed* worst = worst_of(run, section.name, info.key);
+        if (worst == nullptr) continue;
+        const auto [value, unit] = shown_value(worst->value, info.unit);
+        text += fmt::format("    {:<10} {:>10.4g} {:<5} {:<16} {}\n", info.key, value, unit, worst->place,
+                            std::isfinite(worst->limit)
+                                ? fmt::format("limit {:.4g}, {:.0f} %{}", shown_value(worst->limit, info.unit).first,
+                                              100.0 * worst->share(), worst->share() > 1.0 ? ", exceeded" : "")
+                                : std::string(info.value));
+      }
+    }
+    for (const std::string& doubt : run.doubts) text += fmt::format("  doubt: {}\n", doubt);
+  }
+  return text;
+}
+
+std::string assessment_csv(std::span<const AssessedRun> runs) {
+  std::string text = "run,section,from_m,to_m,kind,place,quantity,unit,status,samples";
+  for (const NumberOf& number : kNumbers) text += fmt::format(",{}", number.name);
+  text += '\n';
+  for (const AssessedRun& run : runs)
+    for (const Assessed& one : run.quantities) {
+      const auto section = std::ranges::find(run.request.sections, one.section, &AssessmentSection::name);
+      text += fmt::format("{},{},{},{},{},{},{},{},{},{}", io::csv_cell(run.name), io::csv_cell(one.section),
+                          io::csv_number(section->from), io::csv_number(section->to),
+                          kSectionKinds[static_cast<std::size_t>(section->kind)], io::csv_cell(one.place), one.quantity,
+                          measures::quantity_info(one.quantity).unit, measures::name_of(one.status), one.samples);
+      for (const NumberOf& number : kNumbers) text += ',' + cell(number.value(one));
+      text += '\n';
+    }
+  return text;
+}
+
+std::string spectra_csv(std::span<const AssessedRun> runs) {
+  std::string text = "run,channel,kind,frequency_Hz,low_Hz,high_Hz,value,unit,level_dB\n";
+  for (const AssessedRun& run : runs)
+    for (const ChannelSpectrum& spectrum : run.spectra) {
+      const std::string head = io::csv_cell(run.name) + ',' + io::csv_cell(spectrum.channel);
+      for (const measures::FrequencyBand& band : spectrum.bands)
+        text += fmt::format("{},third_octave,{},{},{},{},{},{}\n", head, io::csv_number(band.nominal),
+                            io::csv_number(band.low), io::csv_number(band.high), io::csv_number(band.rms),
+                            spectrum.unit, has_level(spectrum.unit) ? cell(acceleration_level(band.rms)) : "");
+      for (std::size_t k = 1; k < spectrum.density.density.size(); ++k) {
+        const double frequency = spectrum.density.line * static_cast<double>(k);
+        if (frequency > spectrum.density.highest) break;
+        text += fmt::format("{},density,{},,,{},({})^2/Hz,\n", head, io::csv_number(frequency),
+                            io::csv_number(spectrum.density.density[k]), spectrum.unit);
+      }
+    }
+  return text;
+}
+
+std::string assessment_json(std::span<const AssessedRun> runs) {
+  AssessmentJson out;
+  out["treadmark"] = {{"version", version()}, {"git", git_revision()}};
+  AssessmentJson& quantities = out["quantities"] = AssessmentJson::object();
+  for (const measures::QuantityInfo& info : measures::assessed_quantities())
+    quantities[info.key] = {{"unit", info.unit},
+                            {"meaning", info.meaning},
+                            {"value", info.value},
+                            {"limit", info.limit},
+                            {"source", info.source}};
+  out["runs"] = AssessmentJson::array();
+  for (const AssessedRun& run : runs) {
+    AssessmentJson one;
+    one["name"] = run.name;
+    one["title"] = run.result->title;
+    one["input"] = {{"file", run.result->input_file}, {"sha256", run.result->input_sha256}};
+    one["vehicle"] = kVehicleKinds[static_cast<std::size_t>(run.request.vehicle)];
+    one["from_m"] = json_number(run.request.from);
+    one["channels"] = run.request.spectra;
+    one["sections"] = AssessmentJson::array();
+    for (const AssessmentSection& section : run.request.sections)
+      one["sections"].push_back({{"name", section.name},
+                                 {"from_m", json_number(section.from)},
+                                 {"to_m", json_number(section.to)},
+                                 {"kind", kSectionKinds[static_cast<std::size_t>(section.kind)]}});
+    one["assessed"] = AssessmentJson::array();
+    for (const Assessed& a : run.quantities) {
+      AssessmentJson row{{"section", a.section},
+                         {"place", a.place},
+                         {"quantity", a.quantity},
+                         {"status", measures::name_of(a.status)},
+                         {"samples", a.samples}};
+      for (const NumberOf& number : kNumbers) row[number.name] = json_number(number.value(a));
+      one["assessed"].push_back(std::move(row));
+    }
+    one["spectra"] = AssessmentJson::array();
+    for (const ChannelSpectrum& s : run.spectra) {
+      AssessmentJson bands = AssessmentJson::array();
+      for (const measures::FrequencyBand& band : s.bands)
+        bands.push_back({{"frequency_Hz", band.nominal},
+                         {"rms", json_number(band.rms)},
+                         {"level_dB", has_level(s.unit) ? json_number(acceleration_level(band.rms)) : nullptr}});
+      one["spectra"].push_back({{"channel", s.channel},
+                                {"unit", s.unit},
+                                {"segments", s.density.segments},
+                                {"line_Hz", json_number(s.density.line)},
+                                {"highest_Hz", json_number(s.density.highest)},
+                                {"third_octaves", std::move(bands)}});
+    }
+    one["doubts"] = run.doubts;
+    out["runs"].push_back(std::move(one));
+  }
+  return out.dump(2) + '\n';
+}
+
+AssessmentRequest request_in(const std::filesystem::path& json) {
+  const io::JsonTree file = io::read_json_file(json);
+  const std::vector<io::JsonTree> runs = file.at("runs").items();
+  if (runs.size() != 1) file.refuse("it is not the assessment of one run");
+  const io::JsonTree& run = runs.front();
+  AssessmentRequest request;
+  request.vehicle = static_cast<VehicleKind>(run.at("vehicle").one_of({kVehicleKinds.begin(), kVehicleKinds.end()}));
+  request.from = run.number("from_m");
+  request.spectra = run.at("channels").texts();
+  for (const io::JsonTree& one : run.at("sections").items())
+    request.sections.push_back(
+        {one.text("name"), one.number("from_m"), one.number("to_m"),
+         static_cast<SectionKind>(one.at("kind").one_of({kSectionKinds.begin(), kSectionKinds.end()}))});
+  return request;
+}
+
+std::string spectra_svg(std::span<const AssessedRun> runs) {
+  pictures::ChartSheet sheet;
+  sheet.title = "one-third octaves";
+  sheet.width = 620.0;
+  sheet.gap_y = 66.0;
+  sheet.top = 58.0;
+  sheet.legend = pictures::ChartSheet::Legend::each;
+  std::vector<std::string> units;  // a chart each
+  for (const AssessedRun& run : runs)
+    for (const ChannelSpectrum& s : run.spectra)
+      if (!s.bands.empty() && std::ranges::find(units, s.unit) == units.end()) units.push_back(s.unit);
+  for (const std::string& unit : units) {
+    pictures::Chart chart;
+    chart.x_label = "frequency [Hz]";
+    chart.x_scale = pictures::AxisScale::log;
+    chart.y_label = has_level(unit) ? "level [dB re 1e-6 m/s2]" : fmt::format("root mean square [{}]", unit);
+    if (!has_level(unit)) chart.y_scale = pictures::AxisScale::log;
+    int style = 0;
+    for (const AssessedRun& run : runs)
+      for (const ChannelSpectrum& s : run.spectra) {
+        if (s.unit != unit) continue;
+        pictures::ChartSeries line;
+        line.name = runs.size() > 1 ? run.name + ", " + s.channel : s.channel;
+        line.style = style++;
+        for (const measures::FrequencyBand& band : s.bands)
+          line.points.push_back(
+              {std::sqrt(band.low * band.high), has_level(unit) ? acceleration_level(band.rms) : band.rms, 3.0});
+        chart.series.push_back(std::move(line));
+      }
+    sheet.charts.push_back(std::move(chart));
+  }
+  return pictures::draw_sheet(sheet);
+}
+
+std::vector<std::string> usual_channels(const io::SimulationResult& result) {
+  constexpr std::size_t kMost = 4;
+  std::vector<std::string> names;
+  for (const char* ending : {".Q_N", ".Y_N"})
+    for (const io::HistoryColumn& column : result.columns)
+      if (const std::string name = io::channel_name(column); name.ends_with(ending) && names.size() < kMost)
+        names.push_back(name);
+  return names;
+}
+
+void write_assessment_folder(const std::filesystem::path& folder, std::span<const AssessedRun> runs,
+                             std::span<const std::string> channels) {
+  OutputFolder output(folder, OutputFolder::Old::kept);
+  write_file(output.path() / "assessment.csv", assessment_csv(runs));
+  bool spectra = false, bands = false;
+  for (const AssessedRun& run : runs)
+    for (const ChannelSpectrum& s : run.spectra) spectra = true, bands = bands || !s.bands.empty();
+  if (spectra) write_file(output.path() / "spectra.csv", spectra_csv(runs));
+  if (bands) write_file(output.path() / "spectra.svg", spectra_svg(runs));
+  // Runs may call a channel differently: that of the watched wheel has no prefix.
+  std::vector<io::SimulationResult> drawn;
+  pictures::HistoryChart chart;
+  chart.x = {"x_m", "x [m]"};
+  for (const AssessedRun& run : runs) {
+    const io::SimulationResult& result = *run.result;
+    io::SimulationResult part;
+    std::vector<std::size_t> kept{io::column_index(result, "x_m")};
+    for (const std::size_t column : io::fitting_columns(result.columns, channels))
+      if (column != kept.front()) kept.push_back(column);
+    for (const std::size_t column : kept) {
+      part.columns.push_back(result.columns[column]);
+      part.columns.back().name = io::channel_name(result.columns[column]);
+    }
+    for (std::size_t row = 0; row < result.rows(); ++row)
+      for (const std::size_t column : kept) part.values.push_back(result.values[row * result.columns.size() + column]);
+    drawn.push_back(std::move(part));
+  }
+  for (std::size_t c = 1; c < drawn.front().columns.size(); ++c) {
+    const io::HistoryColumn& column = drawn.front().columns[c];
+    const auto in_all = [&](const io::SimulationResult& one) {
+      return std::ranges::find(one.columns, column.name, &io::HistoryColumn::name) != one.columns.end();
+    };
+    if (!std::ranges::all_of(drawn, in_all)) continue;
+    const bool force = column.unit == "N";
+    const std::string name = force ? column.name.substr(0, column.name.rfind('_')) + " [kN]" : column.name;
+    chart.y.push_back({column.name, name, force ? 1e-3 : 1.0});
+  }
+  if (!chart.y.empty()) {
+    std::vector<pictures::HistoryRun> over_each_other;
+    for (std::size_t i = 0; i < runs.size(); ++i) over_each_other.push_back({&drawn[i], runs[i].name});
+    write_file(output.path() / "runs.svg", pictures::history_svg(over_each_other, chart));
+    write_file(output.path() / "runs.csv", pictures::history_chart_csv(over_each_other, chart));
+  }
+  write_file(output.path() / "assessment.json", assessment_json(runs));
+  output.move_into("assessment.json");
+}
+
+}  // namespace treadmark::app

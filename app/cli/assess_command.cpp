@@ -1,0 +1,151 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
+#include <charconv>
+#include <filesystem>
+#include <iostream>
+
+#include <fmt/format.h>
+
+#include "treadmark/app/assessment/assessment_outputs.hpp"
+#include "treadmark/app/cli/command_frame.hpp"
+#include "treadmark/app/cli/output_files.hpp"
+#include "treadmark/app/report/pages/assessment_page.hpp"
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
+#include "treadmark/core/parts.hpp"
+#include "treadmark/io/histories/channels.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+
+namespace treadmark::cli {
+namespace {
+
+namespace fs = std::filesystem;
+
+struct AssessOptions {
+  std::vector<std::string> results;
+  std::string vehicle = "passenger";
+  double from = 0.0;
+  std::vector<std::string> sections, spectra, channels;
+  std::string csv_file, json_file, folder, report_file;  ///< empty = none; "-": standard output instead of the text
+};
+
+double metres(std::string_view text, const std::string& section) {
+  double value = 0.0;
+  const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+  if (error != std::errc() || end != text.data() + text.size())
+    throw Error(ErrorKind::configuration, fmt::format("--section {}: '{}' is no number", section, text), {},
+                "write NAME:FROM:TO or NAME:FROM:TO:KIND, places in metres");
+  return value;
+}
+
+/// "curve 1:20:80:curve"
+AssessmentSection section_of(const std::string& text) {
+  std::vector<std::string> parts{""};
+  for (const char c : text)
+    if (c == ':')
+      parts.emplace_back();
+    else
+      parts.back() += c;
+  if (parts.size() != 3 && parts.size() != 4)
+    throw Error(ErrorKind::configuration, fmt::format("--section {} has {} parts", text, parts.size()), {},
+                "write NAME:FROM:TO or NAME:FROM:TO:KIND, places in metres");
+  AssessmentSection section{parts[0], metres(parts[1], text), metres(parts[2], text), SectionKind::straight};
+  if (parts.size() == 4) {
+    const auto kind = std::ranges::find(kSectionKinds, parts[3]);
+    if (kind == kSectionKinds.end())
+      throw Error(ErrorKind::configuration, fmt::format("--section {}: there is no kind '{}'", text, parts[3]), {},
+                  fmt::format("kinds: {}", fmt::join(kSectionKinds, ", ")));
+    section.kind = static_cast<SectionKind>(kind - kSectionKinds.begin());
+  }
+  return section;
+}
+
+fs::path store_of(const std::string& name) {
+  std::error_code unknown;
+  if (!fs::is_directory(name, unknown)) return name;
+  for (const char* file : {"simulation.h5", "unfinished.h5"})
+    if (fs::exists(fs::path(name) / file, unknown)) return fs::path(name) / file;
+  throw Error(ErrorKind::input_data, "the folder holds no results of a simulation", {name},
+              "give folders that treadmark simulate wrote with -o");
+}
+
+/// The folders' own names, or all of their paths where some are equal.
+std::vector<std::string> names_of(const std::vector<std::string>& results) {
+  std::vector<std::string> names;
+  for (const std::string& one : results) {
+    fs::path path = fs::path(one).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    if (path.extension() == ".h5" && path.has_parent_path()) path = path.parent_path();
+    names.push_back(path.filename().string());
+  }
+  std::vector<std::string> sorted = names;
+  std::ranges::sort(sorted);
+  return std::ranges::adjacent_find(sorted) == sorted.end() ? names : results;
+}
+
+int assess_command(const AssessOptions& options, const CommonOptions&) {
+  require_different(options.results, {options.csv_file, options.json_file, options.report_file});
+  require_part("hdf5", "results of simulations");
+  AssessmentRequest request;
+  const auto kind = std::ranges::find(kVehicleKinds, options.vehicle);
+  request.vehicle = static_cast<VehicleKind>(kind - kVehicleKinds.begin());
+  request.from = options.from;
+  request.spectra = options.spectra;
+  for (const std::string& section : options.sections) request.sections.push_back(section_of(section));
+  app::check(request);
+  std::vector<app::AssessedRun> runs;
+  const std::vector<std::string> names = names_of(options.results);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto result = std::make_shared<io::SimulationResult>(io::read_simulation(store_of(options.results[i])));
+    io::fitting_columns(result->columns, options.channels);  // refused before anything is computed
+    runs.push_back(app::assess_result(names[i], std::move(result), request));
+  }
+  const std::vector<std::string> channels =
+      options.channels.empty() ? app::usual_channels(*runs.front().result) : options.channels;
+  if (!options.folder.empty()) app::write_assessment_folder(options.folder, runs, channels);
+  write_report_file(options.report_file, [&] { return app::report::assessment_page(runs, channels); });
+  if (!options.csv_file.empty() && options.csv_file != "-") write_file(options.csv_file, app::assessment_csv(runs));
+  const auto json = [&] { return app::assessment_json(runs); };
+  write_json_file(options.json_file, json);
+  print_results(options.json_file, json,
+                [&] { return options.csv_file == "-" ? app::assessment_csv(runs) : app::assessment_text(runs); });
+  const auto good = [](const app::AssessedRun& run) {
+    return std::ranges::any_of(run.quantities,
+                               [](const measures::Assessed& a) { return a.status == measures::AssessedStatus::ok; });
+  };
+  return std::ranges::all_of(runs, good) ? kOk : kFailed;
+}
+
+}  // namespace
+
+Command add_assess(CLI::App& verb) {
+  auto options = std::make_shared<AssessOptions>();
+  verb.add_option("RESULT", options->results, "Folders that treadmark simulate wrote, or their simulation.h5")
+      ->required();
+  verb.add_option("--vehicle", options->vehicle, "What limits are for")
+      ->check(CLI::IsMember(std::vector<std::string>(kVehicleKinds.begin(), kVehicleKinds.end())))
+      ->capture_default_str();
+  verb.add_option("--from", options->from, "Where the assessment begins without --section [m]")
+      ->check(CLI::NonNegativeNumber)
+      ->capture_default_str()
+      ->type_name("M");
+  verb.add_option("--section", options->sections,
+                  "A part of the runs by distance travelled: NAME:FROM:TO or NAME:FROM:TO:KIND, in metres; KIND is "
+                  "straight, curve or transition")
+      ->allow_extra_args(false)
+      ->type_name("SECTION");
+  add_values(verb, "--spectra", options->spectra, "Channels whose spectra are wanted, as ws1_*.Q_N", "CHANNEL,...");
+  add_values(verb, "--channels", options->channels, "Channels that are drawn over the distance", "CHANNEL,...");
+  verb.add_option("--csv", options->csv_file, "Write the table here; - for standard output instead of the text")
+      ->type_name("FILE");
+  verb.add_option("--json", options->json_file, "Write all numbers here; - for standard output instead of the text")
+      ->type_name("FILE");
+  verb.add_option("-o,--output", options->folder,
+                  "Folder for assessment.csv, assessment.json, spectra.csv, runs.csv and pictures (SVG)")
+      ->type_name("FOLDER");
+  add_report_file(verb, options->report_file);
+  return command(options, assess_command);
+}
+
+}  // namespace treadmark::cli

@@ -1,0 +1,181 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include <gmock/gmock.h>
+#include <gtest/gtest.h>
+
+#include <algorithm>
+#include <cmath>
+#include <nlohmann/json.hpp>
+#include <sstream>
+
+#include "treadmark/core/parts.hpp"
+#include "treadmark/io/histories/channels.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
+#include "treadmark/tests/app/program.hpp"
+#include "treadmark/tests/app/simulation/sample_simulation.hpp"
+
+namespace treadmark::testing {
+namespace {
+
+using ::testing::AllOf;
+using ::testing::HasSubstr;
+using ::testing::Not;
+namespace fs = std::filesystem;
+
+/// Two metres and more on tables, with a point on the mass.
+class AssessCommand : public ::testing::Test {
+ protected:
+  AssessCommand() {
+    input_.write("run.toml", R"(title = "on tables"
+
+[simulation]
+vehicle = "vehicle.toml"
+track = "track.toml"
+speed_m_s = 20
+distance_m = 6
+max_step_us = 200
+
+[[simulation.points]]
+name = "floor"
+body = "mass"
+at_m = [0.5, 0.2, -1]
+
+[assessment]
+spectra = ["axle_box.*.az_m_s2"]
+
+[[assessment.sections]]
+name = "middle"
+from_m = 1
+to_m = 5
+kind = "curve"
+
+[wheel]
+shape.standard = "S1002"
+[rail]
+shape.standard = "60E1"
+[track]
+cant = "1:40"
+)");
+  }
+  std::string path(const std::string& name) const { return input_.path(name); }
+  ProgramResult simulate(const std::string& folder, std::vector<std::string> more = {}) const {
+    std::vector<std::string> arguments{"--quiet", "simulate", path("run.toml"), "-o", path(folder)};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    return run_program(arguments);
+  }
+  SampleSimulation input_;
+};
+
+TEST_F(AssessCommand, SimulationsAreAssessedAsTheirFileSaysAndAfterwards) {
+  const ProgramResult made = simulate("a", {"--json", path("a.json")});
+  ASSERT_EQ(made.status, 0) << made.err;
+  EXPECT_THAT(made.out, AllOf(HasSubstr("middle, 1 to 5 m, curve"), HasSubstr("sumY_2m"), HasSubstr("Q_qst")));
+  for (const char* file : {"assessment.csv", "assessment.json", "spectra.csv"})
+    EXPECT_TRUE(fs::exists(path("a") + '/' + file)) << file;
+  const auto json = nlohmann::json::parse(input_.read("a.json"));
+  EXPECT_GT(json.at("assessment").at("assessed").size(), 8u);
+  const ProgramResult again = run_program(
+      {"assess", path("a"), "--section", "middle:1:5:curve", "--spectra", "axle_box.*.az_m_s2", "--csv", "-"});
+  ASSERT_EQ(again.status, 0) << again.err;
+  // the names of the runs differ: title and folder
+  std::string own = input_.read("a/assessment.csv");
+  for (std::size_t at = 0; (at = own.find("\non tables,", at)) != std::string::npos;) own.replace(at, 11, "\na,");
+  EXPECT_EQ(again.out, own);
+}
+
+TEST_F(AssessCommand, ColumnsOfRunningAndPointsAreTheForcesAndMotionsThatStandBeside) {
+  ASSERT_EQ(simulate("a", {"--set", "simulation.distance_m=6"}).status, 0);
+  const io::SimulationResult r = io::read_simulation(path("a") + "/simulation.h5");
+  const auto column = [&](const std::string& name) {
+    const std::string wanted[] = {name};
+    return io::column_values(r, io::fitting_columns(r.columns, wanted).at(0));
+  };
+  const auto q = column("ws1_left.Q_N"), y = column("ws1_left.Y_N"), other = column("ws1_right.Y_N");
+  const auto ratio = column("ws1_left.Y_over_Q"), sum = column("ws1.sumY_N"), wear = column("ws1_left.Tgamma_N");
+  for (std::size_t i = 0; i < q.size(); ++i) {
+    EXPECT_DOUBLE_EQ(ratio[i], y[i] / q[i]);
+    EXPECT_DOUBLE_EQ(sum[i], y[i] + other[i]);
+    EXPECT_GE(wear[i], 0.0);
+    EXPECT_LT(wear[i], q[i]);
+  }
+  // accelerations are the rates of what stands beside them
+  const auto t = column("t_s"), vz = column("mass.z_rate_m_s"), az = column("car_body.floor.az_m_s2");
+  double worst = 0.0, most = 0.0;
+  for (std::size_t i = 20; i + 1 < t.size(); ++i) {
+    const double step = t[i] - t[i - 1];
+    most = std::max(most, std::fabs(az[i]));
+    if (step > 1e-6) worst = std::max(worst, std::fabs((vz[i] - vz[i - 1]) / step - 0.5 * (az[i] + az[i - 1])));
+  }
+  EXPECT_LE(worst, 0.2 * most + 1e-6);
+  EXPECT_THAT(input_.read("a/history.csv"),
+              AllOf(HasSubstr("car_body.floor.az_m_s2"), HasSubstr("ws1.sumY_N"), HasSubstr("axle_box.ws1_left.ay")));
+}
+
+TEST_F(AssessCommand, OnlyTheChannelsThatAreChosenAreWrittenDown) {
+  const ProgramResult made =
+      simulate("a", {"--set", R"(simulation.channels=["ws1_*.Q_N", "ws1_*.Y_N"])", "--set", "assessment.spectra=[]"});
+  ASSERT_EQ(made.status, 0) << made.err;
+  const std::string csv = input_.read("a/history.csv");
+  EXPECT_THAT(csv.substr(0, csv.find('\n')), "t_s,x_m,Q_N,Y_N,ws1_right.Q_N,ws1_right.Y_N");
+  EXPECT_EQ(run_program({"assess", path("a")}).status, 0);
+  const ProgramResult wrong = simulate("b", {"--set", R"(simulation.channels=["ws1_*.Q"])"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, AllOf(HasSubstr("no channel of the history is called 'ws1_*.Q'")));
+  EXPECT_FALSE(fs::exists(path("b") + "/simulation.h5"));
+  const ProgramResult spectra = simulate("b", {"--set", R"(assessment.spectra=["axle_bx.*"])"});
+  EXPECT_EQ(spectra.status, 2);
+  EXPECT_THAT(spectra.err, HasSubstr("axle_bx.*"));
+}
+
+TEST_F(AssessCommand, RunsStandSideBySide) {
+  ASSERT_EQ(simulate("a").status, 0);
+  ASSERT_EQ(simulate("b", {"--set", "simulation.speed_m_s=30"}).status, 0);
+  std::vector<std::string> arguments{"assess",
+                                     path("a"),
+                                     path("b"),
+                                     "-o",
+                                     path("both"),
+                                     "--json",
+                                     path("both.json"),
+                                     "--channels",
+                                     "ws1_left.Q_N,ws1.sumY_N"};
+  if (has_part("report")) arguments.insert(arguments.end(), {"--report", path("both.html")});
+  const ProgramResult r = run_program(arguments);
+  ASSERT_EQ(r.status, 0) << r.err;
+  EXPECT_THAT(r.out, AllOf(HasSubstr("a: on tables"), HasSubstr("b: on tables"), HasSubstr("run, 0 to 6 m")));
+  EXPECT_THAT(input_.read("both/runs.csv"), AllOf(HasSubstr("\na,"), HasSubstr("\nb,")));
+  EXPECT_EQ(input_.read("both/assessment.json"), input_.read("both.json"));
+  if (has_part("report")) {
+    EXPECT_THAT(input_.read("both.html"),
+                AllOf(HasSubstr("share of limit, b"), HasSubstr("Channels over the distance")));
+    ASSERT_EQ(run_program({"report", path("a"), "-o", path("a.html")}).status, 0);
+    EXPECT_THAT(input_.read("a.html"), HasSubstr("Worst wheel, wheelset or point of each section"));
+  }
+}
+
+TEST_F(AssessCommand, BadRequestsAreRefusedOrNamed) {
+  ASSERT_EQ(simulate("a", {"--set", "assessment.sections=[]", "--set", "simulation.distance_m=1"}).status, 0);
+  const auto refused = [&](std::vector<std::string> more) {
+    std::vector<std::string> arguments{"assess", path("a")};
+    arguments.insert(arguments.end(), more.begin(), more.end());
+    const ProgramResult r = run_program(arguments);
+    EXPECT_EQ(r.status, 2) << r.out;
+    return r.err;
+  };
+  EXPECT_THAT(refused({"--section", "s:0.2:4"}), HasSubstr("does not lie within the run of a"));
+  EXPECT_THAT(refused({"--section", "s:0.2"}), HasSubstr("write NAME:FROM:TO"));
+  EXPECT_THAT(refused({"--section", "s:0.2:x"}), HasSubstr("'x' is no number"));
+  EXPECT_THAT(refused({"--section", "s:0.2:0.8:bend"}), HasSubstr("kinds: straight, curve, transition"));
+  EXPECT_THAT(refused({"--channels", "ws1_left.q_N"}), HasSubstr("did you mean 'ws1_left.Q_N'?"));
+  EXPECT_THAT(refused({"--json", path("a")}), HasSubstr("would overwrite"));
+  refused({"--vehicle", "tram"});
+  EXPECT_NE(run_program({"assess", input_.folder().string()}).status, 0);
+  EXPECT_NE(run_program({"assess", path("vehicle.toml")}).status, 0);
+  // a metre holds no window of two
+  const ProgramResult brief = run_program({"assess", path("a")});
+  EXPECT_EQ(brief.status, 0);
+  EXPECT_THAT(brief.out, AllOf(HasSubstr("are too_short"), Not(HasSubstr("YQ_2m  "))));
+}
+
+}  // namespace
+}  // namespace treadmark::testing
