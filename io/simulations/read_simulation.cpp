@@ -181,10 +181,11 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
+  result.torques = read_torques(simulation, result.vehicle);
+  read_contact(contact, result);
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);
-  read_contact(contact, result);
   read_other_wheel(contact, simulation, result);
   choose_steps(simulation, result);
   check_steps(simulation, result);

@@ -36,6 +36,8 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
 SimulationSettings read_settings(const TableReader& simulation);
 /// [simulation.fields].
 FieldRequests read_fields(const TableReader& simulation);
+/// [[simulation.torques]].
+std::vector<AxleTorque> read_torques(const TableReader& simulation, const VehicleModel& vehicle);
 /// One entry for every wheel of the vehicle.
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets);
 
@@ -49,7 +51,8 @@ FileText named_text(const TableReader& table, std::string_view key, const std::f
 /// Places of the rearmost and the foremost wheelset along the vehicle [m].
 FromTo wheelset_places(const VehicleModel& vehicle);
 
-/// [layout], which must reach as far as the vehicle runs, and [irregularities]: out.vehicle and out.settings are set.
+/// [layout], which must reach as far as the vehicle runs, and [irregularities]: out.vehicle, out.settings and
+/// out.contact are set.
 void read_layout(const TableReader& layout, SimulationFile& out);
 void read_irregularities(const TableReader& irregularities, const std::filesystem::path& folder, SimulationFile& out);
 
