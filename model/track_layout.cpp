@@ -4,7 +4,9 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <optional>
 #include <string>
 
 namespace treadmark {
@@ -52,6 +54,61 @@ double TrackLayout::length() const {
   double sum = 0.0;
   for (const LayoutElement& element : elements) sum += element.length;
   return sum;
+}
+
+namespace {
+
+bool is_constant(const LayoutElement& e) { return e.curvature.from == e.curvature.to && e.cant.from == e.cant.to; }
+
+/// What stands between two elements instead of their kink, this much of each; none where there is no kink.
+std::optional<TransitionShape> shape_between(const LayoutElement& one, const LayoutElement& next) {
+  const bool from_constant = is_constant(one), to_constant = is_constant(next);
+  if (from_constant && to_constant)
+    return one.curvature.to != next.curvature.from ? std::optional(TransitionShape::bloss) : std::nullopt;
+  if (from_constant && next.shape == TransitionShape::linear) return TransitionShape::rising;
+  if (to_constant && one.shape == TransitionShape::linear) return TransitionShape::easing;
+  return std::nullopt;
+}
+
+/// Values at a share of an element; linear ones and constants only.
+double at_share(const FromTo& value, double u) { return value.from + u * (value.to - value.from); }
+
+}  // namespace
+
+TrackLayout rounded(const TrackLayout& layout, double half_length) {
+  TrackLayout out = layout;
+  out.elements.clear();
+  const std::vector<LayoutElement>& given = layout.elements;
+  double cut_before = 0.0;  // of the element at hand
+  for (std::size_t i = 0; i < given.size(); ++i) {
+    const LayoutElement& e = given[i];
+    const auto shape = i + 1 < given.size() ? shape_between(e, given[i + 1]) : std::nullopt;
+    const double cut_behind = shape ? std::min({half_length, 0.25 * e.length, 0.25 * given[i + 1].length}) : 0.0;
+    const auto values = [](const LayoutElement& from, double u, const LayoutElement& to, double w) {
+      LayoutElement part;
+      for (FromTo LayoutElement::*v : {&LayoutElement::curvature, &LayoutElement::cant, &LayoutElement::gauge})
+        part.*v = {at_share(from.*v, u), at_share(to.*v, w)};
+      return part;
+    };
+    LayoutElement kept = e;
+    if (cut_before > 0.0 || cut_behind > 0.0) {
+      kept = values(e, cut_before / e.length, e, 1.0 - cut_behind / e.length);
+      kept.length = e.length - cut_before - cut_behind;
+      kept.shape = e.shape;
+      kept.where = e.where;
+    }
+    out.elements.push_back(kept);
+    if (shape) {
+      const LayoutElement& next = given[i + 1];
+      LayoutElement joint = values(e, 1.0 - cut_behind / e.length, next, cut_behind / next.length);
+      joint.length = 2.0 * cut_behind;
+      joint.shape = *shape;
+      joint.where = next.where;
+      out.elements.push_back(joint);
+    }
+    cut_before = cut_behind;
+  }
+  return out;
 }
 
 void check(const TrackLayout& layout) {

@@ -16,6 +16,8 @@ namespace treadmark {
 enum class TransitionShape {
   linear,  ///< of curvature: a clothoid; of cant: a straight ramp
   bloss,   ///< 3u^2 - 2u^3 (Bloss 1936): slopes vanish at both ends
+  rising,  ///< u^2, into a linear one: see rounded
+  easing,  ///< 2u - u^2, out of a linear one
 };
 
 /// About what the track is turned by cant.
@@ -51,6 +53,11 @@ struct TrackLayout {
 
 inline constexpr double kTightestRadius = 10.0;  ///< of a curve [m]
 inline constexpr double kLongestLine = 1e6;      ///< [m]
+
+/// The same line with its kinks rounded over twice this length [m], or half of the shorter
+/// element: where curvature and
+/// cant begin or end to change linearly, and where the curvature steps. Headings of straights and circles stay.
+TrackLayout rounded(const TrackLayout& layout, double half_length);
 
 /// Errors: Error(configuration) at the element: lengths that are not positive, curves tighter than kTightestRadius,
 /// cant of more than half its base, gauges that are not positive, steps of cant or gauge between elements (a step of

@@ -247,6 +247,9 @@ std::optional<TrackModel> track_below(const io::SimulationFile& file) {
 
 /// The rail under a wheelset from where the simulation starts.
 vehicle::MovingRail rail_below(const io::SimulationFile& file, std::size_t wheelset) {
+  if (file.settings.profile.time.size() > 1)
+    throw Error(ErrorKind::configuration, "on a flexible track the speed of a simulation is constant", {},
+                "leave simulation.speed_profile out, or lump the track (treadmark track)");
   const std::string& body = file.vehicle.wheelsets.at(wheelset).body;
   const double x = std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
   return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, file.settings.spectral_radius};
@@ -264,12 +267,12 @@ std::string wheel_name(const io::WheelContactInput& wheel) {
 }
 
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
-  refuse_line(file);
   Builder builder(file, store);
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
   v.speed = file.settings.speed;
   v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
+  v.line = build_line(file, v.system, true);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
   for (const io::WheelContactInput& wheel : file.wheels) {
     vehicle::WheelOnRail on{wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()};
@@ -319,7 +322,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) 
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   Builder builder(file, store);
   if (file.flexible_track) rail_below(file, 0);
-  vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity);
+  build_line(file, vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity),
+             false);
   for (const io::WheelContactInput& wheel : file.wheels) {
     const bool full = wheel.model == io::ContactModelInput::full;
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);

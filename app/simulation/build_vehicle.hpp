@@ -46,7 +46,7 @@ double rail_place(const io::SimulationFile& file, int wheelset);
 /// have.
 BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store);
 
-/// Finds the errors of build_vehicle without solving contact tables, but for a line that is not used yet (refuse_line).
+/// Finds the errors of build_vehicle without solving contact tables.
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store);
 
 /// Settings of the integration.

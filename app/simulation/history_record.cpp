@@ -73,15 +73,41 @@ HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulatio
   const std::size_t watched = built.watched_wheel();
 
   add("t_s", "s", "time", [&] { return simulation_.state().time; });
-  add("x_m", "m", "distance travelled", [&] { return simulation_.state().time * simulation_.vehicle().speed; });
+  add("x_m", "m", "distance travelled",
+      [&] { return simulation_.vehicle().travel(simulation_.state().time).distance; });
   add_wheel(watched, "", built.full[watched] != nullptr);
   for (std::size_t i = 0; i < wheels.size(); ++i)
     if (i != watched) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
   add_energies();
   add_bodies();
+  if (simulation.vehicle().line) add_line();
   add_running(watched);
   add_accelerations(request);
   keep_only(request);  // the last
+}
+
+void HistoryRecord::add_line() {
+  const auto now = [this] { return simulation_.state().time; };
+  const auto line = simulation_.vehicle().line;
+  add("line.speed_m_s", "m/s", "speed of the vehicle", [=] { return line->travel(now()).speed; });
+  if (line->setup().path) {
+    add("line.place_m", "m", "place of the vehicle's x = 0 on the line", [=] { return line->point(now()).distance; });
+    add("line.curvature_1_m", "1/m", "of the line there, positive to the right",
+        [=] { return line->point(now()).curvature.value; });
+    add("line.cant_m", "m", "of the line there, positive where the left rail lies higher",
+        [=] { return line->point(now()).cant.value; });
+  }
+  if (line->setup().irregularities)
+    for (const vehicle::WheelOnRail& wheel : simulation_.vehicle().wheels) {
+      const auto rail = [=, set = static_cast<std::size_t>(wheel.wheelset), side = wheel.side] {
+        return line->wheel(set, side, now()).rail;
+      };
+      add("line." + wheel.name + ".rail_y_m", "m", "how far to the right of its place the line has its rail there",
+          [=] { return rail().y; });
+      add("line." + wheel.name + ".rail_z_m", "m", "how far below its place", [=] { return rail().z; });
+    }
+  add("energy.line_J", "J", "work of the line and of torques on the vehicle",
+      [&] { return simulation_.energy().line; });
 }
 
 void HistoryRecord::add(std::string name, std::string unit, std::string description, std::function<double()> value) {
@@ -253,7 +279,7 @@ std::vector<io::NamedValue> HistorySummary::values() const {
   };
   add("q_max_N", highest_.value, "N", "largest vertical force");
   add("q_max_t_s", highest_.time, "s", "when");
-  add("q_max_x_m", highest_.time * simulation_.vehicle().speed, "m", "where");
+  add("q_max_x_m", simulation_.vehicle().travel(highest_.time).distance, "m", "where");
   add("q_min_N", lowest_.value, "N", "least vertical force");
   add("q_static_N", at_rest_, "N", "vertical force at the start");
   add("q_max_over_static", highest_.value / at_rest_, "1", "largest vertical force over that at the start");

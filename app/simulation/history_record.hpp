@@ -44,6 +44,7 @@ class HistoryRecord {
   void add(std::string name, std::string unit, std::string description, std::function<double()> value);
   void add_wheel(std::size_t wheel, const std::string& prefix, bool full);
   void add_bodies();
+  void add_line();
   void add_energies();
   void add_running(std::size_t watched);
   void add_accelerations(const io::HistoryRequest& request);

@@ -9,6 +9,7 @@
 #include <optional>
 
 #include "treadmark/core/constants.hpp"
+#include "treadmark/io/simulations/read_simulation.hpp"
 #include "treadmark/solvers/vehicle/curving.hpp"
 
 namespace treadmark::app {
@@ -55,7 +56,10 @@ void add_layout(const io::SimulationFile& file, Lines& lines) {
     from += e.length;
   }
   if (const double step = path.largest_curvature_step(); step > 0.0)
-    lines.push_back(fmt::format("layout: the curvature steps by up to 1/({:.6g} m) where elements meet", 1.0 / step));
+    lines.push_back(
+        fmt::format("layout: the curvature steps by up to 1/({:.6g} m) where elements meet; simulations round "
+                    "that over {:g} m",
+                    1.0 / step, 2.0 * kRounding));
 }
 
 void add_table(const io::SimulationFile& file, const IrregularityTable& table, Lines& lines) {
@@ -108,13 +112,28 @@ std::vector<std::string> line_summary(const io::SimulationFile& file) {
   return lines;
 }
 
-void refuse_line(const io::SimulationFile& file) {
-  const auto refuse = [](const char* table, const SourcePosition& where) {
-    throw Error(ErrorKind::configuration, fmt::format("[{}] is not yet used by simulate", table), where,
-                "leave it out: simulations run on a straight, even track; treadmark check says what it means");
-  };
-  if (file.layout) refuse("layout", file.layout->where);
-  if (file.irregularities) refuse("irregularities", file.irregularities->where);
+bool has_line(const io::SimulationFile& file) {
+  return file.layout || file.irregularities || !file.torques.empty() || file.settings.profile.time.size() > 1;
+}
+
+std::shared_ptr<const vehicle::LineEffects> build_line(const io::SimulationFile& file, const vehicle::Multibody& system,
+                                                       bool irregularities) {
+  if (!has_line(file)) return nullptr;
+  vehicle::LineSetup setup;
+  setup.start = file.start;
+  setup.gauge_at_rest = file.rail_gauge;
+  setup.gravity = file.settings.gravity;
+  setup.speed = file.settings.profile;
+  setup.torques = file.torques;
+  if (file.layout) {
+    setup.path = std::make_shared<const vehicle::TrackPath>(rounded(*file.layout, kRounding));
+    setup.base = file.layout->cant_base;
+  }
+  if (file.irregularities && irregularities)
+    setup.irregularities = std::make_shared<const vehicle::Irregularities>(
+        *file.irregularities,
+        file.start + file.settings.distance + io::wheelset_places(file.vehicle).to + 2.0 * kRounding);
+  return std::make_shared<const vehicle::LineEffects>(system, std::move(setup));
 }
 
 }  // namespace treadmark::app

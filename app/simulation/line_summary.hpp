@@ -2,10 +2,12 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <memory>
 #include <string>
 #include <vector>
 
 #include "treadmark/io/simulations/simulation_model.hpp"
+#include "treadmark/solvers/vehicle/line_effects.hpp"
 
 namespace treadmark::app {
 
@@ -14,7 +16,15 @@ namespace treadmark::app {
 /// Empty without them. Errors: those of the line.
 std::vector<std::string> line_summary(const io::SimulationFile& file);
 
-/// Simulations run on a straight, even track so far. Errors: Error(configuration) at [layout] or [irregularities].
-void refuse_line(const io::SimulationFile& file);
+/// Whether a vehicle runs otherwise than along a straight, even track at constant speed.
+bool has_line(const io::SimulationFile& file);
+
+/// Length over which simulations round the kinks of a line, to either side [m].
+inline constexpr double kRounding = 1.0;
+
+/// What the line does to a vehicle; null without one. Irregularities are only made if wanted, which takes a second or
+/// two for long lines. Errors: those of LineEffects.
+std::shared_ptr<const vehicle::LineEffects> build_line(const io::SimulationFile& file, const vehicle::Multibody& system,
+                                                       bool irregularities);
 
 }  // namespace treadmark::app

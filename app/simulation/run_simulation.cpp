@@ -145,11 +145,11 @@ class Run {
       }
       summary_->note();
       snapshots_.take_passed(*simulation_, before);
-      if (due(simulation_->state().time * built_.vehicle.speed)) record_->append(result_.values);
+      if (due(built_.vehicle.travel(simulation_->state().time).distance)) record_->append(result_.values);
       const auto now = Clock::now();
       if (progress.report && now - last_told > std::chrono::milliseconds(100)) {
         last_told = now;
-        const double x = simulation_->state().time * built_.vehicle.speed;
+        const double x = built_.vehicle.travel(simulation_->state().time).distance;
         progress.report(std::min(total, static_cast<std::size_t>(kPerMetre * x)), total,
                         fmt::format("x = {:.3f} m", x));
       }
@@ -177,7 +177,7 @@ class Run {
   void finish() {
     result_.events.clear();
     for (const vehicle::ContactEvent& e : simulation_->events())
-      result_.events.push_back({e.time, e.time * built_.vehicle.speed, built_.vehicle.wheels[e.wheel].name,
+      result_.events.push_back({e.time, built_.vehicle.travel(e.time).distance, built_.vehicle.wheels[e.wheel].name,
                                 e.regained ? "contact regained" : "contact lost"});
     result_.summary = summary_->values();
     snapshots_.put_results(result_);

@@ -39,6 +39,8 @@ FieldRequests read_fields(const TableReader& simulation);
 /// What [simulation] says of the history, and [assessment]; out.vehicle and out.settings are set.
 void read_history(const TableReader& simulation, SimulationFile& out);
 void read_assessment(const TableReader& assessment, SimulationFile& out);
+/// [[simulation.torques]].
+std::vector<AxleTorque> read_torques(const TableReader& simulation, const VehicleModel& vehicle);
 /// One entry for every wheel of the vehicle.
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets);
 
@@ -53,7 +55,7 @@ FileText named_text(const TableReader& table, std::string_view key, const std::f
 /// Places of the rearmost and the foremost wheelset along the vehicle [m].
 FromTo wheelset_places(const VehicleModel& vehicle);
 
-/// [layout], which must reach as far as the vehicle runs: out.vehicle and out.settings are set.
+/// [layout], which must reach as far as the vehicle runs: out.vehicle, out.settings and out.contact are set.
 void read_layout(const TableReader& layout, SimulationFile& out);
 /// [irregularities], which must reach as far: out.vehicle, out.settings and out.layout are set.
 void read_irregularities(const TableReader& irregularities, const std::filesystem::path& folder, SimulationFile& out);

@@ -324,7 +324,10 @@ const TableKeys& simulation_keys() {
     TableKeys list{
         needed(key_info("vehicle", KeyType::path, "vehicle file")),
         key_info("track", KeyType::path, "track file; without it the track is rigid"),
-        needed(key_info("speed_m_s", KeyType::number, "more than 0", {{}, 0.0, 1000.0})),
+        needed(key_info("speed_m_s", KeyType::number, "at the start, more than 0", {{}, 0.0, 1000.0})),
+        table_key("speed_profile", KeyType::table, "speeds behind the start; without it the speed is constant",
+                  speed_profile_keys()),
+        table_key("torques", KeyType::table_list, "motors and brakes on axles", torque_keys()),
         key_info("distance_m", KeyType::number, "travelled in all; this or the next one is required", kPositive),
         key_info("duration_s", KeyType::number, "of the whole simulation", kPositive)};
     for (const auto& key : plain_setting_keys()) list.push_back(key.info);
@@ -352,6 +355,25 @@ const TableKeys& simulation_keys() {
                              "where their own rail varies by more than its defects"));
     return list;
   }();
+  return keys;
+}
+
+const TableKeys& speed_profile_keys() {
+  static const TableKeys keys{
+      needed(key_info("time_s", KeyType::number_list, "increasing, from more than 0", kPositive)),
+      needed(key_info("speed_m_s", KeyType::number_list,
+                      "at these times, more than 0; straight lines between, constant behind the last one",
+                      {{}, 0.0, 1000.0}))};
+  return keys;
+}
+
+const TableKeys& torque_keys() {
+  static const TableKeys keys{
+      needed(key_info("wheelset", KeyType::integer, "number of the wheelset, 1 = leading", {{}, 1.0, 1e6})),
+      needed(key_info("time_s", KeyType::number_list, "increasing", kNotNegative)),
+      needed(key_info("torque_N_m", KeyType::number_list,
+                      "at these times, positive in traction; straight lines between, constant before and behind")),
+      needed(key_info("reaction", KeyType::text, "body that holds motor or brake, or \"ground\""))};
   return keys;
 }
 
@@ -413,7 +435,7 @@ const TableKeys& layout_keys() {
                                  "place of the vehicle's x = 0 at the start, from the "
                                  "beginning of the line",
                                  kNotNegative)),
-      with_default("1435", key_info("gauge_mm", KeyType::number, "where no element says another", kPositive)),
+      key_info("gauge_mm", KeyType::number, "where no element says another; without it that of `[track]`", kPositive),
       with_default("1500", key_info("cant_base_mm", KeyType::number, "width over which cant is measured", kPositive)),
       with_default("\"centre\"",
                    one_of("cant_about", {"centre", "low_rail"}, "what keeps its height where the track is canted")),

@@ -41,6 +41,8 @@ const TableKeys& torsion_keys();
 const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys();
 /// All keys of [simulation], and those of its tables.
 const TableKeys& simulation_keys();
+const TableKeys& speed_profile_keys();
+const TableKeys& torque_keys();
 const TableKeys& field_keys();
 const TableKeys& wheel_keys();
 const TableKeys& point_keys();

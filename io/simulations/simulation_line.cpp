@@ -81,6 +81,20 @@ void read_elements(const TableReader& layout, double gauge, TrackLayout& out) {
   }
 }
 
+/// Whether all wheelsets stand on one straight or circle at the start.
+bool begins_steadily(const SimulationFile& file) {
+  const FromTo wheelsets = wheelset_places(file.vehicle);
+  const double rear = file.start + wheelsets.from, front = file.start + wheelsets.to;
+  double from = 0.0;
+  for (const LayoutElement& e : file.layout->elements) {
+    const double to = from + e.length;
+    const bool constant = e.curvature.from == e.curvature.to && e.cant.from == e.cant.to;
+    if (constant && front <= to && (rear >= from || from == 0.0)) return true;
+    from = to;
+  }
+  return false;
+}
+
 /// Furthest place of a wheelset on the line [m].
 double end_of_run(const SimulationFile& file) {
   return file.start + file.settings.distance + wheelset_places(file.vehicle).to;
@@ -162,13 +176,24 @@ void read_layout(const TableReader& layout, SimulationFile& out) {
   line.cant_base = layout.number_or("cant_base_mm", line.cant_base);
   if (layout.text_or("cant_about", "centre") == "low_rail") line.cant_axis = CantAxis::low_rail;
   constexpr double kStandardGauge = 1.435;
-  read_elements(layout, layout.number_or("gauge_mm", kStandardGauge), line);
+  const Track& track = out.contact.track;
+  const double gauge = layout.number_or("gauge_mm", track.gauge_based ? track.gauge_width : kStandardGauge);
+  out.rail_gauge = track.gauge_based ? track.gauge_width : gauge;
+  read_elements(layout, gauge, line);
   check(line);
   out.start = layout.number_or("start_m", 0.0);
   out.layout = std::move(line);
   if (const double end = end_of_run(out), length = out.layout->length(); end > length)
     layout.fail(fmt::format("the line is {:.6g} m long, the run ends at {:.6g} m", length, end),
                 "shorten the run (simulation.distance_m), or put a longer element at the end of the line");
+  if (!begins_steadily(out))
+    out.notes.push_back(
+        "layout: the vehicle starts where the line changes; it begins in the balance of forces that it "
+        "would have if it stayed there");
+  const LayoutElement& first = out.layout->elements.front();
+  if (out.start + wheelset_places(out.vehicle).from < 0.0 && first.curvature.from != first.curvature.to)
+    layout.fail("the vehicle stands on the beginning of the line, which is a transition",
+                "put a straight before it, or give layout.start_m");
 }
 
 void read_irregularities(const TableReader& table, const std::filesystem::path& folder, SimulationFile& out) {

@@ -9,6 +9,7 @@
 
 #include "treadmark/io/cases/case_model.hpp"
 #include "treadmark/model/assessment.hpp"
+#include "treadmark/model/driving.hpp"
 #include "treadmark/model/flexible_track.hpp"
 #include "treadmark/model/irregularities.hpp"
 #include "treadmark/model/track_layout.hpp"
@@ -61,9 +62,10 @@ struct HistoryRequest {
 
 /// How far and how exactly a simulation goes.
 struct SimulationSettings {
-  double speed = 0.0;              ///< [m/s]; > 0
+  double speed = 0.0;              ///< at the start [m/s]; > 0
+  SpeedProfile profile;            ///< begins with it; one point: constant
   double distance = 0.0;           ///< travelled in the whole simulation [m]; > 0
-  double duration = 0.0;           ///< [s]; distance/speed
+  double duration = 0.0;           ///< [s]
   double gravity = 9.81;           ///< [m/s2]
   double tolerance = 1e-7;         ///< local error of displacements in a step [m]
   std::optional<double> max_step;  ///< [s]
@@ -101,6 +103,7 @@ struct SimulationFile {
   std::optional<FlexibleTrack> flexible_track;  ///< then there is no other one
   std::optional<NamedFile> track_file;
   std::optional<TrackLayout> layout;  ///< none: a straight without end
+  double rail_gauge = 1.435;          ///< at which the rails lie where the line has it [m]
   double start = 0.0;                 ///< place of the vehicle's x = 0 on the line when the simulation begins [m]
   std::optional<IrregularitySpec> irregularities;  ///< none: the rails lie as the line says
   std::optional<NamedFile> irregularity_file;
@@ -118,6 +121,9 @@ struct SimulationFile {
     const std::optional<SurfaceSource>& own = side == Side::left ? left_rail : right_rail;
     return own ? *own : contact.rail;
   }
+  std::vector<AxleTorque> torques;        ///< motors and brakes
+  std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
+  std::vector<std::string> notes;         ///< harmless oddities worth telling
 };
 
 }  // namespace treadmark::io

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <functional>
 #include <limits>
+#include <tuple>
 
 #include <fmt/format.h>
 
@@ -12,7 +13,8 @@
 namespace treadmark::io {
 
 double SimulationSettings::longest_step(double dx) const {
-  return std::min(max_step.value_or(std::numeric_limits<double>::infinity()), max_step_elements * dx / speed);
+  return std::min(max_step.value_or(std::numeric_limits<double>::infinity()),
+                  max_step_elements * dx / highest_speed(profile));
 }
 
 namespace {
@@ -31,6 +33,39 @@ std::vector<double> increasing(const TableReader& fields, std::string_view key) 
   if (std::adjacent_find(values.begin(), values.end(), std::greater_equal<>()) != values.end())
     throw Error(ErrorKind::configuration, fmt::format("{} must increase", fields.path_of(key)), fields.need(key).where);
   return values;
+}
+
+/// Two lists of the same length, the first one increasing.
+std::pair<std::vector<double>, std::vector<double>> read_points(const TableReader& table, std::string_view x,
+                                                                std::string_view y) {
+  table.need(x);
+  table.need(y);
+  std::pair<std::vector<double>, std::vector<double>> points{increasing(table, x), table.numbers(y)};
+  if (points.first.empty() || points.first.size() != points.second.size())
+    throw Error(ErrorKind::configuration,
+                fmt::format("{} has {} values, {} has {}", table.path_of(x), points.first.size(), table.path_of(y),
+                            points.second.size()),
+                table.need(y).where, "give one for each time");
+  return points;
+}
+
+SpeedProfile read_profile(const TableReader& simulation, double speed) {
+  SpeedProfile profile{{0.0}, {speed}};
+  const CaseTable* found = simulation.table("speed_profile");
+  if (found == nullptr) return profile;
+  const TableReader table(*found, simulation.need("speed_profile").where, simulation.path_of("speed_profile"),
+                          speed_profile_keys());
+  const auto [times, speeds] = read_points(table, "time_s", "speed_m_s");
+  for (const double value : speeds)
+    if (!(value > 0.0))
+      throw Error(ErrorKind::configuration, fmt::format("{} reaches 0", table.path_of("speed_m_s")),
+                  table.need("speed_m_s").where, "wheels of a simulation roll");
+  if (!(times.front() > 0.0))
+    throw Error(ErrorKind::configuration, fmt::format("{} begins at 0", table.path_of("time_s")),
+                table.need("time_s").where, "the speed at the start is simulation.speed_m_s");
+  profile.time.insert(profile.time.end(), times.begin(), times.end());
+  profile.speed.insert(profile.speed.end(), speeds.begin(), speeds.end());
+  return profile;
 }
 
 WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
@@ -63,14 +98,15 @@ WheelContactInput read_wheel(const TableReader& table, std::size_t wheelsets) {
 SimulationSettings read_settings(const TableReader& simulation) {
   SimulationSettings s;
   s.speed = read_speed(simulation);
+  s.profile = read_profile(simulation, s.speed);
   simulation.exclude("distance_m", "duration_s");
   if (simulation.find("duration_s") != nullptr) {
     s.duration = simulation.number("duration_s");
-    s.distance = s.duration * s.speed;
+    s.distance = travel_at(s.profile, s.duration).distance;
   } else {
     simulation.need("distance_m", "say how far, distance_m, or how long, duration_s");
     s.distance = simulation.number("distance_m");
-    s.duration = s.distance / s.speed;
+    s.duration = s.profile.time.size() > 1 ? time_at(s.profile, s.distance) : s.distance / s.speed;
   }
   constexpr double kNeverEnds = 1e9;  // [s], [m], as the keys themselves
   if (!(s.duration <= kNeverEnds) || !(s.distance <= kNeverEnds)) simulation.fail("the simulation has no end");
@@ -84,6 +120,27 @@ FieldRequests read_fields(const TableReader& simulation) {
   if (table == nullptr) return {};
   const TableReader fields(*table, simulation.need("fields").where, simulation.path_of("fields"), field_keys());
   return {increasing(fields, "pitch_deg"), increasing(fields, "position_m")};
+}
+
+std::vector<AxleTorque> read_torques(const TableReader& simulation, const VehicleModel& vehicle) {
+  std::vector<AxleTorque> torques;
+  for (const CaseValue* one : simulation.tables("torques")) {
+    const TableReader table(one->table(), one->where, simulation.path_of("torques"), torque_keys());
+    AxleTorque& torque = torques.emplace_back();
+    torque.where = one->where;
+    torque.wheelset = table.integer("wheelset") - 1;
+    if (static_cast<std::size_t>(torque.wheelset) >= vehicle.wheelsets.size())
+      throw Error(ErrorKind::configuration,
+                  fmt::format("{} = {}, but the vehicle has {} wheelset{}", table.path_of("wheelset"),
+                              torque.wheelset + 1, vehicle.wheelsets.size(), vehicle.wheelsets.size() == 1 ? "" : "s"),
+                  table.need("wheelset").where, "wheelsets count from 1, the leading one");
+    std::tie(torque.time, torque.torque) = read_points(table, "time_s", "torque_N_m");
+    torque.reaction = table.text("reaction");
+    std::vector<std::string> names{kGround};
+    for (const BodySpec& body : vehicle.bodies) names.push_back(body.name);
+    check_name("body", torque.reaction, names, table.need("reaction").where);
+  }
+  return torques;
 }
 
 std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::size_t wheelsets) {

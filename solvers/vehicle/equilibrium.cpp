@@ -52,7 +52,7 @@ PairVector slope(const VehicleOnTrack& vehicle, std::size_t i, const PairMotion&
 /// Wheelsets roll freely: of their pitch the rate is sought, and the angle stays.
 class Balance {
  public:
-  Balance(const VehicleOnTrack& vehicle) : vehicle_(vehicle), system_(vehicle.system) {
+  Balance(const VehicleOnTrack& vehicle) : vehicle_(vehicle), system_(vehicle.system), line_(vehicle.line_state(0.0)) {
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (w.coordinate[4] >= 0) rolling_.push_back(w.coordinate[4]);
     scale_ = *std::ranges::max_element(system_.wheelset_load);
@@ -78,8 +78,8 @@ class Balance {
 
   /// Imbalance of all coordinates. False: a wheel does not touch, or a contact cannot be solved.
   bool imbalance(const SystemState& state, Vector& r, std::vector<ContactReaction>& reactions, std::string& why) const {
-    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v +
-        characteristic_forces(system_, state.q);
+    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v + vehicle_.other_forces(state, line_);
+    if (line_) r += line_->force;
     reactions = evaluate_wheels(vehicle_, state);
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const PairMotion m = vehicle_.motion(i, state);
@@ -121,6 +121,7 @@ class Balance {
  private:
   const VehicleOnTrack& vehicle_;
   const Multibody& system_;
+  std::optional<LineState> line_;  ///< at the start
   std::vector<int> rolling_;
   double scale_ = 1.0;
 };
@@ -142,8 +143,13 @@ PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const Syste
 
 LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness) {
   LinearSystem system{vehicle.system.stiffness, vehicle.system.damping};
-  for (const CharacteristicForce& c : vehicle.system.characteristics)
-    system.stiffness += characteristic(c, c.direction.dot(state.q)).stiffness * c.direction * c.direction.transpose();
+  const std::optional<LineState> line = vehicle.line_state(state.time);
+  for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
+    const CharacteristicForce& c = vehicle.system.characteristics[i];
+    const double offset = line ? line->stop_offsets[i] : 0.0;
+    system.stiffness +=
+        characteristic(c, c.direction.dot(state.q) + offset).stiffness * c.direction * c.direction.transpose();
+  }
   std::vector<PairTangent> tangents(vehicle.wheels.size());
   for_each_wheel(vehicle, [&](std::size_t i) { tangents[i] = linearised(vehicle, i, state, coarseness); });
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
@@ -154,10 +160,13 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   return system;
 }
 
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
+namespace {
+
+Equilibrium newton(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings,
+                   const std::optional<SystemState>& from) {
   const Balance balance(vehicle);
   Equilibrium found;
-  found.state = balance.start();
+  found.state = from ? *from : balance.start();
   Vector r;
   std::string why;
   if (!balance.imbalance(found.state, r, found.reactions, why)) {
@@ -193,6 +202,33 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
         fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}",
                     found.residual, why.empty() ? "" : "; ", why)};
   return found;
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
+  Equilibrium whole = newton(vehicle, settings, {});
+  if (whole.report.status == Status::ok || !vehicle.line || !vehicle.line->setup().path) return whole;
+  // The curve comes little by little.
+  constexpr double kFirst = 0.125, kGrowing = 1.5, kShortest = 1e-3;
+  VehicleOnTrack part = vehicle;
+  std::optional<SystemState> last;
+  int iterations = whole.iterations;
+  for (double share = 0.0, next = 0.0, step = kFirst;;) {
+    part.line = next < 1.0 ? vehicle.line->share(vehicle.system, next) : vehicle.line;
+    Equilibrium e = newton(part, settings, last);
+    iterations += e.iterations;
+    if (e.report.status == Status::ok) {
+      e.iterations = iterations;
+      if (next == 1.0) return e;
+      last = e.state;
+      share = next;
+      step *= kGrowing;
+    } else if (!last || (step *= 0.5) < kShortest) {
+      return whole;
+    }
+    next = std::min(1.0, share + step);
+  }
 }
 
 }  // namespace treadmark::vehicle

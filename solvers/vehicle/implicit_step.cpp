@@ -54,7 +54,9 @@ Motion ImplicitStep::start(const SystemState& state, const std::vector<ContactRe
   const Multibody& s = vehicle_.system;
   Motion m;
   m.state = state;
-  m.unbalanced = s.weight - s.stiffness * state.q - s.damping * state.v + characteristic_forces(s, state.q);
+  const std::optional<LineState> line = vehicle_.line_state(state.time);
+  m.unbalanced = s.weight - s.stiffness * state.q - s.damping * state.v + vehicle_.other_forces(state, line);
+  if (line) m.unbalanced += line->force;
   for (std::size_t i = 0; i < reactions.size(); ++i) {
     m.contact_force.push_back(generalised_force(reactions[i], vehicle_.motion(i, state)));
     m.unbalanced += vehicle_.maps[i].transpose() * m.contact_force.back();
@@ -62,9 +64,10 @@ Motion ImplicitStep::start(const SystemState& state, const std::vector<ContactRe
   m.a = Vector::Zero(s.size());
   for (Eigen::Index i = 0; i < m.a.size(); ++i)
     if (s.mass[i] > 0.0) m.a[i] = m.unbalanced[i] / s.mass[i];
-  // What has no mass follows its damper: C v' = -K v.
+  // What has no mass follows its damper: C v' = f' - K v.
   for (Eigen::Index i = 0; i < m.a.size(); ++i)
-    if (!(s.mass[i] > 0.0)) m.a[i] = -s.stiffness.row(i).dot(state.v) / s.damping(i, i);
+    if (!(s.mass[i] > 0.0))
+      m.a[i] = ((line ? line->spring_rate[i] : 0.0) - s.stiffness.row(i).dot(state.v)) / s.damping(i, i);
   m.a_before = m.a;
   return m;
 }
@@ -100,14 +103,15 @@ Step ImplicitStep::take(const Motion& from, double h) {
   const auto state_of = [&](const Vector& a) {
     return SystemState{from.state.time + h, q_known + of_q * a, v_known + of_v * a};
   };
-  const Vector known =
-      (1.0 + alpha_) * (s.weight - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
+  const std::optional<LineState> line = vehicle_.line_state(from.state.time + h);
+  const Vector load = line ? Vector(s.weight + line->force) : s.weight;
+  const Vector known = (1.0 + alpha_) * (load - s.damping * v_known - s.stiffness * q_known) - alpha_ * from.unbalanced;
 
   Step step;
   Vector a = predicted_acceleration(from, h);
   for (; step.iterations < settings_.max_iterations; ++step.iterations) {
     const SystemState at = state_of(a);
-    const Vector stops = characteristic_forces(s, at.q);
+    const Vector stops = vehicle_.other_forces(at, line);
     Vector right = known + (1.0 + alpha_) * stops;
     Matrix give = Matrix::Zero(f.among_touched.rows(), f.among_touched.rows());
     std::vector<PairVector> forces;
@@ -156,7 +160,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
     end.a_before = from.a;
     end.step_before = h;
     end.contact_force = std::move(forces);
-    end.unbalanced = s.weight - s.stiffness * end.state.q - s.damping * end.state.v + stops;
+    end.unbalanced = load - s.stiffness * end.state.q - s.damping * end.state.v + stops;
     for (std::size_t i = 0; i < wheels; ++i) end.unbalanced += vehicle_.maps[i].transpose() * end.contact_force[i];
     for (Eigen::Index i = 0; i < a.size(); ++i)
       if (s.mass[i] > 0.0)

@@ -63,6 +63,8 @@ class Assembly {
       body.axle_boxes = body.fixed_while_preloading = true;
       if (w.axle) add_modes(*w.axle, body);
     }
+    for (const PlacedBody& b : bodies_)
+      system_.bodies.push_back({b.spec.name, b.spec.mass, b.spec.inertia, b.spec.position, b.coordinate, -1});
     for (const SpringSpec& spring : vehicle.springs) add_spring(spring, "", Vec3::Zero());
     for (const BumpStopSpec& stop : vehicle.bump_stops) add_stop(stop);
     for (std::size_t i = 0; i < vehicle.wheelsets.size(); ++i) add_wheelset(vehicle.wheelsets[i], track, i);
@@ -219,6 +221,7 @@ class Assembly {
 
   void add_spring(const SpringSpec& spring, const std::string& suffix, const Vec3& offset) {
     const Vec3 point = spring.position + offset;
+    const int link = suffix.empty() ? add_link(spring.body_a, spring.body_b, point) : -1;
     for (int f = 0; f < kFreedoms; ++f) {
       const auto i = static_cast<std::size_t>(f);
       const double k = spring.stiffness[i], c = spring.damping[i], series = spring.damper_stiffness[i];
@@ -228,10 +231,10 @@ class Assembly {
                     spring.where);
       if (k == 0.0 && c == 0.0) continue;
       const Direction direction = relative(spring.body_a, spring.body_b, suffix, spring.where, point, f);
-      if (k > 0.0) terms_.push_back({direction, k, false});
+      if (k > 0.0) terms_.push_back({direction, k, false, link, static_cast<Freedom>(f)});
       if (c == 0.0) continue;
       if (series == 0.0) {
-        terms_.push_back({direction, c, true});
+        terms_.push_back({direction, c, true, link, static_cast<Freedom>(f)});
         continue;
       }
       // Spring to the damper's inner end, which the damper ties to body a.
@@ -239,19 +242,32 @@ class Assembly {
           add_coordinate(-1, static_cast<Freedom>(f), spring.name + suffix + ".damper_" + kFreedomNames[i], 0.0);
       Direction stretched = direction;
       stretched.emplace_back(inner, -1.0);
-      terms_.push_back({stretched, series, false});
-      terms_.push_back({{{inner, 1.0}}, c, true});
+      terms_.push_back({stretched, series, false, link, static_cast<Freedom>(f)});
+      terms_.push_back({{{inner, 1.0}}, c, true, -1, static_cast<Freedom>(f)});
     }
   }
 
   void add_stop(const BumpStopSpec& stop) {
     stops_.push_back(
-        {relative(stop.body_a, stop.body_b, "", stop.where, stop.position, static_cast<int>(stop.direction)), &stop});
+        {relative(stop.body_a, stop.body_b, "", stop.where, stop.position, static_cast<int>(stop.direction)), &stop,
+         add_link(stop.body_a, stop.body_b, stop.position)});
+  }
+
+  /// Errors about names come from who looks for its bodies next.
+  int add_link(const std::string& a, const std::string& b, const Vec3& point) {
+    const auto index = [&](const std::string& name) {
+      const auto found = by_name_.find(name);
+      return found == by_name_.end() ? -1 : static_cast<int>(found->second);
+    };
+    system_.links.push_back({index(a), index(b), point, 0.0});
+    return static_cast<int>(system_.links.size()) - 1;
   }
 
   void add_wheelset(const WheelsetSpec& spec, const std::optional<TrackModel>& track, std::size_t number) {
     const PlacedBody& body = find(spec.body, {});
-    Multibody::Wheelset w{body.coordinate, spec.nominal_radius, -1, -1, body.elastic};
+    Multibody::Wheelset w{body.coordinate, spec.nominal_radius, -1, -1, static_cast<int>(by_name_.at(spec.body)),
+                          body.elastic};
+    system_.bodies[by_name_.at(spec.body)].wheelset = static_cast<int>(number);
     const Vec3 below(body.spec.position.x(), 0.0, 0.0);
     if (track) {
       const std::string suffix = '@' + std::to_string(number + 1);
@@ -289,8 +305,8 @@ class Assembly {
     for (std::size_t i = 0; i < system_.wheelsets.size(); ++i) couple_roll_and_yaw(system_.wheelsets[i]);
     for (const Multibody::Wheelset& w : system_.wheelsets)
       if (!w.elastic.empty()) couple_bending(w);
-    for (const auto& [direction, stop] : stops_)
-      system_.characteristics.push_back({spread(direction), stop->displacement, stop->force});
+    for (const auto& [direction, stop, link] : stops_)
+      system_.characteristics.push_back({spread(direction), stop->displacement, stop->force, link, stop->direction});
     balance_weight();
   }
 
@@ -352,6 +368,13 @@ class Assembly {
     for (std::size_t i = 0; i < sprung.size(); ++i) q[sprung[i]] = borne[static_cast<Eigen::Index>(i)];
     system_.weight = weight - system_.stiffness * q;
     for (const Eigen::Index i : sprung) system_.weight[i] = 0.0;
+    for (const Term& term : terms_) {
+      if (term.link < 0) continue;
+      const auto link = static_cast<std::size_t>(term.link);
+      if (!term.damper && term.freedom == Freedom::z)
+        for (const auto& [c, factor] : term.direction) system_.links[link].preload -= term.value * factor * q[c];
+      system_.stretches.push_back({term.link, term.freedom, term.direction, term.value, term.damper});
+    }
     for (const Multibody::Wheelset& w : system_.wheelsets) {
       const int z = w.coordinate[2];
       if (z < 0) throw Error(ErrorKind::configuration, "a wheelset must be free to move in z");
@@ -363,6 +386,13 @@ class Assembly {
     Direction direction;
     double value;
     bool damper;
+    int link;  ///< -1: nothing above the rails
+    Freedom freedom;
+  };
+  struct Stop {
+    Direction direction;
+    const BumpStopSpec* spec;
+    int link;
   };
   double speed_, gravity_;
   Multibody system_;
@@ -370,7 +400,7 @@ class Assembly {
   std::vector<PlacedBody> bodies_;
   std::map<std::string, std::size_t> by_name_;
   std::vector<Term> terms_;
-  std::vector<std::pair<Direction, const BumpStopSpec*>> stops_;
+  std::vector<Stop> stops_;
 };
 
 }  // namespace
@@ -394,10 +424,12 @@ CharacteristicValue characteristic(const CharacteristicForce& c, double displace
   return value;
 }
 
-Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy) {
+Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy,
+                             const std::vector<double>* offsets) {
   Vector forces = Vector::Zero(q.size());
-  for (const CharacteristicForce& c : system.characteristics) {
-    const CharacteristicValue value = characteristic(c, c.direction.dot(q));
+  for (std::size_t i = 0; i < system.characteristics.size(); ++i) {
+    const CharacteristicForce& c = system.characteristics[i];
+    const CharacteristicValue value = characteristic(c, c.direction.dot(q) + (offsets ? offsets->at(i) : 0.0));
     forces -= value.force * c.direction;
     if (energy) *energy += value.energy;
   }

@@ -48,6 +48,8 @@ struct Coordinate {
 struct CharacteristicForce {
   Vector direction;  ///< relative displacement by the coordinates
   std::vector<double> displacement, force;
+  int link = -1;  ///< in Multibody::links
+  Freedom freedom = Freedom::x;
 };
 
 /// Equations of motion of vehicle and track about their reference configuration, which travels at constant speed:
@@ -67,6 +69,7 @@ struct Multibody {
     std::array<int, kFreedoms> coordinate;  ///< -1: not free
     double nominal_radius = 0.0;
     int left_rail = -1, right_rail = -1;  ///< index into rails; -1: rigid
+    int body = -1;                        ///< index into bodies
     /// What a mode of the axle adds to the motion of one wheel, which is rigid: as the motion of a wheelset's centre.
     struct Elastic {
       int coordinate;
@@ -81,6 +84,32 @@ struct Multibody {
   std::vector<Wheelset> wheelsets;
   std::vector<Rail> rails;
 
+  /// What is above the rails, for lines that bend (LineEffects).
+  struct Body {
+    std::string name;
+    double mass = 0.0;
+    Vec3 inertia = Vec3::Zero(), position = Vec3::Zero();
+    std::array<int, kFreedoms> coordinate{};  ///< -1: not free
+    int wheelset = -1;                        ///< which one it is; its springs do not follow its pitch
+  };
+  /// A point where springs and dampers connect two bodies.
+  struct Link {
+    int a = -1, b = -1;  ///< in bodies; -1: ground
+    Vec3 point = Vec3::Zero();
+    double preload = 0.0;  ///< force of its springs on b along z, of a vehicle at rest [N]
+  };
+  /// One spring or damper of a link: what stretches it by the coordinates.
+  struct Stretch {
+    int link = -1;
+    Freedom freedom = Freedom::x;
+    std::vector<std::pair<int, double>> direction;
+    double value = 0.0;  ///< stiffness or damping
+    bool damper = false;
+  };
+  std::vector<Body> bodies;
+  std::vector<Link> links;
+  std::vector<Stretch> stretches;
+
   int size() const { return static_cast<int>(mass.size()); }
 };
 
@@ -94,8 +123,10 @@ struct CharacteristicValue {
 };
 CharacteristicValue characteristic(const CharacteristicForce& c, double displacement);
 
-/// Generalised force of all characteristics on the bodies, and their energy [J].
-Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy = nullptr);
+/// Generalised force of all characteristics on the bodies, and their energy [J]. offsets: added to their displacements
+/// [m], one each; null: none.
+Vector characteristic_forces(const Multibody& system, const Vector& q, double* energy = nullptr,
+                             const std::vector<double>* offsets = nullptr);
 
 /// What coordinates the pair of a wheelset and one of its rails moves by: pair coordinates = map * q.
 /// rail_marker: profile origin of the rail in track axes [m].

@@ -16,7 +16,7 @@ namespace {
 constexpr double kSafety = 0.9, kLeastFactor = 0.2, kMostFactor = 2.0;
 /// Step lengths change only where it is worth a new factorisation.
 constexpr double kWorthShortening = 0.95, kWorthGrowing = 1.25;
-constexpr std::uint32_t kStateFormat = 1;
+constexpr std::uint32_t kStateFormat = 2;
 
 double step_factor(double error, double tolerance) {
   if (!(error > 0.0)) return kMostFactor;
@@ -38,15 +38,49 @@ void check(const SimulationSettings& s) {
   require(positive(s.event_tolerance), "the tolerance of events");
 }
 
-EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std::vector<ContactReaction>& reactions) {
+EnergyBalance energy_of(const Multibody& s, const SystemState& state, const std::vector<ContactReaction>& reactions,
+                        const std::optional<LineState>& line) {
   EnergyBalance e;
   e.mechanical = 0.5 * state.v.dot(s.mass.cwiseProduct(state.v)) + 0.5 * state.q.dot(s.stiffness * state.q) -
                  s.weight.dot(state.q);
+  if (line) e.mechanical += line->spring_energy - line->spring.dot(state.q);
   double stops = 0.0;
-  characteristic_forces(s, state.q, &stops);
+  characteristic_forces(s, state.q, &stops, line ? &line->stop_offsets : nullptr);
   e.mechanical += stops;
   for (const ContactReaction& r : reactions) e.elastic += r.elastic_energy;
   return e;
+}
+
+/// Forces of the bump stops times what the line stretches them by between two times.
+double work_on_stops(const Multibody& s, const Vector& q, const LineState& at, const LineState& from,
+                     const LineState& to) {
+  double work = 0.0;
+  for (std::size_t i = 0; i < s.characteristics.size(); ++i) {
+    const CharacteristicForce& c = s.characteristics[i];
+    work +=
+        characteristic(c, c.direction.dot(q) + at.stop_offsets[i]).force * (to.stop_offsets[i] - from.stop_offsets[i]);
+  }
+  return work;
+}
+
+/// Work of a line on a vehicle between two instants, by the trapezoidal rule: forces that are none of stretched
+/// springs and dampers, and what stretches those.
+struct LineWork {
+  double dampers = 0.0;  ///< dissipated beside what the rates of the coordinates say
+  double work = 0.0;
+};
+LineWork line_work(const Multibody& s, const SystemState& from, const LineState& before, const SystemState& to,
+                   const LineState& after) {
+  const double h = to.time - from.time;
+  const Vector moved = to.q - from.q;
+  const auto other = [](const LineState& l) { return Vector(l.force - l.spring - l.damper); };
+  LineWork w;
+  w.dampers = 0.5 * h * (before.damper_power + after.damper_power) - moved.dot(before.damper + after.damper);
+  w.work = 0.5 * moved.dot(other(before) + other(after) - before.damper - after.damper) +
+           0.5 * h * (before.damper_power + after.damper_power) -
+           0.5 * (from.q + to.q).dot(after.spring - before.spring) + after.spring_energy - before.spring_energy +
+           0.5 * (work_on_stops(s, from.q, before, before, after) + work_on_stops(s, to.q, after, before, after));
+  return w;
 }
 
 void put(ByteWriter& out, const Vector& v) {
@@ -80,12 +114,13 @@ Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const S
   }
   motion_ = scheme_.start(start, reactions_);
   next_step_ = std::min(settings.first_step, settings.max_step);
-  energy_ = energy_at_start_ = energy_of(vehicle_->system, start, reactions_);
+  line_ = vehicle_->line_state(start.time);
+  energy_ = energy_at_start_ = energy_of(vehicle_->system, start, reactions_, line_);
 }
 
 double Simulation::longest_step() const {
-  return std::min(
-      {settings_.max_step, settings_.max_travel / vehicle_->speed, settings_.duration - motion_.state.time});
+  return std::min({settings_.max_step, settings_.max_travel / vehicle_->travel(motion_.state.time).speed,
+                   settings_.duration - motion_.state.time});
 }
 
 Step Simulation::attempt(double length) {
@@ -143,8 +178,14 @@ void Simulation::accept(Step step) {
   const SystemState& to = step.end.state;
   const double h = to.time - from.time;
   const Vector moved = to.q - from.q;
-  EnergyBalance e = energy_of(vehicle.system, to, step.reactions);
-  const double dampers = moved.dot(vehicle.system.dissipation * moved) / h;
+  std::optional<LineState> line = vehicle.line_state(to.time);
+  EnergyBalance e = energy_of(vehicle.system, to, step.reactions, line);
+  double dampers = moved.dot(vehicle.system.dissipation * moved) / h;
+  if (line) {
+    const LineWork w = line_work(vehicle.system, from, *line_, to, *line);
+    dampers += w.dampers;
+    e.line = energy_.line + w.work;
+  }
   e.dampers = energy_.dampers + dampers;
   e.contact_work = energy_.contact_work;
   e.drive = energy_.drive;
@@ -153,7 +194,10 @@ void Simulation::accept(Step step) {
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
     const PairVector force = 0.5 * (motion_.contact_force[i] + step.end.contact_force[i]);
     const double work = force.dot(vehicle.maps[i] * moved);
-    const double drive = -h * vehicle.speed * (force[0] - force[4] / vehicle.radius(i));
+    const double drive = vehicle.line ? -0.5 * h *
+                                            (motion_.contact_force[i].dot(vehicle.travelling(i, from)) +
+                                             step.end.contact_force[i].dot(vehicle.travelling(i, to)))
+                                      : -h * vehicle.speed * (force[0] - force[4] / vehicle.radius(i));
     e.contact_work += work;
     e.drive += drive;
     e.friction += 0.5 * h * (reactions_[i].frictional_power + step.reactions[i].frictional_power);
@@ -164,6 +208,7 @@ void Simulation::accept(Step step) {
     if (before != after) events_.push_back({to.time, i, after});
   }
   energy_ = e;
+  line_ = std::move(line);
   motion_ = std::move(step.end);
   reactions_ = std::move(step.reactions);
   ++counts_.steps;
@@ -221,7 +266,7 @@ void Simulation::save(ByteWriter& out) const {
   for (const ContactEvent& e : events_) out.put(e.time), out.put(e.wheel), out.put(e.regained);
   for (const EnergyBalance* e : {&energy_, &energy_at_start_})
     for (const double value :
-         {e->mechanical, e->dampers, e->contact_work, e->drive, e->friction, e->elastic, e->turnover})
+         {e->mechanical, e->dampers, e->contact_work, e->drive, e->line, e->friction, e->elastic, e->turnover})
       out.put(value);
   out.put(counts_.steps), out.put(counts_.rejected), out.put(counts_.evaluations);
   for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->save(out);
@@ -253,9 +298,10 @@ void Simulation::restore(ByteReader& in) {
   }
   for (EnergyBalance* e : {&energy_, &energy_at_start_})
     for (double* value :
-         {&e->mechanical, &e->dampers, &e->contact_work, &e->drive, &e->friction, &e->elastic, &e->turnover})
+         {&e->mechanical, &e->dampers, &e->contact_work, &e->drive, &e->line, &e->friction, &e->elastic, &e->turnover})
       in.get(*value);
   in.get(counts_.steps), in.get(counts_.rejected), in.get(counts_.evaluations);
+  line_ = vehicle_->line_state(motion_.state.time);
   for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->restore(in);
 }
 

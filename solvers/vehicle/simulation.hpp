@@ -24,18 +24,19 @@ struct ContactEvent {
   bool regained = false;
 };
 
-/// Energy since the start [J]. Mechanical + dampers = start + work of the contacts + numerical.
+/// Energy since the start [J]. Mechanical + dampers = start + work of the contacts + work of the line + numerical.
 struct EnergyBalance {
   double mechanical = 0.0;    ///< kinetic, of springs, of bump stops, of weights
   double dampers = 0.0;       ///< dissipated
   double contact_work = 0.0;  ///< of the contact forces on the motion about the reference configuration
-  double drive = 0.0;         ///< work that keeps up the speed of the reference configuration
+  double drive = 0.0;         ///< work of the reference configuration, as it travels, on the contacts
+  double line = 0.0;          ///< on the vehicle, as it bends and turns; of torques on axles. 0 without a line
   double friction = 0.0;      ///< dissipated in the contacts, as they say
   double elastic = 0.0;       ///< stored in the contacts, as they say
   double turnover = 0.0;      ///< sum of |work| of all contacts and dampers: what errors are compared with
   /// What the integration lost or gained.
   double integration_error(const EnergyBalance& start) const {
-    return mechanical - start.mechanical + dampers - contact_work;
+    return mechanical - start.mechanical + dampers - contact_work - line;
   }
   /// What is missing between the work put into the contacts and what they store and dissipate.
   double contact_error(const EnergyBalance& start) const {
@@ -101,6 +102,7 @@ class Simulation {
   std::vector<ContactReaction> reactions_;
   std::vector<ContactEvent> events_;
   EnergyBalance energy_, energy_at_start_;
+  std::optional<LineState> line_;  ///< after the last step
   Counts counts_;
 };
 

@@ -14,7 +14,16 @@ struct ShapeAt {
   double integral, value, first, second;
 };
 ShapeAt shape_at(TransitionShape shape, double u) {
-  if (shape == TransitionShape::linear) return {0.5 * u * u, u, 1.0, 0.0};
+  switch (shape) {
+    case TransitionShape::linear:
+      return {0.5 * u * u, u, 1.0, 0.0};
+    case TransitionShape::rising:
+      return {u * u * u / 3.0, u * u, 2.0 * u, 2.0};
+    case TransitionShape::easing:
+      return {u * u * (1.0 - u / 3.0), u * (2.0 - u), 2.0 - 2.0 * u, -2.0};
+    case TransitionShape::bloss:
+      break;
+  }
   return {u * u * u * (1.0 - 0.5 * u), u * u * (3.0 - 2.0 * u), 6.0 * u * (1.0 - u), 6.0 - 12.0 * u};
 }
 

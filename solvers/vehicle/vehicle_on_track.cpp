@@ -36,6 +36,7 @@ void VehicleOnTrack::connect() {
 }
 
 PairMotion VehicleOnTrack::motion(std::size_t i, const SystemState& state) const {
+  if (line) return motion_on_line(i, state);
   const PairVector u = maps[i] * state.q, du = maps[i] * state.v;
   const auto set = static_cast<std::size_t>(wheels[i].wheelset);
   const double pitch_rate = -speed / system.wheelsets[set].nominal_radius;
@@ -50,6 +51,56 @@ PairMotion VehicleOnTrack::motion(std::size_t i, const SystemState& state) const
   m.wheelset_velocity = {speed + du[0], du[1], du[2], du[3], du[5], pitch_rate + du[4]};
   m.rail = {u[6], u[7], u[8], du[6], du[7], du[8]};
   return m;
+}
+
+/// Rates of the travel at a place of the axle in its frame. Heave and roll of the frame are those of its rails as well
+/// and left out on both sides.
+static PairVector travelling_at(const WheelOnLine& on, double y, double z, double radius) {
+  const double v = on.travel.speed;
+  const RailMotion& rail = on.rail;
+  PairVector rates = PairVector::Zero();
+  rates[0] = v + on.spin.y() * (z - radius) - on.spin.z() * y;
+  rates[4] = -v / radius + on.spin.y();
+  rates[5] = on.spin.z();
+  rates.tail<3>() = Vec3(rail.vy, rail.vz, rail.vroll);
+  return rates;
+}
+
+PairMotion VehicleOnTrack::motion_on_line(std::size_t i, const SystemState& state) const {
+  const auto set = static_cast<std::size_t>(wheels[i].wheelset);
+  const WheelOnLine on = line->wheel(set, wheels[i].side, state.time);
+  const PairVector u = maps[i] * state.q;
+  const PairVector rate = maps[i] * state.v + travelling_at(on, u[1], u[2], radius(i));
+  PairMotion m;
+  m.time = state.time;
+  // Yaw counts from the rail: a wheelset that follows it does not slip.
+  m.wheelset = {on.travel.distance + u[0],
+                u[1],
+                u[2],
+                u[3],
+                u[5] - on.rail_yaw,
+                wrap_angle(pitch_at_start[set] - on.travel.distance / radius(i) + u[4])};
+  m.wheelset_velocity = {rate[0], rate[1], rate[2], rate[3], rate[5], rate[4]};
+  m.rail = {on.rail.y + u[6], on.rail.z + u[7], on.rail.roll + u[8], rate[6], rate[7], rate[8]};
+  return m;
+}
+
+PairVector VehicleOnTrack::travelling(std::size_t i, const SystemState& state) const {
+  PairVector rates = PairVector::Zero();
+  if (!line) {
+    rates[0] = speed;
+    rates[4] = -speed / radius(i);
+    return rates;
+  }
+  const PairVector u = maps[i] * state.q;
+  const WheelOnLine on = line->wheel(static_cast<std::size_t>(wheels[i].wheelset), wheels[i].side, state.time);
+  return travelling_at(on, u[1], u[2], radius(i));
+}
+
+Vector VehicleOnTrack::other_forces(const SystemState& state, const std::optional<LineState>& at_line) const {
+  Vector forces = characteristic_forces(system, state.q, nullptr, at_line ? &at_line->stop_offsets : nullptr);
+  if (line) forces += line->gyroscopic_change(state.v, state.time);
+  return forces;
 }
 
 double VehicleOnTrack::radius(std::size_t i) const {

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include "treadmark/solvers/vehicle/multibody.hpp"
+#include "treadmark/solvers/vehicle/line_effects.hpp"
 
 namespace treadmark::vehicle {
 
@@ -26,13 +26,14 @@ struct SystemState {
 };
 
 /// Vehicle, track and contact elements. In the reference configuration every wheelset stands at x = speed * time with
-/// pitch pitch_at_start - speed * time / R.
+/// pitch pitch_at_start - speed * time / R; on a line as far as that has travelled.
 struct VehicleOnTrack {
   Multibody system;
   std::vector<WheelOnRail> wheels;
-  double speed = 0.0;                                                         ///< V [m/s]; > 0
+  double speed = 0.0;                                                         ///< V, at time 0 [m/s]; > 0
   std::vector<double> pitch_at_start;                                         ///< of each wheelset [rad]
   std::vector<Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic>> maps;  ///< of each wheel; see pair_map
+  std::shared_ptr<const LineEffects> line;  ///< null: straight and even, at constant speed
 
   /// Completes the maps. Errors: Error(configuration) for wheels of wheelsets that are not there, two elements at one
   /// place, a wheel without element, or a speed that is not positive.
@@ -40,10 +41,24 @@ struct VehicleOnTrack {
 
   /// How a wheelset moves over a rail in a state; wheel: index in wheels.
   PairMotion motion(std::size_t wheel, const SystemState& state) const;
+  /// Since time 0.
+  Travel travel(double time) const { return line ? line->travel(time) : Travel{speed * time, speed, 0.0}; }
+  /// Rates of a wheel's pair coordinates that the travel of the reference configuration makes.
+  PairVector travelling(std::size_t wheel, const SystemState& state) const;
+  /// What the line does at a time; none without one.
+  std::optional<LineState> line_state(double time) const {
+    return line ? std::optional(line->state(time)) : std::nullopt;
+  }
+  /// Generalised forces that are not linear in the state: bump stops, and wheelsets that turn faster than at the start.
+  /// at_line: at the same time.
+  Vector other_forces(const SystemState& state, const std::optional<LineState>& at_line) const;
   /// Nominal radius of a wheel [m].
   double radius(std::size_t wheel) const;
   /// Tangent of a wheel's reaction at a motion.
   PairTangent tangent(std::size_t wheel, const ContactReaction& reaction, const PairMotion& motion) const;
+
+ private:
+  PairMotion motion_on_line(std::size_t wheel, const SystemState& state) const;
 };
 
 }  // namespace treadmark::vehicle

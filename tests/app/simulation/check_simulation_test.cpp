@@ -37,7 +37,7 @@ const std::string kLine =
     "radius_m = -600\ncant_mm = 100\n[irregularities]\n[[irregularities.spectra]]\nfunction = \"alignment\"\n"
     "form = \"two_poles\"\namplitude_m_rad = 2e-7\nomega_c_rad_m = 0.8246\nomega_r_rad_m = 0.0206\n\n[case]";
 
-TEST(CheckSimulation, ALineIsUnderstoodButRefusedBySimulate) {
+TEST(CheckSimulation, ALineIsUnderstood) {
   const SampleSimulation input;
   input.edit("simulation.toml", "[case]", kLine);
   const std::vector<std::string> set{"--set", "simulation.speed_m_s=30"};
@@ -49,14 +49,15 @@ TEST(CheckSimulation, ALineIsUnderstoodButRefusedBySimulate) {
               HasSubstr("layout: 60 to 560 m: radius 600 m to the left, cant 100 mm, gauge 1435 mm; at 30 m/s cant "
                         "deficiency 129.4 mm, lateral acceleration 0.843 m/s2"));
   EXPECT_THAT(check.out, HasSubstr("irregularities: alignment with a standard deviation of "));
-  EXPECT_THAT(check.out, HasSubstr("a simulation, no errors; its line is not yet used by simulate"));
-  const ProgramResult run = run_program({"simulate", input.path("simulation.toml"), "-o", input.path("out")});
-  EXPECT_EQ(run.status, 2);
-  EXPECT_THAT(run.err, HasSubstr("[layout] is not yet used by simulate"));
-  EXPECT_THAT(run.err, HasSubstr("simulation.toml:"));
+  EXPECT_THAT(check.out, HasSubstr("a simulation, no errors"));
+  EXPECT_THAT(check.err, HasSubstr("the vehicle starts where the line changes"));
   const ProgramResult study = run_program({"check", input.path("study.toml")});
-  EXPECT_EQ(study.status, 2);
-  EXPECT_THAT(study.err, HasSubstr("[layout] is not yet used by simulate"));
+  EXPECT_EQ(study.status, 0) << study.err;
+  input.edit("simulation.toml", "length_m = 500", "length_m = 500\ngauge_mm = 1500");
+  const ProgramResult wide = run_program({"check", input.path("simulation.toml")});
+  EXPECT_EQ(wide.status, 2);
+  EXPECT_THAT(wide.err, HasSubstr("the gauge of the line differs by 65 mm"));
+  EXPECT_THAT(wide.err, HasSubstr("simulation.toml:"));
 }
 
 TEST(CheckSimulation, TablesNeedRoundWheels) {

@@ -230,7 +230,7 @@ TEST_F(SimulationLine, TheSchemaKnowsTheTables) {
   const auto schema = nlohmann::json::parse(simulation_file_schema());
   const auto& layout = schema.at("properties").at("layout").at("properties");
   EXPECT_EQ(layout.at("elements").at("items").at("required"), nlohmann::json({"kind", "length_m"}));
-  EXPECT_EQ(layout.at("gauge_mm").at("default"), 1435);
+  EXPECT_EQ(layout.at("cant_base_mm").at("default"), 1500);
   EXPECT_TRUE(schema.at("properties").at("irregularities").at("properties").contains("cross_level_factor"));
   EXPECT_TRUE(nlohmann::json::parse(study_file_schema()).at("properties").contains("layout"));
 }

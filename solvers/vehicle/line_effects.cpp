@@ -1,0 +1,254 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/solvers/vehicle/line_effects.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include "treadmark/core/error.hpp"
+
+namespace treadmark::vehicle {
+
+/// A path frame that moves along, and its derivatives by the distance, in its own axes.
+struct LineEffects::Frame {
+  Pose X_LT;
+  Vec3 along, along_first;  ///< d origin / ds and its derivative as a vector of components
+  Vec3 turn, turn_first;
+  double sine = 0.0, cosine = 1.0;  ///< of the cant angle
+
+  explicit Frame(const PathPoint& p) : X_LT(p.X_LT()), turn(p.turn()), turn_first(p.turn_first()) {
+    const double phi = p.cant_angle.value, rate = p.cant_angle.first, rise = p.height.first;
+    sine = std::sin(phi), cosine = std::cos(phi);
+    along = {1.0, rise * sine, rise * cosine};
+    along_first = {0.0, p.height.second * sine + rise * rate * cosine, p.height.second * cosine - rise * rate * sine};
+  }
+
+  /// Velocity of a point that is fixed in the frame, by the distance.
+  Vec3 velocity(const Vec3& point) const { return along + turn.cross(point); }
+  Vec3 acceleration(const Vec3& point, const Travel& t) const {
+    const Vec3 by_distance = velocity(point);
+    return t.speed * t.speed * (along_first + turn_first.cross(point) + turn.cross(by_distance)) +
+           t.acceleration * by_distance;
+  }
+};
+
+namespace {
+
+/// Small rotation that a matrix stands for.
+Vec3 rotation_vector(const Mat3& r) { return 0.5 * Vec3(r(2, 1) - r(1, 2), r(0, 2) - r(2, 0), r(1, 0) - r(0, 1)); }
+
+void add(Vector& force, const std::array<int, kFreedoms>& coordinate, const Vec3& linear, const Vec3& moment) {
+  for (int f = 0; f < kFreedoms; ++f)
+    if (const int c = coordinate[static_cast<std::size_t>(f)]; c >= 0) force[c] += f < 3 ? linear[f] : moment[f - 3];
+}
+
+}  // namespace
+
+LineEffects::LineEffects(const Multibody& system, LineSetup setup)
+    : setup_(std::move(setup)),
+      size_(system.size()),
+      bodies_(system.bodies),
+      links_(system.links),
+      stretches_(system.stretches),
+      wheelsets_(system.wheelsets) {
+  for (const CharacteristicForce& c : system.characteristics) stops_.emplace_back(c.link, c.freedom);
+  for (const AxleTorque& torque : setup_.torques) {
+    const auto fail = [&](std::string message) {
+      throw Error(ErrorKind::configuration, std::move(message), torque.where);
+    };
+    if (torque.wheelset < 0 || static_cast<std::size_t>(torque.wheelset) >= wheelsets_.size())
+      fail(fmt::format("there is no wheelset {} to drive", torque.wheelset + 1));
+    const int axle = wheelsets_[static_cast<std::size_t>(torque.wheelset)].coordinate[4];
+    if (axle < 0) fail(fmt::format("wheelset {} cannot be driven, it is not free in pitch", torque.wheelset + 1));
+    int reaction = -1;
+    if (torque.reaction != kGround) {
+      const auto body = std::ranges::find(bodies_, torque.reaction, &Multibody::Body::name);
+      if (body == bodies_.end()) fail(fmt::format("there is no body '{}' to hold a motor", torque.reaction));
+      reaction = body->coordinate[4];
+    }
+    torque_on_.emplace_back(axle, reaction);
+  }
+  if (setup_.path) check_curves();
+}
+
+void LineEffects::check_curves() const {
+  double reach = 0.0;
+  for (const Multibody::Link& link : links_)
+    for (const int body : {link.a, link.b})
+      if (body >= 0)
+        reach = std::max(reach, std::abs(bodies_[static_cast<std::size_t>(body)].position.x() - link.point.x()));
+  for (const LayoutElement& e : setup_.path->layout().elements) {
+    const double curvature = std::max(std::abs(e.curvature.from), std::abs(e.curvature.to));
+    if (reach * curvature > kLargestAngle)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("a curve of {:.6g} m is too tight for this vehicle: bodies connected {:.4g} m from their "
+                              "middle turn by more than {:g} rad against each other",
+                              1.0 / curvature, reach, kLargestAngle),
+                  e.where, "the motion of bodies is linear in their rotation; give a wider curve");
+    const double widening =
+        std::max(std::abs(e.gauge.from - setup_.gauge_at_rest), std::abs(e.gauge.to - setup_.gauge_at_rest));
+    if (widening > kLargestWidening)
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the gauge of the line differs by {:.4g} mm from the {:.6g} mm of the rails",
+                              1e3 * widening, 1e3 * setup_.gauge_at_rest),
+                  e.where, "gauge_mm of [layout] and of [track] belong together");
+  }
+}
+
+LineEffects::Frame LineEffects::frame(double x, const Travel& travel) const {
+  return Frame(setup_.path->at(setup_.start + travel.distance + x));
+}
+
+PathPoint LineEffects::point(double time) const {
+  const double s = setup_.start + travel(time).distance;
+  if (setup_.path) return setup_.path->at(s);
+  PathPoint straight;
+  straight.distance = s;
+  straight.gauge.value = setup_.gauge_at_rest;
+  return straight;
+}
+
+LineState LineEffects::state(double time) const {
+  const Travel now = travel(time);
+  LineState out;
+  out.spring = out.damper = out.spring_rate = out.force = Vector::Zero(size_);
+  out.stop_offsets.assign(stops_.size(), 0.0);
+  add_inertia(out, now);
+  if (setup_.path) add_links(out, now);
+  for (std::size_t i = 0; i < torque_on_.size(); ++i) {
+    const double torque = torque_at(setup_.torques[i], time);
+    out.force[torque_on_[i].first] -= torque;
+    if (torque_on_[i].second >= 0) out.force[torque_on_[i].second] += torque;
+  }
+  out.force += out.spring + out.damper;
+  return out;
+}
+
+void LineEffects::add_inertia(LineState& out, const Travel& travel) const {
+  for (const Multibody::Body& b : bodies_) {
+    Vec3 force(-b.mass * travel.acceleration, 0.0, 0.0), moment = Vec3::Zero(), spin = Vec3::Zero();
+    if (setup_.path) {
+      const Frame f = frame(b.position.x(), travel);
+      const Vec3 centre(0.0, b.position.y(), b.position.z());
+      force = b.mass * (setup_.gravity * Vec3(0.0, f.sine, f.cosine - 1.0) - f.acceleration(centre, travel));
+      spin = travel.speed * f.turn;
+      const Vec3 rate = travel.speed * travel.speed * f.turn_first + travel.acceleration * f.turn;
+      moment = -b.inertia.cwiseProduct(rate) - spin.cross(b.inertia.cwiseProduct(spin));
+    }
+    if (b.wheelset >= 0) {
+      // Angular momentum about the axle, -I V / R, turns along with the frame and changes with the speed.
+      const double by_speed = -b.inertia.y() / wheelsets_[static_cast<std::size_t>(b.wheelset)].nominal_radius;
+      moment -= by_speed * Vec3(-travel.speed * spin.z(), travel.acceleration, travel.speed * spin.x());
+    }
+    add(out.force, b.coordinate, force, moment);
+  }
+}
+
+void LineEffects::add_links(LineState& out, const Travel& travel) const {
+  std::vector<std::array<double, kFreedoms>> stretch(links_.size()), rate(links_.size());
+  for (std::size_t i = 0; i < links_.size(); ++i) {
+    const Multibody::Link& link = links_[i];
+    const auto place_of = [&](int body) {
+      return body >= 0 ? bodies_[static_cast<std::size_t>(body)].position.x() : link.point.x();
+    };
+    const double xa = place_of(link.a), xb = place_of(link.b);
+    if (xa == xb) continue;
+    const Frame here = frame(link.point.x(), travel), at_a = frame(xa, travel), at_b = frame(xb, travel);
+    const auto arm = [&](double x) { return Vec3(link.point.x() - x, link.point.y(), link.point.z()); };
+    const Mat3 to_here = here.X_LT.rotation.transpose();
+    const Mat3 a = to_here * at_a.X_LT.rotation, b = to_here * at_b.X_LT.rotation;  // axes of both, seen here
+    const Vec3 apart = to_here * (at_b.X_LT.apply(arm(xb)) - at_a.X_LT.apply(arm(xa)));
+    const Vec3 apart_rate = b * at_b.velocity(arm(xb)) - a * at_a.velocity(arm(xa)) - here.turn.cross(apart);
+    const Vec3 turned = rotation_vector(b * a.transpose()), turned_rate = b * at_b.turn - a * at_a.turn;
+    for (int d = 0; d < 3; ++d) {
+      const auto j = static_cast<std::size_t>(d);
+      stretch[i][j] = apart[d], stretch[i][j + 3] = turned[d];
+      rate[i][j] = travel.speed * apart_rate[d], rate[i][j + 3] = travel.speed * turned_rate[d];
+    }
+    // The preload keeps the direction that it has here; balance has it along z of each body.
+    const auto add_preload = [&](int body, const Mat3& axes, double sign) {
+      if (body < 0) return;
+      const Multibody::Body& on = bodies_[static_cast<std::size_t>(body)];
+      const Vec3 force = sign * link.preload * (axes.transpose() * Vec3::UnitZ() - Vec3::UnitZ());
+      Vec3 moment = (link.point - on.position).cross(force);
+      if (on.wheelset >= 0) moment.y() = 0.0;
+      add(out.force, on.coordinate, force, moment);
+    };
+    add_preload(link.a, a, -1.0);
+    add_preload(link.b, b, 1.0);
+  }
+  for (const Multibody::Stretch& s : stretches_) {
+    const auto link = static_cast<std::size_t>(s.link), freedom = static_cast<std::size_t>(s.freedom);
+    const double by = stretch[link][freedom], by_rate = rate[link][freedom];
+    if (by == 0.0 && by_rate == 0.0) continue;
+    for (const auto& [c, factor] : s.direction) {
+      if (s.damper) {
+        out.damper[c] -= s.value * factor * by_rate;
+      } else {
+        out.spring[c] -= s.value * factor * by;
+        out.spring_rate[c] -= s.value * factor * by_rate;
+      }
+    }
+    if (s.damper)
+      out.damper_power += s.value * by_rate * by_rate;
+    else
+      out.spring_energy += 0.5 * s.value * by * by;
+  }
+  for (std::size_t i = 0; i < stops_.size(); ++i)
+    out.stop_offsets[i] =
+        stretch[static_cast<std::size_t>(stops_[i].first)][static_cast<std::size_t>(stops_[i].second)];
+}
+
+std::shared_ptr<const LineEffects> LineEffects::share(const Multibody& system, double share) const {
+  LineSetup setup = setup_;
+  TrackLayout layout = setup_.path->layout();
+  for (LayoutElement& e : layout.elements)
+    for (FromTo* value : {&e.curvature, &e.cant}) *value = {share * value->from, share * value->to};
+  setup.path = std::make_shared<const TrackPath>(std::move(layout));
+  return std::make_shared<const LineEffects>(system, std::move(setup));
+}
+
+WheelOnLine LineEffects::wheel(std::size_t wheelset, wheelrail::Side side, double time) const {
+  WheelOnLine out;
+  out.travel = travel(time);
+  const double speed = out.travel.speed;
+  const auto body = static_cast<std::size_t>(wheelsets_[wheelset].body);
+  const double s = setup_.start + out.travel.distance + bodies_[body].position.x();
+  const bool left = side == wheelrail::Side::left;
+  Along y, z, cross;
+  if (setup_.path) {
+    const PathPoint p = setup_.path->at(s);
+    out.spin = speed * p.turn();
+    const double half = left ? -0.5 : 0.5;
+    y = {half * (p.gauge.value - setup_.gauge_at_rest), half * p.gauge.first, 0.0};
+  }
+  if (setup_.irregularities) {
+    const RailOffsets rails = setup_.irregularities->at(s);
+    const Along &by_y = left ? rails.left_y : rails.right_y, &by_z = left ? rails.left_z : rails.right_z;
+    y.value += by_y.value, y.first += by_y.first;
+    z = by_z;
+    cross = {rails.right_z.value - rails.left_z.value, rails.right_z.first - rails.left_z.first, 0.0};
+  }
+  out.rail = {y.value,         z.value,         cross.value / setup_.base,
+              speed * y.first, speed * z.first, speed * cross.first / setup_.base};
+  out.rail_yaw = y.first;
+  return out;
+}
+
+Vector LineEffects::gyroscopic_change(const Vector& rates, double time) const {
+  Vector force = Vector::Zero(size_);
+  const double more = travel(time).speed - setup_.speed.speed.front();
+  if (more == 0.0) return force;
+  for (const Multibody::Wheelset& w : wheelsets_) {
+    const int roll = w.coordinate[3], yaw = w.coordinate[5];
+    if (roll < 0 || yaw < 0) continue;
+    const double momentum = -bodies_[static_cast<std::size_t>(w.body)].inertia.y() * more / w.nominal_radius;
+    force[roll] += momentum * rates[yaw];
+    force[yaw] -= momentum * rates[roll];
+  }
+  return force;
+}
+
+}  // namespace treadmark::vehicle

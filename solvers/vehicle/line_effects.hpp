@@ -1,0 +1,89 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+#include <memory>
+#include <vector>
+
+#include "treadmark/model/driving.hpp"
+#include "treadmark/solvers/vehicle/irregularities.hpp"
+#include "treadmark/solvers/vehicle/multibody.hpp"
+#include "treadmark/solvers/vehicle/track_path.hpp"
+
+namespace treadmark::vehicle {
+
+/// Where and how a vehicle runs, where that is not along a straight, even track at constant speed.
+struct LineSetup {
+  std::shared_ptr<const TrackPath> path;                 ///< null: straight and level
+  std::shared_ptr<const Irregularities> irregularities;  ///< null: none
+  double start = 0.0;                                    ///< place of the vehicle's x = 0 at time 0 [m]
+  double gauge_at_rest = 1.435;  ///< at which the rails lie; that of the path counts from it [m]
+  double base = 1.5;             ///< of cross level, for the roll of a rail [m]
+  double gravity = 9.81;         ///< [m/s2]
+  SpeedProfile speed;
+  std::vector<AxleTorque> torques;
+};
+
+/// What the line does to all coordinates at one time.
+struct LineState {
+  Vector force;                      ///< generalised, of everything [N], [N m]
+  Vector spring, damper;             ///< of this what springs and dampers do that the line stretches
+  Vector spring_rate;                ///< rate of the former [N/s]
+  double spring_energy = 0.0;        ///< sum of k u^2/2 of the stretches u by the line [J]
+  double damper_power = 0.0;         ///< sum of c u'^2 [W]
+  std::vector<double> stop_offsets;  ///< stretches of the bump stops by the line [m]
+};
+
+/// What the line does at one wheel. The frame is that of the path below the axle.
+struct WheelOnLine {
+  Travel travel;             ///< of the vehicle
+  Vec3 spin = Vec3::Zero();  ///< of the frame, in its axes [rad/s]
+  RailMotion rail;           ///< offsets of its rail in the frame and their rates along with the wheel
+  double rail_yaw = 0.0;     ///< direction of the rail in the frame [rad]
+};
+
+/// A line under a vehicle as a function of time. Every body of the vehicle moves little about the path frame below it:
+/// forces of inertia and gravity in these frames, springs and dampers stretched because frames of connected bodies
+/// differ (exactly, by their poses), their preloads that turn along, gyroscopic moments of the wheelsets, torques on
+/// axles. docs/layout.md has the theory. Immutable; safe to use from several threads.
+class LineEffects {
+ public:
+  /// Errors: Error(configuration) where frames of connected bodies differ by more than kLargestAngle somewhere on the
+  /// path, the gauge differs by more than kLargestWidening from that of the rails at rest, or for torques of wheelsets
+  /// or bodies that are not there.
+  LineEffects(const Multibody& system, LineSetup setup);
+
+  /// At a time >= 0 [s].
+  Travel travel(double time) const { return travel_at(setup_.speed, time); }
+  LineState state(double time) const;
+  WheelOnLine wheel(std::size_t wheelset, wheelrail::Side side, double time) const;
+  /// The path frame below the vehicle's x = 0; that of a straight without a path.
+  PathPoint point(double time) const;
+  /// Generalised force that gyroscopic moments change by because the speed is not that at time 0.
+  Vector gyroscopic_change(const Vector& rates, double time) const;
+
+  const LineSetup& setup() const { return setup_; }
+  /// The same line with this share of curvature and cant, from 0 (straight) to 1. system: that of the constructor.
+  std::shared_ptr<const LineEffects> share(const Multibody& system, double share) const;
+
+  static constexpr double kLargestAngle = 0.1;      ///< for which directions of springs are still those of both [rad]
+  static constexpr double kLargestWidening = 0.05;  ///< [m]
+
+ private:
+  struct Frame;
+  Frame frame(double x, const Travel& travel) const;
+  void add_inertia(LineState& out, const Travel& travel) const;
+  void add_links(LineState& out, const Travel& travel) const;
+  void check_curves() const;
+
+  LineSetup setup_;
+  Eigen::Index size_ = 0;
+  std::vector<Multibody::Body> bodies_;
+  std::vector<Multibody::Link> links_;
+  std::vector<Multibody::Stretch> stretches_;
+  std::vector<std::pair<int, Freedom>> stops_;  ///< link and direction
+  std::vector<Multibody::Wheelset> wheelsets_;
+  std::vector<std::pair<int, int>> torque_on_;  ///< coordinates of the axle's and the reaction's pitch; -1: none
+};
+
+}  // namespace treadmark::vehicle
