@@ -117,7 +117,7 @@ const QuantityRow kRows[] = {
      Samples::ratio_means,
      Value::magnitude,
      fixed_limit<800>},
-    {{"Tgamma", "N", "wear number: power of friction over speed", "mean", "", ""},
+    {{"Tgamma", "J/m", "wear number: power of friction over speed", "mean", "", ""},
      Subject::worn_wheel,
      Samples::wear,
      Value::mean,

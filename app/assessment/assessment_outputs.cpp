@@ -221,6 +221,7 @@ std::string spectra_svg(std::span<const AssessedRun> runs) {
               {std::sqrt(band.low * band.high), has_level(unit) ? acceleration_level(band.rms) : band.rms, 3.0});
         chart.series.push_back(std::move(line));
       }
+    if (chart.series.size() == 1) chart.title = chart.series.front().name;
     sheet.charts.push_back(std::move(chart));
   }
   return pictures::draw_sheet(sheet);

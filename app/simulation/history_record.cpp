@@ -5,7 +5,6 @@
 
 #include <algorithm>
 #include <array>
-#include <limits>
 #include <string>
 
 #include <fmt/format.h>
@@ -177,9 +176,9 @@ void HistoryRecord::add_running(std::size_t watched) {
     const std::string prefix = i == watched ? "" : vehicle.wheels[i].name + '.';
     const std::string of = i == watched ? " (" + vehicle.wheels[i].name + ")" : "";
     const auto reaction = [this, i]() -> const ContactReaction& { return simulation_.reactions()[i]; };
-    add(prefix + "Y_over_Q", "1", "lateral over vertical force on the rail, nan without load" + of, [=] {
+    add(prefix + "Y_over_Q", "1", "lateral over vertical force on the rail, 0 without contact" + of, [=] {
       const Vec3& force = reaction().on_rail.force;
-      return force.z() > 0.0 ? force.y() / force.z() : std::numeric_limits<double>::quiet_NaN();
+      return force.z() > 0.0 ? force.y() / force.z() : 0.0;
     });
     add(prefix + "Tgamma_N", "N", "wear number: power of friction over speed" + of, [=, this] {
       const ContactReaction& r = reaction();

@@ -173,7 +173,7 @@ std::pair<std::size_t, Strings> check_simulation(const Source& source, bool stud
       const io::SimulationFile file = simulation_of(source);
       app::check_vehicle(file, surfaces);
       notes = file.notes;
-      for (const std::string& text : app::line_summary(file)) notes.push_back(text + " (not yet used by simulate)");
+      for (std::string& text : app::line_summary(file)) notes.push_back(std::move(text));
     } else {
       const io::StudyFile file = io::read_study_file(source.file, source.overrides);
       app::check_study_figures(file);
@@ -181,12 +181,10 @@ std::pair<std::size_t, Strings> check_simulation(const Source& source, bool stud
       notes = file.notes;
       for (const io::StudyRun& run : file.runs) {
         const auto base = io::read_study_run(file, run);
-        if (const auto* simulation = std::get_if<io::SimulationFile>(&base)) {
-          app::refuse_line(*simulation);
+        if (const auto* simulation = std::get_if<io::SimulationFile>(&base))
           app::check_vehicle(*simulation, surfaces);
-        } else {
+        else
           app::check_geometry(std::get<io::CaseFile>(base));
-        }
       }
     }
     return std::pair(count, notes);

@@ -182,13 +182,13 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   read_models(simulation, name.parent_path(), changes, result);
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
   read_history(simulation, result);
-  if (const auto table = line_table(document, "assessment", assessment_keys())) read_assessment(*table, result);
   result.torques = read_torques(simulation, result.vehicle);
   contact = with_rail(std::move(contact), simulation);
   read_contact(contact, result);
   if (const auto table = line_table(document, "layout", layout_keys())) read_layout(*table, result);
   if (const auto table = line_table(document, "irregularities", irregularity_keys()))
     read_irregularities(*table, name.parent_path(), result);
+  if (const auto table = line_table(document, "assessment", assessment_keys())) read_assessment(*table, result);
   read_other_wheel(contact, simulation, result);
   read_rails(contact, simulation, result);
   choose_steps(simulation, result);

@@ -36,7 +36,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
 SimulationSettings read_settings(const TableReader& simulation);
 /// [simulation.fields].
 FieldRequests read_fields(const TableReader& simulation);
-/// What [simulation] says of the history, and [assessment]; out.vehicle and out.settings are set.
+/// What [simulation] says of the history, and [assessment]; out.vehicle, out.settings and out.irregularities are set.
 void read_history(const TableReader& simulation, SimulationFile& out);
 void read_assessment(const TableReader& assessment, SimulationFile& out);
 /// [[simulation.torques]].

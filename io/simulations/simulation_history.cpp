@@ -52,6 +52,17 @@ void read_assessment(const TableReader& assessment, SimulationFile& out) {
   AssessmentRequest& request = out.assessment.emplace();
   request.vehicle = kind_of<VehicleKind>(kVehicleKinds, assessment.text_or("vehicle", "passenger"));
   request.from = assessment.number_or("from_m", 0.0);
+  if (out.irregularities && assessment.find("from_m") == nullptr && assessment.tables("sections").empty()) {
+    // where the last wheelset has left the wind-up behind
+    const IrregularitySpec& rails = *out.irregularities;
+    request.from = std::max(0.0, rails.begin + rails.wind_up - out.start - wheelset_places(out.vehicle).from);
+    if (request.from >= out.settings.distance)
+      assessment.fail(
+          fmt::format("the irregularities have grown to their size at {:.6g} m only, where the run of {:.6g} "
+                      "m is over",
+                      request.from, out.settings.distance),
+          "lengthen the run, or say where the assessment begins (assessment.from_m)");
+  }
   request.spectra = assessment.words("spectra");
   const double end = out.settings.distance;
   const auto beyond = [&](const TableReader& table, const char* key) {

@@ -77,8 +77,7 @@ std::string schema_of(std::string_view title, TableKeys keys, bool with_case) {
 TableKeys line_tables() {
   return {table_key("layout", KeyType::table, "the line: straights, curves, cant, gauge", layout_keys()),
           table_key("irregularities", KeyType::table, "deviations of the rails from it", irregularity_keys()),
-          table_key("assessment", KeyType::table, "what is read out of the run",
-                    assessment_keys())};
+          table_key("assessment", KeyType::table, "what is read out of the run", assessment_keys())};
 }
 TableKeys simulation_tables() {
   TableKeys keys{needed(table_key("simulation", KeyType::table, "a vehicle on its track", simulation_keys()))};
@@ -412,8 +411,10 @@ const TableKeys& point_keys() {
 const TableKeys& assessment_keys() {
   static const TableKeys keys{
       with_default("\"passenger\"", one_of("vehicle", {kVehicleKinds.begin(), kVehicleKinds.end()}, "limits differ")),
-      with_default("0", key_info("from_m", KeyType::number,
-                                 "where the assessment begins without sections, and spectra begin", kNotNegative)),
+      key_info("from_m", KeyType::number,
+               "where the assessment begins without sections, and spectra begin; without it 0, or where all wheelsets "
+               "are behind the wind-up of irregularities",
+               kNotNegative),
       key_info("spectra", KeyType::text_list, "channels whose spectra are wanted, `*` for any letters"),
       table_key("sections", KeyType::table_list, "parts of the run; without them it is assessed as a whole",
                 section_keys())};

@@ -113,6 +113,7 @@ struct SimulationFile {
   std::optional<SurfaceSource> other_wheel;  ///< shape of wheels without defects, where `contact.wheel` cannot be it
   std::optional<SurfaceSource> left_rail, right_rail;  ///< instead of `contact.rail`, which is none of them if both are
   std::optional<SurfaceSource> table_rail;             ///< of one section, below tables on rails that vary
+  std::vector<AxleTorque> torques;                     ///< motors and brakes
   std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
   std::vector<std::string> notes;         ///< harmless oddities worth telling
 
@@ -121,9 +122,6 @@ struct SimulationFile {
     const std::optional<SurfaceSource>& own = side == Side::left ? left_rail : right_rail;
     return own ? *own : contact.rail;
   }
-  std::vector<AxleTorque> torques;        ///< motors and brakes
-  std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
-  std::vector<std::string> notes;         ///< harmless oddities worth telling
 };
 
 }  // namespace treadmark::io

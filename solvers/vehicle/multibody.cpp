@@ -114,8 +114,8 @@ class Assembly {
       const int c = add_coordinate(body_index, freedom, body.spec.name + '.' + name, mass);
       system_.coordinates.back().elastic = true;
       system_.coordinates.back().arm *= scale;
-      terms_.push_back({{{c, 1.0}}, stiffness, false});
-      if (damping > 0.0) terms_.push_back({{{c, 1.0}}, damping, true});
+      terms_.push_back({{{c, 1.0}}, stiffness, false, -1, freedom});
+      if (damping > 0.0) terms_.push_back({{{c, 1.0}}, damping, true, -1, freedom});
       body.elastic.push_back({c, {}});
       return c;
     };

@@ -91,6 +91,20 @@ TEST_F(HistoryRequests, AreRead) {
   EXPECT_DOUBLE_EQ(plain.history.axle_box_y, 1.0);
 }
 
+TEST_F(HistoryRequests, BeginBehindTheWindUp) {
+  const std::string rough =
+      "\n[irregularities]\nbegin_m = 0.5\nwind_up_m = 1\n[[irregularities.spectra]]\nfunction = \"alignment\"\n"
+      "form = \"two_poles\"\namplitude_m_rad = 4e-7\nomega_c_rad_m = 0.8\n";
+  EXPECT_DOUBLE_EQ(parse(samples::kSimulation + rough + "[assessment]\n").assessment->from, 1.5);
+  EXPECT_DOUBLE_EQ(parse(samples::kSimulation + rough + "[assessment]\nfrom_m = 0.25\n").assessment->from, 0.25);
+  EXPECT_DOUBLE_EQ(parse(samples::kSimulation + "[assessment]\n").assessment->from, 0.0);
+  EXPECT_THAT(
+      samples::error_of([&] {
+        parse(samples::kSimulation + samples::with(rough, "wind_up_m = 1\n", "wind_up_m = 10\n") + "[assessment]\n");
+      }),
+      HasSubstr("have grown to their size at 10.5 m only"));
+}
+
 TEST_F(HistoryRequests, BadOnesAreRefusedWhereTheyStand) {
   EXPECT_THAT(error("body = \"mass\"", "body = \"mas\""),
               AllOf(HasSubstr("simulation.toml:14:8"), HasSubstr("'mass'")));
