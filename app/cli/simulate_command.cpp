@@ -12,6 +12,7 @@
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/report/pages/read_report.hpp"
 #include "treadmark/app/report/pages/simulation_page.hpp"
+#include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/core/error.hpp"
@@ -99,6 +100,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
     return kOk;
   }
 
+  app::check_vehicle(file, store);  // what is refused leaves no folder behind
   const std::filesystem::path folder = options.output_folder;
   std::optional<app::FileLock> lock;
   if (!folder.empty()) {

@@ -46,6 +46,15 @@ TEST_F(BadSimulation, NegativeMass) {
   expect_refused({"vehicle\\.toml:6:[0-9]+", "mass_kg"});
 }
 
+TEST_F(BadSimulation, ShapeThatCannotBeRead) {
+  input.write("bad.prr", "0 0\n1 what\n");
+  const std::vector<std::string> options{"--set", "rail.shape.file=" + input.path("bad.prr")};
+  const ProgramResult refused = run("simulate", "simulation.toml", options);
+  EXPECT_EQ(refused.status, 3);
+  EXPECT_THAT(refused.err, ContainsRegex("bad\\.prr:1:1"));
+  EXPECT_FALSE(std::filesystem::exists(input.path("out")));
+}
+
 TEST_F(BadSimulation, MissingSpring) {
   std::string text = input.read("vehicle.toml");
   const auto begin = text.find("[[springs]]"), end = text.find("[[bump_stops]]");
