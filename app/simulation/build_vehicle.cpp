@@ -47,7 +47,8 @@ namespace {
 
 class Builder {
  public:
-  Builder(const io::SimulationFile& file, SurfaceStore& store) : file_(file), store_(store) {
+  Builder(const io::SimulationFile& file, SurfaceStore& store, ContactTables* kept = nullptr)
+      : file_(file), store_(store), kept_(kept) {
     rail_region_.u_min = -kRailBeyond;
     rail_region_.u_max = file.settings.distance + kRailBeyond;
   }
@@ -73,10 +74,7 @@ class Builder {
 
   /// Round wheel, rail without defects, both as they are given.
   wheelrail::Geometry table_geometry() {
-    io::SurfaceSource wheel = round_wheel(file_), rail = file_.contact.rail;
-    rail.defects = {};
-    wheel.backend = rail.backend = "";
-    wheel.resolution = rail.resolution = 0.0;
+    const auto [wheel, rail] = table_sources();
     const wheelrail::Geometry bodies = geometry(wheel, rail);
     if (!bodies.constant_profiles())
       throw Error(ErrorKind::configuration,
@@ -89,11 +87,28 @@ class Builder {
   }
 
   std::shared_ptr<const vehicle::ContactTable> table(double wheel_load) {
-    if (!table_) table_ = vehicle::build_contact_table(table_geometry(), to_problem(file_.contact, true), wheel_load);
-    return table_;
+    if (table_) return table_;
+    const wheelrail::Problem problem = to_problem(file_.contact, true);
+    // Also where the table is there already: results tell what surfaces they come from.
+    const wheelrail::Geometry bodies = table_geometry();
+    const auto make = [&] { return vehicle::build_contact_table(bodies, problem, wheel_load); };
+    if (kept_ == nullptr) return table_ = make();
+    const auto [wheel, rail] = table_sources();
+    const std::string key = store_.content_key(wheel, Body::wheel, file_.contact.wheelset.nominal_radius) + " on " +
+                            store_.content_key(rail, Body::rail, 0.0);
+    return table_ = kept_->get(key, problem, wheel_load, make);
   }
 
  private:
+  /// Without defects, as they are given.
+  std::pair<io::SurfaceSource, io::SurfaceSource> table_sources() const {
+    io::SurfaceSource wheel = round_wheel(file_), rail = file_.contact.rail;
+    rail.defects = {};
+    wheel.backend = rail.backend = "";
+    wheel.resolution = rail.resolution = 0.0;
+    return {wheel, rail};
+  }
+
   wheelrail::Geometry geometry(const io::SurfaceSource& wheel_source, const io::SurfaceSource& rail_source) {
     const StoredSurface& rail = store_.get(rail_source, Body::rail, 0.0, rail_region_);
     const StoredSurface& wheel = store_.get(wheel_source, Body::wheel, file_.contact.wheelset.nominal_radius, Region{});
@@ -102,6 +117,7 @@ class Builder {
 
   const io::SimulationFile& file_;
   SurfaceStore& store_;
+  ContactTables* kept_;
   Region rail_region_;
   std::shared_ptr<const vehicle::ContactTable> table_;
 };
@@ -129,9 +145,9 @@ std::string wheel_name(const io::WheelContactInput& wheel) {
   return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == Side::left ? "left" : "right");
 }
 
-BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables) {
   refuse_line(file);
-  Builder builder(file, store);
+  Builder builder(file, store, tables);
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
   v.speed = file.settings.speed;

@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/app/simulation/contact_tables.hpp"
 #include "treadmark/app/simulation/defect_depth.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
@@ -38,7 +39,8 @@ io::SurfaceSource wheel_source(const io::SimulationFile& file, const io::WheelCo
 /// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without
 /// defects. Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot
 /// have.
-BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store);
+/// tables: where contact tables are looked for and kept; null: made anew.
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables = nullptr);
 
 /// Finds the errors of build_vehicle without solving contact tables, but for a line that is not used yet (refuse_line).
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store);

@@ -14,7 +14,8 @@ Vec3 rail_marker_at_rest(const wheelrail::Geometry& geometry, const wheelrail::P
 /// Steady rolling forgets; transient rolling carries the tractions of the accepted instants on.
 class FullContact : public ContactElement {
  public:
-  /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling.
+  /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling. usual_travel: of
+  /// most steps [m], which makes those of transient rolling cheaper; 0: not known.
   /// Errors: Error(configuration).
   FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double usual_travel = 0.0);
 
