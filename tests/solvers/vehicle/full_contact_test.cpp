@@ -150,7 +150,7 @@ TEST(FullContact, StepsNearTheUsualOneGiveTheForcesOfAnyOther) {
     return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient), usual_travel);
   };
   FullContact interpolated = make(dx), at_the_limit = make(dx / 1.0019), evaluated = make(0.0), far = make(1.1 * dx);
-  PairMotion m = rolling(20.0, 2.8e-4, 0.12);
+  PairMotion m = rolling(20.0, 2.8e-4, 0.17);
   double most = 0.0;
   for (int i = 0; i < 30; ++i) {
     const ContactReaction r = evaluated.evaluate(m);
