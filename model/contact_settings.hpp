@@ -40,6 +40,7 @@ struct FastsimSettings {
   double alpha = 1.0;        ///< slope at large creepage over that at small creepage [-]
   double beta = 1.0;         ///< how fast it falls with creepage [-]
   double flexibility = 0.0;  ///< fastsim_one_flexibility: L [m/Pa]
+  friend bool operator==(const FastsimSettings&, const FastsimSettings&) = default;
 };
 
 /// Where coefficients of influence come from.
@@ -52,6 +53,7 @@ struct InfluenceSettings {
   int variant = 4;                                  ///< of the angle correction, 1 to 4
   bool linear = true;                               ///< one straight line through the table, else the table row by row
   std::shared_ptr<const NumericalInfluence> table;  ///< table: numerical coefficients
+  friend bool operator==(const InfluenceSettings&, const InfluenceSettings&) = default;
 };
 
 /// Accuracy and limits of the iterations.
@@ -73,6 +75,7 @@ struct SolverSettings {
   /// are those of full elastic influence. In KPEC and ANALYN parts are not told apart; KPEC lets ends of rows that lie
   /// further out than its ellipse reach run on; ANALYN takes the deepest element of a row for its deepest point.
   bool reference_quirks = false;
+  friend bool operator==(const SolverSettings&, const SolverSettings&) = default;
 };
 
 }  // namespace treadmark

@@ -31,6 +31,7 @@ struct FrictionLaw {
   double at(double slip_velocity) const;
   /// Kind::temperature: friction where the surface of body 1 has this temperature [deg C].
   double at_temperature(double temperature) const;
+  friend bool operator==(const FrictionLaw&, const FrictionLaw&) = default;
 };
 
 /// The law between two others of the same kind, number by number. share: 0 = a, 1 = b.

@@ -17,6 +17,7 @@ struct Material {
   /// Standard linear solid: ratio of the delayed to the immediate compliance, 0 = elastic, and relaxation time [s].
   double creep_ratio_1 = 0.0, creep_ratio_2 = 0.0;
   double relaxation_time_1 = 0.0, relaxation_time_2 = 0.0;  ///< [s]
+  friend bool operator==(const Material&, const Material&) = default;
 };
 
 /// Heat in the surface of a body.
@@ -25,12 +26,14 @@ struct ThermalProperties {
   double heat_capacity = 450.0;   ///< [J/(kg K)]
   double conductivity = 50.0;     ///< [W/(m K)]
   double density = 7850.0;        ///< [kg/m^3]
+  friend bool operator==(const ThermalProperties&, const ThermalProperties&) = default;
 };
 /// Heat in the surfaces of rail (1) and wheel (2).
 struct Thermal {
   ThermalProperties body_1, body_2;
   double plastic_fraction = 1.0;  ///< of plastic work that becomes heat
   bool reference_quirks = false;  ///< numbers as the reference program computes them (solvers/kalker/heat)
+  friend bool operator==(const Thermal&, const Thermal&) = default;
 };
 
 /// The pair of half-spaces seen as one (Kalker 1990): displacement difference u = u_1 - u_2 = (1/G) C p.

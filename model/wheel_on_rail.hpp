@@ -24,6 +24,7 @@ struct Track {
   double curvature = 0.0;                  ///< of the track [1/m]
   double dy = 0.0, dz = 0.0, roll = 0.0;   ///< rail irregularity [m], [rad]
   double vy = 0.0, vz = 0.0, vroll = 0.0;  ///< and its rates [m/s], [rad/s]
+  friend bool operator==(const Track&, const Track&) = default;
 };
 
 /// A roller in place of the rail. Geometry::rail is then a surface of revolution about the y axis direction, placed
@@ -33,6 +34,7 @@ struct Roller {
   double nominal_radius = 0.0;  ///< [m]; negative: the wheel runs inside a ring
   double pitch_rate = 0.0;      ///< [rad/s], of a shift [rad]; positive where a wheel on top of it rolls forward,
                                 ///< negative for a ring
+  friend bool operator==(const Roller&, const Roller&) = default;
 };
 
 /// Springs under a rail without mass: the rail moves until k_y dy = F_y + force_y and k_z dz = F_z + force_z, F the
@@ -41,12 +43,14 @@ struct RailSprings {
   double stiffness_y = 1e6, stiffness_z = 1e6;  ///< [N/m]; stiffness_z = 0: no vertical deflection
   double force_y = 0.0, force_z = 0.0;          ///< further forces on the rail [N]
   double first_step_y = 1e-3;                   ///< length of the first lateral step where nothing better is known [m]
+  friend bool operator==(const RailSprings&, const RailSprings&) = default;
 };
 
 /// Force against the change of contact force in time: F_damp = c dF/dt, its rate limited.
 struct Damping {
   double normal = 0.0, tangential = 0.0;                    ///< c_n, c_t [s]
   double max_rate_normal = 0.0, max_rate_tangential = 0.0;  ///< [N/s]
+  friend bool operator==(const Damping&, const Damping&) = default;
 };
 
 /// How the wheels of a wheelset are placed on its axle.
@@ -55,11 +59,13 @@ struct WheelsetDimensions {
   double flange_back_position = -0.070;  ///< in wheel profile coordinates [m]
   double nominal_radius = 0.460;         ///< [m]
   std::optional<double> tape_line;       ///< y of the tape line in wheel profile coordinates [m]
+  friend bool operator==(const WheelsetDimensions&, const WheelsetDimensions&) = default;
 };
 
 /// Six positions or six rates in the order of the field: longitudinal, lateral, vertical, roll, yaw, pitch.
 struct SixMotion {
   double x = 0.0, y = 0.0, z = 0.0, roll = 0.0, yaw = 0.0, pitch = 0.0;  ///< [m], [rad], or per second
+  friend bool operator==(const SixMotion&, const SixMotion&) = default;
 };
 
 /// Where a wheelset is, in track axes, and how it moves.
@@ -68,6 +74,7 @@ struct WheelsetState {
   SixMotion velocity;        ///< [m/s], [rad/s]; rolling forward has a negative pitch rate
   SixMotion wheel_offset;    ///< deviation of this wheel of a flexible wheelset
   SixMotion wheel_velocity;  ///< and its rates
+  friend bool operator==(const WheelsetState&, const WheelsetState&) = default;
 };
 
 /// Where elements lie, and how the bodies' rigid slip is found.
@@ -95,6 +102,7 @@ struct ElementGrid {
   double near_miss = -1e-3;                      ///< G_MISS [m]
   int max_elements = 20000;                      ///< of a patch; elements grow where there would be more
   bool linear_weight = false;                    ///< weight of the penetration in the contact reference; false: squared
+  friend bool operator==(const ElementGrid&, const ElementGrid&) = default;
 };
 
 /// Elements and how contact is looked for.
@@ -109,10 +117,11 @@ struct Discretisation : ElementGrid {
   } search = SearchGrid::refined;
   SearchMethod search_method = SearchMethod::automatic;
   bool distance_on_mesh = false;  ///< undeformed distance with the reference program's mesh of the wheel
-  bool quick_search = false;      ///< fine search grids with steps of about an element instead of a third of one
+  bool quick_search = false;      ///< fine search grids of a quarter of the points, where patches are large
   /// Rolling step over dx that most steps of transient rolling have: displacements of the instant before are then
   /// interpolated between three steps that differ by 0.2 % (their error is about 1e-8). 0: always evaluated.
   double usual_dq_relative = 0.0;
+  friend bool operator==(const Discretisation&, const Discretisation&) = default;
 };
 
 }  // namespace treadmark

@@ -77,7 +77,8 @@ vehicle::FullStretch stretch_of(const io::SimulationFile& file, const io::WheelC
 
 class Builder {
  public:
-  Builder(const io::SimulationFile& file, SurfaceStore& store) : file_(file), store_(store) {}
+  Builder(const io::SimulationFile& file, SurfaceStore& store, ContactTables* kept = nullptr)
+      : file_(file), store_(store), kept_(kept) {}
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
     const wheelrail::Geometry bodies =
@@ -141,8 +142,16 @@ class Builder {
   std::shared_ptr<const vehicle::ContactTable> table(Side side, double wheel_load) {
     // Rails are right-hand ones: one table serves both sides of one shape.
     auto& made = tables_[is_common(side) ? nullptr : &file_.rail(side)];
-    if (!made) made = vehicle::build_contact_table(table_geometry(side), to_problem(file_.contact, true), wheel_load);
-    return made;
+    if (made) return made;
+    // Before the cache is asked: this notes which surfaces a result comes from.
+    const wheelrail::Geometry bodies = table_geometry(side);
+    const wheelrail::Problem problem = to_problem(file_.contact, true);
+    const auto make = [&] { return vehicle::build_contact_table(bodies, problem, wheel_load); };
+    if (kept_ == nullptr) return made = make();
+    const double radius = file_.contact.wheelset.nominal_radius;
+    return made = kept_->get(store_.content_key(round_wheel(file_), Body::wheel, radius) + " on " +
+                                 store_.content_key(table_rail(side), Body::rail, 0.0),
+                             problem, wheel_load, make);
   }
 
  private:
@@ -236,6 +245,7 @@ class Builder {
 
   const io::SimulationFile& file_;
   SurfaceStore& store_;
+  ContactTables* kept_;
   /// By the rail that they are of; null: simulation.table_rail.
   std::map<const io::SurfaceSource*, std::shared_ptr<const vehicle::ContactTable>> tables_;
 };
@@ -266,8 +276,8 @@ std::string wheel_name(const io::WheelContactInput& wheel) {
   return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == Side::left ? "left" : "right");
 }
 
-BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
-  Builder builder(file, store);
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables) {
+  Builder builder(file, store, tables);
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
   v.speed = file.settings.speed;

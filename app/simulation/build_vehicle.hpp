@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/app/simulation/contact_tables.hpp"
 #include "treadmark/app/simulation/defect_depth.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
@@ -44,7 +45,8 @@ double rail_place(const io::SimulationFile& file, int wheelset);
 /// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without
 /// defects. Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot
 /// have.
-BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store);
+/// tables: where contact tables are looked for and kept; null: made anew.
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables = nullptr);
 
 /// Finds the errors of build_vehicle without solving contact tables.
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store);

@@ -37,7 +37,7 @@ class Run {
         times_(times),
         result_(result_head(file, options)),
         kept_(find_kept()),
-        built_(build(file, store, times)),
+        built_(build(file, store, options.tables, times)),
         snapshots_(file, built_) {
     equilibrium_ = balance();
     describe_statics();
@@ -74,9 +74,10 @@ class Run {
   }
 
  private:
-  static BuiltVehicle build(const io::SimulationFile& file, SurfaceStore& store, SimulationTimes& times) {
+  static BuiltVehicle build(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables,
+                            SimulationTimes& times) {
     const Stopwatch watch(times.build_s);
-    BuiltVehicle built = build_vehicle(file, store);
+    BuiltVehicle built = build_vehicle(file, store, tables);
     times.tables_s = built.table_seconds;
     return built;
   }

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include "treadmark/app/simulation/contact_tables.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
 #include "treadmark/core/progress.hpp"
 #include "treadmark/io/histories/simulation_store.hpp"
@@ -24,6 +25,7 @@ struct SimulationOptions {
   std::filesystem::path checkpoint_file;
   std::filesystem::path table_file;   ///< history so far as text, written with every checkpoint; empty: none
   bool resume = false;                ///< go on from that file, if there is one
+  ContactTables* tables = nullptr;    ///< shared by runs; null: none are
   std::mutex* store_mutex = nullptr;  ///< held while files are written: the HDF5 library may not be thread-safe
 };
 

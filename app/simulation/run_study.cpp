@@ -133,6 +133,7 @@ class Workers {
     wanted.checkpoint_file = checkpoint_of(i);
     wanted.resume = true;
     wanted.store_mutex = &store_mutex();
+    wanted.tables = &tables_;
     Progress inner;
     inner.stop = progress_.stop;
     io::SimulationResult result;
@@ -169,6 +170,7 @@ class Workers {
   const StudyOptions& options_;
   const Progress& progress_;
   std::mutex mutex_;
+  ContactTables tables_;
   std::vector<char> finished_;
   std::size_t found_ = 0;
   std::atomic<bool> stop_{false};

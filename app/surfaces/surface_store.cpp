@@ -72,6 +72,14 @@ void SurfaceStore::note_hashes(const io::SurfaceSource& source) {
   if (!known) hashes_.emplace_back(file, io::sha256_file(io::profile_file(file)));
 }
 
+std::string SurfaceStore::content_key(const io::SurfaceSource& source, Body body, double radius) {
+  note_hashes(source);
+  std::string key = key_of(source, body, radius);
+  for (const auto& [file, hash] : hashes_)
+    if (key.find(file) != std::string::npos) key += " " + hash;
+  return key;
+}
+
 std::shared_ptr<const NaturalSurface> SurfaceStore::natural(const io::SurfaceSource& source, Body body, double radius) {
   std::string key = key_of(source, body, radius);
   for (const Natural& known : naturals_)

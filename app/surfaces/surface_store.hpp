@@ -30,6 +30,10 @@ class SurfaceStore {
   /// radius: nominal radius of a wheel, or of a roller in place of a rail [m]; 0 = it is a rail.
   const StoredSurface& get(const io::SurfaceSource& source, Body body, double radius, const Region& region);
 
+  /// Tells the natural surface of a source from others in any store: what describes it, and the contents of its files.
+  /// Defects do not show in it.
+  std::string content_key(const io::SurfaceSource& source, Body body, double radius);
+
   /// What get() has handed out since begin_run(), in the order of the first requests, with fit errors of sampled
   /// surfaces.
   std::vector<io::SurfaceUse> uses();

@@ -125,23 +125,6 @@ void check(const wheelrail::Geometry& geometry, const wheelrail::Problem& p, dou
                        1e3 * options.step));
 }
 
-wheelrail::Problem at_rest(wheelrail::Problem p, double element_size) {
-  p.state = {};
-  wheelrail::Track& t = p.track;
-  t.dy = t.dz = t.roll = t.vy = t.vz = t.vroll = 0.0;
-  p.regime = kalker::Regime::frictionless;
-  p.reference_surface = wheelrail::ReferenceSurface::plane;
-  p.normal_model = kalker::NormalModel::full;
-  p.history = kalker::HistoryUse::start;
-  p.longitudinal_force.reset();
-  p.rail_springs.reset();
-  p.damping.reset();
-  p.thermal.reset();
-  p.sensitivities = false;
-  p.discretisation.dx = p.discretisation.ds = element_size;
-  return p;
-}
-
 struct PatchShape {
   double area = 0.0, aspect_ratio = 1.0;
 };
@@ -270,11 +253,28 @@ void refine(const Builder& builder, std::vector<ContactTableColumn>& columns) {
 
 }  // namespace
 
+wheelrail::Problem table_problem(wheelrail::Problem p, const ContactTableOptions& options) {
+  p.state = {};
+  wheelrail::Track& t = p.track;
+  t.dy = t.dz = t.roll = t.vy = t.vz = t.vroll = 0.0;
+  p.regime = kalker::Regime::frictionless;
+  p.reference_surface = wheelrail::ReferenceSurface::plane;
+  p.normal_model = kalker::NormalModel::full;
+  p.history = kalker::HistoryUse::start;
+  p.longitudinal_force.reset();
+  p.rail_springs.reset();
+  p.damping.reset();
+  p.thermal.reset();
+  p.sensitivities = false;
+  p.discretisation.dx = p.discretisation.ds = options.element_size;
+  return p;
+}
+
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options) {
   check(geometry, prototype, reference_load, options);
-  const wheelrail::Problem rest = at_rest(prototype, options.element_size);
+  const wheelrail::Problem rest = table_problem(prototype, options);
   const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
   std::vector<double> loads;
   for (const double relative : options.relative_loads) loads.push_back(relative * reference_load);

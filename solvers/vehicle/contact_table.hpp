@@ -96,6 +96,10 @@ class ContactTable {
   std::vector<LoadLevel> levels_;
 };
 
+/// What of a pair's problem a table is made for; tables for the same surfaces, load, options and the same of these are
+/// the same.
+wheelrail::Problem table_problem(wheelrail::Problem prototype, const ContactTableOptions& options = {});
+
 /// Solves the contact at every lateral displacement of the range, in parallel. The table covers those round the central
 /// position that have a solution. prototype: material, friction, track and wheelset of a right-hand pair; states and
 /// irregularities do not count. Errors: Error(configuration) for a left-hand prototype, bodies that are not round and

@@ -16,7 +16,7 @@ class FullContact : public ContactElement {
  public:
   /// problem: everything but motions and forces; its regime, steady or transient, is that of rolling. rail_x: place of
   /// the axle along the rail where it has travelled nothing [m]. usual_travel: of most steps of transient rolling [m],
-  /// 0: none is; it saves time, results do not depend on it. Errors: Error(configuration).
+  /// 0: not known; it makes them cheaper. Errors: Error(configuration).
   FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem problem, double rail_x = 0.0,
               double usual_travel = 0.0);
 

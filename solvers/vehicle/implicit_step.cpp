@@ -43,7 +43,12 @@ ImplicitStep::ImplicitStep(const VehicleOnTrack& vehicle, const StepSettings& se
   for (int c = 0; c < vehicle.system.size(); ++c)
     if (std::ranges::any_of(vehicle.maps, [c](const auto& map) { return !map.col(c).isZero(0.0); }))
       touched_.push_back(c);
-  for (const auto& map : vehicle.maps) maps_.push_back(map(Eigen::all, touched_));
+  for (const auto& map : vehicle.maps) {
+    const auto& touched = maps_.emplace_back(map(Eigen::all, touched_));
+    std::vector<int>& own = own_.emplace_back();
+    for (int c = 0; c < touched.cols(); ++c)
+      if (!touched.col(c).isZero(0.0)) own.push_back(c);
+  }
   force_scale_ = 0.5 * *std::ranges::max_element(vehicle.system.wheelset_load);
 }
 
@@ -128,7 +133,9 @@ Step ImplicitStep::take(const Motion& from, double h) {
       tangents.push_back(vehicle_.tangent(i, reaction, m));
       right += (1.0 + alpha_) * (vehicle_.maps[i].transpose() * forces.back());
       const PairMatrix tangent = (1.0 + alpha_) * (of_q * tangents.back().stiffness + of_v * tangents.back().damping);
-      give += maps_[i].transpose() * tangent * maps_[i];
+      const Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic> map = maps_[i](Eigen::all, own_[i]);
+      const Matrix of_wheel = map.transpose() * tangent * map;
+      give(own_[i], own_[i]) += of_wheel;
     }
     // Contacts respond to the difference from the state at which they were evaluated; (S + P' D P) x = b by the small
     // system at P.

@@ -59,6 +59,7 @@ class ImplicitStep {
   double alpha_, beta_, gamma_;
   std::vector<int> touched_;                                                   ///< coordinates that contacts act on
   std::vector<Eigen::Matrix<double, kPairCoordinates, Eigen::Dynamic>> maps_;  ///< pair coordinates from those
+  std::vector<std::vector<int>> own_;  ///< by wheel: columns of its map that are not zero
   double force_scale_ = 1.0;
   std::unique_ptr<Factors> factors_;
 };

@@ -71,6 +71,7 @@ struct Problem {
   /// interpolated, beyond them it stays. Empty: friction is the same everywhere.
   std::vector<double> friction_inclination;
   std::vector<FrictionLaw> friction_laws;
+  friend bool operator==(const Problem&, const Problem&) = default;
 };
 
 }  // namespace treadmark::wheelrail

@@ -66,13 +66,6 @@ Grid2 coarse_grid(const Problem& p, const Placement& placed, const LateralRange&
   return grid;
 }
 
-/// Steps of the grids that tell where a patch lies. Its place is a mean over many of their points.
-double fine_step(double element, bool quick) {
-  constexpr double kOfElement = 0.3, kCoarsest = 0.5e-3;
-  const double fine = kOfElement * element;
-  return quick ? std::max(fine, std::min(element, kCoarsest)) : fine;
-}
-
 /// Rows of the reference program's locus; none for elements so small that Treadmark's own locus, whose rows follow the
 /// contact, has to do.
 std::optional<detection::LocusRows> locus_rows(const Problem& p, const LateralRange& rail) {
@@ -99,9 +92,11 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   s.grid_T =
       s.refine ? coarse_grid(p, placed, rail) : reference_grid(geometry, p, placed, rail, s.mesh.emplace().wheel);
   if (locus) s.locus_rows = locus_rows(p, rail);
-  s.refined_dx = fine_step(d.dx, d.quick_search);
-  s.refined_dy = fine_step(d.ds, d.quick_search);
-  s.refined_points = geometry.constant_profiles() ? 64 : 120;
+  s.refined_dx = 0.3 * d.dx;
+  s.refined_dy = 0.3 * d.ds;
+  // A patch's place is a mean over all points within it: few do where it is large.
+  constexpr int kQuick = 32;
+  s.refined_points = d.quick_search ? kQuick : geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
   if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius, !p.roller};
   s.reference_at_deepest = d.reference_at_deepest;

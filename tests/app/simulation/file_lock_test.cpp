@@ -82,7 +82,7 @@ TEST_F(FileLockTest, AKilledProcessLosesIt) {
   if (child == 0) {
     const auto lock = FileLock::attempt(file);
     const char held = lock ? 'y' : 'n';
-    if (write(ready[1], &held, 1) == 1) pause();
+    if (::write(ready[1], &held, 1) == 1) pause();
     _exit(1);
   }
   char held = 0;

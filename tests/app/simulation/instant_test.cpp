@@ -20,7 +20,8 @@ namespace treadmark::testing {
 namespace {
 
 using ::testing::HasSubstr;
-constexpr double kSolver = 1e-5;  // its tolerance: in a simulation it starts from the solution of the instant before
+/// In a simulation patches lie where coarser grids find them, and the solver starts from the instant before.
+constexpr double kAgreement = 1e-4;
 
 class Instant : public ::testing::Test {
  protected:
@@ -57,8 +58,8 @@ TEST_F(Instant, RunsToTheNumbersOfTheHistory) {
         fn += p.fn;
       }
       EXPECT_EQ(static_cast<double>(c.patches.size()), column(prefix + "patches").at(row));
-      EXPECT_NEAR(pmax, column(prefix + "pmax_Pa").at(row), kSolver * pmax);
-      EXPECT_NEAR(fn, column(prefix + "Fn_N").at(row), kSolver * fn);
+      EXPECT_NEAR(pmax, column(prefix + "pmax_Pa").at(row), kAgreement * pmax);
+      EXPECT_NEAR(fn, column(prefix + "Fn_N").at(row), kAgreement * fn);
     }
   }
 }

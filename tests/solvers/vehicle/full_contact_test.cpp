@@ -144,6 +144,32 @@ TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
   }
 }
 
+TEST(FullContact, StepsNearTheUsualOneGiveTheForcesOfAnyOther) {
+  const double dx = 1e-3;
+  const auto make = [](double usual_travel) {
+    return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient), usual_travel);
+  };
+  FullContact interpolated = make(dx), at_the_limit = make(dx / 1.0019), evaluated = make(0.0), far = make(1.1 * dx);
+  PairMotion m = rolling(20.0, 2.8e-4, 0.17);
+  double most = 0.0;
+  for (int i = 0; i < 30; ++i) {
+    const ContactReaction r = evaluated.evaluate(m);
+    const double scale = r.normal_force;
+    ASSERT_GT(scale, 1e3);
+    ASSERT_EQ(far.evaluate(m).on_rail.force, r.on_rail.force) << i;
+    for (FullContact* other : {&interpolated, &at_the_limit}) {
+      const double difference = (other->evaluate(m).on_rail.force - r.on_rail.force).norm();
+      ASSERT_LT(difference, 1e-7 * scale) << i;
+      most = std::max(most, difference);
+    }
+    for (FullContact* contact : {&interpolated, &at_the_limit, &evaluated, &far}) contact->accept();
+    m.wheelset.x += dx * (1.0 + 5e-4 * std::sin(i));
+    m.wheelset.pitch -= dx / kWheelRadius;
+    m.wheelset.y += 2e-6;
+  }
+  EXPECT_GT(most, 0.0);
+}
+
 TEST(FullContact, AnInstantCanBeSolvedAgainAlsoInAnotherProcess) {
   const auto make = [] {
     return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient));
