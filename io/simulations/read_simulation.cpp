@@ -188,6 +188,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   read_contact(contact, result);
   read_other_wheel(contact, simulation, result);
   read_rails(contact, simulation, result);
+  read_check_rails(simulation, result);
   choose_steps(simulation, result);
   check_steps(simulation, result);
   return result;

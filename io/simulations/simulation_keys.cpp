@@ -282,6 +282,8 @@ const TableKeys& simulation_keys() {
     list.push_back(table_key("fields", KeyType::table, "when contact fields are kept", field_keys()));
     list.push_back(table_key("wheels", KeyType::table_list, "how the contact of single wheels is found", wheel_keys()));
     list.push_back(
+        table_key("check_rails", KeyType::table_list, "rails that hold the backs of flanges", check_rail_keys()));
+    list.push_back(
         table_key("other_wheel", KeyType::table,
                   "shape of the round wheels, with the keys of `[wheel]`; required where `[wheel]` is made of "
                   "slices or triangles and a wheel is round"));
@@ -318,6 +320,25 @@ const TableKeys& wheel_keys() {
       key_info("full_from_m", KeyType::number,
                "of a full contact: from this place along the rail, with a table before; at least 0.1 m before the end"),
       key_info("full_to_m", KeyType::number, "to this place, with a table behind")};
+  return keys;
+}
+
+const TableKeys& check_rail_keys() {
+  static const TableKeys keys{
+      needed(one_of("side", {"left", "right"}, "whose flanges it holds")),
+      needed(key_info("from_m", KeyType::number, "place along the rail")),
+      needed(key_info("to_m", KeyType::number, "more than `from_m`")),
+      needed(key_info("face_y_mm", KeyType::number,
+                      "of the guiding face from the middle of the track: half the gauge less the flangeway",
+                      kPositive)),
+      with_default("10", key_info("depth_mm", KeyType::number,
+                                  "below the rail tops, z = 0, where the back of the flange touches it")),
+      needed(key_info("stiffness_N_per_m", KeyType::number, "lateral, against the running rail", kPositive)),
+      with_default("0", key_info("damping_N_s_per_m", KeyType::number, "in parallel", kNotNegative)),
+      with_default("0.3", key_info("friction", KeyType::number, "coefficient", kNotNegative)),
+      with_default("0", key_info("flare_m", KeyType::number,
+                                 "length at both ends over which the face recedes with the square", kNotNegative)),
+      with_default("0", key_info("flare_mm", KeyType::number, "by so much", kNotNegative))};
   return keys;
 }
 

@@ -39,6 +39,7 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys();
 const TableKeys& simulation_keys();
 const TableKeys& field_keys();
 const TableKeys& wheel_keys();
+const TableKeys& check_rail_keys();
 
 /// [layout], [[layout.elements]], [irregularities] and [[irregularities.spectra]] beside [simulation].
 const TableKeys& layout_keys();

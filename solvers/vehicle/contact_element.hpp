@@ -53,6 +53,7 @@ struct ContactReaction {
   double elastic_energy = 0.0;              ///< stored in the contact [J]
   double frictional_power = 0.0;            ///< dissipated, >= 0 [W]
   double rail_power = 0.0;                  ///< of this, by dampers of a rail that bends [W]
+  double check_force = 0.0;                 ///< of a check rail on the back of the flange, part of both loads [N]
   RailMotion bending;                       ///< of the rail at the contact, beside the motion of its body
   std::vector<PatchTangent> tangents;
 };
