@@ -140,6 +140,9 @@ void read_check_rails(const TableReader& simulation, SimulationFile& out) {
              fmt::format("the check rail lies {:.4g} mm within the flange of a wheelset in the middle of the track",
                          1e3 * (rail.face_y - back)),
              "the backs of the flanges are wheelset.flange_back_distance_mm apart");
+    if (rail.face_y - (rail.flare_length > 0.0 ? rail.flare : 0.0) > back)
+      refuse("face_y_mm", "the check rail begins within the flange of a wheelset in the middle of the track",
+             "give it flares, flare_m and flare_mm");
     out.check_rails.push_back(rail);
   }
 }

@@ -39,21 +39,23 @@ ContactReaction ContactWithCheckRail::evaluate(const PairMotion& motion) {
   ContactReaction r = contact_->evaluate(motion);
   if (r.status == Status::failed || r.status == Status::not_converged) return r;
   const wheelrail::SixMotion &q = motion.wheelset, &v = motion.wheelset_velocity;
-  const Face face = face_at(back_.rail_x + q.x - side_ * back_.y * q.yaw);
+  // Points of wheel and rail that touch, below the axle: about the wheelset's centre and the rail marker.
+  const Vec3 arm(-side_ * back_.y * std::sin(q.yaw), side_ * back_.y * std::cos(q.yaw), back_.radius + rail_.depth);
+  const Face face = face_at(back_.rail_x + q.x + arm.x());
   if (!face.there) return r;
-
-  // Points of wheel and rail that touch, about the wheelset's centre and the rail marker.
-  const Vec3 arm(0.0, side_ * back_.y, back_.radius + rail_.depth);
   const Vec3 rail_arm(0.0, side_ * face.y - marker_.y(), rail_.depth - marker_.z());
   const double wheel_y = arm.y() + q.y - q.roll * arm.z();
   const double rail_y = side_ * face.y + motion.rail.y - motion.rail.roll * rail_arm.z();
   const double depth = side_ * (rail_y - wheel_y);
   if (!(depth > 0.0)) return r;
 
-  const Vec3 slip(v.x + v.pitch * arm.z() - v.yaw * arm.y(), 0.0,
-                  v.z + v.roll * arm.y() - motion.rail.vz - motion.rail.vroll * rail_arm.y());
+  const Mat3 rolled = rotation_x(q.roll);
+  const Vec3 axle = (rolled * rotation_z(q.yaw)).col(1);
+  const Vec3 of_wheel =
+      Vec3(v.x, v.y, v.z) + (v.roll * Vec3::UnitX() + v.yaw * rolled.col(2) + v.pitch * axle).cross(arm);
+  const Vec3 slip(of_wheel.x(), 0.0, of_wheel.z() - motion.rail.vz - motion.rail.vroll * rail_arm.y());
   const double rate = side_ * (motion.rail.vy - motion.rail.vroll * rail_arm.z() - v.y + v.roll * arm.z()) +
-                      face.slope * (v.x - v.yaw * arm.y());
+                      face.slope * v.x - v.yaw * (side_ * arm.x() + face.slope * arm.y());
   const double normal = std::max(0.0, rail_.stiffness * depth + rail_.damping * rate);
   constexpr double kSlow = 0.01;  // [m/s]
   const double drag = rail_.friction * normal / std::hypot(slip.norm(), kSlow);
@@ -61,7 +63,7 @@ ContactReaction ContactWithCheckRail::evaluate(const PairMotion& motion) {
   // The back of the flange is flat: turning about the axle comes no nearer to the face, so that its push has no moment
   // about it, in the flare neither.
   Vec3 moment = arm.cross(push);
-  moment.y() = 0.0;
+  moment -= moment.dot(axle) * axle;
 
   r.on_wheelset += {on_wheel, moment - arm.cross(drag * slip)};
   r.on_rail += {-on_wheel, rail_arm.cross(-on_wheel)};

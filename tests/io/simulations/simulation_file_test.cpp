@@ -239,6 +239,8 @@ TEST_F(SimulationText, CheckRails) {
   EXPECT_THAT(refused("to_m = 2", "to_m = -1"), HasSubstr("a check rail ends before it begins"));
   EXPECT_THAT(refused("flare_m = 0.5", "flare_m = 1.6"), HasSubstr("the flares at both ends are longer"));
   EXPECT_THAT(refused("676.5", "690"), HasSubstr("mm within the flange of a wheelset in the middle of the track"));
+  EXPECT_THAT(refused("676.5\nstiffness_N_per_m = 5e7\nflare_m = 0.5\nflare_mm = 30", "682\nstiffness_N_per_m = 5e7"),
+              HasSubstr("the check rail begins within the flange"));
   EXPECT_THAT(refused("stiffness_N_per_m = 5e7\n", ""), HasSubstr("stiffness_N_per_m is missing"));
   EXPECT_THAT(refused("5e7", "-5e7"), HasSubstr("stiffness_N_per_m"));
   EXPECT_THAT(refused("face_y_mm = 676.5", "face_y_mm = 0"), HasSubstr("face_y_mm"));
