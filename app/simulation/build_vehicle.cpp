@@ -13,6 +13,7 @@
 #include "treadmark/app/simulation/line_summary.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/stopwatch.hpp"
+#include "treadmark/solvers/vehicle/check_rail.hpp"
 #include "treadmark/solvers/vehicle/contact_on_rail.hpp"
 #include "treadmark/solvers/vehicle/lateral_track.hpp"
 #include "treadmark/solvers/vehicle/switched_contact.hpp"
@@ -265,6 +266,17 @@ vehicle::MovingRail rail_below(const io::SimulationFile& file, std::size_t wheel
   return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, file.settings.spectral_radius};
 }
 
+/// A wheel's contact with a check rail beside it.
+std::shared_ptr<vehicle::ContactElement> beside(const io::CheckRailInput& rail, const io::SimulationFile& file,
+                                                const io::WheelContactInput& wheel, const vehicle::WheelOnRail& on) {
+  const vehicle::CheckRail check{rail.from,    rail.to,       rail.face_y,       rail.depth, rail.stiffness,
+                                 rail.damping, rail.friction, rail.flare_length, rail.flare};
+  const vehicle::FlangeBack back{0.5 * file.contact.wheelset.flange_back_distance,
+                                 file.vehicle.wheelsets.at(static_cast<std::size_t>(wheel.wheelset)).nominal_radius,
+                                 rail_place(file, wheel.wheelset)};
+  return std::make_shared<vehicle::ContactWithCheckRail>(on.element, wheel.side, check, back, on.rail_marker);
+}
+
 }  // namespace
 
 std::size_t BuiltVehicle::watched_wheel() const {
@@ -281,6 +293,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
   v.speed = file.settings.speed;
+  built.check_rails = !file.check_rails.empty();
   v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
   v.line = build_line(file, v.system, true);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
@@ -318,6 +331,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       on.element = std::make_shared<vehicle::ContactOnRail>(on.element, rail_below(file, set),
                                                             0.5 * v.system.wheelset_load.at(set), kTolerance);
     }
+    for (const io::CheckRailInput& rail : file.check_rails)
+      if (rail.side == wheel.side) on.element = beside(rail, file, wheel, on);
     v.wheels.push_back(std::move(on));
   }
   v.connect();

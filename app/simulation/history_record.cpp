@@ -77,6 +77,10 @@ HistoryRecord::HistoryRecord(const BuiltVehicle& built, const vehicle::Simulatio
   add_wheel(watched, "", built.full[watched] != nullptr);
   for (std::size_t i = 0; i < wheels.size(); ++i)
     if (i != watched) add_wheel(i, wheels[i].name + '.', built.full[i] != nullptr);
+  for (std::size_t i = 0; built.check_rails && i < wheels.size(); ++i)
+    add((i == watched ? "" : wheels[i].name + '.') + "check_N", "N",
+        "of a check rail on the flange of " + wheels[i].name,
+        [this, i] { return simulation_.reactions()[i].check_force; });
   add_energies();
   add_bodies();
   if (simulation.vehicle().line) add_line();

@@ -191,6 +191,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   if (const auto table = line_table(document, "assessment", assessment_keys())) read_assessment(*table, result);
   read_other_wheel(contact, simulation, result);
   read_rails(contact, simulation, result);
+  read_check_rails(simulation, result);
   choose_steps(simulation, result);
   check_steps(simulation, result);
   return result;

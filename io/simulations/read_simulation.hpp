@@ -71,6 +71,8 @@ struct ContactPart {
 void read_contact(const ContactPart& part, SimulationFile& out);
 /// [simulation.other_wheel] into out.other_wheel; out.contact and out.wheels are set.
 void read_other_wheel(const ContactPart& part, const TableReader& simulation, SimulationFile& out);
+/// [[simulation.check_rails]]; out.contact is set.
+void read_check_rails(const TableReader& simulation, SimulationFile& out);
 /// The contact with a [rail], where both sides have rails of their own.
 ContactPart with_rail(ContactPart part, const TableReader& simulation);
 /// [simulation.left_rail], right_rail and table_rail; part: as with_rail() gives it, out.contact is set.

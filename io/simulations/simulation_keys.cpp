@@ -341,6 +341,8 @@ const TableKeys& simulation_keys() {
     list.push_back(table_key("points", KeyType::table_list, "points of bodies whose accelerations are written down",
                              point_keys()));
     list.push_back(
+        table_key("check_rails", KeyType::table_list, "rails that hold the backs of flanges", check_rail_keys()));
+    list.push_back(
         table_key("other_wheel", KeyType::table,
                   "shape of the round wheels, with the keys of `[wheel]`; required where `[wheel]` is made of "
                   "slices or triangles and a wheel is round"));
@@ -427,6 +429,25 @@ const TableKeys& section_keys() {
                               needed(key_info("to_m", KeyType::number, "distance travelled", kNotNegative)),
                               with_default("\"straight\"", one_of("kind", {kSectionKinds.begin(), kSectionKinds.end()},
                                                                   "quasi-static forces are assessed in curves"))};
+  return keys;
+}
+
+const TableKeys& check_rail_keys() {
+  static const TableKeys keys{
+      needed(one_of("side", {"left", "right"}, "whose flanges it holds")),
+      needed(key_info("from_m", KeyType::number, "place along the rail")),
+      needed(key_info("to_m", KeyType::number, "more than `from_m`")),
+      needed(key_info("face_y_mm", KeyType::number,
+                      "of the guiding face from the middle of the track: half the gauge less the flangeway",
+                      kPositive)),
+      with_default("10", key_info("depth_mm", KeyType::number,
+                                  "below the rail tops, z = 0, where the back of the flange touches it")),
+      needed(key_info("stiffness_N_per_m", KeyType::number, "lateral, against the running rail", kPositive)),
+      with_default("0", key_info("damping_N_s_per_m", KeyType::number, "in parallel", kNotNegative)),
+      with_default("0.3", key_info("friction", KeyType::number, "coefficient", kNotNegative)),
+      with_default("0", key_info("flare_m", KeyType::number,
+                                 "length at both ends over which the face recedes with the square", kNotNegative)),
+      with_default("0", key_info("flare_mm", KeyType::number, "by so much", kNotNegative))};
   return keys;
 }
 

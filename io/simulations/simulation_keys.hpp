@@ -45,6 +45,7 @@ const TableKeys& speed_profile_keys();
 const TableKeys& torque_keys();
 const TableKeys& field_keys();
 const TableKeys& wheel_keys();
+const TableKeys& check_rail_keys();
 const TableKeys& point_keys();
 
 /// [assessment] and [[assessment.sections]] beside [simulation].

@@ -60,6 +60,16 @@ struct HistoryRequest {
   double axle_box_y = 1.0;  ///< of the points of axle boxes, to both sides of the wheelset's middle [m]
 };
 
+/// A rail that holds the backs of flanges.
+struct CheckRailInput {
+  Side side = Side::left;
+  double from = 0.0, to = 0.0;                            ///< along the rail [m]
+  double face_y = 0.0;                                    ///< from the middle of the track [m]
+  double depth = 0.01;                                    ///< below the rail tops [m]
+  double stiffness = 0.0, damping = 0.0, friction = 0.3;  ///< [N/m], [N s/m], [-]
+  double flare_length = 0.0, flare = 0.0;                 ///< [m]
+};
+
 /// How far and how exactly a simulation goes.
 struct SimulationSettings {
   double speed = 0.0;              ///< at the start [m/s]; > 0
@@ -115,7 +125,8 @@ struct SimulationFile {
   std::optional<SurfaceSource> table_rail;             ///< of one section, below tables on rails that vary
   std::vector<AxleTorque> torques;                     ///< motors and brakes
   std::vector<WheelContactInput> wheels;  ///< all of them: left and right of the leading wheelset, then the next one
-  std::vector<std::string> notes;         ///< harmless oddities worth telling
+  std::vector<CheckRailInput> check_rails;
+  std::vector<std::string> notes;  ///< harmless oddities worth telling
 
   /// The rail of a side, as a right-hand one.
   const SurfaceSource& rail(Side side) const {

@@ -170,4 +170,38 @@ std::vector<WheelContactInput> read_wheels(const TableReader& simulation, std::s
   return wheels;
 }
 
+void read_check_rails(const TableReader& simulation, SimulationFile& out) {
+  for (const CaseValue* one : simulation.tables("check_rails")) {
+    const TableReader table(one->table(), one->where, simulation.path_of("check_rails"), check_rail_keys());
+    CheckRailInput rail;
+    rail.side = table.text("side") == "left" ? Side::left : Side::right;
+    rail.from = table.number("from_m");
+    rail.to = table.number("to_m");
+    rail.face_y = table.number("face_y_mm");
+    rail.depth = table.number_or("depth_mm", rail.depth);
+    rail.stiffness = table.number("stiffness_N_per_m");
+    rail.damping = table.number_or("damping_N_s_per_m", rail.damping);
+    rail.friction = table.number_or("friction", rail.friction);
+    rail.flare_length = table.number_or("flare_m", rail.flare_length);
+    rail.flare = table.number_or("flare_mm", rail.flare);
+    const auto refuse = [&](std::string_view key, const std::string& message, std::string advice = {}) {
+      throw Error(ErrorKind::configuration, message, table.need(key).where, std::move(advice));
+    };
+    if (!(rail.to > rail.from)) refuse("to_m", "a check rail ends before it begins");
+    if (2.0 * rail.flare_length > rail.to - rail.from)
+      refuse("flare_m", "the flares at both ends are longer than the check rail");
+    constexpr double kMostPush = 5e-3;
+    const double back = 0.5 * out.contact.wheelset.flange_back_distance;
+    if (rail.face_y > back + kMostPush)
+      refuse("face_y_mm",
+             fmt::format("the check rail lies {:.4g} mm within the flange of a wheelset in the middle of the track",
+                         1e3 * (rail.face_y - back)),
+             "the backs of the flanges are wheelset.flange_back_distance_mm apart");
+    if (rail.face_y - (rail.flare_length > 0.0 ? rail.flare : 0.0) > back)
+      refuse("face_y_mm", "the check rail begins within the flange of a wheelset in the middle of the track",
+             "give it flares, flare_m and flare_mm");
+    out.check_rails.push_back(rail);
+  }
+}
+
 }  // namespace treadmark::io

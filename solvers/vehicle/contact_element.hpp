@@ -54,6 +54,7 @@ struct ContactReaction {
   double frictional_power = 0.0;            ///< dissipated, >= 0 [W]
   double rail_power = 0.0;                  ///< of this, by dampers of a rail that bends [W]
   double corrected = 0.0;                   ///< what a linearisation inside the element changed the force by [N]
+  double check_force = 0.0;                 ///< of a check rail on the back of the flange, part of both loads [N]
   RailMotion bending;                       ///< of the rail at the contact, beside the motion of its body
   std::vector<PatchTangent> tangents;
 };

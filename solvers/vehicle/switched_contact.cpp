@@ -23,7 +23,7 @@ ContactReaction mixed(const ContactReaction& table, const ContactReaction& full,
   out.doubts = full.doubts;
   for (auto value : {&ContactReaction::lateral_creep_force, &ContactReaction::longitudinal_creep_force,
                      &ContactReaction::normal_force, &ContactReaction::least_gap, &ContactReaction::elastic_energy,
-                     &ContactReaction::frictional_power})
+                     &ContactReaction::frictional_power, &ContactReaction::check_force})
     out.*value = share * (full.*value) + (1.0 - share) * (table.*value);
   for (auto load : {&ContactReaction::on_rail, &ContactReaction::on_wheelset}) {
     (out.*load).force = share * (full.*load).force + (1.0 - share) * (table.*load).force;

@@ -246,6 +246,47 @@ shape.standard = "60E1")" +
   EXPECT_NEAR(deepest("ws2_right.wheelset_z_m"), 0.03 + 0.04, 4e-3);
 }
 
+TEST_F(RailsOfSimulations, ACheckRailHoldsTheFlange) {
+  std::string free = kGuided;
+  const std::string guided = "free = [\"z\", \"roll\", \"pitch\"]";
+  free.replace(free.find(guided), guided.size(), "free = [\"x\", \"y\", \"z\", \"roll\", \"pitch\", \"yaw\"]");
+  input.write("vehicle.toml", free);
+  // 2 mm within the flange of a wheelset in the middle.
+  write(R"(speed_m_s = 10
+distance_m = 2.5
+[[simulation.check_rails]]
+side = "right"
+from_m = 0.1
+to_m = 2.1
+face_y_mm = 682
+stiffness_N_per_m = 5e7
+damping_N_s_per_m = 1e5
+flare_m = 0.5
+flare_mm = 5
+[rail]
+shape.standard = "60E1"
+)");
+  const io::SimulationResult history = simulate();
+  const std::vector<double> x = column(history, "x_m"), y = column(history, "axle.y_m"),
+                            right = column(history, "ws1_right.check_N"), left = column(history, "check_N");
+  double most = 0.0;
+  for (std::size_t i = 0; i < x.size(); ++i) {
+    EXPECT_EQ(left[i], 0.0);
+    const bool away = x[i] < 0.1 || x[i] > 2.1, held = x[i] > 0.6 && x[i] < 1.6;
+    EXPECT_EQ(away ? right[i] : 0.0, 0.0) << x[i];
+    most = std::max(most, right[i]);
+    // Pushed along but for what the springs of check rail and track give.
+    EXPECT_GT(held ? y[i] : 1.0, 1e-3) << x[i];
+  }
+  EXPECT_GT(most, 5e3);
+  EXPECT_NEAR(y.front(), 0.0, 1e-6);
+  for (const char* name : {"energy_integration_error", "energy_contact_error"}) {
+    const auto error = std::ranges::find(history.summary, name, &io::NamedValue::name);
+    ASSERT_NE(error, history.summary.end());
+    EXPECT_LT(std::abs(error->value), 0.01) << name;
+  }
+}
+
 std::string changing_over(const std::string& stretch) {
   return "speed_m_s = 10\ndistance_m = 0.4\n[[simulation.wheels]]\nwheelset = 1\nside = \"right\"\ncontact = "
          "\"full\"\n" +

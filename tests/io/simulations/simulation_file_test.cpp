@@ -215,6 +215,37 @@ TEST_F(SimulationText, RailsByTheirPlaceAreRightHandOnes) {
               ::testing::HasSubstr("s.toml:26:13: track.rail_y_mm of a simulation must be positive"));
 }
 
+TEST_F(SimulationText, CheckRails) {
+  const std::string check =
+      "[[simulation.check_rails]]\nside = \"right\"\nfrom_m = -1\nto_m = 2\nface_y_mm = 676.5\nstiffness_N_per_m = "
+      "5e7\n"
+      "flare_m = 0.5\nflare_mm = 30\n";
+  const SimulationFile file = parse(kSimulation + check);
+  ASSERT_EQ(file.check_rails.size(), 1u);
+  const CheckRailInput& rail = file.check_rails[0];
+  EXPECT_EQ(rail.side, Side::right);
+  EXPECT_EQ(rail.from, -1.0);
+  EXPECT_EQ(rail.to, 2.0);
+  EXPECT_DOUBLE_EQ(rail.face_y, 0.6765);
+  EXPECT_DOUBLE_EQ(rail.depth, 0.01);
+  EXPECT_EQ(rail.stiffness, 5e7);
+  EXPECT_EQ(rail.friction, 0.3);
+  EXPECT_EQ(rail.flare_length, 0.5);
+  EXPECT_DOUBLE_EQ(rail.flare, 0.03);
+  const auto refused = [&](const std::string& from, const std::string& to) {
+    return samples::error_of([&] { parse(kSimulation + with(check, from, to)); });
+  };
+  using ::testing::HasSubstr;
+  EXPECT_THAT(refused("to_m = 2", "to_m = -1"), HasSubstr("a check rail ends before it begins"));
+  EXPECT_THAT(refused("flare_m = 0.5", "flare_m = 1.6"), HasSubstr("the flares at both ends are longer"));
+  EXPECT_THAT(refused("676.5", "690"), HasSubstr("mm within the flange of a wheelset in the middle of the track"));
+  EXPECT_THAT(refused("676.5\nstiffness_N_per_m = 5e7\nflare_m = 0.5\nflare_mm = 30", "682\nstiffness_N_per_m = 5e7"),
+              HasSubstr("the check rail begins within the flange"));
+  EXPECT_THAT(refused("stiffness_N_per_m = 5e7\n", ""), HasSubstr("stiffness_N_per_m is missing"));
+  EXPECT_THAT(refused("5e7", "-5e7"), HasSubstr("stiffness_N_per_m"));
+  EXPECT_THAT(refused("face_y_mm = 676.5", "face_y_mm = 0"), HasSubstr("face_y_mm"));
+}
+
 TEST_F(SimulationText, StretchesOfFullContact) {
   using ::testing::HasSubstr;
   const auto with_stretch = [&](const std::string& keys) {
