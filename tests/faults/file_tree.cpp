@@ -23,8 +23,8 @@ bool is_of_set(const std::string& path) { return path.find(".slcw-") != path.npo
 /// Written last and removed first: where it stands, the other files of its folder are of the same making.
 bool is_last(const std::string& path) {
   const std::string name = path.substr(path.rfind('/') + 1);
-  return path.size() > name.size() &&
-         (name == "result.json" || name == "compare.json" || name == "bench.json" || name == "simulation.h5");
+  return path.size() > name.size() && (name == "result.json" || name == "compare.json" || name == "bench.json" ||
+                                       name == "assessment.json" || name == "simulation.h5");
 }
 
 /// The first of the files of its folder in `whole` that `now` does not hold.
