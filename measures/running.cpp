@@ -248,6 +248,7 @@ class Assessor {
       : run_(run), sections_(sections), vehicle_(vehicle) {
     check();
     place_ = even(run.place);
+    for (const AssessmentSection& section : sections) parts_.push_back(part_of(section));
   }
 
   std::vector<Assessed> take() {
@@ -324,7 +325,7 @@ class Assessor {
       const AssessmentSection& section = sections_[s];
       if (row.in_curves_only && section.kind != SectionKind::curve) continue;
       Assessed one{section.name, name, row.info.key};
-      const Part part = part_of(section);
+      const Part& part = parts_[s];
       one.status = status_of(row.samples, section, part);
       if (one.status == AssessedStatus::ok && unloaded && unloaded(part)) one.status = AssessedStatus::unloaded;
       if (one.status == AssessedStatus::ok) {
@@ -410,6 +411,7 @@ class Assessor {
   std::span<const AssessmentSection> sections_;
   VehicleKind vehicle_;
   std::vector<double> place_;
+  std::vector<Part> parts_;  // of the sections
   std::vector<std::pair<std::size_t, Assessed>> found_;
 };
 

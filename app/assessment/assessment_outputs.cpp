@@ -65,7 +65,8 @@ const Assessed* worst_of(const AssessedRun& run, const std::string& section, con
 std::string assessment_text(std::span<const AssessedRun> runs) {
   std::string text;
   for (const AssessedRun& run : runs) {
-    text += fmt::format("{}: {}\n", run.name, run.result->title);
+    const bool named = run.result->title == run.name;
+    text += run.name + (named ? "" : ": " + run.result->title) + '\n';
     for (const AssessmentSection& section : run.request.sections) {
       text += fmt::format("  {}, {:.6g} to {:.6g} m, {}\n", section.name, section.from, section.to,
                           kSectionKinds[static_cast<std::size_t>(section.kind)]);

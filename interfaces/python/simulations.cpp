@@ -1,9 +1,12 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
+#include <optional>
+#include <span>
 #include <tuple>
 #include <utility>
 
+#include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/line_summary.hpp"
@@ -36,6 +39,7 @@ io::SimulationFile simulation_of(const Source& source) {
 struct Simulated {
   std::shared_ptr<const io::SimulationResult> result;
   std::string json;
+  std::optional<app::AssessedRun> assessed = {};
 };
 
 /// modes_only: static equilibrium and modes, without integration.
@@ -49,7 +53,10 @@ Simulated simulate(const Source& source, bool modes_only, const py::object& prog
     auto result = std::make_shared<const io::SimulationResult>(
         modes_only ? app::static_results(file, store, options)
                    : app::run_simulation(file, store, options, report, &times));
-    return Simulated{result, app::to_json(*result, times)};
+    std::optional<app::AssessedRun> assessed;
+    if (!modes_only) assessed = app::assess_own(result, file.assessment);
+    const std::string json = app::to_json(*result, times, assessed ? &*assessed : nullptr);
+    return Simulated{result, json, std::move(assessed)};
   });
 }
 
@@ -93,7 +100,7 @@ Simulated read_simulation(const std::filesystem::path& file) {
     result.snapshots = std::move(series.run);
     result.snapshot_times = std::move(series.times);
     result.snapshot_scenes = std::move(series.scenes);
-    return Simulated{std::make_shared<const io::SimulationResult>(std::move(result)), {}};
+    return Simulated{std::make_shared<const io::SimulationResult>(std::move(result)), {}, {}};
   });
 }
 
@@ -203,6 +210,7 @@ void add_simulations(py::module_& module) {
       .def("write_folder", [](const Simulated& s, const std::filesystem::path& folder) {
         with_files([&] {
           std::filesystem::create_directories(folder);
+          if (s.assessed) app::write_assessment_folder(folder, std::span(&*s.assessed, 1), {});
           app::write_simulation_folder(folder, *s.result);
         });
       });
