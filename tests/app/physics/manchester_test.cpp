@@ -119,7 +119,7 @@ const std::string kFlexible =
     "simulation.vehicle=" + std::string(TREADMARK_SOURCE_DIR) + "/examples/vehicles/manchester-flexible.toml";
 
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFlexibleWheelsets) {
-  // Wheels that twist slide by a per cent, and tables know what friction takes to a thousandth of it.
+  // Wheels that twist slide by a per cent. Of what friction takes a thousandth is missing, as with rigid wheelsets.
   constexpr double kFrictionDominates = 4e-4;
   check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=5", kFlexible}, 2e-10,
                              {{"wheelset1.z", 0.0, 0.1},
