@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <tuple>
@@ -77,18 +78,26 @@ TEST(Manchester, EigenfrequenciesByHand) {
   EXPECT_NEAR(bounce, hertz(4 * 1.22e6 + 2 * 0.43e6, 2615.0), 0.15);
 }
 
+struct Kick {
+  const char* coordinate;
+  double displacement, rate;
+};
+const std::vector<Kick> kKicks{
+    {"car.z", 0.02, 0.0}, {"bogie1.y", 0.0, 0.05}, {"wheelset1.z", 0.0, 0.02}, {"wheelset3.yaw", 1e-4, 0.0}};
+
 /// Nothing excites it but its own displacement from equilibrium.
-void check_energy_of_a_free_run(std::vector<std::string> overrides, double tolerance) {
+void check_energy_of_a_free_run(std::vector<std::string> overrides, double tolerance,
+                                const std::vector<Kick>& kicks = kKicks, double contact_error = 1e-4) {
   SurfaceStore store;
   const auto file = example(overrides);
   BuiltVehicle built = build_vehicle(file, store);
   vehicle::SystemState start = vehicle::find_equilibrium(built.vehicle).state;
-  const auto& coordinates = built.vehicle.system.coordinates;
-  for (std::size_t i = 0; i < coordinates.size(); ++i) {
-    if (coordinates[i].name == "car.z") start.q[static_cast<Eigen::Index>(i)] += 0.02;
-    if (coordinates[i].name == "bogie1.y") start.v[static_cast<Eigen::Index>(i)] += 0.05;
-    if (coordinates[i].name == "wheelset1.z") start.v[static_cast<Eigen::Index>(i)] += 0.02;
-    if (coordinates[i].name == "wheelset3.yaw") start.q[static_cast<Eigen::Index>(i)] += 1e-4;
+  for (const Kick& kick : kicks) {
+    const auto& coordinates = built.vehicle.system.coordinates;
+    const auto found = std::ranges::find(coordinates, kick.coordinate, &vehicle::Coordinate::name);
+    ASSERT_NE(found, coordinates.end()) << kick.coordinate;
+    start.q[found - coordinates.begin()] += kick.displacement;
+    start.v[found - coordinates.begin()] += kick.rate;
   }
   vehicle::SimulationSettings settings = integration_settings(file);
   settings.position_tolerance = tolerance;
@@ -99,7 +108,7 @@ void check_energy_of_a_free_run(std::vector<std::string> overrides, double toler
   EXPECT_GT(e.dampers, 1.0);
   EXPECT_GT(e.friction, 1.0);
   EXPECT_LT(std::abs(e.integration_error(s.energy_at_start())), 1e-4 * e.turnover);
-  EXPECT_LT(std::abs(e.contact_error(s.energy_at_start())), 1e-4 * e.turnover);
+  EXPECT_LT(std::abs(e.contact_error(s.energy_at_start())), contact_error * e.turnover);
 }
 
 TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
@@ -110,7 +119,15 @@ const std::string kFlexible =
     "simulation.vehicle=" + std::string(TREADMARK_SOURCE_DIR) + "/examples/vehicles/manchester-flexible.toml";
 
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFlexibleWheelsets) {
-  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=5", kFlexible}, 2e-10);
+  // Wheels that twist slide by a per cent. Of what friction takes a thousandth is missing, as with rigid wheelsets.
+  constexpr double kFrictionDominates = 4e-4;
+  check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=5", kFlexible}, 2e-10,
+                             {{"wheelset1.z", 0.0, 0.1},
+                              {"bogie1.y", 0.0, 0.1},
+                              {"wheelset1.bending1_vertical", 0.0, 0.5},
+                              {"wheelset2.bending2_horizontal", 0.0, 0.5},
+                              {"wheelset4.torsion1", 0.0, 1.0}},
+                             kFrictionDominates);
 }
 
 TEST(Manchester, EnergyOfAFreeRunIsBalancedWithFullContact) {
