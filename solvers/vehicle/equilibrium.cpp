@@ -107,14 +107,6 @@ class Balance {
     return system.stiffness;
   }
 
-  /// That of an implicit step of this length without masses.
-  Matrix relaxation(const SystemState& state, double length) const {
-    const LinearSystem system = linearised_system(vehicle_, state, 1.0);
-    Matrix m = system.stiffness + system.damping / length;
-    for (const int c : rolling_) m.col(c) = system.damping.col(c);
-    return m;
-  }
-
   SystemState moved(SystemState state, const Vector& step) const {
     const Vector held = state.q;
     state.q += step;
@@ -165,13 +157,10 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   return system;
 }
 
-namespace {
-
-Equilibrium newton(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings,
-                   const std::optional<SystemState>& from) {
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
   const Balance balance(vehicle);
   Equilibrium found;
-  found.state = from ? *from : balance.start();
+  found.state = balance.start();
   Vector r;
   std::string why;
   if (!balance.imbalance(found.state, r, found.reactions, why)) {
@@ -207,57 +196,6 @@ Equilibrium newton(const VehicleOnTrack& vehicle, const EquilibriumSettings& set
         fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}",
                     found.residual, why.empty() ? "" : "; ", why)};
   return found;
-}
-
-/// Where forces lead a vehicle without masses as the curve comes little by little: implicit steps of dampers, creep
-/// and stiffness; then Newton's method. Wheels find their flanges where Newton's method alone does not.
-Equilibrium relax(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
-  constexpr double kRamp = 4.0, kFirst = 0.02, kShortest = 1e-5, kLongest = 0.1;  // [s] of that motion
-  constexpr double kNear = 1e-3;
-  constexpr int kMostSteps = 600;
-  VehicleOnTrack part = vehicle;
-  part.line = vehicle.line->share(vehicle.system, 0.0);
-  Equilibrium found = newton(part, settings, {});
-  if (found.report.status != Status::ok) return found;
-  SystemState state = found.state;
-  double share = 0.0, length = kFirst;
-  for (int k = 0; k < kMostSteps && length > kShortest; ++k) {
-    const double next = std::min(1.0, share + length / kRamp);
-    part.line = next < 1.0 ? vehicle.line->share(vehicle.system, next) : vehicle.line;
-    const Balance balance(part);
-    Vector r;
-    std::vector<ContactReaction> reactions;
-    std::string why;
-    SystemState trial;
-    bool good = balance.imbalance(state, r, reactions, why);
-    if (good) {
-      trial = balance.moved(state, balance.relaxation(state, length).fullPivLu().solve(r));
-      good = balance.imbalance(trial, r, reactions, why);
-    }
-    if (!good) {
-      length *= 0.5;
-      continue;
-    }
-    state = trial;
-    share = next;
-    length *= 1.3;
-    if (share < 1.0) length = std::min(length, kLongest);
-    if (share < 1.0 || balance.measure(r) > kNear) continue;
-    found = newton(vehicle, settings, state);
-    found.iterations += k;
-    if (found.report.status == Status::ok) return found;
-  }
-  found.report.status = Status::not_converged;
-  return found;
-}
-
-}  // namespace
-
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
-  Equilibrium whole = newton(vehicle, settings, {});
-  if (whole.report.status == Status::ok || !vehicle.line || !vehicle.line->setup().path) return whole;
-  Equilibrium relaxed = relax(vehicle, settings);
-  return relaxed.report.status == Status::ok ? relaxed : whole;
 }
 
 }  // namespace treadmark::vehicle

@@ -25,7 +25,7 @@ struct Equilibrium {
 
 /// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,
 /// contact included, are in balance (Newton's method, contact linearised by differences, steps halved until the
-/// imbalance falls; in a curve, where that fails, the way there without masses). Accepts nothing in the elements.
+/// imbalance falls). Accepts nothing in the elements.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 
 /// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).
