@@ -87,7 +87,9 @@ class Run {
     vehicle::Equilibrium e = vehicle::find_equilibrium(built_.vehicle);
     if (e.report.status != Status::ok)
       throw Error(ErrorKind::numerical, e.report.message, {},
-                  "check the loads, the gauge and where the wheels stand at the start");
+                  built_.vehicle.line && built_.vehicle.line->setup().path
+                      ? "let the vehicle start on a straight in front of the curve (layout.start_m)"
+                      : "check the loads, the gauge and where the wheels stand at the start");
     return e;
   }
 

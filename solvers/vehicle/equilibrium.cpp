@@ -160,13 +160,10 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   return system;
 }
 
-namespace {
-
-Equilibrium newton(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings,
-                   const std::optional<SystemState>& from) {
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
   const Balance balance(vehicle);
   Equilibrium found;
-  found.state = from ? *from : balance.start();
+  found.state = balance.start();
   Vector r;
   std::string why;
   if (!balance.imbalance(found.state, r, found.reactions, why)) {
@@ -202,33 +199,6 @@ Equilibrium newton(const VehicleOnTrack& vehicle, const EquilibriumSettings& set
         fmt::format("the static equilibrium was not found: forces of {:.2g} of a wheelset's load remain{}{}",
                     found.residual, why.empty() ? "" : "; ", why)};
   return found;
-}
-
-}  // namespace
-
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
-  Equilibrium whole = newton(vehicle, settings, {});
-  if (whole.report.status == Status::ok || !vehicle.line || !vehicle.line->setup().path) return whole;
-  // The curve comes little by little.
-  constexpr double kFirst = 0.125, kGrowing = 1.5, kShortest = 1e-3;
-  VehicleOnTrack part = vehicle;
-  std::optional<SystemState> last;
-  int iterations = whole.iterations;
-  for (double share = 0.0, next = 0.0, step = kFirst;;) {
-    part.line = next < 1.0 ? vehicle.line->share(vehicle.system, next) : vehicle.line;
-    Equilibrium e = newton(part, settings, last);
-    iterations += e.iterations;
-    if (e.report.status == Status::ok) {
-      e.iterations = iterations;
-      if (next == 1.0) return e;
-      last = e.state;
-      share = next;
-      step *= kGrowing;
-    } else if (!last || (step *= 0.5) < kShortest) {
-      return whole;
-    }
-    next = std::min(1.0, share + step);
-  }
 }
 
 }  // namespace treadmark::vehicle

@@ -201,15 +201,6 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
         stretch[static_cast<std::size_t>(stops_[i].first)][static_cast<std::size_t>(stops_[i].second)];
 }
 
-std::shared_ptr<const LineEffects> LineEffects::share(const Multibody& system, double share) const {
-  LineSetup setup = setup_;
-  TrackLayout layout = setup_.path->layout();
-  for (LayoutElement& e : layout.elements)
-    for (FromTo* value : {&e.curvature, &e.cant}) *value = {share * value->from, share * value->to};
-  setup.path = std::make_shared<const TrackPath>(std::move(layout));
-  return std::make_shared<const LineEffects>(system, std::move(setup));
-}
-
 WheelOnLine LineEffects::wheel(std::size_t wheelset, wheelrail::Side side, double time) const {
   WheelOnLine out;
   out.travel = travel(time);

@@ -63,8 +63,6 @@ class LineEffects {
   Vector gyroscopic_change(const Vector& rates, double time) const;
 
   const LineSetup& setup() const { return setup_; }
-  /// The same line with this share of curvature and cant, from 0 (straight) to 1. system: that of the constructor.
-  std::shared_ptr<const LineEffects> share(const Multibody& system, double share) const;
 
   static constexpr double kLargestAngle = 0.1;      ///< for which directions of springs are still those of both [rad]
   static constexpr double kLargestWidening = 0.05;  ///< [m]

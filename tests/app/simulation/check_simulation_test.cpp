@@ -56,7 +56,7 @@ TEST(CheckSimulation, ALineIsUnderstood) {
   input.edit("simulation.toml", "length_m = 500", "length_m = 500\ngauge_mm = 1500");
   const ProgramResult wide = run_program({"check", input.path("simulation.toml")});
   EXPECT_EQ(wide.status, 2);
-  EXPECT_THAT(wide.err, HasSubstr("the gauge of the line differs by 65 mm"));
+  EXPECT_THAT(wide.err, HasSubstr("mm from the 1435 mm of the rails"));
   EXPECT_THAT(wide.err, HasSubstr("simulation.toml:"));
 }
 

@@ -83,6 +83,17 @@ TEST_F(Resume, WithContactsThatChangeOver) {
   expect_kills_to_change_nothing();
 }
 
+TEST_F(Resume, OnALineWithChangingSpeed) {
+  input.edit("simulation.toml", "[case]",
+             "[simulation.speed_profile]\ntime_s = [1]\nspeed_m_s = [19]\n[layout]\n[[layout.elements]]\n"
+             "kind = \"straight\"\nlength_m = 0.03\n[[layout.elements]]\nkind = \"transition\"\nlength_m = 0.05\n"
+             "[[layout.elements]]\nkind = \"curve\"\nlength_m = 5\nradius_m = 3000\n[irregularities]\nbegin_m = 0\n"
+             "wind_up_m = 0.1\nshortest_wavelength_m = 0.1\nlongest_wavelength_m = 1\n"
+             "[[irregularities.spectra]]\nfunction = \"longitudinal_level\"\nform = \"two_poles\"\n"
+             "amplitude_m_rad = 2e-7\nomega_c_rad_m = 0.8246\n\n[case]");
+  expect_kills_to_change_nothing();
+}
+
 TEST_F(Resume, KilledBeforeTheFirstCheckpoint) {
   ASSERT_EQ(RunningProgram(command("undisturbed")).wait().status, 0);
   for (const int delay_ms : {0, 30, 120}) {

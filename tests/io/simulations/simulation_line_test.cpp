@@ -226,6 +226,48 @@ TEST_F(SimulationLine, AFileThatIsTooShortIsRefused) {
   }
 }
 
+const std::string kDriving = R"(
+[simulation.speed_profile]
+time_s = [0.05, 0.1]
+speed_m_s = [10, 12]
+
+[[simulation.torques]]
+wheelset = 1
+time_s = [0, 1]
+torque_N_m = [0, -500]
+reaction = "ground"
+)";
+
+TEST_F(SimulationLine, SpeedsAndTorquesAreRead) {
+  const SimulationFile file = parse(kDriving);
+  EXPECT_EQ(file.settings.profile.time, (std::vector<double>{0.0, 0.05, 0.1}));
+  EXPECT_EQ(file.settings.profile.speed, (std::vector<double>{file.settings.speed, 10.0, 12.0}));
+  EXPECT_NEAR(travel_at(file.settings.profile, file.settings.duration).distance, file.settings.distance, 1e-12);
+  ASSERT_EQ(file.torques.size(), 1u);
+  EXPECT_EQ(file.torques[0].reaction, kGround);
+  EXPECT_EQ(file.torques[0].torque.back(), -500.0);
+  EXPECT_EQ(parse("").settings.profile.time.size(), 1u);
+}
+
+TEST_F(SimulationLine, SpeedsAndTorquesThatMakeNoSenseAreRefused) {
+  const auto refused = [&](const std::string& good, const std::string& bad) {
+    std::string text = kDriving;
+    text.replace(text.find(good), good.size(), bad);
+    try {
+      parse(text);
+    } catch (const Error& e) {
+      return std::string(e.what());
+    }
+    return std::string();
+  };
+  EXPECT_THAT(refused("[10, 12]", "[10]"), HasSubstr("simulation.speed_profile.time_s has 2 values"));
+  EXPECT_THAT(refused("[10, 12]", "[10, 0]"), HasSubstr("reaches 0"));
+  EXPECT_THAT(refused("[0.05, 0.1]", "[0.1, 0.05]"), HasSubstr("must increase"));
+  EXPECT_THAT(refused("wheelset = 1", "wheelset = 7"), HasSubstr("the vehicle has 1 wheelset"));
+  EXPECT_THAT(refused("\"ground\"", "\"mas\""), HasSubstr("did you mean 'mass'"));
+  EXPECT_THAT(refused("torque_N_m", "torque_Nm"), HasSubstr("torque_N_m"));
+}
+
 TEST_F(SimulationLine, TheSchemaKnowsTheTables) {
   const auto schema = nlohmann::json::parse(simulation_file_schema());
   const auto& layout = schema.at("properties").at("layout").at("properties");
