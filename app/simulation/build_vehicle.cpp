@@ -115,7 +115,8 @@ std::optional<TrackModel> track_below(const io::SimulationFile& file) {
 vehicle::MovingRail rail_below(const io::SimulationFile& file, std::size_t wheelset) {
   const std::string& body = file.vehicle.wheelsets.at(wheelset).body;
   const double x = std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
-  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, file.settings.spectral_radius};
+  constexpr double kNoNumericalDamping = 1.0;  // rails have their own
+  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, kNoNumericalDamping};
 }
 
 }  // namespace
