@@ -21,7 +21,8 @@ void add_rail_state(ByteWriter& out, const Eigen::VectorXd& v) {
 
 MovingRail::MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius, double length)
     : track_(track), speed_(speed) {
-  const RailOnSeats whole(track);    // refuses what makes no sense
+  const RailOnSeats whole(track);  // refuses what makes no sense
+  track_.bay_elements = std::min(track.bay_elements, kMostBayElements);
   constexpr double kFarthest = 1e6;  // [m]
   if (!(speed > 0.0) || !std::isfinite(speed))
     throw Error(ErrorKind::configuration, "the speed along a rail must be positive");

@@ -21,7 +21,7 @@ class MovingRail {
   /// Of the part that is looked at [m].
   static constexpr double kUsualLength = 30.0;
   /// More of FlexibleTrack::bay_elements are not used.
-  static constexpr int kMostBayElements = 6;
+  static constexpr int kMostBayElements = 8;
 
   /// speed [m/s]; > 0. start: place of the force at time 0, from the middle of the bay in the middle of the track [m].
   /// spectral_radius: of the scheme for fast vibrations, 0.5 to 1. length: of the part that is looked at [m], made
