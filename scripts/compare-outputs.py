@@ -21,7 +21,7 @@ import sys
 
 ROOT = pathlib.Path(__file__).resolve().parent.parent
 SHARED = pathlib.Path(os.environ.get("TREADMARK_SHARED", ROOT.parent / "shared"))
-SWEEPS = ("figure5", "figure6", "figure6-track", "figure7")  # many runs, minutes to hours
+SWEEPS = ("figure5", "figure6", "figure6-track", "figure7", "flat-between-sleepers")  # many runs, minutes to hours
 MASKS = [
     (rb'("(?:seconds|(?:build|distance|normal|search|tangential|total)_s)": ?)[-+.e0-9]+', rb"\1#"),
     (rb"^(case [^\n]*, )[0-9.]+ s$", rb"\1# s"),

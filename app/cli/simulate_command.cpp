@@ -15,6 +15,8 @@
 #include "treadmark/app/simulation/build_vehicle.hpp"
 #include "treadmark/app/simulation/file_lock.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
+#include "treadmark/app/track/track_run.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -31,7 +33,8 @@ struct SimulateOptions {
   std::string output_folder, json_file;              ///< empty = none; JSON "-" = stdout
   std::string backend, wheel_backend, rail_backend;  ///< backend: of both, where they are empty
   bool resume = false;
-  bool modes_only = false;  ///< print eigenfrequencies, do not integrate
+  bool modes_only = false;   ///< print eigenfrequencies, do not integrate
+  std::string track_folder;  ///< show how the track gives way, do not integrate; empty = none
   std::vector<std::string> overrides;
   std::string report_file;  ///< HTML; empty = none
 };
@@ -64,6 +67,25 @@ app::FileLock claim(const std::filesystem::path& folder) {
   return std::move(*lock);
 }
 
+int show_track(const SimulateOptions& options, const io::SimulationFile& file,
+               const std::vector<std::string>& overrides) {
+  if (!file.track && !file.flexible_track)
+    throw Error(ErrorKind::configuration, "the track of this simulation is rigid: it has no receptance", {},
+                "give it one as simulation.track");
+  app::TrackRequest request;
+  request.file = options.file;
+  request.overrides = overrides;
+  catch_interrupt();
+  const CancellationScope scope(&interrupted());
+  const app::TrackResult result =
+      app::run_track(request, file.flexible_track ? io::AnyTrack(*file.flexible_track) : io::AnyTrack(*file.track));
+  app::write_track_folder(options.track_folder, result);
+  const auto json = [&] { return app::track_json(result); };
+  write_json_file(options.json_file, json);
+  print_results(options.json_file, json, [&] { return app::track_table(result); });
+  return kOk;
+}
+
 void print_summary(const std::string& json_file, const std::string& json, const std::string& text) {
   print_results(
       json_file, [&] { return json; }, [&] { return text; });
@@ -89,6 +111,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   const ThreadLimit limit(common.threads);
   const io::SimulationFile file = io::read_simulation_file(options.file, overrides);
   print_notes(file.notes, common.quiet);
+  if (!options.track_folder.empty()) return show_track(options, file, overrides);
 
   app::SurfaceStore store;
   app::SimulationOptions run;
@@ -162,6 +185,9 @@ Command add_simulate(CLI::App& verb) {
   verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");
   verb.add_flag("--resume", options->resume, "Go on with an interrupted simulation in the output folder");
   verb.add_flag("--modes", options->modes_only, "Print eigenfrequencies and modes in static equilibrium, and stop");
+  verb.add_option("--receptance", options->track_folder,
+                  "Write how the track gives way, track.json, receptance.csv and track.svg, into this folder, and stop")
+      ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
   add_overrides(verb, options->overrides);
   return command(options, simulate_command);

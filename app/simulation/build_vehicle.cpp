@@ -263,7 +263,8 @@ vehicle::MovingRail rail_below(const io::SimulationFile& file, std::size_t wheel
                 "leave simulation.speed_profile out, or lump the track (treadmark track)");
   const std::string& body = file.vehicle.wheelsets.at(wheelset).body;
   const double x = std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
-  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, file.settings.spectral_radius};
+  constexpr double kNoNumericalDamping = 1.0;  // rails have their own
+  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, kNoNumericalDamping};
 }
 
 /// A wheel's contact with a check rail beside it.

@@ -10,6 +10,7 @@
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/vehicle/lateral_track.hpp"
 #include "treadmark/solvers/vehicle/rail_on_seats.hpp"
 #include "treadmark/solvers/vehicle/track_receptance.hpp"
 
@@ -30,6 +31,15 @@ std::vector<double> frequencies_of(const TrackRequest& request) {
     f.push_back(request.from * std::pow(request.to / request.from, i / (request.count - 1.0)));
   f.back() = request.to;
   return f;
+}
+
+std::optional<TrackCurve> lateral_curve(const std::optional<TrackModel>& track, const std::vector<double>& frequency) {
+  if (!track) return std::nullopt;
+  const double rest[] = {0.0};
+  TrackCurve curve{"rail, lateral", "lateral", vehicle::receptance(*track, Freedom::y, frequency),
+                   vehicle::receptance(*track, Freedom::y, rest).front().real()};
+  if (!(curve.at_rest > 0.0)) return std::nullopt;
+  return curve;
 }
 
 void run_flexible(const FlexibleTrack& track, TrackResult& result) {
@@ -76,19 +86,16 @@ void run_flexible(const FlexibleTrack& track, TrackResult& result) {
   std::vector<double> shown;
   for (const double x : own.x) shown.push_back(middle + x);
   own.deflection = rail.deflection(middle, shown);
+  result.lateral = lateral_curve(vehicle::lateral_track(track), result.frequency);
 }
 
 void run_lumped(const TrackModel& track, TrackResult& result) {
   const double rest[] = {0.0};
-  const auto curve = [&](const char* name, const char* key, Freedom direction) {
-    return TrackCurve{name, key, vehicle::receptance(track, direction, result.frequency),
-                      vehicle::receptance(track, direction, rest).front().real()};
-  };
-  result.curves = {curve("rail", "rail", Freedom::z)};
+  result.curves = {{"rail", "rail", vehicle::receptance(track, Freedom::z, result.frequency),
+                    vehicle::receptance(track, Freedom::z, rest).front().real()}};
   if (!(result.curves.front().at_rest > 0.0))
     throw Error(ErrorKind::configuration, "the rails of this track do not move in z, so it has no receptance");
-  if (TrackCurve lateral = curve("rail, lateral", "lateral", Freedom::y); lateral.at_rest > 0.0)
-    result.lateral = std::move(lateral);
+  result.lateral = lateral_curve(track, result.frequency);
 }
 
 }  // namespace
@@ -149,10 +156,14 @@ TrackModel lumped_track(const std::string& name, const std::vector<vehicle::Lump
 }
 
 TrackResult run_track(const TrackRequest& request) {
+  frequencies_of(request);  // refused before a file is read
+  return run_track(request, io::read_any_track_file(request.file, request.overrides));
+}
+
+TrackResult run_track(const TrackRequest& request, const io::AnyTrack& any) {
   TrackResult result;
   result.request = request;
   result.frequency = frequencies_of(request);
-  const io::AnyTrack any = io::read_any_track_file(request.file, request.overrides);
   double distance = 0.0;
   std::optional<LateralSupport> lateral;
   if (const auto* flexible = std::get_if<FlexibleTrack>(&any)) {

@@ -65,6 +65,8 @@ struct TrackResult {
 
 /// Errors: Error(configuration) for files and frequencies that make no sense. May be cancelled.
 TrackResult run_track(const TrackRequest& request);
+/// Of a track that has been read; the request says where from.
+TrackResult run_track(const TrackRequest& request, const io::AnyTrack& track);
 
 /// A lumped track of these layers below each wheel: both halves of a track are equal and not connected. distance: of
 /// the middles of both rails [m].

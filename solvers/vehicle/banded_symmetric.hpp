@@ -68,6 +68,7 @@ class BandedSymmetric {
       }
       for (int i = j + 1; i <= last; ++i) at(i, j) /= pivot;
     }
+    for (int j = 0; j < size_; ++j) at(j, j) = Scalar(1) / at(j, j);  // what solve multiplies by
     return true;
   }
 
@@ -84,7 +85,7 @@ class BandedSymmetric {
       for (int k = kBand; k > 0; --k) value -= at(i, i - k) * last[static_cast<std::size_t>(k - 1)];
       b[i] = keep(value);
     }
-    b.array() /= diagonal(0).array();
+    b.array() *= diagonal(0).array();
     last.fill(Scalar(0));
     for (int i = size_ - 1; i >= 0; --i) {
       Scalar value = b[i];

@@ -43,6 +43,13 @@ void scale(ContactReaction& r, double by) {
   for (double* force : {&r.normal_force, &r.lateral_creep_force, &r.longitudinal_creep_force}) *force *= by;
 }
 
+void add_rail(ContactReaction& r, const MovingRail::Moved& moved, double force) {
+  r.on_wheelset.force.x() += force * moved.slope;
+  r.elastic_energy += moved.energy;
+  r.frictional_power += moved.power;
+  r.rail_power = moved.power;
+}
+
 void soften(ContactReaction& r, double by) {
   for (PatchTangent& patch : r.tangents) patch.stiffness_n /= by;
 }
@@ -75,7 +82,7 @@ ContactReaction ContactOnRail::at_rest(const PairMotion& motion) {
         tolerance_ * std::max(load_, std::abs(force))) {
       trial_ = Trial{motion.time, force, 0.0, 0.0, 0.0};
       r.bending = bending;
-      r.elastic_energy += 0.5 * compliance * force * force;
+      add_rail(r, rail_.moved_at_rest(force), force);
       soften(r, softening);
       return r;
     }
@@ -117,11 +124,7 @@ ContactReaction ContactOnRail::moving(const PairMotion& motion) {
   soften(r, softening);
   trial_ = Trial{motion.time, force, height_of(motion, r.contact_y), r.contact_y, stiffness / softening};
 
-  const MovingRail::Moved moved = rail_.moved(force);
-  r.on_wheelset.force.x() += force * moved.slope;
-  r.elastic_energy += moved.energy;
-  r.frictional_power += moved.power;
-  r.rail_power = moved.power;
+  add_rail(r, rail_.moved(force), force);
   return r;
 }
 

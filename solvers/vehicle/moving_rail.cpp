@@ -21,7 +21,8 @@ void add_rail_state(ByteWriter& out, const Eigen::VectorXd& v) {
 
 MovingRail::MovingRail(const FlexibleTrack& track, double speed, double start, double spectral_radius, double length)
     : track_(track), speed_(speed) {
-  const RailOnSeats whole(track);    // refuses what makes no sense
+  const RailOnSeats whole(track);  // refuses what makes no sense
+  track_.bay_elements = std::min(track.bay_elements, kMostBayElements);
   constexpr double kFarthest = 1e6;  // [m]
   if (!(speed > 0.0) || !std::isfinite(speed))
     throw Error(ErrorKind::configuration, "the speed along a rail must be positive");
@@ -45,7 +46,23 @@ MovingRail::MovingRail(const FlexibleTrack& track, double speed, double start, d
   while (seat(before).x > start_) --before;
   while (seat(before + 1).x <= start_) ++before;
   look_from(before - (seats_ - 1) / 2);
-  compliance_at_rest_ = rail_->receptance(start_, 0.0).real();
+  // Where it has come from slowly. Forces of dampers are in balance, too, or else the first step would lose energy.
+  constexpr double kStep = 1e-3;
+  BandedSymmetric<double> k = rail_->stiffness();
+  k.factorise();
+  const RailOnSeats::Place place = rail_->place(start_);
+  const auto under = [&](const RailOnSeats::Place& at, const Column& dampers) {
+    Column q = spread(at) - dampers;
+    k.solve(q);
+    return q;
+  };
+  const Column none = Column::Zero(rail_->size());
+  unit_v_ =
+      speed_ / (2.0 * kStep) * (under(rail_->place(start_ + kStep), none) - under(rail_->place(start_ - kStep), none));
+  unit_q_ = under(place, rail_->damping().times(unit_v_));
+  compliance_at_rest_ = along(place, place.value, unit_q_) + place.own_compliance;
+  energy_at_rest_ = 0.5 * (rail_->stiffness().form(unit_q_) + place.own_compliance + rail_->mass().form(unit_v_));
+  power_at_rest_ = rail_->damping().form(unit_v_);
   q_ = v_ = a_ = Column::Zero(rail_->size());
 
   // A step between what still moves and what is taken up at rest would give energy.
@@ -126,6 +143,8 @@ MovingRail::Answer MovingRail::after(double time) {
     // Differences of times vary in their last digits, which are not worth a factorisation.
     const double h = static_cast<float>(time - time_);
     t.place = rail_->place(place_at(time));
+    t.length = h;
+    t.before = rail_->place(place_at(time_));
     t.of_q = beta_ * h * h;
     t.of_v = gamma_ * h;
     t.known_q = q_ + h * v_ + (0.5 - beta_) * h * h * a_;
@@ -133,8 +152,7 @@ MovingRail::Answer MovingRail::after(double time) {
     if (h > 0.0) {
       factorise(h);
       t.free = rail_->damping().times(alpha_ * v_ - (1.0 + alpha_) * t.known_v) +
-               rail_->stiffness().times(alpha_ * q_ - (1.0 + alpha_) * t.known_q) -
-               alpha_ * force_ * spread(rail_->place(place_at(time_)));
+               rail_->stiffness().times(alpha_ * q_ - (1.0 + alpha_) * t.known_q) - alpha_ * force_ * spread(t.before);
       factors_.solve(t.free);
       t.unit = Column::Zero(rail_->size());
       for (std::size_t i = 0; i < 4; ++i)
@@ -148,12 +166,10 @@ MovingRail::Answer MovingRail::after(double time) {
     };
     t.deflection = answer(t.place.value, t.known_q, t.of_q);
     t.deflection.compliance += t.place.own_compliance;
-    t.slope = answer(t.place.slope, t.known_q, t.of_q);
+    const Answer slope = answer(t.place.slope, t.known_q, t.of_q);
     t.rate = answer(t.place.value, t.known_v, t.of_v);
-    t.rate.free += speed_ * t.slope.free;
-    t.rate.compliance += speed_ * (t.slope.compliance + t.place.own_compliance_slope);
-    // The rest bends with the force, which yields no work where it only moves along.
-    t.slope.compliance += 0.5 * t.place.own_compliance_slope;
+    t.rate.free += speed_ * slope.free;
+    t.rate.compliance += speed_ * (slope.compliance + t.place.own_compliance_slope);
     trial_ = std::move(t);
   }
   return trial_->deflection;
@@ -165,26 +181,23 @@ MovingRail::Moved MovingRail::moved(double force) const {
   const Trial& t = *trial_;
   const Column a = t.free + force * t.unit, q = t.known_q + t.of_q * a, v = t.known_v + t.of_v * a;
   Moved m;
-  m.slope = t.slope.free + t.slope.compliance * force;
   m.energy = 0.5 * (rail_->mass().form(v) + rail_->stiffness().form(q) + t.place.own_compliance * force * force);
-  m.power = rail_->damping().form(v);
+  if (t.length > 0.0) {
+    const Column between = 0.5 * (q_ + q);
+    // What is deflected beyond the coordinates is elastic: half of it yields no work where it only moves along.
+    const double beyond = 0.25 * (force_ + force) * (t.place.own_compliance - t.before.own_compliance);
+    m.slope = (along(t.place, t.place.value, between) - along(t.before, t.before.value, between) + beyond) /
+              (speed_ * t.length);
+    m.power = rail_->damping().form((q - q_) / t.length);
+  }
   return m;
 }
 
 void MovingRail::begin(double force) {
   time_ = 0.0;
   force_ = force;
-  BandedSymmetric<double> k = rail_->stiffness();
-  k.factorise();
-  const auto under = [&](double by) {
-    Column q = force * spread(rail_->place(start_ + by));
-    k.solve(q);
-    return q;
-  };
-  // Where it has come from slowly.
-  constexpr double kStep = 1e-3;
-  q_ = under(0.0);
-  v_ = speed_ / (2.0 * kStep) * (under(kStep) - under(-kStep));
+  q_ = force * unit_q_;
+  v_ = force * unit_v_;
   a_ = Column::Zero(rail_->size());
   trial_.reset();
 }

@@ -34,7 +34,7 @@ class MovingRail {
     double free = 0.0;        ///< [m]
     double compliance = 0.0;  ///< [m/N]
   };
-  /// The rail at rest under a force that has always been there, time 0.
+  /// The rail at time 0, under a force that has come slowly: at rest but for dampers.
   Answer at_rest() const { return {0.0, compliance_at_rest_}; }
   /// After a step to this time, from what was accepted last.
   Answer after(double time);
@@ -43,13 +43,17 @@ class MovingRail {
   /// Rate of the deflection under the force, which moves [m/s].
   double rate(double force) const;
   struct Moved {
-    double slope = 0.0;   ///< horizontal force on what presses on the rail, over the force
-    double energy = 0.0;  ///< kinetic and elastic energy [J]
-    double power = 0.0;   ///< of all dampers, >= 0 [W]
+    double slope = 0.0;   ///< horizontal force on what presses on the rail, over the force: mean of the step
+    double energy = 0.0;  ///< kinetic and elastic energy at its end [J]
+    double power = 0.0;   ///< of all dampers, >= 0: mean of the step [W]
   };
   Moved moved(double force) const;
+  /// At time 0, under this force.
+  Moved moved_at_rest(double force) const {
+    return {0.0, energy_at_rest_ * force * force, power_at_rest_ * force * force};
+  }
 
-  /// Makes a state at rest under this force, which moves, that of time 0.
+  /// Makes the state of at_rest under this force, that of time 0.
   void begin(double force);
   /// Makes the state after the step that of moved(force).
   void accept(double force);
@@ -63,12 +67,12 @@ class MovingRail {
   using Column = BandedSymmetric<double>::Column;
   /// A step to some time, as far as it does not depend on the force at its end.
   struct Trial {
-    double time = 0.0;
-    RailOnSeats::Place place;
+    double time = 0.0, length = 0.0;  ///< length: of the step
+    RailOnSeats::Place place, before;
     Column known_q, known_v, free, unit;  ///< accelerations without the force, and by a unit of it
     double of_q = 0.0, of_v = 0.0;        ///< of displacements and rates by accelerations
     // At the place under the force, without it and by a unit of it.
-    Answer deflection, slope, rate;
+    Answer deflection, rate;
   };
 
   double place_at(double time) const { return start_ + speed_ * time; }
@@ -85,7 +89,9 @@ class MovingRail {
   std::int64_t seats_ = 0;   ///< of the part that is looked at
   Column calm_;              ///< factors on what stays in it as it moves
   double next_place_ = 0.0;  ///< of the force, where the part moves on [m]
-  double compliance_at_rest_ = 0.0;
+  // At time 0, under a force of 1 N.
+  Column unit_q_, unit_v_;
+  double compliance_at_rest_ = 0.0, energy_at_rest_ = 0.0, power_at_rest_ = 0.0;
   std::unique_ptr<const RailOnSeats> rail_;  ///< the part
 
   double time_ = 0.0, force_ = 0.0;

@@ -110,6 +110,7 @@ TEST(ShippedFigures, StudiesAreValid) {
   EXPECT_EQ(io::read_study_file(example("figure5.toml"), {}).runs.size(), 6u);
   EXPECT_EQ(io::read_study_file(example("figure6.toml"), {}).runs.size(), 80u);
   EXPECT_EQ(io::read_study_file(example("figure6-track.toml"), {}).runs.size(), 16u);
+  EXPECT_EQ(io::read_study_file(example("flat-between-sleepers.toml"), {}).runs.size(), 24u);
 }
 
 /// Runs a study of examples/, changed to take no time.

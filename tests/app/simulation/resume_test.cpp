@@ -73,6 +73,12 @@ class Resume : public ::testing::Test {
 
 TEST_F(Resume, AfterKillsTheResultIsThatOfAnUndisturbedRun) { expect_kills_to_change_nothing(); }
 
+TEST_F(Resume, RailsThatBendGoOnInTheMiddle) {
+  input.edit("simulation.toml", "\"track.toml\"",
+             "\"" + std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml\"\nfrom_midspan_mm = 250");
+  expect_kills_to_change_nothing();
+}
+
 TEST_F(Resume, PeaksBetweenTheLinesOutliveKills) {
   input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.15\noutput_every_mm = 60");
   expect_kills_to_change_nothing();

@@ -102,6 +102,36 @@ TEST_F(Simulate, JsonGoesToAFileBesideTheTable) {
   EXPECT_EQ(nlohmann::json::parse(input.read("summary.json"))["status"], "complete");
 }
 
+/// The load over the stiffness between sleepers, which is also where that stiffness comes out for a wheel that stands.
+TEST_F(Simulate, RailsThatBendCarryTheWheels) {
+  const std::string track =
+      "simulation.track=" + std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml";
+  const ProgramResult shown = run({"--set", track, "--receptance", input.path("track"), "--json", "-"});
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  EXPECT_FALSE(std::filesystem::exists(out()));
+  for (const char* file : {"receptance.csv", "track.svg"})
+    EXPECT_TRUE(std::filesystem::exists(input.path("track/" + std::string(file)))) << file;
+  const auto curves = nlohmann::json::parse(shown.out).at("curves");
+  EXPECT_TRUE(curves.contains("lateral"));
+  const double stiffness = curves.at("between").at("stiffness_at_rest_N_per_m");
+
+  const ProgramResult r = run({"--set", track, "-o", out(), "--json", "-"});
+  ASSERT_EQ(r.status, 0) << r.err;
+  const Table history = read_table(input.read("out/history.csv"));
+  const double load = history.column("Q_N").front();
+  EXPECT_NEAR(history.column("rail_z_m").front(), load / stiffness, 1e-3 * load / stiffness);
+  EXPECT_LT(std::abs(nlohmann::json::parse(r.out)["summary"]["energy_integration_error"].get<double>()), 1e-4);
+}
+
+TEST_F(Simulate, ALumpedTrackShowsItsReceptance) {
+  const ProgramResult shown = run({"--receptance", input.path("track"), "--json", "-"});
+  ASSERT_EQ(shown.status, 0) << shown.err;
+  EXPECT_NEAR(nlohmann::json::parse(shown.out).at("curves").at("rail").at("stiffness_at_rest_N_per_m").get<double>(),
+              160e6, 1.0);
+  input.edit("simulation.toml", "track = \"track.toml\"", "");
+  EXPECT_THAT(run({"--receptance", input.path("rigid")}).err, HasSubstr("rigid"));
+}
+
 TEST_F(Simulate, ModesOnly) {
   const ProgramResult text = run({"--modes", "-o", out()});
   EXPECT_THAT(text.out, HasSubstr("ws1_right.Q_N"));

@@ -57,7 +57,7 @@ TEST(MovingRail, CrawlingForceDeflectsAsAtRest) {
     const RailOnSeats rest(track);
     MovingRail rail(track, kSpeed, kStart, 0.8);
     const double from = rest.middle() + kStart;
-    EXPECT_NEAR(rail.at_rest().compliance / rest.receptance(from, 0.0).real(), 1.0, 1e-6);
+    EXPECT_NEAR(rail.at_rest().compliance / rest.receptance(from, 0.0).real(), 1.0, 2e-3);  // dampers at 0.5 m/s
     rail.begin(kForce);
     double least = 1.0, most = 0.0;
     for (int i = 1; i <= 1800; ++i) {
@@ -115,6 +115,29 @@ TEST(MovingRail, HarmonicForceMeetsTheReceptance) {
   }
 }
 
+/// What the force puts into the rail is stored or dissipated, over 15 sleepers and as many elements and windows as
+/// there are.
+TEST(MovingRail, KeepsTheBalanceOfItsEnergy) {
+  constexpr double kForce = 55e3, kSpeed = 40.0, kStep = 5e-5;
+  MovingRail rail(uneven_zhai(), kSpeed, 0.0, 1.0);
+  rail.begin(kForce);
+  double energy = rail.moved_at_rest(kForce).energy, deflection = kForce * rail.at_rest().compliance;
+  double put_in = 0.0, dissipated = 0.0;
+  const double at_start = energy;
+  for (int i = 1; i <= 4000; ++i) {
+    const MovingRail::Answer answer = rail.after(kStep * i);
+    const MovingRail::Moved moved = rail.moved(kForce);
+    const double w = answer.free + answer.compliance * kForce;
+    put_in += kForce * (w - deflection - kSpeed * kStep * moved.slope);
+    dissipated += kStep * moved.power;
+    deflection = w;
+    energy = moved.energy;
+    rail.accept(kForce);
+  }
+  EXPECT_GT(dissipated, 5.0);
+  EXPECT_NEAR(put_in, dissipated + energy - at_start, 1e-5 * dissipated);
+}
+
 /// Frýba's closed form for Euler's beam on a bed: the deflection under a force grows by 1/sqrt(1 - (V/c)^2) with the
 /// critical speed c = (4 k E I/m2)^(1/4), until it has left its start behind.
 TEST(MovingRail, FastForceOnABed) {
@@ -158,7 +181,7 @@ VehicleOnTrack on_bending_rails(const FlexibleTrack& track, double speed, double
   VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, speed, kBendingContact);
   const double load = 0.5 * v.system.wheelset_load[0];
   for (WheelOnRail& wheel : v.wheels) {
-    wheel.element = std::make_shared<ContactOnRail>(wheel.element, MovingRail(track, speed, 0.0, 0.8), load, tolerance);
+    wheel.element = std::make_shared<ContactOnRail>(wheel.element, MovingRail(track, speed, 0.0, 1.0), load, tolerance);
   }
   return v;
 }
@@ -193,7 +216,7 @@ TEST(ContactOnRail, EnergyIsBalanced) {
   while (!s.finished()) s.advance();
   EXPECT_GT(s.energy().turnover, 10.0);
   EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
-  EXPECT_LT(std::abs(s.energy().contact_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
+  EXPECT_LT(std::abs(s.energy().contact_error(s.energy_at_start())), 1e-5 * s.energy().turnover);
 }
 
 TEST(ContactOnRail, GoesOnWithTheSameBits) {
