@@ -83,6 +83,7 @@ class Run {
     if (e.report.status != Status::ok)
       throw Error(ErrorKind::numerical, e.report.message, {},
                   "check the loads, the gauge and where the wheels stand at the start");
+    result_.message = e.report.message;
     return e;
   }
 
