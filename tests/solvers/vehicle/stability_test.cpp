@@ -6,6 +6,7 @@
 
 #include <Eigen/Eigenvalues>
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <complex>
 #include <numbers>
@@ -14,6 +15,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
+#include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
 
 namespace treadmark::vehicle {
@@ -191,6 +193,104 @@ TEST(Stability, AFreeWheelsetRunsInKlingelsWave) {
     const double wave = 2.0 * std::numbers::pi * std::sqrt(w.radius * w.half_distance / conicity);
     EXPECT_NEAR(speed / hunting(at).frequency, wave, 1e-3 * wave);
   }
+}
+
+/// In time: a small lateral offset grows or decays by the eigenvalue's real part.
+TEST(Stability, ADisturbedRunGrowsAsTheEigenvalueSays) {
+  Wheelset w;
+  w.lateral = 0.5e6;
+  w.yaw = 1e6;
+  const double critical = critical_by_hand(w);
+  for (const double share : {0.8, 1.2}) {
+    const double speed = share * critical;
+    const VehicleAtSpeed vehicle = on_edges(w);
+    const std::complex<double> expected = hunting(modes_at_speed(vehicle, speed)).value;
+    const VehicleOnTrack v = vehicle(speed);
+    SystemState start = find_equilibrium(v).state;
+    const Eigen::Index y = 1;
+    ASSERT_EQ(v.system.coordinates[1].name, "wheelset.y");
+    start.q[y] += 2e-5;
+    SimulationSettings settings;
+    settings.duration = 2.5;
+    settings.position_tolerance = 1e-10;
+    settings.max_travel = 0.05;
+    Simulation simulation(v, start, settings);
+    // Amplitudes at the crests, after other motions have died away.
+    std::vector<std::array<double, 2>> crests, last;
+    while (!simulation.finished()) {
+      simulation.advance();
+      last.push_back({simulation.state().time, simulation.state().q[y]});
+      const std::size_t n = last.size();
+      if (n > 2 && last[n - 2][0] > 1.0 && last[n - 2][1] > last[n - 3][1] && last[n - 2][1] >= last[n - 1][1])
+        crests.push_back(last[n - 2]);
+    }
+    ASSERT_GE(crests.size(), 4u);
+    const double span = crests.back()[0] - crests.front()[0],
+                 growth = std::log(crests.back()[1] / crests.front()[1]) / span,
+                 angular = 2.0 * std::numbers::pi * static_cast<double>(crests.size() - 1) / span;
+    EXPECT_NEAR(growth, expected.real(), 0.01 * std::abs(expected)) << share;
+    EXPECT_GT(growth * expected.real(), 0.0);
+    EXPECT_NEAR(angular, expected.imag(), 0.01 * expected.imag()) << share;
+  }
+}
+
+TEST(Stability, AnOverdampedMassHasTheTwoRealEigenvaluesOfItsFormula) {
+  // The wheel hardly moves.
+  const double m = 9000.0, k = 2e6, c = 4e5;
+  const ModesAtSpeed at = modes_at_speed(
+      [&](double speed) { return on_hertz_springs(wheel_on_mass(1813.0, m, k, c), {}, speed, 1e15); }, 20.0);
+  const double half = 0.5 * c / m, root = std::sqrt(half * half - k / m);
+  for (const double expected : {-half + root, -half - root})
+    EXPECT_TRUE(std::ranges::any_of(at.modes, [&](const Eigenmode& mode) {
+      return mode.frequency == 0.0 && mode.damping_ratio == 1.0 &&
+             std::abs(mode.value.real() - expected) < 1e-3 * std::abs(expected);
+    })) << expected;
+  EXPECT_FALSE(at.fastest_growth);
+}
+
+TEST(Stability, MotionsKeepTheirNumberFromSpeedToSpeed) {
+  Wheelset w;
+  w.lateral = 0.5e6;
+  w.yaw = 1e6;
+  StabilitySettings settings;
+  for (double speed = 10.0; speed < 100.0; speed += 2.5) settings.speeds.push_back(speed);
+  const StabilityResult r = stability(on_edges(w), settings);
+  int number = -1;
+  for (const ModesAtSpeed& at : r.at) {
+    const std::complex<double> swaying = hunting(at).value;
+    const auto place = std::ranges::find(at.modes, swaying, &Eigenmode::value) - at.modes.begin();
+    const int here = at.branch[static_cast<std::size_t>(place)];
+    if (number < 0) number = here;
+    EXPECT_EQ(here, number) << at.speed;
+    std::vector<int> sorted = at.branch;
+    std::ranges::sort(sorted);
+    EXPECT_EQ(std::ranges::adjacent_find(sorted), sorted.end());
+  }
+}
+
+TEST(Stability, SaysWhereAVehicleIsStable) {
+  Wheelset w;
+  w.lateral = 0.5e6;
+  w.yaw = 1e6;
+  const double critical = critical_by_hand(w);
+  StabilitySettings settings;
+  settings.speeds = {0.5 * critical, 0.9 * critical};
+  EXPECT_EQ(stability(on_edges(w), settings).verdict, StabilityVerdict::stable);
+  settings.speeds = {1.1 * critical, 1.2 * critical};
+  EXPECT_EQ(stability(on_edges(w), settings).verdict, StabilityVerdict::unstable);
+}
+
+TEST(Stability, RefusesSpeedsThatMakeNoSense) {
+  const VehicleAtSpeed vehicle = on_edges({});
+  for (const std::vector<double>& speeds : {std::vector<double>{}, {0.0, 1.0}, {2.0, 1.0}, {std::nan("")}}) {
+    StabilitySettings settings;
+    settings.speeds = speeds;
+    EXPECT_THROW(stability(vehicle, settings), Error);
+  }
+  StabilitySettings settings;
+  settings.speeds = {1.0};
+  settings.speed_tolerance = 0.0;
+  EXPECT_THROW(stability(vehicle, settings), Error);
 }
 
 }  // namespace
