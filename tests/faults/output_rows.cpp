@@ -40,10 +40,6 @@ y = ["q_max_N"]
 #define PAIR "geometry --wheel S1002 --rail 60E1 --cant 1:40 --amplitudes-mm 3 --step-mm 0.5"
 #define TRACK \
   "track " TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml -o @track --json @t.json --receptance @t.csv"
-#define STABILITY                                                                                                 \
-  "stability " TREADMARK_SOURCE_DIR                                                                               \
-  "/examples/flat-at-speed.toml -o @stability --json @s.json --from 20 --to 30 --set simulation.wheels=[] --set " \
-  "simulation.vehicle=vehicles/single-wheelset.toml"
 #define LESS " --set wheelset.vertical_force_N=70e3"
 
 const std::vector<OutputRow> kRows{
@@ -90,7 +86,6 @@ const std::vector<OutputRow> kRows{
     {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation --json @simulation.json",
      "simulate $short.toml -o @simulation --json @simulation.json --set simulation.speed_m_s=30", 0, true},
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0, true},
-    {"stability", "vehicle", "", STABILITY " --count 2", STABILITY " --count 3", 2},
     {"track", "vehicle", "", TRACK " --fit 1 --count 20", TRACK " --fit 1 --count 30", 2},
 };
 
