@@ -32,7 +32,7 @@ treadmark_part(openvdb TREADMARK_WITH_OPENVDB "OpenVDB" "libopenvdb-dev and libb
 treadmark_part(hdf5 TREADMARK_WITH_HDF5 "HDF5" "libhdf5-dev" "Files of fields and histories (.h5), with HDF5")
 treadmark_part(tbb TREADMARK_WITH_TBB "oneTBB" "libtbb-dev" "Threads for loops within loops too, with oneTBB")
 treadmark_part(fftw TREADMARK_WITH_FFTW "FFTW 3" "libfftw3-dev" "Use FFTW 3 (GPL) for Fourier transforms instead of KISS FFT (BSD)")
-treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep, track)")
+treadmark_part(vehicle TREADMARK_VEHICLE "vehicles" "" "Vehicles on their track in time (simulate, sweep, stability, track)")
 treadmark_part(scans TREADMARK_SCANS "scans" "" "Import of raw scans, virtual scans (import, scan)")
 treadmark_part(cgal TREADMARK_WITH_CGAL "CGAL" "libcgal-dev" "Use CGAL (GPL) for stray points, triangulations and free meshes of scans"
   NEEDS scans)

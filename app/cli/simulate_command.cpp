@@ -118,6 +118,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   run.settings = overrides;
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
+    if (!result.message.empty()) std::cerr << "doubt: " << result.message << '\n';
     print_summary(options.json_file, app::to_json(result, {}),
                   app::statics_text(result) + '\n' + app::modes_text(result));
     return kOk;

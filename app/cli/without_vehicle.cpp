@@ -9,6 +9,7 @@ namespace treadmark::cli {
 Command add_simulate(CLI::App& verb) { return add_left_out(verb); }
 Command add_assess(CLI::App& verb) { return add_left_out(verb); }
 Command add_sweep(CLI::App& verb) { return add_left_out(verb); }
+Command add_stability(CLI::App& verb) { return add_left_out(verb); }
 Command add_track(CLI::App& verb) { return add_left_out(verb); }
 
 void check_study_file(const std::string& name, const std::vector<std::string>&) {

@@ -11,6 +11,7 @@ namespace treadmark::vehicle {
 struct EquilibriumSettings {
   double tolerance = 1e-6;   ///< of every force over the largest wheelset load
   double acceptable = 1e-4;  ///< where forces jump with the elements in contact and let no state come nearer
+  double doubtful = 1e-3;    ///< the same, with a message in the report
   int max_iterations = 60;   ///< of Newton's method
 };
 
@@ -25,7 +26,9 @@ struct Equilibrium {
 
 /// Steady running at constant speed: positions of all bodies and pitch rates of the wheelsets for which all forces,
 /// contact included, are in balance (Newton's method, contact linearised by differences, steps halved until the
-/// imbalance falls). Accepts nothing in the elements.
+/// imbalance falls; where that ends too early, as forces of rough wheels jump with the elements in contact, further
+/// steps by slopes over wide differences, of which the nearest state counts). A state that is only doubtful has status
+/// ok and a message. Accepts nothing in the elements.
 Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings = {});
 
 /// Forces of everything, linear about a state: -K d(coordinates) - C d(rates).

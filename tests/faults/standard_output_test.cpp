@@ -37,6 +37,10 @@ const std::vector<OutputRow> kPrinting{
     {"simulate", "vehicle hdf5", "", "simulate $short.toml -o @simulation", nullptr, 0},
     {"assess", "vehicle hdf5", "simulate $simulation.toml -o $simulated", "assess $simulated", nullptr, 0},
     {"sweep", "vehicle hdf5", "", "sweep $short-study.toml -o @sweep", nullptr, 0},
+    {"stability", "vehicle", "",
+     "stability " TREADMARK_SOURCE_DIR "/examples/flat-at-speed.toml --from 20 --to 30 --count 2 --set "
+     "simulation.wheels=[] --set simulation.vehicle=vehicles/single-wheelset.toml",
+     nullptr, 0},
     {"track", "vehicle", "", "track " TREADMARK_SOURCE_DIR "/examples/tracks/gm-tt0088.toml --count 20", nullptr, 0},
     {"list", "", "", "list verbs", nullptr, 0},
     {"schema", "", "", "schema", nullptr, 0},

@@ -6,8 +6,10 @@
 #include <gtest/gtest.h>
 
 #include "small_vehicles.hpp"
+#include "treadmark/backends/create.hpp"
 #include "treadmark/solvers/vehicle/eigenmodes.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
+#include "treadmark/solvers/vehicle/full_contact.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -41,6 +43,86 @@ TEST(Equilibrium, AVehicleWithoutWeightOnItsWheelsIsRefused) {
   VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, 20.0, kHertzStiffness);
   v.system.wheelset_load = {0.0};
   EXPECT_THROW(find_equilibrium(v), Error);
+}
+
+/// A round wheel with roughness across its tread: a cone of 1:40 with heights that scatter by some micrometres. With
+/// FASTSIM its creep forces jump as elements come into contact and go.
+wheelrail::Geometry rough_wheel(int seed) {
+  Profile profile;
+  profile.body = Body::wheel;
+  profile.name = "rough";
+  std::uint32_t state = static_cast<std::uint32_t>(seed);
+  for (double y = 40e-3; y > -30e-3; y -= 1e-3) {
+    state = 1664525u * state + 1013904223u;
+    const double noise = 2.0 * (state / 4294967296.0) - 1.0;
+    profile.y.push_back(y);
+    profile.z.push_back(-y / 40.0 + 10e-6 * noise);
+  }
+  SurfaceSpec wheel{Body::wheel, 0.46, profile, {}}, rail{Body::rail, 0.0, StandardProfile{"60E1"}, {}};
+  return {create_surface(rail), create_surface(wheel), true, true};
+}
+
+/// Newton's method alone stopped at 1.9e-4, 1.0e-3 and 3.3e-4 of the load.
+TEST(Equilibrium, OfRoughWheelsIsFoundAlthoughTheirForcesJump) {
+  VehicleModel model = wheel_on_mass(1813.0, 9000.0, 2e6, 1e4);
+  model.bodies[1].free = {true, true, true, true, true, true};
+  model.bodies[1].inertia = {1120.0, 112.0, 1120.0};
+  model.springs[0].stiffness = {30e6, 4e6, 2e6, 1e6, 0, 1e6};
+  for (const int seed : {4, 10, 19}) {
+    VehicleOnTrack v;
+    v.speed = 60.0;
+    v.system = assemble(model, {}, v.speed, kGravity);
+    for (const auto side : {wheelrail::Side::left, wheelrail::Side::right}) {
+      wheelrail::Problem p;
+      p.side = side;
+      p.track.cant = 1.0 / 40.0;
+      p.wheelset.nominal_radius = 0.46;
+      p.regime = kalker::Regime::steady;
+      p.tangential_model = kalker::TangentialModel::fastsim;
+      p.discretisation.dx = p.discretisation.ds = 1e-3;
+      const wheelrail::Geometry bodies = rough_wheel(seed + (side == wheelrail::Side::left ? 100 : 0));
+      v.wheels.push_back({0, side, "wheel", std::make_shared<FullContact>(bodies, p), rail_marker_at_rest(bodies, p)});
+    }
+    v.connect();
+    const Equilibrium e = find_equilibrium(v);
+    EXPECT_EQ(e.report.status, Status::ok) << e.report.message;
+    EXPECT_EQ(e.report.message.empty(), e.residual <= EquilibriumSettings{}.acceptable) << e.report.message;
+    const double load = (1813.0 + 9000.0) * kGravity;
+    double carried = 0.0;
+    for (const ContactReaction& r : e.reactions) carried += r.on_rail.force.z();
+    EXPECT_NEAR(carried, load, 1e-3 * load);
+    EXPECT_NEAR(v.motion(0, e.state).wheelset_velocity.pitch, -60.0 / 0.46, 0.01 * 60.0 / 0.46);
+  }
+}
+
+TEST(Equilibrium, ForcesThatStayOutOfBalanceAreNamedOrRefused) {
+  // A force that jumps where all others are in balance, so that no state is.
+  class Restless : public HertzSpring {
+   public:
+    Restless(double side_y, double jump) : HertzSpring(9e10, side_y, 0.46, 1e5), jump_(jump) {}
+    ContactReaction evaluate(const PairMotion& m) override {
+      ContactReaction r = HertzSpring::evaluate(m);
+      const double back = m.wheelset.x > 0.0 ? jump_ : -jump_;
+      r.on_rail.force.x() += back;
+      r.on_wheelset.force.x() -= back;
+      return r;
+    }
+
+   private:
+    double jump_;
+  };
+  VehicleModel model = wheel_on_mass(1813.0, 9000.0, 2e6, 1e4);
+  model.bodies[1].free = {true, false, true, false, false, false};
+  model.bodies[1].inertia = {1120.0, 112.0, 1120.0};
+  model.springs[0].stiffness = {1e6, 0, 2e6, 0, 0, 0};
+  const double load = (1813.0 + 9000.0) * kGravity;
+  for (const double share : {4e-4, 4e-3}) {
+    VehicleOnTrack v = on_hertz_springs(model, {}, 20.0, kHertzStiffness);
+    v.wheels[0].element = std::make_shared<Restless>(-0.75, share * load);
+    const Equilibrium e = find_equilibrium(v);
+    EXPECT_EQ(e.report.status == Status::ok, share < 1e-3) << e.residual;
+    EXPECT_NE(e.report.message.find("remain"), std::string::npos) << e.report.message;
+  }
 }
 
 /// Frequencies of two masses: m1 on k1 on m2 on k2 on the ground.
