@@ -162,6 +162,7 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
       app::summary_text(result) + (own ? app::assessment_text(std::span(own, 1)) : "") + app::times_text(times));
   if (result.status == "interrupted")
     std::cerr << result.message << (folder.empty() ? "" : "; --resume goes on from there") << '\n';
+  if (result.status == "complete" && !result.message.empty()) std::cerr << "doubt: " << result.message << '\n';
   if (result.status == "failed") std::cerr << "treadmark: " << result.message << '\n';
   if (const double steps = doubtful_steps(result); steps > 0.0)
     std::cerr << fmt::format(

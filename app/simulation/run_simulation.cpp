@@ -46,6 +46,7 @@ class Run {
       for (const vehicle::Eigenmode& mode : vehicle::eigenmodes(built_.vehicle, equilibrium_.state))
         result_.modes.push_back({mode.frequency, mode.damping_ratio, vehicle::describe(mode, built_.vehicle.system)});
     }
+    say_if_unstable();
   }
 
   io::SimulationResult take() { return std::move(result_); }
@@ -92,6 +93,20 @@ class Run {
                       : "check the loads, the gauge and where the wheels stand at the start");
     result_.message = e.report.message;
     return e;
+  }
+
+  void say_if_unstable() {
+    // Forces of full contacts jump with their elements: their slopes tell less.
+    const bool any_full = std::ranges::any_of(built_.full, [](const auto& element) { return element != nullptr; });
+    const double growing = any_full ? -0.01 : -1e-3;
+    constexpr double kSlowest = 0.1;  // [Hz]
+    const auto least = std::ranges::min_element(result_.modes, {}, &io::ModeRow::damping_ratio);
+    if (least == result_.modes.end() || !(least->damping_ratio < growing) || !(least->frequency_Hz > kSlowest)) return;
+    if (!result_.message.empty()) result_.message += "; ";
+    result_.message += fmt::format(
+        "the linearised vehicle is unstable at {:.6g} m/s: {:.3g} Hz, damping {:.2g} of critical, {} (treadmark "
+        "stability)",
+        file_.settings.speed, least->frequency_Hz, least->damping_ratio, least->shape);
   }
 
   void describe_statics() {

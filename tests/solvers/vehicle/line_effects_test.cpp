@@ -21,7 +21,7 @@ namespace {
 using std::numbers::pi;
 using wheelrail::Side;
 
-constexpr double kRadius = 0.46, kWheel = 9e10;
+constexpr double kRollingRadius = 0.46, kWheel = 9e10;
 
 LayoutElement element(double length, FromTo curvature, FromTo cant, TransitionShape shape = TransitionShape::linear) {
   return {length, curvature, cant, {1.435, 1.435}, shape, {}};
@@ -63,7 +63,7 @@ std::shared_ptr<const ContactTable> cone_table() {
     const wheelrail::Geometry bodies{
         analytic::make_prismatic_surface(analytic::cylinder_chain(cone.crown, 0.12)),
         analytic::make_revolved_surface({-kHalf, cone.slope * kHalf, -std::atan(cone.slope), {{2.0 * kHalf, 0.0}}},
-                                        kRadius),
+                                        kRollingRadius),
         true, true};
     wheelrail::Problem p;
     p.track.gauge_based = false;
@@ -94,10 +94,10 @@ VehicleOnTrack on_cones(const VehicleModel& model, double speed) {
 /// A free wheelset; soft springs keep it from running away.
 VehicleModel lone_wheelset(double load) {
   VehicleModel m;
-  m.bodies = {body("wheelset", 1500.0, {800, 100, 800}, {0, 0, -kRadius}, kAll),
+  m.bodies = {body("wheelset", 1500.0, {800, 100, 800}, {0, 0, -kRollingRadius}, kAll),
               body("frame", load / kGravity - 1500.0, {1e3, 1e3, 1e3}, {0, 0, -0.8}, kVertical)};
-  m.springs = {spring("wheelset", "frame", {0, 0, -kRadius}, {1e3, 1.0, 1e6, 0, 0, 1.0}, {0, 0, 1e4, 0, 0, 0})};
-  m.wheelsets = {{"wheelset", kRadius}};
+  m.springs = {spring("wheelset", "frame", {0, 0, -kRollingRadius}, {1e3, 1.0, 1e6, 0, 0, 1.0}, {0, 0, 1e4, 0, 0, 0})};
+  m.wheelsets = {{"wheelset", kRollingRadius}};
   return m;
 }
 
@@ -105,15 +105,15 @@ VehicleModel lone_wheelset(double load) {
 VehicleModel two_axles() {
   VehicleModel m;
   m.bodies = {body("car", 20000.0, {3e4, 2e5, 2e5}, {0, 0, -1.6}, {false, true, true, true, true, true}),
-              body("front", 1500.0, {800, 100, 800}, {3.0, 0, -kRadius}, kAll),
-              body("rear", 1500.0, {800, 100, 800}, {-3.0, 0, -kRadius}, kAll)};
+              body("front", 1500.0, {800, 100, 800}, {3.0, 0, -kRollingRadius}, kAll),
+              body("rear", 1500.0, {800, 100, 800}, {-3.0, 0, -kRollingRadius}, kAll)};
   for (const char* axle : {"front", "rear"})
     for (const double y : {-1.0, 1.0}) {
       const double x = axle[0] == 'f' ? 3.0 : -3.0;
       m.springs.push_back(spring(axle, "car", {x, y, -0.6}, {1e5, 2e6, 1.5e6, 0, 0, 0}, {2e3, 2e4, 2e4, 0, 0, 0},
                                  {0, 6e6, 0, 0, 0, 0}));
     }
-  m.wheelsets = {{"front", kRadius}, {"rear", kRadius}};
+  m.wheelsets = {{"front", kRollingRadius}, {"rear", kRollingRadius}};
   return m;
 }
 
@@ -149,7 +149,7 @@ TEST(LineEffects, SteadyCurvingAgainstTheBalanceOfTheWholeVehicle) {
       const Loads found = loads(v, e.reactions);
       CurvingVehicle whole;
       whole.mass = 23000.0;
-      whole.centre_height = (20000.0 * 1.6 + 3000.0 * kRadius) / whole.mass;
+      whole.centre_height = (20000.0 * 1.6 + 3000.0 * kRollingRadius) / whole.mass;
       const Curving hand = curving(whole, path->at(100.0), kSpeed, kGravity);
       EXPECT_NEAR(found.lateral, hand.guiding_force, 1e-4 * whole.mass * kGravity);
       EXPECT_NEAR(found.left + found.right, hand.left_load + hand.right_load, 1e-4 * whole.mass * kGravity);
@@ -160,7 +160,7 @@ TEST(LineEffects, SteadyCurvingAgainstTheBalanceOfTheWholeVehicle) {
       for (std::size_t i = 0; i < 4; ++i) aside += 0.25 * (v.motion(i, e.state).wheelset.y - e.reactions[i].contact_y);
       const double sum = hand.left_load + hand.right_load,
                    // The turning axles lean outwards.
-          gyroscopic = 2.0 * 100.0 * kSpeed * kSpeed / (kRadius * radius),
+          gyroscopic = 2.0 * 100.0 * kSpeed * kSpeed / (kRollingRadius * radius),
                    shift =
                        ((hand.left_load - hand.right_load) * whole.base - 2.0 * sum * aside + 2.0 * gyroscopic) / base;
       EXPECT_NEAR(found.left - found.right, shift, 0.01 * std::abs(shift) + 2e-4 * sum) << radius << ' ' << cant;
@@ -194,7 +194,7 @@ TEST(LineEffects, AFreeWheelsetFindsItsKinematicPath) {
   const Equilibrium e = find_equilibrium(v);
   ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
   const double base = e.reactions[1].contact_y - e.reactions[0].contact_y;
-  const double expected = -kRadius * base / (2.0 * Cone{}.slope * kCurve);
+  const double expected = -kRollingRadius * base / (2.0 * Cone{}.slope * kCurve);
   EXPECT_NEAR(v.motion(0, e.state).wheelset.y, expected, 0.02 * std::abs(expected));
   for (const ContactReaction& r : e.reactions) EXPECT_LT(std::abs(r.longitudinal_creep_force), 30.0);
 }
@@ -219,7 +219,7 @@ TEST(LineEffects, AFreeWheelsetWavesAsKlingelSays) {
       crossings.push_back(kSpeed * (t + (s.state().time - t) * y / (y - s.state().q[1])));
   }
   ASSERT_GE(crossings.size(), 5u);
-  const double base = 2.0 * 0.75, klingel = 2.0 * pi * std::sqrt(kRadius * base / (2.0 * Cone{}.slope));
+  const double base = 2.0 * 0.75, klingel = 2.0 * pi * std::sqrt(kRollingRadius * base / (2.0 * Cone{}.slope));
   const double found = 2.0 * (crossings.back() - crossings[1]) / static_cast<double>(crossings.size() - 2);
   EXPECT_NEAR(found, klingel, 0.02 * klingel);
 }
@@ -291,8 +291,8 @@ TEST(LineEffects, ForcesOfInertiaAgainstDifferencesOfPoses) {
   layout.cant_axis = CantAxis::low_rail;
   const auto path = std::make_shared<const TrackPath>(layout);
   VehicleModel model;
-  model.bodies = {body("wheelset", 1500.0, {800, 100, 800}, {0, 0.1, -kRadius}, kAll)};
-  model.wheelsets = {{"wheelset", kRadius}};
+  model.bodies = {body("wheelset", 1500.0, {800, 100, 800}, {0, 0.1, -kRollingRadius}, kAll)};
+  model.wheelsets = {{"wheelset", kRollingRadius}};
   const Multibody system = assemble(model, {}, kSpeed, kGravity);
   LineSetup setup = setup_of(path, kSpeed, 60.0);
   setup.speed = {{0.0, 10.0}, {kSpeed, 20.0}};
@@ -300,7 +300,7 @@ TEST(LineEffects, ForcesOfInertiaAgainstDifferencesOfPoses) {
   for (const double time : {0.3, 0.8, 1.5, 2.5}) {
     const auto pose = [&](double t) { return path->at(60.0 + travel_at(setup.speed, t).distance).X_LT(); };
     constexpr double h = 1e-3;
-    const Vec3 centre(0.0, 0.1, -kRadius);
+    const Vec3 centre(0.0, 0.1, -kRollingRadius);
     const auto where = [&](double t) { return pose(t).apply(centre); };
     const Vec3 a = (where(time + h) - 2.0 * where(time) + where(time - h)) / (h * h);
     const Mat3 axes = pose(time).rotation.transpose();
@@ -313,7 +313,7 @@ TEST(LineEffects, ForcesOfInertiaAgainstDifferencesOfPoses) {
       const Mat3 skew = d(0.0).transpose() * (d(h) - d(-h)) / (2.0 * h);
       const Vec3 spin(skew(2, 1), skew(0, 2), skew(1, 0));
       Vec3 inside = Vec3(800, 100, 800).cwiseProduct(spin);
-      inside.y() -= 100.0 * travel_at(setup.speed, t).speed / kRadius;
+      inside.y() -= 100.0 * travel_at(setup.speed, t).speed / kRollingRadius;
       return Vec3(pose(t).rotation * inside);
     };
     const Vec3 moment = -axes * (momentum(time + h) - momentum(time - h)) / (2.0 * h);
@@ -420,8 +420,8 @@ TEST(LineEffects, TorquesAreBorneByLongitudinalCreep) {
   while (!s.finished()) s.advance();
   double front = 0.0, rear = 0.0;
   for (std::size_t i = 0; i < 4; ++i) (i < 2 ? front : rear) -= s.reactions()[i].longitudinal_creep_force;
-  EXPECT_NEAR(front, kTorque / kRadius, 0.005 * kTorque / kRadius);
-  EXPECT_NEAR(rear, 0.0, 0.005 * kTorque / kRadius);
+  EXPECT_NEAR(front, kTorque / kRollingRadius, 0.005 * kTorque / kRollingRadius);
+  EXPECT_NEAR(rear, 0.0, 0.005 * kTorque / kRollingRadius);
   EXPECT_LT(std::abs(s.energy().integration_error(s.energy_at_start())), 1e-4 * s.energy().turnover);
 }
 
@@ -444,7 +444,8 @@ TEST(LineEffects, BrakingSlowsAxlesAndShiftsLoad) {
     const double at_start = v.motion(i, e.state).wheelset_velocity.pitch;
     EXPECT_NEAR(m.wheelset_velocity.pitch, at_start * (1.0 + 5.0 * kRate / kSpeed), 5e-3) << i;
     // What turns the wheels slower is the rail's force at each: I / R^2 a.
-    EXPECT_NEAR(s.reactions()[i].longitudinal_creep_force, 0.5 * 100.0 / (kRadius * kRadius) * kRate, 5.0) << i;
+    EXPECT_NEAR(s.reactions()[i].longitudinal_creep_force, 0.5 * 100.0 / (kRollingRadius * kRollingRadius) * kRate, 5.0)
+        << i;
   }
 }
 
