@@ -33,6 +33,7 @@ struct AssessmentSection {
   SectionKind kind = SectionKind::straight;
 };
 
+/// What is to be read out of a run.
 struct AssessmentRequest {
   VehicleKind vehicle = VehicleKind::passenger;
   std::vector<AssessmentSection> sections;  ///< none: the whole run from `from` on

@@ -52,6 +52,7 @@ struct AxleDeflection {
   double displacement = 0.0;  ///< 1
   double slope = 0.0;         ///< [1/m]
 };
+/// y: to the right of the middle, between the outermost places [m].
 AxleDeflection deflection_at(const FlexibleAxle& axle, const BendingMode& mode, double y);
 
 }  // namespace treadmark

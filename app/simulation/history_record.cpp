@@ -203,34 +203,36 @@ void HistoryRecord::add_running(std::size_t watched) {
 /// Of points that move little: a + (angular acceleration) x arm.
 void HistoryRecord::add_accelerations(const io::HistoryRequest& request) {
   const vehicle::Multibody& system = simulation_.vehicle().system;
-  using Places = std::array<int, kFreedoms>;  // of the coordinates, -1: none
-  const auto add_point = [&](const std::string& name, const std::string& what, const Places& at, const Vec3& arm) {
-    const auto value = [this, at](Freedom f) {
-      const int i = at[static_cast<std::size_t>(f)];
-      return i < 0 ? 0.0 : simulation_.acceleration()[i];
+  const auto add_point = [&](const std::string& name, const std::string& what, const vehicle::Multibody::Body& body,
+                             const Vec3& arm) {
+    const auto place = [at = body.coordinate](Freedom f) { return at[static_cast<std::size_t>(f)]; };
+    const auto rate = [this, place](Freedom f) { return place(f) < 0 ? 0.0 : simulation_.acceleration()[place(f)]; };
+    // As an instrument on the body shows it, which takes gravity along its axes for acceleration.
+    const auto of_line = [this, at = Vec3(body.position + arm)] {
+      const auto& line = simulation_.vehicle().line;
+      return line ? line->felt_acceleration(at, simulation_.state().time) : Vec3(Vec3::Zero());
     };
-    add(name + ".ay_m_s2", "m/s2", "lateral acceleration of " + what,
-        [=] { return value(Freedom::y) + value(Freedom::yaw) * arm.x() - value(Freedom::roll) * arm.z(); });
-    add(name + ".az_m_s2", "m/s2", "vertical acceleration of " + what,
-        [=] { return value(Freedom::z) + value(Freedom::roll) * arm.y() - value(Freedom::pitch) * arm.x(); });
+    const auto lean = [this, roll = place(Freedom::roll)] { return roll < 0 ? 0.0 : simulation_.state().q[roll]; };
+    add(name + ".ay_m_s2", "m/s2", "lateral acceleration of " + what, [=, gravity = request.gravity] {
+      return rate(Freedom::y) + rate(Freedom::yaw) * arm.x() - rate(Freedom::roll) * arm.z() + of_line().y() -
+             gravity * lean();
+    });
+    const bool pitches = body.wheelset < 0;  // axle boxes do not turn with the axle
+    add(name + ".az_m_s2", "m/s2", "vertical acceleration of " + what, [=] {
+      return rate(Freedom::z) + rate(Freedom::roll) * arm.y() - (pitches ? rate(Freedom::pitch) : 0.0) * arm.x() +
+             of_line().z();
+    });
   };
   for (const vehicle::WheelOnRail& wheel : simulation_.vehicle().wheels) {
-    Places at = system.wheelsets[static_cast<std::size_t>(wheel.wheelset)].coordinate;
-    at[static_cast<std::size_t>(Freedom::pitch)] = -1;  // axle boxes do not turn with the axle
+    const auto& set = system.wheelsets[static_cast<std::size_t>(wheel.wheelset)];
     const double y = wheel.side == wheelrail::Side::left ? -request.axle_box_y : request.axle_box_y;
-    add_point("axle_box." + wheel.name, "the axle box of " + wheel.name, at, {0.0, y, 0.0});
+    add_point("axle_box." + wheel.name, "the axle box of " + wheel.name,
+              system.bodies[static_cast<std::size_t>(set.body)], {0.0, y, 0.0});
   }
-  for (const io::PointInput& point : request.points) {
-    Places at;
-    at.fill(-1);
-    for (std::size_t i = 0; i < system.coordinates.size(); ++i) {
-      const vehicle::Coordinate& c = system.coordinates[i];
-      if (c.body >= 0 && c.name.substr(0, c.name.rfind('.')) == point.body)
-        at[static_cast<std::size_t>(c.freedom)] = static_cast<int>(i);
-    }
+  for (const io::PointInput& point : request.points)
     add_point(fmt::format("{}.{}", kPointKinds[static_cast<std::size_t>(point.kind)], point.name),
-              fmt::format("a point of {}", point.body), at, point.arm);
-  }
+              fmt::format("a point of {}", point.body),
+              *std::ranges::find(system.bodies, point.body, &vehicle::Multibody::Body::name), point.arm);
 }
 
 void HistoryRecord::keep_only(const io::HistoryRequest& request) {

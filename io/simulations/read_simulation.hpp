@@ -36,8 +36,9 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
 SimulationSettings read_settings(const TableReader& simulation);
 /// [simulation.fields].
 FieldRequests read_fields(const TableReader& simulation);
-/// What [simulation] says of the history, and [assessment]; out.vehicle, out.settings and out.irregularities are set.
+/// What [simulation] says of the history; out.vehicle and out.settings are set.
 void read_history(const TableReader& simulation, SimulationFile& out);
+/// [assessment]; out.vehicle, out.settings and out.irregularities are set.
 void read_assessment(const TableReader& assessment, SimulationFile& out);
 /// [[simulation.torques]].
 std::vector<AxleTorque> read_torques(const TableReader& simulation, const VehicleModel& vehicle);

@@ -37,6 +37,7 @@ PointInput read_point(const TableReader& table, const VehicleModel& vehicle) {
 
 void read_history(const TableReader& simulation, SimulationFile& out) {
   out.history.axle_box_y = simulation.number_or("axle_box_y_mm", out.history.axle_box_y);
+  out.history.gravity = out.settings.gravity;
   out.history.channels = simulation.words("channels");
   if (const CaseValue* channels = simulation.find("channels")) out.history.channels_where = channels->where;
   std::set<std::string> names;

@@ -35,6 +35,7 @@ struct WheelContactInput {
   /// Of a full contact: from and to which place along the rail, from a table elsewhere; none: without end [m].
   std::optional<double> full_from, full_to;
 
+  /// Whether it is a full contact somewhere and one from a table elsewhere.
   bool changes_over() const { return full_from || full_to; }
 };
 
@@ -58,6 +59,7 @@ struct HistoryRequest {
   SourcePosition channels_where;
   std::vector<PointInput> points;
   double axle_box_y = 1.0;  ///< of the points of axle boxes, to both sides of the wheelset's middle [m]
+  double gravity = 9.81;    ///< that instruments feel as their bodies lean [m/s2]
 };
 
 /// A rail that holds the backs of flanges.

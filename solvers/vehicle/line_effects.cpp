@@ -126,6 +126,13 @@ LineState LineEffects::state(double time) const {
   return out;
 }
 
+Vec3 LineEffects::felt_acceleration(const Vec3& place, double time) const {
+  const Travel now = travel(time);
+  if (!setup_.path) return {now.acceleration, 0.0, 0.0};
+  const Frame f = frame(place.x(), now);
+  return f.acceleration({0.0, place.y(), place.z()}, now) - setup_.gravity * Vec3(0.0, f.sine, f.cosine - 1.0);
+}
+
 void LineEffects::add_inertia(LineState& out, const Travel& travel) const {
   for (const Multibody::Body& b : bodies_) {
     Vec3 force(-b.mass * travel.acceleration, 0.0, 0.0), moment = Vec3::Zero(), spin = Vec3::Zero();

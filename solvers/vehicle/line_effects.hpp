@@ -55,13 +55,20 @@ class LineEffects {
 
   /// At a time >= 0 [s].
   Travel travel(double time) const { return travel_at(setup_.speed, time); }
+  /// What the line does to the vehicle then.
   LineState state(double time) const;
+  /// The line at a wheel then.
   WheelOnLine wheel(std::size_t wheelset, wheelrail::Side side, double time) const;
   /// The path frame below the vehicle's x = 0; that of a straight without a path.
   PathPoint point(double time) const;
   /// Generalised force that gyroscopic moments change by because the speed is not that at time 0.
   Vector gyroscopic_change(const Vector& rates, double time) const;
 
+  /// What an instrument feels at a place of the vehicle (of the reference configuration) because of the line, beside
+  /// the acceleration against the frame: acceleration of the frame's point less the change of gravity [m/s2].
+  Vec3 felt_acceleration(const Vec3& place, double time) const;
+
+  /// As it was given.
   const LineSetup& setup() const { return setup_; }
 
   static constexpr double kLargestAngle = 0.1;      ///< for which directions of springs are still those of both [rad]

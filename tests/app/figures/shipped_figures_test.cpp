@@ -109,7 +109,7 @@ TEST(ShippedFigures, AnInterruptedRunDrawsTheSame) {
 TEST(ShippedFigures, StudiesAreValid) {
   EXPECT_EQ(io::read_study_file(example("figure5.toml"), {}).runs.size(), 6u);
   EXPECT_EQ(io::read_study_file(example("figure6.toml"), {}).runs.size(), 80u);
-  EXPECT_EQ(io::read_study_file(example("figure6-track.toml"), {}).runs.size(), 16u);
+  EXPECT_EQ(io::read_study_file(example("figure6-track.toml"), {}).runs.size(), 20u);
   EXPECT_EQ(io::read_study_file(example("flat-between-sleepers.toml"), {}).runs.size(), 24u);
 }
 

@@ -47,6 +47,17 @@ std::string error_of(const TrackRequest& request) {
   return "no error";
 }
 
+TEST(TrackRun, TheShippedFitIsWhatIsFittedNow) {
+  TrackRequest request = request_of("zhai-flexible.toml", 3), shipped = request_of("zhai-fitted.toml", 0);
+  request.count = shipped.count = 200;
+  const TrackResult now = run_track(request), then = run_track(shipped);
+  ASSERT_EQ(then.typical().receptance.size(), 200u);
+  for (std::size_t i = 0; i < 200; ++i) {
+    const std::complex<double> wanted = now.fitted.value().curve.receptance[i];
+    EXPECT_LT(std::abs(then.typical().receptance[i] - wanted), 1e-3 * std::abs(wanted)) << now.frequency[i] << " Hz";
+  }
+}
+
 /// The beam on a bed by Euler, which yields less: without shear, and held everywhere.
 TEST(TrackRun, StiffnessAtRestIsNearThatOfABeamOnABed) {
   const TrackResult r = run_track(request_of("zhai-flexible.toml", 0));

@@ -147,7 +147,7 @@ TEST(FullContact, TrialsLeaveTheAcceptedInstantAlone) {
 TEST(FullContact, StepsNearTheUsualOneGiveTheForcesOfAnyOther) {
   const double dx = 1e-3;
   const auto make = [](double usual_travel) {
-    return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient), usual_travel);
+    return FullContact(bodies(true), prototype(wheelrail::Side::right, kalker::Regime::transient), 0.0, usual_travel);
   };
   FullContact interpolated = make(dx), at_the_limit = make(dx / 1.0019), evaluated = make(0.0), far = make(1.1 * dx);
   PairMotion m = rolling(20.0, 2.8e-4, 0.17);

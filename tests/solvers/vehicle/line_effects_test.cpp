@@ -152,6 +152,9 @@ TEST(LineEffects, SteadyCurvingAgainstTheBalanceOfTheWholeVehicle) {
       whole.centre_height = (20000.0 * 1.6 + 3000.0 * kRollingRadius) / whole.mass;
       const Curving hand = curving(whole, path->at(100.0), kSpeed, kGravity);
       EXPECT_NEAR(found.lateral, hand.guiding_force, 1e-4 * whole.mass * kGravity);
+      const Vec3 felt = v.line->felt_acceleration({3.0, 0.0, 0.0}, 0.0);
+      EXPECT_NEAR(felt.y(), hand.lateral_acceleration, 1e-9);
+      EXPECT_NEAR(felt.z(), kGravity - hand.normal_acceleration, 1e-9);
       EXPECT_NEAR(found.left + found.right, hand.left_load + hand.right_load, 1e-4 * whole.mass * kGravity);
       // Wheels stand where they touch.
       const double base = e.reactions[1].contact_y - e.reactions[0].contact_y;
