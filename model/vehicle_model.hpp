@@ -14,8 +14,8 @@
 namespace treadmark {
 
 /// A vehicle and the track below it as plain data in SI units: rigid bodies that move little about a reference
-/// configuration, which travels at constant speed along a straight track, and what connects them. Axes: x forward, y to
-/// the right, z down, z = 0 the plane of the rail tops.
+/// configuration, which travels along the track, and what connects them. Axes: x forward, y to the right, z down, z = 0
+/// the plane of the rail tops.
 
 /// Displacements and rotations of a body about its centre of mass, in the order of every array of six here.
 enum class Freedom : int { x, y, z, roll, pitch, yaw };

@@ -121,6 +121,7 @@ std::string stability_svg(const StabilityRun& run) {
   locus.title = "eigenvalues; a mark at the highest speed";
   locus.x_label = "real part [1/s]";
   locus.y_label = "frequency [Hz]";
+  locus.y_range = {0.0, run.request.shown};
   const double fastest = run.result.at.back().speed;
   add_branches(
       locus, run, [](const auto&, const auto& m) { return m.value.real(); },
@@ -147,8 +148,13 @@ std::string stability_svg(const StabilityRun& run) {
   sheet.gap_y = 66.0;
   sheet.top = 58.0;
   sheet.charts = {std::move(locus), std::move(damping)};
-  sheet.remarks = {stability_verdict(run),
-                   fmt::format("vibrations up to {:g} Hz with less than half of critical damping", run.request.shown)};
+  sheet.bottom = 66.0;
+  const std::string verdict = stability_verdict(run);
+  const std::size_t colon = verdict.find(": ");
+  sheet.remarks.push_back(verdict.substr(0, colon));
+  if (colon != std::string::npos) sheet.remarks.push_back(verdict.substr(colon + 2));
+  sheet.remarks.push_back(
+      fmt::format("vibrations up to {:g} Hz with less than half of critical damping", run.request.shown));
   return pictures::draw_sheet(sheet);
 }
 
