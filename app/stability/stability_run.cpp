@@ -18,6 +18,7 @@ std::vector<double> speeds_of(const StabilityRequest& r) {
     throw Error(ErrorKind::configuration,
                 fmt::format("{} speeds from {:g} to {:g} m/s make no range", r.count, r.from, r.to));
   std::vector<double> speeds;
+  speeds.reserve(static_cast<std::size_t>(r.count));
   for (int i = 0; i < r.count; ++i) speeds.push_back(r.from + (r.to - r.from) * i / (r.count - 1.0));
   speeds.back() = r.to;
   return speeds;
