@@ -117,7 +117,6 @@ struct Discretisation : ElementGrid {
   } search = SearchGrid::refined;
   SearchMethod search_method = SearchMethod::automatic;
   bool distance_on_mesh = false;  ///< undeformed distance with the reference program's mesh of the wheel
-  bool quick_search = false;      ///< fine search grids of a quarter of the points, where patches are large
   /// Rolling step over dx that most steps of transient rolling have: displacements of the instant before are then
   /// interpolated between three steps that differ by 0.2 % (their error is about 1e-8). 0: always evaluated.
   double usual_dq_relative = 0.0;

@@ -57,11 +57,18 @@ io::WheelRailCase contact_input(const io::SimulationFile& file, const io::WheelC
   return input;
 }
 
+namespace {
+
+/// Place of an axle along the vehicle [m].
+double axle_x(const io::SimulationFile& file, int wheelset) {
+  const std::string& body = file.vehicle.wheelsets.at(static_cast<std::size_t>(wheelset)).body;
+  return std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
+}
+
+}  // namespace
+
 double rail_place(const io::SimulationFile& file, int wheelset) {
-  const auto x = [&](std::size_t i) {
-    return std::ranges::find(file.vehicle.bodies, file.vehicle.wheelsets.at(i).body, &BodySpec::name)->position.x();
-  };
-  return file.settings.rail_start + (x(static_cast<std::size_t>(wheelset)) - x(0));
+  return file.settings.rail_start + (axle_x(file, wheelset) - axle_x(file, 0));
 }
 
 namespace {
@@ -257,14 +264,13 @@ std::optional<TrackModel> track_below(const io::SimulationFile& file) {
 }
 
 /// The rail under a wheelset from where the simulation starts.
-vehicle::MovingRail rail_below(const io::SimulationFile& file, std::size_t wheelset) {
+vehicle::MovingRail rail_below(const io::SimulationFile& file, int wheelset) {
   if (file.settings.profile.time.size() > 1)
     throw Error(ErrorKind::configuration, "on a flexible track the speed of a simulation is constant", {},
                 "leave simulation.speed_profile out, or lump the track (treadmark track)");
-  const std::string& body = file.vehicle.wheelsets.at(wheelset).body;
-  const double x = std::ranges::find(file.vehicle.bodies, body, &BodySpec::name)->position.x();
   constexpr double kNoNumericalDamping = 1.0;  // rails have their own
-  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + x, kNoNumericalDamping};
+  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + axle_x(file, wheelset),
+          kNoNumericalDamping};
 }
 
 /// A wheel's contact with a check rail beside it.
@@ -329,7 +335,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
     if (file.flexible_track) {
       constexpr double kTolerance = 1e-4;  // a tenth of what a step may leave
       const auto set = static_cast<std::size_t>(wheel.wheelset);
-      on.element = std::make_shared<vehicle::ContactOnRail>(on.element, rail_below(file, set),
+      on.element = std::make_shared<vehicle::ContactOnRail>(on.element, rail_below(file, wheel.wheelset),
                                                             0.5 * v.system.wheelset_load.at(set), kTolerance);
     }
     for (const io::CheckRailInput& rail : file.check_rails)

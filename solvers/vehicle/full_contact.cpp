@@ -92,7 +92,6 @@ FullContact::FullContact(const wheelrail::Geometry& geometry, wheelrail::Problem
   problem_.vertical_force.reset();
   problem_.longitudinal_force.reset();
   problem_.rail_springs.reset();
-  problem_.discretisation.quick_search = true;
   problem_.discretisation.usual_dq_relative = usual_travel / problem_.discretisation.dx;
   past_.state = accepted_.before.state = pair_.save();
 }

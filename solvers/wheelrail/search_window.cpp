@@ -94,9 +94,7 @@ detection::SearchSettings search_settings(const Geometry& geometry, const Proble
   if (locus) s.locus_rows = locus_rows(p, rail);
   s.refined_dx = 0.3 * d.dx;
   s.refined_dy = 0.3 * d.ds;
-  // A patch's place is a mean over all points within it: few do where it is large.
-  constexpr int kQuick = 32;
-  s.refined_points = d.quick_search ? kQuick : geometry.constant_profiles() ? 64 : 120;
+  s.refined_points = geometry.constant_profiles() ? 64 : 120;
   s.weight = d.linear_weight ? detection::PenetrationWeight::linear : detection::PenetrationWeight::squared;
   if (d.distance_on_mesh) s.distance_mesh = {p.wheelset.nominal_radius, !p.roller};
   s.reference_at_deepest = d.reference_at_deepest;
