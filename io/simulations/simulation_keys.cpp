@@ -304,6 +304,11 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
         "from_midspan_mm", kAnyNumber,
         "on a flexible track: place of the vehicle's x = 0 at the start, ahead of the middle between two sleepers",
         [](S& s) -> double& { return s.from_midspan; });
+    list.flag(
+        "shared_rails",
+        "on a flexible track: all wheels of a side run on one rail and feel each other through it; false: each "
+        "has a rail of its own",
+        [](auto& s) -> auto& { return s.shared_rails; });
     list.number("rail_start_m", kAnyNumber,
                 "place of the leading wheelset along the rails at the start, from where x of rails that vary, their "
                 "defects and friction along the track count; the other wheelsets stand behind it as in the vehicle",

@@ -59,6 +59,11 @@ struct ContactReaction {
   std::vector<PatchTangent> tangents;
 };
 
+/// Whether there is no solution; no contact is one.
+inline bool is_unsolved(const ContactReaction& r) {
+  return r.status == Status::failed || r.status == Status::not_converged;
+}
+
 /// The force element of one wheel on one rail. Not thread-safe.
 /// evaluate() may be called for any number of trial states, in any order; each goes on from the instant that was
 /// accepted last.
@@ -68,6 +73,12 @@ class ContactElement {
 
   /// Errors: Error(configuration) for input that makes no sense; else a status.
   virtual ContactReaction evaluate(const PairMotion& motion) = 0;
+  /// Once all wheels have been evaluated, none of which failed, for one wheel after the other: what they do to each
+  /// other through a common rail. False: their forces do not agree yet, and all want to be evaluated again.
+  virtual bool settle(ContactReaction& evaluated) {
+    static_cast<void>(evaluated);
+    return true;
+  }
   /// What was evaluated last is what the next steps go on from.
   virtual void accept() = 0;
 

@@ -54,4 +54,25 @@ SampleSimulation::SampleSimulation() {
   write("study.toml", kStudy);
 }
 
+void SampleSimulation::share_rails() {
+  // Twice the same, one behind the other.
+  edit("vehicle.toml", "position_m = [0, 0, -1]", "positions_m = [[0.9, 0, -1], [-0.9, 0, -1]]");
+  edit("vehicle.toml", "position_m = [0, 0, -0.46]", "positions_m = [[0.9, 0, -0.46], [-0.9, 0, -0.46]]");
+  edit("vehicle.toml", "between = [\"axle\", \"mass\"]\nat_m = [[0, -1, -0.46], [0, 1, -0.46]]",
+       "places = [{ between = [\"axle1\", \"mass1\"], at_m = [[0.9, -1, -0.46], [0.9, 1, -0.46]] },\n"
+       "{ between = [\"axle2\", \"mass2\"], at_m = [[-0.9, -1, -0.46], [-0.9, 1, -0.46]] }]");
+  edit("vehicle.toml", "between = [\"axle\", \"mass\"]\nat_m = [[0, 0, -0.6]]",
+       "places = [{ between = [\"axle1\", \"mass1\"], at_m = [[0.9, 0, -0.6]] },\n"
+       "{ between = [\"axle2\", \"mass2\"], at_m = [[-0.9, 0, -0.6]] }]");
+  edit("vehicle.toml", "body = \"axle\"\nnominal_radius_mm = 460",
+       "body = \"axle1\"\nnominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle2\"\nnominal_radius_mm = 460");
+  edit("simulation.toml", "\"track.toml\"",
+       "\"" + std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml\"\nshared_rails = true");
+  std::string hind;
+  for (const char* side : {"left", "right"})
+    hind += "[[simulation.wheels]]\nwheelset = 2\nside = \"" + std::string(side) +
+            "\"\ncontact = \"full\"\ndefects = false\n\n";
+  edit("simulation.toml", "[case]", hind + "[case]");
+}
+
 }  // namespace treadmark::testing
