@@ -41,7 +41,7 @@ LoadedRail::Answer LoadedRail::at_rest(std::size_t wheel) const {
   Answer a;
   a.counted_on = trial_ ? trial_->force : load_;
   a.counted_on[i] = 0.0;
-  a.free = rail_.compliance_at_rest().row(i).dot(a.counted_on);
+  a.free = rail_.compliance_at_rest().row(i).dot(a.counted_on) + rail_.dips_at_rest()[i];
   a.compliance = rail_.compliance_at_rest()(i, i);
   return a;
 }

@@ -138,6 +138,9 @@ void MovingRail::look_from(std::int64_t first_seat) {
   FlexibleTrack part = track_;
   part.seats.clear();
   for (std::int64_t i = 0; i < seats_; ++i) part.seats.push_back(seat(first_seat + i));
+  const double begin = part.seats[0].x - 0.5 * (part.seats[1].x - part.seats[0].x),
+               end = part.seats.back().x + 0.5 * (part.seats.back().x - part.seats[part.seats.size() - 2].x);
+  std::erase_if(part.joints, [&](const RailJoint& joint) { return !(joint.x >= begin && joint.x <= end); });
   part.absorbing_bays = std::min(track_.absorbing_bays, static_cast<int>(seats_about_ / 4));
   rail_ = std::make_unique<const RailOnSeats>(part);
   next_place_ = seat(first_seat + (seats_about_ - 1) / 2 + 1).x;
@@ -149,6 +152,24 @@ std::vector<RailOnSeats::Place> MovingRail::places_at(double time) const {
   std::vector<RailOnSeats::Place> places;
   for (const double start : start_) places.push_back(rail_->place(place_at(start, time)));
   return places;
+}
+
+double MovingRail::dip(double x) const {
+  double sum = 0.0;
+  for (const RailJoint& joint : track_.joints) sum += joint.depth(x - joint.x);
+  return sum;
+}
+
+double MovingRail::dip_slope(double x) const {
+  double sum = 0.0;
+  for (const RailJoint& joint : track_.joints) sum += joint.slope(x - joint.x);
+  return sum;
+}
+
+MovingRail::Forces MovingRail::dips_at_rest() const {
+  Forces dips(forces());
+  for (std::size_t i = 0; i < start_.size(); ++i) dips[static_cast<Eigen::Index>(i)] = dip(start_[i]);
+  return dips;
 }
 
 /// Adds a force there to those of coordinates.
@@ -212,8 +233,10 @@ const MovingRail::Answer& MovingRail::after(double time) {
     const auto free = [&](const BeamVector& by, const Column& known, double of) {
       return along(here, by, known) + of * along(here, by, t.free);
     };
-    t.deflection.free[i] = free(here.value, t.known_q, t.of_q);
-    t.rate.free[i] = free(here.value, t.known_v, t.of_v) + speed_ * free(here.slope, t.known_q, t.of_q);
+    const double x = place_at(start_[static_cast<std::size_t>(i)], time);
+    t.deflection.free[i] = free(here.value, t.known_q, t.of_q) + dip(x);
+    t.rate.free[i] =
+        free(here.value, t.known_v, t.of_v) + speed_ * (free(here.slope, t.known_q, t.of_q) + dip_slope(x));
     for (Eigen::Index j = 0; j < forces(); ++j) {
       const double by_value = along(here, here.value, t.unit.col(j)), by_slope = along(here, here.slope, t.unit.col(j));
       t.deflection.compliance(i, j) = t.of_q * by_value;
@@ -239,7 +262,9 @@ double MovingRail::slope(Eigen::Index place, const Forces& forces) const {
   };
   // What is deflected beyond the coordinates is elastic: half of it yields no work where it only moves along.
   const double beyond = 0.25 * (force_[place] + forces[place]) * (here.own_compliance - before.own_compliance);
-  return (between(here) - between(before) + beyond) / (speed_ * t.length);
+  const double start = start_[static_cast<std::size_t>(place)];
+  const double into_dip = dip(place_at(start, t.time)) - dip(place_at(start, time_));
+  return (between(here) - between(before) + beyond + into_dip) / (speed_ * t.length);
 }
 
 MovingRail::Moved MovingRail::moved(const Forces& forces) const {

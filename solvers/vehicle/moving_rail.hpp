@@ -36,13 +36,16 @@ class MovingRail {
 
   Eigen::Index forces() const { return static_cast<Eigen::Index>(start_.size()); }
 
-  /// How the places under the forces answer them at some time: deflections = free + compliance forces.
+  /// How the places under the forces answer them at some time: deflections = free + compliance forces. Dips of joints
+  /// are part of free.
   struct Answer {
     Forces free;                 ///< [m]
     Eigen::MatrixXd compliance;  ///< [m/N]
   };
   /// The rail at time 0, under forces that have come slowly: at rest but for dampers [m/N].
   const Eigen::MatrixXd& compliance_at_rest() const { return compliance_at_rest_; }
+  /// Dips of joints below the forces then [m].
+  Forces dips_at_rest() const;
   /// After a step to this time, from what was accepted last.
   const Answer& after(double time);
 
@@ -85,6 +88,8 @@ class MovingRail {
 
   double place_at(double start, double time) const { return start + speed_ * time; }
   std::vector<RailOnSeats::Place> places_at(double time) const;
+  double dip(double x) const;
+  double dip_slope(double x) const;
   RailSeat seat(std::int64_t index) const;
   void look_from(std::int64_t first_seat);
   void spread(const RailOnSeats::Place& place, double force, Column& f) const;

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
+#include "treadmark/io/cases/read_case.hpp"
 #include "treadmark/tests/io/simulations/samples.hpp"
 
 namespace treadmark::testing {
@@ -66,8 +67,11 @@ void SampleSimulation::share_rails() {
        "{ between = [\"axle2\", \"mass2\"], at_m = [[-0.9, 0, -0.6]] }]");
   edit("vehicle.toml", "body = \"axle\"\nnominal_radius_mm = 460",
        "body = \"axle1\"\nnominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle2\"\nnominal_radius_mm = 460");
-  edit("simulation.toml", "\"track.toml\"",
-       "\"" + std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml\"\nshared_rails = true");
+  // The leading wheelset begins at 33.33 m from the first seat.
+  write("rails.toml", io::read_text(std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml") +
+                          "\n[[joints]]\nplace_m = 33.38\nhinge_stiffness_N_m_per_rad = 1e6\ndip_mm = 0.3\n"
+                          "dip_length_mm = 300\n");
+  edit("simulation.toml", "\"track.toml\"", "\"rails.toml\"\nshared_rails = true");
   std::string hind;
   for (const char* side : {"left", "right"})
     hind += "[[simulation.wheels]]\nwheelset = 2\nside = \"" + std::string(side) +
