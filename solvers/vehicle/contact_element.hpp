@@ -45,6 +45,7 @@ struct ContactReaction {
   double longitudinal_creep_force = 0.0;    ///< T_x: sum of F_x [N]
   double normal_force = 0.0;                ///< sum of F_n [N]
   double least_gap = 0.0;                   ///< < 0: greatest penetration [m]
+  double give = 0.0;                        ///< what a rail at rest still gives way by under the wheel's load [m]
   double max_pressure = 0.0;                ///< [Pa]; 0 where the element does not know
   double area = 0.0;                        ///< of contact [m2]
   double contact_y = 0.0, contact_x = 0.0;  ///< of the most loaded patch, track axes, x from the axle [m]

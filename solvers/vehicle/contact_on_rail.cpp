@@ -76,6 +76,7 @@ ContactReaction ContactOnRail::at_rest(const PairMotion& motion) {
         tolerance_ * std::max(load, std::abs(force))) {
       trial_ = Trial{motion.time, force, 0.0, 0.0, stiffness / softening, softening, answer};
       rail_->press(wheel_, force, trial_->stiffness);
+      r.give = answer.compliance * (load - force);
       r.bending = bending;
       soften(r, softening);
       return r;
