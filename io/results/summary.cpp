@@ -128,17 +128,17 @@ std::string summary(const CaseResult& result) {
 
 std::string summary_list(std::span<const CaseResult> cases) {
   const bool posed = std::ranges::any_of(cases, &CaseResult::has_wheelset);
-  constexpr const char* kPose = "{:>10}{:>10}{:>10}";
+  constexpr const char* kPose = " {:>9} {:>9} {:>9}";
   std::string text = fmt::format("{:>6}  {:<13}", "case", "status");
   if (posed) text += fmt::format(kPose, "y [mm]", "z [mm]", "pitch [°]");
-  text += fmt::format("{:>8}{:>10}{:>10}{:>10}{:>11}{:>8}\n", "patches", "Fx [N]", posed ? "Fy [N]" : "Fs [N]",
+  text += fmt::format(" {:>7} {:>9} {:>9} {:>9} {:>10} {:>7}\n", "patches", "Fx [N]", posed ? "Fy [N]" : "Fs [N]",
                       posed ? "Fz [N]" : "Fn [N]", "pmax [MPa]", "slip");
   std::string said;
   for (const CaseResult& c : cases) {
     text += fmt::format("{:>6}  {:<13}", c.number, to_string(c.status));
     if (posed)
       text += fmt::format(kPose, four_decimals(1e3 * c.y), four_decimals(1e3 * c.z), four_decimals(c.pitch * kDegrees));
-    text += fmt::format("{:>8}", c.patches.size());
+    text += fmt::format(" {:>7}", c.patches.size());
     if (!c.patches.empty()) {
       const PatchResult& first = c.patches.front();
       const Vec3 force = c.has_wheelset ? c.force_tr : Vec3(first.fx, first.fs, first.fn);
@@ -148,7 +148,7 @@ std::string summary_list(std::span<const CaseResult> cases) {
         pressure = std::max(pressure, p.pmax);
         slip += p.nslip, contact += p.ncon;
       }
-      text += fmt::format("{:>10}{:>10}{:>10}{:>11}{:>8}", five_digits(force.x()), five_digits(force.y()),
+      text += fmt::format(" {:>9} {:>9} {:>9} {:>10} {:>7}", five_digits(force.x()), five_digits(force.y()),
                           five_digits(force.z()), five_digits(1e-6 * pressure),
                           contact > 0 ? fmt::format("{:.0f} %", 100.0 * slip / contact) : "");
     }

@@ -62,12 +62,12 @@ TEST(Summary, ManyCasesHaveALineEach) {
     cells >> number >> status;
     EXPECT_EQ(number, c.number);
     EXPECT_EQ(status, to_string(c.status));
-    if (c.patches.empty() || !c.has_wheelset) continue;
+    if (c.patches.empty() || !c.has_wheelset || std::isnan(c.z)) continue;
     double y = 0, z = 0, pitch = 0, patches = 0, fx = 0, fy = 0, fz = 0, pmax = 0, most = 0;
     cells >> y >> z >> pitch >> patches >> fx >> fy >> fz >> pmax;
     for (const io::PatchResult& p : c.patches) most = std::max(most, p.pmax);
-    EXPECT_NEAR(y, 1e3 * c.y, 1e-4);
-    EXPECT_EQ(patches, static_cast<double>(c.patches.size()));
+    EXPECT_NEAR(y, 1e3 * c.y, 1e-4) << text[i + 1];
+    EXPECT_EQ(patches, static_cast<double>(c.patches.size())) << text[i + 1];
     EXPECT_NEAR(fz, c.force_tr.z(), 1e-4 * std::abs(c.force_tr.z()));
     EXPECT_NEAR(pmax, 1e-6 * most, 1e-10 * most);
   }
