@@ -126,7 +126,7 @@ struct Straight {
   /// The values round a point: at (i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1).
   [[gnu::always_inline]] Four corners(const SheetView& v, int i, int j) {
     const int in_i = i & 7, in_j = j & 63;
-    if (in_i == 7 || in_j == 63 || !(v.turn == 0 || (i >= 0 && i + 2 <= v.turn)))
+    if (in_i == 7 || in_j == 63)
       return Four{coefficient(v, i, j), coefficient(v, i, j + 1), coefficient(v, i + 1, j),
                   coefficient(v, i + 1, j + 1)};
     look(v, i >> 3, j >> 6);
@@ -137,7 +137,7 @@ struct Straight {
     block_i = bi, block_j = bj, block = block_of(v, bi, bj);
   }
 
-  /// Four points at once, if all lie on the branch of the sheet.
+  /// Four points at once of a sheet that is not closed, if all lie on its branch.
   bool four_points(const SheetView& v, const double* u, const double* y, double* value, double* d_u, double* d_y) {
     constexpr double kFar = 1 << 30;
     const Four s = (four(u) - v.u0) * v.per_u, t = (four(y) - v.y0) * v.per_y;
@@ -151,8 +151,7 @@ struct Straight {
     const FourIntegers in_i = i & 7, in_j = j & 63;
     look(v, i[0] >> 3, j[0] >> 6);
     const FourIntegers inside = ((i >> 3) == block_i) & ((j >> 6) == block_j) & (in_i < 7) & (in_j < 63);
-    const bool one_block = (inside[0] & inside[1] & inside[2] & inside[3]) != 0 &&
-                           (v.turn == 0 || (i[0] >= 0 && 8 * block_i + 8 <= v.turn));
+    const bool one_block = (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
     if (one_block && block == nullptr) {
       double* const results[] = {value, d_u, d_y};
       for (double* out : results)
@@ -191,7 +190,8 @@ void sheet_points(const SheetView& v, std::size_t n, const double* u, const doub
   Spline spline;
   for (std::size_t k = 0; k < n; ++k) {
     if constexpr (Spline::kBefore == 0) {
-      for (; k + 4 <= n; k += 4)
+      // Round a wheel most points lie beside each other where nothing is, which the patch knows already.
+      for (; v.turn == 0 && k + 4 <= n; k += 4)
         if (!spline.four_points(v, u + k, y + k, value + k, d_u == nullptr ? d_u : d_u + k,
                                 d_y == nullptr ? d_y : d_y + k))
           break;
