@@ -50,6 +50,8 @@ std::string five_digits(double value) {
 }
 
 std::string in_digits(double value, Label::Digits digits) {
+  constexpr double kRounding = 1e-12;  // in the units that are shown: less is nothing but rounding
+  if (std::abs(value) < kRounding) value = 0.0;
   switch (digits) {
     case Label::Digits::four_decimals:
       return four_decimals(value);

@@ -39,6 +39,8 @@ TEST(Summary, ARoundedZeroHasNoSign) {
   run.cases[0].patches[0].x_tr = -1e-12;
   run.cases[0].y = -0.0;
   EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("-0.0000 ")));
+  run.cases[0].patches.at(0).eta = -8.81e-19;  // rounding
+  EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("e-19")));
 }
 
 TEST(Summary, ColumnsAreAligned) {
