@@ -2,7 +2,10 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include "treadmark/tests/app/simulation/sample_simulation.hpp"
 
-#include "treadmark/io/cases/read_case.hpp"
+#include <filesystem>
+#include <fstream>
+#include <iterator>
+
 #include "treadmark/tests/io/simulations/samples.hpp"
 
 namespace treadmark::testing {
@@ -68,7 +71,9 @@ void SampleSimulation::share_rails() {
   edit("vehicle.toml", "body = \"axle\"\nnominal_radius_mm = 460",
        "body = \"axle1\"\nnominal_radius_mm = 460\n[[wheelsets]]\nbody = \"axle2\"\nnominal_radius_mm = 460");
   // The leading wheelset begins at 33.33 m from the first seat.
-  write("rails.toml", io::read_text(std::string(TREADMARK_SOURCE_DIR) + "/examples/tracks/zhai-flexible.toml") +
+  std::ifstream track(std::filesystem::path(TREADMARK_SOURCE_DIR) / "examples/tracks/zhai-flexible.toml");
+  const std::string seats{std::istreambuf_iterator<char>(track), {}};
+  write("rails.toml", seats +
                           "\n[[joints]]\nplace_m = 33.38\nhinge_stiffness_N_m_per_rad = 1e6\ndip_mm = 0.3\n"
                           "dip_length_mm = 300\n");
   edit("simulation.toml", "\"track.toml\"", "\"rails.toml\"\nshared_rails = true");
