@@ -9,11 +9,14 @@
 #include <numbers>
 #include <random>
 
+#include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/kalker/normal/hertz.hpp"
+#include "treadmark/solvers/vehicle/full_contact.hpp"
+#include "treadmark/solvers/vehicle/table_contact.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -254,6 +257,45 @@ TEST(CreepTable, ForcesHaveTheUnitsOfTheContact) {
   // What stands still, or has no friction, transmits nothing.
   EXPECT_EQ(creep_force(coarse_table(), contact, steel, {0.01, 0.0, 0.1, 0.0, 0.0}).force.norm(), 0.0);
   EXPECT_EQ(creep_force(coarse_table(), {6e-3, 4e-3, 0.0}, steel, k).force.norm(), 0.0);
+}
+
+// On the tread, where patches are nearly ellipses, real profiles have the table's forces more nearly than those of
+// Kalker's coefficients.
+TEST(CreepTable, ATreadContactIsThatSolvedInFull) {
+  constexpr double kRadius = 0.46, kSpeed = 20.0;
+  const wheelrail::Geometry bodies{analytic::make_standard_surface({"60E1"}, Body::rail, 0.0),
+                                   analytic::make_standard_surface({"S1002"}, Body::wheel, kRadius), true, true};
+  wheelrail::Problem problem;
+  problem.track.cant = 1.0 / 40.0;
+  const auto table = build_contact_table(bodies, problem, 5.5e4, {.lateral_range = 7e-3, .step = 0.5e-3});
+  TableContact linear(table, wheelrail::Side::right),
+      exact(table, wheelrail::Side::right, build_creep_table(combine(problem.material).poisson, {8, 4, 4.0, 16, 12}));
+  problem.discretisation.dx = problem.discretisation.ds = 0.4e-3;
+  FullContact full(bodies, problem);
+  std::mt19937 random(3);
+  std::uniform_real_distribution<double> even(-1.0, 1.0);
+  double of_linear = 0.0, of_exact = 0.0;
+  constexpr int kCount = 12;
+  for (int i = 0; i < kCount; ++i) {
+    PairMotion m;
+    m.wheelset.y = -3e-3 + 2.5e-3 * even(random);
+    const double compression = table->levels().front().compression.at(m.wheelset.y).value;
+    m.wheelset.z = table->energy_height().at(m.wheelset.y).value + (1.2 + 0.6 * even(random)) * compression;
+    m.wheelset.yaw = 2e-3 * even(random);
+    m.wheelset_velocity.x = kSpeed;
+    m.wheelset_velocity.pitch = -kSpeed / kRadius * (1.0 + 1.5e-3 * even(random));
+    const auto relative = [&](ContactElement& element) -> Vec2 {
+      const ContactReaction r = element.evaluate(m);
+      EXPECT_EQ(r.status, Status::ok) << r.message;
+      return Vec2(r.longitudinal_creep_force, r.lateral_creep_force) / (0.3 * r.normal_force);
+    };
+    const Vec2 solved_forces = relative(full);
+    of_linear += (relative(linear) - solved_forces).squaredNorm();
+    of_exact += (relative(exact) - solved_forces).squaredNorm();
+  }
+  constexpr double kPatchesAreNoEllipses = 0.02;  // of mu F_n
+  EXPECT_LT(std::sqrt(of_exact / kCount), kPatchesAreNoEllipses);
+  EXPECT_LT(of_exact, 0.5 * of_linear);
 }
 
 TEST(CreepTable, RatiosBeyondTheLastAreTheLast) {
