@@ -15,6 +15,7 @@
 namespace treadmark::detection {
 
 struct SampledProfile;
+struct ProfileLines;
 
 /// Undeformed distances are to be found with a mesh of the wheel and sections of the rail, as in the reference program
 /// (CONTACT).
@@ -33,6 +34,7 @@ struct BodyPair {
   std::optional<DistanceMesh> distance_mesh = std::nullopt;  ///< empty: distances between the surfaces themselves
   std::shared_ptr<const SampledProfile> wheel_profile =
       nullptr;  ///< whole_profile() of the wheel, made once for many searches; null: made when needed
+  std::shared_ptr<const ProfileLines> wheel_lines = nullptr;  ///< profile_lines() of a round wheel, likewise
 };
 
 /// Points [ix, ix + nx) x [iy, iy + ny) of a grid.

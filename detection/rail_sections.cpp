@@ -38,16 +38,72 @@ std::vector<double> equal_steps(double low, double high, double step) {
   return y;
 }
 
+/// Points between which v is taken as linear.
+struct Lattice {
+  explicit Lattice(const LateralInterval& y)
+      : range(y), steps(std::max(2, static_cast<int>(std::ceil((y.high - y.low) / kStep)))) {}
+  double y(int i) const { return range.low + (range.high - range.low) * i / steps; }
+  /// The last point not above, between both ends.
+  int below(double at) const {
+    return static_cast<int>(std::clamp((at - range.low) / (range.high - range.low) * steps, 0.0, 1.0 * steps));
+  }
+
+  static constexpr double kStep = 0.1e-3;  // [m]
+  LateralInterval range;
+  int steps;
+};
+
+std::vector<double> nodes_between(const Surface& surface, const std::vector<double>& data_v, const Pose& X_SP,
+                                  double x_P, const Lattice& lattice, int first, int last) {
+  constexpr std::ptrdiff_t kHidden = 10;  // more data than that between two points: something lies behind the rest
+  std::vector<Vec2> points;
+  for (int i = first; i <= last; ++i) points.emplace_back(x_P, lattice.y(i));
+  std::vector<SurfacePoint> found(points.size());
+  surface.locate(X_SP, points, found);
+
+  std::vector<double> y;
+  for (std::size_t i = 0; i + 1 < found.size(); ++i) {
+    const SurfacePoint &a = found[i], &b = found[i + 1];
+    if (a.status == LocateStatus::outside || b.status == LocateStatus::outside) continue;
+    const auto begin = std::ranges::lower_bound(data_v, std::min(a.v, b.v)),
+               end = std::ranges::lower_bound(data_v, std::max(a.v, b.v));
+    if (end - begin > kHidden) continue;
+    const auto first_y = static_cast<std::ptrdiff_t>(y.size());
+    for (auto v = begin; v != end; ++v)
+      y.push_back(points[i].y() + (points[i + 1].y() - points[i].y()) * (*v - a.v) / (b.v - a.v));
+    if (b.v < a.v) std::reverse(y.begin() + first_y, y.end());
+  }
+  return y;
+}
+
 }  // namespace
 
 double lowest_angle(const Pose& X_TW) { return -std::atan2(X_TW.rotation(0, 2), X_TW.rotation(0, 0)); }
 
 std::vector<double> mesh_lines(const Surface& wheel, double angle, double step) {
   const Box3 box = wheel.bounds();
-  const std::vector<double> y =
-      lateral_nodes(wheel, {Vec3::Zero(), rotation_y(angle)}, 0.0, {box.min.y(), box.max.y()});
+  return mesh_lines(wheel, angle, step, {box.min.y(), box.max.y()}, 0);
+}
+
+std::vector<double> mesh_lines(const Surface& wheel, double angle, double step, const LateralInterval& y, int beside) {
   constexpr std::size_t kFewest = 4;
-  return y.size() >= kFewest ? y : equal_steps(box.min.y(), box.max.y(), step);
+  constexpr double kFirstMargin = 2e-3;  // [m]
+  const Box3 box = wheel.bounds();
+  const Lattice lattice({box.min.y(), box.max.y()});
+  const std::vector<double> data_v = wheel.data_v();
+  if (data_v.empty()) return equal_steps(box.min.y(), box.max.y(), step);
+  for (double margin = beside > 0 ? kFirstMargin : 0.0;; margin *= 2.0) {
+    const int first = std::max(0, lattice.below(y.low - margin) - 1),
+              last = std::min(lattice.steps, lattice.below(y.high + margin) + 2);
+    std::vector<double> found =
+        nodes_between(wheel, data_v, {Vec3::Zero(), rotation_y(angle)}, 0.0, lattice, first, last);
+    const auto low = std::ranges::lower_bound(found, y.low) - found.begin(),
+               high = found.end() - std::ranges::upper_bound(found, y.high);
+    const bool whole = first == 0 && last == lattice.steps;
+    if (!whole && !((first == 0 || low >= beside) && (last == lattice.steps || high >= beside))) continue;
+    if (found.size() >= kFewest) return found;
+    if (whole) return equal_steps(box.min.y(), box.max.y(), step);
+  }
 }
 
 std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y) {
@@ -60,29 +116,10 @@ std::vector<double> section_radius(const Surface& wheel, double angle, std::span
 }
 
 std::vector<double> lateral_nodes(const Surface& surface, const Pose& X_SP, double x_P, const LateralInterval& y_P) {
-  constexpr double kStep = 0.1e-3;        // of points between which v is taken as linear [m]
-  constexpr std::ptrdiff_t kHidden = 10;  // more data than that between two points: something lies behind the rest
   const std::vector<double> data_v = surface.data_v();
   if (data_v.empty()) return {};
-  const int n = std::max(2, static_cast<int>(std::ceil((y_P.high - y_P.low) / kStep)));
-  std::vector<Vec2> points;
-  for (int i = 0; i <= n; ++i) points.emplace_back(x_P, y_P.low + (y_P.high - y_P.low) * i / n);
-  std::vector<SurfacePoint> found(points.size());
-  surface.locate(X_SP, points, found);
-
-  std::vector<double> y;
-  for (std::size_t i = 0; i + 1 < found.size(); ++i) {
-    const SurfacePoint &a = found[i], &b = found[i + 1];
-    if (a.status == LocateStatus::outside || b.status == LocateStatus::outside) continue;
-    const auto begin = std::ranges::lower_bound(data_v, std::min(a.v, b.v)),
-               end = std::ranges::lower_bound(data_v, std::max(a.v, b.v));
-    if (end - begin > kHidden) continue;
-    const auto first = static_cast<std::ptrdiff_t>(y.size());
-    for (auto v = begin; v != end; ++v)
-      y.push_back(points[i].y() + (points[i + 1].y() - points[i].y()) * (*v - a.v) / (b.v - a.v));
-    if (b.v < a.v) std::reverse(y.begin() + first, y.end());
-  }
-  return y;
+  const Lattice all(y_P);
+  return nodes_between(surface, data_v, X_SP, x_P, all, 0, all.steps);
 }
 
 }  // namespace treadmark::detection

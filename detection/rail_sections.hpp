@@ -20,18 +20,20 @@ bool section_heights(const BodyPair& bodies, const Pose& X_TC, const Grid2& grid
 /// pitch taken back.
 double lowest_angle(const Pose& X_TW);
 
-/// Lateral positions in the wheel's frame, increasing, at which the reference program (CONTACT) puts the corners of its
-/// meshes [m]: where the data of the wheel's surface lie if it tells, in equal steps not longer than step otherwise.
-/// angle: of the section that tells y over v [rad].
-std::vector<double> mesh_lines(const Surface& wheel, double angle, double step);
-
-/// Radius over lateral positions of the section at an angle [m]; NaN where the wheel is missing.
-std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y);
-
 /// Lateral range [m].
 struct LateralInterval {
   double low = 0.0, high = 0.0;
 };
+
+/// Lateral positions in the wheel's frame, increasing, at which the reference program (CONTACT) puts the corners of its
+/// meshes [m]: where the data of the wheel's surface lie if it tells, in equal steps not longer than step otherwise.
+/// angle: of the section that tells y over v [rad].
+std::vector<double> mesh_lines(const Surface& wheel, double angle, double step);
+/// Those over a part of the wheel, with at least as many more on either side as there are, up to `beside`.
+std::vector<double> mesh_lines(const Surface& wheel, double angle, double step, const LateralInterval& y, int beside);
+
+/// Radius over lateral positions of the section at an angle [m]; NaN where the wheel is missing.
+std::vector<double> section_radius(const Surface& wheel, double angle, std::span<const double> y);
 
 /// Lateral positions [m] at which the data of a surface lie on the line x of a plane P, increasing; where the surface
 /// can be seen. Empty if the surface was not made from data, or does not tell.

@@ -8,23 +8,25 @@
 namespace treadmark::detection {
 namespace {
 
-// Least and greatest zero crossing over all lines; gap(line, i) along a line, position(i).
+// Least and greatest zero crossing over all lines; gap(line, i) along a line, position(i). Of a line the outermost
+// points that penetrate have them.
 template <class Gap, class Position>
 void crossings(int lines_begin, int lines_end, int begin, int end, Gap&& gap, Position&& position, double& low,
                double& high) {
-  for (int line = lines_begin; line <= lines_end; ++line)
-    for (int i = begin; i <= end; ++i) {
-      const double here = gap(line, i);
-      if (!(here < 0.0)) continue;
-      const auto towards = [&](int j) {
-        if (j < begin || j > end) return position(i);
-        const double there = gap(line, j);
-        if (!(there >= 0.0)) return std::isnan(there) ? position(j) : position(i);
-        return position(i) + (position(j) - position(i)) * here / (here - there);
-      };
-      low = std::min(low, towards(i - 1));
-      high = std::max(high, towards(i + 1));
-    }
+  for (int line = lines_begin; line <= lines_end; ++line) {
+    const auto towards = [&](int i, int j) {
+      if (j < begin || j > end) return position(i);
+      const double here = gap(line, i), there = gap(line, j);
+      if (!(there >= 0.0)) return std::isnan(there) ? position(j) : position(i);
+      return position(i) + (position(j) - position(i)) * here / (here - there);
+    };
+    int first = begin, last = end;
+    while (first <= end && !(gap(line, first) < 0.0)) ++first;
+    if (first > end) continue;
+    while (!(gap(line, last) < 0.0)) --last;
+    low = std::min(low, towards(first, first - 1));
+    high = std::max(high, towards(last, last + 1));
+  }
 }
 
 }  // namespace

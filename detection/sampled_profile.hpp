@@ -18,9 +18,17 @@ struct SampledProfile {
   double y(std::size_t i) const { return first + static_cast<double>(i) * step; }
 };
 
+/// The same where the reference program (CONTACT) has the corners of its meshes: see mesh_lines. Immutable.
+struct ProfileLines {
+  std::vector<double> y, radius, slope;
+};
+
 SampledProfile sample_profile(const Surface& wheel, double first, double step, int count);
 
 /// All of a round wheel, as the contact locus wants it; null for other wheels.
 std::shared_ptr<const SampledProfile> whole_profile(const Surface& wheel);
+
+/// Of the section of a wheel at an angle [rad].
+ProfileLines profile_lines(const Surface& wheel, double angle);
 
 }  // namespace treadmark::detection

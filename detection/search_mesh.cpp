@@ -32,10 +32,14 @@ std::vector<Vec3> section(const Surface& wheel, const Pose& X_TW, const WheelFac
   return points;
 }
 
+std::vector<double> lines_of(const Surface& wheel, double angle, const WheelFacets& facets) {
+  return facets.lines.empty() ? mesh_lines(wheel, angle, facets.lateral_step) : facets.lines;
+}
+
 }  // namespace
 
 LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets) {
-  const std::vector<double> y = mesh_lines(wheel, lowest_angle(X_TW), facets.lateral_step);
+  const std::vector<double> y = lines_of(wheel, lowest_angle(X_TW), facets);
   LongitudinalRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
   for (const double side : {-1.0, 1.0})
     for (const Vec3& p : section(wheel, X_TW, facets, side * facets.half_range, y)) {
@@ -47,11 +51,7 @@ LongitudinalRange facet_range(const Surface& wheel, const Pose& X_TW, const Whee
 }
 
 FacetWheel::FacetWheel(const Surface& wheel, const Pose& X_TW, const WheelFacets& facets)
-    : wheel_(wheel),
-      X_TW_(X_TW),
-      facets_(facets),
-      lowest_(lowest_angle(X_TW)),
-      y_(mesh_lines(wheel, lowest_, facets.lateral_step)) {
+    : wheel_(wheel), X_TW_(X_TW), facets_(facets), lowest_(lowest_angle(X_TW)), y_(lines_of(wheel, lowest_, facets)) {
   for (std::size_t j = 0; j + 1 < y_.size(); ++j) widest_ = std::max(widest_, y_[j + 1] - y_[j]);
   across_ = static_cast<int>(y_.size());
   sections_.resize(static_cast<std::size_t>(facets.sections));

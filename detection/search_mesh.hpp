@@ -20,9 +20,10 @@ struct WheelFacets {
     angles,  ///< through the axle
     planes,  ///< of one x in the wheel's frame; a round wheel only
   } kind = Sections::angles;
-  double half_range = 0.2;       ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
-  int sections = 0;              ///< >= 2
-  double lateral_step = 0.5e-3;  ///< of corners where the wheel itself has none
+  double half_range = 0.2;         ///< sections from -half_range to +half_range about the lowest point [rad] or [m]
+  int sections = 0;                ///< >= 2
+  double lateral_step = 0.5e-3;    ///< of corners where the wheel itself has none
+  std::vector<double> lines = {};  ///< mesh_lines() of the wheel with this step, made once; empty: made when needed
 };
 
 /// Least and greatest x in T of the sections' points [m], over the whole width of the wheel.

@@ -13,6 +13,7 @@
 #include "treadmark/detection/contact_locus.hpp"
 #include "treadmark/detection/natural_curve.hpp"
 #include "treadmark/detection/rail_sections.hpp"
+#include "treadmark/detection/sampled_profile.hpp"
 
 namespace treadmark::detection {
 namespace {
@@ -86,13 +87,10 @@ class CommonSlope {
 };
 
 Line line_of(const BodyPair& bodies, double nominal_radius) {
-  constexpr double kLateralStep = 0.5e-3;  // where the wheel tells no data
   const double lowest = lowest_angle(bodies.X_TW);
-  const std::vector<double> y = mesh_lines(*bodies.wheel, lowest, kLateralStep);
-  std::vector<Vec2> section;
-  for (const double at : y) section.emplace_back(0.0, at);
-  std::vector<double> radius(y.size()), slope(y.size());
-  bodies.wheel->heights_at({Vec3::Zero(), rotation_y(lowest)}, section, {radius, {}, slope});
+  const std::shared_ptr<const ProfileLines> lines =
+      bodies.wheel_lines ? bodies.wheel_lines : std::make_shared<ProfileLines>(profile_lines(*bodies.wheel, lowest));
+  const auto& [y, radius, slope] = *lines;
 
   const Pose X_TU = bodies.X_TW * Pose{Vec3::Zero(), rotation_y(lowest)};
   const Mat3& M = X_TU.rotation;
@@ -169,21 +167,25 @@ WheelLocus::WheelLocus(const BodyPair& bodies, double nominal_radius) {
 }
 
 std::vector<Vec2> WheelLocus::over(const std::vector<double>& y) const {
-  constexpr int kHalvings = 52;
+  constexpr int kMost = 60;
+  constexpr double kClose = 1e-15;
   std::vector<Vec2> found(y.size(), {kNaN, kNaN});
   std::size_t i = 0;
   for (std::size_t k = 0; k < y.size(); ++k) {
     while (i + 2 < points_.size() && points_[i + 1].y() < y[k]) ++i;
     if (steps_.empty() || y[k] < points_[i].y() || y[k] > points_[i + 1].y()) continue;
-    const auto at = [&](double f) {
-      return natural_point(points_[i], points_[i + 1], bends_start_[i], bends_end_[i], steps_[i], f);
-    };
-    double low = 0.0, high = 1.0;
-    for (int half = 0; half < kHalvings; ++half) {
-      const double middle = 0.5 * (low + high);
-      (at(middle).y() < y[k] ? low : high) = middle;
+    const double start = points_[i].y(), end = points_[i + 1].y(), a = bends_start_[i].y(), b = bends_end_[i].y();
+    double low = 0.0, high = 1.0, f = (y[k] - start) / (end - start);
+    for (int step = 0; step < kMost; ++step) {
+      const double g = 1.0 - f, h = steps_[i] * steps_[i] / 6.0,
+                   miss = natural_point(start, end, a, b, steps_[i], f) - y[k];
+      const double newton = miss / (end - start + h * ((1.0 - 3.0 * g * g) * a + (3.0 * f * f - 1.0) * b));
+      if (std::abs(newton) <= kClose) break;
+      (miss < 0.0 ? low : high) = f;
+      const double next = f - newton;
+      f = next > low && next < high ? next : 0.5 * (low + high);
     }
-    const Vec3 p = at(0.5 * (low + high));
+    const Vec3 p = natural_point(points_[i], points_[i + 1], bends_start_[i], bends_end_[i], steps_[i], f);
     found[k] = {p.x(), p.z()};
   }
   return found;

@@ -117,7 +117,7 @@ Mesh round_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, cons
 
 Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, const Elements& e) {
   constexpr double kLateralStep = 0.5e-3;
-  constexpr std::size_t kMargin = 3;
+  constexpr int kMargin = 3;
   const Grid2& g = e.grid;
   const Reach r = reach_of(X_TU, X_TC, e);
   const double lowest = lowest_angle(bodies.X_TW), from = std::atan(r.x_min / r.z_min),
@@ -125,11 +125,12 @@ Mesh slices_mesh(const BodyPair& bodies, const Pose& X_TU, const Pose& X_TC, con
   int rows = static_cast<int>(std::lround((to - from) * bodies.distance_mesh->nominal_radius / g.dx)) + 2;
   if (rows % 2 == 0) ++rows;
 
-  const std::vector<double> all = mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep);
+  const std::vector<double> all =
+      mesh_lines(*bodies.wheel, lowest + 0.5 * (from + to), kLateralStep, {r.y_min, r.y_max}, kMargin);
   auto first = static_cast<std::size_t>(std::ranges::lower_bound(all, r.y_min) - all.begin());
   auto last = static_cast<std::size_t>(std::ranges::upper_bound(all, r.y_max) - all.begin());
-  first = first > kMargin ? first - kMargin : 0;
-  last = std::min(all.size(), last + kMargin);
+  first -= std::min<std::size_t>(first, kMargin);
+  last = std::min<std::size_t>(all.size(), last + kMargin);
   const std::span<const double> y = std::span(all).subspan(first, last - first);
   Mesh mesh{rows, static_cast<int>(y.size()), {}};
   for (int k = 0; k < rows; ++k) {

@@ -8,6 +8,7 @@ namespace treadmark {
 
 /// How names of representations look in case files, on the command line and in the registry, as a regular expression.
 inline constexpr const char* kBackendPattern = "^[a-z][a-z0-9_-]*$";
+inline constexpr const char* kBackendLike = "\"mesh-flat\": small letters, digits, - and _";
 
 /// Whether the text looks like such a name; which of them exist is for the registry to say.
 constexpr bool is_backend_name(std::string_view text) {

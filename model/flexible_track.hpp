@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cmath>
 #include <optional>
 #include <string>
 #include <vector>
@@ -30,6 +31,23 @@ struct RailSeat {
   double bed_damping = 0.0;    ///< [N s/m]; >= 0
 };
 
+/// Where two rails meet: fishplates carry shear, and moments by the angle that they open by.
+struct RailJoint {
+  double x = 0.0;                ///< on the coordinate of the seats [m]
+  double hinge_stiffness = 0.0;  ///< moment over angle [N m/rad]; >= 0, 0: a hinge
+  double dip_depth = 0.0;        ///< by which the unloaded rails' tops lie lower at the joint [m]; >= 0
+  double dip_length = 1.0;       ///< to either side, over which the slope falls linearly to 0 [m]; > 0
+  /// How much lower than elsewhere the unloaded rail's top lies at a distance from the joint [m], and its slope.
+  double depth(double distance) const {
+    const double left = 1.0 - std::abs(distance) / dip_length;
+    return left > 0.0 ? dip_depth * left * left : 0.0;
+  }
+  double slope(double distance) const {
+    const double left = 1.0 - std::abs(distance) / dip_length;
+    return left > 0.0 ? std::copysign(2.0 * dip_depth / dip_length * left, -distance) : 0.0;
+  }
+};
+
 /// Sideways and in roll one spring and damper each above and below a half sleeper, as of a lumped track.
 struct LateralSupport {
   double pad_stiffness = 0.0;  ///< [N/m]; > 0
@@ -46,11 +64,12 @@ struct LateralSupport {
 struct FlexibleTrack {
   std::string name, source;
   RailBeam rail;
-  std::vector<RailSeat> seats;  ///< x increasing; at least two
-  double gauge = 1.507;         ///< distance of the middles of both rails [m]
-  int bay_elements = 16;        ///< beam elements from seat to seat
-  int absorbing_bays = 0;       ///< at each end
-  double absorption = 0.0;      ///< damping over mass at the outermost place, growing with the square from 0 [1/s]
+  std::vector<RailSeat> seats;    ///< x increasing; at least two
+  double gauge = 1.507;           ///< distance of the middles of both rails [m]
+  int bay_elements = 16;          ///< beam elements from seat to seat
+  int absorbing_bays = 0;         ///< at each end
+  double absorption = 0.0;        ///< damping over mass at the outermost place, growing with the square from 0 [1/s]
+  std::vector<RailJoint> joints;  ///< in any order, each between begin and end of the rail
   std::optional<LateralSupport> lateral;  ///< none: rails do not move sideways
 };
 

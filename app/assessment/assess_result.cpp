@@ -5,15 +5,21 @@
 #include <algorithm>
 #include <charconv>
 #include <cmath>
+#include <filesystem>
 #include <map>
 #include <set>
 
 #include <fmt/format.h>
 
+#include "treadmark/core/error.hpp"
+#include "treadmark/core/parts.hpp"
 #include "treadmark/io/histories/channels.hpp"
+#include "treadmark/io/histories/simulation_store.hpp"
 
 namespace treadmark::app {
 namespace {
+
+namespace fs = std::filesystem;
 
 constexpr const char* kWholeRun = "run";
 constexpr double kStepsOfWave = 8.0;  // of the record
@@ -105,6 +111,29 @@ void add_doubts(AssessedRun& run) {
                                      run.quantities.size(), status, found.second));
 }
 
+fs::path store_of(const std::string& name) {
+  std::error_code unknown;
+  if (!fs::is_directory(name, unknown)) return name;
+  for (const char* file : {"simulation.h5", "unfinished.h5"})
+    if (fs::exists(fs::path(name) / file, unknown)) return fs::path(name) / file;
+  throw Error(ErrorKind::input_data, "the folder holds no results of a simulation", {name},
+              "give folders that treadmark simulate wrote with -o");
+}
+
+/// The folders' own names, or all of their paths where some are equal.
+std::vector<std::string> names_of(const std::vector<std::string>& results) {
+  std::vector<std::string> names;
+  for (const std::string& one : results) {
+    fs::path path = fs::path(one).lexically_normal();
+    if (!path.has_filename()) path = path.parent_path();
+    if (path.extension() == ".h5" && path.has_parent_path()) path = path.parent_path();
+    names.push_back(path.filename().string());
+  }
+  std::vector<std::string> sorted = names;
+  std::ranges::sort(sorted);
+  return std::ranges::adjacent_find(sorted) == sorted.end() ? names : results;
+}
+
 }  // namespace
 
 bool has_level(const std::string& unit) { return unit == "m/s2"; }
@@ -192,6 +221,20 @@ AssessedRun assess_result(std::string name, std::shared_ptr<const io::Simulation
   add_doubts(run);
   if (!request.spectra.empty() && request.from < end) add_spectra(run);
   return run;
+}
+
+std::vector<AssessedRun> assess_files(const std::vector<std::string>& results, const AssessmentRequest& request,
+                                      const std::vector<std::string>& channels) {
+  require_part("hdf5", "results of simulations");
+  check(request);
+  std::vector<AssessedRun> runs;
+  const std::vector<std::string> names = names_of(results);
+  for (std::size_t i = 0; i < names.size(); ++i) {
+    auto result = std::make_shared<io::SimulationResult>(io::read_simulation(store_of(results[i])));
+    io::fitting_columns(result->columns, channels);  // refused before anything is computed
+    runs.push_back(assess_result(names[i], std::move(result), request));
+  }
+  return runs;
 }
 
 std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,

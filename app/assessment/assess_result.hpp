@@ -44,6 +44,11 @@ measures::RunSignals signals_of(const io::SimulationResult& result);
 AssessedRun assess_result(std::string name, std::shared_ptr<const io::SimulationResult> result,
                           const AssessmentRequest& request);
 
+/// Results of simulations: their folders or simulation.h5; channels that all of them have to have. Errors: as
+/// assess_result; those of the files; Error(left_out) without HDF5.
+std::vector<AssessedRun> assess_files(const std::vector<std::string>& results, const AssessmentRequest& request,
+                                      const std::vector<std::string>& channels);
+
 /// The assessment that a simulation file asks for; nothing where it asks for none or the run has no two instants.
 /// Errors: as assess_result.
 std::optional<AssessedRun> assess_own(std::shared_ptr<const io::SimulationResult> result,

@@ -18,6 +18,8 @@ class BasicSequence {
  public:
   /// Errors: Error for input that makes no sense. Non-convergence is a status.
   io::CaseResult solve(const io::BasicCase& input);
+  /// Forgets the cases so far.
+  void reset() { solver_.reset(); }
 
  private:
   kalker::ContactSolver solver_;

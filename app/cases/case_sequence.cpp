@@ -48,6 +48,7 @@ std::vector<std::vector<std::size_t>> groups_in_time(const io::CaseFile& file) {
 
 CaseSequence::~CaseSequence() {
   if (lease_) pool_.give_back(std::move(*lease_));
+  if (basic_) pool_.give_back(std::move(basic_));
 }
 
 wheelrail::Pair& CaseSequence::pair_for(const wheelrail::Geometry& geometry) {
@@ -81,7 +82,8 @@ io::CaseResult CaseSequence::solve(const io::Case& c, const wheelrail::Geometry*
     result = solve(c, *rail, *geometry);
   } else {
     const auto& basic = std::get<io::BasicCase>(c.content);
-    result = basic_.solve(basic);
+    if (!basic_) basic_ = pool_.take_basic();
+    result = basic_->solve(basic);
     if (c.element_table > 0)
       for (io::PatchResult& patch : result.patches) patch.element_table = mat_head(basic, c.number);
   }
@@ -90,7 +92,7 @@ io::CaseResult CaseSequence::solve(const io::Case& c, const wheelrail::Geometry*
   return result;
 }
 
-PairPool::Lease PairPool::take(const wheelrail::Geometry& geometry) {
+SolverPool::Lease SolverPool::take(const wheelrail::Geometry& geometry) {
   std::unique_ptr<wheelrail::Pair> pair;
   {
     const std::lock_guard lock(mutex_);
@@ -107,9 +109,23 @@ PairPool::Lease PairPool::take(const wheelrail::Geometry& geometry) {
   return {geometry, std::move(pair)};
 }
 
-void PairPool::give_back(Lease lease) {
+void SolverPool::give_back(Lease lease) {
   const std::lock_guard lock(mutex_);
   idle_[{lease.geometry.rail.get(), lease.geometry.wheel.get()}].push_back(std::move(lease.pair));
+}
+
+std::unique_ptr<BasicSequence> SolverPool::take_basic() {
+  const std::lock_guard lock(mutex_);
+  if (idle_basic_.empty()) return std::make_unique<BasicSequence>();
+  std::unique_ptr<BasicSequence> basic = std::move(idle_basic_.back());
+  idle_basic_.pop_back();
+  basic->reset();
+  return basic;
+}
+
+void SolverPool::give_back(std::unique_ptr<BasicSequence> basic) {
+  const std::lock_guard lock(mutex_);
+  idle_basic_.push_back(std::move(basic));
 }
 
 }  // namespace treadmark::app

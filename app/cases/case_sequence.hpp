@@ -16,8 +16,9 @@
 
 namespace treadmark::app {
 
-/// Solvers keep influence coefficients: finished ones are handed to the next case with the same bodies. Thread-safe.
-class PairPool {
+/// Solvers keep influence coefficients: finished ones are handed to the next case, with the same bodies where it has
+/// any. Thread-safe.
+class SolverPool {
  public:
   struct Lease {
     wheelrail::Geometry geometry;
@@ -26,11 +27,14 @@ class PairPool {
 
   /// Without history.
   Lease take(const wheelrail::Geometry& geometry);
+  std::unique_ptr<BasicSequence> take_basic();
   void give_back(Lease lease);
+  void give_back(std::unique_ptr<BasicSequence> basic);
 
  private:
   std::mutex mutex_;
   std::map<std::pair<const Surface*, const Surface*>, std::vector<std::unique_ptr<wheelrail::Pair>>> idle_;
+  std::vector<std::unique_ptr<BasicSequence>> idle_basic_;
 };
 
 /// Whether a case does not depend on the ones before it in its sequence.
@@ -43,7 +47,7 @@ std::vector<std::vector<std::size_t>> groups_in_time(const io::CaseFile& file);
 /// state, another rail): it moves into the solver of the new ones.
 class CaseSequence {
  public:
-  explicit CaseSequence(PairPool& pool) : pool_(pool) {}
+  explicit CaseSequence(SolverPool& pool) : pool_(pool) {}
   ~CaseSequence();
   CaseSequence(const CaseSequence&) = delete;
   CaseSequence& operator=(const CaseSequence&) = delete;
@@ -57,9 +61,9 @@ class CaseSequence {
   io::CaseResult solve(const io::Case& c, const io::WheelRailCase& input, const wheelrail::Geometry& geometry);
   wheelrail::Pair& pair_for(const wheelrail::Geometry& geometry);
 
-  PairPool& pool_;
-  std::optional<PairPool::Lease> lease_;
-  BasicSequence basic_;
+  SolverPool& pool_;
+  std::optional<SolverPool::Lease> lease_;
+  std::unique_ptr<BasicSequence> basic_;
   bool broken_ = false;
 };
 

@@ -56,7 +56,7 @@ io::RunResult run_cases(const io::CaseFile& file, SurfaceStore& store, const Pro
   std::vector<std::exception_ptr> errors(file.cases.size());
   std::mutex progress_mutex;
   std::size_t finished = 0;
-  PairPool pool;
+  SolverPool pool;
   const auto solve_case = [&](std::size_t i, CaseSequence& sequence) {
     const auto case_start = Clock::now();
     const io::Case& c = file.cases[i];

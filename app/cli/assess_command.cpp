@@ -2,7 +2,6 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <algorithm>
 #include <charconv>
-#include <filesystem>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -13,14 +12,9 @@
 #include "treadmark/app/report/pages/assessment_page.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/output_file.hpp"
-#include "treadmark/core/parts.hpp"
-#include "treadmark/io/histories/channels.hpp"
-#include "treadmark/io/histories/simulation_store.hpp"
 
 namespace treadmark::cli {
 namespace {
-
-namespace fs = std::filesystem;
 
 struct AssessOptions {
   std::vector<std::string> results;
@@ -61,46 +55,15 @@ AssessmentSection section_of(const std::string& text) {
   return section;
 }
 
-fs::path store_of(const std::string& name) {
-  std::error_code unknown;
-  if (!fs::is_directory(name, unknown)) return name;
-  for (const char* file : {"simulation.h5", "unfinished.h5"})
-    if (fs::exists(fs::path(name) / file, unknown)) return fs::path(name) / file;
-  throw Error(ErrorKind::input_data, "the folder holds no results of a simulation", {name},
-              "give folders that treadmark simulate wrote with -o");
-}
-
-/// The folders' own names, or all of their paths where some are equal.
-std::vector<std::string> names_of(const std::vector<std::string>& results) {
-  std::vector<std::string> names;
-  for (const std::string& one : results) {
-    fs::path path = fs::path(one).lexically_normal();
-    if (!path.has_filename()) path = path.parent_path();
-    if (path.extension() == ".h5" && path.has_parent_path()) path = path.parent_path();
-    names.push_back(path.filename().string());
-  }
-  std::vector<std::string> sorted = names;
-  std::ranges::sort(sorted);
-  return std::ranges::adjacent_find(sorted) == sorted.end() ? names : results;
-}
-
 int assess_command(const AssessOptions& options, const CommonOptions&) {
   require_different(options.results, {options.csv_file, options.json_file, options.report_file});
-  require_part("hdf5", "results of simulations");
   AssessmentRequest request;
   const auto kind = std::ranges::find(kVehicleKinds, options.vehicle);
   request.vehicle = static_cast<VehicleKind>(kind - kVehicleKinds.begin());
   request.from = options.from;
   request.spectra = options.spectra;
   for (const std::string& section : options.sections) request.sections.push_back(section_of(section));
-  app::check(request);
-  std::vector<app::AssessedRun> runs;
-  const std::vector<std::string> names = names_of(options.results);
-  for (std::size_t i = 0; i < names.size(); ++i) {
-    auto result = std::make_shared<io::SimulationResult>(io::read_simulation(store_of(options.results[i])));
-    io::fitting_columns(result->columns, options.channels);  // refused before anything is computed
-    runs.push_back(app::assess_result(names[i], std::move(result), request));
-  }
+  const std::vector<app::AssessedRun> runs = app::assess_files(options.results, request, options.channels);
   const std::vector<std::string> channels =
       options.channels.empty() ? app::usual_channels(*runs.front().result) : options.channels;
   if (!options.folder.empty()) app::write_assessment_folder(options.folder, runs, channels);

@@ -24,8 +24,8 @@ void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector
   add_overrides(verb, overrides);
 }
 
-void add_overrides(CLI::App& verb, std::vector<std::string>& overrides) {
-  verb.add_option("--set", overrides, "Override a key of every case, for example --set wheelset.y_mm=3")
+void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example) {
+  verb.add_option("--set", overrides, fmt::format("Override a key of the file, for example --set {}", example))
       ->type_name("KEY=VALUE")
       ->allow_extra_args(false)
       ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);

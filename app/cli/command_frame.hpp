@@ -52,7 +52,8 @@ Command command(std::shared_ptr<Options> options, int (*run)(const Options&, con
 /// CASE... and --set.
 void add_case_files(CLI::App& verb, std::vector<std::string>& cases, std::vector<std::string>& overrides);
 /// --set.
-void add_overrides(CLI::App& verb, std::vector<std::string>& overrides);
+/// example: a key of the files that the verb reads, with a value.
+void add_overrides(CLI::App& verb, std::vector<std::string>& overrides, const char* example = "wheelset.y_mm=3");
 /// --report of a file.
 void add_report_file(CLI::App& verb, std::string& file);
 /// An option of several values with commas between them.

@@ -103,7 +103,7 @@ Command add_import(CLI::App& verb) {
       ->check(CLI::PositiveNumber)
       ->type_name("MM");
   verb.add_flag("--list-settings", options->list_settings, "Print all settings with their defaults as a TOML file");
-  add_overrides(verb, options->overrides);
+  add_overrides(verb, options->overrides, "scan.unit=mm");
   return command(options, import_command);
 }
 

@@ -4,17 +4,22 @@
 #include <unistd.h>
 #include <CLI/CLI.hpp>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cstring>
 #include <exception>
 #include <filesystem>
 #include <iostream>
 #include <new>
+#include <string>
+#include <utility>
+#include <vector>
 
 #include "treadmark/app/cli/printable_stream.hpp"
 #include "treadmark/app/cli/verbs.hpp"
 #include "treadmark/app/version.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/io/settings/key_info.hpp"
 
 namespace {
 
@@ -58,6 +63,30 @@ constexpr const char* kNoMemory =
   std::_Exit(cli::kFailed);
 }
 
+constexpr const char* kFirstSteps =
+    "\nFirst steps:\n"
+    "  treadmark run CASE.toml --report out.html    solve a case and look at it in a browser\n"
+    "  treadmark check CASE.toml -o out             see what is understood, wheel over rail as a picture\n"
+    "  treadmark import SCAN.ply -o wheel.slcw      a surface from a laser scan\n"
+    "  treadmark VERB --help                        all options of a verb\n";
+
+/// The first word that is no option, which has to be a verb. Errors: Error(configuration) where it is none.
+void require_verb(int argc, char** argv) {
+  std::vector<std::string> known;
+  for (const cli::Verb& verb : cli::verbs()) known.emplace_back(verb.name);
+  for (int i = 1; i < argc; ++i) {
+    const std::string word = argv[i];
+    if (word == "--threads") {
+      ++i;  // and its value
+    } else if (!word.starts_with("-")) {
+      if (std::ranges::find(known, word) != known.end()) return;
+      const std::string near = io::nearest_key(word, known);
+      throw Error(ErrorKind::configuration, "there is no verb '" + word + "'", {},
+                  near.empty() ? "treadmark --help lists all" : "did you mean '" + near + "'?");
+    }
+  }
+}
+
 /// Everything but whether the standard output took what it was given.
 int parse_and_run(int argc, char** argv) {
   CLI::App program{"Treadmark: wheel-rail contact on any 3D surface"};
@@ -80,6 +109,11 @@ int parse_and_run(int argc, char** argv) {
     CLI::App* app = program.add_subcommand(verb.name, verb.summary);
     commands.emplace_back(app, verb.add(*app));
   }
+  if (argc == 1) {
+    std::cout << program.help() << kFirstSteps;
+    return cli::kUsage;
+  }
+  require_verb(argc, argv);
   try {
     program.parse(argc, argv);
   } catch (const CLI::ParseError& e) {

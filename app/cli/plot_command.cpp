@@ -1,5 +1,6 @@
 // SPDX-License-Identifier: Apache-2.0
 // SPDX-FileCopyrightText: Treadmark contributors
+#include <filesystem>
 #include <iostream>
 
 #include <fmt/format.h>
@@ -29,6 +30,9 @@ int plot_command(const PlotOptions& options, const CommonOptions&) {
   if (options.output_file.empty())
     throw Error(ErrorKind::configuration, "there is no place for the picture", {},
                 "name a file with -o FILE.svg, or - for standard output");
+  if (options.output_file != "-" && std::filesystem::path(options.output_file).extension() != ".svg")
+    throw Error(ErrorKind::configuration, "pictures are written as SVG only", {options.output_file, 0, 0},
+                "end the name with .svg; a report saves single views as PNG");
   const std::string svg = app::report::plot(page, options.what, options.cases);
   if (options.output_file == "-")
     std::cout << svg;

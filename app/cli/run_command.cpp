@@ -30,6 +30,7 @@ struct RunOptions {
   double resolution_mm = 0.0;          ///< of re-represented surfaces, 0 = their default
   std::vector<std::string> overrides;  ///< key=value
   std::string report_file;             ///< HTML; empty = none
+  bool verbose = false;                ///< all numbers of all cases
 };
 
 void choose_backends(io::CaseFile& file, const RunOptions& options) {
@@ -106,6 +107,8 @@ int run_command(const RunOptions& options, const CommonOptions& common) {
     });
     const auto json = [&] { return io::to_json(result); };
     print_results(options.json_file, json, [&] {
+      constexpr std::size_t kInFull = 3;  // cases that are printed with all numbers
+      if (result.cases.size() > kInFull && !options.verbose) return io::summary_list(result.cases);
       std::string text;
       for (const io::CaseResult& c : result.cases) text += io::summary(c) + '\n';
       return text;
@@ -132,6 +135,7 @@ Command add_run(CLI::App& verb) {
   verb.add_option("--json", options->json_file,
                   "Write the result file here; - for standard output instead of the summary")
       ->type_name("FILE");
+  verb.add_flag("--verbose", options->verbose, "Print all numbers of each case, also where there are more than three");
   verb.add_option("--backend", options->backend, "Surface backend for wheel and rail (see: treadmark list backends)");
   verb.add_option("--wheel-backend", options->wheel_backend, "Surface backend for the wheel");
   verb.add_option("--rail-backend", options->rail_backend, "Surface backend for the rail");

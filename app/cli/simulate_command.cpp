@@ -193,7 +193,7 @@ Command add_simulate(CLI::App& verb) {
                   "Write how the track gives way, track.json, receptance.csv and track.svg, into this folder, and stop")
       ->type_name("FOLDER");
   add_report_file(verb, options->report_file);
-  add_overrides(verb, options->overrides);
+  add_overrides(verb, options->overrides, "simulation.speed_m_s=20");
   return command(options, simulate_command);
 }
 

@@ -58,7 +58,7 @@ Command add_stability(CLI::App& verb) {
       ->type_name("FILE");
   verb.add_option("-o,--output", options->folder, "Folder for stability.json, eigenvalues.csv and stability.svg")
       ->type_name("FOLDER");
-  add_overrides(verb, request.overrides);
+  add_overrides(verb, request.overrides, "simulation.vehicle=mine.toml");
   return command(options, stability_command);
 }
 

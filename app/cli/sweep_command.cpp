@@ -86,7 +86,7 @@ Command add_sweep(CLI::App& verb) {
       ->required();
   verb.add_flag("--resume", options->resume, "Go on with a study that was stopped; there must be one in the folder");
   add_report_file(verb, options->report_file);
-  add_overrides(verb, options->overrides);
+  add_overrides(verb, options->overrides, "simulation.distance_m=2");
   return command(options, sweep_command);
 }
 

@@ -73,7 +73,7 @@ Command add_track(CLI::App& verb) {
   verb.add_option("-o,--output", options->folder,
                   "Folder for track.json, receptance.csv, track.svg and the fitted track, fitted.toml")
       ->type_name("FOLDER");
-  add_overrides(verb, options->overrides);
+  add_overrides(verb, options->overrides, "scale_stiffness=2");
   return command(options, track_command);
 }
 

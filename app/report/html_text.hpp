@@ -14,7 +14,7 @@ namespace treadmark::app::report {
 std::string html_text(std::string_view words);
 
 /// A number as people read it: this many digits, all of whole numbers, no exponent for numbers of ordinary size, "–"
-/// for what is not finite.
+/// for what is not finite; 0 below 1e-12, which is nothing but rounding.
 std::string shown(const Number& number);
 
 /// A name that can be an id in HTML: letters, digits and dashes.

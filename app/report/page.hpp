@@ -168,6 +168,7 @@ struct Timeline {
   std::vector<std::string> names = {};  ///< of the steps; empty: made from the first axis
   std::vector<int> frames = {};         ///< of each step, -1 = none; empty: there are no contact fields
   std::vector<Axis> axes = {};          ///< a value a step; at least one
+  std::size_t start = 0;                ///< the step that is shown first
   std::size_t count() const { return axes.empty() ? names.size() : axes.front().values.size(); }
 };
 

@@ -36,6 +36,12 @@ Json to_json(const Packed& packed) {
   return out;
 }
 
+/// Least range of an axis as a share of its values: solvers reach forces within a tolerance, which is no trend.
+double least_span(const std::string& unit) {
+  constexpr double kOfForces = 0.01;
+  return unit == "N" || unit == "kN" || unit == "MPa" ? kOfForces : 0.0;
+}
+
 const char* to_text(FieldInfo::Kind kind) {
   return kind == FieldInfo::Kind::state ? "state" : kind == FieldInfo::Kind::diverging ? "diverging" : "sequential";
 }
@@ -111,6 +117,7 @@ class Writer {
 
   Json timeline(const Timeline& timeline) {
     Json out = {{"label", timeline.label}, {"names", nullptr}, {"count", timeline.count()}, {"frames", nullptr}};
+    if (timeline.start > 0) out["start"] = timeline.start;
     if (!timeline.names.empty()) out["names"] = timeline.names;
     if (!timeline.frames.empty()) {
       std::vector<double> frames;
@@ -238,6 +245,7 @@ class Writer {
       Json& panels = out["panels"] = Json::array();
       for (const Panel& panel : chart->panels) {
         Json one = {{"label", panel.label}, {"unit", panel.unit}, {"scale", panel.logarithmic ? "log" : "linear"}};
+        if (const double span = least_span(panel.unit); span > 0.0) one["least_span"] = span;
         Json& list = one["series"] = Json::array();
         for (const Series& s : panel.series) list.push_back(series(s));
         Json& levels = one["levels"] = Json::array();

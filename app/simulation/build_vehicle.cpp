@@ -6,6 +6,8 @@
 #include <cmath>
 #include <limits>
 #include <map>
+#include <numeric>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -279,15 +281,47 @@ std::optional<TrackModel> track_below(const io::SimulationFile& file) {
   return file.flexible_track ? vehicle::lateral_track(*file.flexible_track) : file.track;
 }
 
-/// The rail under a wheelset from where the simulation starts.
-vehicle::MovingRail rail_below(const io::SimulationFile& file, int wheelset) {
-  if (file.settings.profile.time.size() > 1)
-    throw Error(ErrorKind::configuration, "on a flexible track the speed of a simulation is constant", {},
-                "leave simulation.speed_profile out, or lump the track (treadmark track)");
-  constexpr double kNoNumericalDamping = 1.0;  // rails have their own
-  return {*file.flexible_track, file.settings.speed, file.settings.from_midspan + axle_x(file, wheelset),
-          kNoNumericalDamping};
-}
+/// The rails that bend below all wheels: one for each side, or one for each wheel.
+class RailsBelow {
+ public:
+  RailsBelow(const io::SimulationFile& file, const vehicle::Multibody& system) : file_(file), system_(system) {
+    if (file.settings.profile.time.size() > 1)
+      throw Error(ErrorKind::configuration, "on a flexible track the speed of a simulation is constant", {},
+                  "leave simulation.speed_profile out, or lump the track (treadmark track)");
+    if (!file.settings.shared_rails) return;
+    std::vector<int> all(system.wheelsets.size());
+    std::iota(all.begin(), all.end(), 0);
+    for (const Side side : {Side::left, Side::right}) shared_[side] = below(all);
+  }
+
+  /// contact: the element of a wheel without its rail.
+  std::shared_ptr<vehicle::ContactElement> upon(const io::WheelContactInput& wheel,
+                                                std::shared_ptr<vehicle::ContactElement> contact) const {
+    constexpr double kTolerance = 1e-4;  // a tenth of what a step may leave
+    const auto shared = shared_.find(wheel.side);
+    return shared != shared_.end()
+               ? std::make_shared<vehicle::ContactOnRail>(std::move(contact), shared->second,
+                                                          static_cast<std::size_t>(wheel.wheelset), kTolerance)
+               : std::make_shared<vehicle::ContactOnRail>(std::move(contact), below({wheel.wheelset}), 0, kTolerance);
+  }
+
+  /// One rail.
+  std::shared_ptr<vehicle::LoadedRail> below(const std::vector<int>& wheelsets) const {
+    constexpr double kNoNumericalDamping = 1.0;  // rails have their own
+    std::vector<double> places, loads;
+    for (const int wheelset : wheelsets) {
+      places.push_back(file_.settings.from_midspan + axle_x(file_, wheelset));
+      loads.push_back(0.5 * system_.wheelset_load.at(static_cast<std::size_t>(wheelset)));
+    }
+    return std::make_shared<vehicle::LoadedRail>(
+        vehicle::MovingRail(*file_.flexible_track, file_.settings.speed, places, kNoNumericalDamping), loads);
+  }
+
+ private:
+  const io::SimulationFile& file_;
+  const vehicle::Multibody& system_;
+  std::map<Side, std::shared_ptr<vehicle::LoadedRail>> shared_;
+};
 
 /// A wheel's contact with a check rail beside it.
 std::shared_ptr<vehicle::ContactElement> beside(const io::CheckRailInput& rail, const io::SimulationFile& file,
@@ -322,6 +356,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
   v.system = vehicle::assemble(file.vehicle, track_below(file), v.speed, file.settings.gravity);
   v.line = build_line(file, v.system, true);
   v.pitch_at_start.assign(v.system.wheelsets.size(), 0.0);
+  std::optional<RailsBelow> rails;
+  if (file.flexible_track) rails.emplace(file, v.system);
   for (const io::WheelContactInput& wheel : file.wheels) {
     vehicle::WheelOnRail on{wheel.wheelset, wheel.side, wheel_name(wheel), nullptr, Vec3::Zero()};
     if (wheel.pitch) v.pitch_at_start.at(static_cast<std::size_t>(wheel.wheelset)) = *wheel.pitch;
@@ -350,12 +386,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       built.bodies.emplace_back();
       on.element = from_table;
     }
-    if (file.flexible_track) {
-      constexpr double kTolerance = 1e-4;  // a tenth of what a step may leave
-      const auto set = static_cast<std::size_t>(wheel.wheelset);
-      on.element = std::make_shared<vehicle::ContactOnRail>(on.element, rail_below(file, wheel.wheelset),
-                                                            0.5 * v.system.wheelset_load.at(set), kTolerance);
-    }
+    if (rails) on.element = rails->upon(wheel, on.element);
     for (const io::CheckRailInput& rail : file.check_rails)
       if (rail.side == wheel.side) on.element = beside(rail, file, wheel, on);
     v.wheels.push_back(std::move(on));
@@ -372,9 +403,10 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
   ContactTables none;
   Builder builder(file, store, none);
-  if (file.flexible_track) rail_below(file, 0);
-  build_line(file, vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity),
-             false);
+  const vehicle::Multibody system =
+      vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity);
+  if (file.flexible_track) RailsBelow(file, system).below({0});
+  build_line(file, system, false);
   for (const io::WheelContactInput& wheel : file.wheels) {
     const bool full = wheel.model == io::ContactModelInput::full;
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);

@@ -19,6 +19,10 @@ class ChainView {
 
   /// Interval of the view that holds w, or -1; guess is an earlier answer.
   int find(double w, int guess) const;
+  /// The arc that is seen over an interval, and where the interval ends.
+  const ArcGraph& arc(int interval) const { return piece(interval); }
+  double w_min(int interval) const { return intervals_[static_cast<std::size_t>(interval)].w_min; }
+  double w_max(int interval) const { return intervals_[static_cast<std::size_t>(interval)].w_max; }
   double height(double w, int interval) const { return piece(interval).height(w); }
   double height_and_slope(double w, int interval, double& slope) const {
     return piece(interval).height_and_slope(w, slope);

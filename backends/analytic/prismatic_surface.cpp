@@ -9,6 +9,7 @@
 #include <limits>
 #include <numbers>
 
+#include "treadmark/backends/analytic/arc_row.hpp"
 #include "treadmark/backends/analytic/chain.hpp"
 #include "treadmark/core/constants.hpp"
 #include "treadmark/core/parallel.hpp"
@@ -119,12 +120,51 @@ class RowWriter : PointWriter {
         std::fill_n(out_.dzdy.begin() + static_cast<std::ptrdiff_t>(begin), n, (dh * p_.wy - p_.ay) / p_.m);
       return;
     }
-    for (int ix = 0; ix < g_.nx; ++ix)
-      write_point(begin + static_cast<std::size_t>(ix), g_.x(ix), w_row, a_row, interval);
+    if (out_.z.empty()) {
+      for (int ix = 0; ix < g_.nx; ++ix)
+        write_point(begin + static_cast<std::size_t>(ix), g_.x(ix), w_row, a_row, interval);
+      return;
+    }
+    for (int ix = 0, last = 0; ix < g_.nx; ix = last + 1) {
+      interval = view_.find(w_row + p_.wx * g_.x(ix), std::max(interval, 0));
+      last = interval < 0 ? ix : run_end(ix, w_row, interval);
+      if (interval < 0)
+        write_point(begin + static_cast<std::size_t>(ix), g_.x(ix), w_row, a_row, interval);
+      else
+        write_run(begin, ix, last, w_row, a_row, interval);
+    }
   }
 
  private:
+  /// The last of the points from ix on that one interval holds.
+  int run_end(int ix, double w_row, int interval) const {
+    const double low = view_.w_min(interval), high = view_.w_max(interval);
+    const auto holds = [&](int i) {
+      const double w = w_row + p_.wx * g_.x(i);
+      return w >= low && w <= high;
+    };
+    const double steps = (((p_.wx > 0.0 ? high : low) - w_row) / p_.wx - g_.x0) / g_.dx;  // NaN: one point
+    int last = std::max(ix, static_cast<int>(steps < g_.nx ? std::max(steps, -1.0) : steps >= g_.nx ? g_.nx - 1 : -1));
+    while (last > ix && !holds(last)) --last;
+    while (last + 1 < g_.nx && holds(last + 1)) ++last;
+    return last;
+  }
+  void write_run(std::size_t begin, int first, int last, double w_row, double a_row, int interval) const {
+    const ArcGraph& arc = view_.arc(interval);
+    double* const dx = out_.dzdx.empty() ? nullptr : out_.dzdx.data() + begin;
+    double* const dy = out_.dzdy.empty() ? nullptr : out_.dzdy.data() + begin;
+    double* const slope = dx != nullptr ? dx : dy;
+    kernel_({arc.x0, arc.h0, arc.s0, arc.c0, arc.k, w_row, p_.wx, a_row, p_.ax, 1.0 / p_.m, g_.x0, g_.dx}, first,
+            last + 1, out_.z.data() + begin, slope);
+    for (int ix = first; slope != nullptr && ix <= last; ++ix) {
+      const double dh = slope[ix];
+      if (dx != nullptr) dx[ix] = (dh * p_.wx - p_.ax) / p_.m;
+      if (dy != nullptr) dy[ix] = (dh * p_.wy - p_.ay) / p_.m;
+    }
+  }
+
   const Grid2& g_;
+  ArcRowKernel kernel_ = arc_row_kernel();
   bool one_w_ = false;
 };
 

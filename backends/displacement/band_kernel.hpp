@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstddef>
+#include <cstdint>
 
 namespace treadmark::displacement {
 
@@ -30,6 +31,17 @@ struct BandTurn {
   double theta, sin, cos;  ///< near which most points lie
 };
 
+/// Where heights change smoothly from point to point.
+enum Smooth : std::uint8_t {
+  kAlongX = 1,  ///< from the neighbour before x to the one behind
+  kAlongY = 2,
+  kAround = 4,  ///< among all eight neighbours
+};
+/// Second differences that may be, where there is no slope.
+struct BendLimits {
+  double per_dx, per_dy, most_x, most_y;
+};
+
 struct BandKernel {
   /// F and its gradient; h, hx, hy belong to the point moved back, or (tangent) to the point itself.
   void (*solve_moved)(const BandAxes& axes, std::size_t n, const BandPoints& points);
@@ -47,6 +59,12 @@ struct BandKernel {
                   const double* sy, double* value, double* by_sx, double* by_sy);
   /// |Fifth differences| of six arrays; 1e300 for NaN.
   void (*fifth)(std::size_t n, const double* const six[6], double* difference);
+  /// kAlongX and kAlongY where second differences of a row with its neighbours (z[-1] to z[n]) are within the limits.
+  void (*bends)(std::size_t n, const double* z, const double* before, const double* behind, const BendLimits& limits,
+                std::uint8_t* bends);
+  /// Smooth, from bends of a row and of those beside it (entries -1 to n).
+  void (*smooth)(std::size_t n, const std::uint8_t* before, const std::uint8_t* row, const std::uint8_t* behind,
+                 std::uint8_t* smooth);
 };
 
 const BandKernel& band_kernel_generic();

@@ -7,6 +7,9 @@
 
 #include "treadmark/backends/displacement/band_kernel.hpp"
 
+// everything here is inlined, nothing is passed
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace treadmark::displacement {
 
 namespace {
@@ -139,8 +142,57 @@ void missing_terms(std::size_t n, const double* const along[5], const double* co
   }
 }
 
-constexpr BandKernel kBandKernel{&solve_any<false>,   &solve_any<true>, &turn_points,
-                                 &interpolate_points, &missing_terms,   &fifth_differences};
+typedef double FourHeights __attribute__((vector_size(32)));
+typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
+typedef long long FourBits __attribute__((vector_size(32)));
+
+inline std::uint8_t bend_of(const double* z, double before, double behind, const BendLimits& limits) {
+  constexpr double kRounding = 1e-8;  // [m]
+  const double x1 = z[0] - z[-1], x2 = z[1] - z[0], y1 = z[0] - before, y2 = behind - z[0];
+  const double xx = fabs(x2 - x1), yy = fabs(y2 - y1), ax = fabs(x1), bx = fabs(x2), ay = fabs(y1), by = fabs(y2);
+  // the slope without the jump, if there is one
+  const double sx = (bx < ax ? bx : ax) * limits.per_dx, sy = (by < ay ? by : ay) * limits.per_dy;
+  // A second derivative is the curvature times (1 + slope^2)^1.5; a slope that is not known is none.
+  const double square = (sx == sx ? sx * sx : 0.0) + (sy == sy ? sy * sy : 0.0),
+               steep = (1.0 + square) * sqrt(1.0 + square);
+  return static_cast<std::uint8_t>((xx <= limits.most_x * steep + kRounding ? kAlongX : 0) |
+                                   (yy <= limits.most_y * steep + kRounding ? kAlongY : 0));
+}
+
+void bends_of(std::size_t n, const double* z, const double* before, const double* behind, const BendLimits& limits,
+              std::uint8_t* bends) {
+  const auto four = [](const double* p) __attribute__((always_inline)) {
+    return FourHeights(*reinterpret_cast<const FourAnywhere*>(p));
+  };
+  std::size_t i = 0;
+  for (; i + 4 <= n; i += 4) {
+    // What is smooth without regard to slopes, most of it.
+    const FourHeights twice = 2.0 * four(z + i), xx = four(z + i + 1) + four(z + i - 1) - twice,
+                      yy = four(before + i) + four(behind + i) - twice;
+    const FourBits bad =
+        ~((xx <= limits.most_x) & (-xx <= limits.most_x) & (yy <= limits.most_y) & (-yy <= limits.most_y));
+    if (((bad[0] | bad[1]) | (bad[2] | bad[3])) == 0) {
+      for (int k = 0; k < 4; ++k) bends[i + static_cast<std::size_t>(k)] = kAlongX | kAlongY;
+      continue;
+    }
+    for (std::size_t k = i; k < i + 4; ++k) bends[k] = bend_of(z + k, before[k], behind[k], limits);
+  }
+  for (; i < n; ++i) bends[i] = bend_of(z + i, before[i], behind[i], limits);
+}
+
+void smooth_of(std::size_t n, const std::uint8_t* before, const std::uint8_t* row, const std::uint8_t* behind,
+               std::uint8_t* __restrict smooth) {
+#pragma GCC ivdep
+  for (std::size_t i = 0; i < n; ++i) {
+    const std::uint8_t *a = before + i, *b = row + i, *c = behind + i;
+    const int along_x = b[-1] & b[0] & b[1], along_y = a[0] & b[0] & c[0];
+    const int all = along_x & along_y & a[-1] & a[1] & c[-1] & c[1];
+    smooth[i] = static_cast<std::uint8_t>((along_x & kAlongX) | (along_y & kAlongY) | ((all & (all >> 1) & 1) << 2));
+  }
+}
+
+constexpr BandKernel kBandKernel{&solve_any<false>, &solve_any<true>,   &turn_points, &interpolate_points,
+                                 &missing_terms,    &fifth_differences, &bends_of,    &smooth_of};
 
 }  // namespace
 

@@ -5,6 +5,7 @@
 #include <cstdint>
 #include <vector>
 
+#include "treadmark/backends/displacement/band_kernel.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::displacement {
@@ -22,11 +23,7 @@ class BaseHeights {
   /// Row iy in [-1, ny]; entries -1 to nx.
   const double* row(int iy) const { return z_.data() + static_cast<std::size_t>(iy + 1) * stride_ + 1; }
 
-  enum Smooth : std::uint8_t {
-    kAlongX = 1,  ///< from the neighbour before x to the one behind
-    kAlongY = 2,
-    kAround = 4,  ///< among all eight neighbours
-  };
+  using enum Smooth;
   std::uint8_t smooth(int ix, int iy) const {
     return smooth_[static_cast<std::size_t>(iy) * static_cast<std::size_t>(g_.nx) + static_cast<std::size_t>(ix)];
   }

@@ -5,6 +5,9 @@
 
 #include "treadmark/backends/offset/sheet_kernel.hpp"
 
+// everything here is inlined, nothing is passed
+#pragma GCC diagnostic ignored "-Wpsabi"
+
 namespace treadmark::offset {
 
 namespace {
@@ -99,10 +102,77 @@ struct Smooth {
   }
 };
 
+typedef int FourIntegers __attribute__((vector_size(16)));
+typedef long long FourMasks __attribute__((vector_size(32)));
+typedef double FourAnywhere __attribute__((vector_size(32), aligned(8), may_alias));
+typedef float TwoSingle __attribute__((vector_size(8), aligned(4), may_alias));
+
+[[gnu::always_inline]] inline Four four(const double* p) { return *reinterpret_cast<const FourAnywhere*>(p); }
+[[gnu::always_inline]] inline bool every(const FourMasks& m) { return (m[0] & m[1] & m[2] & m[3]) != 0; }
+
 struct Straight {
   static constexpr double kShift = 0.0;
   static constexpr int kBefore = 0;
   Patch<2> patch;
+
+  // The block looked at last.
+  int block_i = INT32_MIN, block_j = INT32_MIN;
+  const float* block = nullptr;
+
+  [[gnu::always_inline]] static Four corners(const float* b) {
+    const TwoSingle first = *reinterpret_cast<const TwoSingle*>(b), next = *reinterpret_cast<const TwoSingle*>(b + 64);
+    return __builtin_convertvector(__builtin_shufflevector(first, next, 0, 1, 2, 3), Four);
+  }
+  /// The values round a point: at (i, j), (i, j + 1), (i + 1, j), (i + 1, j + 1).
+  [[gnu::always_inline]] Four corners(const SheetView& v, int i, int j) {
+    const int in_i = i & 7, in_j = j & 63;
+    if (in_i == 7 || in_j == 63)
+      return Four{coefficient(v, i, j), coefficient(v, i, j + 1), coefficient(v, i + 1, j),
+                  coefficient(v, i + 1, j + 1)};
+    look(v, i >> 3, j >> 6);
+    return block == nullptr ? Four{} : corners(block + ((in_i << 6) | in_j));
+  }
+  void look(const SheetView& v, int bi, int bj) {
+    if (bi == block_i && bj == block_j) return;
+    block_i = bi, block_j = bj, block = block_of(v, bi, bj);
+  }
+
+  /// Four points at once of a sheet that is not closed, if all lie on its branch.
+  bool four_points(const SheetView& v, const double* u, const double* y, double* value, double* d_u, double* d_y) {
+    constexpr double kFar = 1 << 30;
+    const Four s = (four(u) - v.u0) * v.per_u, t = (four(y) - v.y0) * v.per_y;
+    FourMasks good = (s > -kFar) & (s < kFar) & (t > -kFar) & (t < kFar);
+    if (v.period > 0.0) good &= (s >= v.branch) & (s < v.branch + v.period);
+    if (!every(good)) return false;
+    FourIntegers i = __builtin_convertvector(s, FourIntegers), j = __builtin_convertvector(t, FourIntegers);
+    i += __builtin_convertvector(s < __builtin_convertvector(i, Four), FourIntegers);
+    j += __builtin_convertvector(t < __builtin_convertvector(j, Four), FourIntegers);
+    const Four f = s - __builtin_convertvector(i, Four), g = t - __builtin_convertvector(j, Four);
+    const FourIntegers in_i = i & 7, in_j = j & 63;
+    look(v, i[0] >> 3, j[0] >> 6);
+    const FourIntegers inside = ((i >> 3) == block_i) & ((j >> 6) == block_j) & (in_i < 7) & (in_j < 63);
+    const bool one_block = (inside[0] & inside[1] & inside[2] & inside[3]) != 0;
+    if (one_block && block == nullptr) {
+      double* const results[] = {value, d_u, d_y};
+      for (double* out : results)
+        if (out != nullptr) *reinterpret_cast<FourAnywhere*>(out) = Four{};
+      return true;
+    }
+    const FourIntegers at = (in_i << 6) | in_j;
+    const Four p = one_block ? corners(block + at[0]) : corners(v, i[0], j[0]);
+    const Four q = one_block ? corners(block + at[1]) : corners(v, i[1], j[1]);
+    const Four r = one_block ? corners(block + at[2]) : corners(v, i[2], j[2]);
+    const Four w = one_block ? corners(block + at[3]) : corners(v, i[3], j[3]);
+    const Four pq0 = __builtin_shufflevector(p, q, 0, 4, 2, 6), pq1 = __builtin_shufflevector(p, q, 1, 5, 3, 7);
+    const Four rw0 = __builtin_shufflevector(r, w, 0, 4, 2, 6), rw1 = __builtin_shufflevector(r, w, 1, 5, 3, 7);
+    const Four c00 = __builtin_shufflevector(pq0, rw0, 0, 1, 4, 5), c01 = __builtin_shufflevector(pq1, rw1, 0, 1, 4, 5),
+               c10 = __builtin_shufflevector(pq0, rw0, 2, 3, 6, 7), c11 = __builtin_shufflevector(pq1, rw1, 2, 3, 6, 7);
+    const Four a = c00 + g * (c01 - c00), b = c10 + g * (c11 - c10);
+    *reinterpret_cast<FourAnywhere*>(value) = a + f * (b - a);
+    if (d_u != nullptr) *reinterpret_cast<FourAnywhere*>(d_u) = (b - a) * v.per_u;
+    if (d_y != nullptr) *reinterpret_cast<FourAnywhere*>(d_y) = ((1.0 - f) * (c01 - c00) + f * (c11 - c10)) * v.per_y;
+    return true;
+  }
 
   void at(double f, double g, double& value, double& d_s, double& d_t) const {
     const Four &first = patch.row[0], &next = patch.row[1];
@@ -119,6 +189,14 @@ void sheet_points(const SheetView& v, std::size_t n, const double* u, const doub
   constexpr double kFar = 1 << 30;
   Spline spline;
   for (std::size_t k = 0; k < n; ++k) {
+    if constexpr (Spline::kBefore == 0) {
+      // Round a wheel most points lie beside each other where nothing is, which the patch knows already.
+      for (; v.turn == 0 && k + 4 <= n; k += 4)
+        if (!spline.four_points(v, u + k, y + k, value + k, d_u == nullptr ? d_u : d_u + k,
+                                d_y == nullptr ? d_y : d_y + k))
+          break;
+      if (k == n) return;
+    }
     double s = (u[k] - v.u0) * v.per_u;
     const double t = (y[k] - v.y0) * v.per_y;
     if (v.period > 0.0 && !(s >= v.branch && s < v.branch + v.period) && s > -kFar && s < kFar) {  // another branch

@@ -3,18 +3,23 @@
 #include "treadmark/bench/instructions/paths.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <map>
 #include <memory>
 #include <stdexcept>
 #include <utility>
+#include <variant>
 
 #include "treadmark/app/bench/bench_case.hpp"
 #include "treadmark/app/bench/bench_scene.hpp"
 #include "treadmark/app/bench/check_surface.hpp"
+#include "treadmark/app/cases/wheelrail_case.hpp"
+#include "treadmark/app/surfaces/read_surface.hpp"
 #include "treadmark/backends/create.hpp"
 #include "treadmark/backends/registry.hpp"
 #include "treadmark/detection/undeformed_distance.hpp"
 #include "treadmark/solvers/kalker/contact_solver.hpp"
+#include "treadmark/solvers/wheelrail/pair.hpp"
 
 namespace treadmark::bench {
 namespace {
@@ -102,6 +107,36 @@ MeasuredPath normal() {
   return {"solve", 1, [solve] { solve(); }, [problem, solve] { return check_normal(problem, solve()); }};
 }
 
+/// A case with a prescribed vertical force on elements of 0.5 mm, by a pair that has its coefficients: the scene
+/// without the rail's damage, the wheel with its flat or round.
+MeasuredPath whole_case(bool flat) {
+  auto input = std::get<io::WheelRailCase>(app::bench_case().cases.front().content);
+  input.rail.defects = {};
+  if (!flat) input.wheel.defects = {};
+  input.discretisation.dx = input.discretisation.ds = 0.5e-3;
+  const auto surface_of = [&](const auto& source, Body body) {
+    return app::read_surface(source, body, app::profile_radius(input, body)).surface;
+  };
+  const auto pair = std::make_shared<wheelrail::Pair>(
+      wheelrail::Geometry{surface_of(input.rail, Body::rail), surface_of(input.wheel, Body::wheel), true, !flat});
+  const wheelrail::Problem problem = app::to_problem(input, !flat);
+  pair->solve(problem);
+  const auto check = [pair, problem]() -> std::string {
+    const wheelrail::PairSolution solution = pair->solve(problem);
+    const double force = *problem.vertical_force, miss = solution.load.track.force.z() - force;
+    return solution.status == Status::ok && std::abs(miss) <= 1e-4 * force ? "" : "the force is not the prescribed one";
+  };
+  // Never twice the same problem.
+  const auto further = std::make_shared<bool>(false);
+  const auto run = [pair, problem, further] {
+    wheelrail::Problem p = problem;
+    *further = !*further;
+    if (*further) p.state.position.y += 1e-4;
+    pair->solve(p);
+  };
+  return {"case", 1, run, check};
+}
+
 struct Entry {
   std::string name;
   std::function<MeasuredPath()> make;
@@ -124,6 +159,8 @@ std::vector<Entry> make_entries() {
     all.push_back({"distance/" + backend, [=] { return distance(backend); }});
   }
   all.push_back({"normal", normal});
+  all.push_back({"case/round", [] { return whole_case(false); }});
+  all.push_back({"case/flat", [] { return whole_case(true); }});
   return all;
 }
 

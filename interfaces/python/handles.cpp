@@ -165,9 +165,9 @@ py::dict solved(tm_solution& solution) {
 py::list solve_all(const tm_pair& pair, const std::vector<tm_case*>& cases) {
   auto results = std::make_shared<std::vector<io::CaseResult>>(cases.size());
   released([&] {
-    app::PairPool pool;
+    app::SolverPool pool;
     parallel_for(cases.size(), [&](std::size_t i) {
-      app::PairPool::Lease lease = pool.take(pair.geometry);
+      app::SolverPool::Lease lease = pool.take(pair.geometry);
       tm_pair own{pair.geometry, std::move(*lease.pair), pair.wheel_radius, pair.roller_radius};
       const auto solution = made<tm_solution>([&](auto out) { return tm_pair_solve(&own, cases[i], out); });
       io::CaseResult& result = (*results)[i];

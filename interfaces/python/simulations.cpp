@@ -3,8 +3,11 @@
 #include <algorithm>
 #include <optional>
 #include <span>
+#include <string_view>
 #include <tuple>
 #include <utility>
+
+#include <fmt/format.h>
 
 #include "treadmark/app/assessment/assessment_outputs.hpp"
 #include "treadmark/app/cases/run_cases.hpp"
@@ -13,6 +16,7 @@
 #include "treadmark/app/simulation/run_study.hpp"
 #include "treadmark/app/simulation/simulation_outputs.hpp"
 #include "treadmark/app/simulation/study_figures.hpp"
+#include "treadmark/app/stability/stability_run.hpp"
 #include "treadmark/app/track/track_run.hpp"
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
@@ -152,8 +156,16 @@ py::dict sweep(const Source& source, const std::filesystem::path& folder, bool r
   return d;
 }
 
+/// What a verb found out about a vehicle or a track.
 struct FoundTrack {
   std::shared_ptr<const app::TrackResult> result;
+};
+struct FoundStability {
+  std::shared_ptr<const app::StabilityRun> result;
+};
+struct FoundAssessment {
+  std::shared_ptr<const std::vector<app::AssessedRun>> result;
+  Strings channels;
 };
 
 FoundTrack track(const std::filesystem::path& file, const Strings& overrides, const std::pair<double, double>& range,
@@ -167,6 +179,47 @@ FoundTrack track(const std::filesystem::path& file, const Strings& overrides, co
     request.count = count;
     request.layers = layers;
     return FoundTrack{std::make_shared<const app::TrackResult>(app::run_track(request))};
+  });
+}
+
+FoundStability stability(const std::filesystem::path& file, const Strings& overrides,
+                         const std::pair<double, double>& range, int count, double tolerance, double shown,
+                         int threads) {
+  return with_progress(py::none(), threads, [&](const Progress& report) {
+    const CancellationScope scope(report.stop);
+    app::StabilityRequest request;
+    request.file = file;
+    request.overrides = overrides;
+    std::tie(request.from, request.to) = range;
+    request.count = count;
+    request.tolerance = tolerance;
+    request.shown = shown;
+    return FoundStability{std::make_shared<const app::StabilityRun>(app::run_stability(request))};
+  });
+}
+
+/// Place of a word in a list of words. Errors: Error(configuration).
+std::size_t place_of(const std::string& word, std::span<const std::string_view> words) {
+  const auto found = std::ranges::find(words, word);
+  if (found == words.end())
+    throw Error(ErrorKind::configuration, fmt::format("'{}' is none of: {}", word, fmt::join(words, ", ")));
+  return static_cast<std::size_t>(found - words.begin());
+}
+
+using SectionTuple = std::tuple<std::string, double, double, std::string>;  // name, from, to, kind
+
+FoundAssessment assess(const Strings& results, const std::string& vehicle, double from,
+                       const std::vector<SectionTuple>& sections, const Strings& spectra, const Strings& channels) {
+  return with_files([&] {
+    AssessmentRequest request;
+    request.vehicle = static_cast<VehicleKind>(place_of(vehicle, kVehicleKinds));
+    request.from = from;
+    request.spectra = spectra;
+    for (const auto& [name, begin, end, kind] : sections)
+      request.sections.push_back({name, begin, end, static_cast<SectionKind>(place_of(kind, kSectionKinds))});
+    const auto runs =
+        std::make_shared<const std::vector<app::AssessedRun>>(app::assess_files(results, request, channels));
+    return FoundAssessment{runs, channels.empty() ? app::usual_channels(*runs->front().result) : channels};
   });
 }
 
@@ -222,7 +275,24 @@ void add_simulations(py::module_& module) {
       .def("write_folder", [](const FoundTrack& t, const std::filesystem::path& folder) {
         with_files([&] { app::write_track_folder(folder, *t.result); });
       });
+  py::class_<FoundStability>(module, "Stability")
+      .def("json", [](const FoundStability& t) { return app::stability_json(*t.result); })
+      .def("csv", [](const FoundStability& t) { return app::stability_csv(*t.result); })
+      .def("svg", [](const FoundStability& t) { return app::stability_svg(*t.result); })
+      .def("summary", [](const FoundStability& t) { return app::stability_table(*t.result); })
+      .def("write_folder", [](const FoundStability& t, const std::filesystem::path& folder) {
+        with_files([&] { app::write_stability_folder(folder, *t.result); });
+      });
+  py::class_<FoundAssessment>(module, "Assessment")
+      .def("json", [](const FoundAssessment& a) { return app::assessment_json(*a.result); })
+      .def("csv", [](const FoundAssessment& a) { return app::assessment_csv(*a.result); })
+      .def("summary", [](const FoundAssessment& a) { return app::assessment_text(*a.result); })
+      .def("write_folder", [](const FoundAssessment& a, const std::filesystem::path& folder) {
+        with_files([&] { app::write_assessment_folder(folder, *a.result, a.channels); });
+      });
   module.def("track", track);
+  module.def("stability", stability);
+  module.def("assess", assess);
   module.def("simulate", simulate);
   module.def("sweep", sweep);
   module.def("read_sweep", [](const std::filesystem::path& file) {

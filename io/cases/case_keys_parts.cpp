@@ -182,6 +182,7 @@ std::vector<Key> part_keys() {
       key_info("backend", KeyType::text, "surface representation of this part; without it that of the rail");
   backend.pattern = kBackendPattern;
   backend.matches = is_backend_name;
+  backend.like = kBackendLike;
   keys.push_back({backend,
                   [](SurfaceSource& s, const CaseValue& v) { s.backend = v.text(); },
                   {},

@@ -29,6 +29,7 @@ class ShapeKeys {
                                "without it the one that fits the shape");
     backend.pattern = kBackendPattern;
     backend.matches = is_backend_name;
+    backend.like = kBackendLike;
     backend.scope = KeyScope::wheel_rail;
     CaseKey& representation = list_.add(backend);
     representation.set = [surface = surface_](Case& c, const CaseValue& v, const std::filesystem::path&) {

@@ -68,6 +68,7 @@ void add_track(KeyList& list) {
   KeyInfo ratio = key_info("track.cant", KeyType::text, "rail inclination as a ratio, for example \"1:40\"");
   ratio.pattern = "^1:[0-9]+(\\.[0-9]+)?$";
   ratio.matches = is_ratio;
+  ratio.like = "\"1:40\"";
   ratio.group = "track.cant";
   ratio.alternative = "ratio";
   ratio.scope = KeyScope::wheel_rail;

@@ -36,7 +36,7 @@ struct FieldColumn {
 // clang-format off
 inline constexpr FieldColumn kFieldColumns[] = {
     {"gap", "m", "m", "undeformed distance, NaN where a surface is missing", &PatchFields::gap,
-     {80, "undeformed distance", "µm", kMicro, ShownField::Kind::diverging, ShownField::Outside::value}},
+     {80, "undeformed distance", "µm", kMicro, ShownField::Kind::sequential, ShownField::Outside::value}},
     {"pressure", "Pa", "Pa", "normal pressure", &PatchFields::pressure,
      {10, "pressure", "MPa", kMega, ShownField::Kind::sequential, ShownField::Outside::zero}},
     {"traction_x", "Pa", "Pa", "longitudinal traction on the rail", &PatchFields::traction_x,

@@ -50,6 +50,8 @@ std::string five_digits(double value) {
 }
 
 std::string in_digits(double value, Label::Digits digits) {
+  constexpr double kRounding = 1e-12;  // in the units that are shown: less is nothing but rounding
+  if (std::abs(value) < kRounding) value = 0.0;
   switch (digits) {
     case Label::Digits::four_decimals:
       return four_decimals(value);
@@ -122,6 +124,39 @@ std::string summary(const CaseResult& result) {
   if (!result.patches.empty()) add_patches(table, result.patches);
   for (const Remark& remark : result.remarks) table.line("  " + to_line(remark));
   return table.take();
+}
+
+std::string summary_list(std::span<const CaseResult> cases) {
+  const bool posed = std::ranges::any_of(cases, &CaseResult::has_wheelset);
+  constexpr const char* kPose = " {:>9} {:>9} {:>9}";
+  std::string text = fmt::format("{:>6}  {:<13}", "case", "status");
+  if (posed) text += fmt::format(kPose, "y [mm]", "z [mm]", "pitch [°]");
+  text += fmt::format(" {:>7} {:>9} {:>9} {:>9} {:>10} {:>7}\n", "patches", "Fx [N]", posed ? "Fy [N]" : "Fs [N]",
+                      posed ? "Fz [N]" : "Fn [N]", "pmax [MPa]", "slip");
+  std::string said;
+  for (const CaseResult& c : cases) {
+    text += fmt::format("{:>6}  {:<13}", c.number, to_string(c.status));
+    if (posed)
+      text += fmt::format(kPose, four_decimals(1e3 * c.y), four_decimals(1e3 * c.z), four_decimals(c.pitch * kDegrees));
+    text += fmt::format(" {:>7}", c.patches.size());
+    if (!c.patches.empty()) {
+      const PatchResult& first = c.patches.front();
+      const Vec3 force = c.has_wheelset ? c.force_tr : Vec3(first.fx, first.fs, first.fn);
+      double pressure = 0.0;
+      int slip = 0, contact = 0;
+      for (const PatchResult& p : c.patches) {
+        pressure = std::max(pressure, p.pmax);
+        slip += p.nslip, contact += p.ncon;
+      }
+      text += fmt::format(" {:>9} {:>9} {:>9} {:>10} {:>7}", five_digits(force.x()), five_digits(force.y()),
+                          five_digits(force.z()), five_digits(1e-6 * pressure),
+                          contact > 0 ? fmt::format("{:.0f} %", 100.0 * slip / contact) : "");
+    }
+    text += "\n";
+    if (!c.message.empty()) said += fmt::format("case {}: {}\n", c.number, c.message);
+    for (const Remark& remark : c.remarks) said += fmt::format("case {}: {}\n", c.number, to_line(remark));
+  }
+  return text + said;
 }
 
 std::string words(const CaseResult& result) {

@@ -225,9 +225,9 @@ void check_value(const KeyInfo& key, const CaseValue& value) {
       if (value.text().empty()) refuse_value(fmt::format("{} must not be empty", key.path), value.where);
       if (value.text().size() > kLongestText) refuse_value(fmt::format("{} is too long", key.path), value.where);
       if (key.matches != nullptr && !key.matches(value.text()))
-        refuse_value(fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown),
-                                 key.pattern),
-                     value.where);
+        refuse_value(
+            fmt::format("{} = '{}' does not look like {}", key.path, value.text().substr(0, kLongestShown), key.like),
+            value.where);
       return;
     case KeyType::choice:
       if (!text) wrong();

@@ -41,8 +41,9 @@ struct KeyInfo {
   std::string default_text;                        ///< as TOML; empty = none
   std::optional<double> above, at_least, at_most;  ///< limits in the unit of the key
   std::vector<std::string> choices;
-  std::string pattern;  ///< text: regular expression for the schema and messages; empty = anything
+  std::string pattern;                          ///< text: regular expression for the schema; empty = anything
   bool (*matches)(std::string_view) = nullptr;  ///< text: what pattern says, as code; set with it
+  std::string like;                             ///< text: what pattern says, in words; set with it
   std::string group, alternative;               ///< keys of one group with different alternatives exclude each other
   KeyScope scope = KeyScope::any;
   bool required = false;          ///< not of a case file but in its lists of tables

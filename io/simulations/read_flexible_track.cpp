@@ -83,6 +83,29 @@ void vary_seats(const TableReader& table, FlexibleTrack& track) {
   }
 }
 
+RailJoint read_joint(const TableReader& table, const FlexibleTrack& track) {
+  RailJoint joint;
+  joint.x = table.number("place_m");
+  joint.hinge_stiffness = table.number("hinge_stiffness_N_m_per_rad");
+  joint.dip_depth = table.number_or("dip_mm", joint.dip_depth);
+  joint.dip_length = table.number_or("dip_length_mm", joint.dip_length);
+  const std::vector<RailSeat>& seats = track.seats;
+  const auto refuse = [&](const std::string& what, const std::string& advice) {
+    throw Error(ErrorKind::configuration, fmt::format("joints.place_m = {:.6g}: {}", joint.x, what),
+                table.need("place_m").where, advice);
+  };
+  if (!(joint.x <= seats.back().x))
+    refuse(fmt::format("the last seat lies {:.6g} m from the first one", seats.back().x),
+           "a joint lies between them; make seats.count larger");
+  double longest = 0.0;
+  for (std::size_t i = 1; i < seats.size(); ++i) longest = std::max(longest, seats[i].x - seats[i - 1].x);
+  for (const RailJoint& other : track.joints)
+    if (!(std::abs(joint.x - other.x) >= longest * (1.0 - 1e-9)))
+      refuse(fmt::format("another joint lies {:.6g} m from it", std::abs(joint.x - other.x)),
+             fmt::format("keep joints at least the longest bay apart, {:.6g} m", longest));
+  return joint;
+}
+
 LateralSupport read_lateral(const TableReader& table) {
   const double radius = table.number("roll_radius_mm");
   return {table.number("pad_stiffness_N_per_m"), table.number_or("pad_damping_N_s_per_m", 0.0),
@@ -103,6 +126,8 @@ FlexibleTrack read_flexible_track(const TableReader& document) {
     vary_seats(TableReader(one->table(), one->where, "varied", varied_seat_keys()), track);
   if (std::ranges::none_of(track.seats, [](const RailSeat& seat) { return seat.bed_stiffness > 0.0; }))
     document.fail("all sleepers hang: nothing holds the track");
+  for (const CaseValue* one : document.tables("joints"))
+    track.joints.push_back(read_joint(TableReader(one->table(), one->where, "joints", joint_keys()), track));
   if (document.find("lateral") != nullptr) track.lateral = read_lateral(part_of(document, "lateral", lateral_keys()));
   return track;
 }

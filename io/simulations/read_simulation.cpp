@@ -81,6 +81,14 @@ void read_models(const TableReader& simulation, const std::filesystem::path& fol
   out.track_file = track.file;
 }
 
+void require_rails_to_share(const TableReader& simulation, const SimulationFile& file) {
+  if (!file.settings.shared_rails || file.flexible_track) return;
+  throw Error(ErrorKind::configuration,
+              file.track ? "simulation.shared_rails = true, but the track is lumped: each wheelset has its own"
+                         : "simulation.shared_rails = true, but there is no track that gives way",
+              simulation.need("shared_rails").where, "give a track whose kind is \"flexible\" (docs/track.md)");
+}
+
 /// With steps of more than an element the elements at the leading edge stick or slip at random.
 void choose_steps(const TableReader& simulation, SimulationFile& out) {
   if (out.contact.regime == Regime::transient && simulation.find("max_step_elements") == nullptr)
@@ -180,6 +188,7 @@ SimulationFile simulation_of(CaseTable document, const std::filesystem::path& na
   result.settings = read_settings(simulation);
   result.fields = read_fields(simulation);
   read_models(simulation, name.parent_path(), changes, result);
+  require_rails_to_share(simulation, result);
   result.wheels = read_wheels(simulation, result.vehicle.wheelsets.size());
   read_history(simulation, result);
   result.torques = read_torques(simulation, result.vehicle);

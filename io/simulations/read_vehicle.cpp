@@ -28,8 +28,8 @@ void change_model(CaseTable& document, std::span<const CaseOverride> changes, co
 }
 
 constexpr std::string_view kVehicleParts[] = {"bodies", "springs", "bump_stops", "wheelsets", "axles"};
-constexpr std::string_view kTrackParts[] = {"bodies", "springs", "bump_stops", "wheelsets",
-                                            "rail",   "seats",   "varied",     "lateral"};
+constexpr std::string_view kTrackParts[] = {"bodies", "springs", "bump_stops", "wheelsets", "rail",
+                                            "seats",  "varied",  "joints",     "lateral"};
 
 /// Reader of the table that gives the model its name.
 TableReader main_table(const TableReader& document, const std::string& key, const std::vector<KeyInfo>& known) {
@@ -112,7 +112,7 @@ void refuse_other_kind(const TableReader& document, const TableReader& table, bo
     refuse(table, "rails");
     for (const char* key : {"bodies", "springs"}) refuse(document, key);
   } else {
-    for (const char* key : {"rail", "seats", "varied", "lateral"}) refuse(document, key);
+    for (const char* key : {"rail", "seats", "varied", "joints", "lateral"}) refuse(document, key);
   }
 }
 

@@ -107,6 +107,7 @@ const TableKeys& track_tables() {
       table_key("seats", KeyType::table, "what carries a flexible rail; required where kind is \"flexible\"",
                 seat_keys()),
       table_key("varied", KeyType::table_list, "seats of a flexible rail that differ", varied_seat_keys()),
+      table_key("joints", KeyType::table_list, "of flexible rails, at the same places on both", joint_keys()),
       table_key("lateral", KeyType::table, "flexible rails sideways; without it they do not move there",
                 lateral_keys()),
       table_key("bodies", KeyType::table_list, "rigid bodies; required where kind is \"lumped\"", body_keys()),
@@ -175,6 +176,21 @@ const TableKeys& varied_seat_keys() {
       with_default("1", key_info("sleeper_factor", KeyType::number, "on the mass of sleepers", kPositive)),
       with_default("1", key_info("bed_factor", KeyType::number, "on stiffness and damping below sleepers; 0: they hang",
                                  kNotNegative))};
+  return keys;
+}
+
+const TableKeys& joint_keys() {
+  static const TableKeys keys{
+      needed(key_info("place_m", KeyType::number, "from the first seat; joints lie at least the longest bay apart",
+                      kNotNegative)),
+      needed(key_info("hinge_stiffness_N_m_per_rad", KeyType::number,
+                      "moment that the fishplates carry over the angle that they open by; 0: a hinge", kNotNegative)),
+      with_default("0", key_info("dip_mm", KeyType::number,
+                                 "how much lower the tops of the unloaded rails lie at the joint; they meet at an "
+                                 "angle of 4 dip_mm over dip_length_mm",
+                                 kNotNegative)),
+      with_default("1000", key_info("dip_length_mm", KeyType::number,
+                                    "to either side, over which the slope falls linearly to 0", kPositive))};
   return keys;
 }
 
@@ -304,6 +320,11 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
         "from_midspan_mm", kAnyNumber,
         "on a flexible track: place of the vehicle's x = 0 at the start, ahead of the middle between two sleepers",
         [](S& s) -> double& { return s.from_midspan; });
+    list.flag(
+        "shared_rails",
+        "on a flexible track: all wheels of a side run on one rail and feel each other through it; false: each "
+        "has a rail of its own",
+        [](auto& s) -> auto& { return s.shared_rails; });
     list.number("rail_start_m", kAnyNumber,
                 "place of the leading wheelset along the rails at the start, from where x of rails that vary, their "
                 "defects and friction along the track count; the other wheelsets stand behind it as in the vehicle",

@@ -22,10 +22,11 @@ const TableKeys& vehicle_tables();
 const TableKeys& track_tables();
 const TableKeys& vehicle_keys();
 const TableKeys& track_keys();
-/// Of a flexible track: [rail], [seats], [[varied]] and [lateral].
+/// Of a flexible track: [rail], [seats], [[varied]], [[joints]] and [lateral].
 const TableKeys& rail_beam_keys();
 const TableKeys& seat_keys();
 const TableKeys& varied_seat_keys();
+const TableKeys& joint_keys();
 const TableKeys& lateral_keys();
 const TableKeys& body_keys();
 const TableKeys& place_keys();

@@ -91,6 +91,7 @@ struct SimulationSettings {
   /// Distance travelled in a step over dx; without a wish 1 with transient rolling, else 2.
   double max_step_elements = 2.0;
   double from_midspan = 0.0;     ///< of a flexible track: place of x = 0 at the start from the middle of a bay [m]
+  bool shared_rails = false;     ///< of a flexible track: one below all wheels of a side, else one below each wheel
   double rail_start = 0.0;       ///< place of the leading wheelset along the rails at the start [m]
   double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
   CreepForcesInput creep_forces = CreepForcesInput::shen_hedrick_elkins;

@@ -45,6 +45,7 @@ struct Rolling {
   double step = 0.0;                      ///< dq [m]; steady rolling is discretised with dq = dx whatever is given
   double spin_offset_factor = 1.0 / 6.0;  ///< share of dq by which the spin centre is shifted for rolling
   double usual_step = 0.0;                ///< most steps dq of transient rolling are this one [m]; 0: unknown
+  friend bool operator==(const Rolling&, const Rolling&) = default;
 };
 
 /// Hertz ellipse known beforehand: h = A x^2 + B y^2.
@@ -54,6 +55,7 @@ struct HertzShape {
   /// Semi-double-elliptic: semi-axes of the half ellipses towards -y and +y, b is their mean; else 0.
   double semi_axis_y_minus = 0.0, semi_axis_y_plus = 0.0;
   double approach = 0.0, force = 0.0;  ///< [m], [N]
+  friend bool operator==(const HertzShape&, const HertzShape&) = default;
 };
 
 /// Parts of a patch that lie apart: elastic influence across is scaled, so that patches come together without a jump.

@@ -15,6 +15,7 @@ namespace {
 
 constexpr int kFewElements = 20, kHardlyAny = 5;
 constexpr double kLargeCreepage = 0.1;
+constexpr double kMostFriction = 1.0;
 constexpr double kAddedEnergy = 0.01;
 constexpr double kForceTolerance = 2e-3;
 
@@ -107,6 +108,10 @@ void judge(const PatchSetting& p, const ContactSolution& s, int patch, std::vect
           fmt::format("a creepage of {:.3g} is not small against rolling (xi {:.3g}, eta {:.3g}, phi {:.3g} rad/mm)",
                       largest, c.xi, c.eta, 1e-3 * c.phi));
   }
+
+  if (p.static_friction > kMostFriction)
+    add(RemarkKind::unusual_friction,
+        fmt::format("the coefficient of friction is {:.3g}: is a decimal point missing?", p.static_friction));
 
   const Exchange e = exchange(s);
   // Slip below a millionth of rolling (shift: of a millimetre) is what rounding leaves.

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <utility>
 
 #include <Eigen/LU>
 
@@ -12,10 +13,49 @@
 
 namespace treadmark::vehicle {
 
-BeamElement::BeamElement(const RailBeam& beam, double length)
-    : beam_(beam), length_(length), shear_(12.0 * beam.bending_stiffness / (beam.shear_stiffness * length * length)) {}
+BeamElement::BeamElement(const RailBeam& beam, double length, const std::optional<Hinge>& hinge)
+    : beam_(beam),
+      length_(length),
+      shear_(12.0 * beam.bending_stiffness / (beam.shear_stiffness * length * length)),
+      hinge_(hinge) {
+  if (!hinge) return;
+  // Opened by 1 rad while nothing else bends, what lies behind it turns. Bending that back to ends that stand still
+  // takes the moment r' K r at the hinge; coordinates q open it by the moment r' K q.
+  free_ = BeamVector(0.0, 0.0, (1.0 - hinge->part) * length, 1.0);
+  const BeamVector moment = whole_stiffness() * free_;
+  against_ = hinge->stiffness + free_.dot(moment);
+  angle_ = moment / against_;
+}
 
 BeamMatrix BeamElement::stiffness() const {
+  return hinge_ ? BeamMatrix(whole_stiffness() - against_ * angle_ * angle_.transpose()) : whole_stiffness();
+}
+
+double BeamElement::opened(double p) const {
+  return std::max(0.0, p - hinge_->part) * length_ - whole_deflection(p).dot(free_);
+}
+
+BeamVector BeamElement::deflection(double p) const {
+  return hinge_ ? BeamVector(whole_deflection(p) + opened(p) * angle_) : whole_deflection(p);
+}
+
+BeamVector BeamElement::slope(double p) const {
+  if (!hinge_) return whole_slope(p);
+  return whole_slope(p) + ((p >= hinge_->part ? 1.0 : 0.0) - whole_slope(p).dot(free_)) * angle_;
+}
+
+BeamVector BeamElement::rotation(double p) const {
+  if (!hinge_) return whole_rotation(p);
+  return whole_rotation(p) + ((p >= hinge_->part ? 1.0 : 0.0) - whole_rotation(p).dot(free_)) * angle_;
+}
+
+double BeamElement::own_compliance(double p) const {
+  if (!hinge_) return whole_compliance(p);
+  const double by_angle = opened(p);
+  return whole_compliance(p) + by_angle * by_angle / against_;
+}
+
+BeamMatrix BeamElement::whole_stiffness() const {
   const double l = length_, near = (4.0 + shear_) * l * l, far = (2.0 - shear_) * l * l;
   BeamMatrix k;
   k << 12.0, 6.0 * l, -12.0, 6.0 * l,   //
@@ -25,21 +65,21 @@ BeamMatrix BeamElement::stiffness() const {
   return beam_.bending_stiffness / (l * l * l * (1.0 + shear_)) * k;
 }
 
-BeamVector BeamElement::deflection(double p) const {
+BeamVector BeamElement::whole_deflection(double p) const {
   const double p2 = p * p, p3 = p2 * p, s = shear_;
   return BeamVector(2.0 * p3 - 3.0 * p2 - s * p + 1.0 + s, length_ * (p3 - (2.0 + 0.5 * s) * p2 + (1.0 + 0.5 * s) * p),
                     -2.0 * p3 + 3.0 * p2 + s * p, length_ * (p3 - (1.0 - 0.5 * s) * p2 - 0.5 * s * p)) /
          (1.0 + s);
 }
 
-BeamVector BeamElement::slope(double p) const {
+BeamVector BeamElement::whole_slope(double p) const {
   const double p2 = p * p, s = shear_;
   return BeamVector((6.0 * p2 - 6.0 * p - s) / length_, 3.0 * p2 - (4.0 + s) * p + 1.0 + 0.5 * s,
                     (-6.0 * p2 + 6.0 * p + s) / length_, 3.0 * p2 - (2.0 - s) * p - 0.5 * s) /
          (1.0 + s);
 }
 
-BeamVector BeamElement::rotation(double p) const {
+BeamVector BeamElement::whole_rotation(double p) const {
   const double p2 = p * p, s = shear_;
   return BeamVector(6.0 * (p2 - p) / length_, 3.0 * p2 - (4.0 + s) * p + 1.0 + s, -6.0 * (p2 - p) / length_,
                     3.0 * p2 - (2.0 - s) * p) /
@@ -53,15 +93,18 @@ BeamMatrix BeamElement::mass() const {
   constexpr std::array<double, 4> kWeights{0.3478548451374538, 0.6521451548625461, 0.6521451548625461,
                                            0.3478548451374538};
   BeamMatrix m = BeamMatrix::Zero();
-  for (std::size_t i = 0; i < kPlaces.size(); ++i) {
-    const double part = 0.5 * (1.0 + kPlaces[i]), weight = 0.5 * length_ * kWeights[i];
-    const BeamVector w = deflection(part), turn = rotation(part);
-    m += weight * (beam_.mass * w * w.transpose() + beam_.rotary_inertia * turn * turn.transpose());
-  }
+  const double kink = hinge_ ? hinge_->part : 1.0;
+  for (const auto& [from, to] : {std::pair{0.0, kink}, {kink, 1.0}})
+    for (std::size_t i = 0; i < kPlaces.size(); ++i) {
+      const double part = from + 0.5 * (to - from) * (1.0 + kPlaces[i]),
+                   weight = 0.5 * (to - from) * length_ * kWeights[i];
+      const BeamVector w = deflection(part), turn = rotation(part);
+      m += weight * (beam_.mass * w * w.transpose() + beam_.rotary_inertia * turn * turn.transpose());
+    }
   return m;
 }
 
-double BeamElement::own_compliance(double part) const {
+double BeamElement::whole_compliance(double part) const {
   if (!(part > 0.0 && part < 1.0)) return 0.0;
   const BeamMatrix before = BeamElement(beam_, part * length_).stiffness(),
                    after = BeamElement(beam_, (1.0 - part) * length_).stiffness();
@@ -70,9 +113,12 @@ double BeamElement::own_compliance(double part) const {
 }
 
 double BeamElement::own_compliance_slope(double part) const {
-  // A quotient of polynomials: differences over this share of the length are exact to ten digits.
+  // A quotient of polynomials to each side of a hinge: differences over this share of the length are exact to ten
+  // digits.
   constexpr double kStep = 1e-4;
-  const double low = std::max(0.0, part - kStep), high = std::min(1.0, part + kStep);
+  double low = std::max(0.0, part - kStep), high = std::min(1.0, part + kStep);
+  if (hinge_ && part < hinge_->part) high = std::min(high, hinge_->part);
+  if (hinge_ && part >= hinge_->part && hinge_->part < 1.0) low = std::max(low, hinge_->part);
   return (own_compliance(high) - own_compliance(low)) / ((high - low) * length_);
 }
 

@@ -37,7 +37,7 @@ ContactWithCheckRail::Face ContactWithCheckRail::face_at(double x) const {
 
 ContactReaction ContactWithCheckRail::evaluate(const PairMotion& motion) {
   ContactReaction r = contact_->evaluate(motion);
-  if (r.status == Status::failed || r.status == Status::not_converged) return r;
+  if (is_unsolved(r)) return r;
   const wheelrail::SixMotion &q = motion.wheelset, &v = motion.wheelset_velocity;
   // Points of wheel and rail that touch, below the axle: about the wheelset's centre and the rail marker.
   const Vec3 arm(-side_ * back_.y * std::sin(q.yaw), side_ * back_.y * std::cos(q.yaw), back_.radius + rail_.depth);

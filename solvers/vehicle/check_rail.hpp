@@ -36,6 +36,7 @@ class ContactWithCheckRail : public ContactElement {
                        const FlangeBack& back, const Vec3& rail_marker);
 
   ContactReaction evaluate(const PairMotion& motion) override;
+  bool settle(ContactReaction& evaluated) override { return contact_->settle(evaluated); }
   void accept() override { contact_->accept(); }
   bool costly() const override { return contact_->costly(); }
   void save(ByteWriter& out) const override { contact_->save(out); }

@@ -45,6 +45,7 @@ struct ContactReaction {
   double longitudinal_creep_force = 0.0;    ///< T_x: sum of F_x [N]
   double normal_force = 0.0;                ///< sum of F_n [N]
   double least_gap = 0.0;                   ///< < 0: greatest penetration [m]
+  double give = 0.0;                        ///< what a rail at rest still gives way by under the wheel's load [m]
   double max_pressure = 0.0;                ///< [Pa]; 0 where the element does not know
   double area = 0.0;                        ///< of contact [m2]
   double contact_y = 0.0, contact_x = 0.0;  ///< of the most loaded patch, track axes, x from the axle [m]
@@ -59,6 +60,11 @@ struct ContactReaction {
   std::vector<PatchTangent> tangents;
 };
 
+/// Whether there is no solution; no contact is one.
+inline bool is_unsolved(const ContactReaction& r) {
+  return r.status == Status::failed || r.status == Status::not_converged;
+}
+
 /// The force element of one wheel on one rail. Not thread-safe.
 /// evaluate() may be called for any number of trial states, in any order; each goes on from the instant that was
 /// accepted last.
@@ -68,6 +74,12 @@ class ContactElement {
 
   /// Errors: Error(configuration) for input that makes no sense; else a status.
   virtual ContactReaction evaluate(const PairMotion& motion) = 0;
+  /// Once all wheels have been evaluated, none of which failed, for one wheel after the other: what they do to each
+  /// other through a common rail. False: their forces do not agree yet, and all want to be evaluated again.
+  virtual bool settle(ContactReaction& evaluated) {
+    static_cast<void>(evaluated);
+    return true;
+  }
   /// What was evaluated last is what the next steps go on from.
   virtual void accept() = 0;
 

@@ -13,8 +13,6 @@ namespace {
 /// Of a contact, also of one that does not touch yet [N/m].
 constexpr double kLeastStiffness = 1e8;
 
-bool failed(const ContactReaction& r) { return r.status == Status::failed || r.status == Status::not_converged; }
-
 double vertical_stiffness(const ContactReaction& r) {
   double stiffness = 0.0;
   for (const PatchTangent& patch : r.tangents) {
@@ -43,46 +41,43 @@ void scale(ContactReaction& r, double by) {
   for (double* force : {&r.normal_force, &r.lateral_creep_force, &r.longitudinal_creep_force}) *force *= by;
 }
 
-void add_rail(ContactReaction& r, const MovingRail::Moved& moved, double force) {
-  r.on_wheelset.force.x() += force * moved.slope;
-  r.elastic_energy += moved.energy;
-  r.frictional_power += moved.power;
-  r.rail_power = moved.power;
-}
-
 void soften(ContactReaction& r, double by) {
   for (PatchTangent& patch : r.tangents) patch.stiffness_n /= by;
 }
 
 }  // namespace
 
-ContactOnRail::ContactOnRail(std::shared_ptr<ContactElement> contact, MovingRail rail, double load, double tolerance)
-    : contact_(std::move(contact)), rail_(std::move(rail)), load_(load), tolerance_(tolerance) {
+ContactOnRail::ContactOnRail(std::shared_ptr<ContactElement> contact, std::shared_ptr<LoadedRail> rail,
+                             std::size_t wheel, double tolerance)
+    : contact_(std::move(contact)), rail_(std::move(rail)), wheel_(wheel), tolerance_(tolerance) {
   if (!contact_) throw Error(ErrorKind::configuration, "a rail has no contact upon it");
-  if (!(load > 0.0) || !(tolerance > 0.0))
-    throw Error(ErrorKind::configuration, "load and tolerance of a contact on a rail must be positive");
+  if (!rail_ || wheel >= rail_->wheels()) throw Error(ErrorKind::configuration, "a contact has no rail below it");
+  if (!(tolerance > 0.0))
+    throw Error(ErrorKind::configuration, "the tolerance of a contact on a rail must be positive");
 }
 
 ContactReaction ContactOnRail::evaluate(const PairMotion& motion) {
-  return started_ ? moving(motion) : at_rest(motion);
+  return rail_->started() ? moving(motion) : at_rest(motion);
 }
 
 ContactReaction ContactOnRail::at_rest(const PairMotion& motion) {
   constexpr int kMost = 40;
-  const double compliance = rail_.at_rest().compliance;
+  const LoadedRail::Answer answer = rail_->at_rest(wheel_);
+  const double load = rail_->load(wheel_);
   RailMotion bending;
-  bending.z = compliance * load_;
+  bending.z = answer.deflection(load);
   for (int i = 0; i < kMost; ++i) {
     ContactReaction r = contact_->evaluate(on_deflected(motion, bending));
-    if (failed(r)) return r;
+    if (is_unsolved(r)) return r;
     const double force = r.on_rail.force.z(), stiffness = vertical_stiffness(r);
-    const double softening = 1.0 + compliance * stiffness, off = compliance * force - bending.z;
+    const double softening = 1.0 + answer.compliance * stiffness, off = answer.deflection(force) - bending.z;
     // What the force would still change by, also where there is none yet.
     if (std::abs(off) * std::max(stiffness, kLeastStiffness) / softening <=
-        tolerance_ * std::max(load_, std::abs(force))) {
-      trial_ = Trial{motion.time, force, 0.0, 0.0, 0.0};
+        tolerance_ * std::max(load, std::abs(force))) {
+      trial_ = Trial{motion.time, force, 0.0, 0.0, stiffness / softening, softening, answer};
+      rail_->press(wheel_, force, trial_->stiffness);
+      r.give = answer.compliance * (load - force);
       r.bending = bending;
-      add_rail(r, rail_.moved_at_rest(force), force);
       soften(r, softening);
       return r;
     }
@@ -98,18 +93,17 @@ double ContactOnRail::predicted_force(const PairMotion& motion) const {
   // Again at the same time, for another motion of the wheel.
   if (trial_ && trial_->time == motion.time)
     return trial_->force + trial_->stiffness * (height_of(motion, trial_->contact_y) - trial_->height);
-  if (!(last_.time > before_.time)) return last_.force;
-  return last_.force + (motion.time - last_.time) / (last_.time - before_.time) * (last_.force - before_.force);
+  return rail_->counted_on(wheel_, motion.time);
 }
 
 ContactReaction ContactOnRail::moving(const PairMotion& motion) {
-  const MovingRail::Answer answer = rail_.after(motion.time);
+  const LoadedRail::Answer answer = rail_->after(wheel_, motion.time);
   const double predicted = std::max(0.0, predicted_force(motion));
   RailMotion bending;
-  bending.z = answer.free + answer.compliance * predicted;
-  bending.vz = rail_.rate(predicted);
+  bending.z = answer.deflection(predicted);
+  bending.vz = answer.rate_under(predicted);
   ContactReaction r = contact_->evaluate(on_deflected(motion, bending));
-  if (failed(r)) return r;
+  if (is_unsolved(r)) return r;
 
   const double found = r.on_rail.force.z(), stiffness = vertical_stiffness(r);
   const double softening = 1.0 + answer.compliance * stiffness;
@@ -119,40 +113,46 @@ ContactReaction ContactOnRail::moving(const PairMotion& motion) {
   r.corrected = std::abs(lower) * std::max(stiffness, kLeastStiffness);
   r.elastic_energy -= 0.5 * (found + force) * lower;
   bending.z += lower;
-  bending.vz = rail_.rate(force);
+  bending.vz = answer.rate_under(force);
   r.bending = bending;
   soften(r, softening);
-  trial_ = Trial{motion.time, force, height_of(motion, r.contact_y), r.contact_y, stiffness / softening};
-
-  add_rail(r, rail_.moved(force), force);
+  trial_ =
+      Trial{motion.time, force, height_of(motion, r.contact_y), r.contact_y, stiffness / softening, softening, answer};
+  rail_->press(wheel_, force, trial_->stiffness);
+  r.on_wheelset.force.x() += force * rail_->slope(wheel_, force, answer);
   return r;
+}
+
+bool ContactOnRail::settle(ContactReaction& r) {
+  const Trial& t = *trial_;
+  const double missed =
+      std::abs(rail_->missed(wheel_, t.answer)) * std::max(t.stiffness, kLeastStiffness / t.softening);
+  if (speaks_for_rail()) {
+    const MovingRail::Moved rail = rail_->moved();
+    r.elastic_energy += rail.energy;
+    r.frictional_power += rail.power;
+    r.rail_power = rail.power;
+    rail_->settle(t.time);
+  }
+  if (!rail_->started()) return missed <= tolerance_ * std::max(rail_->load(wheel_), std::abs(t.force));
+  r.corrected += missed;
+  return true;
 }
 
 void ContactOnRail::accept() {
   contact_->accept();
-  const Instant now{trial_->time, trial_->force};
-  if (started_)
-    rail_.accept(now.force);
-  else
-    rail_.begin(now.force);
-  before_ = started_ ? last_ : now;
-  last_ = now;
-  started_ = true;
+  if (speaks_for_rail()) rail_->accept(trial_->time);
   trial_.reset();
 }
 
 void ContactOnRail::save(ByteWriter& out) const {
-  out.put(started_);
-  for (const Instant& instant : {last_, before_}) out.put(instant.time), out.put(instant.force);
-  rail_.save(out);
+  if (speaks_for_rail()) rail_->save(out);
   contact_->save(out);
 }
 
 void ContactOnRail::restore(ByteReader& in) {
-  in.get(started_);
-  for (Instant* instant : {&last_, &before_}) in.get(instant->time), in.get(instant->force);
   trial_.reset();
-  rail_.restore(in);
+  if (speaks_for_rail()) rail_->restore(in);
   contact_->restore(in);
 }
 

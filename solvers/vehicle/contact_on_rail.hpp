@@ -2,24 +2,30 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <cstddef>
 #include <memory>
+#include <optional>
 
 #include "treadmark/solvers/vehicle/contact_element.hpp"
-#include "treadmark/solvers/vehicle/moving_rail.hpp"
+#include "treadmark/solvers/vehicle/loaded_rail.hpp"
 
 namespace treadmark::vehicle {
 
 /// A contact on a rail that bends: it gives way vertically below the wheel, beside what the body of its track does,
 /// which must not move vertically itself. Until an instant has been accepted the rail is at rest under the load.
 /// Afterwards the contact is evaluated once at a predicted deflection and brought to agreement with the rail by its
-/// tangent; ContactReaction::corrected says by how much. Energies and friction of its reactions contain the rail's; the
-/// wheel feels the rail's slope.
+/// tangent; ContactReaction::corrected says by how much, and what forces of other wheels on the rail add. Friction of
+/// its reactions contains the rail's; the energies of the rail are with its first wheel. The wheel feels the rail's
+/// slope.
 class ContactOnRail : public ContactElement {
  public:
-  /// load: of the wheel at rest, to which tolerance refers, what force and deflection at rest may differ by [N].
-  ContactOnRail(std::shared_ptr<ContactElement> contact, MovingRail rail, double load, double tolerance);
+  /// wheel: of the rail, whose wheels all have such a contact. tolerance: what force and deflection at rest may differ
+  /// by, over the load.
+  ContactOnRail(std::shared_ptr<ContactElement> contact, std::shared_ptr<LoadedRail> rail, std::size_t wheel,
+                double tolerance);
 
   ContactReaction evaluate(const PairMotion& motion) override;
+  bool settle(ContactReaction& reaction) override;
   void accept() override;
   bool costly() const override { return contact_->costly(); }
   void save(ByteWriter& out) const override;
@@ -33,19 +39,19 @@ class ContactOnRail : public ContactElement {
     double height = 0.0;     ///< of the wheel above the contact, up to a constant, z down [m]
     double contact_y = 0.0;  ///< [m]
     double stiffness = 0.0;  ///< of contact and rail together [N/m]
-  };
-  struct Instant {
-    double time = 0.0, force = 0.0;
+    double softening = 1.0;  ///< stiffness of the contact over that
+    LoadedRail::Answer answer;
   };
   ContactReaction at_rest(const PairMotion& motion);
   ContactReaction moving(const PairMotion& motion);
   double predicted_force(const PairMotion& motion) const;
+  /// Of the wheels of a rail the first one speaks for it.
+  bool speaks_for_rail() const { return wheel_ == 0; }
 
   std::shared_ptr<ContactElement> contact_;
-  MovingRail rail_;
-  double load_, tolerance_;
-  bool started_ = false;
-  Instant last_, before_;  ///< accepted
+  std::shared_ptr<LoadedRail> rail_;
+  std::size_t wheel_;
+  double tolerance_;
   std::optional<Trial> trial_;
 };
 

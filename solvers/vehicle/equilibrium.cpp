@@ -67,7 +67,8 @@ class Balance {
       std::optional<double> gap;
       for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
         if (vehicle_.wheels[i].wheelset != static_cast<int>(set)) continue;
-        const double one = vehicle_.wheels[i].element->evaluate(vehicle_.motion(i, state)).least_gap;
+        const ContactReaction reaction = vehicle_.wheels[i].element->evaluate(vehicle_.motion(i, state));
+        const double one = reaction.least_gap + reaction.give;
         gap = gap ? std::max(*gap, one) : one;
       }
       state.q[system_.wheelsets[set].coordinate[2]] +=

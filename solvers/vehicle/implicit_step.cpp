@@ -125,7 +125,7 @@ Step ImplicitStep::take(const Motion& from, double h) {
     for (std::size_t i = 0; i < wheels; ++i) {
       const PairMotion m = vehicle_.motion(i, at);
       const ContactReaction& reaction = step.reactions[i];
-      if (reaction.status == Status::failed || reaction.status == Status::not_converged) {
+      if (is_unsolved(reaction)) {
         step.why_not = fmt::format("{}: {}", vehicle_.wheels[i].name, reaction.message);
         return step;
       }

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -35,6 +36,10 @@ void require_sense(const FlexibleTrack& track) {
     if (seat.pad_stiffness == 0.0 && seat.bed_stiffness == 0.0)
       refuse(fmt::format("nothing holds the sleeper of seat {}", i + 1));
   }
+  for (const RailJoint& joint : track.joints)
+    if (!std::isfinite(joint.x) || !not_negative(joint.hinge_stiffness) || !not_negative(joint.dip_depth) ||
+        !positive(joint.dip_length))
+      refuse("a joint needs a place, a stiffness and a dip that are not negative, and a dip of some length");
 }
 
 }  // namespace
@@ -79,8 +84,21 @@ RailOnSeats::RailOnSeats(const FlexibleTrack& track) {
     return track.absorption * part * part;
   };
 
+  std::vector<std::optional<BeamElement::Hinge>> hinges(nodes_.size() - 1);
+  for (const RailJoint& joint : track.joints) {
+    if (!(joint.x >= begin() && joint.x <= end()))
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the joint at {:.6g} m is not on the rail, which reaches from {:.6g} to {:.6g} m",
+                              joint.x, begin(), end()));
+    const std::size_t e = element_at(joint.x);
+    if (hinges[e])
+      throw Error(ErrorKind::configuration,
+                  fmt::format("the joint at {:.6g} m has another one beside it on one element of the rail", joint.x),
+                  {}, "keep joints a bay apart, or give the rail more elements in a bay (seats.bay_elements)");
+    hinges[e] = {part_of(e, joint.x), joint.hinge_stiffness};
+  }
   for (std::size_t e = 0; e + 1 < nodes_.size(); ++e) {
-    const BeamElement& element = elements_.emplace_back(track.rail, nodes_[e + 1].x - nodes_[e].x);
+    const BeamElement& element = elements_.emplace_back(track.rail, nodes_[e + 1].x - nodes_[e].x, hinges[e]);
     const BeamMatrix k = element.stiffness(), m = element.mass();
     const double loss = absorption(0.5 * (nodes_[e].x + nodes_[e + 1].x));
     const std::array<int, 4> at{nodes_[e].first, nodes_[e].first + 1, nodes_[e + 1].first, nodes_[e + 1].first + 1};
@@ -109,14 +127,23 @@ RailOnSeats::RailOnSeats(const FlexibleTrack& track) {
   middle_bay_ = seats[bay + 1].x - seats[bay].x;
 }
 
+std::size_t RailOnSeats::element_at(double x) const {
+  const auto after = std::ranges::upper_bound(nodes_, x, {}, &Node::x);
+  return std::min(static_cast<std::size_t>(after - nodes_.begin()), nodes_.size() - 1) - 1;
+}
+
+double RailOnSeats::part_of(std::size_t element, double x) const {
+  const double from = nodes_[element].x, to = nodes_[element + 1].x;
+  return std::min((x - from) / (to - from), 1.0);
+}
+
 RailOnSeats::Place RailOnSeats::place(double x) const {
   if (!(x >= begin() && x <= end()))
     throw Error(ErrorKind::configuration,
                 fmt::format("the place x = {:.6g} m is not on the rail, which reaches from {:.6g} to {:.6g} m", x,
                             begin(), end()));
-  const auto after = std::ranges::upper_bound(nodes_, x, {}, &Node::x);
-  const auto e = std::min(static_cast<std::size_t>(after - nodes_.begin()), nodes_.size() - 1) - 1;
-  const double part = std::min((x - nodes_[e].x) / (nodes_[e + 1].x - nodes_[e].x), 1.0);
+  const std::size_t e = element_at(x);
+  const double part = part_of(e, x);
   return {{nodes_[e].first, nodes_[e].first + 1, nodes_[e + 1].first, nodes_[e + 1].first + 1},
           elements_[e].deflection(part),
           elements_[e].slope(part),

@@ -56,6 +56,8 @@ class RailOnSeats {
     double x = 0.0;
     int first = 0;  ///< coordinate of its deflection; that of its rotation follows
   };
+  std::size_t element_at(double x) const;
+  double part_of(std::size_t element, double x) const;
 
   std::vector<Node> nodes_;
   std::vector<BeamElement> elements_;

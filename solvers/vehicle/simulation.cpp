@@ -9,6 +9,7 @@
 
 #include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
+#include "treadmark/solvers/vehicle/wheel_loop.hpp"
 
 namespace treadmark::vehicle {
 namespace {
@@ -16,7 +17,7 @@ namespace {
 constexpr double kSafety = 0.9, kLeastFactor = 0.2, kMostFactor = 2.0;
 /// Step lengths change only where it is worth a new factorisation.
 constexpr double kWorthShortening = 0.95, kWorthGrowing = 1.25;
-constexpr std::uint32_t kStateFormat = 2;
+constexpr std::uint32_t kStateFormat = 3;
 
 double step_factor(double error, double tolerance) {
   if (!(error > 0.0)) return kMostFactor;
@@ -104,14 +105,12 @@ Simulation::Simulation(VehicleOnTrack vehicle, const SystemState& start, const S
   check(settings);
   if (vehicle_->maps.size() != vehicle_->wheels.size())
     throw Error(ErrorKind::configuration, "the wheels are not connected");
-  for (std::size_t i = 0; i < vehicle_->wheels.size(); ++i) {
-    ContactElement& element = *vehicle_->wheels[i].element;
-    reactions_.push_back(element.evaluate(vehicle_->motion(i, start)));
-    if (reactions_.back().status == Status::failed || reactions_.back().status == Status::not_converged)
-      throw Error(ErrorKind::numerical, fmt::format("{} cannot be solved at the start: {}", vehicle_->wheels[i].name,
-                                                    reactions_.back().message));
-    element.accept();
-  }
+  reactions_ = evaluate_wheels(*vehicle_, start);
+  for (std::size_t i = 0; i < reactions_.size(); ++i)
+    if (is_unsolved(reactions_[i]))
+      throw Error(ErrorKind::numerical,
+                  fmt::format("{} cannot be solved at the start: {}", vehicle_->wheels[i].name, reactions_[i].message));
+  for (const WheelOnRail& wheel : vehicle_->wheels) wheel.element->accept();
   motion_ = scheme_.start(start, reactions_);
   next_step_ = std::min(settings.first_step, settings.max_step);
   line_ = vehicle_->line_state(start.time);

@@ -16,8 +16,6 @@ double smooth(double t) {
   return t * t * (3.0 - 2.0 * t);
 }
 
-bool is_bad(const ContactReaction& r) { return r.status == Status::failed || r.status == Status::not_converged; }
-
 ContactReaction mixed(const ContactReaction& table, const ContactReaction& full, double share) {
   ContactReaction out = full.normal_force > 0.0 ? full : table;
   out.doubts = full.doubts;
@@ -57,9 +55,9 @@ ContactReaction SwitchedContact::evaluate(const PairMotion& motion) {
   tried_ = stretch_.share(motion.wheelset.x);
   if (tried_ <= 0.0) return table_->evaluate(motion);
   const ContactReaction full = full_->evaluate(motion);
-  if (tried_ >= 1.0 || is_bad(full)) return full;
+  if (tried_ >= 1.0 || is_unsolved(full)) return full;
   const ContactReaction table = table_->evaluate(motion);
-  return is_bad(table) ? table : mixed(table, full, tried_);
+  return is_unsolved(table) ? table : mixed(table, full, tried_);
 }
 
 void SwitchedContact::accept() {

@@ -29,9 +29,21 @@ void for_each_wheel(const VehicleOnTrack& vehicle, const std::function<void(std:
 }
 
 std::vector<ContactReaction> evaluate_wheels(const VehicleOnTrack& vehicle, const SystemState& state) {
+  constexpr int kMost = 40;
   std::vector<ContactReaction> reactions(vehicle.wheels.size());
-  for_each_wheel(vehicle,
-                 [&](std::size_t i) { reactions[i] = vehicle.wheels[i].element->evaluate(vehicle.motion(i, state)); });
+  for (int i = 0; i < kMost; ++i) {
+    for_each_wheel(
+        vehicle, [&](std::size_t w) { reactions[w] = vehicle.wheels[w].element->evaluate(vehicle.motion(w, state)); });
+    if (std::ranges::any_of(reactions, is_unsolved)) return reactions;
+    bool settled = true;
+    for (std::size_t w = 0; w < reactions.size(); ++w)
+      settled = vehicle.wheels[w].element->settle(reactions[w]) && settled;
+    if (settled) return reactions;
+  }
+  for (ContactReaction& r : reactions) {
+    r.status = Status::not_converged;
+    r.message = "the forces of wheels on one rail did not come to agree";
+  }
   return reactions;
 }
 

@@ -8,6 +8,8 @@
 namespace treadmark::wheelrail {
 namespace {
 
+constexpr double kLeastStep = 1e-13;  ///< closer than this positions cannot be told apart in the surfaces [m]
+
 double two_thirds(double x) { return std::copysign(std::cbrt(x * x), x); }
 
 }  // namespace
@@ -16,7 +18,7 @@ ForceBalance::ForceBalance(Target target, double tolerance, double stiffness)
     : target_(target), tolerance_(tolerance), stiffness_(stiffness), slope_(two_thirds(stiffness)) {}
 
 double ForceBalance::first(double z_touch) {
-  z_touch_ = z_touch;
+  before_ = {{z_touch, residual(z_touch, 0.0, 0.0)}};
   next_ = z_touch + std::max(0.0, two_thirds(target_.at(z_touch))) / slope_;
   return next_;
 }
@@ -27,29 +29,37 @@ double ForceBalance::residual(double z, double force, double least_gap) const {
 }
 
 void ForceBalance::restart() {
-  has_last_ = false;
+  before_.clear();
   bracket_ = {};
 }
 
+double ForceBalance::slope_at(const Point& p) const {
+  if (before_.empty()) return slope_;
+  const Point &last = before_.back(), &first = before_.front();
+  if (std::abs(p.z - last.z) <= kLeastStep) return slope_;
+  const double secant = (p.residual - last.residual) / (p.z - last.z);
+  if (!(secant > 0.0)) return slope_;
+  if (before_.size() == 1) return std::clamp(secant, 0.05 * slope_, 20.0 * slope_);
+  // At its end a parabola is steeper or flatter than its last secant. Much of that is no parabola.
+  constexpr double kSmooth = 0.3;
+  double bend = 0.0;
+  if (std::abs(last.z - first.z) > kLeastStep && std::abs(p.z - first.z) > kLeastStep)
+    bend = (secant - (last.residual - first.residual) / (last.z - first.z)) / (p.z - first.z) * (p.z - last.z);
+  const double slope = std::abs(bend) <= kSmooth * secant ? secant + bend : secant;
+  return std::clamp(slope, 0.2 * slope_, 5.0 * slope_);
+}
+
 ForceBalance::State ForceBalance::add(double z, double force, double least_gap) {
-  const double value = residual(z, force, least_gap);
-  if (std::abs(force - target_.at(z)) <= tolerance_ * std::abs(target_.at(z))) {
-    next_ = z;
-    z_last_ = z, last_ = value, has_last_ = true;
-    return State::found;
-  }
-  bracket_.add(z, value, force);
+  const Point here{z, residual(z, force, least_gap)};
+  const bool found = std::abs(force - target_.at(z)) <= tolerance_ * std::abs(target_.at(z));
+  slope_ = slope_at(here);
+  if (before_.size() == 2) before_.erase(before_.begin());
+  before_.push_back(here);
+  next_ = z;
+  if (found) return State::found;
 
-  constexpr double kLeastStep = 1e-13;  // closer than this positions cannot be told apart in the surfaces [m]
-  if (has_last_ && std::abs(z - z_last_) > kLeastStep && value != last_) {
-    const double secant = (value - last_) / (z - z_last_);
-    if (secant > 0.0) slope_ = std::clamp(secant, 0.2 * slope_, 5.0 * slope_);
-  } else if (!has_last_ && force > 0.0 && z > z_touch_) {
-    slope_ = std::clamp(two_thirds(force) / (z - z_touch_), 0.05 * slope_, 20.0 * slope_);
-  }
-  z_last_ = z, last_ = value, has_last_ = true;
-
-  next_ = z - value / slope_;
+  bracket_.add(z, here.residual, force);
+  next_ = z - here.residual / slope_;
   if (bracket_.closed()) {
     // No contact is so stiff that its force changes by a thousandth within a nanometre.
     constexpr double kJumpWidth = 1e-9, kJump = 1e-3;

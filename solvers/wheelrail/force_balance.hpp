@@ -2,13 +2,16 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <vector>
+
 #include "treadmark/solvers/wheelrail/root_search.hpp"
 
 namespace treadmark::wheelrail {
 
 /// Finds the position z at which a contact force that grows about as penetration^1.5 reaches its target.
-/// Works on phi = force^(2/3), which is nearly linear in z, continued below touching by the gap; secant steps inside a
-/// bracket that only shrinks, bisection when they leave it.
+/// Works on phi = force^(2/3), which is nearly linear in z, continued below touching by the gap; steps along the slope
+/// of the parabola through the last three positions, touching the first of them, inside a bracket that only shrinks;
+/// bisection when they leave it.
 class ForceBalance {
  public:
   enum class State { search, found, no_balance };
@@ -42,10 +45,14 @@ class ForceBalance {
 
   Target target_;
   double tolerance_, stiffness_;
-  double z_touch_ = 0.0, next_ = 0.0;
+  double next_ = 0.0;
   double slope_ = 0.0;
-  bool has_last_ = false;
-  double z_last_ = 0.0, last_ = 0.0;
+  struct Point {
+    double z, residual;
+  };
+  double slope_at(const Point& point) const;
+
+  std::vector<Point> before_;  ///< of this force law, touching included; the last two
   Bracket bracket_;
 };
 

@@ -18,7 +18,8 @@ namespace {
 
 class Iteration {
  public:
-  Iteration(PairStep& step, const Problem& problem, double stiffness) : step_(step), p_(problem) {
+  Iteration(PairStep& step, const Problem& problem, double stiffness, bool known)
+      : step_(step), p_(problem), known_(known) {
     out_.stiffness = stiffness;
     out_.pitch_rate = p_.longitudinal_force ? free_rolling_rate() : p_.state.velocity.pitch;
   }
@@ -51,7 +52,7 @@ class Iteration {
 
   /// Tractions, at the pitch rate that gives the prescribed longitudinal force.
   bool solve_tangential() {
-    step_.solve_tangential(out_.pitch_rate);
+    step_.solve_tangential(out_.pitch_rate, p_.solver.eps);
     if (!p_.longitudinal_force || step_.normal_force() <= 0.0) return true;
     const double friction = std::max(p_.friction.static_friction(), 1e-6), bound = friction * step_.normal_force();
     const double running = std::abs(free_rolling_rate());
@@ -70,13 +71,22 @@ class Iteration {
       state = search.add(out_.pitch_rate, step_.longitudinal_force() - *p_.longitudinal_force);
       if (state != RootSearch::State::search) break;
       out_.pitch_rate = search.next();
-      step_.solve_tangential(out_.pitch_rate);
+      step_.solve_tangential(out_.pitch_rate, p_.solver.eps);
     }
     if (state == RootSearch::State::found) return true;
     fail(Status::not_converged, fmt::format("no longitudinal balance: {:.6g} N are prescribed, the contact gives "
                                             "{:.6g} N at most at this load (friction bound {:.6g} N)",
                                             *p_.longitudinal_force, step_.longitudinal_force(), bound));
     return false;
+  }
+
+  /// Tractions as accurately as the vertical force wants them at first.
+  bool estimate_shares() {
+    if (p_.longitudinal_force) return solve_tangential();
+    constexpr double kLoosest = 1e-2, kPart = 0.3;
+    step_.solve_tangential(out_.pitch_rate,
+                           std::clamp(kPart * p_.solver.eps / step_.friction_share(), p_.solver.eps, kLoosest));
+    return true;
   }
 
   bool inside_the_rail() {
@@ -118,19 +128,26 @@ class Iteration {
     return true;
   }
 
+  /// To start from where none is known: that of the bodies where a stiff contact would have them. Approximate pressures
+  /// may fall with depth where parts of the contact go out, and the first balance counts: they start from the stiff
+  /// one.
+  double stiffness_for(const ForceBalance::Target& target) {
+    if (known_ || p_.normal_model != kalker::NormalModel::full) return out_.stiffness;
+    const double z = ForceBalance(target, p_.solver.eps, out_.stiffness).first(step_.touching_z());
+    const double guess = step_.stiffness_guess(z);
+    return guess > 0.0 ? guess : out_.stiffness;
+  }
+
   bool iterate_height(const ForceBalance::Target& target) {
-    ForceBalance balance(target, p_.solver.eps, out_.stiffness);
+    ForceBalance balance(target, p_.solver.eps, stiffness_for(target));
     double z = balance.first(step_.touching_z());
     ForceBalance::State state = ForceBalance::State::search;
-    bool tangential_done = false;
+    bool tangential_done = false, shares_known = false, exact = false;
     // Where a flange carries load, tractions turn the force: heights and tractions come to terms in rounds, each with
-    // iterations of its own.
+    // iterations of its own. What tractions add to the force is known well enough from a height close to the balance.
     for (int i = 0, round = 0; i < p_.max_force_iterations && round < p_.max_force_iterations; ++i) {
       check_cancelled();
-      if (state == ForceBalance::State::search) {
-        step_.evaluate(z);
-        tangential_done = false;
-      }
+      if (state == ForceBalance::State::search && !tangential_done) step_.evaluate(z);
       // Too deep for contact mechanics: any large force sends the search back up.
       const double force =
           step_.too_deep() > 0.0 ? out_.stiffness * std::pow(step_.too_deep(), 1.5) : step_.force_T().z();
@@ -138,21 +155,26 @@ class Iteration {
       out_.z = z;
       state = balance.add(z, force, step_.least_gap());
       if (state == ForceBalance::State::no_balance) break;
-      if (state == ForceBalance::State::found) {
-        if (step_.too_deep() > 0.0 || tangential_done) break;
-        if (!solve_tangential()) return false;
-        tangential_done = true;
+      const bool found = state == ForceBalance::State::found;
+      if (found && (step_.too_deep() > 0.0 || (tangential_done && exact))) break;
+      constexpr double kClose = 0.02;
+      const bool close = step_.too_deep() <= 0.0 && std::abs(force - target.at(z)) <= kClose * std::abs(target.at(z));
+      if (found || (close && !shares_known)) {
+        if (!(found ? solve_tangential() : estimate_shares())) return false;
+        exact = found;
+        tangential_done = shares_known = true;
         balance.restart();
         i = -1, ++round;
         continue;
       }
+      tangential_done = false;
       z = balance.next();
     }
     if (inside_the_rail()) return false;
-    if (!tangential_done && !solve_tangential()) return false;
+    if (!(tangential_done && exact) && !solve_tangential()) return false;
     if (state == ForceBalance::State::found) {
       const double depth = out_.z - step_.touching_z();
-      if (depth > 0.0) out_.stiffness = target.at(out_.z) / std::pow(depth, 1.5);
+      if (depth > 0.0) out_.stiffness = target.at(out_.z) / std::pow(depth, 1.5), known_ = true;
       return true;
     }
     fail(Status::not_converged,
@@ -196,13 +218,14 @@ class Iteration {
 
   PairStep& step_;
   const Problem& p_;
+  bool known_;  ///< the stiffness, from a balance
   Balance out_;
 };
 
 }  // namespace
 
-Balance find_balance(PairStep& step, const Problem& problem, double stiffness) {
-  return Iteration(step, problem, stiffness).run();
+Balance find_balance(PairStep& step, const Problem& problem, double stiffness, bool known) {
+  return Iteration(step, problem, stiffness, known).run();
 }
 
 }  // namespace treadmark::wheelrail

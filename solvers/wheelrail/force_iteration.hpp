@@ -24,7 +24,7 @@ struct Balance {
 /// Puts the bodies where vertical force, longitudinal force and the rail's springs are in balance, as far as they are
 /// prescribed, and solves the contact there. The pitch rate only acts on tractions, the height on everything, the
 /// lateral deflection on the contact search as well: three loops inside one another, the cheapest innermost. stiffness:
-/// guess, as in Balance.
-Balance find_balance(PairStep& step, const Problem& right_hand_problem, double stiffness);
+/// as in Balance; known: of a balance, else stiffer than the contact may be.
+Balance find_balance(PairStep& step, const Problem& right_hand_problem, double stiffness, bool known);
 
 }  // namespace treadmark::wheelrail

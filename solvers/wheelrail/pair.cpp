@@ -22,11 +22,9 @@
 namespace treadmark::wheelrail {
 namespace {
 
-// Hertz, sphere on a plane: only the order of magnitude matters to start the force iteration.
-double stiffness_guess(const Material& material) {
+// Hertz, sphere on a plane, stiffer than any contact of wheel and rail.
+double stiffest(const Material& material) {
   const CombinedMaterial m = combine(material);
-  // Stiffer than any: approximate pressures may fall with depth where parts of the contact go out, and the first
-  // balance counts.
   constexpr double kRadius = 2.4;
   return 4.0 / 3.0 * m.shear_modulus / (1.0 - m.poisson) * std::sqrt(kRadius);
 }
@@ -160,9 +158,11 @@ PairSolution Pair::solve_right_hand(const Problem& p, Side side) {
     solution.remarks.push_back({RemarkKind::step_rule, 0, violated});
   }
 
-  PairStep step(geometry_, p, next->previous, solvers_, solution.times, wheel_profile_);
+  if (wheel_profile_ && !wheel_lines_ && p.discretisation.search == Discretisation::SearchGrid::reference_locus)
+    wheel_lines_ = std::make_shared<detection::ProfileLines>(detection::profile_lines(*geometry_.wheel, 0.0));
+  PairStep step(geometry_, p, next->previous, solvers_, solution.times, {wheel_profile_, wheel_lines_});
   const double known = next->previous.stiffness;
-  Balance balance = find_balance(step, p, known > 0.0 ? known : stiffness_guess(p.material));
+  Balance balance = find_balance(step, p, known > 0.0 ? known : stiffest(p.material), known > 0.0);
   solution.z = balance.z + balance.rail_dz;
   solution.pitch_rate = balance.pitch_rate;
   solution.least_gap = step.closest();

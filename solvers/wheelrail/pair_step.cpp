@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numbers>
 #include <utility>
 
 #include "treadmark/core/stopwatch.hpp"
@@ -22,10 +23,9 @@ constexpr double kDeepestOfRadius = 0.02;
 }  // namespace
 
 PairStep::PairStep(const Geometry& geometry, const Problem& problem, const Instant& previous,
-                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times,
-                   std::shared_ptr<const detection::SampledProfile> wheel_profile)
+                   std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, RoundWheel round_wheel)
     : geometry_(geometry),
-      wheel_profile_(std::move(wheel_profile)),
+      round_wheel_(std::move(round_wheel)),
       problem_(problem),
       previous_(previous),
       solvers_(solvers),
@@ -45,8 +45,8 @@ bool PairStep::place(double rail_dy) {
   if (moved.vertical_force) moved.state.position.z = 0.0;
   start_z_ = moved.state.position.z;
   start_ = placement_ = treadmark::wheelrail::place(geometry_, moved);
-  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS,
-                                   start_.X_TA,          std::nullopt,          wheel_profile_};
+  const detection::BodyPair bodies{geometry_.rail.get(), geometry_.wheel.get(), start_.X_TS,       start_.X_TA,
+                                   std::nullopt,         round_wheel_.profile,  round_wheel_.lines};
   const Stopwatch watch(times_.search_s);
   search_.emplace(bodies, search_settings(geometry_, moved, start_));
   if (at_given_height()) return true;  // the gap is found together with the patches
@@ -149,6 +149,23 @@ void PairStep::resolve_forces(Patch& patch) const {
   s.moment_C = Vec3(c.moment_x, c.moment_y, c.moment_n) - arm.cross(s.force_C);
 }
 
+double PairStep::stiffness_guess(double z) {
+  const Stopwatch watch(times_.search_s);
+  const detection::SearchResult found = search_->at(z - start_z_);
+  if (!(found.least_gap < 0.0)) return 0.0;
+  // A sphere's force by the volume and depth of its interpenetration: F = 4/3 e* sqrt(V d / pi), V = pi R d^2.
+  const CombinedMaterial material = combine(problem_.material);
+  const double e_star = material.shear_modulus / (1.0 - material.poisson);
+  double force = 0.0;
+  for (const detection::ContactPatch& patch : found.patches) {
+    const double depth = -patch.least_gap, lean = std::cos(patch.inclination);
+    // the integral of the squared depth of a paraboloid is 2/3 of V d
+    const double volume_depth = problem_.discretisation.linear_weight ? patch.weight * depth : 1.5 * patch.weight;
+    force += lean * 4.0 / 3.0 * e_star * std::sqrt(std::max(0.0, volume_depth * lean) * std::numbers::inv_pi);
+  }
+  return force / std::pow(-found.least_gap, 1.5);
+}
+
 void PairStep::evaluate(double z) {
   placement_ = start_;
   const double dz = z - start_z_;
@@ -208,7 +225,15 @@ Vec3 PairStep::share_near(const Rectangle& box) const {
   return weight > 0.0 ? Vec3(sum / weight) : Vec3::Zero();
 }
 
-void PairStep::solve_tangential(double pitch_rate) {
+double PairStep::friction_share() const {
+  double share = 0.0;
+  for (const Patch& patch : patches_)
+    share = std::max(
+        share, std::abs(std::sin(patch.solution.frame.angle)) * contact_problem(patch).friction.static_friction());
+  return share;
+}
+
+void PairStep::solve_tangential(double pitch_rate, double eps) {
   const Stopwatch watch(times_.tangential_s);
   problem_.state.velocity.pitch = pitch_rate;
   tangential_share_.clear();
@@ -217,7 +242,8 @@ void PairStep::solve_tangential(double pitch_rate) {
     PatchSolution& s = patch.solution;
     move(patch);
     s.contact = patch.normal;
-    const kalker::ContactProblem problem = contact_problem(patch);
+    kalker::ContactProblem problem = contact_problem(patch);
+    problem.settings.eps = eps;
     if (problem.regime != kalker::Regime::frictionless) ++times_.tangential_solves;
     kalker::ContactSolver& contact_solver = solver(i, patch);
     if (patch.history) contact_solver.continue_from(*patch.history);

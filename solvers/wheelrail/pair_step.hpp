@@ -17,14 +17,19 @@
 
 namespace treadmark::wheelrail {
 
+/// What is known of a round wheel for all searches: see detection::BodyPair. Null: it is made when needed.
+struct RoundWheel {
+  std::shared_ptr<const detection::SampledProfile> profile;
+  std::shared_ptr<const detection::ProfileLines> lines;
+};
+
 /// A pair of bodies at one instant, while forces are being balanced: a contact search per lateral position of the rail,
 /// patches with their normal problems per height of the wheel over the rail, tangential problems per pitch rate. A
-/// right-hand problem. wheel_profile: detection::whole_profile() of the wheel or null. The others must outlive this.
+/// right-hand problem. The references must outlive this.
 class PairStep {
  public:
   PairStep(const Geometry& geometry, const Problem& right_hand_problem, const Instant& previous,
-           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times,
-           std::shared_ptr<const detection::SampledProfile> wheel_profile);
+           std::vector<kalker::ContactSolver>& solvers, PhaseTimes& times, RoundWheel round_wheel);
 
   /// Puts the rail aside by rail_dy [m]. False: wheel and rail nowhere face each other; at a given height evaluate()
   /// finds that out, its least_gap() is no number then.
@@ -34,10 +39,15 @@ class PairStep {
   /// Wheelset height z [m] at which the bodies touch; not known at a given height.
   double touching_z() const { return touching_z_; }
 
+  /// Vertical force of paraboloids that interpenetrate as the bodies do with the wheelset at height z, over the depth
+  /// there to the power 1.5 [N/m^1.5]; 0: nothing interpenetrates. A guess, without patches or pressures.
+  double stiffness_guess(double z);
   /// Patches and pressures with the wheelset at height z over the undeflected rail.
   void evaluate(double z);
-  /// Tractions at a pitch rate of the wheelset.
-  void solve_tangential(double pitch_rate);
+  /// Tractions at a pitch rate of the wheelset. eps: relative accuracy.
+  void solve_tangential(double pitch_rate, double eps);
+  /// Greatest share of the normal forces by which friction can change the vertical force.
+  double friction_share() const;
   /// How deep the wheel lies in the rail where that is beyond all contact mechanics [m], else 0.
   double too_deep() const { return too_deep_; }
 
@@ -87,7 +97,7 @@ class PairStep {
   void resolve_forces(Patch& patch) const;
 
   const Geometry& geometry_;
-  std::shared_ptr<const detection::SampledProfile> wheel_profile_;
+  RoundWheel round_wheel_;
   Problem problem_;
   const Instant& previous_;
   std::vector<kalker::ContactSolver>& solvers_;

@@ -76,6 +76,20 @@ TEST(CommandLine, ShellsCompleteVerbsOptionsAndChoices) {
   EXPECT_EQ(run_program({"completion", "csh"}).status, 2);
 }
 
+TEST(CommandLine, AWordThatIsNoVerbIsRefusedWithTheNearest) {
+  const auto wrong = run_program({"--threads", "1", "simulat", "--help"});
+  EXPECT_EQ(wrong.status, 2);
+  EXPECT_THAT(wrong.err, HasSubstr("there is no verb 'simulat' (did you mean 'simulate'?)"));
+  EXPECT_EQ(wrong.out, "");
+  EXPECT_THAT(run_program({"xyzzy"}).err, HasSubstr("treadmark --help lists all"));
+}
+
+TEST(CommandLine, AloneItShowsFirstSteps) {
+  const auto alone = run_program({});
+  EXPECT_EQ(alone.status, 2);
+  EXPECT_THAT(alone.out, HasSubstr("treadmark run CASE.toml"));
+}
+
 TEST(CommandLine, ManualPagesSayWhatHelpSays) {
   const std::string page = run_program({"man", "run"}).out;
   EXPECT_THAT(page, HasSubstr(".TH TREADMARK-RUN 1"));

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <vector>
 
@@ -159,6 +160,28 @@ TEST(ReferenceMesh, CornersLieWhereTheDataLie) {
   wheel->locate(Pose{}, points, found);
   for (const SurfacePoint& p : found) EXPECT_NEAR(p.v, std::round(p.v), 1e-6);
   EXPECT_TRUE(lateral_nodes(*standard_wheel(), Pose{}, 0.0, {-10e-3, 10e-3}).empty()) << "arcs have no data";
+}
+
+TEST(ReferenceMesh, LinesOverAPartAreThoseOfTheWhole) {
+  const auto wheel = spline::make_slice_surface(crossing(Body::wheel), kMeshRadius);
+  constexpr int kBeside = 3;
+  const std::vector<double> all = mesh_lines(*wheel, 0.1, 0.5e-3);
+  ASSERT_GT(all.size(), 30u);
+  const double first = all.front(), last = all.back(), third = (last - first) / 3.0;
+  for (const LateralInterval& y : {LateralInterval{first + third, last - third}, LateralInterval{first, first + 1e-3},
+                                   LateralInterval{last - 1e-3, last}, LateralInterval{first + third, first + third}}) {
+    const std::vector<double> part = mesh_lines(*wheel, 0.1, 0.5e-3, y, kBeside);
+    const auto from = std::ranges::find(all, part.front());
+    ASSERT_NE(from, all.end());
+    ASSERT_LE(static_cast<std::ptrdiff_t>(part.size()), all.end() - from);
+    EXPECT_TRUE(std::ranges::equal(part, std::ranges::subrange(from, from + static_cast<std::ptrdiff_t>(part.size()))));
+    const auto below = std::ranges::count_if(part, [&](double at) { return at < y.low; }),
+               above = std::ranges::count_if(part, [&](double at) { return at > y.high; }),
+               all_below = std::ranges::count_if(all, [&](double at) { return at < y.low; }),
+               all_above = std::ranges::count_if(all, [&](double at) { return at > y.high; });
+    EXPECT_GE(below, std::min<std::ptrdiff_t>(kBeside, all_below));
+    EXPECT_GE(above, std::min<std::ptrdiff_t>(kBeside, all_above));
+  }
 }
 
 TEST(ReferenceMesh, SectionsOfAVariableRailAreTheRail) {

@@ -236,10 +236,10 @@ Page bench_page(const BenchReport& bench, std::string document) {
   Section overview{"overview", "Overview"};
   add_banners(bench, rows, overview);
   overview.blocks.emplace_back(cards_of(bench, rows));
-  overview.blocks.emplace_back(facts_of(bench));
   page.sections.push_back(std::move(overview));
   if (Section charts = charts_of(rows); !charts.blocks.empty()) page.sections.push_back(std::move(charts));
   page.sections.push_back({"figures", "Figures", {table_of(rows)}});
+  page.sections.push_back(origin_section(facts_of(bench)));
   return page;
 }
 

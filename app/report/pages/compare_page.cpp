@@ -66,17 +66,11 @@ void add_banners(const io::Comparison& comparison, const ComparedCandidates& all
   add_status(all, Status::no_contact, Banner::Kind::note, "Cases without contact:", overview);
 }
 
-/// The candidates whose errors tell how good the representations can be: those of the finest resolution, or those as
-/// given.
-std::vector<const Candidate*> finest(const ComparedCandidates& all) {
-  double least = INFINITY;
-  for (const Candidate& c : all.candidates)
-    if (!c.as_given() && std::isfinite(c.pmax_error_percent)) least = std::fmin(least, c.resolution_mm);
+/// The candidates whose errors are known.
+std::vector<const Candidate*> judged_candidates(const ComparedCandidates& all) {
   std::vector<const Candidate*> out;
   for (const Candidate& c : all.candidates)
-    if (&c != all.truth() && std::isfinite(c.pmax_error_percent) &&
-        (std::isinf(least) ? c.as_given() : c.resolution_mm == least))
-      out.push_back(&c);
+    if (&c != all.truth() && std::isfinite(c.pmax_error_percent)) out.push_back(&c);
   return out;
 }
 
@@ -92,7 +86,7 @@ Cards cards_of(const io::Comparison& comparison, const ComparedCandidates& all) 
   cards.cards = {{"Representations", fmt::format("{}", all.candidates.size()),
                   failed > 0 ? fmt::format("{} failed", failed) : "the truth included"},
                  {"Cases", fmt::format("{}", all.cases.size()), ""}};
-  const std::vector<const Candidate*> judged = finest(all);
+  const std::vector<const Candidate*> judged = judged_candidates(all);
   if (!judged.empty()) {
     const auto [best, worst] =
         std::ranges::minmax_element(judged, {}, [](const Candidate* c) { return c->pmax_error_percent; });
@@ -218,13 +212,13 @@ Page page_of(const std::shared_ptr<const io::Comparison>& data, std::string docu
   add_banners(comparison, all, overview);
   append(overview.blocks, std::move(note));
   overview.blocks.emplace_back(cards_of(comparison, all));
-  overview.blocks.emplace_back(comparison_facts(comparison));
   page.sections.push_back(std::move(overview));
   for (Section section : {accuracy_section(all), std::move(contact)})
     if (!section.blocks.empty()) page.sections.push_back(std::move(section));
   Section tables{"tables", "Figures", {candidate_table(all)}};
   if (!all.cases.empty()) tables.blocks.emplace_back(compared_row_table(all));
   page.sections.push_back(std::move(tables));
+  page.sections.push_back(origin_section(comparison_facts(comparison)));
   return page;
 }
 

@@ -3,8 +3,10 @@
 #include "treadmark/app/report/pages/history_panels.hpp"
 
 #include <algorithm>
+#include <iterator>
 #include <numbers>
 #include <set>
+#include <string_view>
 
 namespace treadmark::app::report {
 namespace {
@@ -17,18 +19,37 @@ std::optional<std::size_t> find(const io::SimulationResult& result, const std::s
 
 }  // namespace
 
+namespace {
+
+struct UnitEnding {
+  std::string_view ending;
+  ShownUnit shown;
+};
+const UnitEnding kUnitEndings[] = {
+    {"_N", {1e-3, "kN"}}, {"_Pa", {1e-6, "MPa"}}, {"_m2", {1e6, "mm²"}},  {"_rad", {180.0 / std::numbers::pi, "°"}},
+    {"_W", {1.0, "W"}},   {"_J", {1.0, "J"}},     {"_m_s", {1.0, "m/s"}}, {"_s", {1.0, "s"}},
+    {"_x_m", {1.0, "m"}},  // distance travelled
+    {"_m", {1e3, "mm"}}};
+
+const UnitEnding* unit_ending(const std::string& column) {
+  const auto found =
+      std::ranges::find_if(kUnitEndings, [&](const UnitEnding& u) { return column.ends_with(u.ending); });
+  return found == std::end(kUnitEndings) ? nullptr : &*found;
+}
+
+}  // namespace
+
 ShownUnit shown_unit(const std::string& column) {
-  const auto ends = [&](const char* unit) { return column.ends_with(unit); };
-  if (ends("_N")) return {1e-3, "kN"};
-  if (ends("_Pa")) return {1e-6, "MPa"};
-  if (ends("_m2")) return {1e6, "mm²"};
-  if (ends("_rad")) return {180.0 / std::numbers::pi, "°"};
-  if (ends("_W")) return {1.0, "W"};
-  if (ends("_J")) return {1.0, "J"};
-  if (ends("_s")) return {1.0, "s"};
-  if (column == "x_m" || ends("_x_m")) return {1.0, "m"};  // distance travelled
-  if (ends("_m")) return {1e3, "mm"};
-  return {1.0, ""};
+  if (column == "x_m") return {1.0, "m"};
+  const UnitEnding* unit = unit_ending(column);
+  return unit == nullptr ? ShownUnit{} : unit->shown;
+}
+
+std::string shown_name(const std::string& column) {
+  constexpr std::string_view kPlace = "_x_m";
+  const UnitEnding* unit = unit_ending(column);
+  if (unit == nullptr) return column;
+  return column.substr(0, column.size() - (unit->ending == kPlace ? 2 : unit->ending.size()));
 }
 
 std::vector<std::size_t> thinned_rows(const io::SimulationResult& result, const std::vector<std::string>& columns,

@@ -27,6 +27,8 @@ Facts origin_facts(const Origin& origin) {
   return facts;
 }
 
+Section origin_section(Facts facts) { return {"origin", "Origin", {std::move(facts)}}; }
+
 double in_file(double value) { return std::isfinite(value) ? io::twelve_digits(value) + 0.0 : kNaN; }
 
 std::string title_of(const std::string& input_file) {

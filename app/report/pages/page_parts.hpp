@@ -21,6 +21,9 @@ struct Origin {
 /// Version, input and settings as facts.
 Facts origin_facts(const Origin& origin);
 
+/// Facts as the last section of a page: what made it.
+Section origin_section(Facts facts);
+
 /// A number with the 12 digits of the result files, so that a page is the same from a result and from its files; NaN
 /// where it is not finite.
 double in_file(double value);

@@ -67,6 +67,22 @@ Cards::Card extreme(const io::RunResult& run, const char* label, const char* uni
           number > 0 ? fmt::format("case {}", number) : ""};
 }
 
+double largest_pressure(const io::CaseResult& c) {
+  double most = NAN;
+  for (const io::PatchResult& p : c.patches) most = std::isnan(most) ? p.pmax : std::max(most, p.pmax);
+  return most;
+}
+
+/// The case with the largest pressure.
+std::size_t worst_case(const io::RunResult& run) {
+  std::size_t worst = 0;
+  for (std::size_t i = 0; i < run.cases.size(); ++i)
+    if (!(largest_pressure(run.cases[i]) <= largest_pressure(run.cases[worst])) &&
+        std::isfinite(largest_pressure(run.cases[i])))
+      worst = i;
+  return worst;
+}
+
 Cards cards_of(const io::RunResult& run) {
   Cards cards;
   std::size_t solved = 0, patches = 0;
@@ -76,11 +92,7 @@ Cards cards_of(const io::RunResult& run) {
   }
   cards.cards.push_back(
       {"Cases solved", fmt::format("{} of {}", solved, run.cases_total), run.complete ? "" : "interrupted"});
-  cards.cards.push_back(extreme(run, "Largest pressure", "MPa", 1e-6, [](const io::CaseResult& c) {
-    double most = NAN;
-    for (const io::PatchResult& p : c.patches) most = std::isnan(most) ? p.pmax : std::max(most, p.pmax);
-    return most;
-  }));
+  cards.cards.push_back(extreme(run, "Largest pressure", "MPa", 1e-6, largest_pressure));
   cards.cards.push_back(extreme(run, "Largest normal force", "kN", 1e-3, [](const io::CaseResult& c) {
     double sum = c.patches.empty() ? NAN : 0.0;
     for (const io::PatchResult& p : c.patches) sum += p.fn;
@@ -96,8 +108,6 @@ Section overview(const io::RunResult& run) {
   Section section{"overview", "Overview"};
   add_banners(run, section);
   section.blocks.emplace_back(cards_of(run));
-  section.blocks.emplace_back(
-      origin_facts({run.version, run.git, run.input_file, run.input_sha256, run.geometry_sha256, run.settings}));
   return section;
 }
 
@@ -114,6 +124,7 @@ Page run_page(std::shared_ptr<const io::RunResult> run, std::string document) {
   if (run->cases.empty()) return page;
 
   page.timeline = case_timeline(*run);
+  page.timeline->start = worst_case(*run);
   page.sets.push_back(frames_of(run, "result"));
   page.surfaces = run->sampled;
   Section contact{"contact", "Contact"};
@@ -122,6 +133,8 @@ Page run_page(std::shared_ptr<const io::RunResult> run, std::string document) {
   if (run->cases.size() > 1) contact.blocks.emplace_back(Figure{"forces", "Forces and pressures", case_chart(*run)});
   if (!contact.blocks.empty()) page.sections.push_back(std::move(contact));
   page.sections.push_back({"cases", "Cases", {case_table(*run), patch_table(*run)}});
+  page.sections.push_back(origin_section(
+      origin_facts({run->version, run->git, run->input_file, run->input_sha256, run->geometry_sha256, run->settings})));
   return page;
 }
 

@@ -170,8 +170,6 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document,
   Section overview{"overview", "Overview"};
   add_banners(*result, overview);
   overview.blocks.emplace_back(cards_of(*result));
-  overview.blocks.emplace_back(origin_facts({result->version, result->git, result->input_file, result->input_sha256,
-                                             result->geometry_sha256, result->settings}));
   page.sections.push_back(std::move(overview));
 
   const std::shared_ptr<const io::RunResult> snapshots(result, &result->snapshots);
@@ -209,6 +207,9 @@ Page simulation_page(std::shared_ptr<const Result> result, std::string document,
   if (assessed)
     for (Section& section : assessment_sections(std::span(assessed, 1))) page.sections.push_back(std::move(section));
   page.sections.push_back(tables(*result));
+  page.sections.push_back(
+      origin_section(origin_facts({result->version, result->git, result->input_file, result->input_sha256,
+                                   result->geometry_sha256, result->settings})));
   return page;
 }
 

@@ -146,7 +146,7 @@ Table run_table(const io::StudyTable& table) {
   Table out{"runs", "Runs of the study", {{"run"}}};
   for (const std::string& key : table.keys) out.columns.push_back({key});
   for (const io::NamedValue& quantity : table.quantities)
-    out.columns.push_back({quantity.name, shown_unit(quantity.name).name});
+    out.columns.push_back({shown_name(quantity.name), shown_unit(quantity.name).name});
   out.columns.push_back({"status"});
   out.columns.push_back({"message"});
   for (std::size_t i = 0; i < table.runs.size(); ++i) {
@@ -208,8 +208,6 @@ Section overview(const StudyOnDisk& disk, const io::StudyTable& table) {
     cards.cards.push_back({known->description, fmt::format("{} {}", shown({unit.factor * most}), unit.name), where});
   }
   section.blocks.emplace_back(std::move(cards));
-  section.blocks.emplace_back(
-      origin_facts({study.version, study.git, study.input_file, study.input_sha256, {}, study.settings}));
   return section;
 }
 
@@ -247,6 +245,8 @@ Page sweep_page(const StudyOnDisk& disk) {
   for (const auto& [name, svg] : disk.pictures)
     pictures.blocks.emplace_back(Figure{"picture-" + name, name, PictureView{svg}});
   if (!pictures.blocks.empty()) page.sections.push_back(std::move(pictures));
+  page.sections.push_back(origin_section(origin_facts(
+      {disk.study.version, disk.study.git, disk.study.input_file, disk.study.input_sha256, {}, disk.study.settings})));
   return page;
 }
 

@@ -3,14 +3,6 @@
 #include "treadmark/backends/spline/nurbs/nurbs_leaf.hpp"
 
 namespace treadmark::spline {
-namespace {
-
-// Of s and t: how far beyond the border a solution still belongs to the leaf (neighbours meet there), and how far steps
-// may lead.
-constexpr double kBorder = 0.5 + 1e-9, kFurthest = 0.75;
-constexpr double kContraction = 0.5;  // greatest |E| of a regular leaf
-
-}  // namespace
 
 ControlBox::ControlBox(const BezierPatch& part) {
   if (!part.rational) weight = {1.0, 1.0};
@@ -25,6 +17,7 @@ ControlBox::ControlBox(const BezierPatch& part) {
 }
 
 NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(part), box_(box) {
+  using namespace nurbs_limits;
   const Quad &c = power_.c[0][0], &cs = power_.c[1][0], &ct = power_.c[0][1];
   const double inverse_w = 1.0 / c.w();
   middle_x_ = c.x() * inverse_w, middle_y_ = c.y() * inverse_w;
@@ -45,7 +38,6 @@ NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(pa
       s_.include({gs[i][j], gs[i][j]});
       t_.include({gt[i][j], gt[i][j]});
     }
-  constexpr double kRounding = 1e-9;
   s_ = {s_.low - kRounding, s_.high + kRounding};
   t_ = {t_.low - kRounding, t_.high + kRounding};
 
@@ -81,6 +73,36 @@ NurbsLeaf::NurbsLeaf(const BezierPatch& part, const ControlBox& box) : power_(pa
   bends_along_u_ = bend_u > bend_v;
 }
 
+PatchPowers NurbsLeaf::powers() const {
+  PatchPowers out;
+  out.rational = box_.weight.low != 1.0 || box_.weight.high != 1.0;
+  for (int i = 0; i < 4; ++i)
+    for (int j = 0; j < 4; ++j) {
+      const Quad& q = power_.c[i][j];
+      const int k = 4 * i + j;
+      out.x[k] = q.x(), out.y[k] = q.y(), out.z[k] = q.z(), out.w[k] = q.w();
+    }
+  const double w = power_.c[0][0].w();
+  for (int k = 0; k < 4; ++k) out.a[k] = a_[k] * w;
+  out.middle[0] = middle_x_, out.middle[1] = middle_y_;
+  constexpr int kSecond[3][2] = {{2, 0}, {1, 1}, {0, 2}};
+  for (int k = 0; k < 3; ++k) {
+    const Quad& q = power_.c[kSecond[k][0]][kSecond[k][1]];
+    const double x = q.x() - middle_x_ * q.w(), y = q.y() - middle_y_ * q.w();
+    out.bend[k] = a_[0] * x + a_[1] * y;
+    out.bend[3 + k] = a_[2] * x + a_[3] * y;
+  }
+  // q W lies in the range of A G, see meets().
+  const auto reach = [&](const Interval& range, double* to) {
+    to[0] = w * std::min(range.low / box_.weight.low, range.low / box_.weight.high);
+    to[1] = w * std::max(range.high / box_.weight.low, range.high / box_.weight.high);
+  };
+  reach(s_, out.reach);
+  reach(t_, out.reach + 2);
+  out.range[0] = box_.x.low, out.range[1] = box_.x.high, out.range[2] = box_.y.low, out.range[3] = box_.y.high;
+  return out;
+}
+
 /// Evaluates at root.s, root.t; returns the residual [m] and the step that removes it.
 inline double NurbsLeaf::newton_step(double x, double y, LeafRoot& root, double& ds, double& dt) const {
   const PowerPatch::Jet at = power_.jet(root.s, root.t);
@@ -100,6 +122,7 @@ inline double NurbsLeaf::newton_step(double x, double y, LeafRoot& root, double&
 }
 
 bool NurbsLeaf::solve(double x, double y, double s, double t, bool exact, LeafRoot& root) const {
+  using namespace nurbs_limits;
   constexpr int kSteps = 8;
   root.s = std::clamp(s, -kBorder, kBorder);
   root.t = std::clamp(t, -kBorder, kBorder);
@@ -124,6 +147,7 @@ bool NurbsLeaf::solve(double x, double y, double s, double t, bool exact, LeafRo
 /// From the middle by the contraction, kept in the square: it finds the solution if there is one in the leaf.
 bool NurbsLeaf::contract(double x, double y, LeafRoot& root) const {
   constexpr int kSteps = 200;
+  using nurbs_limits::kBorder;
   constexpr double kSettled = 1e-14, kOnLine = 1e-9;
   root.s = root.t = 0.0;
   for (int i = 0; i < kSteps; ++i) {

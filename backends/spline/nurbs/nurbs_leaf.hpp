@@ -6,6 +6,8 @@
 
 #include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/nurbs/bezier_patch.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_kernels.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_limits.hpp"
 
 namespace treadmark::spline {
 
@@ -49,10 +51,10 @@ class NurbsLeaf {
   /// contraction. exact: slopes, s and t to rounding, too.
   bool solve(double x, double y, double s, double t, bool exact, LeafRoot& root) const;
 
- private:
-  // Residuals [m] at which a last step of first order is exact: its error is their square times curvature.
-  static constexpr double kNear = 1e-8, kExact = 1e-11;
+  /// Of a regular leaf, for the kernels.
+  PatchPowers powers() const;
 
+ private:
   // 0 in the range of A G: over the patch it is range - q W at the point with A (p - middle) = q.
   bool meets(double q, const Interval& range) const {
     const double a = q * box_.weight.low, b = q * box_.weight.high;

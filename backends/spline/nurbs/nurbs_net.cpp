@@ -20,16 +20,15 @@ struct Corners {
 
 // The 16 control points from the corners; position and direction take them to another frame.
 template <class Position, class Direction>
-BezierPatch from_corners(const NurbsNet::Corner* const (&corners)[2][2], double hu, double hv, const Position& position,
-                         const Direction& direction) {
+BezierPatch from_corners(const PatchCorners& patch, const Position& position, const Direction& direction) {
   BezierPatch out;
   out.rational = false;
   for (int i = 0; i < 2; ++i)
     for (int j = 0; j < 2; ++j) {
-      const NurbsNet::Corner& c = *corners[i][j];
-      const double su = (i ? -hu : hu) / 3.0, sv = (j ? -hv : hv) / 3.0;
-      const Vec3 p = position(c.p), du = direction(c.p_u) * su, dv = direction(c.p_v) * sv,
-                 duv = direction(c.p_uv) * (su * sv);
+      const auto three = [&](int first) { return Eigen::Map<const Vec3>(patch.corner[i][j] + first); };
+      const double su = (i ? -1.0 : 1.0) * patch.size_u / 3.0, sv = (j ? -1.0 : 1.0) * patch.size_v / 3.0;
+      const Vec3 p = position(three(0)), du = direction(three(3)) * su, dv = direction(three(6)) * sv,
+                 duv = direction(three(9)) * (su * sv);
       const int a = 3 * i, b = 3 * j, a1 = i ? 2 : 1, b1 = j ? 2 : 1;
       const auto set = [&](int m, int n, const Vec3& q) { out.b[m][n] = {q.x(), q.y(), q.z(), 1.0}; };
       set(a, b, p);
@@ -98,18 +97,13 @@ BezierPatch NurbsNet::patch(int iu, int iv) const { return patch(iu, iv, Pose{})
 
 BezierPatch NurbsNet::patch(int iu, int iv, const Pose& X) const {
   const Mat3 turn = X.rotation.transpose();
-  const auto u = static_cast<std::size_t>(iu), v = static_cast<std::size_t>(iv);
-  if (!corners_.empty()) {
-    const std::size_t row = v_.size(), next = (u + 1) * row < corners_.size() ? u + 1 : 0;
-    const Corner* const corners[2][2] = {{&corners_[u * row + v], &corners_[u * row + v + 1]},
-                                         {&corners_[next * row + v], &corners_[next * row + v + 1]}};
+  if (by_corners())
     return from_corners(
-        corners, u_[u + 1] - u_[u], v_[v + 1] - v_[v], [&](const Vec3& p) { return Vec3(turn * (p - X.origin)); },
+        corners(iu, iv), [&](const Vec3& p) { return Vec3(turn * (p - X.origin)); },
         [&](const Vec3& d) { return Vec3(turn * d); });
-  }
   BezierPatch out;
   const std::size_t stride = 3 * (v_.size() - 1) + 1;
-  const Quad* corner = points_.data() + 3 * (u * stride + v);
+  const Quad* corner = points_.data() + 3 * (static_cast<std::size_t>(iu) * stride + static_cast<std::size_t>(iv));
   for (std::size_t i = 0; i < 4; ++i)
     for (std::size_t j = 0; j < 4; ++j) {
       const Quad& q = corner[i * stride + j];
@@ -118,6 +112,14 @@ BezierPatch NurbsNet::patch(int iu, int iv, const Pose& X) const {
       out.b[i][j] = {p.x(), p.y(), p.z(), w};
     }
   return out;
+}
+
+PatchCorners NurbsNet::corners(int iu, int iv) const {
+  static_assert(sizeof(Corner) == 12 * sizeof(double));
+  const auto u = static_cast<std::size_t>(iu), v = static_cast<std::size_t>(iv);
+  const std::size_t row = v_.size(), next = (u + 1) * row < corners_.size() ? u + 1 : 0;
+  const auto at = [&](std::size_t i, std::size_t j) { return corners_[i * row + j].p.data(); };
+  return {{{at(u, v), at(u, v + 1)}, {at(next, v), at(next, v + 1)}}, u_[u + 1] - u_[u], v_[v + 1] - v_[v]};
 }
 
 Box3 NurbsNet::bounds() const {

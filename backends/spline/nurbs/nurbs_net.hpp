@@ -7,6 +7,7 @@
 
 #include "treadmark/backends/spline/interval.hpp"
 #include "treadmark/backends/spline/nurbs/bezier_patch.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_kernels.hpp"
 #include "treadmark/core/surface.hpp"
 
 namespace treadmark::spline {
@@ -39,6 +40,10 @@ class NurbsNet {
   /// Frame P: homogeneous coordinates there.
   BezierPatch patch(int iu, int iv, const Pose& X_SP) const;
   Box3 bounds() const;
+  /// Polynomial and kept by corners.
+  bool by_corners() const { return !corners_.empty(); }
+  /// The corners of a patch of such a net.
+  PatchCorners corners(int iu, int iv) const;
 
   /// Patch and local parameters for (u, v), clamped to the surface.
   struct Place {

@@ -3,6 +3,7 @@
 
 #include "treadmark/backends/spline/nurbs/nurbs_surface.hpp"
 
+#include <array>
 #include <cmath>
 #include <limits>
 #include <numbers>
@@ -75,20 +76,53 @@ SurfaceDerivatives NurbsSurface::derivatives(double u, double v) const { return 
 void NurbsSurface::do_heights(const PlaneGrid& plane_grid, const HeightsOut& out) const {
   const Grid2& g = plane_grid.grid;
   const bool slopes = !out.dzdx.empty() || !out.dzdy.empty();
+  // The kernels write heights, and slopes both or none.
+  std::vector<double> unasked_z(out.z.empty() ? g.size() : 0), unasked_dx(slopes && out.dzdx.empty() ? g.size() : 0),
+      unasked_dy(slopes && out.dzdy.empty() ? g.size() : 0);
+  double* const z = out.z.empty() ? unasked_z.data() : out.z.data();
+  double* const dx = !slopes ? nullptr : out.dzdx.empty() ? unasked_dx.data() : out.dzdx.data();
+  double* const dy = !slopes ? nullptr : out.dzdy.empty() ? unasked_dy.data() : out.dzdy.data();
+  for (double* const field : {z, dx, dy})
+    if (field != nullptr) std::fill_n(field, g.size(), kNaN);
+
+  const FacingHalf half(plane_grid.X_SP, facing());
+  const ViewArrays view = view_arrays(plane_grid.X_SP, half);
   const int tiles_x = (g.nx + kTileX - 1) / kTileX, tiles_y = (g.ny + kTileY - 1) / kTileY;
   parallel_for(static_cast<std::size_t>(tiles_x) * static_cast<std::size_t>(tiles_y), [&](std::size_t tile) {
     const int ix0 = kTileX * static_cast<int>(tile % static_cast<std::size_t>(tiles_x)),
-              ix1 = std::min(g.nx, ix0 + kTileX) - 1;
-    const int iy0 = kTileY * static_cast<int>(tile / static_cast<std::size_t>(tiles_x)),
-              iy1 = std::min(g.ny, iy0 + kTileY) - 1;
-    NurbsView view(net_, plane_grid.X_SP, {g.x(ix0), g.x(ix1), g.y(iy0), g.y(iy1)}, facing());
-    NurbsHit hit;
-    for (int iy = iy0; iy <= iy1; ++iy)
-      for (int ix = ix0; ix <= ix1; ++ix) {
-        const bool found = view.hit(g.x(ix), g.y(iy), slopes, false, hit);
-        write(out, g.index(ix, iy), found, hit);
-      }
+              iy0 = kTileY * static_cast<int>(tile / static_cast<std::size_t>(tiles_x));
+    const int nx = std::min(kTileX, g.nx - ix0), ny = std::min(kTileY, g.ny - iy0);
+    const auto from = [&](double* field) { return field == nullptr ? nullptr : field + g.index(ix0, iy0); };
+    hit_tile(plane_grid.X_SP, half, view,
+             {g.x0, g.y0, g.dx, g.dy, ix0, iy0, nx, ny, static_cast<long>(g.nx), from(z), from(dx), from(dy)});
   });
+}
+
+void NurbsSurface::hit_tile(const Pose& X_SP, const FacingHalf& half, const ViewArrays& view,
+                            const TileArrays& tile) const {
+  constexpr std::size_t kBatch = 64;
+  const NurbsKernels& kernels = nurbs_kernels();
+  const Rectangle over{tile.x0 + tile.ix0 * tile.dx, tile.x0 + (tile.ix0 + tile.nx - 1) * tile.dx,
+                       tile.y0 + tile.iy0 * tile.dy, tile.y0 + (tile.iy0 + tile.ny - 1) * tile.dy};
+  std::vector<PatchIndex> left;
+  std::array<PatchIndex, kBatch> batch;
+  std::array<PatchCorners, kBatch> corners;
+  std::array<char, kBatch> not_settled;
+  std::size_t count = 0;
+  const auto flush = [&] {
+    kernels.hit_corners(view, corners.data(), static_cast<int>(count), tile, not_settled.data());
+    for (std::size_t k = 0; k < count; ++k)
+      if (not_settled[k] != 0) left.push_back(batch[k]);
+    count = 0;
+  };
+  for_patches_over(net_, X_SP, over, half, [&](int iu, int iv, const Vec3&, const Vec3&) {
+    if (!net_.by_corners()) return left.push_back({iu, iv});
+    batch[count] = {iu, iv};
+    corners[count] = net_.corners(iu, iv);
+    if (++count == kBatch) flush();
+  });
+  flush();
+  if (!left.empty()) NurbsView(net_, X_SP, over, facing(), left).hit_tile(view, tile);
 }
 
 void NurbsSurface::do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const {

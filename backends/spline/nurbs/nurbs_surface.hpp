@@ -5,6 +5,7 @@
 #include "treadmark/backends/sampling/region.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_bounds.hpp"
 #include "treadmark/backends/spline/nurbs/nurbs_net.hpp"
+#include "treadmark/backends/spline/nurbs/nurbs_view.hpp"
 #include "treadmark/backends/spline/surface_derivatives.hpp"
 #include "treadmark/model/profile.hpp"
 #include "treadmark/model/surface_spec.hpp"
@@ -34,6 +35,7 @@ class NurbsSurface final : public Surface {
   void do_heights_at(const Pose& X_SP, std::span<const Vec2> points_P, const HeightsOut& out) const override;
   void do_locate(const Pose& X_SP, std::span<const Vec2> points_P, std::span<SurfacePoint> out) const override;
   HeightBounds do_height_bounds(const Pose& X_SP, const Rectangle& rectangle_P) const override;
+  void hit_tile(const Pose& X_SP, const FacingHalf& half, const ViewArrays& view, const TileArrays& tile) const;
   SurfaceDerivatives derivatives_at(const NurbsNet::Place& place) const;
 
   NurbsNet net_;

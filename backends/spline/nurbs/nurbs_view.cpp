@@ -49,6 +49,18 @@ FacingHalf::FacingHalf(const Pose& X, Facing facing) : all(facing == Facing::up)
   y = scale * outwards.dot(X.rotation.col(1));
 }
 
+ViewArrays view_arrays(const Pose& X, const FacingHalf& half) {
+  ViewArrays view{};
+  for (int i = 0; i < 3; ++i) {
+    for (int k = 0; k < 3; ++k) view.to_plane[3 * i + k] = X.rotation(k, i);
+    view.origin[i] = X.origin[i];
+  }
+  view.side = half.all ? -1.0 : 1.0;
+  view.half = !half.all;
+  view.lowest[0] = half.c, view.lowest[1] = half.x, view.lowest[2] = half.y;
+  return view;
+}
+
 NurbsView::Room& NurbsView::spare_room() {
   thread_local Room room;
   return room;
@@ -65,39 +77,48 @@ NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, 
       rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
       half_(X_SP, facing),
       side_(facing == Facing::up ? -1.0 : 1.0) {
-  std::swap(room_, spare_room());
-  candidates_.clear();
-  leaves_.clear();
-  rough_.clear();
-  if (half_.none || !(r.x_max >= r.x_min && r.y_max >= r.y_min)) {
-    bin_begin_.assign(2, 0);
-    return;
-  }
-  const Mat3 turn = X_SP.rotation.transpose(), spread = turn.cwiseAbs();
-  const Vec3 shift = turn * X_SP.origin;
-  const auto over = [&](const Vec3& centre, const Vec3& half_size, Vec3& c, Vec3& h) {
-    c = turn * centre - shift;
-    h = spread * half_size;
-    if (c.x() - h.x() > rectangle_.x_max || c.x() + h.x() < rectangle_.x_min || c.y() - h.y() > rectangle_.y_max ||
-        c.y() + h.y() < rectangle_.y_min)
-      return false;
-    return half_.all || half_.outwards.dot(centre) + half_.outwards.cwiseAbs().dot(half_size) >= -kSlack;
-  };
-  Vec3 c, h;
-  net.visit([&](const Vec3& centre, const Vec3& half_size) { return over(centre, half_size, c, h); },
-            [&](int iu, int iv, const Vec3&, const Vec3&) {
-              h.array() += kSlack;
-              candidates_.push_back(
-                  {{c.x() - h.x(), c.x() + h.x()}, {c.y() - h.y(), c.y() + h.y()}, side_ * c.z() + h.z(), iu, iv});
-            });
-  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
-    if (a.outer != b.outer) return a.outer > b.outer;
-    return a.iu != b.iu ? a.iu < b.iu : a.iv < b.iv;
+  begin();
+  for_patches_over(net, X_SP, rectangle_, half_, [&](int iu, int iv, const Vec3& low, const Vec3& high) {
+    candidates_.push_back({{low.x(), high.x()}, {low.y(), high.y()}, side_ > 0.0 ? high.z() : -low.z(), iu, iv});
   });
   sort_into_bins();
 }
 
+NurbsView::NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, Facing facing,
+                     std::span<const PatchIndex> patches)
+    : net_(net),
+      X_SP_(X_SP),
+      rectangle_{r.x_min - kSlack, r.x_max + kSlack, r.y_min - kSlack, r.y_max + kSlack},
+      half_(X_SP, facing),
+      side_(facing == Facing::up ? -1.0 : 1.0) {
+  begin();
+  for (const PatchIndex& patch : patches) {
+    const ControlBox box(net.patch(patch.iu, patch.iv, X_SP));
+    candidates_.push_back({{box.x.low - kSlack, box.x.high + kSlack},
+                           {box.y.low - kSlack, box.y.high + kSlack},
+                           (side_ > 0.0 ? box.z.high : -box.z.low) + kSlack,
+                           patch.iu,
+                           patch.iv});
+  }
+  sort_into_bins();
+}
+
+void NurbsView::begin() {
+  std::swap(room_, spare_room());
+  candidates_.clear();
+  leaves_.clear();
+  rough_.clear();
+}
+
 void NurbsView::sort_into_bins() {
+  std::sort(candidates_.begin(), candidates_.end(), [](const Candidate& a, const Candidate& b) {
+    if (a.outer != b.outer) return a.outer > b.outer;
+    return a.iu != b.iu ? a.iu < b.iu : a.iv < b.iv;
+  });
+  if (candidates_.empty()) {
+    bin_begin_.assign(2, 0);
+    return;
+  }
   const double width = rectangle_.x_max - rectangle_.x_min, height = rectangle_.y_max - rectangle_.y_min;
   // About four bins for every candidate, as square as can be.
   const double number = 4.0 * static_cast<double>(candidates_.size()) + 1.0;
@@ -189,6 +210,36 @@ bool NurbsView::hit(double x, double y, bool exact, bool all, NurbsHit& out) {
   }
   if (search.found) follow(search);
   return search.found;
+}
+
+void NurbsView::hit_tile(const ViewArrays& view, const TileArrays& tile) {
+  const NurbsKernels& kernels = nurbs_kernels();
+  std::vector<char> open(static_cast<std::size_t>(tile.nx) * static_cast<std::size_t>(tile.ny), 0);
+  const auto x = [&](int i) { return tile.x0 + (tile.ix0 + i) * tile.dx; };
+  const auto y = [&](int j) { return tile.y0 + (tile.iy0 + j) * tile.dy; };
+  const auto over = [](const Interval& range, double at) {
+    return range.low - kSlack <= at && at <= range.high + kSlack;
+  };
+  for (Candidate& c : candidates_) {
+    prepare(c);
+    for (int k = c.first_leaf; k < c.last_leaf; ++k) {
+      const Leaf& l = leaves_[static_cast<std::size_t>(k)];
+      if (l.rough < 0 && kernels.hit(view, l.leaf.powers(), tile)) continue;
+      const ControlBox& box = l.leaf.box();
+      for (int j = 0; j < tile.ny; ++j)
+        for (int i = 0; over(box.y, y(j)) && i < tile.nx; ++i)
+          if (over(box.x, x(i))) open[static_cast<std::size_t>(i + tile.nx * j)] = 1;
+    }
+  }
+  NurbsHit found;
+  for (int j = 0; j < tile.ny; ++j)
+    for (int i = 0; i < tile.nx; ++i) {
+      const long at = i + tile.stride * j;
+      if (open[static_cast<std::size_t>(i + tile.nx * j)] == 0) continue;
+      if (!hit(x(i), y(j), tile.dzdx != nullptr, false, found) || side_ * found.z <= side_ * tile.z[at]) continue;
+      tile.z[at] = found.z;
+      if (tile.dzdx != nullptr) tile.dzdx[at] = found.dzdx, tile.dzdy[at] = found.dzdy;
+    }
 }
 
 void NurbsView::look_into(int index, const Candidate& c, Search& search) {

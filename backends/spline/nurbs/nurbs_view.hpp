@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include <span>
 #include <vector>
 
 #include "treadmark/backends/spline/nurbs/nurbs_leaf.hpp"
@@ -31,6 +32,35 @@ struct FacingHalf {
   bool away(const ControlBox& box) const { return !all && box.z.high < c + (x * box.x + y * box.y).low - 1e-9; }
 };
 
+/// The same for the kernels.
+ViewArrays view_arrays(const Pose& X_SP, const FacingHalf& half);
+
+struct PatchIndex {
+  int iu, iv;
+};
+
+/// Calls use(iu, iv, low, high) for patches that may be seen over a rectangle, with the corners of their boxes in the
+/// frame of the plane.
+template <class Use>
+void for_patches_over(const NurbsNet& net, const Pose& X_SP, const Rectangle& r, const FacingHalf& half,
+                      const Use& use) {
+  constexpr double kSlack = 1e-9;  // [m] rounding of boxes
+  if (half.none || !(r.x_max >= r.x_min && r.y_max >= r.y_min)) return;
+  const Mat3 turn = X_SP.rotation.transpose(), spread = turn.cwiseAbs();
+  const Vec3 shift = turn * X_SP.origin, outwards_size = half.outwards.cwiseAbs();
+  Vec3 c, h;
+  net.visit(
+      [&](const Vec3& centre, const Vec3& half_size) {
+        c = turn * centre - shift;
+        h = spread * half_size;
+        h.array() += kSlack;
+        if (c.x() - h.x() > r.x_max || c.x() + h.x() < r.x_min || c.y() - h.y() > r.y_max || c.y() + h.y() < r.y_min)
+          return false;
+        return half.all || half.outwards.dot(centre) + outwards_size.dot(half_size) >= -kSlack;
+      },
+      [&](int iu, int iv, const Vec3&, const Vec3&) { use(iu, iv, Vec3(c - h), Vec3(c + h)); });
+}
+
 /// The surface seen from a plane over a rectangle. Candidates are patches whose boxes lie over it, sorted into bins; a
 /// patch is turned into the plane frame, and divided into regular leaves, when a line first comes near. Every candidate
 /// that could hold a hit further out is looked at, so that the hit returned is the outermost one. One object serves one
@@ -38,6 +68,9 @@ struct FacingHalf {
 class NurbsView {
  public:
   NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& rectangle, Facing facing);
+  /// Of some patches only.
+  NurbsView(const NurbsNet& net, const Pose& X_SP, const Rectangle& rectangle, Facing facing,
+            std::span<const PatchIndex> patches);
   ~NurbsView();
   NurbsView(const NurbsView&) = delete;
   NurbsView& operator=(const NurbsView&) = delete;
@@ -45,6 +78,8 @@ class NurbsView {
   /// Outermost hit of the line through (x, y). exact: slopes and parameters to rounding. all: look for hidden ones,
   /// too.
   bool hit(double x, double y, bool exact, bool all, NurbsHit& out);
+  /// Adds hits of all points of a tile to those that it holds.
+  void hit_tile(const ViewArrays& view, const TileArrays& tile);
 
  private:
   struct Candidate {
@@ -91,6 +126,7 @@ class NurbsView {
     LeafRoot root{}, guessed{};
   };
 
+  void begin();
   void sort_into_bins();
   void prepare(Candidate& candidate);
   void divide(const BezierPatch& bezier, const PatchPart& part);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <cstring>
+#include <functional>
 #include <numeric>
 #include <type_traits>
 
@@ -83,14 +84,51 @@ std::vector<CellRun> runs_over(const PlaneWindow& window, const SliceNet& net, c
   return runs;
 }
 
-// The section must be cut already.
+// Cells of a section, cut already, that points of one line may lie over, and how far each reaches along it.
+struct CellReaches {
+  std::vector<int> cell;
+  std::vector<double> low, high;
+  bool rising = false, falling = false;  ///< the section goes one way
+
+  // Those from which on, in either direction, cells do not end before `first`, and from which on they begin behind
+  // `last`.
+  std::pair<std::size_t, std::size_t> over(double first, double last) const {
+    const auto at = [](const std::vector<double>& v, auto it) { return static_cast<std::size_t>(it - v.begin()); };
+    if (rising) return {at(high, std::ranges::lower_bound(high, first)), at(low, std::ranges::upper_bound(low, last))};
+    if (falling)
+      return {at(low, std::ranges::lower_bound(low, last, std::greater<>())),
+              at(high, std::ranges::upper_bound(high, first, std::greater<>()))};
+    return {0, cell.size()};
+  }
+
+  template <class Geometry>
+  void find(const SliceSection<Geometry>& section, const std::vector<CellRun>& runs) {
+    cell.clear(), low.clear(), high.clear();
+    for (const CellRun& run : runs)
+      for (int k = run.first; k < run.last; ++k) {
+        const SectionPoint a = section.break_at(k), b = section.break_at(k + 1);
+        const double reach = std::max(std::abs(a.ds), std::abs(b.ds));  // of a cubic beyond its ends
+        cell.push_back(k);
+        low.push_back(std::min(a.s, b.s) - reach);
+        high.push_back(std::max(a.s, b.s) + reach);
+      }
+    rising = std::ranges::is_sorted(low) && std::ranges::is_sorted(high);
+    falling =
+        !rising && std::ranges::is_sorted(low, std::greater<>()) && std::ranges::is_sorted(high, std::greater<>());
+  }
+};
+
 template <class Geometry>
-void raster_cells(const SliceSection<Geometry>& section, const std::vector<CellRun>& runs, const Samples& samples,
+void raster_cells(const SliceSection<Geometry>& section, const CellReaches& reaches, const Samples& samples,
                   ColumnHits& hits) {
   SectionRaster<SliceSection<Geometry>, ColumnHits> raster(section, samples, hits, hits.queue);
-  for (const CellRun& run : runs)
-    for (int k = run.first; k < run.last; ++k)
-      raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+  const double slack = kEdgeSlack * samples.step, first = samples.first - slack, last = samples.last() + slack;
+  const auto [begin, end] = reaches.over(first, last);
+  for (std::size_t i = begin; i < end; ++i) {
+    if (!(reaches.high[i] >= first && reaches.low[i] <= last)) continue;
+    const int k = reaches.cell[i];
+    raster.cell(k, k + 1.0, section.break_at(k), k + 2.0, section.break_at(k + 1));
+  }
   raster.finish();
 }
 
@@ -125,15 +163,17 @@ void for_hits(const SliceNet& net, const SliceHulls& hulls, const Geometry& geom
   };
   for_listed_points(points_P, along_y, [&](std::span<const ListedPoint> points) {
     ColumnHits hits(1, kIsWheel<Geometry> ? Facing::down : Facing::up);
+    CellReaches reaches;
     SliceSection<Geometry> section(net, hulls, geometry, across, along, normal, X_SP.origin, workspace().section);
     const auto do_batch = [&](std::span<const ListedPoint> batch, const std::vector<CellRun>& runs) {
       section.restart();
       for_lines(batch, [&](ListedLine line) {
         section.start_cut(line.front().across);
         for (const CellRun& run : runs) section.cut(run.first, run.last);
+        reaches.find(section, runs);
         for (const ListedPoint& p : line) {
           hits.clear();
-          raster_cells(section, runs, one_sample(p.along), hits);
+          raster_cells(section, reaches, one_sample(p.along), hits);
           use(p, section, hits);
         }
       });

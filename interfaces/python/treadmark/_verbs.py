@@ -8,6 +8,7 @@ import dataclasses
 import difflib
 import html
 import json
+import math
 import pathlib
 from typing import TYPE_CHECKING, Any, Callable, Iterable, NamedTuple, Optional, Sequence
 
@@ -422,11 +423,52 @@ def simulate(source: Input, *, set: Changes = None, folder: Path | None = None, 
     return _simulation_of(_treadmark.simulate(_source(source, set, folder), modes_only, progress, threads))
 
 
-class Track(_Text):
-    """How a track gives way under a wheel."""
+def _table(text: str) -> "pandas.DataFrame":
+    """A table of numbers and words in CSV. Needs pandas."""
 
-    def __init__(self, held: _treadmark.Track) -> None:
+    def value(cell: str) -> Any:
+        try:
+            return float(cell)
+        except ValueError:
+            return cell or math.nan
+
+    return frame([{name: value(cell) for name, cell in row.items()} for row in csv.DictReader(text.splitlines())])
+
+
+class _Found(_Text):
+    """The same as a table and with a folder."""
+
+    def __init__(self, held: Any) -> None:
         self._held = held
+
+    def to_pandas(self) -> "pandas.DataFrame":
+        """The rows of the program's table in CSV, with its names and units. Needs pandas."""
+        return _table(self._held.csv())
+
+    def summary(self) -> str:
+        """For people."""
+        text: str = self._held.summary()
+        return text
+
+    def write(self, folder: Path) -> None:
+        """Writes the folder that the program writes with -o."""
+        self._held.write_folder(pathlib.Path(folder))
+
+
+class _Drawn(_Found):
+    """The same with a picture."""
+
+    def svg(self) -> str:
+        """As a picture."""
+        text: str = self._held.svg()
+        return text
+
+    def _repr_html_(self) -> str:
+        return self.svg()
+
+
+class Track(_Drawn):
+    """How a track gives way under a wheel: a row a frequency. With a fitted track ``write`` adds fitted.toml."""
 
     @property
     def frequencies(self) -> npt.NDArray[np.float64]:
@@ -440,32 +482,47 @@ class Track(_Text):
         return {name: np.array(curve["m_per_N"]) * np.exp(1j * np.radians(np.array(curve["phase_deg"])))
                 for name, curve in self.document["curves"].items()}
 
-    def to_pandas(self) -> "pandas.DataFrame":
-        """A row a frequency, with names and units of receptance.csv. Needs pandas."""
-        rows = list(csv.DictReader(self._held.csv().splitlines()))
-        return frame([{name: float(value) for name, value in row.items()} for row in rows])
-
-    def summary(self) -> str:
-        """For people."""
-        text: str = self._held.summary()
-        return text
-
-    def svg(self) -> str:
-        """Receptance and phase as a picture."""
-        text: str = self._held.svg()
-        return text
-
-    def write(self, folder: Path) -> None:
-        """Writes the folder that the program writes with -o; with a fitted track, fitted.toml."""
-        self._held.write_folder(pathlib.Path(folder))
-
-    def _repr_html_(self) -> str:
-        return self.svg()
-
 
 def track(file: Path, *, set: Changes = None, from_Hz: float = 10.0, to_Hz: float = 1500.0, count: int = 200, fit: int = 0) -> Track:
     """How the track of a file gives way, as ``treadmark track`` does; fit: layers of a lumped track that is fitted to it, 0 = none."""
     return Track(_treadmark.track(pathlib.Path(file), assignments(set), (from_Hz, to_Hz), count, fit))
+
+
+class Stability(_Drawn):
+    """Eigenvalues of a vehicle by its speed: a row a speed and mode."""
+
+    @property
+    def verdict(self) -> str:
+        """"stable" or "unstable" at all speeds, "critical": a critical speed is between them, or "unknown"."""
+        return str(self.document["verdict"])
+
+    @property
+    def critical_speed(self) -> float:
+        """[m/s]; NaN where none was found."""
+        return float(self.document.get("critical_speed_m_s", math.nan))
+
+
+def stability(file: Path, *, set: Changes = None, from_m_s: float = 10.0, to_m_s: float = 100.0, count: int = 46, tolerance: float = 0.01,
+              shown_Hz: float = 20.0, threads: int = 0) -> Stability:
+    """Eigenvalues of the vehicle of a simulation file by its speed, as ``treadmark stability`` does; tolerance: of the critical speed
+    [m/s]; shown_Hz: highest frequency in the picture."""
+    return Stability(_treadmark.stability(pathlib.Path(file), assignments(set), (from_m_s, to_m_s), count, tolerance, shown_Hz, threads))
+
+
+class Assessment(_Found):
+    """Runs against limits: a row a run, section, place and quantity."""
+
+
+def assess(results: Path | Sequence[Path], *, vehicle: str = "passenger", begin: float = 0.0,
+           sections: Sequence[tuple[Any, ...]] = (), spectra: Sequence[str] = (), channels: Sequence[str] = ()) -> Assessment:
+    """Reads out of folders of simulations, or their simulation.h5, what ``treadmark assess`` does.
+
+    sections: (name, from, to) or (name, from, to, kind) with places in m, kind "straight", "curve" or "transition"; begin [m]: where the
+    assessment begins without them; spectra: channels whose spectra are wanted; channels: those that ``write`` draws over the distance.
+    """
+    files = [results] if isinstance(results, (str, pathlib.PurePath)) else list(results)
+    parts = [(*section, "straight")[:4] for section in sections]
+    return Assessment(_treadmark.assess([str(file) for file in files], vehicle, begin, parts, list(spectra), list(channels)))
 
 
 class SweepRun(NamedTuple):

@@ -160,6 +160,14 @@ int good_fft_size(int n) {
   return 5 * power <= 6 * size ? power : size;
 }
 
+int roomy_columns(int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; }
+
+int roomy_rows(int n) {
+  // Padded as far as fast_columns does, a row more costs one transform along it.
+  constexpr int kStep = 4, kFewest = 9, kMost = 64;
+  return n < kFewest || n > kMost ? roomy_columns(n) : (n + kStep - 1) / kStep * kStep;
+}
+
 int fast_columns(int ny) {
   constexpr int kSmallest = 32, kLargest = 128;
   const int power = static_cast<int>(std::bit_ceil(static_cast<unsigned>(ny)));

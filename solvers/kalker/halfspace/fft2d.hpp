@@ -63,6 +63,11 @@ int good_fft_size(int n);
 /// of FFTW each, several times faster than the lengths between them. Rows that are not active cost nothing else.
 int fast_columns(int ny);
 
+/// Columns and rows >= n of a box whose convolutions use most of the padded length, and of which there are few, so that
+/// plans and coefficients of boxes of nearly the same size are met again.
+int roomy_columns(int n);
+int roomy_rows(int n);
+
 /// "FFTW" or "KISS FFT": the library that was compiled in.
 const char* fft_library();
 

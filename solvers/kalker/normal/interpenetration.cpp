@@ -17,11 +17,25 @@ Interpenetration::Interpenetration(const Grid2& grid, std::span<const double> ga
   }
 }
 
+namespace {
+
+/// A product that is asked for once costs less than its coefficients: of these sizes there are few.
+int size_for_once(int n) {
+  constexpr int kSmallest = 8, kLargest = 128;
+  if (n == 1) return n;
+  if (n > kLargest) return roomy_columns(n);
+  int size = kSmallest;
+  while (size < n) size = size % 3 == 0 ? size / 3 * 4 : size / 2 * 3;  // 8, 12, 16, 24, ...
+  return size;
+}
+
+}  // namespace
+
 void half_space_displacement(NormalOperatorCache& operators, const ContactProblem& problem, const ElementBox& box,
                              std::span<const double> pressure, std::span<double> displacement) {
   const Grid2& grid = problem.grid;
   // Beyond the box, possibly beyond the grid, there are no pressures; the size is one that transforms like.
-  const int nx = NormalOperatorCache::rounded_up(box.nx()), ny = NormalOperatorCache::rounded_up(box.ny());
+  const int nx = size_for_once(box.nx()), ny = size_for_once(box.ny());
   AlignedVector<double> field(static_cast<std::size_t>(nx) * static_cast<std::size_t>(ny));
   const auto local = [&](int ix, int iy) {
     return static_cast<std::size_t>(ix - box.x0) + static_cast<std::size_t>(nx) * static_cast<std::size_t>(iy - box.y0);

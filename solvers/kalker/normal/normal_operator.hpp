@@ -47,9 +47,6 @@ class NormalOperator {
 /// Operators of the boxes met so far for one element size and material; starts anew when these change.
 class NormalOperatorCache {
  public:
-  /// Sizes of boxes are rounded up to few values, so that operators are met again.
-  static int rounded_up(int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; }
-
   /// For a box of elements of the problem, from row `first_row` of its grid on: its coefficients of influence, bodies
   /// and thin sheet.
   NormalOperator get(int nx, int ny, int first_row, const ContactProblem& problem);

@@ -5,6 +5,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <string>
 
 #include "treadmark/core/byte_archive.hpp"
@@ -71,18 +72,18 @@ ElementBox bounding_box(const Grid2& grid, const Condition& condition) {
 }
 
 /// One direction of a box: with margins, then grown to a size that transforms like, and moved into 0 .. limit.
-void round_interval(int& begin, int& end, int limit) {
+void round_interval(int& begin, int& end, int limit, int (*roomy)(int)) {
   begin = std::max(0, begin - kMargin);
   end = std::min(limit, end + kMargin);
-  const int size = std::min(limit, NormalOperatorCache::rounded_up(end - begin));
+  const int size = std::min(limit, roomy(end - begin));
   begin = std::max(0, begin - (size - (end - begin)) / 2);
   end = std::min(limit, begin + size);
   begin = end - size;
 }
 
 ElementBox rounded(ElementBox box, const Grid2& grid) {
-  round_interval(box.x0, box.x1, grid.nx);
-  round_interval(box.y0, box.y1, grid.ny);
+  round_interval(box.x0, box.x1, grid.nx, roomy_columns);
+  round_interval(box.y0, box.y1, grid.ny, roomy_rows);
   return box;
 }
 
@@ -104,7 +105,33 @@ void paste(const Grid2& grid, std::span<double> field, const ElementBox& box, co
 
 }  // namespace
 
+/// The last problem that was solved without start values. Cases that differ in creepage alone ask for it again.
+struct LastCold {
+  ContactProblem problem;
+  std::vector<double> gap;  ///< what problem.gap showed
+  ContactSolution solution;
+
+  bool answers(const ContactProblem& p) const {
+    const auto load = [](const ContactProblem& q) { return q.force_prescribed ? q.normal_force : q.approach; };
+    const ContactProblem& q = problem;
+    return !gap.empty() && p.grid == q.grid && p.force_prescribed == q.force_prescribed && load(p) == load(q) &&
+           p.material == q.material && p.influence == q.influence && p.settings == q.settings && p.regime == q.regime &&
+           p.rolling == q.rolling && p.hertz == q.hertz && p.gap.size() == gap.size() &&
+           std::memcmp(p.gap.data(), gap.data(), p.gap.size_bytes()) == 0;  // bits: NaN means something
+  }
+  void keep(const ContactProblem& p, const ContactSolution& found) {
+    constexpr std::size_t kLargest = 65536;  // elements; more are not copied for a mere chance
+    gap.clear();
+    if (p.gap.size() > kLargest || found.status != Status::ok) return;
+    problem = p;
+    problem.gap = problem.extra_slip_x = problem.extra_slip_y = {};
+    gap.assign(p.gap.begin(), p.gap.end());
+    solution = found;
+  }
+};
+
 struct NormalSolver::Workspace {
+  LastCold last_cold;
   NormalOperatorCache operators;
   BoundConstrainedCg cg;
   std::vector<double> gap;  ///< without NaN
@@ -114,6 +141,7 @@ struct NormalSolver::Workspace {
   /// Pressures of the last problem on another grid; false if there are none or the grids do not line up.
   bool take_last(const Grid2& grid, std::vector<double>& pressure) const;
   void solve_full(const ContactProblem& problem, const CombinedMaterial& material, ContactSolution& solution);
+  void solve_full_or_recall(const ContactProblem& problem, ContactSolution& solution);
   void first_pressure(const ContactProblem& problem, const CombinedMaterial& material,
                       std::vector<double>& pressure) const;
 };
@@ -229,10 +257,8 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
     }
     whole.include(box);
     whole = rounded(whole, grid);
-    AlignedVector<double> whole_u(whole.size());
-    op(whole).displacement(cut(grid, pressure, whole), whole_u);
+    half_space_displacement(operators, problem, whole, pressure, solution.displacement_n);
     ++cg.products;
-    paste(grid, solution.displacement_n, whole, whole_u);
     const double limit = cg.approach - cg.negligible_overlap(problem.settings.eps);
     ElementBox overlapping;
     for (int iy = whole.y0; iy < whole.y1; ++iy)
@@ -258,6 +284,18 @@ void NormalSolver::Workspace::solve_full(const ContactProblem& problem, const Co
   }
   last_grid = grid;
   last_pressure = pressure;
+}
+
+void NormalSolver::Workspace::solve_full_or_recall(const ContactProblem& problem, ContactSolution& solution) {
+  const bool cold = last_pressure.empty();
+  if (cold && last_cold.answers(problem)) {
+    solution = last_cold.solution;
+    last_grid = problem.grid;
+    last_pressure = solution.pressure;
+    return;
+  }
+  solve_full(problem, combine(problem.material), solution);
+  if (cold) last_cold.keep(problem, solution);
 }
 
 NormalSolver::NormalSolver() : workspace_(std::make_unique<Workspace>()) {}
@@ -297,7 +335,7 @@ void NormalSolver::solve(const ContactProblem& problem, ContactSolution& solutio
   solution.displacement_n.assign(n, 0.0);
   solution.state.assign(n, ElementState::exterior);
   if (problem.normal_model == NormalModel::full)
-    workspace_->solve_full(problem, combine(problem.material), solution);
+    workspace_->solve_full_or_recall(problem, solution);
   else if (problem.normal_model == NormalModel::kpec || problem.normal_model == NormalModel::analyn)
     solve_virtual_penetration(problem, workspace_->operators, solution);
   else

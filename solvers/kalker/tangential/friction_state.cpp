@@ -21,6 +21,8 @@ void limit_to_bound(std::span<double> traction, std::span<const double> bound) {
   const std::size_t n = bound.size();
   for_blocks(n, [&](std::size_t begin, std::size_t end) {
     for (std::size_t i = begin; i < end; ++i) {
+      const double square = traction[i] * traction[i] + traction[n + i] * traction[n + i];
+      if (square <= bound[i] * bound[i] && !std::isinf(square)) continue;
       const double size = std::hypot(traction[i], traction[n + i]);
       if (size <= bound[i]) continue;
       const double factor = bound[i] / size;

@@ -10,14 +10,6 @@
 
 namespace treadmark::kalker {
 
-namespace {
-
-/// Next size whose transforms use all of their length, so that contact areas of nearly the same size share
-/// coefficients.
-int roomy(int n) { return good_fft_size(2 * n - 1) / 2; }
-
-}  // namespace
-
 Patch make_patch(const Grid2& grid, Transport transport, const std::vector<ElementState>& state) {
   Patch patch;
   patch.grid = grid;
@@ -34,8 +26,8 @@ Patch make_patch(const Grid2& grid, Transport transport, const std::vector<Eleme
   if (x_high < 0) return patch;
   patch.box_x = x_low;
   patch.box_y = y_low;
-  patch.box_nx = roomy(x_high - x_low + 2);
-  patch.box_ny = y_high == y_low ? 1 : roomy(y_high - y_low + 1);
+  patch.box_nx = roomy_columns(x_high - x_low + 2);
+  patch.box_ny = y_high == y_low ? 1 : roomy_rows(y_high - y_low + 1);
   const int step = transport == Transport::backward ? 1 : -1;
   for (int iy = y_low; iy <= y_high; ++iy) {
     bool connected = false;

@@ -38,8 +38,7 @@ Box box_around(const Patch& patch, std::span<const double> pressure, std::span<c
         if (field[grid.index(ix, iy)] != 0.0) include(ix, iy);
   for (int i = 0; i < patch.size(); ++i)
     include(patch.column[static_cast<std::size_t>(i)], patch.row[static_cast<std::size_t>(i)]);
-  const auto roomy = [](int n) { return n <= 1 ? 1 : good_fft_size(2 * n - 1) / 2; };
-  Box out{x0, y0, roomy(x1 - x0 + 1), roomy(y1 - y0 + 1)};
+  Box out{x0, y0, roomy_columns(x1 - x0 + 1), roomy_rows(y1 - y0 + 1)};
   out.nx = std::max(out.nx, x1 - x0 + 1);
   out.ny = std::max(out.ny, y1 - y0 + 1);
   return out;

@@ -120,8 +120,8 @@ TEST_F(ComparePage, ShowsWhatTheFilesOfAComparisonHold) {
       EXPECT_EQ(rows.rows[line].step, number - 1);
       EXPECT_EQ(numbers_in(rows, "p_max")[line], row["pmax_MPa"].get<double>());
       EXPECT_NEAR(1e6 * numbers_in(rows, "memory")[line], row["memory_bytes"].get<double>(), 1e-3);
-      EXPECT_EQ(numbers_in(rows, "F_n")[line], row["fn_N"].get<double>());
-      EXPECT_EQ(numbers_in(rows, "search")[line], row["search_s"].get<double>());
+      EXPECT_NEAR(1e3 * numbers_in(rows, "F_n")[line], row["fn_N"].get<double>(), 1e-6);
+      EXPECT_NEAR(1e-3 * numbers_in(rows, "search")[line], row["search_s"].get<double>(), 1e-9);
       EXPECT_EQ(texts_in(rows, "status")[line], row["status"].get<std::string>());
       if (row.contains("force_error_percent")) {
         EXPECT_EQ(numbers_in(rows, "error of force")[line], row["force_error_percent"].get<double>());
@@ -163,6 +163,7 @@ TEST_F(ComparePage, ErrorsOfRepresentationsAreThoseOfTheRows) {
   EXPECT_NEAR(numbers_in(candidates, "build")[1], 0.75, 1e-9);
   EXPECT_NEAR(numbers_in(candidates, "memory")[1], 1.5, 1e-9);
   EXPECT_EQ(card_of(page, "Least error of pressure"), "2 % | mesh 0.5 mm");
+  EXPECT_EQ(card_of(page, "Greatest error of pressure"), "8 % | mesh 1 mm");
   EXPECT_EQ(card_of(page, "Cases"), "2 | ");
 
   const auto& chart = std::get<ChartView>(figure_of(page, "accuracy-chart").view);
@@ -225,7 +226,7 @@ TEST_F(ComparePage, HasThePictureWhereFieldsAreMissing) {
   EXPECT_TRUE(has_figure(page, "pressures"));
   EXPECT_FALSE(has_figure(page, "contact-view"));
   EXPECT_THAT(banners_of(page), AllOf(HasSubstr("fields.h5 (contact fields)"), Not(HasSubstr("pressures.svg"))));
-  EXPECT_THAT(section_ids(page), ElementsAre("overview", "accuracy", "contact", "tables"));
+  EXPECT_THAT(section_ids(page), ElementsAre("overview", "accuracy", "contact", "tables", "origin"));
 }
 
 TEST_F(ComparePage, RefusesFilesThatDoNotFit) {

@@ -124,6 +124,9 @@ TEST(Html, NumbersAsPeopleReadThem) {
   EXPECT_EQ(shown({1234.5678}), "1235");
   EXPECT_EQ(shown({0.00123456}), "0.001235");
   EXPECT_EQ(shown({-99.994}), "-99.99");
+  EXPECT_EQ(shown({99.9996}), "100.0");
+  EXPECT_EQ(shown({0.99996}), "1.000");
+  EXPECT_EQ(shown({-1.24e-14}), "0");
   EXPECT_EQ(shown({12}), "12");
   EXPECT_EQ(shown({1.5e9}), "1.500e+09");
   EXPECT_EQ(shown({0.0}), "0");

@@ -56,7 +56,7 @@ TEST_F(StoppedStudy, SaysWhatIsMissingAndShowsTheRest) {
   EXPECT_THAT(banners, HasSubstr("failed: 1 run did not complete."));
   EXPECT_THAT(banners, HasSubstr("<b>no balance</b>"));
   EXPECT_EQ(table_of(page, "runs").rows.size(), 4u);
-  EXPECT_THAT(numbers_in(table_of(page, "runs"), "q_max_N"), ::testing::ElementsAre(10.0, 20.0, 30.0, 40.0));
+  EXPECT_THAT(numbers_in(table_of(page, "runs"), "q_max"), ::testing::ElementsAre(10.0, 20.0, 30.0, 40.0));
   EXPECT_THAT(texts_in(table_of(page, "runs"), "cant"), ::testing::ElementsAre("none", "1:40", "none", "1:40"));
   EXPECT_THAT(card_of(page, "Runs"), HasSubstr("4 of 6"));
 }

@@ -46,6 +46,18 @@ TEST_F(BadSimulation, NegativeMass) {
   expect_refused({"vehicle\\.toml:6:[0-9]+", "mass_kg"});
 }
 
+TEST_F(BadSimulation, RailsThatAreNotThereToBeShared) {
+  expect_refused({"simulation\\.shared_rails = true", "lumped", "flexible"}, {"--set", "simulation.shared_rails=true"});
+  input.edit("simulation.toml", "track = \"track.toml\"\n", "shared_rails = true\n");
+  expect_refused({"simulation\\.toml:5:[0-9]+", "there is no track that gives way"});
+}
+
+TEST_F(BadSimulation, WheelsTooCloseForTheElementsOfTheirRail) {
+  input.share_rails();
+  input.edit("vehicle.toml", "[-0.9, 0, -0.46]]", "[0.89, 0, -0.46]]");
+  expect_refused({"0\\.01 m apart", "bay_elements"});
+}
+
 TEST_F(BadSimulation, ShapeThatCannotBeRead) {
   input.write("bad.prr", "0 0\n1 what\n");
   const std::vector<std::string> options{"--set", "rail.shape.file=" + input.path("bad.prr")};

@@ -79,6 +79,11 @@ TEST_F(Resume, RailsThatBendGoOnInTheMiddle) {
   expect_kills_to_change_nothing();
 }
 
+TEST_F(Resume, WheelsThatShareRailsGoOnInTheMiddle) {
+  input.share_rails();
+  expect_kills_to_change_nothing();
+}
+
 TEST_F(Resume, PeaksBetweenTheLinesOutliveKills) {
   input.edit("simulation.toml", "distance_m = 0.15", "distance_m = 0.15\noutput_every_mm = 60");
   expect_kills_to_change_nothing();

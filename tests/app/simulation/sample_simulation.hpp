@@ -13,6 +13,9 @@ class SampleSimulation : public SampleInput {
  public:
   SampleSimulation();
 
+  /// Two wheelsets instead of one, on rails that bend below both and have a joint.
+  void share_rails();
+
   std::string path(const std::string& file) const { return (folder() / file).string(); }
 };
 

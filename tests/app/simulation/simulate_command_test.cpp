@@ -199,6 +199,14 @@ TEST_F(Simulate, AnyNumberOfThreadsGivesTheSameBytes) {
     EXPECT_TRUE(input.read(std::string("one/") + file) == input.read(std::string("three/") + file)) << file;
 }
 
+TEST_F(Simulate, AnyNumberOfThreadsGivesTheSameBytesOnSharedRails) {
+  input.share_rails();
+  ASSERT_EQ(run({"-o", input.path("one"), "--threads", "1"}).status, 0);
+  ASSERT_EQ(run({"-o", input.path("two"), "--threads", "2"}).status, 0);
+  for (const char* file : {"simulation.h5", "history.csv"})
+    EXPECT_TRUE(input.read(std::string("one/") + file) == input.read(std::string("two/") + file)) << file;
+}
+
 TEST_F(Simulate, AFailureOnTheWayKeepsWhatThereIs) {
   // Half a picometre of local error cannot be met with steps that may not become shorter than a microsecond.
   const ProgramResult r = run({"-o", out(), "--set", "simulation.tolerance_um=1e-9", "--set",

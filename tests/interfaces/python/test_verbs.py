@@ -1,6 +1,6 @@
 # SPDX-License-Identifier: Apache-2.0
 # SPDX-FileCopyrightText: Treadmark contributors
-"""compare, bench, import, simulate and sweep, against the program and the files that it writes."""
+"""compare, bench, import, simulate, assess, stability and sweep, against the program and the files that it writes."""
 import csv
 import json
 
@@ -82,6 +82,41 @@ def test_track(tmp_path, examples):
     assert found.svg().startswith("<svg") and "kg on" in found.summary()
     with pytest.raises(tm.InputError, match="Hz|frequenc"):
         tm.track(examples / "tracks" / "zhai-equivalent.toml", from_Hz=100.0, to_Hz=10.0)
+
+
+@needs("vehicle")
+def test_stability(tmp_path, examples, program):
+    file, wheels = examples / "flat-at-speed.toml", {"simulation.wheels": []}
+    found = tm.stability(file, set=wheels, from_m_s=60.0, to_m_s=90.0, count=3)
+    told = json.loads(program("stability", file, "--set", "simulation.wheels=[]", "--from", "60", "--to", "90", "--count", "3", "--json", "-"))
+    assert found.document == told and found.verdict == "critical" and 60.0 < found.critical_speed < 90.0
+    pandas = pytest.importorskip("pandas")
+    table = found.to_pandas()
+    assert isinstance(table, pandas.DataFrame) and (table["real_1_per_s"][table["speed_m_s"] == 60.0] < 0.0).all()
+    assert (table["real_1_per_s"][table["speed_m_s"] == 90.0] > 0.0).any()
+    found.write(tmp_path)
+    assert json.loads((tmp_path / "stability.json").read_text()) == told and found.svg().startswith("<svg") and "m/s" in found.summary()
+    with pytest.raises(tm.InputError):
+        tm.stability(file, set=wheels, from_m_s=90.0, to_m_s=60.0)
+
+
+@needs("vehicle", "hdf5")
+def test_assessment(tmp_path, examples, program):
+    tm.simulate(examples / "flat-at-speed.toml", set={"simulation.wheels": [], "simulation.distance_m": 3.0}).write(tmp_path / "run")
+    found = tm.assess(tmp_path / "run", sections=[("first", 0.0, 1.0), ("rest", 1.0, 3.0, "curve")], spectra=["ws1_left.Q_N"])
+    told = json.loads(program("assess", tmp_path / "run", "--section", "first:0:1", "--section", "rest:1:3:curve", "--spectra", "ws1_left.Q_N",
+                              "--json", "-"))
+    assert found.document == told and "rest" in found.summary()
+    pandas = pytest.importorskip("pandas")
+    table = found.to_pandas()
+    assert isinstance(table, pandas.DataFrame) and set(table["section"]) == {"first", "rest"}
+    found.write(tmp_path / "assessed")
+    assert json.loads((tmp_path / "assessed" / "assessment.json").read_text())
+    for wrong in ({"vehicle": "bicycle"}, {"sections": [("a", 0.0, 1.0, "bridge")]}, {"channels": ["ws1_left.Q_M"]}):
+        with pytest.raises(tm.InputError):
+            tm.assess([tmp_path / "run"], **wrong)
+    with pytest.raises(tm.InputError):
+        tm.assess(tmp_path)
 
 
 @needs("vehicle", "hdf5")

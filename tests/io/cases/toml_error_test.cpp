@@ -63,9 +63,9 @@ INSTANTIATE_TEST_SUITE_P(
         Wrong{kRail + "discretisation.reference_search_mesh = 1\n", "must be true or false"},
         Wrong{kRail + "case.side = 1\n", "must be one word"},
         Wrong{kRail + "case.side = \"middle\"\n", "case.side = \"middle\" is not one of \"left\", \"right\""},
-        Wrong{kRail + "track.cant = \"40\"\n", "does not look like"},
+        Wrong{kRail + "track.cant = \"40\"\n", "does not look like \"1:40\""},
         Wrong{kRail + "track.cant = \"1:0\"\n", "between 1:1 and flat"},
-        Wrong{kRail + "wheel.backend = \"Bad Name\"\n", "does not look like"},
+        Wrong{kRail + "wheel.backend = \"Bad Name\"\n", "does not look like \"mesh-flat\": small letters"},
         Wrong{kRail + "wheel.flats = 3\n", "must be a list of tables"},
         Wrong{kRail + "wheel.flats = [3]\n", "found an integer in it"}, Wrong{kRail + "y_mm = [1\n", "not valid TOML"},
         Wrong{kHertz + "gap.coefficients_si = [1, \"a\"]\n", "found text in it"}));

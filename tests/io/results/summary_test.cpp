@@ -5,7 +5,11 @@
 #include <gmock/gmock.h>
 #include <gtest/gtest.h>
 
+#include <algorithm>
+#include <cmath>
 #include <sstream>
+#include <string>
+#include <vector>
 
 #include "treadmark/tests/io/results/sample_run.hpp"
 
@@ -39,6 +43,37 @@ TEST(Summary, ARoundedZeroHasNoSign) {
   run.cases[0].patches[0].x_tr = -1e-12;
   run.cases[0].y = -0.0;
   EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("-0.0000 ")));
+  run.cases[0].patches.at(0).eta = -8.81e-19;  // rounding
+  EXPECT_THAT(io::summary(run.cases[0]), Not(HasSubstr("e-19")));
+}
+
+TEST(Summary, ManyCasesHaveALineEach) {
+  const io::RunResult run = testing::sample_run();
+  std::istringstream lines(io::summary_list(run.cases));
+  std::vector<std::string> text;
+  for (std::string line; std::getline(lines, line);) text.push_back(line);
+  ASSERT_GT(text.size(), run.cases.size());
+  EXPECT_THAT(text[0], HasSubstr("pmax [MPa]"));
+  for (std::size_t i = 0; i < run.cases.size(); ++i) {
+    const io::CaseResult& c = run.cases[i];
+    std::istringstream cells(text[i + 1]);
+    int number = 0;
+    std::string status;
+    cells >> number >> status;
+    EXPECT_EQ(number, c.number);
+    EXPECT_EQ(status, to_string(c.status));
+    if (c.patches.empty() || !c.has_wheelset || std::isnan(c.z)) continue;
+    double y = 0, z = 0, pitch = 0, patches = 0, fx = 0, fy = 0, fz = 0, pmax = 0, most = 0;
+    cells >> y >> z >> pitch >> patches >> fx >> fy >> fz >> pmax;
+    for (const io::PatchResult& p : c.patches) most = std::max(most, p.pmax);
+    EXPECT_NEAR(y, 1e3 * c.y, 1e-4) << text[i + 1];
+    EXPECT_EQ(patches, static_cast<double>(c.patches.size())) << text[i + 1];
+    EXPECT_NEAR(fz, c.force_tr.z(), 1e-4 * std::abs(c.force_tr.z()));
+    EXPECT_NEAR(pmax, 1e-6 * most, 1e-10 * most);
+  }
+  std::size_t said = 0;
+  for (const io::CaseResult& c : run.cases) said += c.remarks.size() + (c.message.empty() ? 0 : 1);
+  EXPECT_EQ(text.size(), 1 + run.cases.size() + said);
 }
 
 TEST(Summary, ColumnsAreAligned) {

@@ -139,6 +139,29 @@ TEST(FlexibleTrackFile, RefusesWhatMakesNoSense) {
   EXPECT_THAT(refused("kind = \"flexible\"", "kind = \"bending\""), HasSubstr("track.kind"));
 }
 
+TEST(FlexibleTrackFile, ReadsJoints) {
+  const std::string joints = kFlexible +
+                             "[[joints]]\nplace_m = 5.3\nhinge_stiffness_N_m_per_rad = 2e6\ndip_mm = 3\n[[joints]]\n"
+                             "place_m = 0\nhinge_stiffness_N_m_per_rad = 0\ndip_length_mm = 800\n";
+  const FlexibleTrack track = flexible(joints, {"joints.0.place_m=5.4"});
+  ASSERT_EQ(track.joints.size(), 2u);
+  EXPECT_EQ(track.joints[0].x, 5.4);
+  EXPECT_EQ(track.joints[0].hinge_stiffness, 2e6);
+  EXPECT_DOUBLE_EQ(track.joints[0].dip_depth, 3e-3);
+  EXPECT_EQ(track.joints[0].dip_length, 1.0);
+  EXPECT_DOUBLE_EQ(track.joints[1].dip_length, 0.8);
+  const auto refused_with = [&](const std::string& part, const std::string& other) {
+    return samples::error_of([&] { flexible(samples::with(joints, part, other)); });
+  };
+  EXPECT_THAT(refused_with("place_m = 5.3", "place_m = 25"),
+              AllOf(HasSubstr("joints.place_m = 25"), HasSubstr("10.5 m from the first"), HasSubstr("seats.count")));
+  EXPECT_THAT(refused_with("place_m = 5.3", "place_m = 0.5"),
+              AllOf(HasSubstr("another joint lies 0.5 m"), HasSubstr("f.toml")));
+  EXPECT_THAT(refused_with("= 2e6", "= -1"), HasSubstr("hinge_stiffness_N_m_per_rad"));
+  EXPECT_THAT(refused_with("dip_mm = 3", "dip_mm = -3"), HasSubstr("dip_mm"));
+  EXPECT_THAT(refused_with("hinge_stiffness_N_m_per_rad = 2e6\n", ""), HasSubstr("hinge_stiffness_N_m_per_rad"));
+}
+
 TEST(FlexibleTrackFile, KindsAreNotMixed) {
   EXPECT_THAT(refused("kind = \"flexible\"\n", ""), HasSubstr("rail belongs to tracks whose kind is \"flexible\""));
   EXPECT_THAT(refused("source = \"made up\"", "rails = [\"a\", \"b\"]"),

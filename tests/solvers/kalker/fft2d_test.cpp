@@ -2,9 +2,11 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #include <gtest/gtest.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 #include <random>
+#include <set>
 #include <thread>
 #include <vector>
 
@@ -102,6 +104,22 @@ TEST(Fft2d, GoodSizesAreSevenSmoothOrNearbyPowersOfTwo) {
   EXPECT_EQ(good_fft_size(105), 128) << "108 is smooth, but 128 is faster";
   EXPECT_EQ(good_fft_size(129), 140);
   EXPECT_EQ(good_fft_size(163), 168);
+}
+
+TEST(Fft2d, RoomySizesAreFewAndHardlyLarger) {
+  EXPECT_EQ(roomy_columns(1), 1);
+  EXPECT_EQ(roomy_rows(1), 1);
+  for (const auto roomy : {roomy_columns, roomy_rows}) {
+    std::set<int> sizes;
+    for (int n = 2; n <= 200; ++n) {
+      const int size = roomy(n);
+      EXPECT_GE(size, n);
+      EXPECT_LE(size, n + std::max(3, n / 3)) << n;
+      EXPECT_EQ(roomy(size), size) << "a box that has grown stays";
+      sizes.insert(size);
+    }
+    EXPECT_LT(sizes.size(), 60u);
+  }
 }
 
 TEST(Fft2d, RejectsOddSizesAndWrongArrays) {

@@ -231,6 +231,34 @@ TEST(NormalSolver, WarmStartGivesTheSameResult) {
   EXPECT_EQ(again.pressure, cold.pressure) << "after reset nothing of the history is left";
 }
 
+TEST(NormalSolver, RecallsTheLastProblemFromRestAndNoOther) {
+  const HertzShape shape = hertz_from_semi_axes(6e-3, 4e-3, {true, 1e5}, kSteel);
+  const OwnedProblem first = hertzian(shape, hertz_grid(shape, 40, 40, 1.2));
+  NormalSolver solver;
+  const auto from_rest = [&](const ContactProblem& problem) {
+    ContactSolution solution;
+    solver.reset();
+    solver.solve(problem, solution);
+    return solution;
+  };
+  const ContactSolution before = from_rest(first.problem);
+  EXPECT_EQ(from_rest(first.problem).pressure, before.pressure);
+  // Whatever differs by a little is another problem, whose answer a solver without a past gives too.
+  const auto expect_solved = [&](const char* what, auto&& change) {
+    OwnedProblem other = hertzian(shape, first.problem.grid);
+    change(other);
+    from_rest(first.problem);
+    const ContactSolution found = from_rest(other.problem);
+    EXPECT_EQ(found.pressure, solve(other.problem).pressure) << what;
+    EXPECT_NE(found.pressure, before.pressure) << what;
+  };
+  expect_solved("gap", [](OwnedProblem& p) { p.gap[p.gap.size() / 2 + 20] += 1e-6; });
+  expect_solved("force", [](OwnedProblem& p) { p.problem.normal_force *= 1.001; });
+  expect_solved("material", [](OwnedProblem& p) { p.problem.material.shear_modulus_1 *= 1.001; });
+  expect_solved("sheet", [](OwnedProblem& p) { p.problem.material.sheet_flexibility = 1e-15; });
+  expect_solved("accuracy", [](OwnedProblem& p) { p.problem.settings.eps = 1e-9; });
+}
+
 TEST(NormalSolver, WorkDoesNotDependOnThePotentialArea) {
   const HertzShape shape = hertz_from_semi_axes(5e-3, 5e-3, {true, 1e5}, kSteel);
   const Grid2 tight = hertz_grid(shape, 41, 41, 1.2);

@@ -29,9 +29,9 @@ OwnedProblem plain_patch(double enlarged = 1.2, double force = 80e3, int element
 
 std::vector<RemarkKind> judged(const ContactProblem& problem, const ContactSolution& solution) {
   std::vector<Remark> remarks;
-  judge(
-      {problem.grid, problem.material, 0.3, problem.regime == Regime::steady, problem.regime == Regime::shift, kLimit},
-      solution, 1, remarks);
+  judge({problem.grid, problem.material, problem.friction.static_friction(), problem.regime == Regime::steady,
+         problem.regime == Regime::shift, kLimit},
+        solution, 1, remarks);
   std::vector<RemarkKind> kinds;
   for (const Remark& r : remarks) {
     EXPECT_EQ(r.patch, 1);
@@ -115,6 +115,14 @@ TEST(Plausibility, LargeCreepage) {
   EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::large_creepage));
   patch.problem.creepage = {0.0, 0.0, 30.0};  // times sqrt(6 mm 4 mm)
   EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::large_creepage));
+}
+
+TEST(Plausibility, UnusualFriction) {
+  OwnedProblem patch = plain_patch();
+  patch.problem.friction.kinetic = 1.0;
+  EXPECT_THAT(judged(patch.problem), Not(Contains(RemarkKind::unusual_friction)));
+  patch.problem.friction.kinetic = 3.0;
+  EXPECT_THAT(judged(patch.problem), Contains(RemarkKind::unusual_friction));
 }
 
 TEST(Plausibility, FrictionThatAddsEnergy) {

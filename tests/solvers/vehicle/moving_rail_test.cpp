@@ -9,6 +9,8 @@
 #include <memory>
 #include <vector>
 
+#include <Eigen/Core>
+
 #include "beam_on_bed.hpp"
 #include "small_vehicles.hpp"
 #include "treadmark/core/error.hpp"
@@ -27,6 +29,36 @@ FlexibleTrack short_zhai(int seats = 60, int elements = 8) {
   track.absorption = 2000.0;
   return track;
 }
+
+/// A rail below a single force.
+class OneForce {
+ public:
+  struct Answer {
+    double free, compliance;
+  };
+  struct Moved {
+    double slope, energy, power;
+  };
+  OneForce(const FlexibleTrack& track, double speed, double start, double radius,
+           double length = MovingRail::kUsualLength)
+      : rail_(track, speed, {start}, radius, length) {}
+  double compliance_at_rest() const { return rail_.compliance_at_rest()(0, 0); }
+  double energy_at_rest(double force) const { return rail_.moved_at_rest(column(force)).energy; }
+  Answer after(double time) {
+    const MovingRail::Answer& a = rail_.after(time);
+    return {a.free[0], a.compliance(0, 0)};
+  }
+  Moved moved(double force) const {
+    const MovingRail::Moved m = rail_.moved(column(force));
+    return {rail_.slope(0, column(force)), m.energy, m.power};
+  }
+  void begin(double force) { rail_.begin(column(force)); }
+  void accept(double force) { rail_.accept(column(force)); }
+
+ private:
+  static Eigen::VectorXd column(double force) { return Eigen::VectorXd::Constant(1, force); }
+  MovingRail rail_;
+};
 
 TEST(BeamElement, SlopesAreThoseOfDeflections) {
   const BeamElement element(zhai_track().rail, 0.4);
@@ -55,14 +87,14 @@ TEST(MovingRail, CrawlingForceDeflectsAsAtRest) {
   constexpr double kForce = 55e3, kSpeed = 0.5, kStart = 0.1;
   for (const FlexibleTrack& track : {short_zhai(), uneven_zhai()}) {
     const RailOnSeats rest(track);
-    MovingRail rail(track, kSpeed, kStart, 0.8);
+    OneForce rail(track, kSpeed, kStart, 0.8);
     const double from = rest.middle() + kStart;
-    EXPECT_NEAR(rail.at_rest().compliance / rest.receptance(from, 0.0).real(), 1.0, 2e-3);  // dampers at 0.5 m/s
+    EXPECT_NEAR(rail.compliance_at_rest() / rest.receptance(from, 0.0).real(), 1.0, 2e-3);  // dampers at 0.5 m/s
     rail.begin(kForce);
     double least = 1.0, most = 0.0;
     for (int i = 1; i <= 1800; ++i) {
       const double time = 2e-3 * i;
-      const MovingRail::Answer answer = rail.after(time);
+      const OneForce::Answer answer = rail.after(time);
       const double w = answer.free + answer.compliance * kForce;
       rail.accept(kForce);
       if (i % 40 != 0) continue;
@@ -82,12 +114,12 @@ TEST(MovingRail, ContinuesTheTrack) {
   few.absorbing_bays = many.absorbing_bays = 3;
   constexpr double kSpeed = 30.0, kForce = 55e3, kBay = 0.545;
   // Both begin at the same place of an equal bay.
-  MovingRail a(few, kSpeed, 7.0 * kBay, 0.8), b(many, kSpeed, 0.0, 0.8);
-  EXPECT_NEAR(a.at_rest().compliance / b.at_rest().compliance, 1.0, 1e-9);
+  OneForce a(few, kSpeed, 7.0 * kBay, 0.8), b(many, kSpeed, 0.0, 0.8);
+  EXPECT_NEAR(a.compliance_at_rest() / b.compliance_at_rest(), 1.0, 1e-9);
   a.begin(kForce), b.begin(kForce);
   for (int i = 1; i <= 2000; ++i) {
     const double force = kForce * (1.0 + 0.5 * std::sin(0.1 * i)), time = 1e-4 * i;
-    const MovingRail::Answer x = a.after(time), y = b.after(time);
+    const OneForce::Answer x = a.after(time), y = b.after(time);
     a.accept(force), b.accept(force);
     ASSERT_NEAR((x.free + x.compliance * force) / (y.free + y.compliance * force), 1.0, 1e-7) << time;
   }
@@ -99,14 +131,14 @@ TEST(MovingRail, HarmonicForceMeetsTheReceptance) {
   const RailOnSeats rest(track);
   constexpr double kStart = 0.11;
   for (const double f : {60.0, 300.0, 900.0}) {
-    MovingRail rail(track, 1e-6, kStart, 1.0);
+    OneForce rail(track, 1e-6, kStart, 1.0);
     rail.begin(0.0);
     const double w = 2.0 * kPi * f, step = 1.0 / (200.0 * f);
     std::complex<double> found = 0.0;
     const int periods = static_cast<int>(0.15 * f);
     for (int i = 1; i <= 200 * periods; ++i) {
       const double time = i * step, force = std::cos(w * time);
-      const MovingRail::Answer answer = rail.after(time);
+      const OneForce::Answer answer = rail.after(time);
       rail.accept(force);
       if (i > 200 * (periods - 2))
         found += (answer.free + answer.compliance * force) * std::exp(std::complex<double>(0.0, -w * time)) / 200.0;
@@ -119,14 +151,14 @@ TEST(MovingRail, HarmonicForceMeetsTheReceptance) {
 /// there are.
 TEST(MovingRail, KeepsTheBalanceOfItsEnergy) {
   constexpr double kForce = 55e3, kSpeed = 40.0, kStep = 5e-5;
-  MovingRail rail(uneven_zhai(), kSpeed, 0.0, 1.0);
+  OneForce rail(uneven_zhai(), kSpeed, 0.0, 1.0);
   rail.begin(kForce);
-  double energy = rail.moved_at_rest(kForce).energy, deflection = kForce * rail.at_rest().compliance;
+  double energy = rail.energy_at_rest(kForce), deflection = kForce * rail.compliance_at_rest();
   double put_in = 0.0, dissipated = 0.0;
   const double at_start = energy;
   for (int i = 1; i <= 4000; ++i) {
-    const MovingRail::Answer answer = rail.after(kStep * i);
-    const MovingRail::Moved moved = rail.moved(kForce);
+    const OneForce::Answer answer = rail.after(kStep * i);
+    const OneForce::Moved moved = rail.moved(kForce);
     const double w = answer.free + answer.compliance * kForce;
     put_in += kForce * (w - deflection - kSpeed * kStep * moved.slope);
     dissipated += kStep * moved.power;
@@ -154,13 +186,13 @@ TEST(MovingRail, FastForceOnABed) {
   const double at_rest = 1.0 / (2.0 * std::sqrt(2.0) * std::pow(b, 0.25) * std::pow(bed, 0.75));
   for (const double share : {0.3, 0.5}) {
     const double speed = share * critical;
-    MovingRail rail(track, speed, 0.0, 0.9, 40.0);
+    OneForce rail(track, speed, 0.0, 0.9, 40.0);
     rail.begin(1.0);
     const double step = 0.01 / speed;
     double mean = 0.0;
     constexpr int kSteps = 4000, kAveraged = 1600;
     for (int i = 1; i <= kSteps; ++i) {
-      const MovingRail::Answer answer = rail.after(i * step);
+      const OneForce::Answer answer = rail.after(i * step);
       rail.accept(1.0);
       if (i > kSteps - kAveraged) mean += (answer.free + answer.compliance) / kAveraged;
     }
@@ -169,11 +201,17 @@ TEST(MovingRail, FastForceOnABed) {
 }
 
 TEST(MovingRail, RefusesWhatItCannotFollow) {
-  EXPECT_NO_THROW(MovingRail(short_zhai(), 20.0, 0.0, 0.8));
-  EXPECT_THROW(MovingRail(short_zhai(), 0.0, 0.0, 0.8), Error);
-  EXPECT_THROW(MovingRail(short_zhai(), 20.0, 0.0, 0.1), Error);
-  EXPECT_THROW(MovingRail(short_zhai(), 20.0, 1e7, 0.8), Error);
-  EXPECT_THROW(MovingRail(short_zhai(), 20.0, 0.0, 0.8, 1e9), Error);
+  const auto made = [](double speed, std::vector<double> start, double radius, double length = 30.0) {
+    return MovingRail(short_zhai(), speed, start, radius, length);
+  };
+  EXPECT_NO_THROW(made(20.0, {0.0}, 0.8));
+  EXPECT_NO_THROW(made(20.0, {0.0, -0.1}, 0.8));
+  EXPECT_THROW(made(20.0, {}, 0.8), Error);
+  EXPECT_THROW(made(0.0, {0.0}, 0.8), Error);
+  EXPECT_THROW(made(20.0, {0.0}, 0.1), Error);
+  EXPECT_THROW(made(20.0, {1e7}, 0.8), Error);
+  EXPECT_THROW(made(20.0, {0.0}, 0.8, 1e9), Error);
+  EXPECT_THROW(made(20.0, {0.0, -0.06}, 0.8), Error);
 }
 
 /// A wheelset with a mass upon it, each wheel on a rail of its own.
@@ -181,7 +219,8 @@ VehicleOnTrack on_bending_rails(const FlexibleTrack& track, double speed, double
   VehicleOnTrack v = on_hertz_springs(wheel_on_mass(1813.0, 9000.0, 2e6, 1e4), {}, speed, kBendingContact);
   const double load = 0.5 * v.system.wheelset_load[0];
   for (WheelOnRail& wheel : v.wheels) {
-    wheel.element = std::make_shared<ContactOnRail>(wheel.element, MovingRail(track, speed, 0.0, 1.0), load, tolerance);
+    const auto rail = std::make_shared<LoadedRail>(MovingRail(track, speed, {0.0}, 1.0), std::vector<double>{load});
+    wheel.element = std::make_shared<ContactOnRail>(wheel.element, rail, 0, tolerance);
   }
   return v;
 }

@@ -201,10 +201,12 @@ TEST(ConformalReference, WornPairFindsItsHeightThoughTractionsTurnTheForce) {
   TREADMARK_REQUIRE_SHARED();
   WornPair pair(*shared);
   pair.problem.vertical_force = 94e3;
+  // Every round has iterations of its own: together there may be more than of one.
+  pair.problem.max_force_iterations = 12;
   const PairSolution solution = Pair(pair.geometry).solve(pair.problem);
   ASSERT_EQ(solution.status, Status::ok) << solution.message;
   EXPECT_NEAR(solution.load.track.force.z(), 94e3, 1e-5 * 94e3);
-  EXPECT_GT(solution.force_iterations.size(), 30u);
+  EXPECT_GT(solution.force_iterations.size(), 12u);
 }
 
 }  // namespace

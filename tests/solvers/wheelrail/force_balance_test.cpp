@@ -40,6 +40,17 @@ TEST(ForceBalance, HertzianContactTakesFewSteps) {
   }
 }
 
+TEST(ForceBalance, GoodGuessTakesFourSteps) {
+  // Stiffer with depth than a Hertzian contact: a secant through touching misses the slope by some per cent.
+  const auto force = [](double z) { return 9e10 * std::pow(std::max(0.0, z), 1.5) * (1.0 + 1e3 * z); };
+  for (const double guess : {9e10, 10.5e10}) {
+    const Outcome o = iterate(1.25e5, 0.0, guess, force);
+    EXPECT_EQ(o.state, ForceBalance::State::found);
+    EXPECT_NEAR(force(o.z), 1.25e5, 1e-6 * 1.25e5);
+    EXPECT_LE(o.evaluations, 4) << guess;
+  }
+}
+
 TEST(ForceBalance, SecondContactThatOpensOnTheWay) {
   const auto force = [](double z) {
     return 8e10 * std::pow(std::max(0.0, z), 1.5) + 2e11 * std::pow(std::max(0.0, z - 9e-5), 1.5);

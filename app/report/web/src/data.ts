@@ -54,6 +54,8 @@ export interface Timeline {
   /** One a step; null: built from the first axis, "t = 0.123 s". */
   names: string[] | null;
   count: number;
+  /** The step that is shown first, 0 unless given. */
+  start?: number;
   /** A step's frame in every set; NaN = none; null: no fields. */
   frames: Numbers | null;
   /** What linked charts may have as x, at least one, `count` values each. */
@@ -150,6 +152,8 @@ export interface Panel {
   label: string;
   unit: string;
   scale: "linear" | "log";
+  /** Least range of the axis as a share of its values, 0 unless given: what differs less is no trend. */
+  least_span?: number;
   series: Series[];
   levels: { value: number; label: string }[];
 }

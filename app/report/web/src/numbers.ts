@@ -15,6 +15,9 @@ function withMinus(text: string): string {
   return text.replace("-", "−");
 }
 
+/** Below this, in the units that tables show, there is nothing but rounding. */
+export const ROUNDING = 1e-12;
+
 /** A number with so many significant digits; powers of ten where it is very large or small; a dash where there is none. */
 export function formatNumber(value: number | null | undefined, digits = 4): string {
   if (value === null || value === undefined || Number.isNaN(value)) return "–";

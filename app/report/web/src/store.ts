@@ -40,7 +40,7 @@ class Signal<T> {
 /** What the views share: the data, the current step, the axis of linked charts, the picked element, the theme. */
 export class Store {
   readonly data: ReportData;
-  private currentStep = 0;
+  private currentStep: number;
   private currentAxis = 0;
   private currentPoint: PickedPoint | null = null;
   private currentTheme: Theme = "light";
@@ -51,6 +51,7 @@ export class Store {
 
   constructor(data: ReportData) {
     this.data = data;
+    this.currentStep = data.timeline?.start ?? 0;
     learnFields(data.fields);
   }
 

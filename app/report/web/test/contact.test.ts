@@ -244,9 +244,13 @@ test("numbers as readers see them", () => {
   assert.equal(brief(123379.4), "123379");
   assert.equal(brief(12.5), "12.5");
   assert.equal(brief(NaN), "–");
+  assert.equal(brief(-8.81e-19), "0");
+  assert.equal(brief(-3.5e-11), "−3.5·10⁻¹¹");
   assert.equal(tick(0.30000000000000004, 0.1), "0.3");
   assert.equal(tick(-200, 200), "−200");
-  assert.deepEqual(numberName("pmax_MPa"), { label: "pₘₐₓ", unit: "MPa" });
-  assert.deepEqual(numberName("area_mm2"), { label: "area", unit: "mm²" });
-  assert.deepEqual(numberName("xi"), { label: "ξ", unit: "" });
+  assert.deepEqual(numberName("pmax_MPa"), { label: "pₘₐₓ", unit: "MPa", factor: 1 });
+  assert.deepEqual(numberName("area_mm2"), { label: "area", unit: "mm²", factor: 1 });
+  assert.deepEqual(numberName("xi"), { label: "ξ", unit: "", factor: 1 });
+  assert.deepEqual(numberName("fn_N"), { label: "Fₙ", unit: "kN", factor: 1e-3 });
+  assert.equal(numberName("angle_rad").unit, "°");
 });

@@ -37,6 +37,17 @@ test("labels have the decimals that their distance needs", () => {
   assert.deepEqual(linearTicks([-20, 20], 4).map((t) => t.label), ["−20", "−10", "0", "10", "20"]);
 });
 
+test("forces that differ by a tolerance are no trend", () => {
+  const [low, high] = padded([99.9992, 100.00004], false, 0.06, 0.01);
+  assert.ok(high - low > 0.99 && low < 99.6 && high > 100.4);
+  assert.deepEqual(padded([90, 100], false, 0, 0.01), [90, 100]);
+});
+
+test("an axis has two labels at least", () => {
+  for (const domain of [[1000, 1950], [1.04, 1.96], [-0.3, 0.3], [417.1, 417.9]] as [number, number][])
+    for (const count of [1, 2, 3]) assert.ok(linearTicks(domain, count).length >= 2, `${domain.join(" ")}, ${count}`);
+});
+
 test("log ticks: powers of ten; 1, 2, 5 over few decades; never none", () => {
   assert.deepEqual(logTicks([1, 1e6], 8).filter((t) => t.label).map((t) => t.label), ["1", "10", "100", "1000", "10000", "10⁵", "10⁶"]);
   assert.deepEqual(logTicks([1, 100], 6).filter((t) => t.label).map((t) => t.value), [1, 2, 5, 10, 20, 50, 100]);

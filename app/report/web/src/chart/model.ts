@@ -26,6 +26,7 @@ export interface PlotPanel {
   label: string;
   unit: string;
   log: boolean;
+  leastSpan: number;
   series: PlotSeries[];
   levels: { value: number; label: string }[];
 }
@@ -75,6 +76,7 @@ export function plotOf(view: ChartView, store: Store, hidden: ReadonlySet<string
       label: panel.label,
       unit: panel.unit,
       log: panel.scale === "log",
+      leastSpan: panel.least_span ?? 0,
       levels: panel.levels,
       series: panel.series.map((series, s): PlotSeries => {
         const marks = series.marks ?? "line";
@@ -141,7 +143,7 @@ export function rangeY(panel: PlotPanel, window: Domain | null, fixed: Domain | 
     extent = extentOf(seen, panel.log);
   }
   const levels = panel.levels.map((level) => level.value);
-  return padded(window ? extent : withLevels(extent, levels, panel.log), panel.log, 0.06);
+  return padded(window ? extent : withLevels(extent, levels, panel.log), panel.log, 0.06, panel.leastSpan);
 }
 
 /** Whether values never fall or never rise. */

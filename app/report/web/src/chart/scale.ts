@@ -35,8 +35,8 @@ export function extentOf(arrays: Iterable<ArrayLike<number>>, log: boolean): Dom
   return low <= high ? [low, high] : null;
 }
 
-/** A domain with some room at both ends; one of no width is widened. */
-export function padded(extent: Domain | null, log: boolean, share: number): Domain {
+/** A domain with some room at both ends; one narrower than a share of its values, or of no width, is widened about its middle. */
+export function padded(extent: Domain | null, log: boolean, share: number, leastSpan = 0): Domain {
   if (!extent) return log ? [1, 10] : [0, 1];
   let [low, high] = extent;
   if (log) {
@@ -48,6 +48,8 @@ export function padded(extent: Domain | null, log: boolean, share: number): Doma
     const room = Math.abs(high) > 0 ? 0.1 * Math.abs(high) : 1;
     return [low - room, high + room];
   }
+  const lacking = leastSpan * Math.max(Math.abs(low), Math.abs(high)) - (high - low);
+  if (lacking > 0) [low, high] = [low - lacking / 2, high + lacking / 2];
   const room = share * (high - low);
   // Zero as an end of the data stays the end of the axis.
   low = low >= 0 && low < room ? 0 : low - room;
@@ -72,7 +74,9 @@ export function withLevels(extent: Domain | null, levels: readonly number[], log
 
 /** Labels of evenly spaced values with as many decimals as their distance needs. */
 export function linearTicks(domain: Domain, count: number): Tick[] {
-  const values = scaleLinear().domain(domain).ticks(Math.max(1, count));
+  // One number alone does not say what the distances are.
+  let values: number[] = [];
+  for (let more = Math.max(1, count); values.length < 2 && more <= count + 4; ++more) values = scaleLinear().domain(domain).ticks(more);
   const gap = values.length > 1 ? Math.abs(values[1]! - values[0]!) : Math.abs(values[0] ?? 1);
   const largest = Math.max(...values.map(Math.abs), 0);
   if (largest >= 1e6 || (largest > 0 && largest < 1e-3)) return values.map((value) => ({ value, label: formatNumber(value, 6) }));

@@ -8,6 +8,7 @@ import { svg, textWidth } from "./svg";
 import { tick } from "./text";
 
 const INK = "var(--text)";
+const FONT = "11.5px system-ui, sans-serif"; // of the numbers
 
 /** A colour bar: its place, its values, the values with a line across, its title. */
 export interface BarContent {
@@ -60,14 +61,18 @@ export function drawBar(parent: SVGElement, id: string, place: Rect & { vertical
       { d: `M${px.toFixed(1)} ${py.toFixed(1)}${vertical ? "h4" : "v4"}`, stroke: "var(--line-strong)", "shape-rendering": "crispEdges" },
       parent,
     );
+    const words = tick(value, step);
+    // Numbers at the ends stay above the bar: beside it the picture may end.
+    const half = textWidth(words, FONT) / 2;
+    const middle = Math.min(x + width - half, Math.max(x + half, px));
     const text = svg(
       "text",
-      vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: px.toFixed(1), y: py + 16, "text-anchor": "middle" },
+      vertical ? { x: px + 7, y: (py + 4).toFixed(1) } : { x: middle.toFixed(1), y: py + 16, "text-anchor": "middle" },
       numbers,
     );
-    text.textContent = tick(value, step);
+    text.textContent = words;
   }
-  const wide = Math.max(...ticks.map((value) => textWidth(tick(value, step), "11.5px system-ui, sans-serif")));
+  const wide = Math.max(...ticks.map((value) => textWidth(tick(value, step), FONT)));
   const place2 = vertical
     ? { transform: `translate(${(x + width + 7 + wide + 16).toFixed(1)} ${(y + height / 2).toFixed(1)}) rotate(-90)` }
     : { x: (x + width / 2).toFixed(1), y: y + height + 32 };

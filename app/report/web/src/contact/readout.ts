@@ -13,7 +13,7 @@ export class Readout {
   readonly numbers = new ValueTable("data-number");
   readonly element = new ValueTable("data-readout");
   private readonly fieldRows: ValueRow[];
-  private numberRows: ValueRow[] = [];
+  private numberRows: (ValueRow & { factor: number })[] = [];
 
   constructor(
     private readonly model: Model,
@@ -39,7 +39,10 @@ export class Readout {
       title,
       rows,
       panels.map(({ name }) => name),
-      (r, c) => panels[c]?.items[0]?.patch.numbers[rows[r]?.key ?? ""] ?? null,
+      (r, c) => {
+        const value = panels[c]?.items[0]?.patch.numbers[rows[r]?.key ?? ""] ?? null;
+        return value === null ? null : value * (rows[r]?.factor ?? 1);
+      },
     );
   }
 

@@ -2,11 +2,13 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 // Numbers and names as readers see them.
 
-/** Four significant digits, with a minus sign; "–" where there is none. */
+import { ROUNDING } from "../numbers";
+
+/** Four significant digits, with a minus sign; 0 for rounding errors, "–" where there is no number. */
 export function brief(value: number | null | undefined): string {
   if (value === null || value === undefined || !Number.isFinite(value)) return "–";
-  if (value === 0) return "0";
   const size = Math.abs(value);
+  if (size < ROUNDING) return "0";
   const text = size >= 1e6 || size < 1e-3 ? power(value) : size >= 1e4 ? value.toFixed(0) : trimmed(value.toPrecision(4));
   return text.replace("-", "−");
 }
@@ -44,8 +46,14 @@ const symbols: Record<string, string> = {
   phi: "φ",
 };
 
-/** "pmax_MPa" as symbol and unit. */
-export function numberName(key: string): { label: string; unit: string } {
+/** Units of the data that tables show otherwise. */
+const shownAs: Record<string, { unit: string; factor: number }> = {
+  N: { unit: "kN", factor: 1e-3 },
+  rad: { unit: "°", factor: 180 / Math.PI },
+};
+
+/** "pmax_MPa" as symbol and unit, and by what its value is multiplied for that unit. */
+export function numberName(key: string): { label: string; unit: string; factor: number } {
   const match = /^(.+?)_(k?N|Nmm|Nm|mm2|mm_s|rad_mm|mm|um|MPa|GPa|Pa|J|W|rad_s|mrad|rad|deg|C|percent|s|kB|MB)$/.exec(key);
   const name = match?.[1] ?? key;
   const unit =
@@ -54,5 +62,5 @@ export function numberName(key: string): { label: string; unit: string } {
     ] ??
     match?.[2] ??
     "";
-  return { label: symbols[name] ?? name.replace(/_/g, " "), unit };
+  return { label: symbols[name] ?? name.replace(/_/g, " "), ...(shownAs[unit] ?? { unit, factor: 1 }) };
 }

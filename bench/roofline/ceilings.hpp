@@ -1,0 +1,20 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#pragma once
+
+namespace treadmark::bench {
+
+/// Operations that do not wait for each other, as wide as the kernels of the library are, on raw numbers only (see
+/// core/cpu.hpp): each of kNumbers numbers x becomes a x + b, c / x or sqrt(x), so many times.
+struct Ceilings {
+  static constexpr int kNumbers = 48;
+  void (*multiply_add)(double* x, double a, double b, long times);
+  void (*divide)(double* x, double c, long times);
+  void (*root)(double* x, long times);
+};
+
+Ceilings ceilings_generic();
+/// Null where the compiler does not know AVX2.
+const Ceilings* ceilings_avx2();
+
+}  // namespace treadmark::bench
