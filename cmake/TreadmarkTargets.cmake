@@ -134,5 +134,6 @@ function(treadmark_test name)
     set(at_once 1)
   endif()
   treadmark_share_parsing(${name} ${at_once} tests)
-  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name})
+  gtest_discover_tests(${name} DISCOVERY_MODE PRE_TEST DISCOVERY_TIMEOUT 60 PROPERTIES TIMEOUT 300 LABELS ${name}
+    ENVIRONMENT TREADMARK_CACHE=off)
 endfunction()

@@ -115,7 +115,9 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
 
   app::SurfaceStore store;
   app::SimulationOptions run;
+  app::ContactTables tables(io::ContentCache::from_environment());
   run.settings = overrides;
+  run.tables = &tables;
   if (options.modes_only) {
     const io::SimulationResult result = app::static_results(file, store, run);
     if (!result.message.empty()) std::cerr << "doubt: " << result.message << '\n';

@@ -23,6 +23,7 @@ int stability_command(const StabilityOptions& options, const CommonOptions& comm
   const ThreadLimit limit(common.threads);
   app::StabilityRequest request = options.request;
   request.file = options.file;
+  request.cache = io::ContentCache::from_environment();
   const app::StabilityRun run = app::run_stability(request);
   print_notes(run.notes, common.quiet);
   const auto json = [&] { return app::stability_json(run); };

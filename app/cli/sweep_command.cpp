@@ -52,6 +52,7 @@ int sweep_command(const SweepOptions& options, const CommonOptions& common) {
   wanted.folder = options.output_folder;
   wanted.settings = options.overrides;
   wanted.must_exist = options.resume;
+  wanted.cache = io::ContentCache::from_environment();
   wanted.workers = std::min(thread_count(), std::max(1, static_cast<int>(study.runs.size())));
   const app::StudyOutcome outcome =
       with_progress(!speaks, [&](const Progress& progress) { return app::run_study(study, wanted, progress); });

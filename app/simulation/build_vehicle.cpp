@@ -87,7 +87,7 @@ vehicle::FullStretch stretch_of(const io::SimulationFile& file, const io::WheelC
 
 class Builder {
  public:
-  Builder(const io::SimulationFile& file, SurfaceStore& store, ContactTables* kept = nullptr)
+  Builder(const io::SimulationFile& file, SurfaceStore& store, ContactTables& kept)
       : file_(file), store_(store), kept_(kept) {}
 
   wheelrail::Geometry full_geometry(const io::WheelContactInput& wheel) {
@@ -156,12 +156,28 @@ class Builder {
     // Before the cache is asked: this notes which surfaces a result comes from.
     const wheelrail::Geometry bodies = table_geometry(side);
     const wheelrail::Problem problem = to_problem(file_.contact, true);
-    const auto make = [&] { return vehicle::build_contact_table(bodies, problem, wheel_load); };
-    if (kept_ == nullptr) return made = make();
     const double radius = file_.contact.wheelset.nominal_radius;
-    return made = kept_->get(store_.content_key(round_wheel(file_), Body::wheel, radius) + " on " +
-                                 store_.content_key(table_rail(side), Body::rail, 0.0),
-                             problem, wheel_load, make);
+    const std::string content = store_.content_key(round_wheel(file_), Body::wheel, radius) + " on " +
+                                store_.content_key(table_rail(side), Body::rail, 0.0);
+    return made = kept_.get(content, problem, wheel_load,
+                            [&] { return kept_contact_table(kept_.cache(), content, bodies, problem, wheel_load); });
+  }
+
+  bool has_creep_table() const { return file_.settings.creep_forces == io::CreepForcesInput::exact_table; }
+
+  /// Refuses a material that the table of creep forces is not for.
+  void require_creep_table() const {
+    if (has_creep_table()) vehicle::require_tabulated(to_problem(file_.contact, true).material);
+  }
+
+  /// Null where creep forces are those of the linear theory.
+  std::shared_ptr<const vehicle::CreepTable> creep_table(const Progress& progress) {
+    if (!has_creep_table()) return nullptr;
+    require_creep_table();
+    return kept_.creep(combine(to_problem(file_.contact, true).material).poisson,
+                       [&](std::size_t finished, std::size_t all) {
+                         if (progress.report) progress.report(finished, all, "table of creep forces");
+                       });
   }
 
  private:
@@ -255,7 +271,7 @@ class Builder {
 
   const io::SimulationFile& file_;
   SurfaceStore& store_;
-  ContactTables* kept_;
+  ContactTables& kept_;
   /// By the rail that they are of; null: simulation.table_rail.
   std::map<const io::SurfaceSource*, std::shared_ptr<const vehicle::ContactTable>> tables_;
 };
@@ -329,8 +345,10 @@ std::string wheel_name(const io::WheelContactInput& wheel) {
   return fmt::format("ws{}_{}", wheel.wheelset + 1, wheel.side == Side::left ? "left" : "right");
 }
 
-BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables) {
-  Builder builder(file, store, tables);
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables,
+                           const Progress& progress) {
+  ContactTables own;
+  Builder builder(file, store, tables != nullptr ? *tables : own);
   BuiltVehicle built;
   vehicle::VehicleOnTrack& v = built.vehicle;
   v.speed = file.settings.speed;
@@ -349,7 +367,7 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
       builder.require_section(wheel);
       const Stopwatch watch(built.table_seconds);
       const auto table = builder.table(on.side, *std::ranges::max_element(v.system.wheelset_load) / 2.0);
-      from_table = std::make_shared<vehicle::TableContact>(table, on.side);
+      from_table = std::make_shared<vehicle::TableContact>(table, on.side, builder.creep_table(progress));
       on.rail_marker = table->nominal().X_TR.origin;
       if (on.side == Side::left) on.rail_marker.y() = -on.rail_marker.y();
     }
@@ -383,7 +401,8 @@ BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, 
 }
 
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
-  Builder builder(file, store);
+  ContactTables none;
+  Builder builder(file, store, none);
   const vehicle::Multibody system =
       vehicle::assemble(file.vehicle, track_below(file), file.settings.speed, file.settings.gravity);
   if (file.flexible_track) RailsBelow(file, system).below({0});
@@ -392,6 +411,7 @@ void check_vehicle(const io::SimulationFile& file, SurfaceStore& store) {
     const bool full = wheel.model == io::ContactModelInput::full;
     const wheelrail::Geometry geometry = full ? builder.full_geometry(wheel) : builder.table_geometry(wheel.side);
     if (full && wheel.changes_over()) builder.table_geometry(wheel.side);
+    if (!full || wheel.changes_over()) builder.require_creep_table();
     builder.require_section(wheel);
     vehicle::rail_marker_at_rest(geometry, to_problem(contact_input(file, wheel), geometry.round_wheel));
   }

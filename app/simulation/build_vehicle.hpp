@@ -10,6 +10,7 @@
 #include "treadmark/app/simulation/defect_depth.hpp"
 #include "treadmark/app/surfaces/sampled_surfaces.hpp"
 #include "treadmark/app/surfaces/surface_store.hpp"
+#include "treadmark/core/progress.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/solvers/vehicle/full_contact.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
@@ -46,8 +47,9 @@ double rail_place(const io::SimulationFile& file, int wheelset);
 /// Builds surfaces, contact tables and equations. Wheels with table contact are round and run on a rail without
 /// defects. Errors: those of reading and building surfaces; Error(configuration) for contacts that a simulation cannot
 /// have.
-/// tables: where contact tables are looked for and kept; null: made anew.
-BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables = nullptr);
+/// tables: where contact tables are looked for and kept; null: made anew. progress: told of a table that takes long.
+BuiltVehicle build_vehicle(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables = nullptr,
+                           const Progress& progress = {});
 
 /// Finds the errors of build_vehicle without solving contact tables.
 void check_vehicle(const io::SimulationFile& file, SurfaceStore& store);

@@ -27,4 +27,12 @@ ContactTables::Table ContactTables::get(const std::string& bodies, const wheelra
   return entry->table;
 }
 
+std::shared_ptr<const vehicle::CreepTable> ContactTables::creep(
+    double poisson, const std::function<void(std::size_t finished, std::size_t all)>& report) {
+  const std::lock_guard lock(making_creep_);
+  auto& table = creep_[poisson];
+  if (!table) table = kept_creep_table(cache(), poisson, {}, report);
+  return table;
+}
+
 }  // namespace treadmark::app

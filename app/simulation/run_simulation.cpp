@@ -31,13 +31,14 @@ using Clock = std::chrono::steady_clock;
 /// A simulation with everything that is written down of it.
 class Run {
  public:
-  Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, SimulationTimes& times)
+  Run(const io::SimulationFile& file, SurfaceStore& store, const SimulationOptions& options, const Progress& progress,
+      SimulationTimes& times)
       : file_(file),
         options_(options),
         times_(times),
         result_(result_head(file, options)),
         kept_(find_kept()),
-        built_(build(file, store, options.tables, times)),
+        built_(build(file, store, options.tables, progress, times)),
         snapshots_(file, built_) {
     equilibrium_ = balance();
     describe_statics();
@@ -76,9 +77,9 @@ class Run {
 
  private:
   static BuiltVehicle build(const io::SimulationFile& file, SurfaceStore& store, ContactTables* tables,
-                            SimulationTimes& times) {
+                            const Progress& progress, SimulationTimes& times) {
     const Stopwatch watch(times.build_s);
-    BuiltVehicle built = build_vehicle(file, store, tables);
+    BuiltVehicle built = build_vehicle(file, store, tables, progress);
     times.tables_s = built.table_seconds;
     return built;
   }
@@ -266,7 +267,7 @@ io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore
   std::optional<Run> run;
   {
     const CancellationScope scope(progress.stop);
-    run.emplace(file, store, options, times ? *times : unasked);
+    run.emplace(file, store, options, progress, times ? *times : unasked);
   }
   run->integrate(progress);
   return run->take();
@@ -275,7 +276,7 @@ io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
                                     const SimulationOptions& options) {
   SimulationTimes unasked;
-  return Run(file, store, options, unasked).take();
+  return Run(file, store, options, {}, unasked).take();
 }
 
 void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept,

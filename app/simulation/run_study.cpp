@@ -50,7 +50,7 @@ std::mutex& store_mutex() {
 class Workers {
  public:
   Workers(const io::StudyFile& study, const StudyOptions& options, const Progress& progress)
-      : study_(study), options_(options), progress_(progress), finished_(study.runs.size(), 0) {
+      : study_(study), options_(options), progress_(progress), tables_(options.cache), finished_(study.runs.size(), 0) {
     for (std::size_t i = 0; i < study.runs.size(); ++i)
       if (found_finished(i)) finished_[i] = 1;
     found_ = static_cast<std::size_t>(std::ranges::count(finished_, 1));

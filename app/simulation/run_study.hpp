@@ -3,20 +3,23 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
 #include "treadmark/core/progress.hpp"
+#include "treadmark/io/files/content_cache.hpp"
 #include "treadmark/io/histories/study_model.hpp"
 #include "treadmark/io/simulations/study_model.hpp"
 
 namespace treadmark::app {
 
 struct StudyOptions {
-  std::filesystem::path folder;       ///< of the results
-  std::vector<std::string> settings;  ///< echo of overrides
-  bool must_exist = false;            ///< there must be results to go on from
-  int workers = 1;                    ///< runs at the same time in this process
+  std::filesystem::path folder;           ///< of the results
+  std::vector<std::string> settings;      ///< echo of overrides
+  bool must_exist = false;                ///< there must be results to go on from
+  int workers = 1;                        ///< runs at the same time in this process
+  std::optional<io::ContentCache> cache;  ///< where tables are kept for other processes
 };
 
 struct StudyOutcome {

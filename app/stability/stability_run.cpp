@@ -52,7 +52,8 @@ StabilityRun run_stability(const StabilityRequest& request) {
   file.layout.reset();
   file.irregularities.reset();
   SurfaceStore store;
-  const vehicle::VehicleOnTrack built = build_vehicle(file, store).vehicle;
+  ContactTables tables(request.cache);
+  const vehicle::VehicleOnTrack built = build_vehicle(file, store, &tables).vehicle;
   run.system = built.system;
   run.result = vehicle::stability(
       [&](double speed) {

@@ -3,9 +3,11 @@
 #pragma once
 
 #include <filesystem>
+#include <optional>
 #include <string>
 #include <vector>
 
+#include "treadmark/io/files/content_cache.hpp"
 #include "treadmark/io/simulations/simulation_model.hpp"
 #include "treadmark/solvers/vehicle/stability.hpp"
 
@@ -14,11 +16,12 @@ namespace treadmark::app {
 /// What `treadmark stability` is asked for.
 struct StabilityRequest {
   std::filesystem::path file;
-  std::vector<std::string> overrides;  ///< of the simulation file
-  double from = 10.0, to = 100.0;      ///< speeds [m/s]
-  int count = 46;                      ///< of them, evenly spaced
-  double tolerance = 0.01;             ///< of the critical speed [m/s]
-  double shown = 20.0;                 ///< highest frequency in the picture [Hz]
+  std::vector<std::string> overrides;     ///< of the simulation file
+  double from = 10.0, to = 100.0;         ///< speeds [m/s]
+  int count = 46;                         ///< of them, evenly spaced
+  double tolerance = 0.01;                ///< of the critical speed [m/s]
+  double shown = 20.0;                    ///< highest frequency in the picture [Hz]
+  std::optional<io::ContentCache> cache;  ///< where tables are kept for other processes
 };
 
 /// Eigenvalues of a vehicle by its speed.

@@ -32,7 +32,8 @@ class VehicleModel final : public Model {
  public:
   explicit VehicleModel(const std::filesystem::path& resources)
       : file_(io::read_simulation_file(resources / kCaseFile, read_overrides(resources))),
-        built_(app::build_vehicle(file_, store_)),
+        tables_(io::ContentCache::from_environment()),
+        built_(app::build_vehicle(file_, store_, &tables_)),
         simulation_(built_.vehicle, equilibrium_of(built_), app::integration_settings(file_)),
         record_(built_, simulation_, file_.history) {
     for (const io::HistoryColumn& column : record_.columns()) {
@@ -118,6 +119,7 @@ class VehicleModel final : public Model {
 
   io::SimulationFile file_;
   app::SurfaceStore store_;
+  app::ContactTables tables_;
   app::BuiltVehicle built_;
   vehicle::Simulation simulation_;
   app::HistoryRecord record_;

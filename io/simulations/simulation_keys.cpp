@@ -329,6 +329,13 @@ const std::vector<SettingKey<SimulationSettings>>& plain_setting_keys() {
                 "place of the leading wheelset along the rails at the start, from where x of rails that vary, their "
                 "defects and friction along the track count; the other wheelsets stand behind it as in the vehicle",
                 [](S& s) -> double& { return s.rail_start; });
+    list.choice<S>("creep_forces",
+                   std::vector<std::pair<std::string, CreepForcesInput>>{
+                       {"shen_hedrick_elkins", CreepForcesInput::shen_hedrick_elkins},
+                       {"exact_table", CreepForcesInput::exact_table}},
+                   "of wheels whose contact is a table: Kalker's coefficients with saturation, or a table of solutions "
+                   "of the exact theory on Hertzian ellipses",
+                   [](S& s) -> CreepForcesInput& { return s.creep_forces; });
     list.number("checkpoint_s", kPositive, "time of the computer between two checkpoints",
                 [](S& s) -> double& { return s.checkpoint; });
     list.number("output_every_mm", kNotNegative,

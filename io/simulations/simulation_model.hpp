@@ -25,6 +25,12 @@ enum class ContactModelInput {
   table,  ///< a table of solutions made beforehand
 };
 
+/// Creep forces of wheels whose contact is a table.
+enum class CreepForcesInput {
+  shen_hedrick_elkins,  ///< Kalker's coefficients, saturated
+  exact_table,          ///< a table of solutions of the exact theory
+};
+
 /// One wheel of the vehicle and its contact.
 struct WheelContactInput {
   int wheelset = 0;  ///< from 0, the leading one
@@ -88,8 +94,9 @@ struct SimulationSettings {
   bool shared_rails = false;     ///< of a flexible track: one below all wheels of a side, else one below each wheel
   double rail_start = 0.0;       ///< place of the leading wheelset along the rails at the start [m]
   double spectral_radius = 0.8;  ///< of the time integration at infinite frequency, 0 ... 1
-  double checkpoint = 10.0;      ///< time of the computer between two checkpoints [s]
-  double output_every = 0.0;     ///< distance between two lines of output [m]; 0 = every step
+  CreepForcesInput creep_forces = CreepForcesInput::shen_hedrick_elkins;
+  double checkpoint = 10.0;   ///< time of the computer between two checkpoints [s]
+  double output_every = 0.0;  ///< distance between two lines of output [m]; 0 = every step
 
   /// The longest step that max_step and max_step_elements allow, elements of length dx [s].
   double longest_step(double dx) const;

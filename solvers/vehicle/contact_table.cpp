@@ -270,15 +270,23 @@ wheelrail::Problem table_problem(wheelrail::Problem p, const ContactTableOptions
   return p;
 }
 
-std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
-                                                        const wheelrail::Problem& prototype, double reference_load,
-                                                        const ContactTableOptions& options) {
+namespace {
+
+std::vector<double> loads_of(double reference_load, const ContactTableOptions& options) {
+  std::vector<double> loads;
+  for (const double relative : options.relative_loads) loads.push_back(relative * reference_load);
+  return loads;
+}
+
+}  // namespace
+
+std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry& geometry,
+                                                      const wheelrail::Problem& prototype, double reference_load,
+                                                      const ContactTableOptions& options) {
   check(geometry, prototype, reference_load, options);
   const wheelrail::Problem rest = table_problem(prototype, options);
   const wheelrail::Placement nominal = wheelrail::place(geometry, rest);
-  std::vector<double> loads;
-  for (const double relative : options.relative_loads) loads.push_back(relative * reference_load);
-  const Builder builder(geometry, rest, nominal, loads);
+  const Builder builder(geometry, rest, nominal, loads_of(reference_load, options));
 
   constexpr double kRounding = 1e-9;
   const auto each_way = static_cast<std::size_t>(options.lateral_range / options.step + kRounding);
@@ -288,11 +296,50 @@ std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometr
   std::vector<ContactTableColumn> columns = connected(builder.solve(y), each_way);
   constexpr int kRefinements = 3;
   for (int i = 0; i < kRefinements; ++i) refine(builder, columns);
+  return columns;
+}
 
+std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumn>& columns,
+                                                     const wheelrail::Geometry& geometry,
+                                                     const wheelrail::Problem& prototype, double reference_load,
+                                                     const ContactTableOptions& options) {
+  const wheelrail::Problem rest = table_problem(prototype, options);
   const auto nearest =
       std::ranges::min_element(options.relative_loads, {}, [](double relative) { return std::abs(relative - 1.0); });
-  return std::make_shared<ContactTable>(
-      columns, loads, static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest, nominal);
+  return std::make_shared<ContactTable>(columns, loads_of(reference_load, options),
+                                        static_cast<std::size_t>(nearest - options.relative_loads.begin()), rest,
+                                        wheelrail::place(geometry, rest));
+}
+
+std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
+                                                        const wheelrail::Problem& prototype, double reference_load,
+                                                        const ContactTableOptions& options) {
+  return contact_table_of(solve_contact_columns(geometry, prototype, reference_load, options), geometry, prototype,
+                          reference_load, options);
+}
+
+void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out) {
+  out.put(columns.size());
+  for (const auto& [y, under] : columns) {
+    out.put(y);
+    out.put(under.size());
+    for (const auto& [z, energy, slope, wheel_y, wheel_z, area, aspect_ratio] : under)
+      for (const double value : {z, energy, slope, wheel_y, wheel_z, area, aspect_ratio}) out.put(value);
+  }
+}
+
+std::vector<ContactTableColumn> read_columns(ByteReader& in) {
+  std::vector<ContactTableColumn> columns;
+  for (auto count = in.get<std::size_t>(); count > 0; --count) {
+    ContactTableColumn& column = columns.emplace_back();
+    in.get(column.y);
+    for (auto loads = in.get<std::size_t>(); loads > 0; --loads) {
+      ContactUnderLoad& c = column.under.emplace_back();
+      for (double* value : {&c.z, &c.elastic_energy, &c.slope, &c.wheel_y, &c.wheel_z, &c.area, &c.aspect_ratio})
+        in.get(*value);
+    }
+  }
+  return columns;
 }
 
 namespace {

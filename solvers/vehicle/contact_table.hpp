@@ -6,6 +6,7 @@
 #include <memory>
 #include <vector>
 
+#include "treadmark/core/byte_archive.hpp"
 #include "treadmark/solvers/wheelrail/configuration.hpp"
 #include "treadmark/solvers/wheelrail/placement.hpp"
 
@@ -108,5 +109,18 @@ wheelrail::Problem table_problem(wheelrail::Problem prototype, const ContactTabl
 std::shared_ptr<const ContactTable> build_contact_table(const wheelrail::Geometry& geometry,
                                                         const wheelrail::Problem& prototype, double reference_load,
                                                         const ContactTableOptions& options = {});
+
+/// Its two halves: the first takes long, the second none of it.
+std::vector<ContactTableColumn> solve_contact_columns(const wheelrail::Geometry& geometry,
+                                                      const wheelrail::Problem& prototype, double reference_load,
+                                                      const ContactTableOptions& options = {});
+std::shared_ptr<const ContactTable> contact_table_of(const std::vector<ContactTableColumn>& columns,
+                                                     const wheelrail::Geometry& geometry,
+                                                     const wheelrail::Problem& prototype, double reference_load,
+                                                     const ContactTableOptions& options = {});
+
+void write_columns(const std::vector<ContactTableColumn>& columns, ByteWriter& out);
+/// Errors: Error(input_data) for bytes that end too early.
+std::vector<ContactTableColumn> read_columns(ByteReader& in);
 
 }  // namespace treadmark::vehicle

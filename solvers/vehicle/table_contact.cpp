@@ -85,12 +85,17 @@ ContactReaction not_covered(const ContactTable& table, const RelativePlace& plac
 
 }  // namespace
 
-TableContact::TableContact(std::shared_ptr<const ContactTable> table, wheelrail::Side side)
-    : table_(std::move(table)), side_(side) {
+TableContact::TableContact(std::shared_ptr<const ContactTable> table, wheelrail::Side side,
+                           std::shared_ptr<const CreepTable> creep)
+    : table_(std::move(table)), creep_(std::move(creep)), side_(side) {
   if (!table_) throw Error(ErrorKind::configuration, "a contact element has no table");
   problem_ = table_->problem();
   problem_.regime = kalker::Regime::steady;
   material_ = combine(problem_.material);
+  if (!creep_) return;
+  require_tabulated(problem_.material);
+  if (creep_->poisson() != material_.poisson)
+    throw Error(ErrorKind::configuration, "a table of creep forces is for another Poisson's ratio");
 }
 
 ContactReaction TableContact::evaluate(const PairMotion& motion) {
@@ -125,8 +130,9 @@ ContactReaction TableContact::evaluate_right_hand(const PairMotion& motion) {
   problem_.track.vy = motion.rail.vy, problem_.track.vz = motion.rail.vz, problem_.track.vroll = motion.rail.vroll;
   const wheelrail::ContactKinematics creepage = wheelrail::contact_kinematics(problem_, now, X_TC, elastic.penetration);
   const FrictionLaw law = friction_at(problem_.friction_inclination, problem_.friction_laws, angle, problem_.friction);
+  const CreepContact patch{elastic.a, elastic.b, law.static_friction() * elastic.normal_force};
   const CreepForce creep =
-      creep_force({elastic.a, elastic.b, law.static_friction() * elastic.normal_force}, material_, creepage);
+      creep_ ? creep_force(*creep_, patch, material_, creepage) : creep_force(patch, material_, creepage);
 
   const Vec3 force = X_TC.rotation * Vec3(creep.force.x(), creep.force.y(), elastic.normal_force);
   const Vec3 moment = creep.moment * X_TC.rotation.col(2);
