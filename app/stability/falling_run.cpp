@@ -118,8 +118,8 @@ class Falls {
     options.tables = &tables_;
     options.settings = settings_;
     options.settings.push_back(
-        fmt::format("falling from {} m/s, held for {} m, {} m/s2 from {} to {} m/s, wave of {} m, {} m long", fall.from,
-                    fall.hold, fall.deceleration, fall.slow_from, fall.to, request.wave_height, request.wave_length));
+        fmt::format("falling from {} m/s, held for {} m, {} m/s2 to {} m/s, wave of {} m, {} m long", fall.from,
+                    fall.hold, fall.deceleration, fall.to, request.wave_height, request.wave_length));
     if (request.folder.empty()) return run_simulation(file, store_, options, progress_);
     const std::filesystem::path folder = request.folder / name, store = folder / "simulation.h5";
     const FileLock lock = claim_folder(folder);
@@ -152,8 +152,8 @@ FallingRun run_falling(const io::SimulationFile& file, const std::vector<std::st
   FallingRun run;
   run.request = request;
   const Falls falls(file, settings, store, tables, progress);
-  vehicle::FallSettings fast{request.from, request.to,     request.hold,     request.deceleration,
-                             request.from, request.window, request.amplitude};
+  vehicle::FallSettings fast{request.from,         request.to,     request.hold,
+                             request.deceleration, request.window, request.amplitude};
   run.falls.push_back(falls.run(request, fast, "fall"));
   const Fall& first = run.falls.front();
   if (first.status != "complete") return run;
@@ -161,7 +161,6 @@ FallingRun run_falling(const io::SimulationFile& file, const std::vector<std::st
     const double died = first.result.speed;
     vehicle::FallSettings slow = fast;
     slow.deceleration /= kSlower;
-    slow.slow_from = std::min(fast.from, (1.0 + kAround) * died);
     slow.to = std::max(request.to, (1.0 - kAround) * died);
     run.falls.push_back(falls.run(request, slow, "slow-fall"));
     if (run.status() != "complete") return run;

@@ -12,7 +12,6 @@
 namespace treadmark::vehicle {
 namespace {
 
-constexpr double kFastFall = 10.0;
 constexpr double kWindowsHeld = 3.0;
 
 /// Integrals of a signal and its square over the distance, from the first instant.
@@ -67,13 +66,8 @@ SpeedProfile profile_of(const FallSettings& s) {
                     "must show whether it lasts",
                     s.hold, s.window));
   SpeedProfile profile{{0.0, s.hold / s.from}, {s.from, s.from}};
-  const auto fall = [&](double speed, double deceleration) {
-    if (!(speed < profile.speed.back())) return;
-    profile.time.push_back(profile.time.back() + (profile.speed.back() - speed) / deceleration);
-    profile.speed.push_back(speed);
-  };
-  if (s.slow_from > s.to) fall(s.slow_from, kFastFall * s.deceleration);
-  fall(s.to, s.deceleration);
+  profile.time.push_back(profile.time.back() + (s.from - s.to) / s.deceleration);
+  profile.speed.push_back(s.to);
   return profile;
 }
 

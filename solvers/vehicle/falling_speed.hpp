@@ -14,10 +14,8 @@ struct FallSettings {
   double from = 0.0, to = 0.0;  ///< speeds [m/s]; from > to > 0
   double hold = 0.0;            ///< distance at the first speed, disturbance included; longer than three windows [m]
   double deceleration = 0.0;    ///< [m/s2]; > 0
-  /// Down to which speed it falls ten times as fast as the deceleration; from: nowhere [m/s].
-  double slow_from = 0.0;
-  double window = 100.0;    ///< over which sway is averaged [m]
-  double amplitude = 1e-4;  ///< of wheelsets, below which they do not sway [m]
+  double window = 100.0;        ///< over which sway is averaged [m]
+  double amplitude = 1e-4;      ///< of wheelsets, below which they do not sway [m]
 };
 
 /// Errors: Error(configuration) for settings that make no sense.

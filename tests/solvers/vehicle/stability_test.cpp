@@ -278,7 +278,7 @@ TEST(FallingSpeed, EndsALimitCycleWhereTheEigenvaluesSay) {
   w.yaw = 1e6;
   w.clearance = 3e-3;
   const double critical = critical_by_hand(w);
-  FallSettings settings{1.1 * critical, 0.8 * critical, 600.0, 0.8, 1.1 * critical, 100.0, 1e-4};
+  FallSettings settings{1.1 * critical, 0.8 * critical, 600.0, 0.8, 100.0, 1e-4};
   const auto by_hand = [&](double deceleration) {
     constexpr double kStep = 1e-3;
     double speed = critical, logarithm = 0.0;
@@ -312,9 +312,9 @@ TEST(FallingSpeed, SaysWhereThereIsNoLimitCycleAndWhereItLasts) {
   w.yaw = 1e6;
   w.clearance = 3e-3;
   const double critical = critical_by_hand(w);
-  FallSettings settings{0.9 * critical, 0.85 * critical, 600.0, 1.0, 0.9 * critical, 100.0, 1e-6};
+  FallSettings settings{0.9 * critical, 0.85 * critical, 600.0, 1.0, 100.0, 1e-6};
   EXPECT_EQ(fall(w, settings, 2e-3).verdict, FallVerdict::none);
-  settings.from = settings.slow_from = 1.2 * critical;
+  settings.from = 1.2 * critical;
   settings.to = 1.1 * critical;
   EXPECT_EQ(fall(w, settings, 2e-3).verdict, FallVerdict::lasting);
 }
@@ -345,7 +345,7 @@ TEST(FallingSpeed, RunningSwayOfASineIsItsAmplitude) {
 }
 
 TEST(FallingSpeed, RefusesWhatIsNoFall) {
-  const FallSettings good{50.0, 20.0, 400.0, 0.5, 50.0, 100.0, 1e-4};
+  const FallSettings good{50.0, 20.0, 400.0, 0.5, 100.0, 1e-4};
   const SpeedProfile profile = profile_of(good);
   EXPECT_EQ(profile.time, (std::vector{0.0, 8.0, 68.0}));
   EXPECT_EQ(profile.speed, (std::vector{50.0, 50.0, 20.0}));
