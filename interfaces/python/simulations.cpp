@@ -186,7 +186,6 @@ FoundStability stability(const std::filesystem::path& file, const Strings& overr
                          const std::pair<double, double>& range, int count, double tolerance, double shown,
                          int threads) {
   return with_progress(py::none(), threads, [&](const Progress& report) {
-    const CancellationScope scope(report.stop);
     app::StabilityRequest request;
     request.file = file;
     request.overrides = overrides;
@@ -194,7 +193,7 @@ FoundStability stability(const std::filesystem::path& file, const Strings& overr
     request.count = count;
     request.tolerance = tolerance;
     request.shown = shown;
-    return FoundStability{std::make_shared<const app::StabilityRun>(app::run_stability(request))};
+    return FoundStability{std::make_shared<const app::StabilityRun>(app::run_stability(request, report))};
   });
 }
 
