@@ -48,25 +48,6 @@ int exit_status(const io::SimulationResult& result) {
   return result.status == "complete" && doubtful_steps(result) == 0.0 ? kOk : kFailed;
 }
 
-/// Whether a finished result lies there. Errors: Error(configuration) where it belongs to another simulation.
-bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,
-                 const std::vector<std::string>& settings) {
-  if (!std::filesystem::exists(store)) return false;
-  app::require_same_simulation(store, io::read_checkpoint(store), file, settings);
-  return io::read_simulation_head(store).status == "complete";
-}
-
-/// Nobody else writes into the folder as long as this lives.
-app::FileLock claim(const std::filesystem::path& folder) {
-  make_folder(folder);
-  auto lock = app::FileLock::attempt(folder / "lock");
-  if (!lock)
-    throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {},
-                "choose another folder");
-  remove_leftovers(folder);
-  return std::move(*lock);
-}
-
 int show_track(const SimulateOptions& options, const io::SimulationFile& file,
                const std::vector<std::string>& overrides) {
   if (!file.track && !file.flexible_track)
@@ -130,11 +111,11 @@ int simulate_command(const SimulateOptions& options, const CommonOptions& common
   const std::filesystem::path folder = options.output_folder;
   std::optional<app::FileLock> lock;
   if (!folder.empty()) {
-    lock.emplace(claim(folder));
+    lock.emplace(app::claim_folder(folder));
     run.checkpoint_file = folder / "unfinished.h5";
     run.table_file = folder / "history.csv";
     run.resume = options.resume;
-    if (options.resume && is_finished(folder / "simulation.h5", file, overrides)) {
+    if (options.resume && app::is_finished(folder / "simulation.h5", file, overrides)) {
       std::cerr << "the simulation in " << folder.string() << " is complete already\n";
       write_report_file(options.report_file, [&] { return app::report::read_report(folder); });
       return kOk;

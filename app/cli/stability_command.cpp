@@ -5,8 +5,9 @@
 #include "treadmark/app/cli/command_frame.hpp"
 #include "treadmark/app/cli/output_files.hpp"
 #include "treadmark/app/stability/stability_run.hpp"
-#include "treadmark/core/cancellation.hpp"
+#include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/core/parts.hpp"
 
 namespace treadmark::cli {
 namespace {
@@ -14,22 +15,36 @@ namespace {
 struct StabilityOptions {
   app::StabilityRequest request;
   std::string file, json_file, folder;  ///< empty = none; JSON "-" = stdout
+  app::FallingRequest falling;
+  bool falls = false;
 };
 
 int stability_command(const StabilityOptions& options, const CommonOptions& common) {
   require_different({options.file}, {options.json_file});
-  catch_interrupt();
-  const CancellationScope scope(&interrupted());
   const ThreadLimit limit(common.threads);
   app::StabilityRequest request = options.request;
   request.file = options.file;
   request.cache = io::ContentCache::from_environment();
-  const app::StabilityRun run = app::run_stability(request);
+  if (options.falls) {
+    request.falling = options.falling;
+    if (!options.folder.empty()) require_part("hdf5", "histories of falling speeds");
+    request.falling->folder = options.folder;
+    if (options.falling.resume && options.folder.empty())
+      throw Error(ErrorKind::configuration, "--resume needs the folder of the interrupted run", {},
+                  "give it with -o FOLDER");
+  }
+  const app::StabilityRun run =
+      with_progress(common.quiet, [&](const Progress& progress) { return app::run_stability(request, progress); });
   print_notes(run.notes, common.quiet);
   const auto json = [&] { return app::stability_json(run); };
   write_json_file(options.json_file, json);
   if (!options.folder.empty()) app::write_stability_folder(options.folder, run);
   print_results(options.json_file, json, [&] { return app::stability_table(run); });
+  if (run.falling && run.falling->status() != "complete") {
+    std::cerr << "treadmark: " << app::falling_verdict(*run.falling)
+              << (options.folder.empty() ? "" : "; --resume goes on from there") << '\n';
+    return kFailed;
+  }
   if (run.result.verdict != vehicle::StabilityVerdict::unknown) return kOk;
   std::cerr << "treadmark: " << app::stability_verdict(run) << '\n';
   return kNotConverged;
@@ -56,8 +71,28 @@ Command add_stability(CLI::App& verb) {
       ->type_name("HZ");
   verb.add_option("--json", options->json_file, "Write the numbers here; - for standard output instead of the text")
       ->type_name("FILE");
-  verb.add_option("-o,--output", options->folder, "Folder for stability.json, eigenvalues.csv and stability.svg")
+  verb.add_option("-o,--output", options->folder,
+                  "Folder for stability.json, eigenvalues.csv and stability.svg, with --falling histories too")
       ->type_name("FOLDER");
+  app::FallingRequest& falling = options->falling;
+  CLI::Option* const falls = verb.add_flag(
+      "--falling", options->falls, "Also run from the highest to the lowest speed in time: where does swaying end?");
+  const auto add_fall = [&](const char* name, double& value, const char* text, double highest, const char* unit) {
+    verb.add_option(name, value, text)
+        ->check(CLI::Range(1e-6, highest))
+        ->capture_default_str()
+        ->type_name(unit)
+        ->needs(falls);
+  };
+  add_fall("--deceleration", falling.deceleration, "At which the speed falls; again at a quarter of it [m/s2]", 10.0,
+           "M/S2");
+  add_fall("--hold-m", falling.hold, "Distance at the highest speed, before it falls [m]", 1e6, "M");
+  add_fall("--window-m", falling.window, "Distance over which sway is averaged [m]", 1e6, "M");
+  add_fall("--amplitude-m", falling.amplitude, "Of a wheelset, below which it does not sway [m]", 0.1, "M");
+  add_fall("--wave-m", falling.wave_height, "Height of the track's wave to the side that disturbs the vehicle [m]", 0.1,
+           "M");
+  add_fall("--wave-length-m", falling.wave_length, "Its length [m]", 1e3, "M");
+  verb.add_flag("--resume", falling.resume, "Go on with an interrupted --falling in the output folder")->needs(falls);
   add_overrides(verb, request.overrides, "simulation.vehicle=mine.toml");
   return command(options, stability_command);
 }

@@ -12,6 +12,7 @@
 #include <unistd.h>
 
 #include "treadmark/core/error.hpp"
+#include "treadmark/core/output_file.hpp"
 
 namespace treadmark::app {
 namespace {
@@ -57,6 +58,16 @@ FileLock::FileLock(FileLock&& other) noexcept : descriptor_(std::exchange(other.
 
 FileLock::~FileLock() {
   if (descriptor_ >= 0) ::close(descriptor_);
+}
+
+FileLock claim_folder(const std::filesystem::path& folder) {
+  make_folder(folder);
+  auto lock = FileLock::attempt(folder / "lock");
+  if (!lock)
+    throw Error(ErrorKind::configuration, "another simulation is writing into " + folder.string(), {},
+                "choose another folder");
+  remove_leftovers(folder);
+  return std::move(*lock);
 }
 
 }  // namespace treadmark::app

@@ -25,4 +25,8 @@ class FileLock {
   int descriptor_;
 };
 
+/// Nobody else writes into the folder as long as this lives. Makes it, and removes what broken runs left. Errors:
+/// Error(configuration) where somebody else does.
+FileLock claim_folder(const std::filesystem::path& folder);
+
 }  // namespace treadmark::app

@@ -288,4 +288,11 @@ void require_same_simulation(const std::filesystem::path& store, const io::Simul
               "resume with the same files, settings and build of Treadmark, or start anew in another folder");
 }
 
+bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,
+                 const std::vector<std::string>& settings) {
+  if (!std::filesystem::exists(store)) return false;
+  require_same_simulation(store, io::read_checkpoint(store), file, settings);
+  return io::read_simulation_head(store).status == "complete";
+}
+
 }  // namespace treadmark::app

@@ -51,6 +51,10 @@ io::SimulationResult run_simulation(const io::SimulationFile& file, SurfaceStore
 void require_same_simulation(const std::filesystem::path& store, const io::SimulationCheckpoint& kept,
                              const io::SimulationFile& file, const std::vector<std::string>& settings);
 
+/// Whether a finished result lies there. Errors: as require_same_simulation.
+bool is_finished(const std::filesystem::path& store, const io::SimulationFile& file,
+                 const std::vector<std::string>& settings);
+
 /// Vehicle, track and contacts in equilibrium, without integration: static values and modes.
 io::SimulationResult static_results(const io::SimulationFile& file, SurfaceStore& store,
                                     const SimulationOptions& options);

@@ -39,6 +39,32 @@ const char* word(vehicle::StabilityVerdict verdict) {
   return "unknown";
 }
 
+StabilityJson json_falling(const FallingRun& run) {
+  StabilityJson out = {{"verdict", falling_word(run)}, {"message", falling_verdict(run)}};
+  if (run.critical) {
+    out["critical_speed_low_m_s"] = json_number(run.critical->low);
+    out["critical_speed_high_m_s"] = json_number(run.critical->high);
+  }
+  if (run.forces_fall && !run.forces_fall->never_above && !run.forces_fall->at_end)
+    out["guiding_forces_speed_m_s"] = json_number(run.forces_fall->speed);
+  out["amplitude_m"] = json_number(run.request.amplitude);
+  out["window_m"] = json_number(run.request.window);
+  out["runs"] = StabilityJson::array();
+  for (const Fall& fall : run.falls) {
+    StabilityJson one = {{"status", fall.status},
+                         {"message", fall.message},
+                         {"from_m_s", json_number(fall.settings.from)},
+                         {"to_m_s", json_number(fall.settings.to)},
+                         {"deceleration_m_s2", json_number(fall.settings.deceleration)}};
+    if (fall.status == "complete") {
+      one["first_amplitude_m"] = json_number(fall.result.first_amplitude);
+      if (fall.result.verdict == vehicle::FallVerdict::died) one["died_at_m_s"] = json_number(fall.result.speed);
+    }
+    out["runs"].push_back(std::move(one));
+  }
+  return out;
+}
+
 /// A line for each vibration through all speeds at which it is shown; x and y of a mode at a speed.
 template <class X, class Y>
 void add_branches(pictures::Chart& chart, const StabilityRun& run, X&& x, Y&& y) {
@@ -60,6 +86,24 @@ void add_branches(pictures::Chart& chart, const StabilityRun& run, X&& x, Y&& y)
   }
 }
 
+/// Amplitude over speed, over the same speeds as the damping.
+pictures::Chart falling_chart(const StabilityRun& run) {
+  pictures::Chart chart;
+  chart.title = "amplitude of the wheelset that sways most, while the speed falls";
+  chart.x_label = "V [m/s]";
+  chart.y_label = "[mm]";
+  chart.x_range = {run.request.from, run.request.to};
+  for (const Fall& fall : run.falling->falls) {
+    pictures::ChartSeries series;
+    series.name = fmt::format("{:g} m/s2", fall.settings.deceleration);
+    pictures::set_look(series, chart.series.size(), run.falling->falls.size());
+    for (const vehicle::SwayAt& at : fall.result.sway)
+      series.curve.push_back({at.speed, 1e3 * std::sqrt(2.0) * at.rms});
+    chart.series.push_back(std::move(series));
+  }
+  return chart;
+}
+
 }  // namespace
 
 std::string stability_table(const StabilityRun& run) {
@@ -75,7 +119,9 @@ std::string stability_table(const StabilityRun& run) {
     text += fmt::format("{:>9.4g} {:>9.4f} {:>9.4g} {:>11.4g}  {}\n", at.speed, m.damping_ratio, m.frequency,
                         m.value.real(), vehicle::describe(m, run.system));
   }
-  return text + stability_verdict(run) + '\n';
+  text += stability_verdict(run) + '\n';
+  if (run.falling) text += falling_verdict(*run.falling) + '\n';
+  return text;
 }
 
 std::string stability_csv(const StabilityRun& run) {
@@ -113,6 +159,7 @@ std::string stability_json(const StabilityRun& run) {
     if (at.fastest_growth) one["fastest_growth"] = json_mode(at.modes[*at.fastest_growth], run.system);
     out["speeds"].push_back(std::move(one));
   }
+  if (run.falling) out["falling_speed"] = json_falling(*run.falling);
   return out.dump(2) + '\n';
 }
 
@@ -142,17 +189,27 @@ std::string stability_svg(const StabilityRun& run) {
   none.levels = {0.0};
   damping.series.push_back(std::move(none));
   pictures::ChartSheet sheet;
+  sheet.charts = {std::move(locus), std::move(damping)};
+  if (run.falling) sheet.charts.push_back(falling_chart(run));
   sheet.title = run.title;
   sheet.width = 620.0;
   sheet.height = 300.0;
   sheet.gap_y = 66.0;
   sheet.top = 58.0;
-  sheet.charts = {std::move(locus), std::move(damping)};
   sheet.bottom = 66.0;
   const std::string verdict = stability_verdict(run);
   const std::size_t colon = verdict.find(": ");
   sheet.remarks.push_back(verdict.substr(0, colon));
   if (colon != std::string::npos) sheet.remarks.push_back(verdict.substr(colon + 2));
+  if (run.falling) {
+    std::string falling = falling_verdict(*run.falling);
+    for (std::size_t end;
+         (end = falling.find(": at ")) != std::string::npos || (end = falling.find("; ")) != std::string::npos;) {
+      sheet.remarks.push_back(falling.substr(0, end));
+      falling.erase(0, end + 2);
+    }
+    sheet.remarks.push_back(falling);
+  }
   sheet.remarks.push_back(
       fmt::format("vibrations up to {:g} Hz with less than half of critical damping", run.request.shown));
   return pictures::draw_sheet(sheet);
@@ -161,6 +218,7 @@ std::string stability_svg(const StabilityRun& run) {
 void write_stability_folder(const std::filesystem::path& folder, const StabilityRun& run) {
   OutputFolder output(folder, OutputFolder::Old::kept);
   write_file(output.path() / "eigenvalues.csv", stability_csv(run));
+  if (run.falling) write_file(output.path() / "falling.csv", falling_csv(*run.falling));
   write_file(output.path() / "stability.svg", stability_svg(run));
   write_file(output.path() / "stability.json", stability_json(run));
   output.move_into("stability.json");

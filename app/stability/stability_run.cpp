@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include "treadmark/app/simulation/build_vehicle.hpp"
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/io/simulations/read_simulation.hpp"
 
@@ -39,7 +40,7 @@ void require_linear(const io::SimulationFile& file) {
 
 }  // namespace
 
-StabilityRun run_stability(const StabilityRequest& request) {
+StabilityRun run_stability(const StabilityRequest& request, const Progress& progress) {
   StabilityRun run;
   run.request = request;
   vehicle::StabilitySettings settings;
@@ -53,17 +54,26 @@ StabilityRun run_stability(const StabilityRequest& request) {
   file.irregularities.reset();
   SurfaceStore store;
   ContactTables tables(request.cache);
-  const vehicle::VehicleOnTrack built = build_vehicle(file, store, &tables).vehicle;
-  run.system = built.system;
-  run.result = vehicle::stability(
-      [&](double speed) {
-        vehicle::VehicleOnTrack v = built;
-        v.speed = speed;
-        v.system = vehicle::assemble(file.vehicle, file.track, speed, file.settings.gravity);
-        v.connect();
-        return v;
-      },
-      settings);
+  {
+    const CancellationScope scope(progress.stop);
+    const vehicle::VehicleOnTrack built = build_vehicle(file, store, &tables).vehicle;
+    run.system = built.system;
+    run.result = vehicle::stability(
+        [&](double speed) {
+          vehicle::VehicleOnTrack v = built;
+          v.speed = speed;
+          v.system = vehicle::assemble(file.vehicle, file.track, speed, file.settings.gravity);
+          v.connect();
+          return v;
+        },
+        settings);
+  }
+  if (request.falling) {
+    FallingRequest falling = *request.falling;
+    falling.from = request.to;
+    falling.to = request.from;
+    run.falling = run_falling(file, request.overrides, falling, store, tables, progress);
+  }
   return run;
 }
 

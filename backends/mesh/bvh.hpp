@@ -14,6 +14,12 @@ namespace treadmark::mesh {
 /// is a point and a box becomes a rectangle with a range of heights.
 class Bvh {
  public:
+  /// Of a triangle, while the hierarchy is built.
+  struct Middle {
+    Vec3 at;  ///< local [m]
+    std::uint32_t triangle;
+  };
+
   /// Puts triangles and vertices in the order of the leaves, so that neighbours lie side by side in memory.
   explicit Bvh(PreparedMesh& mesh);
 
@@ -41,8 +47,8 @@ class Bvh {
  private:
   using Node = BvhNode;
 
-  void split(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
-             std::vector<std::uint32_t>& order, std::uint32_t stop_at);
+  void split(std::uint32_t node, std::vector<Middle>& middles);
+  void split_below(std::uint32_t node, std::vector<Middle>& middles);
   void close_below(std::uint32_t node);
   void close(std::uint32_t node);
   void add_slab(Node& node) const;

@@ -3,7 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <numeric>
+#include <utility>
 
 #include "treadmark/backends/mesh/bvh.hpp"
 #include "treadmark/core/check_point.hpp"
@@ -23,10 +23,10 @@ std::uint32_t left_count(std::uint32_t triangles) { return leaf_count(triangles)
 std::uint32_t node_count(std::uint32_t triangles) { return 2 * leaf_count(triangles) - 1; }
 
 /// Triangle i becomes what order[i] was; vertices are numbered as triangles name them first.
-void reorder(PreparedMesh& mesh, const std::vector<std::uint32_t>& order) {
+void reorder(PreparedMesh& mesh, const std::vector<Bvh::Middle>& order) {
   const std::size_t n = order.size();
   std::vector<std::uint32_t> place(n), vertex(mesh.vertices.size(), kNone);
-  for (std::size_t i = 0; i < n; ++i) place[order[i]] = static_cast<std::uint32_t>(i);
+  for (std::size_t i = 0; i < n; ++i) place[order[i].triangle] = static_cast<std::uint32_t>(i);
   std::vector<Corners> triangles(n), neighbours(n);
   std::vector<Vec3> vertices;
   vertices.reserve(mesh.vertices.size());
@@ -34,7 +34,7 @@ void reorder(PreparedMesh& mesh, const std::vector<std::uint32_t>& order) {
   for (std::size_t i = 0; i < n; ++i)
     for (std::size_t k = 0; k < 3; ++k) {
       check.pass();
-      const std::uint32_t v = mesh.triangles[order[i]][k], across = mesh.neighbours[order[i]][k];
+      const std::uint32_t v = mesh.triangles[order[i].triangle][k], across = mesh.neighbours[order[i].triangle][k];
       if (vertex[v] == kNone) {
         vertex[v] = static_cast<std::uint32_t>(vertices.size());
         vertices.push_back(mesh.vertices[v]);
@@ -52,60 +52,64 @@ void reorder(PreparedMesh& mesh, const std::vector<std::uint32_t>& order) {
 Bvh::Bvh(PreparedMesh& mesh) : mesh_(mesh) {
   const auto n = static_cast<std::uint32_t>(mesh.triangles.size());
   nodes_.resize(node_count(n));
-  std::vector<std::uint32_t> order(n);
-  std::iota(order.begin(), order.end(), 0u);
-  std::vector<Vec3> middles(n);
+  std::vector<Middle> middles(n);
   for (std::uint32_t t = 0; t < n; ++t)
-    middles[t] = (mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
-                  mesh.vertices[mesh.triangles[t][2]]) /
-                 3.0;
+    middles[t] = {(mesh.vertices[mesh.triangles[t][0]] + mesh.vertices[mesh.triangles[t][1]] +
+                   mesh.vertices[mesh.triangles[t][2]]) /
+                      3.0,
+                  t};
 
   // the upper levels first, then their subtrees side by side, then the boxes of the upper levels from below
-  split(0, 0, n, middles, order, kTask);
-  std::vector<std::uint32_t> tasks, upper;
-  for (std::vector<std::uint32_t> open{0}; !open.empty();) {
-    const std::uint32_t i = open.back();
-    open.pop_back();
-    if (nodes_[i].count <= kTask) {
-      tasks.push_back(i);
-      continue;
+  nodes_[0].begin = 0;
+  nodes_[0].count = n;
+  std::vector<std::uint32_t> tasks, upper, level{0}, next;
+  for (; !level.empty(); level = std::exchange(next, {})) {
+    parallel_for(level.size(), [&](std::size_t k) {
+      if (nodes_[level[k]].count > kTask) split(level[k], middles);
+    });
+    for (const std::uint32_t i : level) {
+      const bool small = nodes_[i].count <= kTask;
+      (small ? tasks : upper).push_back(i);
+      if (!small) next.insert(next.end(), {i + 1, nodes_[i].right});
     }
-    upper.push_back(i);
-    open.push_back(i + 1);
-    open.push_back(nodes_[i].right);
   }
-  parallel_for(tasks.size(), [&](std::size_t k) {
-    split(tasks[k], nodes_[tasks[k]].begin, nodes_[tasks[k]].count, middles, order, 0);
-  });
-  reorder(mesh, order);
+  parallel_for(tasks.size(), [&](std::size_t k) { split_below(tasks[k], middles); });
+  reorder(mesh, middles);
+  middles = {};
   parallel_for(tasks.size(), [&](std::size_t k) { close_below(tasks[k]); });
   std::sort(upper.rbegin(), upper.rend());
   for (const std::uint32_t i : upper) close(i);
 }
 
-void Bvh::split(std::uint32_t node, std::uint32_t begin, std::uint32_t count, const std::vector<Vec3>& middles,
-                std::vector<std::uint32_t>& order, std::uint32_t stop_at) {
+/// Halves a node that is no leaf.
+void Bvh::split(std::uint32_t node, std::vector<Middle>& middles) {
   Node& self = nodes_[node];
-  self.begin = begin;
-  self.count = count;
-  self.right = 0;
-  if (count <= stop_at || count <= kLeaf) return;
-  if (count > kTask) check_cancelled();
+  const auto first = middles.begin() + self.begin, end = first + self.count;
+  if (self.count > kTask) check_cancelled();
   Vec3 low = Vec3::Constant(std::numeric_limits<double>::infinity()), high = -low;
-  for (std::uint32_t i = begin; i < begin + count; ++i) {
-    low = low.cwiseMin(middles[order[i]]);
-    high = high.cwiseMax(middles[order[i]]);
+  for (auto it = first; it != end; ++it) {
+    low = low.cwiseMin(it->at);
+    high = high.cwiseMax(it->at);
   }
   int axis = 0;
   (high - low).maxCoeff(&axis);
-  const std::uint32_t left = left_count(count);
-  const auto first = order.begin() + begin;
-  std::nth_element(first, first + left, first + count, [&](std::uint32_t a, std::uint32_t b) {
-    return middles[a][axis] != middles[b][axis] ? middles[a][axis] < middles[b][axis] : a < b;
+  const std::uint32_t left = left_count(self.count);
+  std::nth_element(first, first + left, end, [axis](const Middle& a, const Middle& b) {
+    return a.at[axis] != b.at[axis] ? a.at[axis] < b.at[axis] : a.triangle < b.triangle;
   });
   self.right = node + 1 + node_count(left);
-  split(node + 1, begin, left, middles, order, stop_at);
-  split(self.right, begin + left, count - left, middles, order, stop_at);
+  nodes_[node + 1].begin = self.begin;
+  nodes_[node + 1].count = left;
+  nodes_[self.right].begin = self.begin + left;
+  nodes_[self.right].count = self.count - left;
+}
+
+void Bvh::split_below(std::uint32_t node, std::vector<Middle>& middles) {
+  nodes_[node].right = 0;
+  if (nodes_[node].count <= kLeaf) return;
+  split(node, middles);
+  split_below(node + 1, middles);
+  split_below(nodes_[node].right, middles);
 }
 
 void Bvh::close_below(std::uint32_t node) {

@@ -8,6 +8,7 @@
 #include <cstdint>
 #include <numeric>
 
+#include "treadmark/backends/mesh/buckets.hpp"
 #include "treadmark/backends/mesh/prepare.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
@@ -16,11 +17,11 @@ namespace treadmark::mesh {
 
 namespace {
 
+/// An edge of a triangle, in the bucket of its lower vertex.
 struct Side {
-  std::uint64_t edge;  ///< both vertices, the lower one first
-  std::uint32_t triangle;
-  std::uint32_t corner;  ///< opposite to the edge
-  bool operator<(const Side& o) const { return edge != o.edge ? edge < o.edge : triangle < o.triangle; }
+  std::uint32_t higher;  ///< vertex
+  std::uint32_t corner;  ///< 3 triangle + the corner opposite to the edge
+  bool operator<(const Side& o) const { return higher != o.higher ? higher < o.higher : corner < o.corner; }
 };
 
 std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
@@ -31,35 +32,37 @@ std::uint32_t root_of(std::vector<std::uint32_t>& parent, std::uint32_t v) {
 }  // namespace
 
 void connect(PreparedMesh& mesh) {
-  std::vector<Side> sides;
-  sides.reserve(3 * mesh.triangles.size());
-  for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
-    for (std::uint32_t k = 0; k < 3; ++k) {
-      const std::uint64_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
-      sides.push_back({std::min(a, b) << 32 | std::max(a, b), t, k});
-    }
-  sort_many(sides);
+  const Buckets<Side> sides(mesh.vertices.size(), [&](const auto& put) {
+    for (std::uint32_t t = 0; t < mesh.triangles.size(); ++t)
+      for (std::uint32_t k = 0; k < 3; ++k) {
+        const std::uint32_t a = mesh.triangles[t][(k + 1) % 3], b = mesh.triangles[t][(k + 2) % 3];
+        put(std::min(a, b), Side{std::max(a, b), 3 * t + k});
+      }
+  });
   mesh.neighbours.assign(mesh.triangles.size(), {kNone, kNone, kNone});
   CheckPoint check;
-  for (std::size_t i = 0; i < sides.size();) {
-    check.pass();
-    std::size_t end = i + 1;
-    while (end < sides.size() && sides[end].edge == sides[i].edge) ++end;
-    if (end - i > 2) {
-      const Vec3 a = mesh.vertices[sides[i].edge >> 32] + mesh.centre,
-                 b = mesh.vertices[sides[i].edge & kNone] + mesh.centre;
-      throw Error(
-          ErrorKind::input_data,
-          fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
-                      "{:.6g}) m",
-                      mesh.name, end - i, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
-          {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
+  for (std::uint32_t lower = 0; lower < sides.size(); ++lower) {
+    const std::span<const Side> own = sides[lower];
+    for (std::size_t i = 0; i < own.size();) {
+      check.pass();
+      std::size_t end = i + 1;
+      while (end < own.size() && own[end].higher == own[i].higher) ++end;
+      if (end - i > 2) {
+        const Vec3 a = mesh.vertices[lower] + mesh.centre, b = mesh.vertices[own[i].higher] + mesh.centre;
+        throw Error(
+            ErrorKind::input_data,
+            fmt::format("the mesh '{}' has an edge of {} triangles, from ({:.6g}, {:.6g}, {:.6g}) to ({:.6g}, {:.6g}, "
+                        "{:.6g}) m",
+                        mesh.name, end - i, a.x(), a.y(), a.z(), b.x(), b.y(), b.z()),
+            {}, "a surface has at most two triangles on each edge: remove inner walls and doubled sheets");
+      }
+      if (end - i == 2) {
+        const std::uint32_t one = own[i].corner, other = own[i + 1].corner;
+        mesh.neighbours[one / 3][one % 3] = other / 3;
+        mesh.neighbours[other / 3][other % 3] = one / 3;
+      }
+      i = end;
     }
-    if (end - i == 2) {
-      mesh.neighbours[sides[i].triangle][sides[i].corner] = sides[i + 1].triangle;
-      mesh.neighbours[sides[i + 1].triangle][sides[i + 1].corner] = sides[i].triangle;
-    }
-    i = end;
   }
 }
 

@@ -2,6 +2,7 @@
 // SPDX-FileCopyrightText: Treadmark contributors
 #pragma once
 
+#include "treadmark/backends/mesh/fit.hpp"
 #include "treadmark/backends/mesh/kernel_types.hpp"
 #include "treadmark/backends/mesh/patch.hpp"
 
@@ -12,6 +13,7 @@ struct Kernels {
   bool (*fill_tile)(const MeshArrays& mesh, const PlaneLines& lines, Tile& tile);
   BoundsFound (*find_bounds)(const MeshArrays& mesh, const PlaneLines& lines, const BoundsQuery& query);
   PatchKernel patch;
+  void (*fit_cubics)(FitBlock& block);
 };
 
 const Kernels& generic_kernels();

@@ -52,6 +52,9 @@ struct PatchKernel {
   /// patches: one after the other. x, y and the results have four entries.
   void (*mixed)(const double* patches, double side, const double* x, const double* y, double* z, double* dzdx,
                 double* dzdy);
+  /// The greatest distance between facet and surface along a direction from inside, sampled; not a number where the
+  /// surface grazes or cannot be found. Of the source, places do not count, and its bulge is no limit if infinite.
+  double (*bulge)(const PatchSource& source, const double* direction);
 };
 extern const PatchKernel kPatchGeneric, kPatchAvx2;
 

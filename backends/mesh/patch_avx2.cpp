@@ -6,7 +6,7 @@
 
 namespace treadmark::mesh {
 
-const PatchKernel kPatchAvx2{prepare_patch, patch_points, patch_mixed};
+const PatchKernel kPatchAvx2{prepare_patch, patch_points, patch_mixed, patch_bulge};
 
 }  // namespace treadmark::mesh
 #endif

@@ -4,6 +4,6 @@
 
 namespace treadmark::mesh {
 
-const PatchKernel kPatchGeneric{prepare_patch, patch_points, patch_mixed};
+const PatchKernel kPatchGeneric{prepare_patch, patch_points, patch_mixed, patch_bulge};
 
 }  // namespace treadmark::mesh

@@ -12,12 +12,8 @@ constexpr double kGrazingLine = 0.01, kLeastCosine = 0.1;
 
 TREADMARK_LANES double dot3(const double* a, const double* b) { return a[0] * b[0] + a[1] * b[1] + a[2] * b[2]; }
 
-static void prepare_patch(const PlaneLines& lines, const PatchSource& source, double* patch) {
-  const double* q = source.places;
-  for (int i = 0; i < 9; ++i) patch[kCornerPlaces + i] = q[i];
-  const double area = (q[3] - q[0]) * (q[7] - q[1]) - (q[4] - q[1]) * (q[6] - q[0]);
-  patch[kInverseArea] = 1.0 / area;
-  const double direction[3] = {lines.rotation[0][2], lines.rotation[1][2], lines.rotation[2][2]};
+/// What does not depend on the plane but on the direction of its lines.
+TREADMARK_LANES void prepare_fits(const double* direction, const PatchSource& source, double* patch) {
   double edges[3][3];  // from corner k to the next one
   for (int k = 0; k < 3; ++k)
     for (int j = 0; j < 3; ++j) edges[k][j] = source.corners[(k + 1) % 3][j] - source.corners[k][j];
@@ -55,6 +51,15 @@ static void prepare_patch(const PlaneLines& lines, const PatchSource& source, do
   store(patch + kFeet, load(above) / load(below));
 }
 
+static void prepare_patch(const PlaneLines& lines, const PatchSource& source, double* patch) {
+  const double* q = source.places;
+  for (int i = 0; i < 9; ++i) patch[kCornerPlaces + i] = q[i];
+  const double area = (q[3] - q[0]) * (q[7] - q[1]) - (q[4] - q[1]) * (q[6] - q[0]);
+  patch[kInverseArea] = 1.0 / area;
+  const double direction[3] = {lines.rotation[0][2], lines.rotation[1][2], lines.rotation[2][2]};
+  prepare_fits(direction, source, patch);
+}
+
 /// Entries of one patch for all lanes.
 struct OnePatch {
   const double* patch;
@@ -81,11 +86,78 @@ struct Cubic {
   }
 };
 
-/// The blend of SmoothPatches on four lines: heights, and slopes if wanted.
+/// The blend of SmoothPatches at four places of the facet: its weights, the places in the frames of the fits, and how
+/// far along the line the surface lies.
+struct BlendLanes {
+  V4 foot[3], place[3], step[3], beta[3], w[3], per_sum;
+  V4 u[3], v[3], n[3], t;
+  M4 fine;  ///< t is one
+};
+
+/// e: what is opposite to the corners, total: their sum, b = e / total.
+template <class Patch>
+[[gnu::always_inline]] static inline void solve_lanes(const Patch& patch, double side, const V4 (&e)[3],
+                                                      const V4& total, const V4 (&b)[3], BlendLanes& s) {
+  const V4 one = all(1.0), zero = all(0.0), two = all(2.0), three = all(3.0);
+  // weights: see blend_weights; their ratios need no barycentric coordinates, so that both divisions run at a time
+  V4 square[3];
+  for (int k = 0; k < 3; ++k) {
+    const V4 product = e[(k + 1) % 3] * e[(k + 2) % 3];
+    square[k] = product * product;
+    s.w[k] = zero;
+  }
+  const V4 sum = square[0] + square[1] + square[2], total2 = total * total;
+  s.per_sum = one / sum;
+  s.fine = sum > all(1e-200) * (total2 * total2);
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3;
+    s.foot[k] = patch(kFeet + k);
+    s.place[k] = least(most(fma(b[k], s.foot[k], b[j]), zero), one);
+    s.step[k] = s.place[k] * s.place[k] * fma(all(-2.0), s.place[k], three);
+    s.beta[k] = square[k] * s.per_sum;
+    s.w[j] = fma(s.beta[k], s.step[k], s.w[j]);
+    s.w[i] = s.w[i] + fma(-s.beta[k], s.step[k], s.beta[k]);
+  }
+
+  // the blend along the line is a cubic in t, because the weights stay
+  V4 g0 = zero, g1 = zero, g2 = zero, g3 = zero;
+  for (int k = 0; k < 3; ++k) {
+    const int i = (k + 1) % 3, j = (k + 2) % 3, at = kFits + k * kFitEntries;
+    s.u[k] = fma(b[i], patch(at + kNextU), b[j] * patch(at + kOtherU));
+    s.v[k] = fma(b[i], patch(at + kNextV), b[j] * patch(at + kOtherV));
+    s.n[k] = fma(b[i], patch(at + kNextW), b[j] * patch(at + kOtherW));
+    const Cubic<Patch> p(patch, at, s.u[k], s.v[k]);
+    const V4 along = fma(-p.slope_u, patch(at + kAlongU), fma(-p.slope_v, patch(at + kAlongV), patch(at + kAlongW)));
+    const V4 bend = fma(patch(at + kBendU), s.u[k], fma(patch(at + kBendV), s.v[k], patch(at + kBend)));
+    g0 = fma(s.w[k], s.n[k] - p.height, g0);
+    g1 = fma(s.w[k], along, g1);
+    g2 = fma(-s.w[k], bend, g2);
+    g3 = fma(-s.w[k], patch(at + kTwist), g3);
+  }
+  const V4 out = all(side), grazing = all(kGrazingLine), g22 = g2 * two, g33 = g3 * three;
+  // Newton's method; the slope changes little, so that its inverse is corrected instead of divided again
+  const V4 per_slope = one / g1;
+  s.t = -g0 * per_slope;
+  s.fine &= out * g1 > grazing;
+  M4 open = s.fine;
+  constexpr int kMost = 12;
+  for (int i = 0; i < kMost; ++i) {
+    const V4 value = fma(s.t, fma(s.t, fma(s.t, g3, g2), g1), g0), slope = fma(s.t, fma(s.t, g33, g22), g1);
+    s.fine &= ~open | (out * slope > grazing);
+    open &= s.fine;
+    const V4 inverse = per_slope * fma(-slope, per_slope, two), change = value * inverse;
+    s.t = select(open, s.t - change, s.t);
+    open &= magnitude(change) > fma(all(1e-9), magnitude(s.t), all(1e-16));
+    if (bits(open) == 0) break;
+  }
+  s.fine &= ~open & (out * fma(s.t, fma(s.t, g33, g22), g1) > grazing) & (magnitude(s.t) <= patch(kReach));
+}
+
+/// Heights on four lines, and slopes if wanted.
 template <bool kSlopes, class Patch>
 [[gnu::always_inline]] static inline void evaluate_lanes(const Patch& patch, double side, const V4& x, const V4& y,
                                                          V4& z, V4& dzdx, V4& dzdy) {
-  const V4 one = all(1.0), zero = all(0.0), two = all(2.0), three = all(3.0);
+  const V4 one = all(1.0), zero = all(0.0), two = all(2.0);
   V4 qx[3], qy[3], qz[3], e[3], b[3];
   for (int k = 0; k < 3; ++k) {
     qx[k] = patch(kCornerPlaces + 3 * k);
@@ -99,60 +171,13 @@ template <bool kSlopes, class Patch>
   const V4 total = e[0] + e[1] + e[2], per = one / total;
   for (int k = 0; k < 3; ++k) b[k] = e[k] * per;
   const V4 flat = b[0] * qz[0] + b[1] * qz[1] + b[2] * qz[2];
-
-  // weights: see blend_weights; their ratios need no barycentric coordinates, so that both divisions run at a time
-  V4 square[3], foot[3], place[3], step[3], beta[3], w[3];
-  for (int k = 0; k < 3; ++k) {
-    const V4 product = e[(k + 1) % 3] * e[(k + 2) % 3];
-    square[k] = product * product;
-    w[k] = zero;
-  }
-  const V4 sum = square[0] + square[1] + square[2], per_sum = one / sum, total2 = total * total;
-  M4 fine = sum > all(1e-200) * (total2 * total2);
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3;
-    foot[k] = patch(kFeet + k);
-    place[k] = least(most(fma(b[k], foot[k], b[j]), zero), one);
-    step[k] = place[k] * place[k] * fma(all(-2.0), place[k], three);
-    beta[k] = square[k] * per_sum;
-    w[j] = fma(beta[k], step[k], w[j]);
-    w[i] = w[i] + fma(-beta[k], step[k], beta[k]);
-  }
-
-  // the blend along the line is a cubic in t, because the weights stay
-  V4 u[3], v[3], n[3], g0 = zero, g1 = zero, g2 = zero, g3 = zero;
-  for (int k = 0; k < 3; ++k) {
-    const int i = (k + 1) % 3, j = (k + 2) % 3, at = kFits + k * kFitEntries;
-    u[k] = fma(b[i], patch(at + kNextU), b[j] * patch(at + kOtherU));
-    v[k] = fma(b[i], patch(at + kNextV), b[j] * patch(at + kOtherV));
-    n[k] = fma(b[i], patch(at + kNextW), b[j] * patch(at + kOtherW));
-    const Cubic<Patch> p(patch, at, u[k], v[k]);
-    const V4 along = fma(-p.slope_u, patch(at + kAlongU), fma(-p.slope_v, patch(at + kAlongV), patch(at + kAlongW)));
-    const V4 bend = fma(patch(at + kBendU), u[k], fma(patch(at + kBendV), v[k], patch(at + kBend)));
-    g0 = fma(w[k], n[k] - p.height, g0);
-    g1 = fma(w[k], along, g1);
-    g2 = fma(-w[k], bend, g2);
-    g3 = fma(-w[k], patch(at + kTwist), g3);
-  }
-  const V4 out = all(side), grazing = all(kGrazingLine), g22 = g2 * two, g33 = g3 * three;
-  // Newton's method; the slope changes little, so that its inverse is corrected instead of divided again
-  const V4 per_slope = one / g1;
-  V4 t = -g0 * per_slope;
-  fine &= out * g1 > grazing;
-  M4 open = fine;
-  constexpr int kMost = 12;
-  for (int i = 0; i < kMost; ++i) {
-    const V4 value = fma(t, fma(t, fma(t, g3, g2), g1), g0), slope = fma(t, fma(t, g33, g22), g1);
-    fine &= ~open | (out * slope > grazing);
-    open &= fine;
-    const V4 inverse = per_slope * fma(-slope, per_slope, two), change = value * inverse;
-    t = select(open, t - change, t);
-    open &= magnitude(change) > fma(all(1e-9), magnitude(t), all(1e-16));
-    if (bits(open) == 0) break;
-  }
-  fine &= ~open & (out * fma(t, fma(t, g33, g22), g1) > grazing) & (magnitude(t) <= patch(kReach));
+  BlendLanes blend;
+  solve_lanes(patch, side, e, total, b, blend);
+  const V4 t = blend.t, per_sum = blend.per_sum;
+  const V4(&u)[3] = blend.u, (&v)[3] = blend.v, (&n)[3] = blend.n, (&w)[3] = blend.w;
+  const V4(&foot)[3] = blend.foot, (&place)[3] = blend.place, (&step)[3] = blend.step, (&beta)[3] = blend.beta;
   const V4 missing = all(__builtin_nan(""));
-  z = select(fine, flat + t, missing);
+  z = select(blend.fine, flat + t, missing);
   if (!kSlopes) return;
 
   // derivatives of the blend by the barycentric coordinates, taken for independent; along the lines it is 0 at the
@@ -191,8 +216,8 @@ template <bool kSlopes, class Patch>
     sy = fma(s, qx[j] - qx[i], sy);
   }
   const V4 per_area = patch(kInverseArea);
-  dzdx = select(fine, sx * per_area, missing);
-  dzdy = select(fine, sy * per_area, missing);
+  dzdx = select(blend.fine, sx * per_area, missing);
+  dzdy = select(blend.fine, sy * per_area, missing);
 }
 
 template <bool kSlopes>
@@ -242,6 +267,44 @@ static void patch_mixed(const double* patches, double side, const double* x, con
     evaluate_lanes<false>(FourPatches{block}, side, load(x), load(y), h, hx, hy);
   }
   store(z, h);
+}
+
+/// On a lattice of barycentric coordinates of six steps. At the corners the surface meets the facet.
+static double patch_bulge(const PatchSource& source, const double* direction) {
+  constexpr int kSteps = 6, kPoints = (kSteps + 1) * (kSteps + 2) / 2 - 3;
+  constexpr int kGroups = (kPoints + kLanes - 1) / kLanes;
+  double patch[kPatchEntries];
+  prepare_fits(direction, source, patch);
+  double lattice[3][kGroups * kLanes];
+  int count = 0;
+  for (int i = 0; i <= kSteps; ++i)
+    for (int j = 0; j <= kSteps - i; ++j) {
+      const int l = kSteps - i - j;
+      if (i == kSteps || j == kSteps || l == kSteps) continue;
+      const int at[3] = {i, j, l};
+      for (int k = 0; k < 3; ++k) lattice[k][count] = at[k] / static_cast<double>(kSteps);
+      ++count;
+    }
+  for (; count < kGroups * kLanes; ++count)
+    for (int k = 0; k < 3; ++k) lattice[k][count] = lattice[k][0];
+  for (int k = 0; k < 3; ++k) {
+    const double* f = patch + kFits + k * kFitEntries;
+    if (!(f[kAlongW] - f[kCubic] * f[kAlongU] - f[kCubic + 1] * f[kAlongV] > kGrazingLine)) return __builtin_nan("");
+  }
+  const OnePatch one{patch};
+  V4 farthest = all(0.0);
+  M4 fine = each(-1);
+  for (int g = 0; g < kGroups; ++g) {
+    const V4 b[3] = {load(lattice[0] + kLanes * g), load(lattice[1] + kLanes * g), load(lattice[2] + kLanes * g)};
+    BlendLanes s;
+    solve_lanes(one, 1.0, b, all(1.0), b, s);
+    fine &= s.fine;
+    farthest = most(farthest, magnitude(s.t));
+  }
+  if (bits(fine) != (1 << kLanes) - 1) return __builtin_nan("");
+  double result = 0.0;
+  for (int k = 0; k < kLanes; ++k) result = result > farthest[k] ? result : farthest[k];
+  return result;
 }
 
 }  // namespace

@@ -9,6 +9,7 @@
 #include <limits>
 #include <numeric>
 
+#include "treadmark/backends/mesh/buckets.hpp"
 #include "treadmark/core/check_point.hpp"
 #include "treadmark/core/error.hpp"
 
@@ -77,18 +78,22 @@ bool without_area(const Vec3& a, const Vec3& b, const Vec3& c) {
 }
 
 /// Marks all but the first of triangles with the same corners in any order.
-std::size_t drop_duplicates(std::vector<Corners>& triangles) {
-  std::vector<std::pair<Corners, std::uint32_t>> keys(triangles.size());
-  for (std::uint32_t t = 0; t < triangles.size(); ++t) {
-    Corners sorted = triangles[t];
-    std::sort(sorted.begin(), sorted.end());
-    keys[t] = {sorted, t};
-  }
-  sort_many(keys);
+std::size_t drop_duplicates(std::vector<Corners>& triangles, std::size_t vertices) {
+  using Rest = std::array<std::uint32_t, 3>;  // the two higher corners and the triangle, in the bucket of the lowest
+  const Buckets<Rest> same(vertices, [&](const auto& put) {
+    for (std::uint32_t t = 0; t < triangles.size(); ++t) {
+      Corners sorted = triangles[t];
+      std::sort(sorted.begin(), sorted.end());
+      put(sorted[0], Rest{sorted[1], sorted[2], t});
+    }
+  });
   std::vector<char> drop(triangles.size(), 0);
   std::size_t count = 0;
-  for (std::size_t i = 1; i < keys.size(); ++i)
-    if (keys[i].first == keys[i - 1].first) drop[keys[i].second] = 1, ++count;
+  for (std::size_t v = 0; v < same.size(); ++v) {
+    const std::span<const Rest> own = same[v];
+    for (std::size_t i = 1; i < own.size(); ++i)
+      if (own[i][0] == own[i - 1][0] && own[i][1] == own[i - 1][1]) drop[own[i][2]] = 1, ++count;
+  }
   if (count == 0) return 0;
   std::size_t kept = 0;
   for (std::size_t t = 0; t < triangles.size(); ++t)
@@ -128,7 +133,7 @@ PreparedMesh prepare(const TriangleMesh& mesh, Body body, MeshRepair& repair) {
       result.triangles.push_back(c);
   }
   if (result.triangles.empty()) refuse(mesh, "has only triangles without area", "check the file and the scale");
-  repair.duplicates = drop_duplicates(result.triangles);
+  repair.duplicates = drop_duplicates(result.triangles, mesh.vertices.size());
 
   // keep the vertices that are used, in their order
   std::vector<std::uint32_t> renumbered(mesh.vertices.size(), kNone);

@@ -7,6 +7,7 @@
 #include <limits>
 
 #include "treadmark/backends/mesh/blend.hpp"
+#include "treadmark/backends/mesh/kernels.hpp"
 #include "treadmark/core/parallel.hpp"
 
 namespace treadmark::mesh {
@@ -49,15 +50,20 @@ SmoothPatches::SmoothPatches(const PreparedMesh& mesh, double crease_angle)
   }
 }
 
-bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines,
-                            std::uint32_t triangle, const double* places, double* patch) const {
-  if (needle_[triangle]) return false;
-  PatchSource source;
+PatchSource SmoothPatches::source_of(const PreparedMesh& mesh, std::uint32_t triangle) const {
+  PatchSource source{};
   for (std::size_t k = 0; k < 3; ++k) {
     const VertexFit& fit = fits_.fits[fits_.of_corner[triangle][k]];
     source.fits[k] = {fit.axis_u.data(), fit.axis_v.data(), fit.normal.data(), fit.c.data()};
     source.corners[k] = mesh.vertices[mesh.triangles[triangle][k]].data();
   }
+  return source;
+}
+
+bool SmoothPatches::prepare(const PatchKernel& kernel, const PreparedMesh& mesh, const PlaneLines& lines,
+                            std::uint32_t triangle, const double* places, double* patch) const {
+  if (needle_[triangle]) return false;
+  PatchSource source = source_of(mesh, triangle);
   source.places = places;
   source.bulge = static_cast<double>(bulge_[triangle]);
   kernel.prepare(lines, source, patch);
@@ -166,25 +172,14 @@ double SmoothPatches::reach(const PlaneView& view, std::uint32_t triangle) const
 
 /// Distance between facet and surface along the mean normal, on a lattice of barycentric coordinates.
 double SmoothPatches::sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const {
-  constexpr int kLattice = 6;
-  const Corners& corners = fits_.of_corner[triangle];
-  const std::array<const VertexFit*, 3> fits{&fits_.fits[corners[0]], &fits_.fits[corners[1]], &fits_.fits[corners[2]]};
+  PatchSource source = source_of(mesh, triangle);
+  source.bulge = std::numeric_limits<double>::infinity();
+  const Vec3 direction = mean_of_normals(triangle).normalized();
+  const double most = kernels().patch.bulge(source, direction.data());
   const Corners& c = mesh.triangles[triangle];
   const std::array<Vec3, 3> v{mesh.vertices[c[0]], mesh.vertices[c[1]], mesh.vertices[c[2]]};
-  const auto feet = edge_feet(v);
   const double longest = std::max({(v[1] - v[0]).norm(), (v[2] - v[1]).norm(), (v[0] - v[2]).norm()});
-  const Vec3 direction = mean_of_normals(triangle).normalized();
-  double most = 0.0;
-  for (int i = 0; i <= kLattice; ++i)
-    for (int j = 0; j <= kLattice - i; ++j) {
-      const std::array<double, 3> b{static_cast<double>(i) / kLattice, static_cast<double>(j) / kLattice,
-                                    static_cast<double>(kLattice - i - j) / kLattice};
-      double t = 0.0;
-      if (!solve(fits, blend_weights<double>(b, feet), b[0] * v[0] + b[1] * v[1] + b[2] * v[2], direction, 1.0, t))
-        return 0.0;
-      most = std::max(most, std::fabs(t));
-    }
-  if (most > kWild * longest) return 0.0;
+  if (!(most <= kWild * longest)) return 0.0;
   constexpr double kFloor = 1e-6;  // of the longest side, for surfaces that are flat at the samples
   return kSafety * most + kFloor * longest;
 }

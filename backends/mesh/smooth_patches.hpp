@@ -54,6 +54,7 @@ class SmoothPatches {
 
   bool solve(const std::array<const VertexFit*, 3>& fits, const std::array<double, 3>& w, const Vec3& start,
              const Vec3& direction, double side, double& t) const;
+  PatchSource source_of(const PreparedMesh& mesh, std::uint32_t triangle) const;
   double sampled_bulge(const PreparedMesh& mesh, std::uint32_t triangle) const;
 
   VertexFits fits_;

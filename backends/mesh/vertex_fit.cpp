@@ -6,8 +6,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstring>
 #include <span>
 
+#include "treadmark/backends/mesh/kernels.hpp"
 #include "treadmark/backends/mesh/sectors.hpp"
 #include "treadmark/core/parallel.hpp"
 
@@ -31,24 +33,44 @@ void powers(double u, double v, double (&p)[9]) {
   std::copy(all, all + 9, p);
 }
 
-/// Sectors reached over one more ring of triangles; the first entry is the centre.
+/// Sectors reached over one more ring of triangles; the first entry is the centre. One object serves one after the
+/// other.
 class Rings {
  public:
-  Rings(const Sectors& sectors, std::uint32_t centre) : sectors_(sectors), members_{centre} {}
+  explicit Rings(const Sectors& sectors) : sectors_(sectors) {}
+  void start(std::uint32_t centre) {
+    members_.assign(1, centre);
+    grown_ = 0;
+    table_.fill(kNone);
+    table_[centre % kSlots] = centre;
+  }
   void grow() {
     const std::size_t end = members_.size();
     for (std::size_t i = grown_; i < end && members_.size() < kMostPoints; ++i)
       for (const std::uint32_t t : sectors_.around(members_[i]))
         for (const std::uint32_t s : sectors_.of_corner[t])
-          if (std::find(members_.begin(), members_.end(), s) == members_.end()) members_.push_back(s);
+          if (is_new(s)) members_.push_back(s);
     grown_ = end;
   }
   std::span<const std::uint32_t> others() const { return {members_.data() + 1, members_.size() - 1}; }
 
  private:
+  static constexpr std::size_t kSlots = 512, kMostInTable = kSlots / 2;
+
+  /// Whether it is no member yet. A table of members while they are few, as nearly always.
+  bool is_new(std::uint32_t s) {
+    if (members_.size() > kMostInTable) return std::find(members_.begin(), members_.end(), s) == members_.end();
+    std::size_t slot = s % kSlots;
+    for (; table_[slot] != kNone; slot = (slot + 1) % kSlots)
+      if (table_[slot] == s) return false;
+    table_[slot] = s;
+    return true;
+  }
+
   const Sectors& sectors_;
   std::vector<std::uint32_t> members_;
   std::size_t grown_ = 0;
+  std::array<std::uint32_t, kSlots> table_;
 };
 
 /// Points in the tangent frame, divided by their spread along u and v.
@@ -151,14 +173,21 @@ bool solve(const Cloud& cloud, std::span<const int> terms, VertexFit& fit) {
   return true;
 }
 
-VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
-                  std::uint32_t sector) {
+/// The vertex of a sector with a frame of its tangent plane.
+VertexFit framed(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
+                 std::uint32_t sector) {
   VertexFit fit;
   fit.origin = mesh.vertices[sectors.vertex[sector]];
   fit.normal = normals[sector];
   fit.axis_u = fit.normal.unitOrthogonal();
   fit.axis_v = fit.normal.cross(fit.axis_u);
-  Rings rings(sectors, sector);
+  return fit;
+}
+
+VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals,
+                  std::uint32_t sector, Rings& rings) {
+  VertexFit fit = framed(mesh, sectors, normals, sector);
+  rings.start(sector);
   rings.grow();
   rings.grow();
   const Cloud two = gather(mesh, sectors, normals, rings.others(), fit);
@@ -180,6 +209,59 @@ VertexFit fit_one(const PreparedMesh& mesh, const Sectors& sectors, const std::v
   return fit;
 }
 
+/// Up to four sectors at a time. Where two rings determine a cubic beyond doubt that is fit_one's result; the others
+/// are left to it.
+void fit_some(const PreparedMesh& mesh, const Sectors& sectors, const std::vector<Vec3>& normals, std::uint32_t first,
+              std::uint32_t end, Rings& rings, std::vector<VertexFit>& fits) {
+  FitBlock block;
+  std::array<bool, FitBlock::kLanesOfFit> fine{};
+  std::memset(block.from, 0, sizeof block.from);
+  for (std::uint32_t s = first; s < first + FitBlock::kLanesOfFit; ++s) {
+    const std::size_t lane = s - first;
+    const VertexFit fit = framed(mesh, sectors, normals, std::min(s, end - 1));
+    int count = 0;
+    bool fits_in = s < end;
+    if (fits_in) {
+      rings.start(s);
+      rings.grow();
+      rings.grow();
+      fits_in = rings.others().size() <= static_cast<std::size_t>(FitBlock::kMostRows);
+    }
+    if (fits_in)
+      for (const std::uint32_t other : rings.others()) {
+        if (normals[other].dot(fit.normal) < kTurnedAway) continue;
+        const Vec3 d = mesh.vertices[sectors.vertex[other]] - fit.origin;
+        for (std::size_t k = 0; k < 3; ++k) block.from[count][k][lane] = d[static_cast<int>(k)];
+        ++count;
+      }
+    fine[lane] = fits_in && static_cast<std::size_t>(count) >= std::size(kCubic) + kMargin;
+    block.rows = std::max(block.rows, count);
+    block.count[lane] = count;
+    for (std::size_t k = 0; k < 3; ++k) {
+      block.normal[k][lane] = fit.normal[static_cast<int>(k)];
+      block.axis_u[k][lane] = fit.axis_u[static_cast<int>(k)];
+    }
+  }
+  kernels().fit_cubics(block);
+  for (std::uint32_t s = first; s < std::min(end, first + FitBlock::kLanesOfFit); ++s) {
+    const std::size_t lane = s - first;
+    VertexFit& fit = fits[s];
+    bool finite = true;
+    for (std::size_t k = 0; k < fit.c.size(); ++k) finite = finite && std::isfinite(fit.c[k] = block.cubic[k][lane]);
+    // what pivots leave last is no smaller than the least singular value
+    if (!(fine[lane] && finite && block.least_singular_value[lane] > kIllConditioned)) {
+      fit = fit_one(mesh, sectors, normals, s, rings);
+      continue;
+    }
+    fit.origin = mesh.vertices[sectors.vertex[s]];
+    fit.normal = normals[s];
+    for (std::size_t k = 0; k < 3; ++k) {
+      fit.axis_u[static_cast<int>(k)] = block.axis_u[k][lane];
+      fit.axis_v[static_cast<int>(k)] = block.axis_v[k][lane];
+    }
+  }
+}
+
 }  // namespace
 
 VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
@@ -199,8 +281,10 @@ VertexFits fit_vertices(const PreparedMesh& mesh, double crease_angle) {
   VertexFits result;
   result.fits.resize(n);
   parallel_for(chunks, [&](std::size_t chunk) {
-    for (std::size_t s = chunk * kChunk; s < std::min(n, (chunk + 1) * kChunk); ++s)
-      result.fits[s] = fit_one(mesh, sectors, normals, static_cast<std::uint32_t>(s));
+    Rings rings(sectors);
+    const auto end = static_cast<std::uint32_t>(std::min(n, (chunk + 1) * kChunk));
+    for (auto s = static_cast<std::uint32_t>(chunk * kChunk); s < end; s += FitBlock::kLanesOfFit)
+      fit_some(mesh, sectors, normals, s, end, rings, result.fits);
   });
   result.of_corner = std::move(sectors.of_corner);
   return result;

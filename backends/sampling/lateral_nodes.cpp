@@ -95,8 +95,8 @@ std::vector<Column> refined(const Sections& sections, std::vector<Column> column
 
 }  // namespace
 
-std::vector<double> lateral_nodes(const Surface& surface, Body body, std::span<const double> stations, double spacing,
-                                  double y_min, double y_max, bool common) {
+LateralArc lateral_arc(const Surface& surface, Body body, std::span<const double> stations, double spacing,
+                       double y_min, double y_max, bool common) {
   if (!(spacing > 0.0)) throw Error(ErrorKind::configuration, "the spacing of samples must be positive");
   const Box3 box = surface.bounds();
   const double low = std::max(y_min, box.min.y()), high = std::min(y_max, box.max.y());
@@ -105,8 +105,7 @@ std::vector<double> lateral_nodes(const Surface& surface, Body body, std::span<c
   constexpr double kMostNodes = 1e6;
   if (!((high - low) / spacing < kMostNodes))
     throw Error(ErrorKind::configuration, "the spacing of samples is too small for the width of the surface");
-  if (stations.empty() || !(high > low))
-    throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  if (stations.empty() || !(high > low)) return {};
 
   const Sections sections(surface, body, stations, common);
   const int n = std::max(32, static_cast<int>(std::ceil((high - low) / spacing * kPerStep)));
@@ -115,7 +114,7 @@ std::vector<double> lateral_nodes(const Surface& surface, Body body, std::span<c
   std::vector<Column> columns = sections.at(raster);
   const auto is_present = [&](const Column& c) { return sections.present(c); };
   const auto first = std::find_if(columns.begin(), columns.end(), is_present);
-  if (first == columns.end()) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  if (first == columns.end()) return {};
   const auto last = std::find_if(columns.rbegin(), columns.rend(), is_present).base() - 1;
 
   std::vector<Column> inner;
@@ -126,22 +125,52 @@ std::vector<double> lateral_nodes(const Surface& surface, Body body, std::span<c
     Column end = sections.end(*last, (last + 1)->y);
     if (end.y > inner.back().y) inner.push_back(std::move(end));
   }
-  if (inner.size() < 2) throw Error(ErrorKind::configuration, "the surface is too narrow for samples at this spacing");
   inner = refined(sections, std::move(inner), spacing / kPerStep);
 
-  std::vector<double> arc(inner.size(), 0.0);
-  for (std::size_t i = 1; i < inner.size(); ++i) arc[i] = arc[i - 1] + Sections::length(inner[i - 1], inner[i]);
-  const int steps = std::max(3, static_cast<int>(std::ceil(arc.back() / spacing - 1e-9)));
-  std::vector<double> nodes{inner.front().y};
+  LateralArc result;
+  result.y.reserve(inner.size());
+  for (const Column& column : inner) result.y.push_back(column.y);
+  result.arc.assign(inner.size(), 0.0);
+  for (std::size_t i = 1; i < inner.size(); ++i)
+    result.arc[i] = result.arc[i - 1] + Sections::length(inner[i - 1], inner[i]);
+  for (std::size_t s = 0; s < stations.size(); ++s) {
+    double own = 0.0;
+    for (std::size_t i = 1; i < inner.size(); ++i) {
+      const double l = std::hypot(inner[i].y - inner[i - 1].y, inner[i].h[s] - inner[i - 1].h[s]);
+      if (!std::isnan(l)) own += l;
+    }
+    result.longest_section = std::max(result.longest_section, own);
+  }
+  return result;
+}
+
+int steps_along(double length, double spacing) {
+  return std::max(3, static_cast<int>(std::ceil(length / spacing - 1e-9)));
+}
+
+void LateralArc::require_room() const {
+  if (y.empty()) throw Error(ErrorKind::configuration, "there is no surface in the range to be sampled");
+  if (!has_room()) throw Error(ErrorKind::configuration, "the surface is too narrow for samples at this spacing");
+}
+
+std::vector<double> LateralArc::nodes(int steps) const {
+  std::vector<double> nodes{y.front()};
   std::size_t piece = 1;
   for (int i = 1; i < steps; ++i) {
     const double wanted = arc.back() * i / steps;
     while (arc[piece] < wanted) ++piece;
     const double share = (wanted - arc[piece - 1]) / (arc[piece] - arc[piece - 1]);
-    nodes.push_back(inner[piece - 1].y + share * (inner[piece].y - inner[piece - 1].y));
+    nodes.push_back(y[piece - 1] + share * (y[piece] - y[piece - 1]));
   }
-  nodes.push_back(inner.back().y);
+  nodes.push_back(y.back());
   return nodes;
+}
+
+std::vector<double> lateral_nodes(const Surface& surface, Body body, std::span<const double> stations, double spacing,
+                                  double y_min, double y_max, bool common) {
+  const LateralArc arc = lateral_arc(surface, body, stations, spacing, y_min, y_max, common);
+  arc.require_room();
+  return arc.nodes(steps_along(arc.arc.back(), spacing));
 }
 
 }  // namespace treadmark::sampling

@@ -28,8 +28,10 @@ struct PointGrid {
   std::vector<double> u;  ///< strictly increasing; a closed wheel ends one step before u.front() + 2 pi
   std::vector<double> y;  ///< strictly increasing [m]; dense where the section is steep
   std::vector<double> h;  ///< z or r [m]; index = iu * y.size() + iy
-  double stagger = 0.0;   ///< added to u at odd lateral nodes: half a step makes nearly equilateral triangles
-  bool closed = false;    ///< wheel only: the last station neighbours the first
+  std::vector<double>
+      own_y;             ///< where nodes follow sections that move aside: y of each point instead, as h; else empty
+  double stagger = 0.0;  ///< added to u at odd lateral nodes: half a step makes nearly equilateral triangles
+  bool closed = false;   ///< wheel only: the last station neighbours the first
 
   /// Where the value of a point stands in h.
   std::size_t index(std::size_t iu, std::size_t iy) const { return iu * y.size() + iy; }
@@ -38,7 +40,8 @@ struct PointGrid {
   /// In the surface frame.
   Vec3 point(std::size_t iu, std::size_t iy) const {
     const double value = h[index(iu, iy)], at = u[iu] + (iy % 2 == 1 ? stagger : 0.0);
-    return body == Body::rail ? Vec3(at, y[iy], value) : Vec3(value * std::sin(at), y[iy], value * std::cos(at));
+    const double across = own_y.empty() ? y[iy] : own_y[index(iu, iy)];
+    return body == Body::rail ? Vec3(at, across, value) : Vec3(value * std::sin(at), across, value * std::cos(at));
   }
 };
 

@@ -16,6 +16,7 @@ namespace treadmark::sampling {
 namespace {
 
 constexpr std::size_t kRadiusStations = 33;  // in which the lateral nodes are laid out
+constexpr double kMovedAside = 1.5;          // arc of all sections together over that of the longest one
 
 std::vector<double> spread(const std::vector<double>& all) {
   if (all.size() <= kRadiusStations) return all;
@@ -74,10 +75,15 @@ void trim(PointGrid& grid) {
   kept.closed = false;
   kept.u.clear();
   kept.h.clear();
+  kept.own_y.clear();
   for (std::size_t i = first; i < first + best; ++i) {
     kept.u.push_back(grid.u[i % n] + (i >= n ? 2.0 * kPi : 0.0));
-    const auto row = grid.h.begin() + static_cast<std::ptrdiff_t>((i % n) * ny);
-    kept.h.insert(kept.h.end(), row, row + static_cast<std::ptrdiff_t>(ny));
+    const auto keep = [&](const std::vector<double>& from, std::vector<double>& to) {
+      const auto row = from.begin() + static_cast<std::ptrdiff_t>((i % n) * ny);
+      to.insert(to.end(), row, row + static_cast<std::ptrdiff_t>(ny));
+    };
+    keep(grid.h, kept.h);
+    if (!grid.own_y.empty()) keep(grid.own_y, kept.own_y);
   }
   grid = std::move(kept);
 }
@@ -127,8 +133,13 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
   if (std::isfinite(width) && static_cast<double>(grid.u.size()) * width / settings.spacing > kMostPoints) refuse();
   const std::vector<double> reference = spread(grid.u);
   const double spacing_y = (settings.staggered ? kTriangleHeight : 1.0) * settings.spacing;
-  grid.y =
-      lateral_nodes(surface, body, reference, spacing_y, settings.region.y_min, settings.region.y_max, settings.common);
+  const double y_min = settings.region.y_min, y_max = settings.region.y_max;
+  const LateralArc arc = lateral_arc(surface, body, reference, spacing_y, y_min, y_max, settings.common);
+  arc.require_room();
+  // common nodes are dense wherever any section is steep: far too many where the sections move aside
+  const bool follow = settings.staggered && arc.arc.back() > kMovedAside * arc.longest_section;
+  const int steps = steps_along(follow ? arc.longest_section : arc.arc.back(), spacing_y);
+  grid.y = arc.nodes(steps);
   if (static_cast<double>(grid.u.size()) * static_cast<double>(grid.y.size()) > kMostPoints) refuse();
   grid.h.resize(grid.u.size() * grid.y.size());
   if (!settings.staggered) {
@@ -140,12 +151,22 @@ PointGrid sample_points(const Surface& surface, Body body, double nominal_radius
     return grid;
   }
   grid.stagger = 0.5 * (grid.u[1] - grid.u[0]);
-  std::vector<double> nodes[2];
-  for (std::size_t k = 0; k < grid.y.size(); ++k) nodes[k % 2].push_back(grid.y[k]);
+  if (follow) grid.own_y.resize(grid.h.size());
+  std::vector<double> common[2];
+  for (std::size_t k = 0; k < grid.y.size(); ++k) common[k % 2].push_back(grid.y[k]);
   parallel_for(grid.u.size(), [&](std::size_t i) {
     for (std::size_t odd = 0; odd < 2; ++odd) {
-      std::vector<double> h(nodes[odd].size());
-      section_heights(surface, body, grid.u[i] + (odd == 1 ? grid.stagger : 0.0), nodes[odd], {h, {}, {}});
+      const double u = grid.u[i] + (odd == 1 ? grid.stagger : 0.0);
+      std::vector<double> nodes = common[odd], h(nodes.size());
+      if (follow) {
+        const LateralArc own = lateral_arc(surface, body, {&u, 1}, spacing_y, y_min, y_max);
+        if (own.has_room()) {
+          const std::vector<double> all = own.nodes(steps);
+          for (std::size_t k = 0; k < nodes.size(); ++k) nodes[k] = all[2 * k + odd];
+        }
+        for (std::size_t k = 0; k < nodes.size(); ++k) grid.own_y[grid.index(i, 2 * k + odd)] = nodes[k];
+      }
+      section_heights(surface, body, u, nodes, {h, {}, {}});
       for (std::size_t k = 0; k < h.size(); ++k) grid.h[grid.index(i, 2 * k + odd)] = h[k];
     }
   });

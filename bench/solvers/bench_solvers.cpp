@@ -21,12 +21,12 @@ namespace {
 
 using namespace treadmark;
 
-constexpr int kGrids[] = {70, 142, 281, 557, 785};
+constexpr int kGrids[] = {70, 142, 281, 557, 785, 1241};
 constexpr int kReferenceGrid = 142;  ///< growth is relative to it: smaller problems live in the cache
 constexpr int kRepetitions = 3;
 constexpr const char* kUsage =
     "usage: bench_solvers [--largest N] [--threads N] [--json FILE]\n"
-    "       --largest N   grids of at most N x N elements (70, 142, 281, 557, 785)\n"
+    "       --largest N   grids of at most N x N elements (70, 142, 281, 557, 785, 1241)\n"
     "       --threads N   instead: the largest grid on one thread and on N, in turns\n"
     "       --json FILE   writes checks and times there, too\n";
 

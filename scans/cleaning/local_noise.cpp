@@ -3,13 +3,14 @@
 #include "treadmark/scans/cleaning/local_noise.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
-#include <Eigen/Cholesky>
-
 #include "treadmark/core/constants.hpp"
+#include "treadmark/core/cpu.hpp"
 #include "treadmark/core/median.hpp"
 #include "treadmark/core/parallel.hpp"
+#include "treadmark/scans/cleaning/window.hpp"
 
 namespace treadmark::scans {
 namespace {
@@ -18,29 +19,29 @@ constexpr double kWantedPoints = 60.0;
 constexpr int kWidestWindow = 6;
 constexpr std::size_t kMostPoints = 220;  // of the surroundings; evenly chosen from more
 constexpr int kAbsolute = 3, kBiweight = 4;
-constexpr std::size_t kUnknowns = 6, kFewestSamples = 2 * kUnknowns;
+constexpr std::size_t kUnknowns = Window::kTerms, kFewestSamples = 2 * kUnknowns;
 constexpr int kMostWindow = 48;
 constexpr double kMostLeverage = 0.9;
 constexpr double kCalm = 3.5;  // standard deviations
 constexpr std::size_t kMany = 48;
 
-struct Sample {
-  float x, y, d;
-};
-
-struct Scratch {
-  std::vector<Sample> samples;
-  std::vector<float> sizes;
-};
+const WindowKernel& kernel() {
+#if defined(__x86_64__)
+  static const WindowKernel& fastest = cpu_has_avx2() ? kWindowAvx2 : kWindowGeneric;
+  return fastest;
+#else
+  return kWindowGeneric;
+#endif
+}
 
 /// Points of the cells up to window cells from one, in coordinates that run from -1 to 1; evenly chosen if there are
 /// many.
-void gather(const BandPoints& points, const Band& band, std::size_t row, int column, int window,
-            std::vector<Sample>& samples) {
+void gather(const BandPoints& points, const Band& band, std::size_t row, int column, int window, Window& samples) {
   const auto rows = static_cast<std::ptrdiff_t>(points.rows), columns = static_cast<std::ptrdiff_t>(points.columns);
   const double a0 = points.cell_a * (static_cast<double>(row) + 0.5), s0 = points.cell_s * (column + 0.5);
   const double reach_a = points.cell_a * (window + 0.5), reach_s = points.cell_s * (window + 0.5);
-  samples.clear();
+  static_assert(kMostPoints <= Window::kMost && Window::kMost % Window::kLanes == 0);
+  samples.count = 0;
   std::size_t all = 0;
   for (int pass = 0; pass < 2; ++pass) {
     const std::size_t stride = all / kMostPoints + 1;
@@ -61,69 +62,104 @@ void gather(const BandPoints& points, const Band& band, std::size_t row, int col
         all += to - from;
         continue;
       }
-      for (std::size_t i = from; i < to; ++i)
-        if (number++ % stride == 0)
-          samples.push_back({static_cast<float>((points.a[i] + wrap - a0) / reach_a),
-                             static_cast<float>((points.s[i] - s0) / reach_s), points.d[i]});
+      for (std::size_t i = from; i < to; ++i) {
+        if (number++ % stride != 0) continue;
+        samples.x[samples.count] = static_cast<float>((points.a[i] + wrap - a0) / reach_a);
+        samples.y[samples.count] = static_cast<float>((points.s[i] - s0) / reach_s);
+        samples.d[samples.count++] = points.d[i];
+      }
     }
   }
+  for (int i = samples.count; i % Window::kLanes != 0; ++i) samples.x[i] = samples.y[i] = samples.d[i] = 0.0f;
 }
 
-using Vec6 = Eigen::Matrix<double, 6, 1>;
-using Mat6 = Eigen::Matrix<double, 6, 6>;
+using Terms = std::array<double, Window::kTerms>;
 
-Vec6 terms(double x, double y) {
-  Vec6 out;
-  out << 1.0, x, y, x * x, x * y, y * y;
-  return out;
+Terms terms(double x, double y) { return {1.0, x, y, x * x, x * y, y * y}; }
+
+double value(const Terms& c, const Terms& t) {
+  double sum = 0.0;
+  for (std::size_t i = 0; i < c.size(); ++i) sum += c[i] * t[i];
+  return sum;
 }
 
-/// Coefficients over the window's own coordinates, the inverse of their normal matrix, and the scatter about them.
-double fit_window(Scratch& scratch, Vec6& c, Mat6& inverse, double least) {
-  std::vector<Sample>& samples = scratch.samples;
-  scratch.sizes.resize(samples.size());
-  double scale = 0.0;
-  for (int round = 0; round < kAbsolute + kBiweight; ++round) {
-    Mat6 matrix = Mat6::Zero();
-    Vec6 rhs = Vec6::Zero();
-    double sum = 0.0;
-    for (const Sample& p : samples) {
-      const Vec6 t = terms(p.x, p.y);
-      double w = 1.0;
-      if (round > 0) {
-        const double r = p.d - c.dot(t);
-        if (round < kAbsolute) {
-          w = scale / std::max(std::fabs(r), scale);
-        } else {
-          const double q = r / (kTukey * scale);
-          w = std::fabs(q) < 1.0 ? (1.0 - q * q) * (1.0 - q * q) : 0.0;
-        }
+/// A positive definite matrix as L D L^T.
+class Factor {
+ public:
+  /// From the sums of WindowKernel, with so much added to the diagonal.
+  Factor(const std::array<double, Window::kMoments>& moments, double added) {
+    constexpr std::size_t kAlong[] = {0, 1, 0, 2, 1, 0}, kAcross[] = {0, 0, 1, 0, 1, 2};  // powers of the terms
+    constexpr std::size_t kBegin[] = {0, 5, 9, 12, 14};                                   // of each power of y
+    for (std::size_t i = 0; i < kSize; ++i)
+      for (std::size_t k = 0; k <= i; ++k) {
+        double sum = moments[kBegin[kAcross[i] + kAcross[k]] + kAlong[i] + kAlong[k]] + (i == k ? added : 0.0);
+        for (std::size_t j = 0; j < k; ++j) sum -= lower_[i][j] * lower_[k][j] * diagonal_[j];
+        if (i == k)
+          diagonal_[i] = sum;
+        else
+          lower_[i][k] = sum / diagonal_[k];
       }
-      sum += w;
-      for (int i = 0; i < 6; ++i) {
-        rhs[i] += w * p.d * t[i];
-        for (int k = 0; k <= i; ++k) matrix(i, k) += w * t[i] * t[k];
-      }
+  }
+
+  Terms solve(Terms b) const {
+    forward(b);
+    for (std::size_t i = kSize; i-- > 0;) {
+      b[i] /= diagonal_[i];
+      for (std::size_t k = i + 1; k < kSize; ++k) b[i] -= lower_[k][i] * b[k];
     }
+    return b;
+  }
+
+  /// b^T A^-1 b.
+  double form(Terms b) const {
+    forward(b);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < kSize; ++i) sum += b[i] * b[i] / diagonal_[i];
+    return sum;
+  }
+
+ private:
+  static constexpr std::size_t kSize = Window::kTerms;
+
+  void forward(Terms& b) const {
+    for (std::size_t i = 0; i < kSize; ++i)
+      for (std::size_t k = 0; k < i; ++k) b[i] -= lower_[i][k] * b[k];
+  }
+
+  std::array<std::array<double, kSize>, kSize> lower_{};
+  std::array<double, kSize> diagonal_{};
+};
+
+struct WindowFit {
+  Terms c{};           ///< over the window's own coordinates
+  Factor factor;       ///< of the normal matrix
+  double sigma = 0.0;  ///< scatter about the quadratic [m]
+};
+
+WindowFit fit_window(Window& samples, double least) {
+  const auto count = static_cast<std::size_t>(samples.count);
+  Terms c{};
+  double scale = 0.0;
+  for (int round = 0;; ++round) {
+    const WindowWeights weights = round == 0          ? WindowWeights::even
+                                  : round < kAbsolute ? WindowWeights::absolute
+                                                      : WindowWeights::biweight;
+    std::array<double, Window::kMoments> moments;
+    Terms products;
+    kernel().sums(samples, c.data(), weights, round < kAbsolute ? scale : kTukey * scale, moments.data(),
+                  products.data());
     // surroundings that lie on one line leave terms open: those stay small
-    matrix.diagonal().array() += 1e-7 * std::max(sum, 1.0);
-    const auto factor = matrix.selfadjointView<Eigen::Lower>().ldlt();
-    c = factor.solve(rhs);
-    for (std::size_t i = 0; i < samples.size(); ++i)
-      scratch.sizes[i] = static_cast<float>(std::fabs(samples[i].d - c.dot(terms(samples[i].x, samples[i].y))));
-    const auto middle = scratch.sizes.begin() + static_cast<std::ptrdiff_t>(samples.size() / 2);
-    std::nth_element(scratch.sizes.begin(), middle, scratch.sizes.end());
-    scale = std::max(kMad * static_cast<double>(*middle), least);
+    const Factor factor(moments, 1e-7 * std::max(moments[0], 1.0));
+    c = factor.solve(products);
+    float middle = 0.0f, greatest = 0.0f;
+    kernel().sizes(samples, c.data(), &middle, &greatest);
+    scale = std::max(kMad * static_cast<double>(middle), least);
     // nothing stands out of many: weights would change next to nothing; among few a wild point hides behind the scatter
     // that it makes
-    const bool clean =
-        round == 0 && samples.size() >= kMany && *std::max_element(middle, scratch.sizes.end()) < kCalm * scale;
-    if (clean || round + 1 == kAbsolute + kBiweight) {
-      inverse = factor.solve(Mat6::Identity());
-      break;
-    }
+    const bool clean = round == 0 && count >= kMany && static_cast<double>(greatest) < kCalm * scale;
+    if (clean || round + 1 == kAbsolute + kBiweight)
+      return {c, factor, scale * std::sqrt(static_cast<double>(count) / static_cast<double>(count - kUnknowns))};
   }
-  return scale * std::sqrt(static_cast<double>(samples.size()) / static_cast<double>(samples.size() - kUnknowns));
 }
 
 }  // namespace
@@ -143,8 +179,7 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
   std::vector<float> of_cell(points.begin.size() - 1, -1.0f);
   std::vector<std::size_t> outliers(points.rows, 0), spared(points.rows, 0), isolated(points.rows, 0);
   parallel_for(points.rows, [&](std::size_t row) {
-    Scratch scratch;
-    std::vector<float> residuals;
+    Window samples;
     for (int column = 0; column < columns; ++column) {
       const std::size_t own = points.first(row, static_cast<std::size_t>(column)),
                         own_end = points.begin[row * points.columns + static_cast<std::size_t>(column) + 1];
@@ -152,35 +187,33 @@ LocalNoise find_noise(BandPoints& points, const Band& band, const NoiseSettings&
       const double a0 = points.cell_a * (static_cast<double>(row) + 0.5), s0 = points.cell_s * (column + 0.5);
       // where points are sparse the surroundings are wider
       int window = out.window;
-      gather(points, band, row, column, window, scratch.samples);
-      while (scratch.samples.size() < kFewestSamples && window < kMostWindow)
-        gather(points, band, row, column, window *= 2, scratch.samples);
-      if (scratch.samples.size() < kFewestSamples) {
+      gather(points, band, row, column, window, samples);
+      while (static_cast<std::size_t>(samples.count) < kFewestSamples && window < kMostWindow)
+        gather(points, band, row, column, window *= 2, samples);
+      if (static_cast<std::size_t>(samples.count) < kFewestSamples) {
         for (std::size_t i = own; i < own_end; ++i) points.state[i] = PointState::outlier;
         isolated[row] += own_end - own;
         continue;
       }
       const double reach_a = points.cell_a * (window + 0.5), reach_s = points.cell_s * (window + 0.5);
-      Vec6 c;
-      Mat6 inverse;
-      const double sigma = fit_window(scratch, c, inverse, 0.1 * settings.least_noise);
-      of_cell[row * points.columns + static_cast<std::size_t>(column)] = static_cast<float>(sigma);
+      const WindowFit fit = fit_window(samples, 0.1 * settings.least_noise);
+      of_cell[row * points.columns + static_cast<std::size_t>(column)] = static_cast<float>(fit.sigma);
       if (!(settings.outlier_factor > 0.0)) continue;
-      const double limit = std::max(settings.outlier_factor * sigma, settings.least_outlier);
+      const double limit = std::max(settings.outlier_factor * fit.sigma, settings.least_outlier);
       const auto beyond = static_cast<std::size_t>(
-          std::count_if(scratch.sizes.begin(), scratch.sizes.end(), [&](float size) { return size > limit; }));
-      const bool edge =
-          static_cast<double>(beyond) > settings.most_flagged * static_cast<double>(scratch.samples.size());
+          std::count_if(samples.size, samples.size + samples.count, [&](float size) { return size > limit; }));
+      const bool edge = static_cast<double>(beyond) >
+                        settings.most_flagged * static_cast<double>(static_cast<std::size_t>(samples.count));
       for (std::size_t i = own; i < own_end; ++i) {
-        const Vec6 t = terms((points.a[i] - a0) / reach_a, (points.s[i] - s0) / reach_s);
+        const Terms t = terms((points.a[i] - a0) / reach_a, (points.s[i] - s0) / reach_s);
         // a lone point draws the quadratic to itself: judged by what the others say of it (Cook and Weisberg 1982)
-        const double leverage = t.dot(inverse * t);
+        const double leverage = fit.factor.form(t);
         if (leverage > kMostLeverage) {
           points.state[i] = PointState::outlier;
           ++isolated[row];
           continue;
         }
-        if (!(std::fabs(points.d[i] - c.dot(t)) > limit * std::sqrt(1.0 - leverage))) continue;
+        if (!(std::fabs(points.d[i] - value(fit.c, t)) > limit * std::sqrt(1.0 - leverage))) continue;
         ++(edge ? spared : outliers)[row];
         if (!edge) points.state[i] = PointState::outlier;
       }

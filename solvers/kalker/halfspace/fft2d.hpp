@@ -4,6 +4,7 @@
 
 #include <complex>
 #include <cstddef>
+#include <functional>
 #include <memory>
 #include <span>
 
@@ -45,8 +46,36 @@ class RealFft2d {
   void forward_columns(std::span<std::complex<double>> spectrum) const;
   void inverse_columns(std::span<std::complex<double>> spectrum) const;
 
+  /// Reads or writes `count` rows of nx numbers from row `first` on: called for parts of the active rows, on any
+  /// thread.
+  using LoadRows = std::function<void(int first, int count, double* rows)>;
+  using StoreRows = std::function<void(int first, int count, const double* rows)>;
+  /// A line of the spectrum, of each of the fields: called once for each, on any thread.
+  using Line = std::function<void(int line, std::complex<double>* const* values)>;
+
+  /// Lines in which whole spectra pass by: rows (one a ky, of nx/2+1 numbers) of small transforms, columns (one a kx,
+  /// of ny numbers) of large ones, which then never exist as a whole and go through the cache but once.
+  bool lines_are_columns() const { return by_columns_; }
+  int lines() const { return by_columns_ ? nx_ / 2 + 1 : ny_; }
+  int line_length() const { return by_columns_ ? ny_ : nx_ / 2 + 1; }
+  /// Place of a number in an array of all lines.
+  std::size_t place(int kx, int ky) const {
+    return static_cast<std::size_t>(by_columns_ ? kx : ky) * static_cast<std::size_t>(line_length()) +
+           static_cast<std::size_t>(by_columns_ ? ky : kx);
+  }
+
+  /// Fields, at most kMostFields, transformed, changed line by line and transformed back.
+  static constexpr std::size_t kMostFields = 2;
+  void multiply(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
+  /// The spectrum of a field, line by line.
+  void lines_of(const LoadRows& load, const Line& take) const;
+
  private:
+  void multiply_whole(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
+  void multiply_in_parts(std::span<const LoadRows> load, const Line& factor, std::span<const StoreRows> store) const;
+
   int nx_, ny_, active_rows_;
+  bool by_columns_ = false;
   std::shared_ptr<const FftPlan> plan_;
 };
 

@@ -22,6 +22,13 @@ class FftPlan {
   /// Along the columns of all rows, in place.
   virtual void columns_forward(std::complex<double>* spectrum) const = 0;
   virtual void columns_inverse(std::complex<double>* spectrum) const = 0;
+
+  /// Of a large transform (has_parts) so many rows or columns, as many as rows_of_part or columns_of_part say or what
+  /// is left over at the end. Columns are arrays of ny numbers one after the other; `from` is overwritten.
+  virtual void part_of_rows_forward(int rows, double* real, std::complex<double>* spectrum) const = 0;
+  virtual void part_of_rows_inverse(int rows, std::complex<double>* spectrum, double* real) const = 0;
+  virtual void part_of_columns_forward(int columns, std::complex<double>* from, std::complex<double>* to) const = 0;
+  virtual void part_of_columns_inverse(int columns, std::complex<double>* from, std::complex<double>* to) const = 0;
 };
 
 /// Rows or columns of a large transform are transformed in blocks of this many, on all cores; a small transform is one
@@ -29,6 +36,17 @@ class FftPlan {
 inline int lines_of_fft_block(int lines, int nx, int ny) {
   constexpr int kLarge = 32768, kBlock = 16;  // complex numbers; lines
   return (nx / 2 + 1) * ny >= kLarge ? std::min(lines, kBlock) : lines;
+}
+
+/// Columns of a large transform that go through the cache together: few enough to stay there, and at least as many as
+/// fill a cache line.
+inline int columns_of_part(int nx, int ny) {
+  constexpr int kFewest = 4, kNumbers = 4096;
+  return std::min(nx / 2 + 1, std::max(kFewest, kNumbers / ny));
+}
+inline int rows_of_part(int active_rows, int nx, int ny) { return lines_of_fft_block(active_rows, nx, ny); }
+inline bool has_parts(int active_rows, int nx, int ny) {
+  return ny > 1 && rows_of_part(active_rows, nx, ny) < active_rows;
 }
 
 /// Defined by the library that is compiled in. Calls are serialised by the caller.

@@ -27,6 +27,9 @@ class BlockPlan {
   }
 
   /// execute(plan, first line)
+  /// For a block or for what is left over.
+  fftw_plan of(int lines) const { return (lines == of_block_ ? whole_ : rest_).get(); }
+
   template <class Execute>
   void run(const Execute& execute) const {
     if (!whole_) return;
@@ -77,6 +80,15 @@ class FftwPlan final : public FftPlan {
     };
     columns_forward_ = column_plan(FFTW_FORWARD);
     columns_inverse_ = column_plan(FFTW_BACKWARD);
+    if (!has_parts(active_rows, nx, ny)) return;
+    const auto part_plan = [&](int sign) {
+      return BlockPlan(columns, columns_of_part(nx, ny), [&](int lines) {
+        fftw_complex* from = raw(spectrum.data());
+        return fftw_plan_many_dft(1, &ny, lines, from, nullptr, 1, ny, from + lines * ny, nullptr, 1, ny, sign, kFlags);
+      });
+    };
+    part_forward_ = part_plan(FFTW_FORWARD);
+    part_inverse_ = part_plan(FFTW_BACKWARD);
   }
 
   void rows_forward(double* real, std::complex<double>* spectrum) const override {
@@ -92,6 +104,19 @@ class FftwPlan final : public FftPlan {
   void columns_forward(std::complex<double>* spectrum) const override { execute(columns_forward_, spectrum); }
   void columns_inverse(std::complex<double>* spectrum) const override { execute(columns_inverse_, spectrum); }
 
+  void part_of_rows_forward(int rows, double* real, std::complex<double>* spectrum) const override {
+    fftw_execute_dft_r2c(rows_forward_.of(rows), real, raw(spectrum));
+  }
+  void part_of_rows_inverse(int rows, std::complex<double>* spectrum, double* real) const override {
+    fftw_execute_dft_c2r(rows_inverse_.of(rows), raw(spectrum), real);
+  }
+  void part_of_columns_forward(int columns, std::complex<double>* from, std::complex<double>* to) const override {
+    fftw_execute_dft(part_forward_.of(columns), raw(from), raw(to));
+  }
+  void part_of_columns_inverse(int columns, std::complex<double>* from, std::complex<double>* to) const override {
+    fftw_execute_dft(part_inverse_.of(columns), raw(from), raw(to));
+  }
+
  private:
   static void execute(const BlockPlan& plans, std::complex<double>* spectrum) {
     plans.run([&](fftw_plan plan, std::ptrdiff_t first) {
@@ -100,7 +125,7 @@ class FftwPlan final : public FftPlan {
   }
 
   int nx_, columns_;
-  BlockPlan rows_forward_, columns_forward_, rows_inverse_, columns_inverse_;
+  BlockPlan rows_forward_, columns_forward_, rows_inverse_, columns_inverse_, part_forward_, part_inverse_;
 };
 
 }  // namespace

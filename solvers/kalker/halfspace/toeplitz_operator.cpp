@@ -80,6 +80,63 @@ void add_product(std::span<std::complex<double>> sum, std::span<const std::compl
   });
 }
 
+RealFft2d::LoadRows rows_of(std::span<const double> field, int nx, int padded_nx) {
+  return [from = field.data(), nx, padded_nx](int first, int count, double* rows) {
+    for (int iy = first; iy < first + count; ++iy, rows += padded_nx)
+      std::fill(std::copy_n(from + product(iy, nx), nx, rows), rows + padded_nx, 0.0);
+  };
+}
+
+RealFft2d::StoreRows rows_to(std::span<double> field, int nx, int padded_nx) {
+  return [to = field.data(), nx, padded_nx](int first, int count, const double* rows) {
+    for (int iy = first; iy < first + count; ++iy, rows += padded_nx) std::copy_n(rows, nx, to + product(iy, nx));
+  };
+}
+
+std::vector<double> even_symbol(const RealFft2d& fft, const OffsetKernel& kernel) {
+  const int nx = fft.nx(), ny = fft.ny();
+  // One half-plane: the other one has the complex conjugate transform. Rows on the line between them count half.
+  const double scale = 1.0 / (static_cast<double>(nx) * ny);
+  const int last = std::min(fft.active_rows() - 1, ny / 2);
+  const auto half_plane = [&](int first, int count, double* rows) {
+    for (int iy = first; iy < first + count; ++iy, rows += nx) {
+      if (iy > last) {
+        std::fill(rows, rows + nx, 0.0);
+        continue;
+      }
+      const double weight = iy == 0 || 2 * iy == ny ? scale : 2.0 * scale;
+      for (int ix = 0; ix < nx; ++ix) rows[ix] = weight * kernel(2 * ix > nx ? ix - nx : ix, iy);
+    }
+  };
+  std::vector<double> symbol(fft.spectrum_size());
+  const auto length = static_cast<std::size_t>(fft.line_length());
+  fft.lines_of(std::ref(half_plane), [&](int line, std::complex<double>* const* values) {
+    double* to = symbol.data() + static_cast<std::size_t>(line) * length;
+    for (std::size_t k = 0; k < length; ++k) to[k] = values[0][k].real();
+  });
+  return symbol;
+}
+
+void multiply_by_symbol(const RealFft2d& fft, std::span<const double> symbol, int nx, std::span<const double> field,
+                        std::span<double> result) {
+  const std::size_t size = product(nx, fft.active_rows());
+  check_size(field.size(), size);
+  check_size(result.size(), size);
+  check_size(symbol.size(), fft.spectrum_size());
+  const auto length = static_cast<std::size_t>(fft.line_length());
+  const auto factor = [=](int line, std::complex<double>* const* values) {
+    const double* by = symbol.data() + static_cast<std::size_t>(line) * length;
+    double* to = reinterpret_cast<double*>(values[0]);
+    for (std::size_t k = 0; k < length; ++k) {
+      to[2 * k] *= by[k];
+      to[2 * k + 1] *= by[k];
+    }
+  };
+  const RealFft2d::LoadRows load = rows_of(field, nx, fft.nx());
+  const RealFft2d::StoreRows store = rows_to(result, nx, fft.nx());
+  fft.multiply({&load, 1}, std::ref(factor), {&store, 1});
+}
+
 ToeplitzTransform::ToeplitzTransform(int nx, int ny)
     : nx_((check_grid(nx, ny), nx)), ny_(ny), fft_(padded(nx), padded_rows(ny), ny) {}
 
@@ -115,6 +172,16 @@ Spectrum ToeplitzTransform::kernel_spectrum(const OffsetKernel& kernel) const {
     for (int dix = 1 - nx_; dix < nx_; ++dix)
       field[product((diy + py) % py, px) + static_cast<std::size_t>((dix + px) % px)] = scale * kernel(dix, diy);
   return whole_spectrum(field);
+}
+
+Spectrum ToeplitzTransform::in_lines(Spectrum spectrum) const {
+  if (!fft_.lines_are_columns()) return spectrum;
+  Spectrum lines(spectrum.size());
+  const auto width = static_cast<std::size_t>(fft_.lines());
+  for (int ky = 0; ky < padded_ny(); ++ky)
+    for (int kx = 0; kx < fft_.lines(); ++kx)
+      lines[fft_.place(kx, ky)] = spectrum[static_cast<std::size_t>(ky) * width + static_cast<std::size_t>(kx)];
+  return lines;
 }
 
 Spectrum ToeplitzTransform::wrapped_kernel_spectrum(const OffsetKernel& kernel) const {

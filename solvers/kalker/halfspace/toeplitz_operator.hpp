@@ -24,6 +24,20 @@ void multiply(std::span<std::complex<double>> spectrum, std::span<const std::com
 void add_product(std::span<std::complex<double>> sum, std::span<const std::complex<double>> field,
                  std::span<const std::complex<double>> factor, double weight = 1.0);
 
+/// Transform of a kernel that is the same at opposite offsets in both directions (hence real), on the ring of elements
+/// of `fft`, divided by their number, in the lines of `fft`. Offsets beyond the active rows count as zero. The kernel
+/// is called on any thread.
+std::vector<double> even_symbol(const RealFft2d& fft, const OffsetKernel& kernel);
+
+/// field -> symbol * field for fields of ny rows of nx values, zero up to the size of `fft`, which has ny active rows.
+/// Input and output may be the same.
+void multiply_by_symbol(const RealFft2d& fft, std::span<const double> symbol, int nx, std::span<const double> field,
+                        std::span<double> result);
+
+/// Reads rows of a field of nx values a row, filled up with zeros; writes what is left of them.
+RealFft2d::LoadRows rows_of(std::span<const double> field, int nx, int padded_nx);
+RealFft2d::StoreRows rows_to(std::span<double> field, int nx, int padded_nx);
+
 /// Zero-padded transforms of fields with ny rows of nx values, for convolutions with kernels of index offsets.
 /// u = K p reads: forward(p, s); multiply s by kernel_spectrum(K); inverse(s, u). Sums of several kernels and fields
 /// are formed between the transforms. Const members may be called from any number of threads.
@@ -38,6 +52,8 @@ class ToeplitzTransform {
 
   /// Spectrum of a kernel, scaled so that a product with a field's spectrum needs no further factor.
   Spectrum kernel_spectrum(const OffsetKernel& kernel) const;
+  /// The spectrum in the lines of fft().
+  Spectrum in_lines(Spectrum spectrum) const;
   /// The same product, but the kernel is evaluated at all offsets of the padded field, |dix| <= padded_nx/2 and
   /// |diy| <= padded_ny/2. For a symmetric decaying kernel the spectrum is then free of the ripples that a cut leaves,
   /// so that its reciprocal makes a preconditioner.
@@ -45,6 +61,10 @@ class ToeplitzTransform {
   /// field -> kernel * field. Sizes nx * ny; input and output may be the same.
   void convolve(std::span<const std::complex<double>> kernel_spectrum, std::span<const double> field,
                 std::span<double> result) const;
+  /// The same by an even_symbol of fft().
+  void convolve(std::span<const double> symbol, std::span<const double> field, std::span<double> result) const {
+    multiply_by_symbol(fft_, symbol, nx_, field, result);
+  }
   void forward(std::span<const double> field, std::span<std::complex<double>> spectrum) const;
   /// spectrum is overwritten.
   void inverse(std::span<std::complex<double>> spectrum, std::span<double> field) const;
@@ -61,6 +81,7 @@ class ToeplitzTransform {
                            std::span<std::complex<double>> rows) const;
 
   /// Size of the padded periodic field (the spectrum has padded_ny rows of padded_nx/2+1 values).
+  const RealFft2d& fft() const { return fft_; }
   int padded_nx() const { return fft_.nx(); }
   int padded_ny() const { return fft_.ny(); }
 

@@ -38,6 +38,19 @@ class KissPlan final : public FftPlan {
   void columns_forward(Complex* spectrum) const override { transform_columns(spectrum, false); }
   void columns_inverse(Complex* spectrum) const override { transform_columns(spectrum, true); }
 
+  void part_of_rows_forward(int rows, double* real, Complex* spectrum) const override {
+    rows_forward(0, rows, real, spectrum);
+  }
+  void part_of_rows_inverse(int rows, Complex* spectrum, double* real) const override {
+    rows_inverse(0, rows, spectrum, real);
+  }
+  void part_of_columns_forward(int columns, Complex* from, Complex* to) const override {
+    transform_lines(columns, from, to, false);
+  }
+  void part_of_columns_inverse(int columns, Complex* from, Complex* to) const override {
+    transform_lines(columns, from, to, true);
+  }
+
  private:
   static std::size_t at(int k) { return static_cast<std::size_t>(k); }
 
@@ -89,6 +102,11 @@ class KissPlan final : public FftPlan {
       transform.transform(in.data(), out.data());
       for (int iy = 0; iy < ny_; ++iy) spectrum[k + std::ptrdiff_t{iy} * columns_] = out[at(iy)];
     }
+  }
+
+  void transform_lines(int count, const Complex* from, Complex* to, bool inverse) const {
+    const auto& transform = thread_transform(ny_, inverse);
+    for (std::ptrdiff_t k = 0; k < count; ++k) transform.transform(from + k * ny_, to + k * ny_);
   }
 
   int half_, columns_, ny_, active_rows_;

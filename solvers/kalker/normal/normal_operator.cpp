@@ -13,18 +13,17 @@ namespace {
 /// Boxes kept at the same time; a sequence of similar problems needs a handful.
 constexpr std::size_t kMaxOperators = 64;
 
-/// Reciprocal of a symmetric positive kernel's spectrum (Vollebregt 2014): the inverse on a periodic grid.
-Spectrum reciprocal(const Spectrum& spectrum, double transform_size) {
-  double largest = 0.0;
-  for (const auto& value : spectrum) largest = std::max(largest, value.real());
+/// Reciprocal of a symmetric positive kernel's symbol (Vollebregt 2014): the inverse on a periodic grid.
+std::vector<double> reciprocal(std::vector<double> symbol, const RealFft2d& ring) {
   // The periodic continuation of a slowly decaying kernel may leave values near zero; these must not be amplified.
-  const double floor = 1e-8 * largest;
-  Spectrum result;
-  result.reserve(spectrum.size());
-  const double scale = 1.0 / (transform_size * transform_size);
-  for (const auto& value : spectrum) result.emplace_back(scale / std::max(value.real(), floor));
-  return result;
+  const double floor = 1e-8 * *std::max_element(symbol.begin(), symbol.end());
+  const double size = static_cast<double>(ring.nx()) * ring.ny(), scale = 1.0 / (size * size);
+  for (double& value : symbol) value = scale / std::max(value, floor);
+  return symbol;
 }
+
+/// Elements of the ring on which coefficients are inverted.
+int ring_size(int n) { return good_fft_size(n + 2); }
 
 }  // namespace
 
@@ -54,15 +53,25 @@ NormalOperator NormalOperatorCache::get(int nx, int ny, int first_row, const Con
 
 std::shared_ptr<NormalInfluence> NormalOperatorCache::make(int nx, int ny) {
   const double dx = table_->dx(), dy = table_->dy();
-  auto made = std::make_shared<NormalInfluence>(NormalInfluence{ToeplitzTransform(nx, ny), {}, {}, {}});
-  if (!kernel_) table_->grow(made->transform.padded_nx() / 2 + 1, made->transform.padded_ny() / 2 + 1);
-  made->influence = made->transform.wrapped_kernel_spectrum([&](int dix, int diy) {
+  auto made = std::make_shared<NormalInfluence>(NormalInfluence{
+      ToeplitzTransform(nx, ny), {}, {}, RealFft2d(ring_size(nx), ny == 1 ? 1 : ring_size(ny), ny), {}, {}});
+  const auto coefficient = [&](int dix, int diy) {
     const double c = kernel_ ? kernel_->at(dix * dx, diy * dy).nn : (*table_)(dix, diy);
     return c / shear_modulus_ + (dix == 0 && diy == 0 ? sheet_ : 0.0);
-  });
-  // of kernels that are not symmetric the even part
-  made->preconditioner =
-      reciprocal(made->influence, static_cast<double>(made->transform.padded_nx()) * made->transform.padded_ny());
+  };
+  if (kernel_) {
+    made->influence = made->transform.kernel_spectrum(coefficient);
+  } else {
+    // the ring of a single column is larger than its padded box
+    table_->grow(std::max(made->transform.padded_nx(), made->ring.nx()) / 2 + 1, ny);
+    made->symbol = even_symbol(made->transform.fft(), coefficient);
+  }
+  // of kernels that are not symmetric what is even in both directions
+  const auto even = [&](int dix, int diy) {
+    if (!kernel_) return coefficient(dix, diy);
+    return 0.25 * (coefficient(dix, diy) + coefficient(-dix, diy) + coefficient(dix, -diy) + coefficient(-dix, -diy));
+  };
+  made->inverse_symbol = reciprocal(even_symbol(made->ring, even), made->ring);
   if (turned_) {
     const auto blocks = std::make_shared<BlockTable>(nx, ny, dx, dy, kernel_);
     made->turned.emplace(

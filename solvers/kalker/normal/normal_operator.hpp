@@ -18,8 +18,10 @@ namespace treadmark::kalker {
 /// Coefficients of pressures on a box of elements of one size.
 struct NormalInfluence {
   ToeplitzTransform transform;
-  Spectrum influence;  ///< C/G [m/Pa]; of coefficients that are turned row by row those before
-  Spectrum preconditioner;
+  std::vector<double> symbol;  ///< C/G [m/Pa] of half-spaces
+  Spectrum influence;          ///< of other kernels, then there is no symbol; turned row by row: those before
+  RealFft2d ring;              ///< hardly larger than the box
+  std::vector<double> inverse_symbol;
   std::optional<TurnedProduct> turned;  ///< of coefficients that are turned row by row
 };
 
@@ -33,10 +35,11 @@ class NormalOperator {
   void displacement(std::span<const double> pressure, std::span<double> u) const {
     if (rows_)
       return coefficients_->turned->apply(*rows_, {.x = {}, .y = {}, .n = pressure}, {.x = {}, .y = {}, .n = u});
+    if (coefficients_->influence.empty()) return coefficients_->transform.convolve(coefficients_->symbol, pressure, u);
     coefficients_->transform.convolve(coefficients_->influence, pressure, u);
   }
   void precondition(std::span<const double> residual, std::span<double> z) const {
-    coefficients_->transform.convolve(coefficients_->preconditioner, residual, z);
+    multiply_by_symbol(coefficients_->ring, coefficients_->inverse_symbol, coefficients_->transform.nx(), residual, z);
   }
 
  private:

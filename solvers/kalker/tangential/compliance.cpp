@@ -4,8 +4,10 @@
 #include "treadmark/solvers/kalker/tangential/compliance.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdlib>
+#include <functional>
 #include <numbers>
 
 #include "treadmark/solvers/kalker/halfspace/element_blocks.hpp"
@@ -17,11 +19,24 @@ namespace {
 
 std::size_t product(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
 
+/// (x, y) -> block (x, y) at each place.
+void multiply_by_blocks(std::span<const ComplianceBlock> blocks, std::complex<double>* x, std::complex<double>* y) {
+  double *to_x = reinterpret_cast<double*>(x), *to_y = reinterpret_cast<double*>(y);
+  for (std::size_t k = 0; k < blocks.size(); ++k) {
+    const ComplianceBlock& b = blocks[k];
+    for (std::size_t i = 2 * k; i < 2 * k + 2; ++i) {
+      const double ux_k = b.xx * to_x[i] + b.xy * to_y[i];
+      to_y[i] = b.xy * to_x[i] + b.yy * to_y[i];
+      to_x[i] = ux_k;
+    }
+  }
+}
+
 }  // namespace
 
 Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx, key.ny) {
   tabulate();
-  const int px = transform_.padded_nx(), py = transform_.padded_ny();
+  const int px = transform_.padded_nx();
   // What is even and odd in both directions: all of a symmetric kernel, and a fair stand-in for others in the
   // preconditioner.
   const ComplianceKernel even = [this](int dix, int diy) -> ComplianceBlock {
@@ -34,18 +49,17 @@ Compliance::Compliance(const ComplianceKey& key) : key_(key), transform_(key.nx,
             0.25 * (a.yy + b.yy + c.yy + d.yy)};
   };
   if (symmetric()) {
-    symbol_ = ring_symbol(even, RealFft2d(px, py, key.ny));
+    symbol_ = ring_symbol(even, transform_.fft());
   } else {
     for (double Entry::*member : {&Entry::xx, &Entry::xy, &Entry::yx, &Entry::yy})
-      spectra_.push_back(transform_.kernel_spectrum([&](int dix, int diy) { return at(dix, diy).*member; }));
+      spectra_.push_back(
+          transform_.in_lines(transform_.kernel_spectrum([&](int dix, int diy) { return at(dix, diy).*member; })));
   }
   inverse_.emplace(key.nx, key.ny, even);
   step_.resize(static_cast<std::size_t>(px / 2 + 1));
   for (std::size_t k = 0; k < step_.size(); ++k)
     step_[k] = 1.0 - std::polar(1.0, 2.0 * std::numbers::pi * static_cast<double>(k) / px);
   for (const std::complex<double>& step : step_) step_back_.push_back(std::conj(step));
-  spectrum_x_.resize(transform_.spectrum_size());
-  spectrum_y_.resize(transform_.spectrum_size());
 }
 
 void Compliance::tabulate() {
@@ -91,51 +105,44 @@ Compliance::Entry Compliance::at(int dix, int diy) const {
   return e;
 }
 
-template <class Multiply>
-void Compliance::multiply(Transport transport, const Multiply& at) {
-  const std::size_t width = step_.size();
-  if (transport == Transport::none) {
-    for_blocks(spectrum_x_.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) at(k, spectrum_x_[k], spectrum_y_[k]);
-    });
-    return;
-  }
-  const double sign = transport == Transport::forward ? 1.0 : -1.0;
-  const auto multiply_rows = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t row = begin * width; row < end * width; row += width)
-      for (std::size_t kx = 0; kx < width; ++kx) {
-        const std::size_t k = row + kx;
-        at(k, spectrum_x_[k], spectrum_y_[k]);
-        const double c = step_[kx].real(), s = sign * step_[kx].imag();
-        const std::complex<double> sx = spectrum_x_[k], sy = spectrum_y_[k];
-        spectrum_x_[k] = {sx.real() * c - sx.imag() * s, sx.real() * s + sx.imag() * c};
-        spectrum_y_[k] = {sy.real() * c - sy.imag() * s, sy.real() * s + sy.imag() * c};
-      }
-  };
-  for_blocks(spectrum_x_.size() / width, multiply_rows, width);
-}
-
 void Compliance::apply(Transport transport, std::span<const double> px, std::span<const double> py,
                        std::span<double> ux, std::span<double> uy, const RowInclination* rows) {
   if (rows) return apply_turned(*rows, transport, px, py, ux, uy);
-  transform_.forward(px, spectrum_x_);
-  transform_.forward(py, spectrum_y_);
-  if (symmetric()) {
-    multiply(transport, [this](std::size_t k, std::complex<double>& x, std::complex<double>& y) {
-      const Block& b = symbol_[k];
-      const std::complex<double> ux_k = b.xx * x + b.xy * y;
-      y = b.xy * x + b.yy * y;
-      x = ux_k;
-    });
-  } else {
-    multiply(transport, [this](std::size_t k, std::complex<double>& x, std::complex<double>& y) {
-      const std::complex<double> ux_k = spectra_[0][k] * x + spectra_[1][k] * y;
-      y = spectra_[2][k] * x + spectra_[3][k] * y;
-      x = ux_k;
-    });
-  }
-  transform_.inverse(spectrum_x_, ux);
-  transform_.inverse(spectrum_y_, uy);
+  const RealFft2d& fft = transform_.fft();
+  const auto length = static_cast<std::size_t>(fft.line_length());
+  const double sign = transport == Transport::forward ? 1.0 : -1.0;
+  const auto multiply_line = [&](int line, std::complex<double>* const* values) {
+    std::complex<double>*x = values[0], *y = values[1];
+    const std::size_t begin = static_cast<std::size_t>(line) * length;
+    if (symmetric()) {
+      multiply_by_blocks({symbol_.data() + begin, length}, x, y);
+    } else {
+      for (std::size_t k = 0; k < length; ++k) {
+        const std::complex<double> ux_k = spectra_[0][begin + k] * x[k] + spectra_[1][begin + k] * y[k];
+        y[k] = spectra_[2][begin + k] * x[k] + spectra_[3][begin + k] * y[k];
+        x[k] = ux_k;
+      }
+    }
+    if (transport == Transport::none) return;
+    // one factor for a column, one for each number of a row
+    for (std::complex<double>* values_of : {x, y}) {
+      double* to = reinterpret_cast<double*>(values_of);
+      const auto turn = [&](std::size_t k, double c, double s) {
+        const double real = to[2 * k] * c - to[2 * k + 1] * s, imaginary = to[2 * k] * s + to[2 * k + 1] * c;
+        to[2 * k] = real;
+        to[2 * k + 1] = imaginary;
+      };
+      if (fft.lines_are_columns()) {
+        const std::complex<double> step = step_[static_cast<std::size_t>(line)];
+        for (std::size_t k = 0; k < length; ++k) turn(k, step.real(), sign * step.imag());
+      } else {
+        for (std::size_t k = 0; k < length; ++k) turn(k, step_[k].real(), sign * step_[k].imag());
+      }
+    }
+  };
+  const std::array load{rows_of(px, key_.nx, fft.nx()), rows_of(py, key_.nx, fft.nx())};
+  const std::array store{rows_to(ux, key_.nx, fft.nx()), rows_to(uy, key_.nx, fft.nx())};
+  fft.multiply(load, std::ref(multiply_line), store);
 }
 
 InfluenceBlock Compliance::half_space_at(int dix, int diy) {
@@ -174,11 +181,6 @@ namespace {
 /// Smallest eigenvalue of a block that is inverted, relative to the largest.
 constexpr double kEigenvalueFloor = 1e-3;
 
-std::size_t ring_size(int a, int b) { return static_cast<std::size_t>(a) * static_cast<std::size_t>(b); }
-
-/// Index distance on a ring, with the sign of the shorter way.
-int wrapped(int d, int period) { return 2 * d > period ? d - period : d; }
-
 ComplianceBlock inverse(const ComplianceBlock& b) {
   const double mean = 0.5 * (b.xx + b.yy), half = 0.5 * (b.xx - b.yy);
   const double radius = std::hypot(half, b.xy);
@@ -196,81 +198,36 @@ int ring_size(int n) { return good_fft_size(n + 2); }
 }  // namespace
 
 std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const RealFft2d& fft) {
-  const int nx = fft.nx(), ny = fft.ny();
-  const int last = std::min(fft.active_rows() - 1, ny / 2);
-  AlignedVector<double> field(fft.real_size());
-  Spectrum spectrum(fft.spectrum_size());
-  std::vector<ComplianceBlock> half(ring_size(nx, last + 1)), symbol(fft.spectrum_size());
-  // One half-plane: the other one has the complex conjugate transform. Rows on the line between them count half.
-  const double scale = 1.0 / (static_cast<double>(nx) * ny);
-  const auto width = static_cast<std::size_t>(nx);
-  fill_by_blocks(half, half.size(), [&](std::size_t i) -> ComplianceBlock {
-    const int ix = static_cast<int>(i % width), iy = static_cast<int>(i / width);
-    ComplianceBlock b = kernel(wrapped(ix, nx), iy);
-    if (2 * ix == nx || 2 * iy == ny) b.xy = 0.0;
-    const double weight = iy == 0 || 2 * iy == ny ? scale : 2.0 * scale;
-    return {weight * b.xx, weight * b.xy, weight * b.yy};
-  });
+  std::vector<ComplianceBlock> symbol(fft.spectrum_size());
   for (double ComplianceBlock::*member : {&ComplianceBlock::xx, &ComplianceBlock::xy, &ComplianceBlock::yy}) {
-    clear(std::span(field));
-    for (std::size_t i = 0; i < half.size(); ++i) field[i] = half[i].*member;
-    fft.forward(field, spectrum);
-    for_blocks(symbol.size(), [&](std::size_t begin, std::size_t end) {
-      for (std::size_t k = begin; k < end; ++k) symbol[k].*member = spectrum[k].real();
+    const bool odd = member == &ComplianceBlock::xy;
+    const std::vector<double> part = even_symbol(fft, [&](int dix, int diy) {
+      return odd && (2 * std::abs(dix) == fft.nx() || 2 * diy == fft.ny()) ? 0.0 : kernel(dix, diy).*member;
     });
+    for_each_element(part.size(), [&](std::size_t k) { symbol[k].*member = part[k]; });
   }
   return symbol;
 }
 
 InverseCompliance::InverseCompliance(int nx, int ny, const ComplianceKernel& kernel)
-    : nx_(nx), ny_(ny), fft_(ring_size(nx), ny == 1 ? 1 : ring_size(ny), ny) {
+    : nx_(nx), fft_(ring_size(nx), ny == 1 ? 1 : ring_size(ny), ny) {
   symbol_ = ring_symbol(kernel, fft_);
   const double scale = 1.0 / (static_cast<double>(fft_.nx()) * fft_.ny());
   for (ComplianceBlock& b : symbol_) {
     b = inverse(b);
     b = {scale * scale * b.xx, scale * scale * b.xy, scale * scale * b.yy};
   }
-  ring_.resize(fft_.real_size());
-  spectrum_x_.resize(fft_.spectrum_size());
-  spectrum_y_.resize(fft_.spectrum_size());
-}
-
-void InverseCompliance::load(std::span<const double> field, Spectrum& spectrum) {
-  const auto width = static_cast<std::size_t>(fft_.nx()), nx = static_cast<std::size_t>(nx_);
-  const auto load_rows = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t iy = begin; iy < end; ++iy) {
-      double* row = ring_.data() + iy * width;
-      std::copy_n(field.data() + iy * nx, nx, row);
-      std::fill(row + nx, row + width, 0.0);
-    }
-  };
-  for_blocks(static_cast<std::size_t>(ny_), load_rows, width);
-  fft_.forward(ring_, spectrum);
-}
-
-void InverseCompliance::unload(Spectrum& spectrum, std::span<double> field) {
-  fft_.inverse(spectrum, ring_);
-  const auto width = static_cast<std::size_t>(fft_.nx()), nx = static_cast<std::size_t>(nx_);
-  const auto unload_rows = [&](std::size_t begin, std::size_t end) {
-    for (std::size_t iy = begin; iy < end; ++iy) std::copy_n(ring_.data() + iy * width, nx, field.data() + iy * nx);
-  };
-  for_blocks(static_cast<std::size_t>(ny_), unload_rows, width);
 }
 
 void InverseCompliance::apply(std::span<const double> ux, std::span<const double> uy, std::span<double> px,
                               std::span<double> py) {
-  load(ux, spectrum_x_);
-  load(uy, spectrum_y_);
-  for_blocks(symbol_.size(), [&](std::size_t begin, std::size_t end) {
-    for (std::size_t k = begin; k < end; ++k) {
-      const std::complex<double> x = spectrum_x_[k], y = spectrum_y_[k];
-      const ComplianceBlock& b = symbol_[k];
-      spectrum_x_[k] = b.xx * x + b.xy * y;
-      spectrum_y_[k] = b.xy * x + b.yy * y;
-    }
-  });
-  unload(spectrum_x_, px);
-  unload(spectrum_y_, py);
+  const auto length = static_cast<std::size_t>(fft_.line_length());
+  const auto multiply_line = [&](int line, std::complex<double>* const* values) {
+    multiply_by_blocks({symbol_.data() + static_cast<std::size_t>(line) * length, length}, values[0], values[1]);
+  };
+  const std::array load{rows_of(ux, nx_, fft_.nx()), rows_of(uy, nx_, fft_.nx())};
+  const std::array store{rows_to(px, nx_, fft_.nx()), rows_to(py, nx_, fft_.nx())};
+  fft_.multiply(load, std::ref(multiply_line), store);
 }
 
 }  // namespace treadmark::kalker

@@ -21,9 +21,7 @@ struct ComplianceBlock {
 
 using ComplianceKernel = std::function<ComplianceBlock(int dix, int diy)>;
 
-/// Transform of a kernel that is the same at opposite offsets (hence real), on the ring of elements of `fft`, divided
-/// by their number. Offsets beyond the active rows of `fft` count as zero; the part that is odd in either direction
-/// vanishes half-way round.
+/// even_symbol of each component: the one that is odd in both directions vanishes half-way round.
 std::vector<ComplianceBlock> ring_symbol(const ComplianceKernel& kernel, const RealFft2d& fft);
 
 /// Tractions that cause given displacements in a box of elements, if the box were repeated without end: a cheap
@@ -35,14 +33,9 @@ class InverseCompliance {
   void apply(std::span<const double> ux, std::span<const double> uy, std::span<double> px, std::span<double> py);
 
  private:
-  void load(std::span<const double> field, Spectrum& spectrum);
-  void unload(Spectrum& spectrum, std::span<double> field);
-
-  int nx_, ny_;
+  int nx_;
   RealFft2d fft_;
   std::vector<ComplianceBlock> symbol_;
-  AlignedVector<double> ring_;
-  Spectrum spectrum_x_, spectrum_y_;
 };
 
 /// Where the tractions were one step ago, seen from the contact: rolling carries the material by one element a step.
@@ -98,17 +91,14 @@ class Compliance {
   InfluenceBlock half_space_at(int dix, int diy);
   void apply_turned(const RowInclination& rows, Transport transport, std::span<const double> px,
                     std::span<const double> py, std::span<double> ux, std::span<double> uy);
-  template <class Multiply>
-  void multiply(Transport transport, const Multiply& at);
 
   ComplianceKey key_;
   ToeplitzTransform transform_;
   std::vector<Entry> table_;       ///< offsets 0..padded_nx/2, 0..padded_ny/2; all signs unless symmetric
   std::vector<Block> symbol_;      ///< symmetric kernels
-  std::vector<Spectrum> spectra_;  ///< others: xx, xy, yx, yy
+  std::vector<Spectrum> spectra_;  ///< others: xx, xy, yx, yy, in lines of the transform
   std::vector<std::complex<double>> step_, step_back_;  ///< 1 - exp(+-2 pi i k / padded_nx)
-  Spectrum spectrum_x_, spectrum_y_;
-  std::optional<BlockTable> half_space_;  ///< all components, for rows that are turned; made when needed
+  std::optional<BlockTable> half_space_;                ///< all components, for rows that are turned; made when needed
   std::optional<TurnedProduct> turned_;
   std::optional<InverseCompliance> inverse_;
 };

@@ -135,6 +135,64 @@ TEST(MeshKernels, TilesEqualTheWhole) {
     }
 }
 
+/// Four surroundings of 12 to 30 points of a cubic, in frames of their own; those of the last lane lie on two lines.
+FitBlock points_of_cubics(const std::array<std::array<double, 9>, 4>& cubics) {
+  FitBlock block{};
+  std::mt19937 random(7);
+  std::uniform_real_distribution<double> at(-2e-3, 2e-3);
+  for (std::size_t lane = 0; lane < 4; ++lane) {
+    const Vec3 normal = Vec3(0.1 * static_cast<double>(lane), -0.2, 1.0).normalized();
+    const Vec3 u = normal.unitOrthogonal(), v = normal.cross(u);
+    const int count = 12 + 6 * static_cast<int>(lane);
+    block.rows = std::max(block.rows, count);
+    block.count[lane] = count;
+    for (int i = 0; i < count; ++i) {
+      const double x = at(random), y = lane == 3 ? 1e-3 * (i % 2) : at(random);
+      VertexFit fit;
+      fit.c = cubics[lane];
+      const Vec3 p = x * u + y * v + fit.height(x, y) * normal;
+      for (std::size_t k = 0; k < 3; ++k) block.from[i][k][lane] = p[static_cast<int>(k)];
+    }
+    for (std::size_t k = 0; k < 3; ++k) {
+      block.normal[k][lane] = normal[static_cast<int>(k)];
+      block.axis_u[k][lane] = u[static_cast<int>(k)];
+    }
+  }
+  return block;
+}
+
+TEST(MeshKernels, FitsReturnTheCubicThatPointsLieOn) {
+  std::array<std::array<double, 9>, 4> cubics{};
+  for (std::size_t lane = 0; lane < 4; ++lane)
+    cubics[lane] = {0.01, -0.02, 3.0, 1.0 + static_cast<double>(lane), -2.0, 200.0, -90.0, 50.0, 120.0};
+  for (const Kernels* which : {&generic_kernels(), avx2_kernels()}) {
+    if (!which) continue;
+    FitBlock block = points_of_cubics(cubics);
+    const FitBlock given = block;
+    which->fit_cubics(block);
+    for (std::size_t lane = 0; lane < 3; ++lane) {
+      EXPECT_GT(block.least_singular_value[lane], 1e-3) << lane;
+      EXPECT_LT(block.least_singular_value[lane], 1.0) << lane;
+      VertexFit fit, wanted;
+      wanted.c = cubics[lane];
+      Vec3 u, v, u0, n;
+      for (std::size_t k = 0; k < 3; ++k) {
+        const int row = static_cast<int>(k);
+        u[row] = block.axis_u[k][lane], v[row] = block.axis_v[k][lane];
+        u0[row] = given.axis_u[k][lane], n[row] = given.normal[k][lane];
+      }
+      const Vec3 v0 = n.cross(u0);
+      EXPECT_NEAR((n.cross(u) - v).norm(), 0.0, 1e-14);
+      for (std::size_t k = 0; k < 9; ++k) fit.c[k] = block.cubic[k][lane];
+      for (const Vec2& p : {Vec2(1e-3, 0.5e-3), Vec2(-0.7e-3, 1.1e-3), Vec2(0.2e-3, -1.3e-3)}) {
+        const Vec3 d = p.x() * u0 + p.y() * v0;
+        EXPECT_NEAR(fit.height(d.dot(u), d.dot(v)), wanted.height(p.x(), p.y()), 1e-15) << lane;
+      }
+    }
+    EXPECT_FALSE(block.least_singular_value[3] > 1e-6) << "two lines leave terms open";
+  }
+}
+
 TEST(MeshKernels, OfBothProcessorsFillTilesAlike) {
   if (!avx2_kernels()) GTEST_SKIP() << "no AVX2";
   const auto a = std::make_unique<Tile>(), b = std::make_unique<Tile>();

@@ -9,6 +9,7 @@
 
 #include "treadmark/backends/analytic/make.hpp"
 #include "treadmark/backends/sampling/lateral_nodes.hpp"
+#include "treadmark/backends/spline/make.hpp"
 #include "treadmark/core/error.hpp"
 #include "treadmark/core/parallel.hpp"
 #include "treadmark/model/natural_view.hpp"
@@ -103,6 +104,40 @@ TEST(SamplePoints, AreTheSameForAnyNumberOfThreads) {
     many = sample_points(*s1002(), Body::wheel, kRadius, settings).h;
   }
   EXPECT_EQ(one, many);
+}
+
+TEST(SamplePoints, TrianglesFollowASectionThatMovesAside) {
+  // a head of one circle that moves by 1:10: common nodes would be as dense everywhere as on its steep sides
+  constexpr double kHead = 0.03, kHalfAngle = 1.4, kSlope = 0.1, kSpacing = 1e-3;
+  SliceSet slices;
+  for (int i = 0; i <= 40; ++i) {
+    slices.u.push_back(0.01 * i);
+    Profile profile;
+    for (int k = 0; k <= 200; ++k) {
+      const double angle = kHalfAngle * (k - 100) / 100.0;
+      profile.y.push_back(kHead * std::sin(angle) + kSlope * slices.u.back());
+      profile.z.push_back(kHead * (1.0 - std::cos(angle)));
+    }
+    slices.profiles.push_back(std::move(profile));
+  }
+  const auto rail = spline::make_slice_surface(slices, 0.0);
+  SampleSettings settings{kSpacing, 0.0, {0.0, 0.4, -1.0, 1.0}};
+  settings.staggered = true;
+  const PointGrid grid = sample_points(*rail, Body::rail, 0.0, settings);
+  const double steps = static_cast<double>(grid.y.size() - 1), angle = 2.0 * kHalfAngle / steps;
+  constexpr double kStep = 0.75 * kSpacing;  // height of the triangles
+  EXPECT_LE(kHead * angle, kStep);
+  EXPECT_GT(kHead * angle, 0.95 * kStep) << "no more points than the section is long";
+  for (std::size_t iu = 0; iu < grid.u.size(); iu += 7)
+    for (std::size_t iy = 0; iy < grid.y.size(); ++iy) {
+      if (iu + 1 == grid.u.size() && iy % 2 == 1) continue;  // behind the end of the region
+      ASSERT_TRUE(grid.present(iu, iy)) << iu << ' ' << iy;
+      const Vec3 p = grid.point(iu, iy);
+      const double beside = p.y() - kSlope * p.x();
+      EXPECT_NEAR(std::hypot(beside, p.z() - kHead), kHead, 1e-7);
+      // at equal angles, to the error of arc lengths measured as chords of a quarter step
+      EXPECT_NEAR(std::atan2(beside, kHead - p.z()), -kHalfAngle + angle * static_cast<double>(iy), 0.01 * angle);
+    }
 }
 
 TEST(SamplePoints, NeedEndsOfARail) {

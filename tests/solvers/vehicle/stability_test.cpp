@@ -15,6 +15,7 @@
 #include "treadmark/core/error.hpp"
 #include "treadmark/solvers/kalker/fastsim/kalker_coefficients.hpp"
 #include "treadmark/solvers/vehicle/equilibrium.hpp"
+#include "treadmark/solvers/vehicle/falling_speed.hpp"
 #include "treadmark/solvers/vehicle/simulation.hpp"
 #include "treadmark/solvers/vehicle/table_contact.hpp"
 
@@ -29,6 +30,7 @@ struct Wheelset {
   double conicity = 0.05, radius = 0.46, half_distance = 0.75;  // [-], [m]
   double mass = 1813.0, inertia = 1120.0, spin_inertia = 112.0, load = 9000.0;
   double lateral = 0.0, yaw = 0.0;                      // springs [N/m], [N m/rad]
+  double clearance = 0.0;                               // of a stop to both sides; 0: there is none [m]
   double area = 1.1e-4, aspect = 1.3, approach = 3e-5;  // of the contact under the static load
   double weight() const { return (mass + load) * kGravity; }
 };
@@ -58,6 +60,15 @@ VehicleAtSpeed on_edges(const Wheelset& w) {
   model.bodies[1].free = {false, true, true, true, true, true};
   model.springs.push_back(spring(kGround, "wheelset", {0, 0, -w.radius}, {0, w.lateral, 0, 0, 0, w.yaw}));
   model.wheelsets[0].nominal_radius = w.radius;
+  if (w.clearance > 0.0)
+    model.bump_stops.push_back({"stop",
+                                kGround,
+                                "wheelset",
+                                {0, 0, -w.radius},
+                                Freedom::y,
+                                {w.clearance, 2.0 * w.clearance},
+                                {0.0, 5e6 * w.clearance},
+                                {}});
   const auto table = cone_on_edge(w);
   return [=](double speed) {
     VehicleOnTrack v;
@@ -232,6 +243,123 @@ TEST(Stability, ADisturbedRunGrowsAsTheEigenvalueSays) {
     EXPECT_GT(growth * expected.real(), 0.0);
     EXPECT_NEAR(angular, expected.imag(), 0.01 * expected.imag()) << share;
   }
+}
+
+/// A run with falling speed after a lateral offset.
+FallResult fall(const Wheelset& w, const FallSettings& settings, double offset) {
+  VehicleOnTrack v = on_edges(w)(settings.from);
+  SystemState start = find_equilibrium(v).state;
+  LineSetup line;
+  line.speed = profile_of(settings);
+  v.line = std::make_shared<const LineEffects>(v.system, line);
+  start.q[1] += offset;
+  SimulationSettings s;
+  s.duration = line.speed.time.back();
+  s.position_tolerance = 1e-8;
+  s.max_travel = 0.1;
+  Simulation simulation(v, start, s);
+  SwayHistory history;
+  history.sway.emplace_back();
+  const auto note = [&] {
+    const Travel now = simulation.vehicle().travel(simulation.state().time);
+    history.distance.push_back(now.distance);
+    history.speed.push_back(now.speed);
+    history.sway[0].push_back(simulation.state().q[1]);
+  };
+  for (note(); !simulation.finished(); note()) simulation.advance();
+  return judge_fall(history, settings);
+}
+
+/// The stop ends the growth of the sway and makes it less unstable: the limit cycle shrinks to the clearance at the
+/// linear critical speed, and beyond that decays by the eigenvalues, whose integral over time says when it is gone.
+TEST(FallingSpeed, EndsALimitCycleWhereTheEigenvaluesSay) {
+  Wheelset w;
+  w.lateral = 0.5e6;
+  w.yaw = 1e6;
+  w.clearance = 3e-3;
+  const double critical = critical_by_hand(w);
+  FallSettings settings{1.1 * critical, 0.8 * critical, 600.0, 0.8, 100.0, 1e-4};
+  const auto by_hand = [&](double deceleration) {
+    constexpr double kStep = 1e-3;
+    double speed = critical, logarithm = 0.0;
+    while (logarithm > std::log(settings.amplitude / w.clearance)) {
+      logarithm += ByHand(w, speed - 0.5 * kStep).hunting().real() * kStep / deceleration;
+      speed -= kStep;
+    }
+    return speed;
+  };
+  std::vector<double> died;
+  for (const double deceleration : {0.8, 0.2, 0.05}) {
+    settings.deceleration = deceleration;
+    const FallResult r = fall(w, settings, 2e-3);
+    ASSERT_EQ(r.verdict, FallVerdict::died) << deceleration;
+    EXPECT_GT(r.first_amplitude, w.clearance);
+    const double expected = by_hand(deceleration);
+    EXPECT_NEAR(r.speed, expected, 0.1 * (critical - expected)) << deceleration;
+    died.push_back(r.speed);
+  }
+  for (std::size_t i = 0; i + 1 < died.size(); ++i) {
+    const SlowFall s = slowest_fall(died[i], died[i + 1]);
+    EXPECT_LT(s.low, critical);
+    EXPECT_GT(s.high, critical) << i;
+    EXPECT_LT(critical - died[i + 1], 0.55 * (critical - died[i]));
+  }
+}
+
+TEST(FallingSpeed, SaysWhereThereIsNoLimitCycleAndWhereItLasts) {
+  Wheelset w;
+  w.lateral = 0.5e6;
+  w.yaw = 1e6;
+  w.clearance = 3e-3;
+  const double critical = critical_by_hand(w);
+  FallSettings settings{0.9 * critical, 0.85 * critical, 600.0, 1.0, 100.0, 1e-6};
+  EXPECT_EQ(fall(w, settings, 2e-3).verdict, FallVerdict::none);
+  settings.from = 1.2 * critical;
+  settings.to = 1.1 * critical;
+  EXPECT_EQ(fall(w, settings, 2e-3).verdict, FallVerdict::lasting);
+}
+
+TEST(FallingSpeed, RunningSwayOfASineIsItsAmplitude) {
+  SwayHistory history;
+  history.sway.resize(2);
+  for (int i = 0; i <= 4000; ++i) {
+    const double x = 0.1 * i + 0.03 * (i % 3);
+    history.distance.push_back(x);
+    history.speed.push_back(50.0 - 0.01 * x);
+    history.sway[0].push_back(1e-3 + 2e-3 * std::exp(-x / 50.0) * std::sin(2.0 * std::numbers::pi * x / 4.0));
+    history.sway[1].push_back(0.0);
+  }
+  const std::vector<SwayAt> sway = running_sway(history, 8.0);
+  for (const SwayAt& at : sway) {
+    // mean square of the decaying sine over the window
+    const double expected = 2e-3 * std::exp(-at.distance / 50.0) * std::sqrt(0.5 * std::sinh(0.16) / 0.16);
+    EXPECT_NEAR(at.rms, expected, 0.01 * expected);
+    EXPECT_NEAR(at.speed, 50.0 - 0.01 * at.distance, 1e-9);
+  }
+  const LastAbove last = last_above(sway, 1e-5);
+  EXPECT_FALSE(last.never_above || last.at_end);
+  const double place = 50.0 * std::log(2e-3 * std::sqrt(0.5 * std::sinh(0.16) / 0.16) / 1e-5);
+  EXPECT_NEAR(last.speed, 50.0 - 0.01 * place, 0.01);
+  EXPECT_TRUE(last_above(sway, 1e-2).never_above);
+  EXPECT_TRUE(last_above(sway, 1e-9).at_end);
+}
+
+TEST(FallingSpeed, RefusesWhatIsNoFall) {
+  const FallSettings good{50.0, 20.0, 400.0, 0.5, 100.0, 1e-4};
+  const SpeedProfile profile = profile_of(good);
+  EXPECT_EQ(profile.time, (std::vector{0.0, 8.0, 68.0}));
+  EXPECT_EQ(profile.speed, (std::vector{50.0, 50.0, 20.0}));
+  const auto refused = [&](auto change) {
+    FallSettings bad = good;
+    change(bad);
+    EXPECT_THROW(profile_of(bad), Error);
+  };
+  refused([](FallSettings& s) { s.to = 50.0; });
+  refused([](FallSettings& s) { s.to = 0.0; });
+  refused([](FallSettings& s) { s.from = std::nan(""); });
+  refused([](FallSettings& s) { s.deceleration = 0.0; });
+  refused([](FallSettings& s) { s.window = 200.0; });
+  refused([](FallSettings& s) { s.amplitude = -1.0; });
 }
 
 TEST(Stability, AnOverdampedMassHasTheTwoRealEigenvaluesOfItsFormula) {

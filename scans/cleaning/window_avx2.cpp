@@ -1,0 +1,12 @@
+// SPDX-License-Identifier: Apache-2.0
+// SPDX-FileCopyrightText: Treadmark contributors
+#include "treadmark/scans/cleaning/window.hpp"
+#if defined(__AVX2__)
+#include "treadmark/scans/cleaning/window_kernel.hpp"
+
+namespace treadmark::scans {
+
+const WindowKernel kWindowAvx2{sums_of_window, sizes_of_window};
+
+}  // namespace treadmark::scans
+#endif
