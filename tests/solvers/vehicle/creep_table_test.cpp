@@ -269,8 +269,8 @@ TEST(CreepTable, ATreadContactIsThatSolvedInFull) {
   problem.track.cant = 1.0 / 40.0;
   const auto table = build_contact_table(bodies, problem, 5.5e4, {.lateral_range = 7e-3, .step = 0.5e-3});
   TableContact linear(table, wheelrail::Side::right),
-      exact(table, wheelrail::Side::right, build_creep_table(combine(problem.material).poisson, {8, 4, 4.0, 16, 12}));
-  problem.discretisation.dx = problem.discretisation.ds = 0.4e-3;
+      exact(table, wheelrail::Side::right, build_creep_table(combine(problem.material).poisson, {8, 4, 4.0, 24, 16}));
+  problem.discretisation.dx = problem.discretisation.ds = 0.3e-3;
   FullContact full(bodies, problem);
   std::mt19937 random(3);
   std::uniform_real_distribution<double> even(-1.0, 1.0);
