@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include "treadmark/core/cancellation.hpp"
 #include "treadmark/solvers/vehicle/wheel_loop.hpp"
 
 namespace treadmark::vehicle {
@@ -49,6 +50,18 @@ PairVector slope(const VehicleOnTrack& vehicle, std::size_t i, const PairMotion&
   return (force_at(vehicle, i, high) - force_at(vehicle, i, low)) / (2.0 * step);
 }
 
+/// Stiffness of springs and, where they act, bump stops.
+Matrix stiffness_of_springs(const VehicleOnTrack& vehicle, const SystemState& state,
+                            const std::optional<LineState>& line) {
+  Matrix stiffness = vehicle.system.stiffness;
+  for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
+    const CharacteristicForce& c = vehicle.system.characteristics[i];
+    const double offset = line ? line->stop_offsets[i] : 0.0;
+    stiffness += characteristic(c, c.direction.dot(state.q) + offset).stiffness * c.direction * c.direction.transpose();
+  }
+  return stiffness;
+}
+
 /// Wheelsets roll freely: of their pitch the rate is sought, and the angle stays.
 class Balance {
  public:
@@ -61,6 +74,7 @@ class Balance {
 
   SystemState start() const {
     SystemState state{0.0, Vector::Zero(system_.size()), Vector::Zero(system_.size())};
+    if (line_) settle(state);
     // Wheels into the rails as deep as their load takes, by the order of magnitude.
     constexpr double kHertz = 1e11;  // [N/m^1.5]
     for (std::size_t set = 0; set < system_.wheelsets.size(); ++set) {
@@ -78,8 +92,7 @@ class Balance {
 
   /// Imbalance of all coordinates. False: a wheel does not touch, or a contact cannot be solved.
   bool imbalance(const SystemState& state, Vector& r, std::vector<ContactReaction>& reactions, std::string& why) const {
-    r = system_.weight - system_.stiffness * state.q - system_.damping * state.v + vehicle_.other_forces(state, line_);
-    if (line_) r += line_->force;
+    r = without_contact(state);
     reactions = evaluate_wheels(vehicle_, state);
     for (std::size_t i = 0; i < vehicle_.wheels.size(); ++i) {
       const PairMotion m = vehicle_.motion(i, state);
@@ -108,6 +121,27 @@ class Balance {
     return system.stiffness;
   }
 
+  LinearSystem slopes(const SystemState& state) const { return linearised_system(vehicle_, state); }
+
+  /// Derivative of -imbalance of a vehicle that gets to its next state in a time: dampers, creep forces and inertia
+  /// hold what moves.
+  Matrix running(const LinearSystem& slopes, double time) const {
+    const Matrix held = slopes.damping + Matrix((system_.mass / time).asDiagonal());
+    Matrix all = slopes.stiffness + held / time;
+    for (const int c : rolling_) all.col(c) = held.col(c);
+    return all;
+  }
+
+  /// How far a step moves wheelsets [m].
+  double most_of_wheelsets(const Vector& step) const {
+    double most = 0.0;
+    for (const Multibody::Wheelset& w : system_.wheelsets)
+      for (const Freedom f : {Freedom::x, Freedom::y, Freedom::z, Freedom::roll, Freedom::yaw})
+        if (const int c = w.coordinate[static_cast<std::size_t>(f)]; c >= 0)
+          most = std::max(most, std::abs(step[c]) * system_.coordinates[static_cast<std::size_t>(c)].arm);
+    return most;
+  }
+
   SystemState moved(SystemState state, const Vector& step) const {
     const Vector held = state.q;
     state.q += step;
@@ -119,6 +153,34 @@ class Balance {
   }
 
  private:
+  Vector without_contact(const SystemState& state) const {
+    Vector r = system_.weight - system_.stiffness * state.q - system_.damping * state.v;
+    r += vehicle_.other_forces(state, line_);
+    if (line_) r += line_->force;
+    return r;
+  }
+
+  /// Balances all bodies on wheelsets that are held. In a tight curve a long car stands far inside of its place on the
+  /// line, off which its springs would throw wheels over the rails.
+  void settle(SystemState& state) const {
+    constexpr int kMost = 50;
+    constexpr double kSettled = 1e-9;  // [m]
+    std::vector<Eigen::Index> sprung;
+    for (Eigen::Index i = 0; i < system_.mass.size(); ++i) {
+      const int body = system_.coordinates[static_cast<std::size_t>(i)].body;
+      if (std::ranges::find(system_.wheelsets, body, &Multibody::Wheelset::body) == system_.wheelsets.end())
+        sprung.push_back(i);
+    }
+    if (sprung.empty()) return;
+    for (int i = 0; i < kMost; ++i) {
+      const Vector r = without_contact(state)(sprung);
+      const Matrix k = stiffness_of_springs(vehicle_, state, line_)(sprung, sprung);
+      const Vector step = k.completeOrthogonalDecomposition().solve(r);
+      state.q(sprung) += step;
+      if (!(step.cwiseAbs().maxCoeff() > kSettled)) return;
+    }
+  }
+
   const VehicleOnTrack& vehicle_;
   const Multibody& system_;
   std::optional<LineState> line_;  ///< at the start
@@ -167,14 +229,7 @@ PairTangent linearised(const VehicleOnTrack& vehicle, std::size_t i, const Syste
 }
 
 LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState& state, double coarseness) {
-  LinearSystem system{vehicle.system.stiffness, vehicle.system.damping};
-  const std::optional<LineState> line = vehicle.line_state(state.time);
-  for (std::size_t i = 0; i < vehicle.system.characteristics.size(); ++i) {
-    const CharacteristicForce& c = vehicle.system.characteristics[i];
-    const double offset = line ? line->stop_offsets[i] : 0.0;
-    system.stiffness +=
-        characteristic(c, c.direction.dot(state.q) + offset).stiffness * c.direction * c.direction.transpose();
-  }
+  LinearSystem system{stiffness_of_springs(vehicle, state, vehicle.line_state(state.time)), vehicle.system.damping};
   std::vector<PairTangent> tangents(vehicle.wheels.size());
   for_each_wheel(vehicle, [&](std::size_t i) { tangents[i] = linearised(vehicle, i, state, coarseness); });
   for (std::size_t i = 0; i < vehicle.wheels.size(); ++i) {
@@ -185,20 +240,51 @@ LinearSystem linearised_system(const VehicleOnTrack& vehicle, const SystemState&
   return system;
 }
 
-Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
-  const Balance balance(vehicle);
-  Equilibrium found;
+namespace {
+
+/// Lets the vehicle run until its forces nearly balance: it rolls where creep forces and dampers let it, one implicit
+/// step of time after the other, whatever the imbalance does meanwhile. Steps are as long as wheels move little
+/// against the shapes of their contact, and grow as the vehicle comes to rest. Newton's method goes on from there.
+void run_in(const Balance& balance, Equilibrium& found) {
+  constexpr int kSteps = 300;
+  constexpr double kFirst = 0.01, kShortest = 1e-6, kLongest = 100.0;  // [s]
+  constexpr double kFar = 0.5e-3, kNear = 1e-7;                        // [m] in a step
+  constexpr double kGrowth = 1.5;
   found.state = balance.start();
   Vector r;
   std::string why;
-  if (!balance.imbalance(found.state, r, found.reactions, why)) {
-    found.report = {Status::failed, 0, found.residual, "no start for the static equilibrium: " + why};
-    return found;
+  if (!balance.imbalance(found.state, r, found.reactions, why)) return;
+  double time = kFirst, moves = kFar;
+  for (int i = 0; i < kSteps && (moves > kNear || time < kLongest); ++i) {
+    check_cancelled();
+    const LinearSystem slopes = balance.slopes(found.state);
+    for (;; time *= 0.5) {
+      if (time < kShortest) return;
+      const Vector step = balance.running(slopes, time).partialPivLu().solve(r);
+      moves = balance.most_of_wheelsets(step);
+      if (!(moves < kFar)) continue;
+      const SystemState next = balance.moved(found.state, step);
+      Vector r_next;
+      std::vector<ContactReaction> reactions;
+      if (!balance.imbalance(next, r_next, reactions, why)) continue;
+      found.state = next;
+      found.reactions = std::move(reactions);
+      found.residual = balance.measure(r = r_next);
+      break;
+    }
+    ++found.iterations;
+    time = std::min(kLongest, kGrowth * time);
   }
-  found.residual = balance.measure(r);
+}
+
+/// From the state that was found.
+void iterate(const Balance& balance, const EquilibriumSettings& settings, Equilibrium& found, std::string& why) {
+  Vector r;
+  if (!balance.imbalance(found.state, r, found.reactions, why)) return;
+  const int most = found.iterations + settings.max_iterations;
   constexpr double kWider = 10.0, kWidest = 100.0;
   double coarseness = 1.0;
-  for (; found.residual > settings.tolerance && found.iterations < settings.max_iterations; ++found.iterations) {
+  for (; found.residual > settings.tolerance && found.iterations < most; ++found.iterations) {
     const Vector step = balance.jacobian(found.state, coarseness).fullPivLu().solve(r);
     constexpr double kShortest = 1e-3;
     bool better = false;
@@ -220,6 +306,28 @@ Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSet
   }
   for (const auto& [wide, share] : {std::pair{20.0, 1.0}, {20.0, 0.4}, {100.0, 0.4}})
     if (found.residual > settings.acceptable) step_over_jumps(balance, wide, share, settings.tolerance, found);
+}
+
+}  // namespace
+
+Equilibrium find_equilibrium(const VehicleOnTrack& vehicle, const EquilibriumSettings& settings) {
+  const Balance balance(vehicle);
+  Equilibrium found;
+  found.state = balance.start();
+  Vector r;
+  std::string why;
+  if (!balance.imbalance(found.state, r, found.reactions, why)) {
+    found.report = {Status::failed, 0, found.residual, "no start for the static equilibrium: " + why};
+    return found;
+  }
+  found.residual = balance.measure(r);
+  iterate(balance, settings, found, why);
+  if (found.residual > settings.doubtful) {
+    Equilibrium running = found;
+    run_in(balance, running);
+    iterate(balance, settings, running, why);
+    if (running.residual < found.residual) found = std::move(running);
+  }
   if (found.residual > settings.doubtful)
     found.report = {
         Status::not_converged, found.iterations, found.residual,

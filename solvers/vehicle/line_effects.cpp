@@ -52,6 +52,7 @@ LineEffects::LineEffects(const Multibody& system, LineSetup setup)
       bodies_(system.bodies),
       links_(system.links),
       stretches_(system.stretches),
+      leanings_(system.leanings),
       wheelsets_(system.wheelsets) {
   for (const CharacteristicForce& c : system.characteristics) stops_.emplace_back(c.link, c.freedom);
   for (const AxleTorque& torque : setup_.torques) {
@@ -202,6 +203,13 @@ void LineEffects::add_links(LineState& out, const Travel& travel) const {
       out.damper_power += s.value * by_rate * by_rate;
     else
       out.spring_energy += 0.5 * s.value * by * by;
+  }
+  for (const Multibody::Leaning& l : leanings_) {
+    const auto link = static_cast<std::size_t>(l.link), freedom = static_cast<std::size_t>(l.freedom);
+    for (const auto& [c, factor] : l.turn) {
+      out.spring[c] -= l.value * factor * stretch[link][freedom];
+      out.spring_rate[c] -= l.value * factor * rate[link][freedom];
+    }
   }
   for (std::size_t i = 0; i < stops_.size(); ++i)
     out.stop_offsets[i] =

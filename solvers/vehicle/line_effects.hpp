@@ -86,6 +86,7 @@ class LineEffects {
   std::vector<Multibody::Body> bodies_;
   std::vector<Multibody::Link> links_;
   std::vector<Multibody::Stretch> stretches_;
+  std::vector<Multibody::Leaning> leanings_;
   std::vector<std::pair<int, Freedom>> stops_;  ///< link and direction
   std::vector<Multibody::Wheelset> wheelsets_;
   std::vector<std::pair<int, int>> torque_on_;  ///< coordinates of the axle's and the reaction's pitch; -1: none

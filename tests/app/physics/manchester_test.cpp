@@ -111,6 +111,47 @@ void check_energy_of_a_free_run(std::vector<std::string> overrides, double toler
   EXPECT_LT(std::abs(e.contact_error(s.energy_at_start())), contact_error * e.turnover);
 }
 
+/// A start in a curve of any width is the steady state of a run into it: forces of the rails within a per cent of
+/// those of a wheel at rest.
+TEST(Manchester, StartsInTightCurvesWhereARunIntoThemEnds) {
+  const std::string curve_file = std::string(TREADMARK_SOURCE_DIR) + "/examples/curve.toml";
+  constexpr double kLoad = 44482.0 * 9.81 / 8.0;
+  struct Curve {
+    double radius, cant, speed;
+  };
+  for (const Curve& c : {Curve{150.0, 0.1, 7.0}, {-250.0, 0.1, 12.0}, {500.0, 0.1, 20.0}}) {
+    const std::vector<std::string> overrides{"simulation.distance_m=150"};
+    io::SimulationFile file = io::read_simulation_file(curve_file, overrides);
+    file.irregularities.reset();
+    file.settings.speed = c.speed;
+    file.settings.profile = {{0.0}, {c.speed}};
+    file.settings.duration = file.settings.distance / c.speed;
+    const double curvature = 1.0 / c.radius, cant = std::copysign(c.cant, c.radius);
+    std::vector<LayoutElement>& elements = file.layout->elements;
+    elements[1].length = 50.0;
+    elements[1].curvature.to = curvature, elements[1].cant.to = cant;
+    elements[2].curvature = {curvature, curvature}, elements[2].cant = {cant, cant};
+    SurfaceStore store;
+    ContactTables tables;
+    BuiltVehicle run = build_vehicle(file, store, &tables);
+    vehicle::SimulationSettings settings = integration_settings(file);
+    settings.position_tolerance = 1e-6;
+    vehicle::Simulation s(run.vehicle, vehicle::find_equilibrium(run.vehicle).state, settings);
+    while (!s.finished()) s.advance();
+
+    file.start += file.settings.distance;
+    const BuiltVehicle started = build_vehicle(file, store, &tables);
+    const vehicle::Equilibrium e = vehicle::find_equilibrium(started.vehicle);
+    ASSERT_EQ(e.report.status, Status::ok) << c.radius << ' ' << e.report.message;
+    EXPECT_LT(e.residual, 1e-4) << c.radius;
+    for (std::size_t i = 0; i < e.reactions.size(); ++i) {
+      const Vec3 found = e.reactions[i].on_rail.force, ran = s.reactions()[i].on_rail.force;
+      EXPECT_NEAR((found - ran).norm(), 0.0, 0.01 * kLoad)
+          << c.radius << ' ' << i << ": " << found.transpose() << " and " << ran.transpose();
+    }
+  }
+}
+
 TEST(Manchester, EnergyOfAFreeRunIsBalanced) {
   check_energy_of_a_free_run({"simulation.wheels.0.contact=table", "simulation.distance_m=20"}, 2e-10);
 }

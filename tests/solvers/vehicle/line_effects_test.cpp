@@ -170,6 +170,42 @@ TEST(LineEffects, SteadyCurvingAgainstTheBalanceOfTheWholeVehicle) {
     }
 }
 
+/// A car leans outwards about the plane of its springs, which hardly give way sideways, by a roll flexibility of
+/// m g h / (k - m g h), and its weight moves to the outer rail.
+TEST(LineEffects, AWeightThatLeansMovesToTheOuterRail) {
+  VehicleModel model = two_axles();
+  for (SpringSpec& s : model.springs) s.stiffness[1] = 5e8, s.stiffness[2] = 3e5;
+  constexpr double kSpeed = 45.0, kRadius = 2000.0, kSpringPlane = 0.6, kCar = 20000.0, kAxles = 3000.0;
+  const auto path = circle(kRadius, 0.0);
+  const VehicleOnTrack v = on_line(on_cones(model, kSpeed), setup_of(path, kSpeed));
+  const Equilibrium e = find_equilibrium(v);
+  ASSERT_EQ(e.report.status, Status::ok) << e.report.message;
+  const double height = 1.6 - kSpringPlane, toppling = kCar * kGravity * height, springs = 4.0 * 3e5;
+  CurvingVehicle car;
+  car.mass = kCar;
+  car.centre_height = 1.6;
+  car.roll_centre_height = kSpringPlane;
+  car.roll_flexibility = toppling / (springs - toppling);
+  const Curving hand = curving(car, path->at(100.0), kSpeed, kGravity);
+  const auto place = [&](const std::string& name) {
+    const auto found = std::ranges::find(v.system.coordinates, name, &Coordinate::name);
+    return e.state.q[found - v.system.coordinates.begin()];
+  };
+  const double axles_roll = 0.5 * (place("front.roll") + place("rear.roll"));
+  EXPECT_NEAR(place("car.roll") - axles_roll, hand.body_roll, 0.01 * std::abs(hand.body_roll));
+  EXPECT_GT(std::abs(hand.body_roll), 0.015);
+  // Moments about the track's middle: weights where they are, guiding forces at the rails.
+  double found = 0.0;
+  for (const ContactReaction& r : e.reactions) found += r.on_rail.force.z() * r.contact_y;
+  const double a_q = hand.lateral_acceleration, a_n = hand.normal_acceleration,
+               axles_y = 0.5 * (place("front.y") + place("rear.y")),
+               gyroscopic = 2.0 * 100.0 * kSpeed * kSpeed / (kRollingRadius * kRadius),
+               moment = -a_q * (kCar * 1.6 + kAxles * kRollingRadius) +
+                        a_n * (kCar * place("car.y") + kAxles * axles_y) - gyroscopic;
+  EXPECT_NEAR(found, moment, 0.01 * std::abs(moment));
+  EXPECT_GT(a_n * kCar * std::abs(place("car.y") - axles_y), 0.03 * std::abs(moment)) << "what is to be seen";
+}
+
 TEST(LineEffects, CurvesToBothSidesAreMirrorImages) {
   constexpr double kSpeed = 40.0;
   const VehicleOnTrack right = on_line(on_cones(two_axles(), kSpeed), setup_of(circle(2000.0, 0.05), kSpeed)),
